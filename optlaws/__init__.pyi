@@ -17,9 +17,9 @@ from optlaws.balancing.machine_units.dwell_machine import DwellMachine as DwellM
 from optlaws.balancing.machine_units.dwell_machine import dwell_machine as dwell_machine
 from optlaws.balancing.machine_units.lever_cam import LeverCam as LeverCam
 from optlaws.balancing.machine_units.lever_cam import rocker_law as rocker_law
-from optlaws.cams.as_manufactured.peaks import AsMade as AsMade
-from optlaws.cams.as_manufactured.peaks import as_made as as_made
-from optlaws.cams.as_manufactured.peaks import with_error as with_error
+from optlaws.cams.as_manufactured import AsMade as AsMade
+from optlaws.cams.as_manufactured import as_made as as_made
+from optlaws.cams.as_manufactured import with_error as with_error
 from optlaws.cams.barrel import BarrelCam as BarrelCam
 from optlaws.cams.best_laws import best_base_circle as best_base_circle
 from optlaws.cams.best_laws import best_cam as best_cam
@@ -31,11 +31,11 @@ from optlaws.cams.followers.oscillating_flat import OscillatingFlat as Oscillati
 from optlaws.cams.followers.oscillating_roller import OscillatingRoller as OscillatingRoller
 from optlaws.cams.followers.translating_flat import TranslatingFlat as TranslatingFlat
 from optlaws.cams.followers.translating_roller import TranslatingRoller as TranslatingRoller
+from optlaws.cams.forces import CamForces as CamForces
 from optlaws.cams.least_sizes import greatest_roller as greatest_roller
 from optlaws.cams.least_sizes import least_base_circle as least_base_circle
-from optlaws.cams.loads.forces import CamForces as CamForces
-from optlaws.cams.loads.springs import Spring as Spring
-from optlaws.cams.loads.springs import least_spring as least_spring
+from optlaws.cams.springs import Spring as Spring
+from optlaws.cams.springs import least_spring as least_spring
 from optlaws.cycles.cycle import Cycle as Cycle
 from optlaws.cycles.law_comparison import Comparison as Comparison
 from optlaws.cycles.law_comparison import compare as compare
@@ -54,7 +54,7 @@ from optlaws.errors import NoisyTable as NoisyTable
 from optlaws.errors import NotNormalised as NotNormalised
 from optlaws.errors import OptlawsError as OptlawsError
 from optlaws.errors import SolverFailure as SolverFailure
-from optlaws.exports.pieces.best_breaks import best_breaks as best_breaks
+from optlaws.exports.best_breaks import best_breaks as best_breaks
 from optlaws.laws.catalogue.catalogue import catalogue as catalogue
 from optlaws.laws.catalogue.reading import read_law as read_law
 from optlaws.laws.constants import Constants as Constants
@@ -70,8 +70,8 @@ from optlaws.laws.making.trapezoids import scca as scca
 from optlaws.laws.making.trapezoids import trapezoid as trapezoid
 from optlaws.laws.polynomial import PolynomialLaw as PolynomialLaw
 from optlaws.laws.polynomial import smoothstep as smoothstep
-from optlaws.laws.savin.family import SavinFamily as SavinFamily
-from optlaws.laws.savin.savin import savin as savin
+from optlaws.laws.savin import SavinFamily as SavinFamily
+from optlaws.laws.savin import savin as savin
 from optlaws.laws.segments.piecewise import PiecewiseLaw as PiecewiseLaw
 from optlaws.mechanisms.angles import deg as deg
 from optlaws.mechanisms.cam.constants import cam_constant as cam_constant

@@ -83,8 +83,8 @@ class Registry(MutableMapping[str, T]):
 
     Examples
     --------
-    >>> from optlaws.laws.storage import Stored
-    >>> sorted(Stored.kinds), Stored.kinds["piecewise"].__name__
+    >>> from optlaws.laws.storage import StoredLaw
+    >>> sorted(StoredLaw.kinds), StoredLaw.kinds["piecewise"].__name__
     (['loader', 'piecewise', 'polynomial'], 'PiecewiseLaw')
     """
 

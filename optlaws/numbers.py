@@ -7,13 +7,19 @@ from collections.abc import Iterable
 from fractions import Fraction
 from math import frexp, inf, isfinite, ldexp
 from numbers import Rational, Real
-from typing import Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
+
+if TYPE_CHECKING:
+    import pint
+
+#: a number with its unit: a text such as "35 mm", or a quantity of pint, of any registry
+Quantity: TypeAlias = "str | pint.Quantity[Any]"
 
 MAGNITUDE_LIMIT = 1e100
 MOST_ORDER = 100

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from difflib import get_close_matches
+from functools import wraps
+from inspect import Parameter, signature
+from typing import Any, TypeVar
 
 from optlaws.echo import shortened
 
@@ -11,6 +14,8 @@ from optlaws.echo import shortened
 CONSTANTS = {"velocity": "B", "speed": "B", "acceleration": "C", "power": "D", "jerk": "J", "snap": "jounce"}
 
 _LONGEST_NAME = 100
+
+FunctionT = TypeVar("FunctionT", bound=Callable[..., Any])
 
 
 def unknown_key(
@@ -32,6 +37,47 @@ def unknown_key(
     if near is not None:
         return f"unknown {what} {name!r}; did you mean {near!r}?"
     return f"unknown {what} {shortened(name)}; known are {', '.join(names)}"
+
+
+def keywords_of(options: type) -> Callable[[FunctionT], FunctionT]:
+    """A decorator for functions whose `**keywords` are the entries of a `TypedDict`, each None unless given.
+
+    They stand in the signature by their names, and any other is refused as Python refuses it, with a suggestion.
+
+    Examples
+    --------
+    >>> from typing import TypedDict
+    >>> @keywords_of(TypedDict("Options", {"points": int}))
+    ... def export(to, **options):
+    ...     return to, options
+    >>> export("csv", points=7), str(signature(export))
+    (('csv', {'points': 7}), '(to, *, points: int = None)')
+    >>> export("csv", pionts=7)
+    Traceback (most recent call last):
+    TypeError: export() got an unexpected keyword argument 'pionts'; did you mean 'points'?
+    """
+
+    def decorated(function: FunctionT) -> FunctionT:
+        bare = signature(function)
+        named = [one for one in bare.parameters.values() if one.kind is not Parameter.VAR_KEYWORD]
+        named += [
+            Parameter(name, Parameter.KEYWORD_ONLY, default=None, annotation=getattr(kind, "__forward_arg__", kind))
+            for name, kind in options.__annotations__.items()
+        ]
+        known = {one.name for one in named}
+
+        @wraps(function)
+        def checked(*args: Any, **keywords: Any) -> Any:  # noqa: ANN401 - whatever the function takes and returns
+            for name in keywords.keys() - known:
+                near = unknown_key(name, known, "keyword argument").partition("; did")
+                message = f"{function.__qualname__}() got an unexpected keyword argument {name!r}"
+                raise TypeError(message + "".join(near[1:]))
+            return function(*args, **keywords)
+
+        checked.__signature__ = bare.replace(parameters=named)  # type: ignore[attr-defined]
+        return checked  # type: ignore[return-value] # the same function but for the check
+
+    return decorated
 
 
 def _nearest(name: str, names: list[str], words: Mapping[str, str]) -> str | None:

@@ -25,8 +25,8 @@ HANDED_UP = {
     "plot": ("optlaws.plots.",),
     "_plot": ("optlaws.plots.",),
     "export": ("optlaws.exports.", "optlaws.cams.cutting."),
-    "summary": ("optlaws.cycles.summary.", "optlaws.cams.loads.summary."),
-    "_repr_html_": ("optlaws.cycles.summary.", "optlaws.cams.loads.summary."),
+    "summary": ("optlaws.cycles.summary.", "optlaws.cams.summary."),
+    "_repr_html_": ("optlaws.cycles.summary.", "optlaws.cams.summary."),
     "pieces": ("optlaws.exports.",),
     "polynomials": ("optlaws.exports.",),
 }

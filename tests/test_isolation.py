@@ -69,7 +69,7 @@ mode, seed = sys.argv[1], int(sys.argv[2])
 uses = [
     lambda: optlaws.synthesize(optlaws.Problem(B=1.8, order=3)).objective,
     lambda: optlaws.savin("III", 7.2).constants,
-    lambda: optlaws.smoothstep(3).export("csv", stroke="35 mm", time="0.1 s", points=21).text,
+    lambda: optlaws.smoothstep(3).export("csv", stroke="35 mm", duration="0.1 s", points=21).text,
     lambda: optlaws.read_law("0317(1,5)").constants,
     lambda: optlaws.Follower(nu=19, damping=0.05).response(optlaws.smoothstep(4)).peak(2),
     lambda: optlaws.catalogue["cycloidal"].law.constants,

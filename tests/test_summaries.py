@@ -31,7 +31,7 @@ RESULTS: dict[str, Any] = {
     "array": synthesize_array(ProblemArray(B=np.array([1.05, 1.7, 1.8]), order=4)),
     "cycle": CYCLE,
     "cam": DiscCam(CYCLE, "60 mm", TranslatingRoller("12 mm")),
-    "export": smoothstep(3).export("codesys-xyva", stroke="35 mm", master="120 deg", time="0.1 s", points=7),
+    "export": smoothstep(3).export("codesys-xyva", stroke="35 mm", master="120 deg", duration="0.1 s", points=7),
 }
 
 

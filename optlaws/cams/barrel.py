@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from math import nextafter
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,19 +23,20 @@ from optlaws.cams.curves.extremes import (
     first_least,
 )
 from optlaws.cams.curves.motion_by_angle import CamMotion, as_motion
-from optlaws.cams.disc import sense
+from optlaws.cams.disc import Turning, sense
 from optlaws.cams.followers.follower import positive, shown
 from optlaws.cycles.cycle import Cycle
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
-from optlaws.numbers import derivative, real_times
+from optlaws.numbers import Quantity, derivative, real_times
 from optlaws.series.enclosures.jets import Jet, variable
 from optlaws.suggest import unknown_key
 
 Array = NDArray[np.float64]
 Triple = tuple[Jet, Jet, Jet]
 
-SIDES = {"upper": 1.0, "lower": -1.0}
+Side = Literal["upper", "lower"]
+SIDES: dict[Side, float] = {"upper": 1.0, "lower": -1.0}
 
 
 @dataclass(frozen=True)
@@ -67,10 +68,10 @@ class BarrelCam:
     """
 
     motion: Cycle | CamMotion
-    outer_radius: Any
-    depth: Any
-    roller_radius: Any
-    turning: str = field(default="counterclockwise", kw_only=True)
+    outer_radius: Quantity
+    depth: Quantity
+    roller_radius: Quantity
+    turning: Turning = field(default="counterclockwise", kw_only=True)
 
     def __post_init__(self) -> None:
         sense(self.turning)
@@ -89,7 +90,7 @@ class BarrelCam:
 
     @kept_property
     def displacement(self) -> CamMotion:
-        """What the roller does along the axis, by the cam's angle."""
+        """The displacement of the roller along the axis, by the cam's angle."""
         return as_motion(self.motion, "length")
 
     @kept_property
@@ -100,7 +101,7 @@ class BarrelCam:
 
     @kept_property
     def roller(self) -> float:
-        """The roller's radius."""
+        """The radius of the roller in metres."""
         return positive(self.roller_radius, "roller_radius")
 
     @property
@@ -108,8 +109,8 @@ class BarrelCam:
         """The way of the roller's axis on the cylinder."""
         return SpaceCurve(self.displacement, self.radii[0], 0.0, sense(self.turning))
 
-    def flank(self, side: str, radius: float | None = None) -> SpaceCurve:
-        """Where the roller touches a flank, at a distance along its axis from the shaft's.
+    def flank(self, side: Side, radius: float | None = None) -> SpaceCurve:
+        """The curve along which the roller touches a flank, at a distance from the axis of the shaft.
 
         Parameters
         ----------
@@ -127,7 +128,7 @@ class BarrelCam:
             raise InputError(unknown_key(side, SIDES, "side"))
         return SpaceCurve(self.displacement, self._within(radius), SIDES[side] * self.roller, sense(self.turning))
 
-    def cutter_path(self, cutter_radius: Any, side: str = "upper", radius: float | None = None) -> SpaceCurve:  # noqa: ANN401
+    def cutter_path(self, cutter_radius: Quantity, side: Side = "upper", radius: float | None = None) -> SpaceCurve:
         """The way of the axis of a cutter, radial as the roller's, that makes a flank; exact at one radius.
 
         A cutter as large as the roller makes both flanks all over; a smaller one leaves them exact at the radius given.

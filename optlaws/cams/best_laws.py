@@ -18,16 +18,16 @@ from numpy.typing import NDArray
 
 from optlaws.cams.curved_limits import RollerCurvature, bound_under, curvature_of
 from optlaws.cams.curves.motion_by_angle import CamMotion, as_motion
-from optlaws.cams.disc import DiscCam, sense
-from optlaws.cams.followers.contact import Contact
-from optlaws.cams.followers.follower import Follower, Place, shown
-from optlaws.cams.followers.linear_limit import CURVATURE, PRESSURE, LinearLimit
+from optlaws.cams.disc import DiscCam, Turning, sense
+from optlaws.cams.followers.contact import CURVATURE, PRESSURE, FollowerContact, LinearLimit
+from optlaws.cams.followers.follower import CamFollower, Place, shown
 from optlaws.cams.least_sizes import LeastBaseCircle, least_base_circle, read_cam_limits
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.optimisation.objectives import OBJECTIVES
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import TURN
+from optlaws.numbers import Quantity
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.expression import maximum
 from optlaws.synthesis.problem.problem import Problem
@@ -108,12 +108,12 @@ class BestBaseCircle:
 
 def best_cam(
     cycle: Cycle,
-    base_radius: Any,  # noqa: ANN401 - quantities
-    follower: Follower,
+    base_radius: Quantity,
+    follower: CamFollower,
     *,
-    pressure_angle: Any = None,  # noqa: ANN401
-    radius_of_curvature: Any = None,  # noqa: ANN401
-    turning: str = "counterclockwise",
+    pressure_angle: Quantity | None = None,
+    radius_of_curvature: Quantity | None = None,
+    turning: Turning = "counterclockwise",
 ) -> BestCam:
     """The optimal laws of a cycle under limits of its cam, at a given base circle.
 
@@ -169,11 +169,11 @@ def best_cam(
 
 def best_base_circle(
     cycle: Cycle,
-    follower: Follower,
+    follower: CamFollower,
     *,
-    pressure_angle: Any = None,  # noqa: ANN401 - quantities
-    radius_of_curvature: Any = None,  # noqa: ANN401
-    turning: str = "counterclockwise",
+    pressure_angle: Quantity | None = None,
+    radius_of_curvature: Quantity | None = None,
+    turning: Turning = "counterclockwise",
 ) -> BestBaseCircle:
     """The least base circle that any laws of a cycle's optimal motions allow.
 
@@ -233,16 +233,16 @@ def best_base_circle(
 _NAMED = {PRESSURE: "pressure_angle='30 deg'", CURVATURE: "radius_of_curvature='5 mm'"}
 
 
-def _unit_contact(cycle: Cycle, follower: Follower, turning: float) -> Contact:
+def _unit_contact(cycle: Cycle, follower: CamFollower, turning: float) -> FollowerContact:
     """The contact of a follower 1 m above the cam's centre."""
     motion = as_motion(cycle, follower.axis)
     return follower.contact(Place(follower.base_radius(1.0), *motion.range, motion.slopes, turning))
 
 
 def linear_limits(
-    piece: Piece, contact: Contact, limits: dict[str, float], period: float, *, below: bool
+    piece: Piece, contact: FollowerContact, limits: dict[str, float], period: float, *, below: bool
 ) -> list[LinearLimit]:
-    """What the limits of a cam ask of a piece's law, in a turn of a period; nothing of a dwell."""
+    """The limits of a cam as linear limits of a piece's law, in a turn of a period; none of a dwell."""
     if piece.stroke == 0.0:
         return []
     return contact.linear_limits(piece, limits, TURN * piece.duration / period, below=below)
@@ -309,7 +309,7 @@ def _solved_with_curvature(problem: Problem, curvature: RollerCurvature) -> Solu
 
 
 def _best(
-    guide: Piece, problem: Problem, contact: Contact, limits: dict[str, float], period: float, *, below: bool
+    guide: Piece, problem: Problem, contact: FollowerContact, limits: dict[str, float], period: float, *, below: bool
 ) -> Solution:
     """The best law between lines, which touch the limits where a guiding law is."""
     windows = [limit.window() for limit in linear_limits(guide, contact, limits, period, below=below)]
@@ -379,7 +379,7 @@ def _bound(cycle: Cycle, solved: Solved) -> float:
 
 
 def _least(best: SolvedPiece, nu: int, *, mean: bool) -> float:
-    """What the constant of a piece's law is at least; what it is where the law is given."""
+    """The lower bound of the constant of a piece's law; its value where the law is given."""
     if best.solution is not None:
         return best.solution.lower_bound if best.bound is None else best.bound
     if best.piece.stroke == 0.0:

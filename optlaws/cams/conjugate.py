@@ -3,22 +3,22 @@
 from __future__ import annotations
 
 from math import degrees, pi
-from typing import Any
 
 from optlaws.cams.disc import TURNINGS, DiscCam
-from optlaws.cams.followers.follower import Follower, positive, shown
+from optlaws.cams.followers.follower import CamFollower, positive, shown
 from optlaws.errors import InputError
 from optlaws.motion.quantities import quantity
+from optlaws.numbers import Quantity
 
 _ENTRIES = {"length": ("distance", "distance='170 mm'"), "angle": ("angle", "angle='110 deg'")}
 
 
 def conjugate_cam(
     cam: DiscCam,
-    follower: Follower | None = None,
+    follower: CamFollower | None = None,
     *,
-    distance: Any = None,  # noqa: ANN401 - quantities
-    angle: Any = None,  # noqa: ANN401
+    distance: Quantity | None = None,
+    angle: Quantity | None = None,
 ) -> DiscCam:
     """The return cam of a pair on one shaft, in the coordinates of the first cam.
 
@@ -65,7 +65,7 @@ def conjugate_cam(
     return _on_pivot(cam, second, quantity(angle, "angle", "angle"))
 
 
-def _on_slide(cam: DiscCam, follower: Follower, distance: float) -> DiscCam:
+def _on_slide(cam: DiscCam, follower: CamFollower, distance: float) -> DiscCam:
     """The second cam of a slide, beneath the shaft: as seen there the cam is turned by half a turn."""
     motion = cam.displacement
     least = distance - cam.contact.level - (motion.range[1] - motion.range[0])
@@ -80,7 +80,7 @@ def _on_slide(cam: DiscCam, follower: Follower, distance: float) -> DiscCam:
     return DiscCam(motion.reversed(), f"{radius!r} m", beneath, turning=cam.turning, phase=f"{phase!r} rad")
 
 
-def _on_pivot(cam: DiscCam, follower: Follower, angle: float) -> DiscCam:
+def _on_pivot(cam: DiscCam, follower: CamFollower, angle: float) -> DiscCam:
     """The second cam on the other side of the line to the pivot: seen in a mirror it turns the other way."""
     motion = cam.displacement
     least = angle - cam.contact.level - (motion.range[1] - motion.range[0])

@@ -15,7 +15,7 @@ from math import isfinite
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.cams.followers.contact import Contact
+from optlaws.cams.followers.contact import FollowerContact
 from optlaws.errors import InfeasibleProblem, OptlawsError
 from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.formulas.intervals import Interval, enclosed
@@ -59,18 +59,18 @@ class RollerCurvature:
     """
 
     piece: Piece
-    contact: Contact
+    contact: FollowerContact
     radius: float
     period: float
 
     @property
     def _slope(self) -> float:
-        """What s' is where b is 1."""
+        """The derivative s' where b is 1."""
         return self.piece.stroke * self.period / (TURN * self.piece.duration)
 
     @property
     def factor(self) -> float:
-        """What s'' is where c is 1, in strokes; G is in strokes, too."""
+        """The derivative s'' where c is 1, in strokes as G is."""
         return float(np.sign(self.piece.stroke)) * (self.period / (TURN * self.piece.duration)) ** 2
 
     @property
@@ -132,7 +132,7 @@ class RollerCurvature:
         ]
 
     def _taken(self, within: dict[str, Interval], reach: Array) -> Array:
-        """What second derivatives can take from a plane that touches G in the middle: Taylor's formula."""
+        """The greatest distance of G below a plane that touches it in the middle, by Taylor's formula."""
         taken = np.zeros(reach.shape[1])
         for i, j in combinations_with_replacement(range(2), 2):
             bend = enclosed(derivative(self._slopes[i], "ab"[j]), within)
@@ -149,7 +149,7 @@ class RollerCurvature:
         return [derivative(self._formula, name) for name in "ab"]
 
 
-def curvature_of(piece: Piece, contact: Contact, least: float, period: float) -> RollerCurvature | None:
+def curvature_of(piece: Piece, contact: FollowerContact, least: float, period: float) -> RollerCurvature | None:
     """The limit of a piece's law where the profile is to have a least radius of curvature in m; None under a face."""
     if not contact.roller or piece.stroke == 0.0:
         return None
@@ -157,7 +157,7 @@ def curvature_of(piece: Piece, contact: Contact, least: float, period: float) ->
 
 
 def bound_under(curvature: RollerCurvature, problem: Problem, most: float) -> float:
-    """What the objective of a problem is at least under a limit of curvature, where a law has the objective `most`.
+    """The lower bound of a problem's objective under a limit of curvature, where a law has the objective `most`.
 
     Laws that are better run in a tube: their b is between values at 25 times, each the optimum of a convex problem,
     and in between no further from these than their greatest acceleration takes it. There planes below G are limits

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from math import degrees
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,23 +13,26 @@ from numpy.typing import NDArray
 from optlaws.cams.curves.extremes import CamExtremes
 from optlaws.cams.curves.motion_by_angle import CamMotion, as_motion
 from optlaws.cams.curves.plane_curve import PlaneCurve
-from optlaws.cams.followers.contact import Contact
-from optlaws.cams.followers.follower import Follower, Place, positive
-from optlaws.cams.followers.registry import follower_names
+from optlaws.cams.cutting.file_options import CutFormat, CuttingOptions
+from optlaws.cams.followers.contact import FollowerContact
+from optlaws.cams.followers.follower import CamFollower, Place, follower_names, positive
 from optlaws.cycles.cycle import Cycle
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.motion.quantities import quantity
-from optlaws.numbers import derivative, real_times
+from optlaws.numbers import Quantity, derivative, real_times
 from optlaws.series.enclosures.interval_arrays import Interval
 from optlaws.series.enclosures.jets import Pair, turned, variable
 from optlaws.shown.summary import Summary
-from optlaws.suggest import unknown_key
+from optlaws.suggest import keywords_of, unknown_key
 
 Array = NDArray[np.float64]
 
-TURNINGS = {"counterclockwise": 1.0, "clockwise": -1.0}
+Turning = Literal["counterclockwise", "clockwise"]
+CutCurve = Literal["profile", "pitch", "cutter"]
+CURVES = ("profile", "pitch", "cutter")
+TURNINGS: dict[Turning, float] = {"counterclockwise": 1.0, "clockwise": -1.0}
 
 
 def sense(turning: object) -> float:
@@ -45,9 +48,10 @@ def sense(turning: object) -> float:
     >>> sense("clockwise")
     -1.0
     """
-    if turning not in tuple(TURNINGS):
-        raise InputError(unknown_key(turning, TURNINGS, "turning"))
-    return TURNINGS[str(turning)]
+    for name, sign in TURNINGS.items():
+        if name == turning:
+            return sign
+    raise InputError(unknown_key(turning, TURNINGS, "turning"))
 
 
 @dataclass(frozen=True)
@@ -87,14 +91,14 @@ class DiscCam:
     """
 
     motion: Cycle | CamMotion
-    base_radius: Any
-    follower: Follower
-    turning: str = field(default="counterclockwise", kw_only=True)
-    phase: Any = field(default="0 deg", kw_only=True)
+    base_radius: Quantity
+    follower: CamFollower
+    turning: Turning = field(default="counterclockwise", kw_only=True)
+    phase: Quantity = field(default="0 deg", kw_only=True)
     mirrored: bool = field(default=False, kw_only=True)
 
     def __post_init__(self) -> None:
-        if not isinstance(self.follower, Follower):
+        if not isinstance(self.follower, CamFollower):
             raise InputError(f"follower must be a {follower_names()}, got {shortened(self.follower)}")
         sense(self.turning)
         quantity(self.phase, "angle", "phase")
@@ -102,13 +106,13 @@ class DiscCam:
 
     @kept_property
     def displacement(self) -> CamMotion:
-        """What the follower does, by the cam's angle."""
+        """The displacement of the follower by the cam's angle."""
         motion = as_motion(self.motion, self.follower.axis)
         _check_smooth(motion)
         return motion
 
     @kept_property
-    def contact(self) -> Contact:
+    def contact(self) -> FollowerContact:
         """How the follower touches the cam, in numbers."""
         radius, motion = positive(self.base_radius, "base_radius"), self.displacement
         return self.follower.contact(Place(radius, *motion.range, motion.slopes, sense(self.turning)))
@@ -126,10 +130,10 @@ class DiscCam:
 
     @kept_property
     def profile(self) -> PlaneCurve:
-        """The cam's edge."""
+        """The profile of the cam, its edge."""
         return self.pitch_curve.offset(-self.contact.roller) if self.contact.roller else self.pitch_curve
 
-    def cutter_path(self, cutter_radius: Any) -> PlaneCurve:  # noqa: ANN401 - a quantity
+    def cutter_path(self, cutter_radius: Quantity) -> PlaneCurve:
         """The way of the centre of a cutter or grinding wheel that makes the profile.
 
         Raises
@@ -139,19 +143,34 @@ class DiscCam:
         """
         return self.pitch_curve.offset(positive(cutter_radius, "cutter_radius") - self.contact.roller)
 
+    def outline(self, curve: CutCurve | None = None, cutter_radius: Quantity | None = None) -> PlaneCurve:
+        """The curve that is cut: the "profile", the "pitch" curve, or the path of a "cutter" with a radius.
+
+        Raises
+        ------
+        InputError
+            If it is unknown, or a cutter has no radius.
+        """
+        chosen = curve or ("profile" if cutter_radius is None else "cutter")
+        if chosen not in CURVES:
+            raise InputError(unknown_key(chosen, CURVES, "curve"))
+        if (chosen == "cutter") != (cutter_radius is not None):
+            raise InputError(
+                "cutter_radius and curve='cutter' go together: give the radius, such as cutter_radius='10 mm'"
+            )
+        if cutter_radius is not None:
+            return self.cutter_path(cutter_radius)
+        return self.profile if chosen == "profile" else self.pitch_curve
+
+    @keywords_of(CuttingOptions)
     def export(
         self,
         file: str | Path,
-        as_: str | None = None,
+        as_: CutFormat | None = None,
         *,
-        curve: str | None = None,
-        cutter_radius: str | None = None,
-        tolerance: str | None = None,
-        decimals: int | None = None,
-        points: int | None = None,
-        degree: int | None = None,
-        feed: str | None = None,
-        about: str | None = None,
+        curve: CutCurve | None = None,
+        cutter_radius: Quantity | None = None,
+        **options: Unpack[CuttingOptions],
     ) -> Path:
         """Write the profile, the pitch curve or the path of a cutter to a file, whole or not at all; return its path.
 
@@ -181,23 +200,13 @@ class DiscCam:
         InputError
             If an entry is unknown or out of its range, the motion is no whole turn, or the file cannot be written.
         """
-        from optlaws.cams.cutting.cam_files import export_cam
+        from optlaws.cams.cutting.cam_files import format_of, write_outline
 
-        entries: dict[str, Any] = {
-            "curve": curve,
-            "cutter_radius": cutter_radius,
-            "tolerance": tolerance,
-            "decimals": decimals,
-            "points": points,
-            "degree": degree,
-            "feed": feed,
-            "about": about,
-        }
-        given = {name: value for name, value in entries.items() if value is not None}
-        return export_cam(self, file, as_, **given)
+        format_of(Path(file), as_)
+        return write_outline(self.outline(curve, cutter_radius), file, as_, **options)
 
     def summary(self) -> Summary:
-        """What is proven of the cam's undercut, pressure angles and radii, and its forces if it has a drive, as rows.
+        """The proven undercut, pressure angles and radii of the cam, and its forces if it has a drive, as rows.
 
         Examples
         --------
@@ -207,7 +216,7 @@ class DiscCam:
         >>> [(row.name, row.text(6), row.unit, row.place is None) for row in cam.summary()][:2]
         [('undercut', 'free', '', True), ('greatest pressure angle', '16.2598', 'deg', False)]
         """
-        from optlaws.cams.loads.summary import summary
+        from optlaws.cams.summary import summary
 
         return summary(self)
 
@@ -261,7 +270,7 @@ class FollowerCurve(PlaneCurve):
     """The curve that a roller's centre makes around the cam, or the one that a flat face envelops."""
 
     motion: CamMotion
-    contact: Contact
+    contact: FollowerContact
     phase: float
     mirrored: bool = False
 

@@ -15,18 +15,18 @@ from typing import Any, TypeVar
 import numpy as np
 
 from optlaws.cams.curves.motion_by_angle import CamMotion, as_motion
-from optlaws.cams.disc import DiscCam, sense
-from optlaws.cams.followers.contact import Contact
-from optlaws.cams.followers.follower import Follower, Place, shown
-from optlaws.cams.followers.linear_limit import CURVATURE, PRESSURE
+from optlaws.cams.disc import DiscCam, Turning, sense
+from optlaws.cams.followers.contact import CURVATURE, PRESSURE, FollowerContact
+from optlaws.cams.followers.follower import CamFollower, Place, shown
 from optlaws.cycles.cycle import Cycle
 from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.motion.quantities import quantity
+from optlaws.numbers import Quantity
 from optlaws.series.enclosures.interval_arrays import ROUNDING, Interval, exact
 from optlaws.series.enclosures.jets import Jet
 
-Kind = TypeVar("Kind", bound=Contact)
+Kind = TypeVar("Kind", bound=FollowerContact)
 
 WIDTH = 1e-8  # of the bracket, relative
 _MARGIN = 1e-10  # by how much more than needed the radius grows at last
@@ -37,7 +37,7 @@ _LEAST, _LARGEST = 1e-6, 1e3  # of base circles that are looked at, times the gr
 
 @dataclass(frozen=True)
 class Witness:
-    """Where a limit is broken: which one, at which angle of the cam in rad, and from which side it is seen."""
+    """The place where a limit is broken: which one, at which angle of the cam in rad, seen from which side."""
 
     limit: str
     angle: float
@@ -73,11 +73,11 @@ class LeastBaseCircle:
 
 def least_base_circle(
     motion: Cycle | CamMotion,
-    follower: Follower,
+    follower: CamFollower,
     *,
-    pressure_angle: Any = None,  # noqa: ANN401 - quantities
-    radius_of_curvature: Any = None,  # noqa: ANN401
-    turning: str = "counterclockwise",
+    pressure_angle: Quantity | None = None,
+    radius_of_curvature: Quantity | None = None,
+    turning: Turning = "counterclockwise",
 ) -> LeastBaseCircle:
     """The least base circle under a pressure-angle limit, a least radius of curvature of the profile, or both.
 
@@ -145,7 +145,7 @@ class GreatestRoller:
     angle: float
 
 
-def greatest_roller(cam: DiscCam, *, radius_of_curvature: Any = "0 mm") -> GreatestRoller:  # noqa: ANN401 - a quantity
+def greatest_roller(cam: DiscCam, *, radius_of_curvature: Quantity = "0 mm") -> GreatestRoller:
     """The greatest roller with which the profile of a cam keeps a radius of curvature; its base circle stays.
 
     Parameters
@@ -180,7 +180,7 @@ def greatest_roller(cam: DiscCam, *, radius_of_curvature: Any = "0 mm") -> Great
     return GreatestRoller(low - slack, high + slack, greatest.angle)
 
 
-def read_cam_limits(pressure_angle: Any, radius: Any) -> dict[str, float]:  # noqa: ANN401 - quantities
+def read_cam_limits(pressure_angle: Quantity | None, radius: Quantity | None) -> dict[str, float]:
     """The limits of a cam: the tangent of the greatest pressure angle, and the least radius of curvature in metres.
 
     Raises
@@ -221,13 +221,13 @@ class _Sizes:
     """Cams that differ by their base circle, and the limits that they keep or break."""
 
     motion: CamMotion
-    follower: Follower
+    follower: CamFollower
     turning: float
     limits: dict[str, float]
 
     @property
     def least(self) -> float:
-        """From where on there is such a mechanism."""
+        """The least base circle with which there is such a mechanism, m."""
         rising = self._scale * np.geomspace(_LEAST, _LARGEST, _LOOKS)
         fit = next((i for i, radius in enumerate(rising) if self._fits(radius)), None)
         if fit is None:
@@ -254,12 +254,12 @@ class _Sizes:
             return False
         return True
 
-    def contact(self, radius: float) -> Contact:
+    def contact(self, radius: float) -> FollowerContact:
         """The contact with a base circle."""
         return self.follower.contact(Place(radius, *self.motion.range, self.motion.slopes, self.turning))
 
     def witnesses(self, radius: float, *, proven: bool = False) -> list[Witness]:
-        """Where limits are broken worst; with `proven`, where they are not proven to be kept."""
+        """The places where limits are broken worst; with `proven`, where they are not proven to be kept."""
         contact, broken = self.contact(radius), []
         if PRESSURE in self.limits:
             least, greatest = contact.pressure_angles(self.motion)
@@ -274,7 +274,7 @@ class _Sizes:
         return broken
 
     def _seen(self, limit: str, angle: float, sign: float, radius: float) -> Witness:
-        """From which side of a break the limit is broken more."""
+        """The witness from the side of a break on which the limit is broken more."""
         sides = [Witness(limit, angle, sign, before) for before in (False, True)]
         return max(
             sides, key=lambda witness: float(self._excess(self.contact(radius), witness, self._jet(witness)).middle)
@@ -321,8 +321,8 @@ class _Sizes:
     def _jet(self, witness: Witness) -> Jet:
         return self.motion.jet(exact(witness.angle), 2, before=witness.before)
 
-    def _excess(self, contact: Contact, witness: Witness, s: Jet) -> Interval:
-        """By how much a limit is broken, above 0; all of it multiplied out, so that nothing is divided by."""
+    def _excess(self, contact: FollowerContact, witness: Witness, s: Jet) -> Interval:
+        """The excess over a limit, above 0 where it is broken; multiplied out, so that nothing is divided by."""
         limit = self.limits[witness.limit]
         if witness.limit == CURVATURE:
             return contact.curvature_excess(s, limit)
@@ -330,17 +330,17 @@ class _Sizes:
         return excess
 
 
-def _spanning(one: Kind, two: Kind) -> Kind:
+def _spanning(smaller: Kind, larger: Kind) -> Kind:
     """A contact whose base circle is anywhere between two."""
     changed: dict[str, Any] = {}
-    for name in _numbers(one):
-        first, last = getattr(one, name), getattr(two, name)
+    for name in _numbers(smaller):
+        first, last = getattr(smaller, name), getattr(larger, name)
         if first != last:
             middle = 0.5 * (first + last)
             radius = 0.5 * abs(last - first) + 16.0 * ROUNDING * (abs(first) + abs(last))
             changed[name] = Interval(np.array(middle), np.array(radius))
-    return replace(one, **changed)
+    return replace(smaller, **changed)
 
 
-def _numbers(contact: Contact) -> Iterator[str]:
+def _numbers(contact: FollowerContact) -> Iterator[str]:
     return (field.name for field in fields(contact))

@@ -20,6 +20,8 @@ def _whole(_: object, tokens: Sequence[Token]) -> int:
 
 
 Whole = Annotated[int, Parameter(converter=_whole)]
+#: how long a motion takes, which older scripts call its time
+Duration = Annotated[str | None, Parameter(name=("--duration", "--time"))]
 AsJson = Annotated[bool, Parameter(name="--json")]
 
 _PICTURES = (".png", ".svg")

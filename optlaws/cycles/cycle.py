@@ -7,9 +7,6 @@ from dataclasses import dataclass, field, replace
 from math import sqrt
 from typing import Any
 
-from optlaws.cycles.drive.drive import Drive, read_drive
-from optlaws.cycles.drive.effort import Effort, effort
-from optlaws.cycles.drive.load import LOAD, Load, read_load
 from optlaws.cycles.export_mixin import ExportMixin
 from optlaws.cycles.kinematics import SegmentPeaks, jumps_at_joints, segment_peaks, values_at
 from optlaws.cycles.optimisation.durations import durations
@@ -30,7 +27,9 @@ from optlaws.cycles.optimisation.objectives import (
 from optlaws.cycles.optimisation.search_spaces import remark_on_degrees, search_space
 from optlaws.cycles.retiming import TimedCycle, cam_segments, segments_at
 from optlaws.cycles.serialisation import SerialisationMixin
+from optlaws.cycles.specification.drive import CycleDrive, Effort, effort, read_drive
 from optlaws.cycles.specification.joints import LawSpan, Layout, layout
+from optlaws.cycles.specification.load import LOAD, Load, read_load
 from optlaws.cycles.specification.programme import Programme, is_optimal, period_of, programme
 from optlaws.cycles.specification.segments import CycleSegment
 from optlaws.errors import InputError
@@ -38,7 +37,7 @@ from optlaws.kept import kept_property
 from optlaws.mechanisms.machine.over_time import RepeatedMotion
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import TURN, quantity, written
-from optlaws.numbers import MOST_DEGREE, derivative, real_times, whole
+from optlaws.numbers import MOST_DEGREE, Quantity, derivative, real_times, whole
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.solution import Solution, Status
 
@@ -97,12 +96,12 @@ class Cycle(ExportMixin, SerialisationMixin):
     """
 
     segments: Sequence[CycleSegment]
-    speed: Any = field(default=None, kw_only=True)
-    period: Any = field(default=None, kw_only=True)
+    speed: Quantity | None = field(default=None, kw_only=True)
+    period: Quantity | None = field(default=None, kw_only=True)
     minimise: str = field(default="acceleration", kw_only=True)
     limits: Mapping[str, Any] = field(default_factory=dict, kw_only=True)
-    start: Any = field(default=None, kw_only=True)
-    advance: Any = field(default=None, kw_only=True)
+    start: Quantity | None = field(default=None, kw_only=True)
+    advance: Quantity | None = field(default=None, kw_only=True)
     drive: Mapping[str, Any] | None = field(default=None, kw_only=True)
     load: Any = field(default=None, kw_only=True)
     order: int = field(default=3, kw_only=True)
@@ -162,7 +161,7 @@ class Cycle(ExportMixin, SerialisationMixin):
 
     @kept_property
     def objective(self) -> float:
-        """What is minimised, over the whole cycle, in SI units; recomputed from the laws."""
+        """The value of the objective over the whole cycle, in SI units; recomputed from the laws."""
         nu, mean = kind_of(self.minimise)
         if nu == LOADED:
             output = self.minimise.removeprefix("rms ").removeprefix(LOAD)
@@ -177,15 +176,15 @@ class Cycle(ExportMixin, SerialisationMixin):
 
     @kept_property
     def lower_bound(self) -> float | None:
-        """What no other laws of the `search_space` in the same times can beat; with dry friction, that never turn back.
+        """The lower bound of laws of the `search_space` in the same times; with friction, that never turn back.
 
-        Laws that are not in it may: of a higher degree, of a lower order, of more pieces.
+        Laws that are not in it may be below: of a higher degree, of a lower order, of more pieces.
         """
         return self._best.bound
 
     @property
     def search_space(self) -> str | None:
-        """Among which laws none is better, where the status is optimal, and none below the `lower_bound`; in words.
+        """The laws, in words, of which none is below the `lower_bound` nor, where the status is optimal, better.
 
         None where no law was looked for. "All motions through the joints" are all whose derivatives before the one that
         is minimised are continuous.
@@ -202,7 +201,7 @@ class Cycle(ExportMixin, SerialisationMixin):
 
     @property
     def remarks(self) -> tuple[str, ...]:
-        """What was chosen that was not asked for: a degree that was raised, or one of several laws that are best.
+        """The choices beyond what was asked: a degree that was raised, or one of several laws that are best.
 
         Examples
         --------
@@ -231,7 +230,7 @@ class Cycle(ExportMixin, SerialisationMixin):
 
     @kept_property
     def load_motion(self) -> RepeatedMotion:
-        """What the load does steadily, over time in seconds: its outputs by their names, in SI units.
+        """The steady motion of the load over time in seconds: its outputs by their names, in SI units.
 
         Raises
         ------
@@ -275,11 +274,11 @@ class Cycle(ExportMixin, SerialisationMixin):
         return values if values.ndim else float(values)
 
     def at_angle(self, degrees: Any, nu: int = 0) -> Any:  # noqa: ANN401 - as for times
-        """The same at an angle of the master, in degrees or a text such as "0.5 rad"; derivatives are by time."""
+        """The motion at an angle of the master, in degrees or a text such as "0.5 rad"; derivatives are by time."""
         turns = quantity(degrees, "angle", "angle") / TURN if isinstance(degrees, str) else real_times(degrees) / 360.0
         return self(turns * self.duration, nu)
 
-    def at(self, speed: Any) -> Cycle:  # noqa: ANN401 - a quantity
+    def at(self, speed: Quantity) -> Cycle:
         """The same motion at another speed of the master: every law as it is, every duration in proportion.
 
         Raises
@@ -305,7 +304,7 @@ class Cycle(ExportMixin, SerialisationMixin):
         """Derivatives by the master's angle in radians, as cams and controllers take them."""
         return self.at_angle(degrees, nu) * (self.duration / TURN) ** nu
 
-    def cam(self, period: Any, damping: float = 0.0) -> Cycle:  # noqa: ANN401 - a quantity
+    def cam(self, period: Quantity, damping: float = 0.0) -> Cycle:
         """The cycle of the cam that makes an elastic follower's mass move as this cycle says (1.27).
 
         Each move is corrected by the follower's frequency over its own duration: nu = 2 pi T / T_k. The mass comes to
@@ -352,7 +351,7 @@ class Cycle(ExportMixin, SerialisationMixin):
         return TimedCycle(self.segments, self.programme, self._layout.starts, self.pieces)
 
     @kept_property
-    def _drive(self) -> Drive | None:
+    def _drive(self) -> CycleDrive | None:
         return None if self.drive is None else read_drive(self.drive, self.axis)
 
     @kept_property

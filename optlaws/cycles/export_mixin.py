@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Unpack
 
+from optlaws.laws.exporting import ExportOptions
 from optlaws.motion.motion import Motion, motion_of_pieces
+from optlaws.numbers import Quantity
 from optlaws.shown.summary import Summary
+from optlaws.suggest import keywords_of
 
 
 class ExportMixin:
     """The exports of a cycle, apart from how its laws are found."""
 
-    def motion(self, master: Any = "360 deg", unit: str | None = None) -> Motion:  # noqa: ANN401 - a quantity
+    def motion(self, master: Quantity | None = "360 deg", unit: str | None = None) -> Motion:
         """The exact motion over its master in machine units, which repeats; optimal laws are looked for now.
 
         Parameters
@@ -37,19 +40,14 @@ class ExportMixin:
         cycle: Any = self
         return motion_of_pieces(cycle.pieces, cycle.duration, cycle.axis, master=master, unit=unit, proof=_proof(cycle))
 
+    @keywords_of(ExportOptions)
     def export(
         self,
         to: str,
         *,
-        master: Any = "360 deg",  # noqa: ANN401 - a quantity
+        master: Quantity | None = "360 deg",
         unit: str | None = None,
-        points: int | str | None = None,
-        counts: int | None = None,
-        digits: int | None = None,
-        decimal: str | None = None,
-        interpolation: str | None = None,
-        task: str | None = None,
-        name: str | None = None,
+        **options: Unpack[ExportOptions],
     ) -> Any:  # noqa: ANN401 - made a layer above
         """The cycle in the format of a controller, with what the controller will run.
 
@@ -62,7 +60,7 @@ class ExportMixin:
         unit
             Of positions; "mm" for lengths and "deg" for angles unless given.
         points, counts, digits, decimal, interpolation, task, name
-            As in `MotionLaw.export`.
+            As `ExportOptions` has them: how many points, of which numbers, for which task of the drive.
 
         Returns
         -------
@@ -83,12 +81,9 @@ class ExportMixin:
         """
         from optlaws.exports.export import export_cycle
 
-        placement = {"master": master, "unit": unit}
-        options = {"points": points, "counts": counts, "digits": digits, "decimal": decimal}
-        cycle: Any = self
-        return export_cycle(cycle, to, placement, **options, interpolation=interpolation, task=task, name=name)
+        return export_cycle(self, to, {"master": master, "unit": unit}, **options)
 
-    def polynomials(self, *, master: Any = None, unit: str | None = None, tolerance: float = 1e-9) -> Any:  # noqa: ANN401
+    def polynomials(self, *, master: Quantity | None = None, unit: str | None = None, tolerance: float = 1e-9) -> Any:  # noqa: ANN401
         """Times and polynomial coefficients of the cycle, as a `PiecewiseMotion`: `breaks` and `coefficients`.
 
         Over time in seconds unless a master is given; exact where laws are made of polynomials, else within
@@ -107,7 +102,7 @@ class ExportMixin:
         >>> pieces.breaks, [[round(coefficient, 9) for coefficient in row] for row in pieces.coefficients]
         ((0.0, 1.0, 3.0), [[0.0, 0.0, 3.0, -2.0], [1.0, 0.0, -0.75, 0.25]])
         """
-        from optlaws.exports.pieces.motion_pieces import pieces_of_motion
+        from optlaws.exports.polynomial_pieces import pieces_of_motion
 
         return pieces_of_motion(self.motion(master, unit), tolerance)
 
@@ -143,7 +138,7 @@ class ExportMixin:
         return draw_cycle(cycle, ax, **style)
 
     def summary(self) -> Summary:
-        """What is proven of the cycle, its peaks, its drive and its joints, as rows in SI units.
+        """The proof of the cycle, its peaks, its drive and its joints, as rows in SI units.
 
         Raises
         ------
@@ -170,7 +165,7 @@ class ExportMixin:
 
 
 def _proof(cycle: Any) -> tuple[str, ...]:  # noqa: ANN401 - a Cycle
-    """What is proven of the laws that were looked for, as files say it."""
+    """The proof of the laws that were looked for, as files say it."""
     if not cycle.solutions:
         return ()
     bound = "" if cycle.lower_bound is None else f", none below {cycle.lower_bound:.9g}"

@@ -16,7 +16,7 @@ from optlaws.mechanisms.checks import motion_law
 from optlaws.mechanisms.spectrum.robust import residual
 from optlaws.motion.piece import factor
 from optlaws.motion.quantities import either, quantity
-from optlaws.numbers import bounded, positive
+from optlaws.numbers import Quantity, bounded, positive
 
 #: what is more than so many times as great is far above
 FAR = 1.5
@@ -35,7 +35,7 @@ class Comparison:
     ----------
     laws
         The laws by their names, in the order given.
-    stroke, time
+    stroke, duration
         Stroke (m or rad) and duration (s) of the machine; None where peaks stay dimensionless.
     unit
         That of the stroke, "m" or "rad".
@@ -52,7 +52,7 @@ class Comparison:
 
     laws: Mapping[str, MotionLaw]
     stroke: float | None = None
-    time: float | None = None
+    duration: float | None = None
     unit: str = "m"
     nu: float | tuple[float, float] | None = None
     damping: float = 0.0
@@ -64,7 +64,7 @@ class Comparison:
 
     @property
     def remarks(self) -> tuple[str, ...]:
-        """What laws of smaller C than the first pay for it, where that is more than half as much again."""
+        """The costs of laws of smaller C than the first, where they are more than half as much again."""
         names = list(self.laws)
         reference = self.laws[names[0]]
         return tuple(
@@ -104,9 +104,9 @@ class Comparison:
     def _row(self, law: MotionLaw) -> dict[str, float]:
         constants = law.constants
         row = {name: float(getattr(constants, name).value) for name in CONSTANTS[:-1]} | {"rms_c": constants.rms_c}
-        if self.stroke is not None and self.time is not None:
+        if self.stroke is not None and self.duration is not None:
             row |= {
-                text.format(self.unit): factor(self.stroke, self.time, nu) * law.peak(nu).value
+                text.format(self.unit): factor(self.stroke, self.duration, nu) * law.peak(nu).value
                 for nu, text in _MACHINE.items()
             }
         if self.nu is not None:
@@ -116,8 +116,8 @@ class Comparison:
 
 def compare(
     *laws: Any,  # noqa: ANN401 - whatever names or has a law
-    stroke: str | None = None,
-    time: str | None = None,
+    stroke: Quantity | None = None,
+    duration: Quantity | None = None,
     nu: float | tuple[float, float] | None = None,
     damping: float = 0.0,
 ) -> Comparison:
@@ -128,7 +128,7 @@ def compare(
     laws
         Each a law, what has one (an entry of the catalogue, a solution), or a text that names one: a name of the
         catalogue, a member such as "III(7.2)", a JSON or CSV file.
-    stroke, time
+    stroke, duration
         Stroke and duration with their units, such as "35 mm" (or "45 deg") and "0.1 s", for the peaks in the machine:
         v = B h/T, a = C h/T², j = J h/T³.
     nu, damping
@@ -142,16 +142,16 @@ def compare(
 
     Examples
     --------
-    >>> comparison = compare("modified sine", "cycloidal", stroke="35 mm", time="0.1 s", nu=20)
+    >>> comparison = compare("modified sine", "cycloidal", stroke="35 mm", duration="0.1 s", nu=20)
     >>> [round(row["acceleration, m/s²"], 3) for row in comparison.rows]
     [19.348, 21.991]
     """
     if not laws:
         raise InputError("there is nothing to compare: name laws, such as 'modified sine' and 'law.json'")
-    if (stroke is None) != (time is None):
-        raise InputError("stroke and time go together: the peaks in the machine need both")
+    if (stroke is None) != (duration is None):
+        raise InputError("stroke and duration go together: the peaks in the machine need both")
     kind, height = ("length", None) if stroke is None else either(stroke, tuple(_UNITS), "stroke")
-    duration = None if time is None else positive(quantity(time, "time", "time"), "time")
+    seconds = None if duration is None else positive(quantity(duration, "time", "duration"), "duration")
     if height is not None:
         positive(height, "stroke")
     if nu is not None:
@@ -162,7 +162,7 @@ def compare(
         if name in named:
             raise InputError(f"{name} is given twice")
         named[name] = law
-    return Comparison(named, height, duration, _UNITS[kind], nu, damping)
+    return Comparison(named, height, seconds, _UNITS[kind], nu, damping)
 
 
 def costs(
@@ -173,7 +173,7 @@ def costs(
     nu: float | tuple[float, float] | None = None,
     damping: float = 0.0,
 ) -> list[str]:
-    """What a law of smaller C than a standard one, whose name is given, has far above it: power, jerk, vibration.
+    """The costs of a smaller C than that of a named standard law: power, jerk or vibration far above its own.
 
     Examples
     --------

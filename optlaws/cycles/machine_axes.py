@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Unpack
 
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.serialisation import problem_file
@@ -14,16 +13,18 @@ from optlaws.cycles.specification.segments import CycleSegment
 from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.extras import needed
-from optlaws.files import reading
+from optlaws.files.reading import JsonText
 from optlaws.kept import kept_property
-from optlaws.suggest import unknown_key
+from optlaws.laws.exporting import AxesExportOptions
+from optlaws.numbers import Quantity
+from optlaws.suggest import keywords_of, unknown_key
 from optlaws.synthesis.solution import Status
 
 FORMAT = "optlaws axes 1"
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Axes(Mapping[str, Cycle]):
+class Axes(JsonText, Mapping[str, Cycle]):
     """Axes that turn with one master: cycles by their names, all of the same duration.
 
     Parameters
@@ -52,9 +53,11 @@ class Axes(Mapping[str, Cycle]):
     ('optimal', 21.313898, 0.125000)
     """
 
+    _json_name = "stored axes"
+
     axes: Mapping[str, Sequence[CycleSegment] | Mapping[str, Any] | Cycle]
-    speed: Any = field(default=None, kw_only=True)
-    period: Any = field(default=None, kw_only=True)
+    speed: Quantity | None = field(default=None, kw_only=True)
+    period: Quantity | None = field(default=None, kw_only=True)
 
     def __post_init__(self) -> None:
         given: Any = self.axes
@@ -84,7 +87,7 @@ class Axes(Mapping[str, Cycle]):
         return {name: cycle(time, nu) for name, cycle in self.items()}
 
     def at_angle(self, degrees: Any, nu: int = 0) -> dict[str, Any]:  # noqa: ANN401 - as a cycle takes them
-        """The same at an angle of the master, in degrees or a text such as "0.5 rad"."""
+        """The motion of every axis at an angle of the master, in degrees or a text such as "0.5 rad"."""
         return {name: cycle.at_angle(degrees, nu) for name, cycle in self.items()}
 
     @property
@@ -98,21 +101,17 @@ class Axes(Mapping[str, Cycle]):
         ranks = (Status.OPTIMAL, Status.LOCAL, Status.INACCURATE)
         return max((cycle.status for cycle in self.values()), key=ranks.index)
 
-    def at(self, speed: Any) -> Axes:  # noqa: ANN401 - a quantity
+    def at(self, speed: Quantity) -> Axes:
         """The same motions at another speed of the master, as `Cycle.at` has them."""
         return Axes({name: cycle.at(speed) for name, cycle in self.items()})
 
+    @keywords_of(AxesExportOptions)
     def export(
         self,
         to: str | Mapping[str, str],
         *,
-        master: Any = "360 deg",  # noqa: ANN401 - a quantity
-        points: int | str | None = None,
-        counts: int | None = None,
-        digits: int | None = None,
-        decimal: str | None = None,
-        interpolation: str | None = None,
-        task: str | None = None,
+        master: Quantity | None = "360 deg",
+        **options: Unpack[AxesExportOptions],
     ) -> dict[str, Any]:
         """Every axis in the format of a controller, or each named axis in its own: an `Export` by the name of the axis.
 
@@ -142,12 +141,10 @@ class Axes(Mapping[str, Cycle]):
         from optlaws.exports.export import export_axes
 
         formats = dict(to) if isinstance(to, Mapping) else dict.fromkeys(self, to)
-        options: dict[str, Any] = {"points": points, "counts": counts, "digits": digits, "decimal": decimal}
-        options |= {"interpolation": interpolation, "task": task}
         return export_axes(self, formats, {"master": master}, **options)
 
     def to_dict(self) -> dict[str, Any]:
-        """What the axes were given, plain and JSON-able."""
+        """The entries of the axes as they were given, plain and JSON-able."""
         return {"format": FORMAT, "axes": {name: cycle.to_dict() for name, cycle in self.items()}}
 
     @classmethod
@@ -163,21 +160,6 @@ class Axes(Mapping[str, Cycle]):
         if not isinstance(stored, Mapping) or data.get("format", FORMAT) != FORMAT:
             raise InputError(f"stored axes have format {FORMAT!r} and a table of axes, got {shortened(data)}")
         return cls({str(name): Cycle.from_dict(cycle) for name, cycle in stored.items()})
-
-    def to_json(self) -> str:
-        """What `to_dict` gives, as JSON text."""
-        return json.dumps(self.to_dict(), ensure_ascii=False, indent=1)
-
-    @classmethod
-    def from_json(cls, text: str) -> Axes:
-        """Read what `to_json` gave.
-
-        Raises
-        ------
-        InputError
-            If it is no JSON, or no axes.
-        """
-        return cls.from_dict(reading.json_text(text, "stored axes"))
 
     def to_toml(self, title: str = "Machine") -> str:
         """A problem file for `optlaws cycle` with all axes.
@@ -231,7 +213,7 @@ class Axes(Mapping[str, Cycle]):
         InputError
             If there are neither one nor as many, or nu is none of the four.
         """
-        from optlaws.plots.axes import draw_axes
+        from optlaws.plots.cycle import draw_axes
 
         return draw_axes(self, ax, nu=nu, **style)
 
@@ -262,7 +244,7 @@ class Axes(Mapping[str, Cycle]):
         return cycles
 
     def _clock(self) -> dict[str, Any]:
-        """What cycles take of the clock; nothing where each has its own."""
+        """The speed or period for every cycle; nothing where each has its own."""
         if self.speed is None and self.period is None and all(isinstance(axis, Cycle) for axis in self.axes.values()):
             return {}
         period_of(self.speed, self.period)

@@ -13,11 +13,11 @@ from optlaws.mechanisms.follower.follower import Follower
 from optlaws.mechanisms.follower.response import Response
 from optlaws.motion.piece import factor
 from optlaws.motion.quantities import either, quantity
-from optlaws.numbers import positive
+from optlaws.numbers import Quantity, positive
 
 _UNITS = {"length": "m", "angle": "rad"}
 _WAYS = "give frequency, such as '16.7 Hz', or period, such as '60 ms', and not both"
-_DURATIONS = "give time, such as '0.1 s', or speed and rise, such as '105 rpm' and '120 deg'"
+_DURATIONS = "give duration, such as '0.1 s', or speed and rise, such as '105 rpm' and '120 deg'"
 
 
 @dataclass(frozen=True)
@@ -30,7 +30,7 @@ class MachineFollower:
         The follower, dimensionless.
     stroke
         Stroke of the cam, in m or rad.
-    time
+    duration
         Duration of the rise, s.
     unit
         That of the stroke, "m" or "rad".
@@ -48,11 +48,11 @@ class MachineFollower:
 
     follower: Follower
     stroke: float
-    time: float
+    duration: float
     unit: str = "m"
 
     def response(self, law: MotionLaw) -> MachineAnswer:
-        """What the mass does when the cam moves by a law and rests afterwards, in machine units.
+        """The response of the mass to a cam that moves by a law and rests afterwards, in machine units.
 
         Raises
         ------
@@ -64,7 +64,7 @@ class MachineFollower:
 
 @dataclass(frozen=True, repr=False)
 class MachineAnswer:
-    """What a machine's follower does, in units of metres (or radians) and seconds.
+    """The response of a machine's follower, in units of metres (or radians) and seconds.
 
     Attributes
     ----------
@@ -113,14 +113,14 @@ class MachineAnswer:
         Examples
         --------
         >>> from optlaws import smoothstep
-        >>> machine = machine_follower(period="60 ms", time="0.2 s", stroke="35 mm")
+        >>> machine = machine_follower(period="60 ms", duration="0.2 s", stroke="35 mm")
         >>> list(machine.response(smoothstep(4)).to_dict())[:3]
         ['stroke, m', 'time, s', 'dynamic factor']
         """
         unit = self.machine.unit
         return {
             f"stroke, {unit}": self.machine.stroke,
-            "time, s": self.machine.time,
+            "time, s": self.machine.duration,
             "dynamic factor": self.dynamic_factor,
             f"peak velocity, {unit}/s": self.peak_velocity,
             f"peak acceleration, {unit}/s²": self.peak_acceleration,
@@ -138,17 +138,17 @@ class MachineAnswer:
         )
 
     def _sized(self, value: float, nu: int) -> float:
-        return value * factor(self.machine.stroke, self.machine.time, nu)
+        return value * factor(self.machine.stroke, self.machine.duration, nu)
 
 
 def machine_follower(
     *,
-    stroke: str,
-    frequency: str | None = None,
-    period: str | None = None,
-    time: str | None = None,
-    speed: str | None = None,
-    rise: str | None = None,
+    stroke: Quantity,
+    frequency: Quantity | None = None,
+    period: Quantity | None = None,
+    duration: Quantity | None = None,
+    speed: Quantity | None = None,
+    rise: Quantity | None = None,
     damping: float = 0.0,
 ) -> MachineFollower:
     """The elastic follower of a machine, from quantities with their units.
@@ -159,7 +159,7 @@ def machine_follower(
         Stroke of the cam, such as "35 mm" or "20 deg".
     frequency, period
         Of the undamped free vibration of the mass on its cam: "16.7 Hz", or "60 ms"; one of them.
-    time
+    duration
         Duration of the rise, such as "0.1 s".
     speed, rise
         In place of it: speed of the cam, such as "105 rpm", and its angle during the rise, such as "120 deg".
@@ -173,19 +173,19 @@ def machine_follower(
 
     Examples
     --------
-    >>> machine_follower(frequency="16.7 Hz", speed="105 rpm", rise="120 deg", stroke="35 mm").time
+    >>> machine_follower(frequency="16.7 Hz", speed="105 rpm", rise="120 deg", stroke="35 mm").duration
     0.190476
-    >>> machine_follower(frequency="16.7", time="0.1 s", stroke="35 mm")
+    >>> machine_follower(frequency="16.7", duration="0.1 s", stroke="35 mm")
     Traceback (most recent call last):
     optlaws.errors.InputError: frequency must be a frequency such as '16.7 Hz', got '16.7' without a unit: ...
     """
     kind, height = either(stroke, tuple(_UNITS), "stroke")
-    duration = _duration(time, speed, rise)
-    nu = tau * duration * _frequency(frequency, period)
-    return MachineFollower(Follower(nu, damping), positive(height, "stroke"), duration, _UNITS[kind])
+    seconds = _duration(duration, speed, rise)
+    nu = tau * seconds * _frequency(frequency, period)
+    return MachineFollower(Follower(nu, damping), positive(height, "stroke"), seconds, _UNITS[kind])
 
 
-def _frequency(frequency: str | None, period: str | None) -> float:
+def _frequency(frequency: Quantity | None, period: Quantity | None) -> float:
     if (frequency is None) == (period is None):
         raise InputError(_WAYS)
     if frequency is not None:
@@ -193,10 +193,10 @@ def _frequency(frequency: str | None, period: str | None) -> float:
     return 1.0 / positive(quantity(period, "time", "period"), "period")
 
 
-def _duration(time: str | None, speed: str | None, rise: str | None) -> float:
-    if time is not None and speed is None and rise is None:
-        return positive(quantity(time, "time", "time"), "time")
-    if time is not None or speed is None or rise is None:
+def _duration(duration: Quantity | None, speed: Quantity | None, rise: Quantity | None) -> float:
+    if duration is not None and speed is None and rise is None:
+        return positive(quantity(duration, "time", "duration"), "duration")
+    if duration is not None or speed is None or rise is None:
         raise InputError(_DURATIONS)
     turning = positive(quantity(speed, "angular velocity", "speed"), "speed")
     return positive(quantity(rise, "angle", "rise"), "rise") / turning

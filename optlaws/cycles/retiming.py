@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import Any
 
 from optlaws.cycles.specification.programme import CLOSE, Programme, TimedSegment
 from optlaws.cycles.specification.segments import ConstantVelocity, CycleSegment, Dwell, Move
 from optlaws.errors import InputError
-from optlaws.laws.making.section import section
+from optlaws.laws.making.transform import section
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.mechanisms.cam.polydyne import polydyne
 from optlaws.motion.piece import Piece
-from optlaws.motion.quantities import TURN, quantity
+from optlaws.motion.quantities import TURN, positive_quantity
+from optlaws.numbers import Quantity
 
 
 @dataclass(frozen=True)
@@ -69,7 +69,7 @@ def segments_at(cycle: TimedCycle, share: float) -> list[CycleSegment]:
 def _moves(
     cycle: TimedCycle, piece: Piece, stretch: TimedSegment, times: tuple[float, float], share: float
 ) -> list[Move]:
-    """What a law does in a stretch: one move, or two where it ends where it begins."""
+    """The moves of a law in a stretch: one, or two where it ends where it begins."""
     (start, stop), moved = times, stretch.displacement
     if piece.stroke == moved and (piece.start, piece.stop) == (start, stop):
         return [Move(cycle.shown(moved), f"{(stop - start) * share!r} s", law=piece.law)]
@@ -96,7 +96,7 @@ def _break(law: PiecewiseLaw, piece: Piece, time: float) -> int:
     return away.index(min(away))
 
 
-def cam_segments(cycle: TimedCycle, period: Any, damping: float) -> list[CycleSegment]:  # noqa: ANN401 - a quantity
+def cam_segments(cycle: TimedCycle, period: Quantity, damping: float) -> list[CycleSegment]:
     """Every move corrected by the follower's frequency over its own duration.
 
     Raises
@@ -104,9 +104,7 @@ def cam_segments(cycle: TimedCycle, period: Any, damping: float) -> list[CycleSe
     InputError
         If a move is not from rest to rest by a law whose jerk is continuous and 0 at both ends.
     """
-    natural = quantity(period, "time", "follower: period")
-    if natural <= 0.0:
-        raise InputError(f"follower: period must be above 0, got {period!r}")
+    natural = positive_quantity(period, "time", "follower: period")
     segments: list[CycleSegment] = []
     for segment, given, piece in cycle.by_segment("the cam of an elastic follower is made move by move"):
         time = f"{piece.duration!r} s"

@@ -11,7 +11,7 @@ from optlaws.cycles.specification.segments import ConstantVelocity, CycleSegment
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.extras import needed
-from optlaws.files import reading
+from optlaws.files.reading import JsonText
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.machine.machine import Machine
 from optlaws.motion.quantities import written
@@ -34,8 +34,10 @@ _SHOWN = 6  # segments in a line
 _NAMES = ("position", "velocity", "acceleration", "jerk")
 
 
-class SerialisationMixin:
+class SerialisationMixin(JsonText):
     """The forms of a cycle as text: plain data, JSON, a problem file, a table of its segments, a line."""
+
+    _json_name = "a stored cycle"
 
     segments: Sequence[CycleSegment]
     minimise: str
@@ -46,7 +48,7 @@ class SerialisationMixin:
         raise NotImplementedError
 
     def to_dict(self) -> dict[str, Any]:
-        """What the cycle was given, plain and JSON-able; its laws are looked for again when it is read.
+        """The entries of the cycle, plain and JSON-able; its laws are looked for again when it is read.
 
         Examples
         --------
@@ -66,21 +68,6 @@ class SerialisationMixin:
             If an entry is unknown or wrong.
         """
         return cls(**_from_data(data))
-
-    def to_json(self) -> str:
-        """What `to_dict` gives, as JSON text."""
-        return json.dumps(self.to_dict(), ensure_ascii=False, indent=1)
-
-    @classmethod
-    def from_json(cls, text: str) -> Self:
-        """Read what `to_json` gave.
-
-        Raises
-        ------
-        InputError
-            If it is no JSON, or no cycle.
-        """
-        return cls.from_dict(reading.json_text(text, "a stored cycle"))
 
     def to_toml(self, title: str = "Cycle", *, axis: str = "axis") -> str:
         """A problem file for `optlaws cycle`, with this cycle as its only axis.
@@ -117,14 +104,14 @@ class SerialisationMixin:
 
 
 def _to_data(cycle: Any) -> dict[str, Any]:  # noqa: ANN401 - a Cycle
-    """What a cycle was given, as plain data; its laws are looked for again when it is read."""
+    """The entries of a cycle as plain data; its laws are looked for again when it is read."""
     given = {name: _plain(getattr(cycle, name)) for name in _ENTRIES if name != "segments"}
     entries = {name: value for name, value in given.items() if value not in (None, {}, ())}
     return {"format": FORMAT, **entries, "segments": [_segment(segment) for segment in cycle.segments]}
 
 
 def _from_data(data: Any) -> dict[str, Any]:  # noqa: ANN401 - it is checked here
-    """What `Cycle` takes."""
+    """The arguments of a `Cycle` from plain data."""
     if not isinstance(data, Mapping) or not isinstance(data.get("segments"), list):
         raise InputError("a stored cycle is a table with a list of segments, as Cycle.to_dict gives it")
     if data.get("format", FORMAT) != FORMAT:

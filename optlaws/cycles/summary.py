@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from optlaws.cycles.drive.load import LOAD, read_load
 from optlaws.cycles.optimisation.objectives import FORCE, LOADED, POWER, kind_of
+from optlaws.cycles.specification.load import LOAD, read_load
 from optlaws.errors import OptlawsError
 from optlaws.shown.showing import drawing, facts, page, table
 from optlaws.shown.summary import Row, Summary
@@ -55,7 +55,7 @@ def force_unit(cycle: Cycle) -> str:
 
 
 def proof_rows(cycle: Cycle) -> list[Row]:
-    """What is least, and how it is proven; nothing where no law was looked for."""
+    """The value of the objective and its proof; nothing where no law was looked for."""
     if not cycle.solutions:
         return []
     unit = objective_unit(cycle)
@@ -76,7 +76,7 @@ def peak_rows(cycle: Cycle) -> list[Row]:
 
 
 def drive_rows(cycle: Cycle) -> list[Row]:
-    """What the drive gives and what the load on it does; nothing where there is no drive."""
+    """The effort of the drive and the peaks of its load; nothing where there is no drive."""
     rows = []
     if cycle.drive is not None:
         effort, force = cycle.effort, force_unit(cycle)

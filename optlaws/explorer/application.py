@@ -32,7 +32,7 @@ from optlaws.explorer.answers import (
 from optlaws.explorer.answers.asked import AskedLaw, AskedLaws, read, ready
 from optlaws.explorer.guard import Guard
 from optlaws.jobs.cam import schema
-from optlaws.jobs.cycle.entries import Study
+from optlaws.jobs.cycle_entries import CycleProblemFile
 
 #: no question of the page is longer
 MOST_BYTES = 400_000
@@ -74,7 +74,7 @@ def application(start: dict[str, Any]) -> Starlette:
         "formats": handed.formats(),
     }
     first = msgspec.json.encode({"state": start, **known})
-    ready(*(kind for kind, _ in QUESTIONS.values()), Study, schema.Study)
+    ready(*(kind for kind, _ in QUESTIONS.values()), CycleProblemFile, schema.CamProblemFile)
     routes = [
         Route("/api/start", lambda _: _json(first)),
         *(Route(f"/api/{name}", _asking(*question), methods=["POST"]) for name, question in QUESTIONS.items()),

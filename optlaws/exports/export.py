@@ -11,12 +11,12 @@ from typing import Any, Protocol
 from optlaws.errors import InputError
 from optlaws.exports.format import Format, Written, format_of
 from optlaws.exports.identifiers import variable_names
-from optlaws.exports.report import QUANTITIES, Report, as_run
-from optlaws.exports.task_sampling import TaskSampling, task_sampling
+from optlaws.exports.report import QUANTITIES, Report, TaskSampling, as_run, task_sampling
 from optlaws.files import writing
 from optlaws.laws import MotionLaw
 from optlaws.motion.motion import Motion, motion_of_law
 from optlaws.motion.polynomials import PiecewiseMotion
+from optlaws.numbers import Quantity
 from optlaws.shown.summary import Row, Summary
 
 Comparison = tuple[str, float | None, float | None, float | None]
@@ -27,7 +27,7 @@ _NAMES = [quantity.lower() for quantity in QUANTITIES]
 class _HasMotion(Protocol):
     """A value whose motion in machine units can be exported, as a cycle is."""
 
-    def motion(self, master: Any = "360 deg", unit: str | None = None) -> Motion:  # noqa: ANN401 - a quantity
+    def motion(self, master: Quantity | None = "360 deg", unit: str | None = None) -> Motion:
         """The exact motion over its master, in units of both."""
 
 
@@ -51,7 +51,7 @@ class Export:
     Examples
     --------
     >>> from optlaws.laws import smoothstep
-    >>> export = smoothstep(3).export("codesys-xyva", stroke="35 mm", master="120 deg", time="0.1 s", points=7)
+    >>> export = smoothstep(3).export("codesys-xyva", stroke="35 mm", master="120 deg", duration="0.1 s", points=7)
     >>> export.text.splitlines()[6:8]
     ['        (dX := 0.0, dY := 0.0, dV := 0.0, dA := 0.0),', '        (dX := 20.0, dY := 1.24228395...
     >>> round(export.report.ratio(2), 6)
@@ -66,7 +66,7 @@ class Export:
 
     @property
     def text(self) -> str:
-        """What the file holds."""
+        """The text of the exported file."""
         return self.written.text
 
     @property
@@ -90,7 +90,7 @@ class Export:
         return writing.write_any(Path(file), self.text)
 
     def to_dict(self) -> dict[str, Any]:
-        """What the command tells a program: everything but the text."""
+        """The export as plain data: everything but the text."""
         written = self.written
         return {
             "format": self.format.name,
@@ -136,12 +136,12 @@ class Export:
         ]
 
     def summary(self) -> Summary:
-        """What the controller will run, as rows: notes say what the law has in its place.
+        """The motion that the controller will run, as rows: notes say what the law has in its place.
 
         Examples
         --------
         >>> from optlaws.laws import smoothstep
-        >>> made = smoothstep(3).export("codesys-xyva", stroke="35 mm", master="120 deg", time="0.1 s", points=7)
+        >>> made = smoothstep(3).export("codesys-xyva", stroke="35 mm", master="120 deg", duration="0.1 s", points=7)
         >>> row = made.summary()[3]
         >>> row.name, row.text(5), row.unit, row.note
         ('peak of acceleration', '20207', 'mm/s²', 'of the law 20207.26')
@@ -176,7 +176,7 @@ class Export:
         return "\n".join(lines)
 
 
-def export_motion(motion: Motion, to: Any, *, task: Any = None, **options: Any) -> Export:  # noqa: ANN401
+def export_motion(motion: Motion, to: Any, *, task: Quantity | None = None, **options: Any) -> Export:  # noqa: ANN401
     """A motion in a format, which checks its options; `task` is the time of a drive's task, such as "1 ms".
 
     Raises
@@ -192,7 +192,7 @@ def export_motion(motion: Motion, to: Any, *, task: Any = None, **options: Any) 
 
 def export_law(
     law: MotionLaw,
-    to: Any,  # noqa: ANN401
+    to: Quantity,
     placement: dict[str, Any],
     proof: tuple[str, ...] = (),
     **options: Any,  # noqa: ANN401

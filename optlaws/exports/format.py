@@ -112,6 +112,10 @@ class Written:
     roundings: tuple[float, ...] = ()
 
 
+#: what makes the file of a motion and a request
+Writer = Callable[[Motion, Request], Written]
+
+
 @dataclass(frozen=True)
 class Format:
     """A format: its name, who takes it, its fields, its limits, the ending of its files, and what writes it.
@@ -142,7 +146,7 @@ class Format:
     model: str
     limits: str
     extension: str
-    write: Callable[[Motion, Request], Written] = field(repr=False)
+    write: Writer = field(repr=False)
     takes: tuple[str, ...] = ("points",)
 
     def request(self, **options: Any) -> Request:  # noqa: ANN401 - options of several kinds
@@ -179,7 +183,20 @@ def format_of(name: Any) -> Format:  # noqa: ANN401 - it is checked here
     return FORMATS[name]
 
 
-def register(file_format: Format) -> Format:
-    """The format, entered under its name."""
-    FORMATS[file_format.name] = file_format
-    return file_format
+def file_format(
+    name: str,
+    *,
+    target: str,
+    contents: str,
+    model: str,
+    limits: str,
+    extension: str,
+    takes: tuple[str, ...] = ("points",),
+) -> Callable[[Writer], Writer]:
+    """A decorator that enters a format under its name, with the function that writes its files."""
+
+    def entered(write: Writer) -> Writer:
+        FORMATS[name] = Format(name, target, contents, model, limits, extension, write, takes)
+        return write
+
+    return entered

@@ -1,4 +1,4 @@
-"""How controllers interpolate tables: each way as polynomials between the points, which then have exact peaks."""
+"""Interpolations of tables as controllers make them: powers of the polynomials between points, with exact peaks."""
 
 from __future__ import annotations
 
@@ -10,27 +10,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
-from optlaws.motion.polynomials import PiecewiseMotion
 
 Array = NDArray[np.float64]
 Ends = Literal["clamped", "natural", "periodic"]
 
 
-def linear(x: Array, y: Array) -> PiecewiseMotion:
-    """Straight lines between points: the velocity leaps at each.
+def linear_powers(x: Array, y: Array) -> Array:
+    """Ascending powers of straight lines between points, a row for each piece: the velocity leaps at each point.
 
     Examples
     --------
-    >>> linear(np.array([0.0, 1.0, 3.0]), np.array([0.0, 2.0, 0.0])).peak(1)
-    Extreme(value=2.0, x=0.0)
+    >>> linear_powers(np.array([0.0, 1.0, 3.0]), np.array([0.0, 2.0, 0.0])).tolist()
+    [[0.0, 2.0], [2.0, -1.0]]
     """
-    return PiecewiseMotion(x, linear_powers(x, y))
+    return np.column_stack([y[:-1], np.diff(y) / np.diff(x)])
 
 
-def cubic_spline(
-    x: Array, y: Array, ends: Ends = "clamped", slopes: tuple[float, float] = (0.0, 0.0)
-) -> PiecewiseMotion:
-    """The cubic spline through points, whose acceleration is continuous.
+def spline_powers(x: Array, y: Array, ends: Ends = "clamped", slopes: tuple[float, float] = (0.0, 0.0)) -> Array:
+    """Ascending powers of the cubic spline through points, whose acceleration is continuous, a row for each piece.
 
     Parameters
     ----------
@@ -48,68 +45,9 @@ def cubic_spline(
 
     Examples
     --------
-    >>> spline = cubic_spline(np.array([0.0, 40.0, 100.0]), np.array([0.0, 20.0, 25.0]), slopes=(1.0, 0.0))
-    >>> [round(coefficient, 9) for coefficient in spline.coefficients[0]]
+    >>> powers = spline_powers(np.array([0.0, 40.0, 100.0]), np.array([0.0, 20.0, 25.0]), slopes=(1.0, 0.0))
+    >>> [round(power, 9) for power in powers[0].tolist()]
     [0.0, 1.0, -0.0175, 0.000125]
-    """
-    return PiecewiseMotion(x, spline_powers(x, y, ends, slopes))
-
-
-def hermite(x: Array, values: Array) -> PiecewiseMotion:
-    """Polynomials of degree 2m - 1 that have m given derivatives at each point: y, V, A for the quintic of XYVA.
-
-    Parameters
-    ----------
-    x
-        Points, shape (n,).
-    values
-        y and its first m - 1 derivatives there, shape (m, n).
-
-    Examples
-    --------
-    >>> motion = hermite(np.array([0.0, 2.0]), np.array([[0.0, 1.0], [0.0, 0.0], [0.0, 0.0]]))
-    >>> motion.coefficients[0]
-    (0.0, 0.0, 0.0, 1.25, -0.9375, 0.1875)
-    """
-    return PiecewiseMotion(x, hermite_powers(x, values))
-
-
-def akima(x: Array, y: Array) -> PiecewiseMotion:
-    """Akima's cubics, as Modelica's tables take them: the acceleration leaps at each point.
-
-    Examples
-    --------
-    >>> x = np.linspace(0.0, 1.0, 6)
-    >>> round(akima(x, x**2)(0.5), 9)
-    0.25
-    """
-    return PiecewiseMotion(x, akima_powers(x, y))
-
-
-def sampled(motion: PiecewiseMotion, ticks: int) -> PiecewiseMotion:
-    """A motion as a task hears of it so many times: straight lines between equal steps.
-
-    Examples
-    --------
-    >>> sampled(PiecewiseMotion([0, 1], [[0, 0, 1]]), 2)(0.5, 1)
-    1.5
-    """
-    x = np.linspace(motion.start, motion.stop, ticks + 1)
-    return linear(x, motion(x))
-
-
-def linear_powers(x: Array, y: Array) -> Array:
-    """Ascending powers of `linear`, a row for each piece."""
-    return np.column_stack([y[:-1], np.diff(y) / np.diff(x)])
-
-
-def spline_powers(x: Array, y: Array, ends: Ends, slopes: tuple[float, float]) -> Array:
-    """Ascending powers of `cubic_spline`, a row for each piece.
-
-    Raises
-    ------
-    InputError
-        If it is periodic and its first and last position differ.
     """
     from scipy.interpolate import CubicSpline
 
@@ -120,14 +58,34 @@ def spline_powers(x: Array, y: Array, ends: Ends, slopes: tuple[float, float]) -
 
 
 def akima_powers(x: Array, y: Array) -> Array:
-    """Ascending powers of `akima`, a row for each piece."""
+    """Ascending powers of Akima's cubics, as Modelica's tables take them: the acceleration leaps at each point.
+
+    Examples
+    --------
+    >>> x = np.linspace(0.0, 1.0, 6)
+    >>> akima_powers(x, x**2)[0].round(9).tolist()
+    [0.0, 0.0, 1.0, 0.0]
+    """
     from scipy.interpolate import Akima1DInterpolator
 
     return np.asarray(Akima1DInterpolator(x, y).c.T[:, ::-1])
 
 
 def hermite_powers(x: Array, values: Array) -> Array:
-    """Ascending powers of `hermite`, a row for each piece."""
+    """Ascending powers of degree 2m - 1 that have m given derivatives at each point: y, V, A for the quintic of XYVA.
+
+    Parameters
+    ----------
+    x
+        Points, shape (n,).
+    values
+        y and its first m - 1 derivatives there, shape (m, n).
+
+    Examples
+    --------
+    >>> hermite_powers(np.array([0.0, 2.0]), np.array([[0.0, 1.0], [0.0, 0.0], [0.0, 0.0]])).tolist()
+    [[0.0, 0.0, 0.0, 1.25, -0.9375, 0.1875]]
+    """
     m = len(values)
     lengths = np.diff(x)
     powers = lengths[:, None] ** np.arange(2 * m)

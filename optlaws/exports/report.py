@@ -1,17 +1,21 @@
-"""The report of a run beside its law: peaks, leaps and deviation, by TwinCAT's names of cam characteristics."""
+"""The report of a run beside its law: peaks, leaps, deviation, travel, and what a task of the drive makes of it."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import inf, isfinite, nan
+from itertools import pairwise
+from math import floor, inf, isfinite, nan
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.exports.travel import travel_of_law, travel_of_run
+from optlaws.errors import InputError
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import Extreme, PiecewiseMotion
+from optlaws.motion.quantities import quantity
+from optlaws.numbers import MOST_VALUES, Quantity
+from optlaws.series import bernstein
 
 Array = NDArray[np.float64]
 
@@ -70,7 +74,7 @@ class Characteristics:
 
 @dataclass(frozen=True)
 class Report:
-    """What the controller runs and the law, both in machine units.
+    """The motion that the controller runs beside the law, both in machine units.
 
     Parameters
     ----------
@@ -86,12 +90,12 @@ class Report:
 
     Examples
     --------
-    >>> from optlaws.exports.interpolation import cubic_spline
+    >>> from optlaws.exports.interpolation import spline_powers
     >>> from optlaws.motion.motion import motion_of_law
     >>> from optlaws.laws import smoothstep
-    >>> motion = motion_of_law(smoothstep(3), stroke="35 mm", time="0.1 s")
+    >>> motion = motion_of_law(smoothstep(3), stroke="35 mm", duration="0.1 s")
     >>> x = np.linspace(0.0, 0.1, 13)
-    >>> report = as_run(cubic_spline(x, motion(x)), motion)
+    >>> report = as_run(PiecewiseMotion(x, spline_powers(x, motion(x))), motion)
     >>> round(report.ratio(2), 4), round(report.deviation[0].value, 6), round(report.run.leaps_at_ends[1], 3)
     (0.9923, 0.00154, 701.101)
     """
@@ -223,3 +227,124 @@ def _known(value: float) -> float | None:
 def _point(x: float | None, values: tuple[float, ...]) -> dict[str, Any]:
     place = {} if x is None else {"MasterPosition": x}
     return place | {f"Slave{name}": _known(value) for name, value in zip(QUANTITIES, values, strict=True)}
+
+
+_EACH = 257
+_HALVINGS = 60
+_CUTS = 9  # in eight: the way is of second order in the length that is left
+
+
+def travel_of_run(run: PiecewiseMotion) -> float:
+    """The way of polynomials.
+
+    Examples
+    --------
+    >>> round(travel_of_run(PiecewiseMotion([0, 2], [[0, 2, -1]])), 12)
+    2.0
+    """
+    first, last = run.ends(0)
+    moved = np.abs(last - first)
+    table = run.powers(1)
+    control = bernstein.from_powers(table * run.lengths[:, None] ** np.arange(table.shape[1]))
+    # where all Bernstein coefficients of the velocity have one sign it does not change it
+    rows = np.flatnonzero(_turns(control))
+    moved[rows] = _back_and_forth(control[rows], run.lengths[rows])
+    return float(moved.sum())
+
+
+def travel_of_law(motion: Motion) -> float:
+    """The way of an exact motion, turned where its velocity changes its sign.
+
+    Examples
+    --------
+    >>> from optlaws.motion.motion import motion_of_law
+    >>> from optlaws.laws import smoothstep
+    >>> travel_of_law(motion_of_law(smoothstep(3), stroke="-35 mm", duration="0.1 s"))
+    35.0
+    """
+    grids = [np.linspace(low, high, _EACH) for low, high in pairwise(motion.breaks)]
+    x = np.concatenate([[motion.start], *(grid[1:] for grid in grids)])
+    signs = np.sign(motion(x, 1))
+    which = np.flatnonzero(signs[1:] * signs[:-1] < 0.0)
+    turns = _halved(motion, x[which], x[which + 1], signs[which]) if which.size else x[which]
+    return float(np.abs(np.diff(motion(np.sort(np.concatenate([x, turns]))))).sum())
+
+
+def _halved(motion: Motion, low: Array, high: Array, sign: Array) -> Array:
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        before = motion(middle, 1) * sign > 0.0
+        low, high = np.where(before, middle, low), np.where(before, high, middle)
+    return low
+
+
+def _turns(control: Array) -> NDArray[np.bool_]:
+    return np.asarray((control.min(axis=1) < 0.0) & (control.max(axis=1) > 0.0))
+
+
+def _back_and_forth(control: Array, lengths: Array) -> Array:
+    """The ways of pieces given by Bernstein coefficients of their velocities, cut where they may turn."""
+    ways, rows = np.zeros(len(control)), np.arange(len(control))
+    for cut in range(_CUTS + 1):
+        turning = _turns(control) if cut < _CUTS else np.zeros(len(control), dtype=np.bool_)
+        np.add.at(ways, rows[~turning], np.abs(control.mean(axis=1) * lengths)[~turning])
+        if not turning.any():
+            break
+        control, rows = bernstein.in_parts(control[turning]), np.repeat(rows[turning], bernstein.PARTS)
+        lengths = np.repeat(lengths[turning] / bernstein.PARTS, bernstein.PARTS)
+    return ways
+
+
+@dataclass(frozen=True)
+class TaskSampling:
+    """The sampled run: the time of a task in seconds, and the greatest second difference of positions over it."""
+
+    seconds: float
+    acceleration: float
+
+
+def task_sampling(run: PiecewiseMotion, motion: Motion, task: Quantity) -> TaskSampling:
+    """The run sampled once in a task: second differences of the positions, those at both ends included.
+
+    Before and after a motion of one shot there is rest; a cycle goes on with itself.
+
+    Parameters
+    ----------
+    run
+        What the controller makes of an export.
+    motion
+        What was exported; it must be known how fast its master goes.
+    task
+        The time of a task, such as "1 ms".
+
+    Raises
+    ------
+    InputError
+        If the time is none, or so long or short that there are fewer than 4 or too many positions.
+
+    Examples
+    --------
+    >>> from optlaws.exports.interpolation import linear_powers
+    >>> from optlaws.motion.motion import motion_of_law
+    >>> from optlaws.laws import smoothstep
+    >>> motion = motion_of_law(smoothstep(3), stroke="35 mm", duration="0.1 s")
+    >>> x = np.linspace(0.0, 0.1, 37)
+    >>> run = PiecewiseMotion(x, linear_powers(x, motion(x)))
+    >>> round(task_sampling(run, motion, "0.1 ms").acceleration / motion.peak(2), 1)
+    27.0
+    """
+    seconds = quantity(task, "time", "task")
+    if motion.units.rate is None:
+        raise InputError("task: how fast the master goes is not known: say how long the motion takes, duration='0.1 s'")
+    step = seconds * motion.units.rate
+    if not 4.0 * step <= motion.length <= MOST_VALUES * step:
+        raise InputError(f"task must be between {MOST_VALUES} and 4 of it in the motion, got {task!r}")
+    count = floor(motion.length / step * (1.0 + 1e-12))
+    y = np.asarray(run(np.minimum(run.start + step * np.arange(count + 1), run.stop)))
+    last = float(run.ends(0)[1][-1])
+    if motion.repeats:
+        again = motion.advance + run(np.clip(step * np.arange(count + 1, count + 3) - motion.length, 0.0, None))
+        sampled = np.concatenate([y, again])
+    else:
+        sampled = np.concatenate([y[:1], y[:1], y, [last, last]])
+    return TaskSampling(seconds, float(np.abs(np.diff(sampled, 2)).max()) / seconds**2)

@@ -33,7 +33,7 @@ class Tabled(Protocol):
 
     @property
     def x(self) -> Array:
-        """The points."""
+        """The places of the points, by the master."""
 
     @property
     def powers(self) -> Array:
@@ -41,7 +41,7 @@ class Tabled(Protocol):
 
     @property
     def resolution(self) -> float:
-        """Step of positions."""
+        """The step to which positions are rounded."""
 
 
 TableT = TypeVar("TableT", bound=Tabled)
@@ -166,7 +166,7 @@ def _fewest(ranks: dict[int, Rank]) -> int:
 
 @dataclass(frozen=True)
 class RunRanking:
-    """What runs are compared with: the motion, its peaks of velocity and acceleration, and its leaps of the latter."""
+    """The reference of runs: the motion, its peaks of velocity and acceleration, and its leaps of the latter."""
 
     motion: Motion
     velocity: float

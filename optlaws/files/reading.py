@@ -13,7 +13,7 @@ import stat
 from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar, Self
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
@@ -130,6 +130,45 @@ def json_text(content: Any, name: str) -> Any:  # noqa: ANN401 - it is checked h
     [1, 2]
     """
     return checked(parsed(content, name), name)
+
+
+class JsonText:
+    """Values with `to_dict` and `from_dict`, as JSON text too.
+
+    Examples
+    --------
+    >>> from optlaws.laws import MotionLaw, smoothstep
+    >>> MotionLaw.from_json(smoothstep(4).to_json()) == smoothstep(4)
+    True
+    """
+
+    #: what an error calls the text, and how it is laid out
+    _json_name: ClassVar[str] = "a stored value"
+    _json_layout: ClassVar[Mapping[str, Any]] = {"ensure_ascii": False, "indent": 1}
+
+    def to_dict(self) -> dict[str, Any]:
+        """The value as plain data: numbers, strings, lists and tables."""
+        raise NotImplementedError
+
+    @classmethod
+    def from_dict(cls, data: Any) -> Self:  # noqa: ANN401 - it is checked there
+        """The value that `to_dict` described."""
+        raise NotImplementedError
+
+    def to_json(self) -> str:
+        """The contents of `to_dict` as JSON text."""
+        return json.dumps(self.to_dict(), **self._json_layout)
+
+    @classmethod
+    def from_json(cls, text: str) -> Self:
+        """The value that `to_json` wrote.
+
+        Raises
+        ------
+        InputError
+            If the text is not JSON or does not describe such a value.
+        """
+        return cls.from_dict(json_text(text, cls._json_name))
 
 
 def parsed(content: Any, name: str) -> Any:  # noqa: ANN401 - it is checked here

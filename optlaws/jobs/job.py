@@ -17,10 +17,10 @@ Job = Callable[[Mapping[str, Any], Path, Path], list[Path]]
 _MODULES = {
     "atlas": "laws.atlas",
     "cam": "cam.cam",
-    "cycle": "cycle.cycle",
+    "cycle": "cycle",
     "force loaded": "laws.force_loaded",
     "fronts": "laws.fronts",
-    "machine laws": "machine.laws_for_machine",
+    "machine laws": "laws.machine_laws",
     "solutions": "laws.solutions",
 }
 #: the job of the problem files that come with optlaws and have a script beside them

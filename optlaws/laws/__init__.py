@@ -7,7 +7,7 @@ __getattr__, __dir__, __all__ = face(
     {
         "optlaws.laws.constants": "Constants",
         "optlaws.laws.law": "MotionLaw",
-        "optlaws.laws.making.half_cycle": "from_half",
+        "optlaws.laws.making.trapezoids": "from_half",
         "optlaws.laws.polynomial": "PolynomialLaw smoothstep",
         "optlaws.series.peaks": "Peak",
     },

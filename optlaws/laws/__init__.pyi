@@ -1,7 +1,7 @@
 # made by tests/contracts/faces.py from the table in __init__.py
 from optlaws.laws.constants import Constants as Constants
 from optlaws.laws.law import MotionLaw as MotionLaw
-from optlaws.laws.making.half_cycle import from_half as from_half
+from optlaws.laws.making.trapezoids import from_half as from_half
 from optlaws.laws.polynomial import PolynomialLaw as PolynomialLaw
 from optlaws.laws.polynomial import smoothstep as smoothstep
 from optlaws.series.peaks import Peak as Peak

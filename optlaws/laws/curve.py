@@ -46,7 +46,7 @@ class Curve(ABC):
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """Where the curve is put together from pieces, both ends of the interval included."""
+        """The places where the curve is put together from pieces, both ends of the interval included."""
         return self._breaks
 
     @overload
@@ -85,7 +85,7 @@ class Curve(ABC):
     @overload
     def a(self, k: Many) -> Array: ...
     def a(self, k: float | Many) -> float | Array:
-        """Displacement at k."""
+        """The displacement a at k."""
         return _plain(self._derivative(self._times(k), 0))
 
     @overload
@@ -183,13 +183,13 @@ class Curve(ABC):
         >>> smoothstep(3).where(0.0, nu=2).tolist()
         [0.0, 0.5, 1.0]
         """
-        order, asked = derivative(nu), finite(value, "value")
+        order, height = derivative(nu), finite(value, "value")
         turns, _ = self._sides(order)
         places = np.unique(np.concatenate([turns, self.breaks]))
         after = self._derivative(places, order)
         before = after.copy()
         before[np.searchsorted(places, self.breaks[1:-1])] = self._before_breaks(order)
-        return crossings(lambda k: float(self._derivative(np.array(k), order)), places, after, before, asked)
+        return crossings(lambda k: float(self._derivative(np.array(k), order)), places, after, before, height)
 
     def power_peak(self) -> Peak:
         """Peak of |d| over the whole interval, d = b c.

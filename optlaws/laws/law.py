@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 from optlaws.kept import kept_property
 from optlaws.laws.constants import Constants
 from optlaws.laws.curve import Curve, Sides
-from optlaws.laws.storage import Stored
-from optlaws.numbers import derivative, times
+from optlaws.laws.exporting import LawExport
+from optlaws.laws.storage import StoredLaw
+from optlaws.numbers import Quantity, derivative, times
 from optlaws.series.peaks import Peak
 
 Array = NDArray[np.float64]
@@ -26,7 +27,7 @@ HIGHEST = 9
 _NINE = np.linspace(0.0, 1.0, 9)
 
 
-class MotionLaw(Curve, Stored):
+class MotionLaw(Curve, LawExport, StoredLaw):
     """Displacement a(k) of k in [0, 1] with its derivatives; dimensionless (eq. 1).
 
     Velocity b = a', acceleration c = a'', jerk j = a''', kinetic power d = b c. With stroke h and duration T
@@ -129,84 +130,19 @@ class MotionLaw(Curve, Stored):
             rms_c=self.rms(2),
         )
 
-    def export(
-        self,
-        to: str,
-        *,
-        stroke: Any = None,  # noqa: ANN401 - a quantity
-        time: Any = None,  # noqa: ANN401
-        master: Any = None,  # noqa: ANN401
-        start: Any = None,  # noqa: ANN401
-        points: int | str | None = None,
-        counts: int | None = None,
-        digits: int | None = None,
-        decimal: str | None = None,
-        interpolation: str | None = None,
-        task: str | None = None,
-        name: str | None = None,
-    ) -> Any:  # noqa: ANN401 - made two layers above
-        """The law in the format of a controller, with what the controller will run.
-
-        Parameters
-        ----------
-        to
-            The format: `optlaws export --list` names them.
-        stroke
-            How far the slave moves, "35 mm" or "-20 deg": positions are in its unit.
-        time, master
-            How long it takes, "0.1 s", and how far the master goes meanwhile, "120 deg"; one of them or both. Without
-            a master it is time in seconds.
-        start
-            Position at the start; 0 unless given.
-        points
-            How many points, or "best", as it is unless given: the fewest whose run is as good as that of any number.
-            Formats of polynomials take as few pieces as will do unless given; "best" looks for their breaks too.
-        counts
-            Steps of the slave's encoder over the stroke, to which positions are rounded.
-        digits, decimal
-            Digits behind the decimal sign, and the sign, "." or ",", of tables as text.
-        interpolation
-            How the controller is told to interpolate, where it can be told.
-        task
-            Time of the drive's task, such as "1 ms": the report then says what it hears once in each.
-        name
-            Of the variable, the table or the joint; "Cam" unless given.
-
-        Returns
-        -------
-        An `Export`: its `text`, its `report`, its `run`; `write(file)` writes it.
-
-        Raises
-        ------
-        InputError
-            If there is no such format, it takes no such option, or it cannot hold the motion.
-
-        Examples
-        --------
-        >>> from optlaws.laws import smoothstep
-        >>> made = smoothstep(4).export("csv", stroke="40 mm", master="120 deg", counts=65536, points=361)
-        >>> round(made.report.ratio(2), 1), round(made.report.bound / made.report.law.peak(2), 1)
-        (1.9, 1.6)
-        """
-        from optlaws.exports.export import export_law
-
-        placement = {"stroke": stroke, "time": time, "master": master, "start": start}
-        options: dict[str, Any] = {"points": points, "counts": counts, "digits": digits, "decimal": decimal}
-        return export_law(self, to, placement, **options, interpolation=interpolation, task=task, name=name)
-
     def pieces(
         self,
-        stroke: Any = None,  # noqa: ANN401 - a quantity
-        time: Any = None,  # noqa: ANN401
+        stroke: Quantity | None = None,
+        duration: Quantity | None = None,
         *,
-        master: Any = None,  # noqa: ANN401
-        start: Any = None,  # noqa: ANN401
+        master: Quantity | None = None,
+        start: Quantity | None = None,
         tolerance: float = 1e-9,
     ) -> Any:  # noqa: ANN401 - made two layers above
         """Times and polynomial coefficients in machine units, as a `PiecewiseMotion`: `breaks`, `coefficients`.
 
         Exact, each coefficient rounded once, where the law is made of polynomials; else within `tolerance`, a share of
-        the stroke, over the whole interval. `stroke`, `time`, `master` and `start` are those of `export`.
+        the stroke, over the whole interval. `stroke`, `duration`, `master` and `start` are those of `export`.
 
         Raises
         ------
@@ -220,9 +156,9 @@ class MotionLaw(Curve, Stored):
         >>> pieces.breaks, pieces.coefficients
         ((0.0, 2.0), ((0.0, 0.0, 0.375, -0.125),))
         """
-        from optlaws.exports.pieces.motion_pieces import pieces_of_law
+        from optlaws.exports.polynomial_pieces import pieces_of_law
 
-        return pieces_of_law(self, tolerance, stroke=stroke, time=time, master=master, start=start)
+        return pieces_of_law(self, tolerance, stroke=stroke, duration=duration, master=master, start=start)
 
     def __repr__(self) -> str:
         constants = self.constants
@@ -283,4 +219,4 @@ class MotionLaw(Curve, Stored):
 
     @abstractmethod
     def _summary(self) -> str:
-        """What the repr says besides the constants."""
+        """The text of the repr besides the constants."""

@@ -54,10 +54,10 @@ class PolynomialLaw(MotionLaw, kind="polynomial"):
     b0: float
 
     def __init__(self, acceleration: Sequence[float] | NDArray[Any], a0: float = 0.0, b0: float = 0.0) -> None:
-        kept = list(_numbers(acceleration, "acceleration"))
-        while kept and kept[-1] == 0.0:
-            kept.pop()
-        object.__setattr__(self, "acceleration", tuple(kept))
+        series = list(_numbers(acceleration, "acceleration"))
+        while series and series[-1] == 0.0:
+            series.pop()
+        object.__setattr__(self, "acceleration", tuple(series))
         object.__setattr__(self, "a0", _numbers([a0], "a0")[0])
         object.__setattr__(self, "b0", _numbers([b0], "b0")[0])
 
@@ -136,7 +136,7 @@ class PolynomialLaw(MotionLaw, kind="polynomial"):
 
     @property
     def degree(self) -> int:
-        """Degree of a(k)."""
+        """The degree of a(k) as a polynomial."""
         return len(self.acceleration) + 1 if self.acceleration else int(self.b0 != 0.0)
 
     @kept_property

@@ -3,37 +3,41 @@
 from __future__ import annotations
 
 import dataclasses
-import json
 from abc import ABC
 from collections.abc import Mapping
+from math import inf
 from typing import Any, ClassVar, Self
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
-from optlaws.files.reading import json_text
+from optlaws.files.reading import JsonText
 from optlaws.lazy import Registry
+from optlaws.numbers import bounded
 
 FORMAT = 1
 
 
-class Stored(ABC):
+class StoredLaw(JsonText, ABC):
     """A value that turns into plain data and back without loss; each kind is a subclass that names itself.
 
     Examples
     --------
     >>> from optlaws.laws import PolynomialLaw
-    >>> Stored.kinds["polynomial"] is PolynomialLaw
+    >>> StoredLaw.kinds["polynomial"] is PolynomialLaw
     True
     """
 
+    _json_name = "a law"
+    _json_layout: ClassVar[Mapping[str, Any]] = {"allow_nan": False}
+
     kind: ClassVar[str]
-    kinds: ClassVar[Registry[type[Stored]]] = Registry("law")
+    kinds: ClassVar[Registry[type[StoredLaw]]] = Registry("law")
 
     def __init_subclass__(cls, *, kind: str | None = None, **kwargs: object) -> None:
         super().__init_subclass__(**kwargs)
         if kind is not None:
             cls.kind = kind
-            Stored.kinds[kind] = cls
+            StoredLaw.kinds[kind] = cls
 
     def to_dict(self) -> dict[str, Any]:
         """The law as plain data (numbers, strings, lists), from which `from_dict` makes an equal one.
@@ -69,31 +73,42 @@ class Stored(ABC):
             raise InputError(f"kind of law {shortened(kind)} is unknown; known are {', '.join(known)}")
         return law._read(known_fields(law, fields, f"a {kind} law"))  # noqa: SLF001
 
-    def to_json(self) -> str:
-        """`to_dict` as JSON text."""
-        return json.dumps(self.to_dict(), allow_nan=False)
-
-    @classmethod
-    def from_json(cls, text: str) -> Self:
-        """The law that `to_json` wrote.
-
-        Raises
-        ------
-        InputError
-            If the text is not JSON or does not describe a law.
-
-        Examples
-        --------
-        >>> from optlaws.laws import MotionLaw, smoothstep
-        >>> MotionLaw.from_json(smoothstep(4).to_json()) == smoothstep(4)
-        True
-        """
-        return cls.from_dict(json_text(text, "a law"))
-
     @classmethod
     def _read(cls, fields: dict[str, Any]) -> Self:
         """The value of these contents; all its keys are there, and no other."""
         return cls(**fields)
+
+
+class PlainNumbers(JsonText):
+    """Frozen dataclasses of numbers and texts as plain data, where what is infinite is None.
+
+    Examples
+    --------
+    >>> from optlaws.cycles.specification.drive import Effort
+    >>> Effort.from_json(Effort(1.0, 0.5, 2.0, 0.0).to_json())
+    Effort(peak_force=1.0, rms_force=0.5, peak_power=2.0, mean_power=0.0)
+    """
+
+    def to_dict(self) -> dict[str, Any]:
+        """The value as a plain JSON-able dict; what is infinite is None."""
+        this: Any = self
+        values = {field.name: getattr(this, field.name) for field in dataclasses.fields(this)}
+        return {name: bounded(value) if isinstance(value, float) else value for name, value in values.items()}
+
+    @classmethod
+    def from_dict(cls, data: Any) -> Self:  # noqa: ANN401 - it is checked here
+        """The value that `to_dict` described.
+
+        Raises
+        ------
+        InputError
+            If a key is unknown or missing.
+        """
+        name = f"a {cls.__name__}"
+        if not isinstance(data, Mapping):
+            raise InputError(f"{name} must be a dict, got {type(data).__name__}")
+        stored = known_fields(cls, data, name)
+        return cls(**{key: _restored(value) for key, value in stored.items()})
 
 
 def contents(value: Any) -> dict[str, Any]:  # noqa: ANN401 - any frozen dataclass
@@ -135,6 +150,10 @@ def _plain(value: Any) -> Any:  # noqa: ANN401
     if isinstance(value, tuple):
         return [_plain(part) for part in value]
     return value.to_dict() if hasattr(value, "to_dict") else value
+
+
+def _restored(value: Any) -> Any:  # noqa: ANN401 - plain data
+    return inf if value is None else tuple(value) if isinstance(value, list) else value
 
 
 def _opened(data: Any) -> dict[str, Any]:  # noqa: ANN401

@@ -14,10 +14,9 @@ from numpy.typing import NDArray
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
-from optlaws.motion.named_law import STROKE
-from optlaws.motion.piece import Piece, factor, values_of_pieces
-from optlaws.motion.quantities import Given, either, given_quantity, quantity
-from optlaws.numbers import derivative, real_times
+from optlaws.motion.piece import STROKE, Piece, factor, values_of_pieces
+from optlaws.motion.quantities import Given, either, given_quantity, positive_quantity, quantity
+from optlaws.numbers import Quantity, derivative, real_times
 
 Array = NDArray[np.float64]
 Place = tuple[float, float]
@@ -60,7 +59,7 @@ class Motion:
     Examples
     --------
     >>> from optlaws.laws import smoothstep
-    >>> motion = motion_of_law(smoothstep(3), stroke="35 mm", master="120 deg", time="0.1 s")
+    >>> motion = motion_of_law(smoothstep(3), stroke="35 mm", master="120 deg", duration="0.1 s")
     >>> motion.units
     Units(master='deg', slave='mm', rate=1200.0)
     >>> motion(60.0), round(motion(60.0, 1), 9), motion.start, motion.stop
@@ -89,12 +88,12 @@ class Motion:
 
     @kept_property
     def joints(self) -> tuple[float, ...]:
-        """Where pieces meet, both ends included."""
+        """The places where pieces meet, both ends included."""
         return (*(piece.start for piece in self.pieces), self.stop)
 
     @kept_property
     def breaks(self) -> tuple[float, ...]:
-        """Where the function is put together, within laws as well, both ends included."""
+        """The places where the function is put together, within laws as well, both ends included."""
         inner = (
             piece.start + k * piece.duration
             for piece in self.pieces
@@ -177,7 +176,7 @@ class Motion:
             If it is not known how fast the master goes.
         """
         if self.units.rate is None:
-            raise InputError("how fast the master goes is not known: say how long the motion takes, time='0.1 s'")
+            raise InputError("how fast the master goes is not known: say how long the motion takes, duration='0.1 s'")
         if self.units.master == "s":
             return self
         share = 1.0 / self.units.rate
@@ -195,10 +194,10 @@ class Motion:
 def motion_of_law(
     law: MotionLaw,
     *,
-    stroke: Any = None,  # noqa: ANN401 - a quantity
-    time: Any = None,  # noqa: ANN401
-    master: Any = None,  # noqa: ANN401
-    start: Any = None,  # noqa: ANN401
+    stroke: Quantity | None = None,
+    duration: Quantity | None = None,
+    master: Quantity | None = None,
+    start: Quantity | None = None,
 ) -> Motion:
     """The motion that a law makes, from rest to rest in one shot.
 
@@ -208,7 +207,7 @@ def motion_of_law(
         A law with the stroke 1.
     stroke
         How far the slave moves, such as "35 mm", "-20 deg": positions are in its unit.
-    time
+    duration
         How long it takes, such as "0.1 s".
     master
         How far the master goes meanwhile, such as "120 deg"; without it the master is time in seconds.
@@ -218,20 +217,22 @@ def motion_of_law(
     Raises
     ------
     InputError
-        If a quantity is wrong, or neither time nor master are given; the error names it and an example.
+        If a quantity is wrong, or neither duration nor master are given; the error names it and an example.
 
     Examples
     --------
     >>> from optlaws.laws import smoothstep
-    >>> motion_of_law(smoothstep(3), stroke="90 deg", time="400 ms").peak(1)
+    >>> motion_of_law(smoothstep(3), stroke="90 deg", duration="400 ms").peak(1)
     421.875
     """
     moved = given_quantity(stroke, SLAVES, "stroke")
     if moved.number == 0.0:
         raise InputError("stroke must not be 0: nothing would move")
-    if time is None and master is None:
-        raise InputError("say how long the motion takes, time='0.1 s', or how far its master goes, master='120 deg'")
-    seconds = None if time is None else _positive(quantity(time, "time", "time"), "time", time)
+    if duration is None and master is None:
+        raise InputError(
+            "say how long the motion takes, duration='0.1 s', or how far its master goes, master='120 deg'"
+        )
+    seconds = None if duration is None else positive_quantity(duration, "time", "duration")
     span = _span(master, seconds)
     rate = None if seconds is None else span.number / seconds
     offset = 0.0 if start is None else moved.same_unit(start, "start")
@@ -244,7 +245,7 @@ def motion_of_pieces(
     duration: float,
     axis: str,
     *,
-    master: Any = "360 deg",  # noqa: ANN401 - a quantity
+    master: Quantity | None = "360 deg",
     unit: str | None = None,
     proof: tuple[str, ...] = (),
 ) -> Motion:
@@ -292,13 +293,14 @@ def _without_conversion_rounding(x: float) -> float:
     return float(f"{x:.13g}")
 
 
-def _span(master: Any, seconds: float | None) -> Given:  # noqa: ANN401 - a quantity
+def _span(master: Quantity | None, seconds: float | None) -> Given:
     """How far the master goes, in its unit."""
     if master is None:
         return Given("time", seconds or 0.0, "s")
     either(master, MASTERS, "master")
     span = given_quantity(master, MASTERS, "master")
-    _positive(span.number, "master", master)
+    if span.number <= 0.0:
+        raise InputError(f"master must be above 0, got {master!r}")
     return span
 
 
@@ -307,12 +309,6 @@ def _of_stroke_one(law: MotionLaw) -> MotionLaw:
     if abs(stroke - 1.0) > STROKE:
         raise InputError(f"the law must have the stroke 1, which `stroke` multiplies, but it has {stroke:g}")
     return law
-
-
-def _positive(number: float, name: str, given: Any) -> float:  # noqa: ANN401
-    if number <= 0.0:
-        raise InputError(f"{name} must be above 0, got {given!r}")
-    return number
 
 
 def _value(place: Place) -> float:

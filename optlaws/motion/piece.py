@@ -17,12 +17,54 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.echo import shortened
+from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
+from optlaws.laws.catalogue.reading import is_file, read_law
+
+STROKE = 1e-9
+
+
+def named_law(given: Any, where: str) -> MotionLaw:  # noqa: ANN401 - it is checked here
+    """The law of a name, a file or a value; `where` is what an error calls the segment.
+
+    Raises
+    ------
+    InputError
+        If there is no such law, or its stroke is not 1.
+
+    Examples
+    --------
+    >>> named_law("cycloidal", "segment 1").continuity
+    9
+    """
+    try:
+        law = given if isinstance(given, MotionLaw) else _read(given)
+    except InputError as error:
+        raise InputError(f"{where}: law: {error}") from None
+    stroke = float(law.a(1.0)) - float(law.a(0.0))
+    if abs(stroke - 1.0) > STROKE:
+        raise InputError(f"{where}: its law must have the stroke 1, which `by` multiplies, but it has {stroke:g}")
+    return law
+
+
+@lru_cache(maxsize=64)
+def _of_name(name: str) -> MotionLaw:
+    return read_law(name)
+
+
+def _read(given: Any) -> MotionLaw:  # noqa: ANN401
+    if not isinstance(given, str):
+        raise InputError(f"a law, a name of the catalogue, a JSON or CSV file or 'optimal', got {shortened(given)}")
+    return read_law(given) if is_file(given) else _of_name(given)
+
 
 Array = NDArray[np.float64]
 
@@ -31,7 +73,7 @@ SAME = 1e-12  # share of a time within which it is another
 
 
 def factor(stroke: float, duration: float, nu: int) -> float:
-    """What turns the derivative of order nu of a law into machine units: h/T^nu.
+    """The factor that turns the derivative of order nu of a law into machine units: h/T^nu.
 
     Examples
     --------
@@ -61,7 +103,7 @@ class Piece:
 
     @property
     def stop(self) -> float:
-        """When it ends."""
+        """The time at which the piece ends."""
         return self.start + self.duration
 
     def places(self, times: Array) -> Array:
@@ -81,7 +123,7 @@ class Piece:
         return self._ends[nu][side]
 
     def leap(self, time: float, nu: int) -> float:
-        """By how much the derivative of order nu leaps at a time inside."""
+        """The leap of the derivative of order nu at a time inside."""
         near = (jump for k, jump in self.law.jumps(nu) if abs(self.start + k * self.duration - time) <= SAME * time)
         return factor(self.stroke, self.duration, nu) * sum(near)
 
@@ -102,7 +144,7 @@ class Piece:
 
     @kept_property
     def _origin(self) -> float:
-        """Where the law's displacement is 0."""
+        """The position where the law's displacement is 0."""
         return self.offset - self.stroke * float(self.law.a(0.0))
 
     @kept_property

@@ -98,12 +98,12 @@ class PiecewiseMotion:
 
     @property
     def start(self) -> float:
-        """The first break."""
+        """The first break of the motion."""
         return self.breaks[0]
 
     @property
     def stop(self) -> float:
-        """The last break."""
+        """The last break of the motion."""
         return self.breaks[-1]
 
     @kept_property
@@ -139,7 +139,7 @@ class PiecewiseMotion:
         return table[:, 0].copy(), _horner(table, self.lengths)
 
     def jumps(self, nu: int) -> Array:
-        """By how much the derivative of order nu leaps at each break inside: the value after it less the one before.
+        """The leap of the derivative of order nu at each break inside: the value after it less the one before.
 
         Examples
         --------
@@ -150,7 +150,7 @@ class PiecewiseMotion:
         return first[1:] - last[:-1]
 
     def seam(self, nu: int) -> float:
-        """By how much the derivative of order nu leaps where the motion begins again; for nu 0 how far it leads back.
+        """The leap of the derivative of order nu where the motion begins again; for nu 0 how far it leads back.
 
         Examples
         --------

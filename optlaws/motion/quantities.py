@@ -113,6 +113,26 @@ def quantity(value: Any, dimension: str, name: str) -> float:  # noqa: ANN401 - 
     return finite(number * factor, name)
 
 
+def positive_quantity(value: Any, dimension: str, name: str) -> float:  # noqa: ANN401 - it is checked here
+    """A quantity above 0 as a float in SI units, as `quantity` reads it.
+
+    Raises
+    ------
+    InputError
+        If it is no such quantity, or not above 0.
+
+    Examples
+    --------
+    >>> positive_quantity("0 mm", "length", "width")
+    Traceback (most recent call last):
+    optlaws.errors.InputError: width must be above 0, got '0 mm'
+    """
+    number = quantity(value, dimension, name)
+    if not number > 0.0:
+        raise InputError(f"{name} must be above 0, got {shortened(value)}")
+    return number
+
+
 def either(value: Any, dimensions: tuple[str, ...], name: str) -> tuple[str, float]:  # noqa: ANN401
     """A quantity that may be of several dimensions: which it is, and its value in SI units.
 
@@ -285,7 +305,7 @@ def _known_unit(text: str) -> Any:  # noqa: ANN401 - pint's, or None
 
 
 def _remedy(unit: str, dimension: str) -> str:
-    """What to write instead of a frequency that may count turns or radians."""
+    """The remedy for a frequency that may count turns or radians."""
     frequency = _si_factor(unit, "frequency") is not None
     return ": write rev/s or rad/s" if dimension == "angular velocity" and frequency else ""
 
@@ -299,7 +319,7 @@ def _article(dimension: str) -> str:
 
 
 def _kind(unit: str) -> str:
-    """What a unit measures, in words."""
+    """The kind of quantity that a unit measures, in words."""
     known = _known_unit(unit)
     for dimension, (si, _) in DIMENSIONS.items():
         if _registry().parse_units(si).dimensionality == known.dimensionality:

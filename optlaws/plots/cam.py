@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.cams.disc import DiscCam
-from optlaws.cams.followers.contact import Contact
-from optlaws.cams.loads.forces import CamForces
+from optlaws.cams.followers.contact import FollowerContact
+from optlaws.cams.forces import CamForces
 from optlaws.errors import InputError
 from optlaws.plots.style import BLUES, GREEN, GREY, WARM, new_figure, plot_style, titled
 
@@ -41,7 +41,7 @@ def cam_figure(cam: DiscCam, title: str) -> Figure:
 
 
 def forces_figure(forces: CamForces, title: str) -> Figure:
-    """Contact force, torque at the shaft and, where the contact has a width, Hertz's pressure over the turn."""
+    """FollowerContact force, torque at the shaft and, where the contact has a width, Hertz's pressure over the turn."""
     panels: list[tuple[str, Values, str]] = [
         ("contact force, N", forces.contact_force, BLUES[3]),
         ("torque at the shaft, N m", forces.shaft_torque, WARM),
@@ -90,7 +90,7 @@ def _draw_at_start(cam: DiscCam, axes: Axes, colour: str) -> None:
 
 
 def _linked(first: DiscCam, second: DiscCam) -> Array:
-    """From the one follower to the other, by the slide or by the pivot that they share."""
+    """The line from the one follower to the other, by the slide or by the pivot that they share."""
     joints = [_MILLI * cam.pitch_curve(np.array(0.0)) for cam in (first, second)]
     if first.contact.pivot is not None:
         turned = _phase(first, 0.0)
@@ -204,8 +204,8 @@ def _draw_follower(cam: DiscCam, axes: Axes, angle: float, colour: str) -> None:
     axes.plot(*np.array([touched - reach * along, touched + reach * along]).T, **body)
 
 
-def _holder(cam: DiscCam, contact: Contact, angle: float, centre: Array) -> Array:
-    """Where a rod is shown to end, or where an arm's pivot is, mm."""
+def _holder(cam: DiscCam, contact: FollowerContact, angle: float, centre: Array) -> Array:
+    """The end of a rod as it is shown, or the pivot of an arm, mm."""
     turned = -contact.turning * angle + _phase(cam, angle)
     if contact.pivot is not None:
         return _MILLI * contact.pivot * np.array([np.cos(turned), np.sin(turned)])
@@ -213,7 +213,7 @@ def _holder(cam: DiscCam, contact: Contact, angle: float, centre: Array) -> Arra
 
 
 def _phase(cam: DiscCam, angle: float) -> float:
-    """By how much the cam's coordinates are turned: where its curve is beside where its follower is."""
+    """The angle by which the cam's coordinates are turned: where its curve is beside where its follower is."""
     x, y = (float(coordinate.terms[0]) for coordinate in cam.contact.point(cam.displacement.jet(np.array(angle), 2)))
     curve = cam.pitch_curve(np.array(angle))
     return float(np.arctan2(curve[1], curve[0]) - np.arctan2(y, x) + cam.contact.turning * angle)

@@ -18,7 +18,7 @@ _AXES = {"B": "peak velocity B", "C": "peak acceleration C", "D": "peak power D"
 
 
 def _label(name: str) -> str:
-    """What an axis says of a constant: constants of machines have units of their own."""
+    """The label of an axis for a constant: constants of machines have units of their own."""
     title = title_of(name)
     return title if title != name else f"{_AXES.get(name, name)} (dimensionless)"
 

@@ -123,7 +123,7 @@ def broken(curve: Curve, nu: int, count: int = _SAMPLES) -> tuple[Array, Array]:
 
 
 def _jumps(curve: Curve, nu: int) -> Array:
-    """Where the curve's derivative jumps; those of lower order make it infinite there."""
+    """The places where the curve's derivative jumps; those of lower order make it infinite there."""
     if not isinstance(curve, MotionLaw):
         return np.empty(0)
     return np.unique([place for order in range(1, nu + 1) for place, _ in curve.jumps(order)])
@@ -194,7 +194,7 @@ class Mark:
 
 
 def marks(problem: Problem) -> Iterator[Mark]:
-    """What a problem asks of b, c and j: bounds of B, C, J and of one-sided peaks, and windows.
+    """The limits that a problem sets to b, c and j: bounds of B, C, J and of one-sided peaks, and windows.
 
     Examples
     --------

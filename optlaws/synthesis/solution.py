@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
 from optlaws.laws import Constants, MotionLaw
+from optlaws.laws.exporting import LawExport
 from optlaws.numbers import bounded
 from optlaws.shown.summary import Row, Summary
 from optlaws.synthesis.families.active_set import ActiveSet
@@ -66,7 +67,7 @@ class Status(StrEnum):
 
 
 @dataclass(frozen=True)
-class Solution:
+class Solution(LawExport):
     """An optimal law with its proof. Every number is recomputed from the law on the whole interval.
 
     Solutions are equal where problem, law, proof and numbers are, however long they took.
@@ -236,54 +237,9 @@ class Solution:
 
         return draw_solution(self, ax, **style)
 
-    def export(
-        self,
-        to: str,
-        *,
-        stroke: Any = None,  # noqa: ANN401 - a quantity
-        time: Any = None,  # noqa: ANN401
-        master: Any = None,  # noqa: ANN401
-        start: Any = None,  # noqa: ANN401
-        points: int | str | None = None,
-        counts: int | None = None,
-        digits: int | None = None,
-        decimal: str | None = None,
-        interpolation: str | None = None,
-        task: str | None = None,
-        name: str | None = None,
-    ) -> Any:  # noqa: ANN401 - made a layer above
-        """The law in the format of a controller, whose file and report say what is proven of it.
-
-        Parameters
-        ----------
-        to
-            The format: `optlaws export --list` names them.
-        stroke, time, master, start
-            As of `MotionLaw.export`: "35 mm", "0.1 s", "120 deg".
-        points, counts, digits, decimal, interpolation, task, name
-            As there.
-
-        Raises
-        ------
-        InputError
-            If there is no such format, it takes no such option, or it cannot hold the motion.
-
-        Examples
-        --------
-        >>> from optlaws import Pieces, Problem, synthesize
-        >>> solution = synthesize(Problem(B=1.859, order=4, basis=Pieces(8, degree=7, continuity=3)))
-        >>> made = solution.export("codesys-cambuilder", stroke="35 mm", time="0.1 s", master="120 deg", name="Press")
-        >>> [line.strip() for line in made.text.splitlines() if "none below" in line]
-        ['law: least C = 4.59646..., none below 4.59646... in its space; status optimal']
-        """
-        from optlaws.exports.export import export_law
-
-        placement = {"stroke": stroke, "time": time, "master": master, "start": start}
-        options = {"points": points, "counts": counts, "digits": digits, "decimal": decimal}
+    def _exported(self) -> tuple[MotionLaw, tuple[str, ...]]:
         least = f"least {self.problem.minimise} = {self.objective:.9g}"
-        proof = (f"law: {least}, none below {self.lower_bound:.9g} in its space; status {self.status.value}",)
-        options |= {"interpolation": interpolation, "task": task, "name": name}
-        return export_law(self.law, to, placement, proof, **options)
+        return self.law, (f"law: {least}, none below {self.lower_bound:.9g} in its space; status {self.status.value}",)
 
     def to_dict(self) -> dict[str, Any]:
         """Plain JSON-able dict: the command line's `--json`, with the problem and the certificate beside it."""

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.cams.disc import DiscCam
-from optlaws.cams.followers.follower import Follower
+from optlaws.cams.followers.follower import CamFollower
 from optlaws.cams.followers.inclined_flat import InclinedFlat
 from optlaws.cams.followers.oscillating_flat import OscillatingFlat
 from optlaws.cams.followers.oscillating_roller import OscillatingRoller
@@ -21,7 +21,7 @@ from optlaws.motion.quantities import either
 Array = NDArray[np.float64]
 Points = NDArray[np.complex128]
 
-FOLLOWERS: dict[str, tuple[Follower, str, str]] = {
+FOLLOWERS: dict[str, tuple[CamFollower, str, str]] = {
     "translating roller": (TranslatingRoller("12 mm", offset="9 mm"), "30 mm", "70 mm"),
     "translating flat": (TranslatingFlat(), "12 mm", "70 mm"),
     "inclined flat": (InclinedFlat(inclination="10 deg"), "12 mm", "70 mm"),

@@ -11,7 +11,7 @@ from optlaws.cams import curved_limits
 from optlaws.cams.best_laws import best_base_circle, best_cam, linear_limits
 from optlaws.cams.curved_limits import curvature_of
 from optlaws.cams.disc import DiscCam
-from optlaws.cams.followers.linear_limit import PRESSURE
+from optlaws.cams.followers.contact import PRESSURE
 from optlaws.cams.followers.oscillating_flat import OscillatingFlat
 from optlaws.cams.followers.oscillating_roller import OscillatingRoller, SwingingRoller
 from optlaws.cams.followers.translating_flat import TranslatingFlat

@@ -9,7 +9,7 @@ import pytest
 
 from optlaws.cams.curves.motion_by_angle import CamMotion
 from optlaws.cams.disc import DiscCam
-from optlaws.cams.followers.follower import Follower
+from optlaws.cams.followers.follower import CamFollower
 from optlaws.cams.followers.oscillating_flat import OscillatingFlat
 from optlaws.cams.followers.oscillating_roller import OscillatingRoller
 from optlaws.cams.followers.translating_flat import TranslatingFlat
@@ -126,7 +126,7 @@ def test_profile_and_cutter_path_are_parallel_curves() -> None:
         (TranslatingFlat(), "20 mm", 80, "without a unit"),
     ],
 )
-def test_what_cannot_be_built_is_refused(follower: Follower, stroke: str, radius: object, told: str) -> None:
+def test_what_cannot_be_built_is_refused(follower: CamFollower, stroke: str, radius: object, told: str) -> None:
     with pytest.raises(InputError, match=told):
         DiscCam(cycle_of(stroke), radius, follower)
 

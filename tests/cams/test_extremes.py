@@ -15,9 +15,8 @@ from scipy.optimize import minimize_scalar
 from optlaws.cams.curves.extremes import FREE, UNDERCUT, Extreme, enclosed_extremes
 from optlaws.cams.curves.motion_by_angle import CamMotion
 from optlaws.cams.disc import DiscCam
-from optlaws.cams.followers.faces import FaceContact
 from optlaws.cams.followers.oscillating_roller import OscillatingRoller
-from optlaws.cams.followers.rollers import RollerContact
+from optlaws.cams.followers.rollers_and_faces import FaceContact, RollerContact
 from optlaws.cams.followers.translating_flat import TranslatingFlat
 from optlaws.cams.followers.translating_roller import TranslatingRoller
 from optlaws.cycles.cycle import Cycle

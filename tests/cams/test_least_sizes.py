@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from optlaws.cams.disc import DiscCam
-from optlaws.cams.followers.follower import Follower
+from optlaws.cams.followers.follower import CamFollower
 from optlaws.cams.followers.oscillating_flat import OscillatingFlat
 from optlaws.cams.followers.oscillating_roller import OscillatingRoller
 from optlaws.cams.followers.translating_flat import TranslatingFlat
@@ -18,7 +18,7 @@ from optlaws.errors import InfeasibleProblem, InputError
 from tests.cams.placed import cycle_of
 
 ANGLES = np.linspace(0.0, 2.0 * np.pi, 2001)
-CASES: list[tuple[Follower, str, float | None, float | None]] = [
+CASES: list[tuple[CamFollower, str, float | None, float | None]] = [
     (TranslatingRoller("12 mm"), "30 mm", 30.0, None),
     (TranslatingRoller("12 mm", offset="9 mm"), "30 mm", 30.0, 5.0),
     (TranslatingRoller("4 mm"), "60 mm", 70.0, 9.0),
@@ -40,7 +40,7 @@ def keeps(cam: DiscCam, pressure: float | None, radius: float | None) -> bool:
 @pytest.mark.sample(3)
 @pytest.mark.parametrize(("follower", "stroke", "pressure", "radius"), CASES)
 def test_the_least_base_circle_is_that_of_a_bisection(
-    follower: Follower, stroke: str, pressure: float | None, radius: float | None
+    follower: CamFollower, stroke: str, pressure: float | None, radius: float | None
 ) -> None:
     cycle = cycle_of(stroke)
     limits: dict[str, Any] = {} if pressure is None else {"pressure_angle": f"{pressure} deg"}

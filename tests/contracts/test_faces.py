@@ -64,7 +64,7 @@ def test_importing_optlaws_imports_no_subject() -> None:
 @pytest.mark.parametrize(
     ("subject", "where"),
     [
-        ("law", "optlaws.laws.storage import Stored; table = Stored.kinds"),
+        ("law", "optlaws.laws.storage import StoredLaw; table = StoredLaw.kinds"),
         ("segment", "optlaws.laws.segments.segment import Segment; table = Segment.kinds"),
         ("basis", "optlaws.synthesis.spaces.bases import Basis; table = Basis.kinds"),
         ("constant", "optlaws.synthesis.problem.constants import MAKERS as table"),

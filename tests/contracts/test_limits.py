@@ -23,7 +23,7 @@ from optlaws import (
     construct,
     synthesize,
 )
-from optlaws.laws.making.half_cycle import from_half
+from optlaws.laws.making.trapezoids import from_half
 from optlaws.laws.segments import PolynomialSegment
 from optlaws.synthesis.limits import closed_forms
 from optlaws.synthesis.limits.closed_forms import (

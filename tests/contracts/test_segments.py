@@ -30,7 +30,7 @@ from optlaws import (
 )
 from optlaws.balancing.dwells.parts import PartSegment
 from optlaws.balancing.loaders.segment import LoaderSegment
-from optlaws.laws.making.half_cycle import from_half
+from optlaws.laws.making.trapezoids import from_half
 from optlaws.laws.segments import (
     FractionalSegment,
     HarmonicSegment,

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from optlaws import Axes, Cycle, Dwell, InputError, Move, Return, Rise
 from optlaws.exports.format import FORMATS
 from optlaws.files import reading
-from optlaws.jobs.cycle.entries import read
+from optlaws.jobs.cycle_entries import read
 
 TABLE: dict[str, Any] = {"segments": [Rise("45 deg", "400 ms", law="345"), Dwell()], "advance": "45 deg"}
 HEAD = [Dwell("400 ms", name="up"), Rise("250 mm", "200 ms", law="345"), Dwell("1200 ms"), Return(law="345")]

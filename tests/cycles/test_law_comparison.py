@@ -13,14 +13,14 @@ SINE = catalogue["modified sine"].law
 
 
 def test_numbers_are_those_of_the_laws() -> None:
-    comparison = compare("modified sine", smoothstep(3), stroke="35 mm", time="100 ms", nu=(12, 32), damping=0.05)
+    comparison = compare("modified sine", smoothstep(3), stroke="35 mm", duration="100 ms", nu=(12, 32), damping=0.05)
     sine, poly = comparison.rows
     assert (sine["law"], poly["law"]) == ("modified sine", "law 2")
     assert [sine[name] for name in "BCDJ"] == [getattr(SINE.constants, name).value for name in "BCDJ"]
     assert poly["velocity, m/s"] == pytest.approx(1.875 * 0.035 / 0.1)
     assert poly["jerk, m/s³"] == pytest.approx(60 * 0.035 / 0.1**3)
     assert sine["residual"] == residual(nu=(12, 32), damping=0.05).value(SINE)
-    turned = compare(catalogue["modified sine"], stroke="180 deg", time="1 s").rows[0]
+    turned = compare(catalogue["modified sine"], stroke="180 deg", duration="1 s").rows[0]
     assert turned["acceleration, rad/s²"] == pytest.approx(np.pi * SINE.constants.C.value)
 
 
@@ -58,8 +58,8 @@ def test_all_laws_are_drawn_into_the_axes_given() -> None:
         ((), {}, "nothing to compare"),
         (("cubic", "cubic"), {}, "given twice"),
         (("cubic",), {"stroke": "35 mm"}, "go together"),
-        (("cubic",), {"stroke": "35 kg", "time": "1 s"}, "mass"),
-        (("cubic",), {"stroke": "35 mm", "time": "0 s"}, "time"),
+        (("cubic",), {"stroke": "35 kg", "duration": "1 s"}, "mass"),
+        (("cubic",), {"stroke": "35 mm", "duration": "0 s"}, "duration"),
         (("cubic", 3), {}, "motion law"),
         (("cubic",), {"nu": -1}, "nu"),
     ],
@@ -73,7 +73,7 @@ def test_the_command_says_the_same(capsys: pytest.CaptureFixture[str], tmp_path:
     arguments = ["compare", "MODSINE", "III(7.2)", "--stroke", "35mm", "--time", "0.1s", "--nu", "12", "--nu", "32"]
     assert exit_code([*arguments, "--json"]) == 0
     said = json.loads(capsys.readouterr().out)
-    assert said == compare("MODSINE", "III(7.2)", stroke="35 mm", time="0.1 s", nu=(12, 32)).to_dict()
+    assert said == compare("MODSINE", "III(7.2)", stroke="35 mm", duration="0.1 s", nu=(12, 32)).to_dict()
     assert exit_code([*arguments, "--plot", str(tmp_path / "a.svg"), "--csv", str(tmp_path / "a.csv")]) == 0
     assert (tmp_path / "a.svg").is_file()
     assert (tmp_path / "a.csv").read_text("utf-8").count("\n") == 4

@@ -25,16 +25,16 @@ def test_answers_are_those_of_the_follower_in_units() -> None:
     assert machine.follower.nu == pytest.approx(same.nu, rel=1e-14)
     answer = machine.response(catalogue["modified sine"].law)
     response = machine.follower.response(catalogue["modified sine"].law)
-    size = 0.035 / machine.time**2
+    size = 0.035 / machine.duration**2
     assert answer.peak_acceleration == pytest.approx(size * response.peak(2).value, rel=1e-14)
     assert answer.dwell_acceleration == pytest.approx(size * response.dwell_peak(2).value, rel=1e-14)
     assert answer.residual_displacement == pytest.approx(0.035 * response.residual_displacement, rel=1e-14)
     assert answer.to_dict()["residual acceleration, m/s²"] == answer.residual_acceleration
-    assert answer.peak_velocity == pytest.approx(0.035 / machine.time * response.peak(1).value, rel=1e-14)
+    assert answer.peak_velocity == pytest.approx(0.035 / machine.duration * response.peak(1).value, rel=1e-14)
 
 
 def test_a_rotary_stroke_is_in_radians() -> None:
-    machine = machine_follower(period="60 ms", time="0.2 s", stroke="20 deg")
+    machine = machine_follower(period="60 ms", duration="0.2 s", stroke="20 deg")
     assert machine.unit == "rad"
     assert machine.stroke == pytest.approx(0.349065850)
 
@@ -46,8 +46,8 @@ def test_a_rotary_stroke_is_in_radians() -> None:
         ({"frequency": "0 Hz"}, "frequency must be above 0"),
         ({"period": "60 ms"}, "not both"),
         ({"frequency": None}, "give frequency"),
-        ({"time": "1 s"}, "give time"),
-        ({"rise": None}, "give time"),
+        ({"duration": "1 s"}, "give duration"),
+        ({"rise": None}, "give duration"),
         ({"stroke": "35 kg"}, "stroke must be a length"),
         ({"speed": "3 Hz"}, "is a frequency"),
     ],

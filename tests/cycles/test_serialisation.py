@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from optlaws import ConstantVelocity, Cycle, Dwell, Free, InputError, Machine, Move, Return, Rise, smoothstep
 from optlaws.cli.app import exit_code
 from optlaws.files import reading
-from optlaws.jobs.cycle.entries import read
+from optlaws.jobs.cycle_entries import read
 from tests.documents import ROOT
 
 PRESS = Cycle(

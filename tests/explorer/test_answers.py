@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 from optlaws import Problem, Range, Solution, at_most, between, synthesize
-from optlaws.cams.cutting import formats
-from optlaws.cams.loads.forces import CamForces
+from optlaws.cams.cutting import cam_files
+from optlaws.cams.forces import CamForces
 from optlaws.errors import InputError
 from optlaws.explorer.answers import cam_loads_view, cam_view, cycle_view, front_view, law_view, nearest, saved
 from optlaws.explorer.answers.asked import AskedLaw, AskedLaws, given_law, law_of, problem_of, solved
@@ -302,7 +302,7 @@ def test_a_cam_that_is_undercut_says_so_and_one_that_is_none_why() -> None:
 
 
 @pytest.mark.sample(4)
-@pytest.mark.parametrize("name", sorted(formats.FORMATS))
+@pytest.mark.parametrize("name", sorted(cam_files.FORMATS))
 def test_a_cam_is_saved_in_every_format(name: str) -> None:
     asked = AskedFile(kind="cut", view="cam", laws=[law(OPTIMAL)], cam=AskedCam(study=cam_view.example()), format=name)
     made = saved.answer(asked)

@@ -8,9 +8,9 @@ import pytest
 from scipy.interpolate import Akima1DInterpolator, BPoly, CubicHermiteSpline, CubicSpline
 
 from optlaws import InputError, smoothstep
-from optlaws.exports.interpolation import akima, cubic_spline, hermite, linear, sampled
 from optlaws.motion.polynomials import PiecewiseMotion
 from tests.documents import ROOT
+from tests.exports.interpolations import akima, cubic_spline, hermite, linear, sampled
 from tests.exports.samples import optimal
 
 ORDERS = {"c1": 2, "quintic": 3, "septic": 4}

@@ -19,7 +19,7 @@ def table_of_cycle(law: str, angle: str) -> str:
 def test_an_export_of_a_law_loads_little_of_the_library() -> None:
     script = (
         "import sys, optlaws\n"
-        "optlaws.smoothstep(3).export('csv', stroke='35 mm', time='0.1 s', points=21).text\n"
+        "optlaws.smoothstep(3).export('csv', stroke='35 mm', duration='0.1 s', points=21).text\n"
         "print(*(name for name in sys.modules if name.partition('.')[0] == 'optlaws'))"
     )
     run = subprocess.run([sys.executable, "-c", script], check=True, capture_output=True, text=True)

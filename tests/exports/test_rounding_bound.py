@@ -7,8 +7,8 @@ import pytest
 
 from optlaws import MotionLaw, catalogue, smoothstep
 from optlaws.exports.export import export_motion
-from optlaws.exports.interpolation import cubic_spline
 from optlaws.motion.motion import Motion, motion_of_law
+from tests.exports.interpolations import cubic_spline
 from tests.exports.samples import optimal
 
 FORMATS = ("csv", "rockwell-cam", "rockwell-cam-extended", "lenze", "kas")
@@ -72,7 +72,7 @@ def test_the_bound_is_near() -> None:
 def test_the_rule_of_the_page() -> None:
     """With 65,536 counts a stroke of the law with C = 4.6478, 361 points may run with 3.55 C and 721 with 11.2 C."""
     for points, most in ((361, 2.55), (721, 10.2)):
-        motion = motion_of_law(optimal(), stroke="1 m", time="1 s")
+        motion = motion_of_law(optimal(), stroke="1 m", duration="1 s")
         made = export_motion(motion, "csv", points=points, counts=65536)
         assert made.written.bound / motion.peak(2) == pytest.approx(most, rel=0.01)
         assert made.report.ratio(2) <= 1.001 + most

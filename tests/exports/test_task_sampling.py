@@ -5,15 +5,15 @@ import pytest
 
 from optlaws import InputError, smoothstep
 from optlaws.exports.export import export_motion
-from optlaws.exports.interpolation import linear
-from optlaws.exports.task_sampling import task_sampling
+from optlaws.exports.report import task_sampling
 from optlaws.motion.motion import motion_of_law
+from tests.exports.interpolations import linear
 from tests.exports.samples import one_shot, optimal, press, turning
 
 
 def test_straight_lines_are_heard_as_in_the_table() -> None:
     """1000 ticks a stroke: 37 points are heard with 26.9 C, 361 with 2.8 C, 3601 with 1.02 C."""
-    motion = motion_of_law(optimal(), stroke="1 m", time="1 s")
+    motion = motion_of_law(optimal(), stroke="1 m", duration="1 s")
     for points, ratio in ((37, 26.9), (361, 2.78), (3601, 1.0185)):
         x = np.linspace(0.0, 1.0, points)
         assert task_sampling(linear(x, motion(x)), motion, "1 ms").acceleration / motion.peak(2) == pytest.approx(

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from optlaws import smoothstep
 from optlaws.exports.export import export_motion
-from optlaws.exports.tables.text_lines import plain
+from optlaws.exports.text import plain
 from optlaws.motion.motion import motion_of_law
 from tests.exports import readers
 from tests.sampling import examples

@@ -9,7 +9,7 @@ from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.laws.making.multiplier import multiplied
 from optlaws.laws.making.transform import mirrored_law, reversed_law, with_end_velocity
 from optlaws.laws.making.trapezoids import scca, trapezoid
-from optlaws.laws.savin.savin import savin
+from optlaws.laws.savin import savin
 from optlaws.laws.segments.constant_power import PowerSegment
 from optlaws.laws.segments.fractional import FractionalSegment
 from optlaws.laws.segments.piecewise import PiecewiseLaw

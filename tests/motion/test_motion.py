@@ -24,7 +24,7 @@ def cycle() -> Motion:
 
 def test_a_law_has_the_values_of_its_formula() -> None:
     law = catalogue["modified sine"].law
-    motion = motion_of_law(law, stroke="-20 deg", master="120 deg", time="0.1 s", start="50 deg")
+    motion = motion_of_law(law, stroke="-20 deg", master="120 deg", duration="0.1 s", start="50 deg")
     x = np.linspace(0.0, 120.0, 50)
     for nu in range(4):
         expected = -20.0 / 120.0**nu * law(x / 120.0, nu) + (50.0 if nu == 0 else 0.0)
@@ -59,13 +59,13 @@ def test_leaps_are_told_at_joints_and_within_laws() -> None:
     assert found[120.0] == pytest.approx(size)
     assert motion.leap(1) == (0.0, 0.0)
     assert isinf(motion.peak(3))
-    uniform = motion_of_law(smoothstep(1), stroke="1 m", time="1 s")
+    uniform = motion_of_law(smoothstep(1), stroke="1 m", duration="1 s")
     assert (uniform.leap(1)[0], uniform.peak(1), uniform.peak(2)) == (0.0, 1.0, 0.0)
 
 
 def test_breaks_are_those_of_joints_and_laws() -> None:
     law = catalogue["parabolic"].law
-    motion = motion_of_law(law, stroke="1 m", time="2 s")
+    motion = motion_of_law(law, stroke="1 m", duration="2 s")
     assert motion.breaks == tuple(2.0 * k for k in law.breaks)
     assert motion.peak(3) == inf
 
@@ -74,13 +74,13 @@ def test_breaks_are_those_of_joints_and_laws() -> None:
     ("said", "words"),
     [
         ({}, ["stroke", "35 mm"]),
-        ({"stroke": 35.0, "time": "0.1 s"}, ["stroke", "without a unit"]),
-        ({"stroke": "0 mm", "time": "0.1 s"}, ["stroke", "nothing would move"]),
-        ({"stroke": "35 mm"}, ["time='0.1 s'", "master='120 deg'"]),
-        ({"stroke": "35 mm", "time": "-1 s"}, ["time", "above 0"]),
+        ({"stroke": 35.0, "duration": "0.1 s"}, ["stroke", "without a unit"]),
+        ({"stroke": "0 mm", "duration": "0.1 s"}, ["stroke", "nothing would move"]),
+        ({"stroke": "35 mm"}, ["duration='0.1 s'", "master='120 deg'"]),
+        ({"stroke": "35 mm", "duration": "-1 s"}, ["duration", "above 0"]),
         ({"stroke": "35 mm", "master": "0.1 s"}, ["master", "angle", "length"]),
         ({"stroke": "35 mm", "master": "0 deg"}, ["master", "above 0"]),
-        ({"stroke": "35 mm", "time": "1 s", "start": "3 deg"}, ["start", "length"]),
+        ({"stroke": "35 mm", "duration": "1 s", "start": "3 deg"}, ["start", "length"]),
     ],
 )
 def test_what_is_missing_or_wrong_is_named(said: dict[str, object], words: list[str]) -> None:
@@ -92,7 +92,7 @@ def test_what_is_missing_or_wrong_is_named(said: dict[str, object], words: list[
 def test_beyond_the_motion_there_are_no_values(cycle: Motion) -> None:
     with pytest.raises(InputError, match="from 0 to 360 deg"):
         cycle([0.0, 361.0])
-    with pytest.raises(InputError, match=r"how fast the master goes is not known.*time="):
+    with pytest.raises(InputError, match=r"how fast the master goes is not known.*duration="):
         motion_of_law(smoothstep(3), stroke="1 mm", master="90 deg").over_time()
     with pytest.raises(InputError, match="unit must be a length"):
         press().motion(unit="deg")

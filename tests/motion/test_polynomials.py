@@ -10,7 +10,7 @@ from scipy.interpolate import CubicSpline, PPoly
 
 from optlaws import Pieces, Problem, catalogue, smoothstep, synthesize
 from optlaws.errors import InputError
-from optlaws.exports.pieces.law_pieces import polynomials_of_law
+from optlaws.exports.polynomial_pieces import polynomials_of_law
 from optlaws.motion.polynomials import PiecewiseMotion
 from optlaws.series import bernstein
 from tests.exports.motions import random_motion

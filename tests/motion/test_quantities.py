@@ -22,7 +22,7 @@ from optlaws import (
     smoothstep,
 )
 from optlaws.files import reading
-from optlaws.jobs.cycle.entries import read
+from optlaws.jobs.cycle_entries import read
 from optlaws.motion.quantities import DIMENSIONS, either, quantity
 
 
@@ -118,7 +118,7 @@ def test_turns_a_minute_are_a_speed_wherever_one_is_asked_for(text: str) -> None
     assert either(text, ("velocity", "angular velocity"), "velocity")[0] == "angular velocity"
     assert Cycle([Rise("35 mm", "120 deg"), Return()], speed=text).duration == pytest.approx(0.3, rel=1e-14)
     follower = machine_follower(stroke="35 mm", period="60 ms", speed=text, rise="120 deg")
-    assert follower.time == pytest.approx(0.1, rel=1e-14)
+    assert follower.duration == pytest.approx(0.1, rel=1e-14)
 
 
 def test_frequencies_that_may_count_radians_are_refused_as_speeds() -> None:
@@ -181,8 +181,8 @@ def test_quantities_of_pint_that_are_no_real_number_are_input_errors_at_every_do
         lambda: Cycle(moves, period="1 s", load={"period": time}).load_motion,
         lambda: DiscCam(Cycle(moves, period="1 s"), base_radius=length, follower=TranslatingRoller("12 mm")),
         lambda: DiscCam(Cycle(moves, period="1 s"), base_radius="80 mm", follower=TranslatingRoller(length)),
-        lambda: smoothstep(3).export("csv", stroke=length, time="0.1 s"),
-        lambda: machine_follower(stroke=length, period="60 ms", time="0.1 s"),
+        lambda: smoothstep(3).export("csv", stroke=length, duration="0.1 s"),
+        lambda: machine_follower(stroke=length, period="60 ms", duration="0.1 s"),
         lambda: Machine.from_modes([(frequency, 0.02)], duration=1.0),
         lambda: Machine.from_modes([(8.5, 0.02)], duration=time),
     ]

@@ -3,7 +3,7 @@
 import pytest
 
 from optlaws import savin
-from optlaws.laws.savin.savin import alpha_range
+from optlaws.laws.savin import alpha_range
 from tests.documents import ROOT
 from tests.laws.reference import rows
 from tests.problems.written import table

@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 
 from optlaws.balancing.dwells.parts import PartSegment
 from optlaws.balancing.loaders.loader import Loader
-from optlaws.cams.curves.motion_by_angle import CamMotion, Stretch
+from optlaws.cams.curves.motion_by_angle import CamMotion, CamStretch
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.drive.drive import Drive, read_drive
+from optlaws.cycles.specification.drive import CycleDrive, read_drive
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
@@ -85,7 +85,7 @@ class Balancing:
         self.load, self._loaders  # noqa: B018 - what is wrong is refused at once
 
     @kept_property
-    def load(self) -> Drive:
+    def load(self) -> CycleDrive:
         """What the cycle drives."""
         if self.cycle.drive is None:
             raise InputError("the cycle has no drive: give one, such as drive={'mass': '3 kg'}")
@@ -141,14 +141,14 @@ class Balancing:
         parts = [self._part(piece, loader, way * (-1.0) ** i) for i, (piece, loader) in enumerate(moving)]
         return CamMotion(tuple(stretch for some in parts for stretch in some), axis, closed=True)
 
-    def _part(self, piece: Piece, loader: Loader, way: float) -> list[Stretch]:
+    def _part(self, piece: Piece, loader: Loader, way: float) -> list[CamStretch]:
         """The loader during one move: it goes out by half of its stroke and comes back."""
         start, angle = piece.start * self.rate, piece.duration * self.rate
         stretches = []
         for low, high in pairwise(loader.law.breaks):
             segment = PartSegment(loader.law, low, high, 1.0)
             places = (start + low * angle, start + high * angle)
-            stretches.append(Stretch(*places, way * float(loader.law.a(low)), way, angle, segment, high - low))
+            stretches.append(CamStretch(*places, way * float(loader.law.a(low)), way, angle, segment, high - low))
         return stretches
 
     @kept_property

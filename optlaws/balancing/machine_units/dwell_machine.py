@@ -10,7 +10,7 @@ from typing import Any
 
 from optlaws.balancing.dwells.mechanism import DwellMechanism, dwell_mechanism
 from optlaws.balancing.dwells.section_laws import peak_power
-from optlaws.cams.curves.motion_by_angle import CamMotion, Stretch
+from optlaws.cams.curves.motion_by_angle import CamMotion, CamStretch
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.oscillating_roller import OscillatingRoller
 from optlaws.cycles.cycle import Cycle
@@ -124,7 +124,7 @@ class DwellMachine:
         stretches = []
         for (low, high), segment in zip(pairwise(turn.motion.breaks), turn.motion.segments, strict=True):
             offset = turn.swing * float(turn.motion.a(low))
-            stretches.append(Stretch(tau * low, tau * high, offset, turn.swing, tau, segment, high - low))
+            stretches.append(CamStretch(tau * low, tau * high, offset, turn.swing, tau, segment, high - low))
         return CamMotion(tuple(stretches), axis="angle", closed=True)
 
     def cams(self, roller: str, pivot_distance: str) -> dict[str, DiscCam]:

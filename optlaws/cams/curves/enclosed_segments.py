@@ -96,7 +96,7 @@ def _by_taylor(segment: Segment, length: float, middle: Array, half: Array, orde
 
 @lru_cache(maxsize=512)
 def _sizes(segment: Segment, length: float, last: int) -> tuple[tuple[float, ...], float]:
-    """What no derivative up to an order exceeds, nor the sums behind it; and by which share of it rounding is off."""
+    """Upper bounds of derivatives up to an order and of the sums behind them, and the share that rounding is off."""
     waves = segment.waves(length)
     assert waves is not None  # noqa: S101 - such segments are asked for
     sizes = tuple(_size(waves, length, nu) for nu in range(last + 1))
@@ -130,7 +130,7 @@ def _of_powers(segment: FractionalSegment, length: float, middle: Array, half: A
 
 
 def _inside(segment: FractionalSegment, middle: Array, half: Array) -> tuple[Array, Array]:
-    """Between which values v is in cells."""
+    """The least and the greatest v in cells."""
     ends = [segment.first * (1.0 - u) + segment.last * u for u in (middle - half, middle + half)]
     low, high = np.maximum(np.minimum(*ends), 0.0), np.maximum(*ends)
     slack = 4.0 * ROUNDING * max(segment.first, segment.last)
@@ -141,7 +141,7 @@ def _power_sum(powers: dict[float, float], low: Array, high: Array) -> Interval:
     total = exact(np.zeros(low.shape))
     with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
         for exponent, factor in powers.items():
-            one, two = factor * low**exponent, factor * high**exponent
-            blurred = 8.0 * ROUNDING * (np.abs(one) + np.abs(two))
-            total = total + between(np.minimum(one, two) - blurred, np.maximum(one, two) + blurred)
+            first, last = factor * low**exponent, factor * high**exponent
+            blurred = 8.0 * ROUNDING * (np.abs(first) + np.abs(last))
+            total = total + between(np.minimum(first, last) - blurred, np.maximum(first, last) + blurred)
     return total

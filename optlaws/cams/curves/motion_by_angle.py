@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import factorial
-from typing import Any, Self
+from typing import Any, Literal, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,10 +19,9 @@ from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, PolynomialLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment, Segment
-from optlaws.motion.named_law import named_law
-from optlaws.motion.piece import Piece, factor
+from optlaws.motion.piece import Piece, factor, named_law
 from optlaws.motion.quantities import TURN, either, in_small_units, quantity
-from optlaws.numbers import derivative, real_times
+from optlaws.numbers import Quantity, derivative, real_times
 from optlaws.series import chebyshev
 from optlaws.series.enclosures.interval_arrays import ROUNDING, Interval, exact, hull
 from optlaws.series.enclosures.jets import Jet
@@ -30,12 +29,13 @@ from optlaws.suggest import unknown_key
 
 Array = NDArray[np.float64]
 
-DIRECTIONS = {"rise": 1.0, "return": -1.0}
+Direction = Literal["rise", "return"]
+DIRECTIONS: dict[Direction, float] = {"rise": 1.0, "return": -1.0}
 _CLOSED = 1e-9
 
 
 @dataclass(frozen=True)
-class Stretch:
+class CamStretch:
     """A smooth part of a motion: offset + stroke times a segment of a law, over a range of the cam's angle.
 
     Parameters
@@ -135,7 +135,7 @@ class CamMotion:
     CamMotion(1 stretch over 120 deg, axis='length')
     """
 
-    stretches: tuple[Stretch, ...]
+    stretches: tuple[CamStretch, ...]
     axis: str
     closed: bool
 
@@ -171,7 +171,7 @@ class CamMotion:
         return cls(tuple(part for piece in turns for part in _parts(piece)), axis, closed=True)
 
     @classmethod
-    def of_law(cls, law: str | MotionLaw, stroke: Any, angle: Any, direction: str = "rise") -> Self:  # noqa: ANN401
+    def of_law(cls, law: str | MotionLaw, stroke: Quantity, angle: Quantity, direction: Direction = "rise") -> Self:
         """The motion of one law, over a part of the turn.
 
         Parameters
@@ -248,7 +248,7 @@ class CamMotion:
         """The velocity times the acceleration by the angle, in intervals each within a stretch."""
         return self._by_stretch(lambda stretch, some: stretch.power(some, order), angle)
 
-    def _by_stretch(self, jet: Callable[[Stretch, Any], Jet], at: Array | Interval, *, before: bool = False) -> Jet:
+    def _by_stretch(self, jet: Callable[[CamStretch, Any], Jet], at: Array | Interval, *, before: bool = False) -> Jet:
         middle = at.middle if isinstance(at, Interval) else at
         which = np.searchsorted(self.breaks[1:-1], middle, side="left" if before else "right")
         pieces = [(which == i, jet(self.stretches[i], at[which == i]).terms) for i in np.unique(which)]
@@ -315,7 +315,7 @@ class CamMotion:
         return min(lows), max(highs)
 
     def reversed(self) -> Self:
-        """The same motion downward, as the second follower of a pair moves."""
+        """The motion in the opposite direction, as the second follower of a pair moves."""
         turned = tuple(replace(stretch, offset=-stretch.offset, stroke=-stretch.stroke) for stretch in self.stretches)
         return replace(self, stretches=turned)
 
@@ -345,14 +345,14 @@ def as_motion(given: Any, axis: str) -> CamMotion:  # noqa: ANN401 - it is check
     return motion
 
 
-def _parts(piece: Piece) -> Sequence[Stretch]:
+def _parts(piece: Piece) -> Sequence[CamStretch]:
     """The smooth parts of a law in its place."""
     first = float(piece.law.a(0.0))
     stretches = []
     for (start, stop), segment in zip(pairwise(piece.law.breaks), _segments(piece.law), strict=True):
         offset = piece.offset + piece.stroke * (float(piece.law.a(start)) - first)
         low, high = piece.start + start * piece.duration, piece.start + stop * piece.duration
-        stretches.append(Stretch(low, high, offset, piece.stroke, piece.duration, segment, stop - start))
+        stretches.append(CamStretch(low, high, offset, piece.stroke, piece.duration, segment, stop - start))
     return stretches
 
 
@@ -368,7 +368,7 @@ def _segments(law: MotionLaw) -> Sequence[Segment]:
 def _joined(shape: tuple[int, ...], pieces: Sequence[tuple[Any, Any]]) -> Any:  # noqa: ANN401 - an array or intervals
     """Values that are known place by place."""
     if isinstance(pieces[0][1], Interval):
-        parts = ([(here, getattr(one, name)) for here, one in pieces] for name in ("middle", "radius"))
+        parts = ([(here, getattr(enclosure, name)) for here, enclosure in pieces] for name in ("middle", "radius"))
         return Interval(*(_joined(shape, part) for part in parts))
     values = np.empty(shape)
     for here, part in pieces:

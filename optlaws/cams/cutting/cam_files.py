@@ -1,68 +1,96 @@
-"""Files that cut a cam: its profile, its pitch curve or the path of a cutter, in any format."""
+"""Files that cut a cam: the formats by name and by the ending of the file, and the one door to them."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, Unpack
 
-from optlaws.cams.curves.plane_curve import PlaneCurve
-from optlaws.cams.cutting.formats import export, format_of
-from optlaws.cams.disc import DiscCam
+from optlaws.cams.cutting.dxf import as_arcs, as_polyline, as_spline
+from optlaws.cams.cutting.file_options import Cutting, CuttingOptions
+from optlaws.cams.cutting.outline import Outline
+from optlaws.cams.cutting.text_formats import as_arc_moves, as_line_moves, as_points, as_polar, as_svg
 from optlaws.errors import InputError
+from optlaws.files import writing
 from optlaws.suggest import unknown_key
 
-CURVES = ("profile", "pitch", "cutter")
+Format = Callable[[Outline, Cutting], str]
+
+#: formats by their names; one is added by an entry
+FORMATS: dict[str, Format] = {
+    "dxf spline": as_spline,
+    "dxf polyline": as_polyline,
+    "dxf arcs": as_arcs,
+    "svg": as_svg,
+    "csv": as_points,
+    "csv polar": as_polar,
+    "g-code": as_line_moves,
+    "g-code arcs": as_arc_moves,
+}
+#: which of them a file is written in unless it is said
+ENDINGS = {
+    ".dxf": "dxf spline",
+    ".svg": "svg",
+    ".csv": "csv",
+    ".nc": "g-code",
+    ".ngc": "g-code",
+    ".gcode": "g-code",
+    ".tap": "g-code",
+}
 
 
-def export_cam(
-    cam: DiscCam,
-    file: str | Path,
-    as_: str | None = None,
-    *,
-    curve: str | None = None,
-    cutter_radius: str | None = None,
-    **options: Any,  # noqa: ANN401 - entries of Cutting
+def format_of(file: Path, name: str | None = None) -> str:
+    """The format that a file is written in.
+
+    Raises
+    ------
+    InputError
+        If the name is none of a format, or the file's ending says none.
+
+    Examples
+    --------
+    >>> format_of(Path("profile.dxf")), format_of(Path("profile.dxf"), "dxf arcs")
+    ('dxf spline', 'dxf arcs')
+    >>> format_of(Path("cam.igs"))
+    Traceback (most recent call last):
+    optlaws.errors.InputError: the ending of 'cam.igs' says no format: end it with .csv, .dxf, ... or name one of ...
+    """
+    if name is not None:
+        if name not in FORMATS:
+            raise InputError(unknown_key(name, FORMATS, "format"))
+        return name
+    known = ENDINGS.get(file.suffix.lower())
+    if known is None:
+        raise InputError(
+            f"the ending of {file.name!r} says no format: end it with {', '.join(sorted(ENDINGS))}, or name one of "
+            f"{', '.join(FORMATS)}"
+        )
+    return known
+
+
+def text(outline: Outline, name: str, options: Cutting) -> str:
+    """The text of a file in a format."""
+    return FORMATS[name](outline, options)
+
+
+def write_outline(
+    outline: Outline, file: str | Path, as_: str | None = None, **options: Unpack[CuttingOptions]
 ) -> Path:
-    """Write a cam to a file, whole or not at all, and return its path.
+    """The file of a closed curve, written whole or not at all: a profile, a pitch curve, the path of a cutter.
 
-    Parameters
-    ----------
-    cam
-        The cam, of a motion over a whole turn.
-    file
-        Where; its ending says the format unless `as_` does.
-    as_
-        A format: "dxf spline", "dxf polyline", "dxf arcs", "svg", "csv", "csv polar", "g-code" or "g-code arcs".
-    curve
-        "profile", "pitch" (the way of the roller's centre) or "cutter", the way of a cutter's centre, where its radius
-        is given; the profile unless said.
-    cutter_radius
-        Of the cutter, such as "10 mm".
-    asked
-        Of the file: tolerance, decimals, points, degree, feed, about.
+    `as_` is one of `FORMATS`, that of the file's ending unless given; options are those of `Cutting`.
 
     Raises
     ------
     InputError
-        If something is unknown or out of its range, the cam's motion is no whole turn, or the file cannot be written.
+        If the format or an entry is unknown, a value is out of its range, or the file cannot be written.
     """
-    format_of(Path(file), as_)
-    return export(curve_of(cam, curve, cutter_radius), file, as_, **options)
-
-
-def curve_of(cam: DiscCam, curve: str | None, cutter_radius: str | None) -> PlaneCurve:
-    """The curve that is cut.
-
-    Raises
-    ------
-    InputError
-        If it is unknown, or a cutter has no radius.
-    """
-    chosen = curve or ("profile" if cutter_radius is None else "cutter")
-    if chosen not in CURVES:
-        raise InputError(unknown_key(chosen, CURVES, "curve"))
-    if (chosen == "cutter") != (cutter_radius is not None):
-        raise InputError("cutter_radius and curve='cutter' go together: give the radius, such as cutter_radius='10 mm'")
-    if chosen == "cutter":
-        return cam.cutter_path(cutter_radius)
-    return cam.profile if chosen == "profile" else cam.pitch_curve
+    place = Path(file)
+    name = format_of(place, as_)
+    given: dict[str, Any] = {key: value for key, value in options.items() if value is not None}
+    for key in given:
+        if key not in Cutting.__dataclass_fields__:
+            raise InputError(unknown_key(key, Cutting.__dataclass_fields__, "entry"))
+    cutting = Cutting(**given)
+    writing.check_place(place)
+    return writing.write(place, text(outline, name, cutting), exact=True)

@@ -12,8 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.cams.cutting.biarcs import arcs
-from optlaws.cams.cutting.chords import polygon
+from optlaws.cams.cutting.arcs_and_chords import arcs, polygon
 from optlaws.cams.cutting.file_options import Cutting
 from optlaws.cams.cutting.outline import Outline
 from optlaws.cams.cutting.spline import spline

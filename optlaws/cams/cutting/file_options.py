@@ -1,23 +1,37 @@
-"""What a file for cutting is asked: tolerance, decimals, points, degree, feed; quantities with their units."""
+"""The options of files for cutting: tolerance, decimals, points, degree, feed; quantities with their units."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Literal, TypedDict
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
-from optlaws.motion.quantities import quantity
-from optlaws.numbers import whole
+from optlaws.motion.quantities import positive_quantity
+from optlaws.numbers import Quantity, whole
 
 MOST_POINTS = 100_000
 MOST_DECIMALS = 12
 DEGREES = (3, 5)
 
 
+CutFormat = Literal["dxf spline", "dxf polyline", "dxf arcs", "svg", "csv", "csv polar", "g-code", "g-code arcs"]
+
+
+class CuttingOptions(TypedDict, total=False):
+    """The options of files for cutting, each of which `Cutting` documents."""
+
+    tolerance: Quantity | None
+    decimals: int | None
+    points: int | None
+    degree: int | None
+    feed: Quantity | None
+    about: str | None
+
+
 @dataclass(frozen=True)
 class Cutting:
-    """What a file for cutting is asked.
+    """The checked options of a file for cutting.
 
     Parameters
     ----------
@@ -49,38 +63,35 @@ class Cutting:
     optlaws.errors.InputError: tolerance must be a length such as '35 mm', got 5 without a unit: write...
     """
 
-    tolerance: Any = "1 um"
+    tolerance: Quantity = "1 um"
     decimals: int = 6
     points: int = 721
     degree: int = 3
-    feed: Any = None
+    feed: Quantity | None = None
     about: str = "cam"
 
     def __post_init__(self) -> None:
-        if self.metres <= 0.0:
-            raise InputError(f"tolerance must be above 0, got {shortened(self.tolerance)}")
+        self.metres, self.feed_rate  # noqa: B018 - wrong quantities are refused at once
         whole(self.decimals, "decimals", most=MOST_DECIMALS)
         whole(self.points, "points", least=13, most=MOST_POINTS)
         if self.degree not in DEGREES:
             raise InputError(f"degree must be 3 or 5, got {shortened(self.degree)}")
         if not isinstance(self.about, str):
             raise InputError(f"about must be text, got {shortened(self.about)}")
-        if self.feed is not None and self.feed_rate <= 0.0:
-            raise InputError(f"feed must be above 0, got {shortened(self.feed)}")
 
     @property
     def metres(self) -> float:
         """The tolerance in metres."""
-        return quantity(self.tolerance, "length", "tolerance")
+        return positive_quantity(self.tolerance, "length", "tolerance")
 
     @property
     def feed_rate(self) -> float:
         """The feed in mm a minute; 0 where none is given."""
-        return 0.0 if self.feed is None else 60e3 * quantity(self.feed, "velocity", "feed")
+        return 0.0 if self.feed is None else 60e3 * positive_quantity(self.feed, "velocity", "feed")
 
     @property
     def line(self) -> str:
-        """What the file says of itself, on one line of plain characters."""
+        """The description of the file on one line of plain characters."""
         printable = "".join(
             character if " " <= character <= "~" and character not in "()<>&" else " " for character in self.about
         )

@@ -8,8 +8,7 @@ from math import inf, sqrt, tau
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.cams.curves.piecewise_curve import PiecewiseCurve
-from optlaws.cams.curves.plane_curve import derivatives
+from optlaws.cams.curves.plane_curve import PiecewiseCurve, derivatives
 from optlaws.cams.cutting.outline import MOST_PARTS, Outline, greatest_deviation, stretches
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
@@ -66,7 +65,7 @@ class Spline:
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """Its knots, each once: the spline is an outline itself."""
+        """The knots of the spline, each once, by which it is an outline itself."""
         return tuple(np.unique(self.knots).tolist())
 
 

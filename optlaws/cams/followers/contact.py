@@ -1,4 +1,4 @@
-"""How a follower touches a cam, in numbers: all that the rest of a cam asks of a follower, whatever its kind."""
+"""How a follower touches a cam, in numbers: kinematics, forces and linear limits, whatever its kind."""
 
 from __future__ import annotations
 
@@ -11,16 +11,119 @@ import numpy as np
 
 from optlaws.cams.curves.extremes import CamExtremes, Extreme, angle_of_tangent, enclosed_extremes
 from optlaws.cams.curves.motion_by_angle import CamMotion
-from optlaws.cams.followers.linear_limit import CURVATURE, PRESSURE, LinearLimit
-from optlaws.cams.followers.transmission import Transmission
 from optlaws.errors import InputError
 from optlaws.motion.piece import Piece
 from optlaws.series.enclosures.interval_arrays import Interval
 from optlaws.series.enclosures.jets import Jet, Pair, Term
+from optlaws.synthesis.functionals.makers import peak
+from optlaws.synthesis.problem.constants import Functional
+from optlaws.synthesis.problem.windows import Window
+
+PRESSURE, CURVATURE = "pressure angle", "radius of curvature"
+
+
+@dataclass(frozen=True)
+class LinearLimit:
+    """A limit of a cam that is linear in a law: the sum of factors times a, b, c is at most `most` in a part of it."""
+
+    factors: tuple[float, float, float]
+    most: float
+    start: float = 0.0
+    stop: float = 1.0
+
+    @property
+    def formula(self) -> str:
+        """The sum as a text."""
+        return " + ".join(f"({factor!r})*{name}" for factor, name in zip(self.factors, "abc", strict=True) if factor)
+
+    def window(self) -> Window:
+        """The limit as a window of a problem."""
+        return Window(self.formula, high=self.most, start=self.start, stop=self.stop)
+
+    def excess(self) -> Functional:
+        """The excess of the greatest value of the sum over the limit."""
+        return peak(f"{self.formula} + ({-self.most!r})", side="high")
+
+
+class Drag(NamedTuple):
+    """The action on the follower of a friction force of 1 N along the surfaces, the way in which the cam's runs past.
+
+    Attributes
+    ----------
+    lever
+        It drives the follower with so many N, or N m.
+    across
+        Its sideways part on a slide, and 0 on an arm, N.
+    moment
+        About where the force meets a slide's way, N m.
+    """
+
+    lever: Jet
+    across: Jet | float = 0.0
+    moment: Jet | float = 0.0
+
+
+class Transmission(NamedTuple):
+    """The action of a force of 1 N between cam and follower, at places of the turn or in intervals of them.
+
+    Attributes
+    ----------
+    lever
+        On the follower: 1 N along the normal drives it with so many N, or N m.
+    sliding
+        How fast the surfaces slide, or the roller rolls, m per radian of the cam.
+    across
+        Sideways part of the normal's force on a slide, and 0 on an arm, N.
+    moment
+        Of the normal's force about where a slide's way meets the level of the contact, N m.
+    drag
+        What friction along the surfaces does; None of a roller, which gives way.
+    """
+
+    lever: Jet
+    sliding: Jet
+    across: Jet
+    moment: Jet
+    drag: Drag | None = None
+
+    def lever_with(self, friction: float) -> Jet:
+        """The force or torque that drives the follower for a normal force of 1 N, friction of the surfaces included."""
+        return self.lever if self.drag is None else self.lever + self.drag.lever * friction
+
+
+@dataclass(frozen=True)
+class Friction:
+    """Friction of a cam and its follower; coefficients without a dimension, lengths in metres.
+
+    Attributes
+    ----------
+    contact
+        Of a face that slides on the cam; of a roller, what rolling and its pin take, at the roller's surface.
+    guide
+        Of a slide in its guide.
+    overhang, length
+        From where the cam touches to the guide, and the guide's length.
+    """
+
+    contact: float = 0.0
+    guide: float = 0.0
+    overhang: float = 0.0
+    length: float = 1.0
+
+    def in_guide(self, transmission: Transmission) -> Jet:
+        """Friction in the guide, of either sign of the velocity, for a normal force of 1 N."""
+        drag = transmission.drag
+        across = transmission.across + (0.0 if drag is None else drag.across * self.contact)
+        moment = transmission.moment
+        if drag is not None and isinstance(drag.moment, Jet):
+            moment = moment + drag.moment * self.contact
+        near = moment + across * (self.overhang + self.length)
+        far = moment + across * self.overhang
+        return (near.magnitude() + far.magnitude()) * (self.guide / self.length)
 
 
 class ContactState(NamedTuple):
-    """Where a follower is that touches a curve, as jets of the curve's own parameter.
+    """The position of a follower that touches a curve, as jets of the curve's own parameter.
 
     Attributes
     ----------
@@ -47,7 +150,7 @@ class CurvatureTerms(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Contact(ABC):
+class FollowerContact(ABC):
     """A follower of a cam, in metres and radians, beside which the cam turns; its displacement s comes as a jet.
 
     Parameters
@@ -82,7 +185,7 @@ class Contact(ABC):
     @property
     @abstractmethod
     def lost(self) -> int:
-        """By how many orders the jet of a point is shorter than that of the displacement."""
+        """The number of orders by which the jet of a point is shorter than that of the displacement."""
 
     @abstractmethod
     def point(self, s: Jet) -> Pair:
@@ -102,7 +205,7 @@ class Contact(ABC):
 
     @abstractmethod
     def curvature_excess(self, s: Jet, limit: float) -> Interval:
-        """By how much a least radius of curvature is broken, above 0; of either dimension."""
+        """The excess over a limit of the least radius of curvature, above 0 where it is broken; of either dimension."""
 
     def normal(self, s: Jet) -> Pair | None:  # noqa: ARG002 - None unless a face has it
         """The normal away from the cam where it is that of a face; None where it is that of the curve."""
@@ -133,7 +236,7 @@ class Contact(ABC):
 
     @abstractmethod
     def state(self, point: Pair, normal: Pair) -> ContactState:
-        """Where the follower is that touches a profile at a point with a normal away from it, in cam coordinates."""
+        """The state of the follower that touches a profile at a point with an outward normal, in cam coordinates."""
 
     @abstractmethod
     def transmission(self, s: Jet) -> Transmission:

@@ -1,20 +1,26 @@
-"""What every follower of a disc cam is: lengths with units, which become a contact in numbers once the cam is known."""
+"""What every follower of a disc cam is: lengths with units that become a contact in numbers, and kinds by name."""
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import MISSING, dataclass, fields
+from functools import cache
+from importlib import import_module
+from pathlib import Path
+from pkgutil import iter_modules
 from typing import Any, ClassVar
 
-from optlaws.cams.followers.contact import Contact
-from optlaws.echo import shortened
+from optlaws.cams.followers.contact import FollowerContact
 from optlaws.errors import InputError
-from optlaws.motion.quantities import quantity
+from optlaws.motion.quantities import positive_quantity, quantity
+from optlaws.numbers import Quantity
+from optlaws.suggest import unknown_key
 
 
 @dataclass(frozen=True)
 class Place:
-    """Where a follower is put: the base circle's radius, the range of its motion, and how the cam turns.
+    """The place of a follower: the base circle's radius, the range of its motion, and the sense of turning.
 
     Parameters
     ----------
@@ -35,28 +41,30 @@ class Place:
     turning: float
 
 
-class Follower(ABC):
+class CamFollower(ABC):
     """A follower of a disc cam, as a person gives it.
 
     A kind is a frozen dataclass of this class in a module of this folder, and named in its head: nothing else names it.
     """
 
     #: kinds by their names in problem files; those of this folder are there once `follower_kinds` was called
-    kinds: ClassVar[dict[str, type[Follower]]] = {}
+    kinds: ClassVar[dict[str, type[CamFollower]]] = {}
     kind: ClassVar[str]
     #: whether it moves by a "length" or an "angle"
     axis: ClassVar[str]
     #: its entries, as errors and the explorer show them
     examples: ClassVar[dict[str, str]]
+    #: its entries that are lengths, by which its size is told
+    lengths: ClassVar[tuple[str, ...]] = ()
     #: the limit that is linear in the law and says the least base circle of all laws; None where none is
     sizing_limit: ClassVar[str | None] = None
 
     def __init_subclass__(cls, *, kind: str) -> None:
         cls.kind = kind
-        Follower.kinds[kind] = cls
+        CamFollower.kinds[kind] = cls
 
     @abstractmethod
-    def contact(self, place: Place) -> Contact:
+    def contact(self, place: Place) -> FollowerContact:
         """How it touches a cam.
 
         Raises
@@ -71,15 +79,15 @@ class Follower(ABC):
 
     @property
     def size(self) -> float:
-        """Its greatest length, m."""
-        return 0.0
+        """The greatest length of the follower, m."""
+        return max((abs(quantity(getattr(self, name), "length", name)) for name in self.lengths), default=0.0)
 
     @property
-    def pivot(self) -> Any:  # noqa: ANN401 - a quantity
-        """From the cam's centre to the pivot; None on a slide."""
+    def pivot(self) -> Quantity | None:
+        """The distance of the pivot from the cam's centre; None on a slide."""
         return None
 
-    def from_beneath(self) -> Follower:
+    def from_beneath(self) -> CamFollower:
         """The same follower on its slide, seen from beneath the shaft."""
         return self
 
@@ -97,10 +105,7 @@ def positive(value: Any, name: str) -> float:  # noqa: ANN401 - it is checked he
     >>> positive("12 mm", "roller")
     0.012
     """
-    length = quantity(value, "length", name)
-    if length <= 0.0:
-        raise InputError(f"{name} must be above 0, got {shortened(value)}")
-    return length
+    return positive_quantity(value, "length", name)
 
 
 def roller_radius(value: Any, place: Place) -> float:  # noqa: ANN401 - it is checked here
@@ -134,3 +139,67 @@ def shown(length: float) -> str:
     '80 mm'
     """
     return f"{1e3 * length:.9g} mm"
+
+
+def follower_kinds() -> dict[str, type[CamFollower]]:
+    """The kinds of followers by their names in problem files.
+
+    Examples
+    --------
+    >>> "translating roller" in follower_kinds()
+    True
+    """
+    _load()
+    # slides before arms, whichever was imported first
+    return dict(sorted(CamFollower.kinds.items(), reverse=True))
+
+
+def follower_names() -> str:
+    """Names of the classes, as an error lists them.
+
+    Examples
+    --------
+    >>> follower_names().split()[:2]
+    ['TranslatingRoller,', 'TranslatingFlat,']
+    """
+    *names, last = [kind.__name__ for kind in follower_kinds().values()]
+    return f"{', '.join(names)} or {last}"
+
+
+def read_follower(entries: Mapping[str, Any]) -> CamFollower:
+    """A follower from entries of a problem file.
+
+    Raises
+    ------
+    InputError
+        If its kind is unknown, or it has an entry that its kind does not take, or lacks one.
+
+    Examples
+    --------
+    >>> read_follower({"kind": "translating roller", "radius": "12 mm"})
+    TranslatingRoller(radius='12 mm', offset='0 mm')
+    """
+    kinds = follower_kinds()
+    if "kind" not in entries:
+        raise InputError(f"follower: kind is missing: give one of {', '.join(kinds)}")
+    if entries["kind"] not in kinds:
+        raise InputError(f"follower: {unknown_key(entries['kind'], kinds, 'kind')}")
+    kind = kinds[entries["kind"]]
+    given = {name: value for name, value in entries.items() if name != "kind"}
+    named = f"{'an' if kind.kind[0] in 'aeiou' else 'a'} {kind.kind}"
+    taken: dict[str, Any] = {field.name: field.default for field in fields(kind)}  # type: ignore[arg-type]
+    for name in given:
+        if name not in taken:
+            raise InputError(f"follower: {named} takes no {name}; it takes {', '.join(taken) or 'no entries'}")
+    for name, default in taken.items():
+        if name not in given and default is MISSING:
+            raise InputError(f"follower: {named} needs its {name}, such as {name} = '{kind.examples[name]}'")
+    follower: CamFollower = kind(**given)
+    return follower
+
+
+@cache
+def _load() -> None:
+    """Import the modules of the folder, by which their kinds are known."""
+    for module in iter_modules([str(Path(__file__).parent)]):
+        import_module(f"{__package__}.{module.name}")

@@ -4,22 +4,21 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import atan, cos, degrees, pi, sin, tan
-from typing import Any, ClassVar
+from typing import ClassVar
 
-from optlaws.cams.followers.contact import ContactState, bearing
-from optlaws.cams.followers.faces import FaceContact, sign
-from optlaws.cams.followers.follower import Follower, Place
-from optlaws.cams.followers.linear_limit import CURVATURE, LinearLimit
-from optlaws.cams.followers.transmission import Drag, Transmission
+from optlaws.cams.followers.contact import CURVATURE, ContactState, Drag, LinearLimit, Transmission, bearing
+from optlaws.cams.followers.follower import CamFollower, Place
+from optlaws.cams.followers.rollers_and_faces import FaceContact, sign
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import quantity
+from optlaws.numbers import Quantity
 from optlaws.series.enclosures.jets import Jet, Pair
 
 
 @dataclass(frozen=True)
-class InclinedFlat(Follower, kind="inclined flat"):
+class InclinedFlat(CamFollower, kind="inclined flat"):
     """A follower that slides and has a flat face which is not square to its way.
 
     Its cam is that of a square face that moves cos(inclination) as far, turned by the inclination; the pressure angle
@@ -37,7 +36,7 @@ class InclinedFlat(Follower, kind="inclined flat"):
     'length'
     """
 
-    inclination: Any
+    inclination: Quantity
     axis: ClassVar[str] = "length"
     examples: ClassVar[dict[str, str]] = {"inclination": "10 deg"}
     sizing_limit: ClassVar[str | None] = CURVATURE
@@ -69,7 +68,7 @@ class InclinedFlat(Follower, kind="inclined flat"):
 
 @dataclass(frozen=True)
 class InclinedFace(FaceContact):
-    """The same in numbers: the face meets the slide's way at y = height + s, by which rho = (height + s + s'') cos.
+    """An inclined face in numbers: it meets the slide's way at y = height + s, so that rho = (height + s + s'') cos.
 
     Examples
     --------
@@ -87,14 +86,14 @@ class InclinedFace(FaceContact):
         return s * 0.0 - sin(self.angle), s * 0.0 + cos(self.angle)
 
     def pressure(self, s: Jet) -> Jet:
-        """The same everywhere: the tangent of the inclination."""
+        """The tangent of the inclination, the same everywhere."""
         return s.slope() * 0.0 + self.turning * tan(self.angle)
 
     def radius(self, s: Jet) -> Jet:  # noqa: D102
         return s.slope().slope() * cos(self.angle) + self._far(s)
 
     def reach(self, s: Jet) -> Jet:
-        """From the foot of the cam's centre, to the side to which the cam turns away from it."""
+        """The distance from the foot of the cam's centre, to the side to which the cam turns away from it."""
         return s.slope() * (self.turning * cos(self.angle))
 
     def _far(self, s: Jet) -> Jet:
@@ -121,7 +120,7 @@ class InclinedFace(FaceContact):
         return [LinearLimit((-stroke / size, 0.0, -stroke / (size * angle**2)), high)]
 
     def pressure_limits(self, piece: Piece, limit: float, angle: float, *, below: bool) -> list[LinearLimit]:
-        """None: a greatest pressure angle is kept by every law, or by no law, which is refused."""
+        """No limits: a greatest pressure angle is kept by every law, or by no law, which is refused."""
         del piece, angle, below
         if abs(tan(self.angle)) > limit:
             raise InputError(

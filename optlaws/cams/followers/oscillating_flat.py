@@ -4,19 +4,19 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import asin, degrees, pi, sin
-from typing import Any, ClassVar
+from typing import ClassVar
 
-from optlaws.cams.followers.contact import ContactState, bearing, other_leg
-from optlaws.cams.followers.faces import FaceContact, sign
-from optlaws.cams.followers.follower import Follower, Place, positive, shown
-from optlaws.cams.followers.transmission import Drag, Transmission
+from optlaws.cams.followers.contact import ContactState, Drag, Transmission, bearing, other_leg
+from optlaws.cams.followers.follower import CamFollower, Place, positive, shown
+from optlaws.cams.followers.rollers_and_faces import FaceContact, sign
 from optlaws.errors import InputError
 from optlaws.motion.quantities import quantity
+from optlaws.numbers import Quantity
 from optlaws.series.enclosures.jets import Jet, Pair
 
 
 @dataclass(frozen=True)
-class OscillatingFlat(Follower, kind="oscillating flat"):
+class OscillatingFlat(CamFollower, kind="oscillating flat"):
     """A follower that swings and has a flat face.
 
     Parameters
@@ -32,10 +32,11 @@ class OscillatingFlat(Follower, kind="oscillating flat"):
     'angle'
     """
 
-    pivot_distance: Any
-    face_offset: Any = "0 mm"
+    pivot_distance: Quantity
+    face_offset: Quantity = "0 mm"
     axis: ClassVar[str] = "angle"
     examples: ClassVar[dict[str, str]] = {"pivot_distance": "120 mm", "face_offset": "0 mm"}
+    lengths: ClassVar[tuple[str, ...]] = ("pivot_distance",)
 
     def contact(self, place: Place) -> FaceContact:  # noqa: D102
         distance = positive(self.pivot_distance, "face: pivot_distance")
@@ -66,19 +67,14 @@ class OscillatingFlat(Follower, kind="oscillating flat"):
         return positive(self.pivot_distance, "face: pivot_distance") * sin(level) + offset
 
     @property
-    def pivot(self) -> Any:  # noqa: ANN401 - a quantity
-        """From the cam's centre to the pivot."""
+    def pivot(self) -> Quantity:
+        """The distance of the pivot from the cam's centre."""
         return self.pivot_distance
-
-    @property
-    def size(self) -> float:
-        """The distance of the pivot."""
-        return abs(quantity(self.pivot_distance, "length", "pivot_distance"))
 
 
 @dataclass(frozen=True)
 class SwingingFace(FaceContact):
-    """The same in numbers: the pivot is at x = distance, the face at phi = first + s from the line to the cam's centre.
+    """A swinging face in numbers: its pivot at x = distance, the face at phi = first + s from the line to the centre.
 
     It is touched at distance cos(phi)/(1 ± phi') from the foot of the pivot.
 
@@ -108,7 +104,7 @@ class SwingingFace(FaceContact):
         return self._waves(s)
 
     def pressure(self, s: Jet) -> Jet:
-        """By where the face is touched: its point moves square to the ray from the pivot."""
+        """The tangent of the pressure angle: the point touched moves square to the ray from the pivot."""
         reach = self.reach(s)
         return (reach * 0.0 + self.offset) / reach * self.turning
 
@@ -118,7 +114,7 @@ class SwingingFace(FaceContact):
         return (sine * self.distance - self.reach(s).slope() * self.turning) / rate + self.offset
 
     def reach(self, s: Jet) -> Jet:
-        """From the foot of the pivot towards the cam."""
+        """The distance from the foot of the pivot towards the cam."""
         _, cosine = self._waves(s)
         return cosine * self.distance / self._rate(s)
 

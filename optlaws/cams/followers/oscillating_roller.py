@@ -6,19 +6,17 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 from math import acos, cos, degrees, hypot, pi, sqrt
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.cams.followers.contact import ContactState, CurvatureTerms, other_leg
-from optlaws.cams.followers.follower import Follower, Place, positive, roller_radius, shown
-from optlaws.cams.followers.linear_limit import LinearLimit
-from optlaws.cams.followers.rollers import RollerContact, half_turn
-from optlaws.cams.followers.transmission import Transmission
+from optlaws.cams.followers.contact import ContactState, CurvatureTerms, LinearLimit, Transmission, other_leg
+from optlaws.cams.followers.follower import CamFollower, Place, positive, roller_radius, shown
+from optlaws.cams.followers.rollers_and_faces import RollerContact, half_turn
 from optlaws.errors import InputError
 from optlaws.motion.piece import Piece
-from optlaws.motion.quantities import quantity
+from optlaws.numbers import Quantity
 from optlaws.series.enclosures.jets import Jet, Pair
 
 Array = NDArray[np.float64]
@@ -27,7 +25,7 @@ _LINES, _PARTS, _LOOKS = 16, 24, 2001
 
 
 @dataclass(frozen=True)
-class OscillatingRoller(Follower, kind="oscillating roller"):
+class OscillatingRoller(CamFollower, kind="oscillating roller"):
     """A follower that swings and has a roller.
 
     Parameters
@@ -45,11 +43,12 @@ class OscillatingRoller(Follower, kind="oscillating roller"):
     'angle'
     """
 
-    radius: Any
-    arm: Any
-    pivot_distance: Any
+    radius: Quantity
+    arm: Quantity
+    pivot_distance: Quantity
     axis: ClassVar[str] = "angle"
     examples: ClassVar[dict[str, str]] = {"radius": "14 mm", "arm": "110 mm", "pivot_distance": "140 mm"}
+    lengths: ClassVar[tuple[str, ...]] = ("radius", "arm", "pivot_distance")
 
     def contact(self, place: Place) -> RollerContact:  # noqa: D102
         radius, arm = roller_radius(self.radius, place), positive(self.arm, "roller: arm")
@@ -79,20 +78,14 @@ class OscillatingRoller(Follower, kind="oscillating roller"):
         return sqrt(arm**2 + pivot**2 - 2.0 * arm * pivot * cos(level))
 
     @property
-    def pivot(self) -> Any:  # noqa: ANN401 - a quantity
-        """From the cam's centre to the pivot."""
+    def pivot(self) -> Quantity:
+        """The distance of the pivot from the cam's centre."""
         return self.pivot_distance
-
-    @property
-    def size(self) -> float:
-        """The greatest of its three lengths."""
-        given = {"radius": self.radius, "arm": self.arm, "pivot_distance": self.pivot_distance}
-        return max(abs(quantity(value, "length", name)) for name, value in given.items())
 
 
 @dataclass(frozen=True)
 class SwingingRoller(RollerContact):
-    """The same in numbers: the pivot is at x = distance, the arm at psi = first + s from the line to the cam's centre.
+    """A swinging roller in numbers: its pivot at x = distance, the arm at psi = first + s from the line to the centre.
 
     Examples
     --------
@@ -108,7 +101,7 @@ class SwingingRoller(RollerContact):
 
     @property
     def roller(self) -> float:
-        """The roller's radius."""
+        """The radius of the roller in metres."""
         return self.radius
 
     @property
@@ -118,7 +111,7 @@ class SwingingRoller(RollerContact):
 
     @property
     def linear(self) -> bool:
-        """False: what the pressure angle allows is a sine of the arm's angle, with lines below and above it."""
+        """False, as the limit of the pressure angle is a sine of the arm's angle, with lines below and above it."""
         return False
 
     def point(self, s: Jet) -> Pair:  # noqa: D102
@@ -193,11 +186,11 @@ class _Sine:
     cosine: float
 
     def value(self, psi: Array) -> Array:
-        """G."""
+        """The values of G at angles of the arm."""
         return np.asarray(self.sine * np.sin(psi) + self.cosine * np.cos(psi))
 
     def slope(self, psi: float) -> float:
-        """G'."""
+        """The derivative of G at an angle of the arm."""
         return float(self.sine * np.cos(psi) - self.cosine * np.sin(psi))
 
     def chord(self, first: float, last: float) -> float:
@@ -210,7 +203,7 @@ class _Sine:
         return bool((self.value(np.linspace(low, high, _LOOKS)) >= 0.0).all())
 
     def shift(self, slope: float, low: float, high: float, *, below: bool) -> float:
-        """What makes a line of a slope lie below it, or above it, between two angles."""
+        """The shift with which a line of a slope lies below it, or above it, between two angles."""
         looks = np.linspace(low, high, _LOOKS)
         off = self.value(looks) - slope * looks
         # between two looks it goes beyond these by less than this

@@ -6,17 +6,15 @@ from dataclasses import dataclass
 from math import pi
 from typing import ClassVar
 
-from optlaws.cams.followers.contact import ContactState, bearing
-from optlaws.cams.followers.faces import FaceContact
-from optlaws.cams.followers.follower import Follower, Place
-from optlaws.cams.followers.linear_limit import CURVATURE, LinearLimit
-from optlaws.cams.followers.transmission import Drag, Transmission
+from optlaws.cams.followers.contact import CURVATURE, ContactState, Drag, LinearLimit, Transmission, bearing
+from optlaws.cams.followers.follower import CamFollower, Place
+from optlaws.cams.followers.rollers_and_faces import FaceContact
 from optlaws.motion.piece import Piece
 from optlaws.series.enclosures.jets import Jet, Pair
 
 
 @dataclass(frozen=True)
-class TranslatingFlat(Follower, kind="translating flat"):
+class TranslatingFlat(CamFollower, kind="translating flat"):
     """A follower that slides and has a flat face square to its way.
 
     Examples
@@ -39,7 +37,7 @@ class TranslatingFlat(Follower, kind="translating flat"):
 
 @dataclass(frozen=True)
 class SlidingFace(FaceContact):
-    """The same in numbers: the face is at y = height + s and is touched at x = s', by which rho = height + s + s''.
+    """A sliding face in numbers: at y = height + s, touched at x = s', so that rho = height + s + s''.
 
     Examples
     --------
@@ -54,14 +52,14 @@ class SlidingFace(FaceContact):
         return s * 0.0, s * 0.0 + 1.0
 
     def pressure(self, s: Jet) -> Jet:
-        """Zero: the contact force of a face square to its way has no component across it."""
+        """Zero, as the contact force of a face square to its way has no component across it."""
         return s.slope() * 0.0
 
     def radius(self, s: Jet) -> Jet:  # noqa: D102
         return s.slope().slope() + s + (self.level - self.lowest)
 
     def reach(self, s: Jet) -> Jet:
-        """From the way of the slide, to the side to which the cam turns away from it."""
+        """The distance from the way of the slide, to the side to which the cam turns away from it."""
         return s.slope() * self.turning
 
     def state(self, point: Pair, normal: Pair) -> ContactState:  # noqa: D102

@@ -4,21 +4,20 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from math import hypot
-from typing import Any, ClassVar
+from typing import ClassVar
 
-from optlaws.cams.followers.contact import ContactState, CurvatureTerms
-from optlaws.cams.followers.follower import Follower, Place, roller_radius, shown
-from optlaws.cams.followers.linear_limit import PRESSURE, LinearLimit
-from optlaws.cams.followers.rollers import RollerContact, side_of
-from optlaws.cams.followers.transmission import Transmission
+from optlaws.cams.followers.contact import PRESSURE, ContactState, CurvatureTerms, LinearLimit, Transmission
+from optlaws.cams.followers.follower import CamFollower, Place, roller_radius, shown
+from optlaws.cams.followers.rollers_and_faces import RollerContact, side_of
 from optlaws.errors import InputError
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import quantity
+from optlaws.numbers import Quantity
 from optlaws.series.enclosures.jets import Jet, Pair
 
 
 @dataclass(frozen=True)
-class TranslatingRoller(Follower, kind="translating roller"):
+class TranslatingRoller(CamFollower, kind="translating roller"):
     """A follower that slides and has a roller.
 
     Parameters
@@ -35,10 +34,11 @@ class TranslatingRoller(Follower, kind="translating roller"):
     'length'
     """
 
-    radius: Any
-    offset: Any = "0 mm"
+    radius: Quantity
+    offset: Quantity = "0 mm"
     axis: ClassVar[str] = "length"
     examples: ClassVar[dict[str, str]] = {"radius": "12 mm", "offset": "0 mm"}
+    lengths: ClassVar[tuple[str, ...]] = ("radius", "offset")
     sizing_limit: ClassVar[str | None] = PRESSURE
 
     def contact(self, place: Place) -> RollerContact:  # noqa: D102
@@ -54,20 +54,14 @@ class TranslatingRoller(Follower, kind="translating roller"):
         """The way from the cam's centre to the roller's at a height."""
         return hypot(level, quantity(self.offset, "length", "roller: offset"))
 
-    @property
-    def size(self) -> float:
-        """The radius of the roller, or the offset."""
-        given = {"radius": self.radius, "offset": self.offset}
-        return max(abs(quantity(value, "length", name)) for name, value in given.items())
-
     def from_beneath(self) -> TranslatingRoller:
-        """The same with its offset on the other side."""
+        """The same follower with its offset on the other side."""
         return replace(self, offset=f"{-quantity(self.offset, 'length', 'roller: offset')!r} m")
 
 
 @dataclass(frozen=True)
 class SlidingRoller(RollerContact):
-    """The same in numbers: x = offset, y = height + s.
+    """A sliding roller in numbers: its centre is at x = offset, y = height + s.
 
     Examples
     --------
@@ -81,7 +75,7 @@ class SlidingRoller(RollerContact):
 
     @property
     def roller(self) -> float:
-        """The roller's radius."""
+        """The radius of the roller in metres."""
         return self.radius
 
     def point(self, s: Jet) -> Pair:  # noqa: D102

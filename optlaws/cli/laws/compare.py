@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import optlaws
-from optlaws.cli.options import AsJson, check_files, save_picture
+from optlaws.cli.options import AsJson, Duration, check_files, save_picture
 from optlaws.cli.show import NOISE, number, print_json, show, table
 from optlaws.errors import InputError
 
@@ -15,7 +15,7 @@ _ONE, _INTERVAL = 1, 2
 def compare(
     *laws: str,
     stroke: str | None = None,
-    time: str | None = None,
+    duration: Duration = None,
     nu: list[float] | None = None,
     damping: float = 0.0,
     plot: Path | None = None,
@@ -30,8 +30,8 @@ def compare(
         Names or codes of the catalogue, members such as "III(7.2)", JSON files of laws or of `optlaws solve --output`,
         tables of points such as old.csv or "old.csv(tolerance=0.02; columns=1,3)".
     stroke
-        Stroke of the machine with its unit, such as 35mm or 45deg; with --time gives peaks in machine units.
-    time
+        Stroke of the machine with its unit, such as 35mm or 45deg; with --duration gives peaks in machine units.
+    duration
         Duration of the motion with its unit, such as 0.1s.
     nu
         Frequency of an elastic follower, radians of its free vibration in the motion, or twice for an interval: the
@@ -49,7 +49,7 @@ def compare(
     if nu is not None and len(nu) > _INTERVAL:
         raise InputError(f"--nu is given once for a frequency or twice for an interval, got {len(nu)} times")
     asked = None if nu is None else nu[0] if len(nu) == _ONE else (nu[0], nu[1])
-    comparison = optlaws.compare(*laws, stroke=stroke, time=time, nu=asked, damping=damping)
+    comparison = optlaws.compare(*laws, stroke=stroke, duration=duration, nu=asked, damping=damping)
     if csv is not None:
         _save(comparison, csv)
     if plot is not None:

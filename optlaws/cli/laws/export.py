@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import Parameter
 
-from optlaws.cli.options import AsJson, Whole, check_files, read_law
+from optlaws.cli.options import AsJson, Duration, Whole, check_files, read_law
 from optlaws.cli.show import print_json, show, table
 from optlaws.errors import InputError
 
@@ -26,7 +26,7 @@ def export(
     to: str | None = None,
     listed: Annotated[bool, Parameter(name="--list")] = False,
     stroke: str | None = None,
-    time: str | None = None,
+    duration: Duration = None,
     master: str | None = None,
     start: str | None = None,
     axis: str | None = None,
@@ -56,7 +56,7 @@ def export(
         List the formats: who takes them, how it interpolates, what it cannot hold.
     stroke
         How far the slave moves, such as "35 mm" or "-20 deg": positions are in its unit. Of a law alone.
-    time
+    duration
         How long it takes, such as "0.1 s". Of a law alone.
     master
         How far the master goes, "120 deg"; without it the master of a law is time in seconds, that of a cycle 360 deg.
@@ -99,7 +99,7 @@ def export(
     asked = {"counts": counts, "digits": digits, "decimal": decimal, "interpolation": interpolation, "name": name}
     request = {**asked, "points": _points(points)}
     chosen.request(**request)
-    said = {"stroke": stroke, "time": time, "master": master, "start": start}
+    said = {"stroke": stroke, "duration": duration, "master": master, "start": start}
     of_table = {"tolerance": tolerance, "columns": columns}
     made = export_motion(_motion(law, axis, said, of_table), to, task=task, **request)
     _answer(made, output, as_json=as_json)
@@ -123,7 +123,7 @@ def _motion(law: str, axis: str | None, said: dict[str, str | None], of_table: d
             raise InputError("--axis is one of a problem file with several; a law has none")
         return motion_of_law(read_law(law, **of_table), **said)
     of_law = said | of_table
-    for option in ("stroke", "time", "start", "tolerance", "columns"):
+    for option in ("stroke", "duration", "start", "tolerance", "columns"):
         if of_law[option] is not None:
             raise InputError(f"--{option} is of a law alone: a cycle has its own")
     cycle = _cycle(Path(law), axis)
@@ -133,7 +133,7 @@ def _motion(law: str, axis: str | None, said: dict[str, str | None], of_table: d
 
 def _cycle(file: Path, axis: str | None) -> Any:  # noqa: ANN401 - a Cycle, which the help must not import
     from optlaws.files.packaged import problem_of_job
-    from optlaws.jobs.cycle.entries import read
+    from optlaws.jobs.cycle_entries import read
 
     source, _, entries = problem_of_job(file, "cycle")
     _, cycles = read(entries, source)

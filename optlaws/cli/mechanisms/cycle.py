@@ -22,8 +22,8 @@ def cycle(file: Path, /, *, out: Path | None = None, as_json: AsJson = False) ->
         Print one JSON object on stdout and write nothing.
     """
     from optlaws.files.packaged import problem_of_job
-    from optlaws.jobs.cycle.cycle import answer
-    from optlaws.jobs.cycle.entries import read
+    from optlaws.jobs.cycle import answer
+    from optlaws.jobs.cycle_entries import read
 
     source, results, data = problem_of_job(file, "cycle")
     if not as_json:

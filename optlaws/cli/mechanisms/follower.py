@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import optlaws
-from optlaws.cli.options import AsJson, check_files, read_law
+from optlaws.cli.options import AsJson, Duration, check_files, read_law
 from optlaws.cli.show import print_json, show, table
 from optlaws.errors import InputError
 
@@ -26,7 +26,7 @@ def follower(
     frequency: str | None = None,
     speed: str | None = None,
     rise: str | None = None,
-    time: str | None = None,
+    duration: Duration = None,
     stroke: str | None = None,
     damping: float = 0.0,
     design_nu: float | None = None,
@@ -58,7 +58,7 @@ def follower(
         With --frequency: speed of the cam with its unit, such as "105 rpm".
     rise
         With --speed: angle of the cam during the rise with its unit, such as "120 deg".
-    time
+    duration
         In place of --speed and --rise: duration of the rise with its unit, such as "0.1 s".
     stroke
         Stroke of the cam with its unit, such as "35 mm" or "20 deg": peaks and vibration in machine units are told too.
@@ -81,7 +81,7 @@ def follower(
     mass, machine = _asked(
         nu,
         (speed_rpm, rise_angle, natural_period),
-        {"frequency": frequency, "speed": speed, "rise": rise, "time": time},
+        {"frequency": frequency, "speed": speed, "rise": rise, "duration": duration},
         stroke,
         damping,
     )
@@ -112,7 +112,9 @@ def _asked(
     """The follower, and the machine that it is of, where a stroke is given."""
     if any(quantity is not None for quantity in quantities.values()):
         if nu is not None or bare != _NONE:
-            raise InputError("--frequency, --speed, --rise and --time are of a machine: give no --nu or numbers beside")
+            raise InputError(
+                "--frequency, --speed, --rise and --duration are of a machine: give no --nu or numbers beside"
+            )
         machine = optlaws.machine_follower(stroke=stroke or "1 m", damping=damping, **quantities)
         return machine.follower, machine if stroke else None
     mass = _follower(nu, bare, damping)
@@ -120,7 +122,7 @@ def _asked(
     if stroke is None:
         return mass, None
     if rpm is None or angle is None:
-        raise InputError("--stroke needs the time of the rise: give --frequency with --speed and --rise, or --time")
+        raise InputError("--stroke needs the time of the rise: give --frequency with --speed and --rise, or --duration")
     return mass, optlaws.machine_follower(
         stroke=stroke, period=f"{period!r} s", speed=f"{rpm!r} rpm", rise=f"{angle!r} deg", damping=damping
     )
@@ -134,7 +136,7 @@ def _follower(nu: float | None, bare: Bare, damping: float) -> optlaws.Follower:
         return optlaws.Follower.from_speed(speed_rpm=rpm, rise_angle_deg=angle, natural_period=period, damping=damping)
     raise InputError(
         "give either --nu or all of --speed-rpm, --rise-angle and --natural-period, or, with units, --frequency with "
-        "--time or with --speed and --rise"
+        "--duration or with --speed and --rise"
     )
 
 

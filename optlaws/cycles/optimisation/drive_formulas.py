@@ -12,8 +12,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from itertools import pairwise
 
-from optlaws.cycles.drive.drive import Drive
 from optlaws.cycles.optimisation.objectives import POWER
+from optlaws.cycles.specification.drive import CycleDrive
 from optlaws.cycles.specification.joints import LawSpan
 from optlaws.cycles.specification.segments import Dwell
 from optlaws.errors import InputError
@@ -51,7 +51,7 @@ def may_turn(span: LawSpan) -> bool:
     return any(state.velocity * span.displacement < 0.0 for state in (span.first, span.last))
 
 
-def driven_peak(span: LawSpan, drive: Drive | None, stroke: float, nu: int) -> Driven:
+def driven_peak(span: LawSpan, drive: CycleDrive | None, stroke: float, nu: int) -> Driven:
     """Peak of the force (nu -1) or the power (nu -3) along a span's law.
 
     Raises
@@ -60,13 +60,13 @@ def driven_peak(span: LawSpan, drive: Drive | None, stroke: float, nu: int) -> D
         If there is no drive, nothing resists, or dry friction turns with the motion.
     """
     known = _known(drive)
-    if nu == POWER and known.inertia > 0.0 and known == Drive(known.inertia, 0.0, 0.0, 0.0, 0.0):
+    if nu == POWER and known.inertia > 0.0 and known == CycleDrive(known.inertia, 0.0, 0.0, 0.0, 0.0):
         return Driven(FUNCTIONALS["D"], known.inertia * stroke**2 / span.duration**3)
     formula, unit = driven_formula(span, drive, stroke, nu)
     return Driven(peak(formula), unit)
 
 
-def driven_formula(span: LawSpan, drive: Drive | None, stroke: float, nu: int) -> tuple[str, float]:
+def driven_formula(span: LawSpan, drive: CycleDrive | None, stroke: float, nu: int) -> tuple[str, float]:
     """Force or power along a span's law as a formula, and its unit.
 
     Raises
@@ -88,7 +88,7 @@ def driven_formula(span: LawSpan, drive: Drive | None, stroke: float, nu: int) -
     return formula, unit
 
 
-def driven_mean(span: LawSpan, drive: Drive | None, stroke: float) -> Driven:
+def driven_mean(span: LawSpan, drive: CycleDrive | None, stroke: float) -> Driven:
     """Root mean square of the force along a span's law.
 
     Raises
@@ -111,28 +111,27 @@ def driven_mean(span: LawSpan, drive: Drive | None, stroke: float) -> Driven:
     return Driven(rms(formula), unit, _friction(span, known), formula)
 
 
-def force_unit(span: LawSpan, drive: Drive, stroke: float) -> float:
+def force_unit(span: LawSpan, drive: CycleDrive, stroke: float) -> float:
     """About how great the force along a span is: a unit in which it is near 1."""
     return drive.size(stroke, span.duration, span.origin)
 
 
-def _unit(span: LawSpan, drive: Drive, stroke: float) -> float:
+def _unit(span: LawSpan, drive: CycleDrive, stroke: float) -> float:
     unit = force_unit(span, drive, stroke)
     if unit == 0.0:
         raise InputError("drive: nothing resists the motion: give it a mass, an inertia, a spring or friction")
     return unit
 
 
-def _known(drive: Drive | None) -> Drive:
+def _known(drive: CycleDrive | None) -> CycleDrive:
     if drive is None:
         raise InputError("force, torque and power are of a drive: give one, such as drive={'mass': '2 kg'}")
     return drive
 
 
-def _friction(span: LawSpan, drive: Drive) -> float:
-    """What dry friction adds to the mean square of the force of a motion that may turn back, at least."""
-    times = zip(span.stretches, span.starts, (*span.starts[1:], span.stop), strict=True)
-    moving = sum(stop - start for segment, start, stop in times if not isinstance(segment.given, Dwell))
+def _friction(span: LawSpan, drive: CycleDrive) -> float:
+    """The least addition of dry friction to the mean square of the force of a motion that may turn back."""
+    moving = sum(stop - start for segment, start, stop in span.timed if not isinstance(segment.given, Dwell))
     gained = 0.0 if span.turns else abs(span.last.velocity) - abs(span.first.velocity)
     positions = [span.offset, *(position for _, position in span.via), span.offset + span.displacement]
     way = sum(abs(after - before) for before, after in pairwise(positions))

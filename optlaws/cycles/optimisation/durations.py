@@ -23,8 +23,7 @@ from optlaws.cycles.specification.programme import Programme, TimedSegment, is_o
 from optlaws.cycles.specification.segments import ConstantVelocity, Dwell, Free, Move
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.laws import MotionLaw
-from optlaws.motion.named_law import named_law
-from optlaws.motion.piece import factor
+from optlaws.motion.piece import factor, named_law
 from optlaws.synthesis.problem.ranges import Range
 from optlaws.synthesis.solve import synthesize
 

@@ -12,9 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import exp, inf, log, sqrt
 
-from optlaws.cycles.drive.drive import Drive
-from optlaws.cycles.drive.effort import peak_of, square_of_force
-from optlaws.cycles.optimisation.cycle_bound import bound_of, span_bound
+from optlaws.cycles.optimisation.bounds import bound_of, span_bound
 from optlaws.cycles.optimisation.drive_formulas import driven_mean
 from optlaws.cycles.optimisation.joint_limits import ties_broken
 from optlaws.cycles.optimisation.objectives import CycleObjective, kind_of
@@ -26,6 +24,7 @@ from optlaws.cycles.optimisation.optimal import (
     with_least_limit,
     with_mean_square,
 )
+from optlaws.cycles.specification.drive import CycleDrive, peak_of, square_of_force
 from optlaws.cycles.specification.joints import LawSpan, Layout
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.kept import kept_property
@@ -84,7 +83,7 @@ class _SharedForceLimit:
 
     layout: Layout
     objective: CycleObjective
-    drive: Drive
+    drive: CycleDrive
     most: float
     axis: str
     period: float
@@ -107,12 +106,12 @@ class _SharedForceLimit:
 
     @property
     def left(self) -> float:
-        """What the limit leaves for the square of the force of what is looked for, integrated."""
+        """The integral of the squared force that the limit leaves for the laws looked for."""
         return self.most**2 * self.period - self._given
 
     @kept_property
     def _given(self) -> float:
-        """What dwells and given laws take of it."""
+        """The integral of the squared force that dwells and given laws take."""
         return sum(square_of_force(self.drive, piece) for piece in self.layout.pieces)
 
     def _too_much(self, square: float, why: str) -> InfeasibleProblem:
@@ -147,7 +146,7 @@ class _SharedForceLimit:
         return sum(square_of_force(self.drive, piece) for piece, _ in laws)
 
     def _least_squares(self, laws: Sequence[tuple[Piece, Solution]]) -> float:
-        """What no other laws than these, of least root mean squares, can take less."""
+        """The lower bound of the integral of the squared force, from laws of least root mean squares."""
         of_force = self._of_force()
         bounds = (span_bound(span, *law, of_force) for span, law in zip(self.layout.spans, laws, strict=True))
         return sum(stretch.duration * bound**2 for stretch, bound in zip(self.layout.spans, bounds, strict=True))
@@ -252,7 +251,7 @@ class _SharedForceLimit:
         return Piece(span.start, span.duration, span.offset, stroke, solution.law), solution
 
     def _with_worth_at_least(self, laws: Sequence[tuple[Piece, Solution]], worth: float) -> float:
-        """What no laws that keep the limit can beat: what they have at least with its worth, less what it is worth."""
+        """The lower bound of laws that keep the limit: that with its multiplier, less what the limit is worth."""
         nu, _ = kind_of(self.objective.minimise)
         total = -worth * self.left + sum(piece.duration * piece.mean_square(nu) for piece in self.layout.pieces)
         for span, (piece, solution) in zip(self.layout.spans, laws, strict=True):

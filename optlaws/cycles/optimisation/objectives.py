@@ -6,13 +6,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from optlaws.cycles.drive.drive import Drive
-from optlaws.cycles.drive.load import LOAD, Load, load_output
+from optlaws.cycles.specification.drive import CycleDrive
+from optlaws.cycles.specification.load import LOAD, Load, load_output
 from optlaws.cycles.specification.programme import AXES, TimedSegment
 from optlaws.cycles.specification.segments import Free, Move
-from optlaws.echo import shortened
 from optlaws.errors import InputError
-from optlaws.motion.quantities import in_small_units, quantity, table
+from optlaws.motion.quantities import in_small_units, positive_quantity, table
 from optlaws.suggest import unknown_key
 
 FORCE, LOADED, POWER = -1, -2, -3
@@ -38,7 +37,7 @@ _FORCES = {"length": "force", "angle": "torque"}
 
 @dataclass(frozen=True)
 class CycleObjective:
-    """What is least over a cycle, the limits of the whole of it, and how rich laws are.
+    """The objective of a cycle, the limits of the whole of it, and the degree of its laws.
 
     Parameters
     ----------
@@ -62,7 +61,7 @@ class CycleObjective:
     limits: Mapping[int, float]
     order: int
     degree: int
-    drive: Drive | None
+    drive: CycleDrive | None
     load: Load | None = None
     loaded: Mapping[tuple[str, bool], float] = field(default_factory=dict)
     mean_force: float | None = None
@@ -106,7 +105,7 @@ def read_load_limits(entries: Mapping[str, Any], load: Load | None) -> dict[tupl
 
     Examples
     --------
-    >>> from optlaws.cycles.drive.load import read_load
+    >>> from optlaws.cycles.specification.load import read_load
     >>> read_load_limits({"load deflection": "2 mm"}, read_load({"period": "20 ms"}, "length"))
     {('deflection', False): 0.002}
     """
@@ -134,7 +133,7 @@ def read_limits(entries: Mapping[str, Any], axis: str, where: str) -> dict[int, 
     limits = {}
     for name, value in table(entries, where, "{'velocity': '2 m/s'}").items():
         if name in LIMITS:
-            limits[LIMITS[name]] = _above_zero(value, _dimension(LIMITS[name], axis), f"{where}, {name}")
+            limits[LIMITS[name]] = positive_quantity(value, _dimension(LIMITS[name], axis), f"{where}, {name}")
             continue
         if where != "limits" and name in MEANS:
             raise InputError(f"{where}, {name} is of the whole cycle: give it among the limits of the Cycle")
@@ -161,7 +160,7 @@ def read_mean_force(entries: Mapping[str, Any], axis: str) -> float | None:
         raise InputError(f"limits: {' and '.join(given)} are the same: give one of them")
     if not given:
         return None
-    return _above_zero(entries[given[0]], _FORCES[axis], f"limits, {given[0]}")
+    return positive_quantity(entries[given[0]], _FORCES[axis], f"limits, {given[0]}")
 
 
 def in_units(nu: int, value: float, axis: str) -> str:
@@ -183,13 +182,6 @@ def in_units(nu: int, value: float, axis: str) -> str:
 
 def _dimension(nu: int, axis: str) -> str:
     return AXES[axis][nu] if nu > 0 else {FORCE: _FORCES[axis], POWER: "power"}[nu]
-
-
-def _above_zero(value: Any, dimension: str, name: str) -> float:  # noqa: ANN401 - it is checked here
-    rating = quantity(value, dimension, name)
-    if rating <= 0.0:
-        raise InputError(f"{name} must be above 0, got {shortened(value)}")
-    return rating
 
 
 def limits_of_stretch(stretch: TimedSegment, objective: CycleObjective, axis: str) -> dict[int, float]:

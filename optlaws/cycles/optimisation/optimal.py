@@ -13,9 +13,7 @@ from math import inf, sqrt
 from operator import itemgetter
 from typing import Any
 
-from optlaws.cycles.drive.load import load_output
 from optlaws.cycles.optimisation.drive_formulas import driven_formula, driven_mean, driven_peak, may_turn
-from optlaws.cycles.optimisation.joined import halved, joined_basis, joint_windows, place
 from optlaws.cycles.optimisation.objectives import (
     FORCE,
     LOADED,
@@ -25,8 +23,17 @@ from optlaws.cycles.optimisation.objectives import (
     kind_of,
     limits_of_stretch,
 )
-from optlaws.cycles.optimisation.search_spaces import minimised_rms, search_space, splines_of_least_rms
+from optlaws.cycles.optimisation.search_spaces import (
+    halved,
+    joined_basis,
+    joint_windows,
+    minimised_rms,
+    place,
+    search_space,
+    splines_of_least_rms,
+)
 from optlaws.cycles.specification.joints import LawSpan, State
+from optlaws.cycles.specification.load import load_output
 from optlaws.cycles.specification.programme import is_optimal
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.motion.piece import Piece, factor
@@ -174,7 +181,7 @@ def never_back(span: LawSpan, objective: CycleObjective) -> bool:
 
 
 def scale(span: LawSpan) -> float:
-    """What a span's law is measured by: its displacement, or where it has none how far it gets on the way."""
+    """The scale of a span's law: its displacement, or where it has none how far it gets on the way."""
     if span.displacement:
         return span.displacement
     ways = [abs(position - span.offset) for _, position in span.via]
@@ -271,7 +278,7 @@ def _bound(span: LawSpan, objective: CycleObjective, stroke: float, nu: int, mos
 
 
 def _quantity(span: LawSpan, objective: CycleObjective, stroke: float, nu: int, most: float) -> tuple[str, float]:
-    """What is limited in a part of a span, as a quantity of its law, and its limit."""
+    """The limited quantity of the law in a part of a span, and its limit."""
     if nu in _DRIVEN:
         formula, unit = driven_formula(span, objective.drive, stroke, nu)
         return formula, most / unit
@@ -286,10 +293,9 @@ def _of_load(objective: CycleObjective, output: str, mean: bool, span: LawSpan) 
 
 def _straight_within(span: LawSpan, most: float) -> bool:
     """Whether uniform motions keep a limit of the velocity."""
-    times = zip(span.stretches, span.starts, (*span.starts[1:], span.stop), strict=True)
     return all(
         is_optimal(stretch.given) or abs(stretch.displacement) <= most * (stop - start)
-        for stretch, start, stop in times
+        for stretch, start, stop in span.timed
     )
 
 
@@ -305,7 +311,7 @@ def _alike(
 
 def _check_mean(span: LawSpan, objective: CycleObjective, axis: str) -> None:
     """Refuse a limit of the velocity that is no more than the mean velocity: such a law cannot even start from rest."""
-    for stretch, start, stop in zip(span.stretches, span.starts, (*span.starts[1:], span.stop), strict=True):
+    for stretch, start, stop in span.timed:
         most = limits_of_stretch(stretch, objective, axis).get(1) if is_optimal(stretch.given) else None
         mean = abs(stretch.displacement) / (stop - start)
         if most is not None and mean >= most:

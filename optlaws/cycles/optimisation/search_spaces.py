@@ -1,16 +1,107 @@
-"""Among which laws the best of a cycle is looked for, in words, and where the best of all motions is among them."""
+"""The spaces in which the laws of a cycle are looked for: splines over joined segments, and their names in words."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
+from math import ceil
 
-from optlaws.cycles.optimisation.joined import place
-from optlaws.cycles.specification.joints import LawSpan
+from optlaws.cycles.specification.joints import LawSpan, State
 from optlaws.cycles.specification.programme import is_optimal
+from optlaws.motion.piece import factor
 from optlaws.synthesis.problem.constants import FUNCTIONALS, RootMeanSquare
 from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.problem.windows import Window, via
 from optlaws.synthesis.spaces.bases import Pieces, PolynomialBasis
 from optlaws.synthesis.spaces.pieces.periodic import PeriodicPieces
+
+_MOST = 600  # pieces of a law
+#: pieces of a stretch where what is minimised has its peaks inside of pieces: the velocity, what a load does, power
+_FEW = {1: 6, -2: 4, -3: 4}
+
+
+def joined_basis(span: LawSpan, order: int, degree: int, minimised: int) -> Pieces:
+    """Splines with twice as many pieces in a stretch as a law with Z of a degree has coefficients and end conditions.
+
+    Their acceleration is linear between breaks where the order is 3, so that its peaks, and those of the jerk, are at
+    breaks: a linear program on known places. `minimised` is the order of the derivative minimised, -2 of a load, -3 of
+    power.
+
+    Examples
+    --------
+    >>> from optlaws import Cycle, Dwell, Free
+    >>> motions = [Dwell("0.1 s"), Free("30 mm", "0.2 s"), Free("-30 mm")]
+    >>> (solution,) = Cycle(motions, period="0.5 s").solutions
+    >>> len(solution.problem.basis.breaks), solution.problem.basis.degree
+    (49, 3)
+    """
+    curved = sum(is_optimal(stretch.given) for stretch in span.stretches) + len(span.via)
+    each = min(2 * (degree + order), _MOST // curved)
+    if minimised in _FEW:
+        each = min(each, _FEW[minimised] * (degree + order) // 12)
+    each = max(1, each)
+    breaks, straight = [0.0], list[int]()
+    for stretch, start, stop in span.timed:
+        if not is_optimal(stretch.given):
+            straight.append(len(breaks) - 1)
+            breaks.append(place(span, stop))
+            continue
+        marks = [start, *(time for time, _ in span.via if start < time < stop), stop]
+        parts = ceil(each / (len(marks) - 1))
+        for low, high in pairwise(place(span, time) for time in marks):
+            breaks += [low + (high - low) * i / parts for i in range(1, parts)] + [high]
+    smoothness = max(order - 1, minimised - 1, 1)
+    power = max(3, minimised, 2 * order - 1 if minimised == -2 else order)
+    if span.turns:
+        return PeriodicPieces(breaks, power, smoothness, straight)
+    return Pieces(breaks, power, smoothness)
+
+
+def halved(basis: Pieces) -> Pieces | None:
+    """Splines with every piece but straight ones cut in two; None where these were too many.
+
+    Examples
+    --------
+    >>> halved(Pieces((0.0, 0.5, 1.0), 3, 1)).breaks
+    (0.0, 0.25, 0.5, 0.75, 1.0)
+    """
+    if 2 * len(basis.breaks) > _MOST:
+        return None
+    straight_pieces = set(basis.straight) if isinstance(basis, PeriodicPieces) else set[int]()
+    breaks, straight = [0.0], list[int]()
+    for i, (low, high) in enumerate(pairwise(basis.breaks)):
+        if i in straight_pieces:
+            straight.append(len(breaks) - 1)
+        else:
+            breaks.append(0.5 * (low + high))
+        breaks.append(high)
+    if isinstance(basis, PeriodicPieces):
+        return PeriodicPieces(breaks, basis.degree, basis.continuity, straight)
+    return Pieces(breaks, basis.degree, basis.continuity)
+
+
+def place(span: LawSpan, time: float) -> float:
+    """The k of a time in a span; its ends are 0 and 1 exactly."""
+    return 1.0 if time == span.stop else (time - span.start) / span.duration
+
+
+def joint_windows(span: LawSpan, order: int, stroke: float) -> Iterator[Window]:
+    """Positions at joints and on the way, and what is known of velocities and accelerations at joints of a cycle."""
+    for time, position in span.via:
+        yield via("a", (position - span.origin) / stroke, at=place(span, time))
+    for i, state in enumerate(span.states):
+        if state is not None:
+            yield from _state_windows(span, order, stroke, i, state)
+
+
+def _state_windows(span: LawSpan, order: int, stroke: float, i: int, state: State) -> Iterator[Window]:
+    before, after = (is_optimal(span.stretches[j].given) for j in (i - 1, i))
+    values = [*state, 0.0][: order - 1]
+    for nu, value in enumerate(values, start=1):
+        # after a straight stretch the velocity is that of its start; beside one there is no acceleration
+        if before if nu == 1 else before and after:
+            yield via("abcj"[nu], value / factor(stroke, span.duration, nu), at=place(span, span.starts[i]))
+
 
 ALL_MOTIONS = "all motions through the joints"
 
@@ -28,7 +119,7 @@ def minimised_rms(problem: Problem) -> int | None:
 
 
 def search_space(problem: Problem, span: LawSpan, order: int) -> str:
-    """Among which laws the solution of a span's problem is the best, in words.
+    """The laws, in words, among which the solution of a span's problem is the best.
 
     A polynomial of degree 2 nu - 1 between two joints has the least root mean square of the derivative of order nu, if
     its ends ask for no more than nu conditions each.
@@ -54,7 +145,7 @@ def search_space(problem: Problem, span: LawSpan, order: int) -> str:
 
 
 def remark_on_degrees(problems: Sequence[tuple[LawSpan, Problem]], degree: int) -> tuple[str, ...]:
-    """Which spans have a Z of another degree than was asked for."""
+    """The remarks on spans whose Z has another degree than was asked for."""
     raised = [(span, problem.basis) for span, problem in problems]
     return tuple(
         f"{span.where}: Z has the degree {basis.degree}, not {degree}, for the velocities at its ends"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import accumulate
 from typing import NamedTuple
@@ -12,8 +12,7 @@ from optlaws.cycles.specification.segments import ConstantVelocity, Dwell, Free,
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws import smoothstep
-from optlaws.motion.named_law import named_law
-from optlaws.motion.piece import Piece
+from optlaws.motion.piece import Piece, named_law
 from optlaws.motion.quantities import quantity
 
 UNIFORM = smoothstep(1)
@@ -71,7 +70,7 @@ class LawSpan:
 
     @property
     def start(self) -> float:
-        """When it begins."""
+        """The time at which it begins."""
         return self.starts[0]
 
     @property
@@ -80,8 +79,13 @@ class LawSpan:
         return self.stop - self.start
 
     @property
+    def timed(self) -> Iterator[tuple[TimedSegment, float, float]]:
+        """The segments, each with the times at which it begins and ends."""
+        return zip(self.stretches, self.starts, (*self.starts[1:], self.stop), strict=True)
+
+    @property
     def where(self) -> str:
-        """What errors call it."""
+        """The name that errors give it."""
         return " and ".join(stretch.where for stretch in self.stretches)
 
 
@@ -95,7 +99,7 @@ class Layout:
 
 
 def layout(programme: Programme, durations: Sequence[float], *, whole: bool = False, absolute: bool = False) -> Layout:
-    """Which laws are known and which are looked for.
+    """The laws that are known and the spans whose law is looked for.
 
     Where nothing is known at the start of the cycle, or `whole` asks for it, its motions are one law that repeats; of
     positions if it is to be `absolute`.
@@ -127,7 +131,7 @@ def _piece(stretch: TimedSegment, start: float, duration: float, offset: float) 
 
 
 def _joint(programme: Programme, pieces: dict[int, Piece], i: int) -> State | None:
-    """What is known where stretch i begins; None where it and the one before are free."""
+    """The known state where segment i begins; None where it and the one before are free."""
     before, after = (i - 1) % len(programme.stretches), i
     ended, begun = _known(programme, pieces, before, 1), _known(programme, pieces, after, 0)
     if ended is not None and begun is not None:

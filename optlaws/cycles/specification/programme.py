@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import inf, isclose
+from math import inf
 from typing import Any
 
 from optlaws.cycles.specification.segments import (
@@ -19,7 +19,7 @@ from optlaws.cycles.specification.segments import (
 )
 from optlaws.echo import shortened
 from optlaws.errors import InputError
-from optlaws.motion.quantities import TURN, either, in_small_units, quantity
+from optlaws.motion.quantities import TURN, either, in_small_units, positive_quantity, quantity
 
 CLOSE = 1e-9
 
@@ -47,7 +47,7 @@ class TimedSegment:
 
     @property
     def where(self) -> str:
-        """What errors call it."""
+        """The name that errors give it."""
         return f"segment {self.number} ({self.given.label})"
 
 
@@ -77,8 +77,8 @@ def period_of(speed: Any, period: Any) -> float:  # noqa: ANN401 - it is checked
     if (speed is None) == (period is None):
         raise InputError('a cycle has either a speed such as "200 rpm" or a period such as "0.3 s"')
     if speed is None:
-        return _positive(quantity(period, "time", "period"), "period", period)
-    return TURN / _positive(quantity(speed, "angular velocity", "speed"), "speed", speed)
+        return positive_quantity(period, "time", "period")
+    return TURN / positive_quantity(speed, "angular velocity", "speed")
 
 
 def axis_of(segments: Sequence[CycleSegment]) -> str:
@@ -218,9 +218,3 @@ def is_optimal(segment: CycleSegment) -> bool:
     return isinstance(segment, Free) or (
         isinstance(segment, Move) and isinstance(segment.law, str) and segment.law == OPTIMAL
     )
-
-
-def _positive(value: float, name: str, given: Any) -> float:  # noqa: ANN401
-    if not value > 0.0 or isclose(value, 0.0, abs_tol=1e-300):
-        raise InputError(f"{name} must be above 0, got {shortened(given)}")
-    return value

@@ -8,6 +8,7 @@ from typing import Any
 
 from optlaws.laws import MotionLaw
 from optlaws.motion.quantities import written
+from optlaws.numbers import Quantity
 
 OPTIMAL = "optimal"
 
@@ -19,7 +20,7 @@ class CycleSegment:
     if one segment alone is free, else what is best. `name` is what tables call it.
     """
 
-    duration: Any
+    duration: Quantity | Sequence[Quantity] | None
     name: str
 
     def __post_init__(self) -> None:
@@ -28,13 +29,13 @@ class CycleSegment:
 
     @property
     def label(self) -> str:
-        """What it is called."""
+        """The name of the segment, or of its kind."""
         return self.name or type(self).__name__
 
 
 @dataclass(frozen=True)
 class Dwell(CycleSegment):
-    """A rest.
+    """A rest of the follower or the axis.
 
     Examples
     --------
@@ -42,7 +43,7 @@ class Dwell(CycleSegment):
     'Dwell'
     """
 
-    duration: Any = None
+    duration: Quantity | Sequence[Quantity] | None = None
     name: str = field(default="", kw_only=True)
 
 
@@ -56,8 +57,8 @@ class ConstantVelocity(CycleSegment):
     '300 mm/s'
     """
 
-    velocity: Any
-    duration: Any = None
+    velocity: Quantity
+    duration: Quantity | Sequence[Quantity] | None = None
     name: str = field(default="", kw_only=True)
 
 
@@ -86,13 +87,13 @@ class Move(CycleSegment):
     'modified sine'
     """
 
-    by: Any = None
-    duration: Any = None
-    to: Any = field(default=None, kw_only=True)
+    by: Quantity | None = None
+    duration: Quantity | Sequence[Quantity] | None = None
+    to: Quantity | None = field(default=None, kw_only=True)
     law: str | MotionLaw = field(default=OPTIMAL, kw_only=True)
     limits: Mapping[str, Any] = field(default_factory=dict, kw_only=True)
-    start_velocity: Any = field(default=None, kw_only=True)
-    end_velocity: Any = field(default=None, kw_only=True)
+    start_velocity: Quantity | None = field(default=None, kw_only=True)
+    end_velocity: Quantity | None = field(default=None, kw_only=True)
     name: str = field(default="", kw_only=True)
 
 
@@ -138,9 +139,9 @@ class Free(CycleSegment):
     'Free'
     """
 
-    by: Any = None
-    duration: Any = None
-    to: Any = field(default=None, kw_only=True)
-    via: Sequence[tuple[Any, Any]] = field(default=(), kw_only=True)
+    by: Quantity | None = None
+    duration: Quantity | Sequence[Quantity] | None = None
+    to: Quantity | None = field(default=None, kw_only=True)
+    via: Sequence[tuple[Quantity, Quantity]] = field(default=(), kw_only=True)
     limits: Mapping[str, Any] = field(default_factory=dict, kw_only=True)
     name: str = field(default="", kw_only=True)

@@ -12,8 +12,8 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.cams.loads.forces import CamForces
-from optlaws.cams.loads.summary import Labelled, named_forces
+from optlaws.cams.forces import CamForces
+from optlaws.cams.summary import Labelled, named_forces
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.explorer.answers.cam_view import AskedCam, cams_of, panel
 from optlaws.explorer.answers.law_view import digits, drawn

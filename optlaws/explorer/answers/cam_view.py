@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from optlaws.cams.curves.extremes import Extreme
 from optlaws.cams.disc import DiscCam
-from optlaws.cams.followers.registry import follower_kinds
+from optlaws.cams.followers.follower import follower_kinds
 from optlaws.cams.least_sizes import least_base_circle
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.explorer.answers.cycle_view import check_axis
@@ -49,7 +49,7 @@ def answer(asked: AskedCam) -> dict[str, Any]:
         return {"refused": {"word": "no such cam", "reason": str(error), "tried": ""}}
 
 
-def cam_of(asked: AskedCam) -> tuple[schema.Study, DiscCam]:
+def cam_of(asked: AskedCam) -> tuple[schema.CamProblemFile, DiscCam]:
     """What is wished of the cam, and the cam.
 
     Raises
@@ -61,7 +61,7 @@ def cam_of(asked: AskedCam) -> tuple[schema.Study, DiscCam]:
     return spec, cams.first
 
 
-def cams_of(asked: AskedCam) -> tuple[schema.Study, schema.Cams]:
+def cams_of(asked: AskedCam) -> tuple[schema.CamProblemFile, schema.Cams]:
     """The same with all that was found for it.
 
     Raises
@@ -73,17 +73,17 @@ def cams_of(asked: AskedCam) -> tuple[schema.Study, schema.Cams]:
 
 
 @lru_cache(maxsize=32)
-def _made(question: str) -> tuple[schema.Study, schema.Cams]:
+def _made(question: str) -> tuple[schema.CamProblemFile, schema.Cams]:
     from optlaws.files.problem_file import convert
 
     data = json.loads(question)
     if "barrel" in data:
         raise InputError("the explorer shows disc cams: barrel cams are made by the command `optlaws cam`")
-    check_axis(convert(data, schema.Study, _WHERE).motion)
+    check_axis(convert(data, schema.CamProblemFile, _WHERE).motion)
     return schema.read(data, _WHERE)
 
 
-def _view(spec: schema.Study, cam: DiscCam) -> dict[str, Any]:
+def _view(spec: schema.CamProblemFile, cam: DiscCam) -> dict[str, Any]:
     angles = np.linspace(0.0, 2.0 * np.pi, _STEPS + 1)
     curves = {"profile": cam.profile, "pitch": cam.pitch_curve}
     if spec.cutter_radius is not None:
@@ -132,7 +132,7 @@ def _follower(cam: DiscCam) -> dict[str, Any]:
     }
 
 
-def _panels(spec: schema.Study, cam: DiscCam, angles: Array) -> list[dict[str, Any]]:
+def _panels(spec: schema.CamProblemFile, cam: DiscCam, angles: Array) -> list[dict[str, Any]]:
     turns = drawn(np.degrees(angles), 4)
     unit, factor = ("mm", _MILLI) if cam.follower.axis == "length" else ("deg", degrees(1.0))
     pressure = cam.extremes.greatest_pressure_angle
@@ -203,9 +203,8 @@ def _least(question: str) -> tuple[str, ...]:
     cam = cams.first
     if spec.pressure_angle is None and spec.radius_of_curvature is None:
         return ()
-    wanted = {"pressure_angle": spec.pressure_angle, "radius_of_curvature": spec.radius_of_curvature}
     try:
-        least = least_base_circle(cam.motion, cam.follower, **wanted, turning=spec.turning)
+        least = least_base_circle(cam.motion, cam.follower, **spec.limits)
     except InfeasibleProblem as error:
         return (str(error.args[0]),)
     return (f"least base circle that keeps these limits: {digits(_MILLI * least.radius)} mm, by the {least.limit}",)

@@ -17,7 +17,7 @@ from optlaws.cycles.summary import drive_rows, joint_rows, objective_unit
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.explorer.answers.asked import MOST_DEGREE, MOST_ORDER
 from optlaws.explorer.answers.law_view import HEARD, digits, drawn, gap_text, refusal
-from optlaws.jobs.cycle.entries import Axis, Study, cycle_of
+from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile, cycle_of
 from optlaws.laws.catalogue import reading
 from optlaws.plots.cycle import QUANTITIES, UNITS, samples
 
@@ -52,7 +52,7 @@ def nearest(asked: AskedCycle) -> dict[str, Any]:
     return {"ways": list(_ways(spec, axis))}
 
 
-def read(asked: AskedCycle) -> tuple[Study, Axis]:
+def read(asked: AskedCycle) -> tuple[CycleProblemFile, AxisEntries]:
     """The programme that is asked, and the axis that is shown.
 
     Raises
@@ -62,13 +62,13 @@ def read(asked: AskedCycle) -> tuple[Study, Axis]:
     """
     from optlaws.files.problem_file import convert
 
-    spec = convert(asked.study, Study, _WHERE)
+    spec = convert(asked.study, CycleProblemFile, _WHERE)
     axis = spec.axis[min(asked.axis, len(spec.axis) - 1)]
     check_axis(axis)
     return spec, axis
 
 
-def check_axis(axis: Axis) -> None:
+def check_axis(axis: AxisEntries) -> None:
     """Refuse what is larger than the explorer takes, and laws that are named by files.
 
     Raises
@@ -78,7 +78,7 @@ def check_axis(axis: Axis) -> None:
 
     Examples
     --------
-    >>> check_axis(Axis(name="slide", segment=[], degree=9))
+    >>> check_axis(AxisEntries(name="slide", segment=[], degree=9))
     """
     if axis.order > MOST_ORDER or axis.degree > MOST_DEGREE:
         raise InputError(f"the explorer takes cycles of order up to {MOST_ORDER} and degree up to {MOST_DEGREE}")
@@ -98,13 +98,13 @@ def cycle(asked: AskedCycle) -> Cycle:
     return _stored(*read(asked))
 
 
-def _stored(spec: Study, axis: Axis) -> Cycle:
+def _stored(spec: CycleProblemFile, axis: AxisEntries) -> Cycle:
     return _made(msgspec.json.encode((axis, spec.speed, spec.period)))
 
 
 @lru_cache(maxsize=64)
 def _made(question: bytes) -> Cycle:
-    axis, speed, period = msgspec.json.decode(question, type=tuple[Axis, str | None, str | None])
+    axis, speed, period = msgspec.json.decode(question, type=tuple[AxisEntries, str | None, str | None])
     made = cycle_of(axis, speed, period)
     _ = made.peaks  # what cannot be found is told here
     return made
@@ -215,7 +215,7 @@ def _facts(shown: Cycle) -> list[str]:
     return [f"{row.name} {digits(row.value, 6)} {row.unit}" for row in rows]
 
 
-def _ways(spec: Study, axis: Axis) -> Iterator[dict[str, Any]]:
+def _ways(spec: CycleProblemFile, axis: AxisEntries) -> Iterator[dict[str, Any]]:
     for name, given in axis.limits.items():
         if name not in LIMITS:
             continue

@@ -81,7 +81,7 @@ def _export(asked: AskedExport) -> Any:  # noqa: ANN401 - an Export
             raise InputError("there is no cycle to export")
         return cycle_view.cycle(asked.cycle).export(asked.format, **given)
     law = law_of(asked.laws[min(asked.active, len(asked.laws) - 1)])
-    return law.export(asked.format, stroke=asked.stroke, time=asked.time, master=asked.master or None, **given)
+    return law.export(asked.format, stroke=asked.stroke, duration=asked.time, master=asked.master or None, **given)
 
 
 def _cell(number: float | None) -> str:

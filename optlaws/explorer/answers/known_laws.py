@@ -10,7 +10,7 @@ import numpy as np
 from optlaws import MotionLaw, SavinFamily, catalogue
 from optlaws.explorer.answers.asked import value
 from optlaws.explorer.answers.law_view import digits, drawn
-from optlaws.laws.savin.family import FAMILIES
+from optlaws.laws.savin import FAMILIES
 from optlaws.numbers import bounded
 
 #: those that the picture names without being asked

@@ -13,7 +13,7 @@ import msgspec
 
 import optlaws
 from optlaws import Cycle, Problem, Solution
-from optlaws.cams.cutting import formats
+from optlaws.cams.cutting import cam_files
 from optlaws.cams.cutting.file_options import Cutting
 from optlaws.errors import InputError
 from optlaws.explorer.answers import cam_view, cycle_view
@@ -21,8 +21,8 @@ from optlaws.explorer.answers.asked import MOST_LAWS, AskedLaw, law_of, problem_
 from optlaws.explorer.answers.law_view import title
 from optlaws.files.toml_text import to_toml
 from optlaws.files.writing import MARK
-from optlaws.jobs.cycle.cycle import table_of_motion
-from optlaws.jobs.cycle.entries import AskedFollower, cycle_of
+from optlaws.jobs.cycle import table_of_motion
+from optlaws.jobs.cycle_entries import ElasticFollowerEntries, cycle_of
 from optlaws.laws.values import table_of_values
 from optlaws.suggest import unknown_key
 
@@ -233,13 +233,13 @@ def _of_cam(asked: AskedFile) -> File:
         return _file("cam.toml", "application/toml", to_toml(asked.cam.study))
     if asked.kind != "cut":
         raise InputError("a cam is saved as a problem file or as a file that cuts it")
-    if asked.format not in formats.FORMATS:
-        raise InputError(f"format: {unknown_key(asked.format, formats.FORMATS, 'format')}")
-    ending = next(end for end, name in formats.ENDINGS.items() if name.split()[0] == asked.format.split()[0])
-    return _file(f"cam{ending}", "text/plain", formats.text(cam.profile, asked.format, Cutting(about=spec.title)))
+    if asked.format not in cam_files.FORMATS:
+        raise InputError(f"format: {unknown_key(asked.format, cam_files.FORMATS, 'format')}")
+    ending = next(end for end, name in cam_files.ENDINGS.items() if name.split()[0] == asked.format.split()[0])
+    return _file(f"cam{ending}", "text/plain", cam_files.text(cam.profile, asked.format, Cutting(about=spec.title)))
 
 
-def cycle_python(cycle: Cycle, follower: AskedFollower | None = None) -> str:
+def cycle_python(cycle: Cycle, follower: ElasticFollowerEntries | None = None) -> str:
     """Lines that make the same cycle, or that of the cam whose follower moves so.
 
     Examples

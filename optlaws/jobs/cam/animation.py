@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.cams.cutting.spline import spline
-from optlaws.cams.cutting.svg import beziers
+from optlaws.cams.cutting.text_formats import beziers
 from optlaws.cams.disc import DiscCam
 from optlaws.files.writing import MARK
 from optlaws.plots.style import BLUES, GREY, WARM

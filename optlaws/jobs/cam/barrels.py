@@ -17,7 +17,7 @@ from optlaws.errors import InputError
 from optlaws.files import tables, writing
 from optlaws.files.problem_file import Text, convert
 from optlaws.jobs.cam.extreme_rows import EXTREMES, enclosure, extreme_row, plain
-from optlaws.jobs.cycle.entries import Axis, cycle_of
+from optlaws.jobs.cycle_entries import AxisEntries, cycle_of
 from optlaws.plots.style import BLUES, GREY, WARM, new_figure, plot_style, save_pictures, titled
 from optlaws.results.page import Page
 
@@ -44,12 +44,12 @@ class BarrelEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     roller_radius: str
 
 
-class Study(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+class BarrelProblemFile(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     """The problem file of a barrel cam."""
 
     job: str
     title: Text
-    motion: Axis
+    motion: AxisEntries
     barrel: BarrelEntries
     speed: str | None = None
     period: str | None = None
@@ -73,7 +73,7 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
 
 
 def answer(data: Mapping[str, Any], file: Path) -> dict[str, Any]:
-    """What a program is told of the cam of a file, in metres and radians.
+    """The data of the cam of a file for programs, in metres and radians.
 
     Raises
     ------
@@ -83,7 +83,7 @@ def answer(data: Mapping[str, Any], file: Path) -> dict[str, Any]:
     return to_data(read(data, file)[1])
 
 
-def read(data: Mapping[str, Any], file: Path) -> tuple[Study, BarrelCam]:
+def read(data: Mapping[str, Any], file: Path) -> tuple[BarrelProblemFile, BarrelCam]:
     """The entries of a file, and the cam.
 
     Raises
@@ -91,10 +91,11 @@ def read(data: Mapping[str, Any], file: Path) -> tuple[Study, BarrelCam]:
     InputError
         If an entry is unknown or wrong; the error names the file.
     """
-    spec = convert(data, Study, file)
+    spec = convert(data, BarrelProblemFile, file)
     try:
         cycle = cycle_of(spec.motion, spec.speed, spec.period)
-        cam = BarrelCam(cycle, **msgspec.structs.asdict(spec.barrel), turning=spec.turning)
+        sizes: dict[str, Any] = {**msgspec.structs.asdict(spec.barrel), "turning": spec.turning}
+        cam = BarrelCam(cycle, **sizes)
         if spec.cutter_radius is not None:
             cam.cutter_path(spec.cutter_radius)
     except InputError as error:
@@ -103,7 +104,7 @@ def read(data: Mapping[str, Any], file: Path) -> tuple[Study, BarrelCam]:
 
 
 def to_data(cam: BarrelCam) -> dict[str, Any]:
-    """What a program is told, in metres and radians."""
+    """The data of a barrel cam for programs, in metres and radians."""
     return {
         "unit": "SI",
         "least_pressure_angle": enclosure(cam.pressure_angles[0]),
@@ -113,7 +114,7 @@ def to_data(cam: BarrelCam) -> dict[str, Any]:
     }
 
 
-def page(spec: Study, cam: BarrelCam) -> Page:
+def page(spec: BarrelProblemFile, cam: BarrelCam) -> Page:
     """The page of results."""
     result = Page(spec.title).text(spec.text).figure("cam", spec.title)
     result.text(f"Undercut: {_SAID[cam.undercut]}.")
@@ -155,19 +156,19 @@ def _unrolled(curve: SpaceCurve, angles: Array, pitch: SpaceCurve) -> tuple[Arra
     return np.degrees(angles + curve.turning * beside), _MILLI * along
 
 
-def _columns(spec: Study) -> list[str]:
+def _columns(spec: BarrelProblemFile) -> list[str]:
     return ["cam, deg", *(f"{name} {axis}, mm" for name in _curves_of(spec) for axis in "xyz"), *_PRESSURES]
 
 
 _PRESSURES = ("pressure angle outside, deg", "pressure angle at the bottom, deg")
 
 
-def _curves_of(spec: Study) -> list[str]:
+def _curves_of(spec: BarrelProblemFile) -> list[str]:
     flanks = [f"{side} flank {where}" for where in ("outside", "at the bottom") for side in SIDES]
     return ["axis of the roller", *flanks, *([f"cutter, {side} flank" for side in SIDES] if spec.cutter_radius else [])]
 
 
-def _rows(spec: Study, cam: BarrelCam) -> list[list[tables.Cell]]:
+def _rows(spec: BarrelProblemFile, cam: BarrelCam) -> list[list[tables.Cell]]:
     turns = np.linspace(0.0, _TURN, spec.rows)
     angles = np.radians(turns)
     curves = [cam.pitch_curve, *(cam.flank(side, radius) for radius in cam.radii for side in SIDES)]

@@ -9,7 +9,7 @@ import numpy as np
 
 from optlaws.cams.curves.extremes import Extreme
 from optlaws.cams.disc import DiscCam
-from optlaws.cams.loads.summary import geometry
+from optlaws.cams.summary import geometry
 from optlaws.files import tables
 
 EXTREMES = ("what", "at least", "at most", "unit", "at, deg")
@@ -37,15 +37,15 @@ class Limits:
 
 def extreme_rows(cam: DiscCam, limits: Limits) -> list[list[tables.Cell]]:
     """Rows of a table of extreme pressure angles and radii of curvature."""
-    kept = {"deg": limits.pressure, "mm": limits.radius}
+    touched, concave = {"deg": limits.pressure, "mm": limits.radius}, cam.extremes.least_concave_radius
     return [
-        extreme_row(name, extreme, factor, unit, None if extreme is cam.extremes.least_concave_radius else kept[unit])
+        extreme_row(name, extreme, factor, unit, None if extreme is concave else touched[unit])
         for name, extreme, unit, factor in geometry(cam)
     ]
 
 
 def extreme_row(name: str, extreme: Extreme, factor: float, unit: str, limit: float | None = None) -> list[tables.Cell]:
-    """One of them, in a unit of so many to the SI unit; its angle is left out where it is a limit that laws touch.
+    """The row of an extreme, in a unit of so many to the SI unit; without its angle where laws touch it as a limit.
 
     Examples
     --------
@@ -57,7 +57,7 @@ def extreme_row(name: str, extreme: Extreme, factor: float, unit: str, limit: fl
 
 
 def enclosure(extreme: Extreme, limit: float | None = None) -> dict[str, float | None]:
-    """One of them for a program, in SI units."""
+    """The enclosure of an extreme for programs, in SI units."""
     high = extreme.high if np.isfinite(extreme.high) else None
     return {"low": extreme.low, "high": high, "angle": _angle(extreme, limit, extreme.angle)}
 

@@ -11,15 +11,14 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import msgspec
 
-from optlaws.cams.as_manufactured.peaks import AsMade, UnreachedProfileError, as_made, with_error
+from optlaws.cams.as_manufactured import AsMade, UnreachedProfileError, as_made, with_error
 from optlaws.cams.curves.extremes import UNDERCUT
-from optlaws.cams.cutting.cam_files import curve_of
+from optlaws.cams.cutting.cam_files import format_of
 from optlaws.cams.cutting.file_options import Cutting
-from optlaws.cams.cutting.formats import format_of
 from optlaws.cams.disc import DiscCam
-from optlaws.cams.loads.forces import CamForces
-from optlaws.cams.loads.springs import Spring, least_spring
-from optlaws.cams.loads.summary import named_forces
+from optlaws.cams.forces import CamForces
+from optlaws.cams.springs import Spring, least_spring
+from optlaws.cams.summary import named_forces
 from optlaws.cycles.cycle import Cycle
 from optlaws.errors import InputError
 from optlaws.files import tables, writing
@@ -58,7 +57,7 @@ class SpringEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 
 
 class AsManufacturedEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """Which files are run against the follower: tables of so many points and decimals, and errors of the profile."""
+    """The files that are run against the follower: tables of so many points and decimals, and errors of the profile."""
 
     points: Several = (361, 721)
     decimals: Several = (3, 4, 6)
@@ -85,6 +84,11 @@ class FileEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
         given = msgspec.structs.asdict(self)
         return {key: value for key, value in given.items() if key not in {"name", "format"} and value is not None}
 
+    def cut(self, cam: DiscCam, folder: Path, about: str, *, prefix: str = "") -> Path:
+        """The file of a cam, written into a folder."""
+        form: Any = self.format
+        return cam.export(folder / f"{prefix}{self.name}", form, about=about, **self.options())
+
 
 class ForcesAndFiles(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     """Entries of the problem file beside the geometry's."""
@@ -110,26 +114,26 @@ def check(spec: ForcesAndFiles, cam: DiscCam, cycle: Cycle) -> None:
         writing.check_name(Path(entry.name))
         format_of(Path(entry.name), entry.format)
         entries = entry.options()
-        curve_of(cam, entries.pop("curve", None), entries.pop("cutter_radius", None))
+        cam.outline(entries.pop("curve", None), entries.pop("cutter_radius", None))
         Cutting(**entries)
     forces_of(spec, cam, cycle)
 
 
 def forces_of(spec: ForcesAndFiles, cam: DiscCam, cycle: Cycle) -> CamForces | None:
     """The cam's forces at the speed of its cycle, if they were asked for."""
-    asked = spec.forces
-    if asked is None:
+    options = spec.forces
+    if options is None:
         return None
     # laws that were found for a cam are no cycle, but go as fast
     beside: dict[str, Any] = (
         {} if cam.motion is cycle else {"speed": f"{TURN / cycle.duration!r} rad/s", "drive": cycle.drive}
     )
-    return CamForces(cam, friction=asked.friction, width=asked.width, materials=asked.materials, **beside)
+    return CamForces(cam, friction=options.friction, width=options.width, materials=options.materials, **beside)
 
 
 @dataclass(frozen=True)
 class Findings:
-    """What was asked beside the geometry, computed once."""
+    """The results beside the geometry, each computed once."""
 
     spec: ForcesAndFiles
     cam: DiscCam
@@ -137,7 +141,7 @@ class Findings:
 
     @kept_property
     def forces(self) -> CamForces | None:
-        """The cam's forces."""
+        """The forces of the cam, if asked for."""
         return forces_of(self.spec, self.cam, self.cycle)
 
     @kept_property
@@ -152,22 +156,22 @@ class Findings:
     @kept_property
     def as_made(self) -> dict[str, AsMade | None]:
         """Peaks of the cam as made; None where its follower does not reach all of it."""
-        asked, cam = self.spec.as_made, self.cam
-        if asked is None:
+        options, cam = self.spec.as_made, self.cam
+        if options is None:
             return {}
-        made: dict[str, AsMade | None] = {}
-        for points in asked.points:
-            for decimals in asked.decimals:
-                table: dict[str, Any] = {"curve": asked.curve, "points": points, "decimals": decimals}
-                name = f"{points} points of the {asked.curve}, {decimals} decimals of a mm"
-                made[name] = _tried(partial(as_made, cam, "csv", **table))
-        for waves in asked.waves if asked.error else ():
-            name = f"error of {asked.error}, {waves} waves a turn"
-            made[name] = _tried(partial(with_error, cam, asked.error, waves))
-        return made
+        peaks_by_name: dict[str, AsMade | None] = {}
+        for points in options.points:
+            for decimals in options.decimals:
+                table: dict[str, Any] = {"curve": options.curve, "points": points, "decimals": decimals}
+                name = f"{points} points of the {options.curve}, {decimals} decimals of a mm"
+                peaks_by_name[name] = _tried(partial(as_made, cam, "csv", **table))
+        error = options.error or ""
+        for waves in options.waves if error else ():
+            peaks_by_name[f"error of {error}, {waves} waves a turn"] = _tried(partial(with_error, cam, error, waves))
+        return peaks_by_name
 
     def to_data(self) -> dict[str, Any]:
-        """What a program is told, in SI units."""
+        """The results as data for programs, in SI units."""
         data: dict[str, Any] = {}
         if self.forces is not None:
             data["forces"] = self.forces.to_dict()
@@ -221,10 +225,7 @@ def figures(findings: Findings, title: str) -> dict[str, Figure]:
 
 def files(findings: Findings, out: Path, about: str) -> list[Path]:
     """Write the files that cut the cam, and the one that shows it turn."""
-    cut = [
-        findings.cam.export(out / entry.name, entry.format, about=about, **entry.options())
-        for entry in findings.spec.file
-    ]
+    cut = [entry.cut(findings.cam, out, about) for entry in findings.spec.file]
     return [*cut, *([writing.write(out / "animation.svg", animated(findings.cam))] if findings.spec.animation else [])]
 
 

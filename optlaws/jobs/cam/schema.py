@@ -12,12 +12,12 @@ import msgspec
 from optlaws.cams.best_laws import BestBaseCircle, BestCam, best_base_circle, best_cam
 from optlaws.cams.conjugate import conjugate_cam
 from optlaws.cams.disc import DiscCam
-from optlaws.cams.followers.registry import read_follower
+from optlaws.cams.followers.follower import read_follower
 from optlaws.cycles.cycle import Cycle
 from optlaws.errors import InputError
 from optlaws.files.problem_file import Text, convert
 from optlaws.jobs.cam.forces_and_files import ForcesAndFiles, check
-from optlaws.jobs.cycle.entries import Axis, cycle_of
+from optlaws.jobs.cycle_entries import AxisEntries, cycle_of
 
 #: its kind, and the entries that this kind takes
 FollowerEntries: TypeAlias = dict[str, str]
@@ -31,12 +31,12 @@ class PairEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     follower: FollowerEntries | None = None
 
 
-class Study(ForcesAndFiles, kw_only=True, forbid_unknown_fields=True):
-    """The problem file."""
+class CamProblemFile(ForcesAndFiles, kw_only=True, forbid_unknown_fields=True):
+    """The problem file of a disc cam."""
 
     job: str
     title: Text
-    motion: Axis
+    motion: AxisEntries
     follower: FollowerEntries
     base_radius: str | None = None
     best: Literal["laws", "base circle"] | None = None
@@ -50,10 +50,16 @@ class Study(ForcesAndFiles, kw_only=True, forbid_unknown_fields=True):
     rows: Annotated[int, msgspec.Meta(ge=2, le=100_000)] = 361
     text: str = ""
 
+    @property
+    def limits(self) -> dict[str, Any]:
+        """The limits of the cam, and how it turns, as functions of sizes and of best laws take them."""
+        limits = {"pressure_angle": self.pressure_angle, "radius_of_curvature": self.radius_of_curvature}
+        return {**limits, "turning": self.turning}
+
 
 @dataclass(frozen=True)
 class Cams:
-    """What a file asks for.
+    """The cams that a problem file asks for.
 
     Attributes
     ----------
@@ -73,7 +79,7 @@ class Cams:
     second: DiscCam | None = None
 
 
-def read(data: Mapping[str, Any], file: Path) -> tuple[Study, Cams]:
+def read(data: Mapping[str, Any], file: Path) -> tuple[CamProblemFile, Cams]:
     """The entries of a file, and the cams.
 
     Raises
@@ -81,7 +87,7 @@ def read(data: Mapping[str, Any], file: Path) -> tuple[Study, Cams]:
     InputError
         If an entry is unknown or wrong; the error names the file.
     """
-    spec = convert(data, Study, file)
+    spec = convert(data, CamProblemFile, file)
     try:
         cams = _cams(spec)
         if spec.cutter_radius is not None:
@@ -92,25 +98,21 @@ def read(data: Mapping[str, Any], file: Path) -> tuple[Study, Cams]:
     return spec, cams
 
 
-def _cams(spec: Study) -> Cams:
+def _cams(spec: CamProblemFile) -> Cams:
     follower = read_follower(spec.follower)
     if spec.best != "base circle" and spec.base_radius is None:
         raise InputError("base_radius is missing: give it, such as '60 mm', or ask for best = 'base circle'")
     if spec.best == "base circle" and spec.base_radius is not None:
         raise InputError("base_radius is what best = 'base circle' looks for: leave it out, or ask for best = 'laws'")
     cycle = cycle_of(spec.motion, spec.speed, spec.period)
-    limits: dict[str, Any] = {
-        "pressure_angle": spec.pressure_angle,
-        "radius_of_curvature": spec.radius_of_curvature,
-        "turning": spec.turning,
-    }
+    radius: Any = spec.base_radius
     if spec.best is None:
-        cam = DiscCam(cycle, spec.base_radius, follower, turning=spec.turning)
+        cam = DiscCam(cycle, radius, follower, turning=spec.limits["turning"])
         return Cams(cycle, cam, None, _second(spec.pair, cam))
     if spec.best == "laws":
-        best = best_cam(cycle, spec.base_radius, follower, **limits)
+        best = best_cam(cycle, radius, follower, **spec.limits)
         return Cams(cycle, best.cam, best, _second(spec.pair, best.cam))
-    least = best_base_circle(cycle, follower, **limits)
+    least = best_base_circle(cycle, follower, **spec.limits)
     return Cams(cycle, least.least.cam, least, _second(spec.pair, least.least.cam))
 
 

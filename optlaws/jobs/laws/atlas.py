@@ -44,8 +44,8 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
 
 
 def _cells(point: StudyPoint) -> list[tables.Cell]:
-    asked: list[tables.Cell] = [point.inputs[name] for name in AXES]
-    return [*asked, point.status, point.lower_bound, *(point.constants.get(name) for name in CONSTANTS)]
+    inputs: list[tables.Cell] = [point.inputs[name] for name in AXES]
+    return [*inputs, point.status, point.lower_bound, *(point.constants.get(name) for name in CONSTANTS)]
 
 
 def _page(title: str, points: Sequence[StudyPoint]) -> Page:
@@ -63,7 +63,7 @@ def _page(title: str, points: Sequence[StudyPoint]) -> Page:
 
 
 def _costs(points: Sequence[StudyPoint], constant: str) -> tuple[list[str], list[list[tables.Cell]]]:
-    """By B the least constant of each order, and what each order costs over the one below it."""
+    """The least constant of each order by B, and what each order costs over the one below it."""
     degree = max(point.inputs["degree"] for point in points)
     objectives = {
         (point.inputs["B"], point.inputs["order"]): point.constants.get(constant)

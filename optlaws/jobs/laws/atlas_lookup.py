@@ -49,8 +49,8 @@ def look_up(
     InputError
         If there is no atlas, it has no such objective or order, or no point of it keeps what is asked.
     """
-    asked = dict(most or {})
-    for name in asked:
+    limits = dict(most or {})
+    for name in limits:
         if name not in CONSTANTS:
             raise InputError(unknown_key(name, CONSTANTS, "constant"))
     points = read(file)
@@ -63,12 +63,16 @@ def look_up(
         low, high = min(point.B for point in some), max(point.B for point in some)
         if not low <= B <= high:
             raise InputError(f"the atlas has B from {low:g} to {high:g}, not {B:g}")
-    kept = [p for p in some if all(p.constants.get(name, float("inf")) <= value for name, value in asked.items())]
-    if not kept:
-        least = {name: min(p.constants.get(name, float("inf")) for p in some) for name in asked}
-        wanted = ", ".join(f"{name} <= {value:g} (the least there is {least[name]:g})" for name, value in asked.items())
-        raise InputError(f"no law of order {order} in the atlas keeps {wanted}; optlaws solve may find one between")
-    return min(kept, key=lambda p: (0.0 if B is None else abs(p.B - B), p.constants[minimise]))
+    candidates = [
+        p for p in some if all(p.constants.get(name, float("inf")) <= value for name, value in limits.items())
+    ]
+    if not candidates:
+        least = {name: min(p.constants.get(name, float("inf")) for p in some) for name in limits}
+        in_words = ", ".join(
+            f"{name} <= {value:g} (the least there is {least[name]:g})" for name, value in limits.items()
+        )
+        raise InputError(f"no law of order {order} in the atlas keeps {in_words}; optlaws solve may find one between")
+    return min(candidates, key=lambda p: (0.0 if B is None else abs(p.B - B), p.constants[minimise]))
 
 
 def best_law(

@@ -43,8 +43,8 @@ class Case(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
         return drive_torque(inertia=self.inertia, friction=self.friction, load=self.load)
 
 
-class Study(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """The problem file."""
+class ForceLoadedProblemFile(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """The problem file of laws under loads."""
 
     job: str
     title: Text
@@ -59,7 +59,7 @@ Laws = dict[str, tuple[MotionLaw, Solution | None]]
 
 def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     """Do the job and return the files written."""
-    spec = convert(data, Study, file)
+    spec = convert(data, ForceLoadedProblemFile, file)
     cases = {case.name: (case, _laws(spec, case)) for case in spec.case}
     if len(cases) < len(spec.case):
         raise InputError("case: names must differ")
@@ -78,11 +78,15 @@ def _convexity(case: Case) -> str:
     return peak(case.torque).convexity
 
 
-def _laws(spec: Study, case: Case) -> Laws:
+def _laws(spec: ForceLoadedProblemFile, case: Case) -> Laws:
     """Known laws, the law of least peak acceleration, and those of least peak and least RMS torque."""
     laws: Laws = {name: (catalogue[name].law, None) for name in spec.catalogue}
-    asked = {"least C": "C", "least peak torque": peak(case.torque).name, "least RMS torque": rms(case.torque).name}
-    for name, minimise in asked.items():
+    objectives = {
+        "least C": "C",
+        "least peak torque": peak(case.torque).name,
+        "least RMS torque": rms(case.torque).name,
+    }
+    for name, minimise in objectives.items():
         solution = synthesize(problem(f"case {case.name}", spec.problem.given(), {"minimise": minimise}))
         laws[name] = (solution.law, solution)
     return laws
@@ -93,8 +97,8 @@ def _line(case: Case, name: str, law: MotionLaw, solution: Solution | None) -> l
     if solution is not None:
         proof = [solution.lower_bound, gap(solution), solution.status.value]
     constants = law.constants
-    own = [peak(case.torque).value(law), rms(case.torque).value(law), constants.B.value, constants.C.value]
-    return [case.name, name, *own, *proof]
+    measures = [peak(case.torque).value(law), rms(case.torque).value(law), constants.B.value, constants.C.value]
+    return [case.name, name, *measures, *proof]
 
 
 def draw(title: str, cases: Sequence[tuple[Case, Laws]]) -> Figure:

@@ -17,8 +17,7 @@ from optlaws.files import tables, writing
 from optlaws.files.problem_file import Text, convert
 from optlaws.laws import MotionLaw, smoothstep
 from optlaws.laws.catalogue.catalogue import catalogue
-from optlaws.laws.savin.family import FAMILIES
-from optlaws.laws.savin.savin import alpha_range, savin
+from optlaws.laws.savin import FAMILIES, alpha_range, savin
 from optlaws.plots.front import draw_front, draw_proven_front
 from optlaws.plots.style import (
     GREEN,
@@ -51,7 +50,7 @@ Constant = Literal["B", "C", "D", "J"]
 _FEW = 5
 
 
-class Curve(ProblemEntries, kw_only=True, forbid_unknown_fields=True):
+class FrontEntries(ProblemEntries, kw_only=True, forbid_unknown_fields=True):
     """One front: what its problem asks beyond the base problem, and its name in the legend."""
 
     label: Text
@@ -65,7 +64,7 @@ class Picture(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     name: Annotated[str, msgspec.Meta(pattern="^[a-z0-9-]+$")]
     title: Text
     over: Annotated[list[Constant], msgspec.Meta(min_length=2, max_length=2)]
-    front: Annotated[list[Curve], msgspec.Meta(min_length=1, max_length=5)]
+    front: Annotated[list[FrontEntries], msgspec.Meta(min_length=1, max_length=5)]
     between: Pair | None = None
     points: Points | None = None
     catalogue: list[Text] = []
@@ -74,8 +73,8 @@ class Picture(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     y: Pair | None = None
 
 
-class Study(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """The problem file."""
+class FrontsProblemFile(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """The problem file of fronts between constants."""
 
     job: str
     title: Text
@@ -90,13 +89,13 @@ Fronts = list[tuple[Picture, list[Front]]]
 
 def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     """Do the job and return the files written."""
-    spec = convert(data, Study, file)
+    spec = convert(data, FrontsProblemFile, file)
     names = [picture.name for picture in spec.figure]
     if len(set(names)) != len(names):
         raise InputError(f"figure: names must differ, got {', '.join(names)}")
     for picture in spec.figure:
         check_beside(picture)
-    drawn: Fronts = [(picture, [_front(spec, picture, asked) for asked in picture.front]) for picture in spec.figure]
+    drawn: Fronts = [(picture, [_front(spec, picture, curve) for curve in picture.front]) for picture in spec.figure]
     about = f"{spec.title}; from {file.name}"
     lines = [
         [picture.name, *line]
@@ -115,24 +114,24 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     return written
 
 
-def _front(spec: Study, picture: Picture, curve: Curve) -> Front:
+def _front(spec: FrontsProblemFile, picture: Picture, curve: FrontEntries) -> Front:
     where = f"figure {picture.name}, {curve.label}"
-    asked = problem(where, spec.problem.given(), curve.given())
+    stated = problem(where, spec.problem.given(), curve.given())
     between = curve.between or picture.between
     points = curve.points or picture.points or spec.points
     try:
         pair = (between[0], between[1]) if between else None
-        return pareto_front(asked, tuple(picture.over), points=points, between=pair)
+        return pareto_front(stated, tuple(picture.over), points=points, between=pair)
     except InputError as error:
         raise InputError(f"{where}: {error}") from None
 
 
-def _lines(curve: Curve, front: Front) -> list[list[tables.Cell]]:
+def _lines(curve: FrontEntries, front: Front) -> list[list[tables.Cell]]:
     rows = front.rows_of(CONSTANTS)
     return [[curve.label, *row[:5], gap(point), *row[6:]] for row, point in zip(rows, front, strict=True)]
 
 
-def _page(spec: Study, drawn: Fronts) -> Page:
+def _page(spec: FrontsProblemFile, drawn: Fronts) -> Page:
     page = Page(spec.title).text(spec.text)
     for picture, fronts in drawn:
         few = []
@@ -279,16 +278,16 @@ def _draw_curve(axes: Axes, front: Front, **style: Any) -> None:  # noqa: ANN401
 def _exact(front: Front) -> ProvenFront | None:
     """The front at every value, where it is known."""
     name, minimised = front.over
-    ends = [_asked(point.problem, name) for point in (front[0], front[len(front) - 1])]
+    ends = [_upper_end(point.problem, name) for point in (front[0], front[len(front) - 1])]
     if not front[0].problem.convex or not ends[0] < ends[1]:
         return None
     free = _freed(front[0].problem, name)
     return proven_front(free, (name, minimised), between=(ends[0], ends[1]), gap=_DRAWN)
 
 
-def _asked(problem: Problem, name: str) -> float:
-    asked = problem.range(name)
-    return inf if asked is None else asked.high
+def _upper_end(problem: Problem, name: str) -> float:
+    stated = problem.range(name)
+    return inf if stated is None else stated.high
 
 
 def _window(picture: Picture, fronts: Sequence[Front], axis: int) -> Ends:
@@ -301,26 +300,26 @@ def _window(picture: Picture, fronts: Sequence[Front], axis: int) -> Ends:
 
 
 def _limit_curves(axes: Axes, picture: Picture, fronts: Sequence[Front], x: Ends) -> None:
-    """What no law can beat at each B; fronts of different orders mostly share it."""
+    """The limit of all laws at each B, which fronts of different orders mostly share."""
     values = np.linspace(max(x[0], 1.0 + 1e-3), x[1], 200)
     drawn: list[list[float | None]] = []
     for front in fronts:
-        asked = front[0].problem
-        limits = [known_limit(replace(asked, B=float(B), minimise=picture.over[1])) for B in values]
+        stated = front[0].problem
+        limits = [known_limit(replace(stated, B=float(B), minimise=picture.over[1])) for B in values]
         if None in limits or limits in drawn:
             continue
-        label = "limit of all laws" if not drawn else f"the same of order {asked.order}"
+        label = "limit of all laws" if not drawn else f"the same of order {stated.order}"
         stroke = ("-", "-.")[min(len(drawn), 1)]
         axes.plot(values, np.array(limits, dtype=float), label=label, color=GREY, linewidth=1.2, linestyle=stroke)
         drawn.append(limits)
 
 
 def _corners(axes: Axes, picture: Picture, fronts: Sequence[Front], colours: Sequence[str]) -> None:
-    """What no law can beat in either constant, which no one law need reach in both."""
+    """The limit of all laws in either constant, which no one law need reach in both."""
     for curve, front, shade in zip(picture.front, fronts, colours, strict=True):
         style: dict[str, Any] = {"color": shade, "linewidth": 1.1, "linestyle": (0, (1, 2)), "zorder": 2}
-        asked = _freed(front[0].problem, picture.over[0])
-        limits = [known_limit(replace(asked, minimise=name)) for name in picture.over]
+        stated = _freed(front[0].problem, picture.over[0])
+        limits = [known_limit(replace(stated, minimise=name)) for name in picture.over]
         label = f"limit of each constant alone, {curve.label}"
         for line, value in zip((axes.axvline, axes.axhline), limits, strict=True):
             if value is not None:

@@ -42,8 +42,8 @@ class Beside(msgspec.Struct, forbid_unknown_fields=True):
     columns: Annotated[list[str], Some]
 
 
-class Study(msgspec.Struct, forbid_unknown_fields=True):
-    """The problem file."""
+class SolutionsProblemFile(msgspec.Struct, forbid_unknown_fields=True):
+    """The problem file of a table of solutions."""
 
     job: str
     title: Text
@@ -57,11 +57,11 @@ class Study(msgspec.Struct, forbid_unknown_fields=True):
 
 
 @dataclass(frozen=True)
-class Row:
+class SolvedRow:
     """The swept entries, what they ask, and the answers: None where there is no law, with the reason and its proof."""
 
     entries: Mapping[str, Any]
-    asked: Problem
+    stated: Problem
     solution: Solution | None
     others: tuple[Solution | None, ...]
     status: str
@@ -70,14 +70,14 @@ class Row:
 
 def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     """Do the job and return the files written."""
-    spec = convert(data, Study, file)
+    spec = convert(data, SolutionsProblemFile, file)
     for name in [*spec.columns, *(name for compared in spec.compare for name in compared.columns)]:
         if name not in COLUMNS:
             raise InputError(unknown_key(name, COLUMNS, "column"))
     entries = list(_entries(spec))
     beside = _beside(spec, file, entries)
     problems = [_problems(spec, i, entry) for i, entry in enumerate(entries, 1)]
-    rows = [_solved(spec, entry, *asked) for entry, asked in zip(entries, problems, strict=True)]
+    rows = [_solved(spec, entry, *stated) for entry, stated in zip(entries, problems, strict=True)]
     headings, cells = _cells(spec, rows, beside)
     about = f"{spec.title}; from {file.name}"
     return [
@@ -87,7 +87,7 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     ]
 
 
-def _entries(spec: Study) -> Iterator[dict[str, Any]]:
+def _entries(spec: SolutionsProblemFile) -> Iterator[dict[str, Any]]:
     """The swept entries of each row; the last table of `sweep` varies fastest."""
     parts = []
     names: list[str] = []
@@ -105,7 +105,7 @@ def _entries(spec: Study) -> Iterator[dict[str, Any]]:
         yield {name: value for part in chosen for name, value in part.items()}
 
 
-def _problems(spec: Study, number: int, entries: Mapping[str, Any]) -> tuple[Problem, list[Problem]]:
+def _problems(spec: SolutionsProblemFile, number: int, entries: Mapping[str, Any]) -> tuple[Problem, list[Problem]]:
     base = spec.problem.given()
     others = [
         problem(f"compare, {compared.name}, row {number}", base, entries, compared.problem.given())
@@ -114,27 +114,29 @@ def _problems(spec: Study, number: int, entries: Mapping[str, Any]) -> tuple[Pro
     return problem(f"row {number}", base, entries), others
 
 
-def _solved(spec: Study, entries: Mapping[str, Any], asked: Problem, others: Sequence[Problem]) -> Row:
+def _solved(
+    spec: SolutionsProblemFile, entries: Mapping[str, Any], stated: Problem, others: Sequence[Problem]
+) -> SolvedRow:
     status = "infeasible"
     solution, proof = None, None
     try:
-        solution = synthesize(asked, bound=spec.bound)
+        solution = synthesize(stated, bound=spec.bound)
         status = solution.status.value
     except InfeasibleProblem as error:
-        proof = error.proof if isinstance(error.proof, Certificate) and error.proof.problem == asked else None
+        proof = error.proof if isinstance(error.proof, Certificate) and error.proof.problem == stated else None
     except SolverFailure:
         status = "not found"
-    return Row(entries, asked, solution, tuple(_tried(rival) for rival in others), status, proof)
+    return SolvedRow(entries, stated, solution, tuple(_tried(rival) for rival in others), status, proof)
 
 
-def _tried(asked: Problem) -> Solution | None:
+def _tried(stated: Problem) -> Solution | None:
     try:
-        return synthesize(asked)
+        return synthesize(stated)
     except (InfeasibleProblem, SolverFailure):
         return None
 
 
-def _beside(spec: Study, file: Path, entries: Sequence[Mapping[str, Any]]) -> list[list[tables.Cell]]:
+def _beside(spec: SolutionsProblemFile, file: Path, entries: Sequence[Mapping[str, Any]]) -> list[list[tables.Cell]]:
     """The printed cells of each row, as printed."""
     if spec.beside is None:
         return [[] for _ in entries]
@@ -155,7 +157,7 @@ def _beside(spec: Study, file: Path, entries: Sequence[Mapping[str, Any]]) -> li
 
 
 def _cells(
-    spec: Study, rows: Sequence[Row], beside: Sequence[Sequence[tables.Cell]]
+    spec: SolutionsProblemFile, rows: Sequence[SolvedRow], beside: Sequence[Sequence[tables.Cell]]
 ) -> tuple[list[str], list[list[tables.Cell]]]:
     swept = list(rows[0].entries)
     headings = [ENTRIES[name].heading for name in swept] + spec.columns
@@ -189,11 +191,11 @@ def _cell(solution: Solution | None, name: str) -> tables.Cell:
     return cells[name]
 
 
-def _laws(about: str, rows: Sequence[Row]) -> str:
+def _laws(about: str, rows: Sequence[SolvedRow]) -> str:
     lines = [
         json.dumps(
             {
-                "asked": row.asked.to_dict(),
+                "asked": row.stated.to_dict(),
                 "status": row.status,
                 "solution": None if row.solution is None else record(row.solution),
                 **({} if row.proof is None else {"proof": row.proof.to_dict()}),

@@ -11,7 +11,7 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 
 if TYPE_CHECKING:
-    from optlaws.laws.catalogue.entry import Entry
+    from optlaws.laws.catalogue.entry import CatalogueEntry
 
 ALIKE = 0.6  # a likeness of names below it is chance
 
@@ -32,7 +32,7 @@ class UnknownLaw(InputError, KeyError):  # noqa: N818 - named like the other err
         return str(self.args[0])
 
 
-class Catalogue(Mapping[str, "Entry"]):
+class Catalogue(Mapping[str, "CatalogueEntry"]):
     """Standard motion laws by name: textbook laws, controllers' enumerations, Tyr's coded laws.
 
     A name may be any alias in the data, in English, German or of a controller; capitals, blanks and punctuation do not
@@ -49,23 +49,23 @@ class Catalogue(Mapping[str, "Entry"]):
     """
 
     @kept_property
-    def _entries(self) -> dict[str, Entry]:
+    def _entries(self) -> dict[str, CatalogueEntry]:
         import tomllib
         from importlib.resources import files
 
-        from optlaws.laws.catalogue.entry import Entry
+        from optlaws.laws.catalogue.entry import CatalogueEntry
 
         text = files("optlaws.laws.catalogue").joinpath("catalogue.toml").read_text(encoding="utf-8")
-        return {entry["name"]: Entry.from_dict(entry) for entry in tomllib.loads(text)["law"]}
+        return {entry["name"]: CatalogueEntry.from_dict(entry) for entry in tomllib.loads(text)["law"]}
 
     @kept_property
-    def _by_alias(self) -> dict[str, Entry]:
+    def _by_alias(self) -> dict[str, CatalogueEntry]:
         from optlaws.laws.catalogue.tyr_codes import canonical
 
         entries = self._entries.values()
         return {canonical(name) or plain(name): entry for entry in entries for name in (*entry.aliases, entry.name)}
 
-    def __getitem__(self, name: str) -> Entry:
+    def __getitem__(self, name: str) -> CatalogueEntry:
         from optlaws.laws.catalogue.tyr_codes import canonical
 
         if not isinstance(name, str):
@@ -104,7 +104,7 @@ class Catalogue(Mapping[str, "Entry"]):
             )
         return page(f"{len(self)} standard laws", table(("law", "B", "C", "D", "J", "acceleration"), rows))
 
-    def search(self, text: str) -> tuple[Entry, ...]:
+    def search(self, text: str) -> tuple[CatalogueEntry, ...]:
         """The entries that a text may mean, the likeliest first: by name, part of a name, words, likeness.
 
         Parameters
@@ -118,14 +118,16 @@ class Catalogue(Mapping[str, "Entry"]):
         ['cycloidal']
         """
         ranked = [(_rank(entry, text), entry) for entry in self._entries.values()]
-        kept = sorted(((rank, entry) for rank, entry in ranked if rank is not None), key=lambda pair: pair[0])
-        good = [entry for rank, entry in kept if rank < 4.0]
-        return tuple(good or [entry for _, entry in kept])
+        near = sorted(((rank, entry) for rank, entry in ranked if rank is not None), key=lambda pair: pair[0])
+        good = [entry for rank, entry in near if rank < 4.0]
+        return tuple(good or [entry for _, entry in near])
 
-    def _coded(self, code: str) -> Entry:
-        from optlaws.laws.catalogue.entry import Entry
+    def _coded(self, code: str) -> CatalogueEntry:
+        from optlaws.laws.catalogue.entry import CatalogueEntry
 
-        entry = Entry(code, (), ("code", code), "by the rule of Tyr's coded laws", from_memory=False, published=())
+        entry = CatalogueEntry(
+            code, (), ("code", code), "by the rule of Tyr's coded laws", from_memory=False, published=()
+        )
         try:
             _ = entry.law
         except InputError as error:
@@ -144,23 +146,23 @@ def plain(name: str) -> str:
     return re.sub(r"[\W_]+", "", name.casefold())
 
 
-def _rank(entry: Entry, text: str) -> float | None:
+def _rank(entry: CatalogueEntry, text: str) -> float | None:
     """How far an entry is from a text: None where it is too far."""
     from difflib import SequenceMatcher
 
-    wanted = plain(text)
+    words = plain(text)
     names = [plain(name) for name in (entry.name, *entry.aliases)]
-    if not wanted:
+    if not words:
         return None
-    if wanted in names:
+    if words in names:
         return 0.0
     for rank, fits in ((1.0, str.startswith), (2.0, str.__contains__)):
-        if any(fits(name, wanted) for name in names):
+        if any(fits(name, words) for name in names):
             return rank + len(entry.name) / 1000.0
     everything = plain(" ".join((entry.name, *entry.aliases, entry.source)))
     if all(plain(word) in everything for word in text.split()):
         return 3.0
-    likeness = max(SequenceMatcher(None, wanted, name).ratio() for name in names)
+    likeness = max(SequenceMatcher(None, words, name).ratio() for name in names)
     return 5.0 - likeness if likeness >= ALIKE else None
 
 

@@ -38,7 +38,7 @@ class Published:
     printed: tuple[tuple[str, str], ...]
 
     def disagreements(self, constants: Constants) -> tuple[str, ...]:
-        """What is printed otherwise than the constants are when rounded to the printed digits."""
+        """The printed values that differ from the constants rounded to the printed digits."""
         different = []
         for name, text in self.printed:
             value = getattr(constants, name).value
@@ -49,7 +49,7 @@ class Published:
 
 
 @dataclass(frozen=True)
-class Entry:
+class CatalogueEntry:
     """A law of the catalogue.
 
     Attributes
@@ -83,7 +83,7 @@ class Entry:
     published: tuple[Published, ...]
 
     @classmethod
-    def from_dict(cls, data: Mapping[str, Any]) -> Entry:
+    def from_dict(cls, data: Mapping[str, Any]) -> CatalogueEntry:
         """The entry of a table of the catalogue's data file."""
         (builder,) = (key for key in BUILDERS if key in data)
         numbers = data[builder]
@@ -102,7 +102,7 @@ class Entry:
         )
 
     def __repr__(self) -> str:
-        return f"Entry({self.name!r}, {self.formula!r})"
+        return f"CatalogueEntry({self.name!r}, {self.formula!r})"
 
     def _repr_html_(self) -> str:
         from optlaws.laws.html import drawings
@@ -113,7 +113,7 @@ class Entry:
 
     @property
     def aliases(self) -> tuple[str, ...]:
-        """Its other names, without the numbers of enumerations."""
+        """The other names of the law, without the numbers of enumerations."""
         return tuple(name.partition(" = ")[0] for _, some in self.names for name in some)
 
     @kept_property

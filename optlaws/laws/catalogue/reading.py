@@ -1,24 +1,213 @@
-"""A law by what a person calls it: a name of the catalogue, a member of Savin's families, a stored file, a table."""
+"""Laws by name or from files: names of the catalogue, JSON, and tables of points as CSV."""
 
 from __future__ import annotations
 
+import csv
 import re
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.files import reading
+from optlaws.files.writing import MARK
 from optlaws.laws.catalogue.catalogue import catalogue
-from optlaws.laws.catalogue.point_file import law_of_points
 from optlaws.laws.law import MotionLaw
-from optlaws.laws.savin.family import FAMILIES, SavinFamily
+from optlaws.laws.making.through_points import MOST_THROUGH, law_of_table, law_through
+from optlaws.laws.savin import FAMILIES, SavinFamily
+from optlaws.numbers import not_negative
+
+_LARGEST = 20_000_000
+_MOST_POINTS = 100_000
+_SEPARATORS = (";", "\t", ",", None)
+_COMMENTS = ("#", "//", "(*", "%", "!")
+_BESIDE = re.compile(r"\s+(?:#|//)")
+#: a number as written, and the unit behind it
+_NUMBER = re.compile(r"([+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?)\s*([^\W\d_][^\d\s]{0,9}|[°%\"'′″])?")
+#: a heading up to its unit
+_HEADING = re.compile(r"[^\s,;(\[]*")
+#: a table whose last digit is less of the stroke is taken as exact
+_EXACT = 1e-8
+#: and one of which it is more says nothing of velocities
+_COARSEST = 0.01
+#: columns of tables that optlaws writes
+_MASTERS, _SLAVES = ("k", "x", "master", "cam"), ("a", "y", "position", "displacement")
+
+Column = int | str
+
+
+class _Line(NamedTuple):
+    """A line of a file: its number there, and its cells."""
+
+    number: int
+    cells: list[str]
+
+    def numbers(self, columns: Sequence[int]) -> list[re.Match[str] | None]:
+        """The numbers in some of its columns."""
+        return [_NUMBER.fullmatch(self.cells[i]) if i < len(self.cells) else None for i in columns]
+
+
+class _Table(NamedTuple):
+    """Lines of points, the columns that are meant, and the headings above."""
+
+    lines: list[_Line]
+    columns: tuple[int, int]
+
+    def texts(self, place: int) -> list[str]:
+        """The numbers of a column as written."""
+        return [str(match[1]) for line in self.lines if (match := line.numbers(self.columns)[place])]
+
+
+def law_of_points(file: Path, tolerance: float | None = None, columns: Sequence[Column] | None = None) -> MotionLaw:
+    """The law of a table of points: as near as its last digit, or as its noise lets it be.
+
+    Numbers stand between commas, semicolons, tabs or blanks, with points, or commas where these do not part them, and
+    with the same unit behind all of a column or none. Lines before the first numbers are headings; lines behind the
+    last ones without a number are not read.
+
+    Parameters
+    ----------
+    file
+        In UTF-8, UTF-16 or Latin-1.
+    tolerance
+        How far the law may be off a point, in the unit of the displacements; 0 for a law through them.
+    columns
+        Which hold the time or angle and the displacement, by their headings or by numbers from 1; where a table has
+        just two, or is of optlaws, it need not be said.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, has more columns and none are chosen, a line is no point, or no law keeps to them.
+    """
+    table = _read(reading.text(file, _LARGEST, legacy=True), str(file), columns)
+    k, a = ([_value(text) for text in table.texts(place)] for place in (0, 1))
+    unit, stroke = _resolution(table.texts(1), a), abs(a[-1] - a[0])
+    if unit > _COARSEST * stroke > 0.0:
+        raise InputError(f"{file}: the displacements have too few digits, {unit:g} of a stroke of {stroke:g}")
+    try:
+        if tolerance is not None:
+            return law_through(k, a, not_negative(tolerance, "tolerance"))
+        exact = unit <= _EXACT * stroke and len(k) <= MOST_THROUGH
+        return law_of_table(k, a, 0.0 if exact else unit, lines=[line.number for line in table.lines])
+    except InputError as error:
+        raise InputError(f"{file}: {error}") from None
+
+
+def _read(content: str, name: str, columns: Sequence[Column] | None) -> _Table:
+    texts = [(number, line.strip()) for number, line in enumerate(content.splitlines(), 1)]
+    texts = [(number, _BESIDE.split(line)[0]) for number, line in texts if line and not line.startswith(_COMMENTS)]
+    separator = max(_SEPARATORS, key=lambda mark: sum(_is_point(_cells(line, mark)) for _, line in texts))
+    lines = [_Line(number, _cells(line, separator)) for number, line in texts]
+    first = next((i for i, line in enumerate(lines) if _is_point(line.cells)), None)
+    if first is None:
+        raise InputError(f"{name} holds no points: lines of a time or an angle and a displacement, such as 7.5,0.0959")
+    headings = lines[first - 1].cells if first else []
+    chosen = _chosen(columns, headings, lines[first], name, written_by_optlaws=MARK in content)
+    points = lines[first:]
+    while points and not any(points[-1].numbers(chosen)):
+        points.pop()
+    _check(points, chosen, name)
+    return _Table([line for i, line in enumerate(points) if not i or _differs(line, points[i - 1], chosen)], chosen)
+
+
+def _cells(line: str, separator: str | None) -> list[str]:
+    try:
+        cells = line.split() if separator is None else next(csv.reader([line], delimiter=separator))
+    except csv.Error:
+        return []
+    return [cell.strip().strip('"') for cell in cells]
+
+
+def _is_point(cells: list[str]) -> bool:
+    return sum(_NUMBER.fullmatch(cell) is not None for cell in cells) >= 2
+
+
+def _chosen(
+    columns: Sequence[Column] | None, headings: list[str], line: _Line, name: str, *, written_by_optlaws: bool
+) -> tuple[int, int]:
+    """The places of the two columns that are meant."""
+    numeric = [i for i, cell in enumerate(line.cells) if _NUMBER.fullmatch(cell)]
+    named = [heading.casefold() for heading in headings]
+    if columns is not None:
+        if isinstance(columns, str) or len(columns) != 2:
+            raise InputError(f"columns are two, of the time or angle and of the displacement, got {shortened(columns)}")
+        first, second = (_place(column, headings, len(line.cells), name) for column in columns)
+        return first, second
+    short = [match[0] if (match := _HEADING.match(heading)) else "" for heading in named]
+    of_ours = [next((short.index(word) for word in words if word in short), None) for words in (_MASTERS, _SLAVES)]
+    if written_by_optlaws and None not in of_ours:
+        return int(of_ours[0] or 0), int(of_ours[1] or 0)
+    if len(numeric) > 2:
+        known = ", ".join(f"{i + 1} {headings[i]!r}" if i < len(headings) else str(i + 1) for i in numeric)
+        raise InputError(
+            f"{name}, line {line.number}: {len(numeric)} columns of numbers: say by columns which are the time or "
+            f"angle and the displacement, such as columns=({numeric[0] + 1}, {numeric[1] + 1}), of {known}"
+        )
+    return numeric[0], numeric[1]
+
+
+def _place(column: Column, headings: list[str], width: int, name: str) -> int:
+    text = str(column).strip().casefold()
+    matches = [
+        i
+        for i, heading in enumerate(headings)
+        if text in {heading.casefold(), _HEADING.match(heading.casefold())[0]}  # type: ignore[index] # matches ""
+    ]
+    if len(matches) == 1:
+        return matches[0]
+    if not text.isdecimal() or not 1 <= int(text) <= width:
+        raise InputError(
+            f"{name} has no column {shortened(column)}: columns are numbers from 1 to {width}"
+            + (f", or one of {', '.join(map(repr, headings))}" if headings else "")
+        )
+    return int(text) - 1
+
+
+def _check(points: list[_Line], columns: tuple[int, int], name: str) -> None:
+    """Refuse lines that are no points, and numbers in several units."""
+    if len(points) > _MOST_POINTS:
+        raise InputError(f"{name} has more than {_MOST_POINTS} points")
+    units: list[str] | None = None
+    for line in points:
+        matches = line.numbers(columns)
+        if matches[0] is None or matches[1] is None:
+            raise InputError(
+                f"{name}, line {line.number}: a point is two numbers, got {shortened(', '.join(line.cells))}; mend the "
+                "line, or put # before it if it is none"
+            )
+        here = [match[2] or "" for match in matches if match]
+        units = units or here
+        if here != units:
+            raise InputError(
+                f"{name}, line {line.number}: {shortened(', '.join(line.cells))} is in other units than the line above"
+            )
+
+
+def _differs(line: _Line, before: _Line, columns: tuple[int, int]) -> bool:
+    return [line.cells[i] for i in columns] != [before.cells[i] for i in columns]
+
+
+def _value(text: str) -> float:
+    return float(text.replace(",", "."))
+
+
+def _resolution(texts: list[str], values: list[float]) -> float:
+    """The unit of the last digit of the large values: small ones have more decimals, round ones fewer."""
+    large = 0.1 * max(map(abs, values))
+    return min(_last_digit(text) for text, value in zip(texts, values, strict=True) if abs(value) >= large)
+
+
+def _last_digit(text: str) -> float:
+    digits, _, exponent = text.replace(",", ".").lower().partition("e")
+    return 10.0 ** (int(exponent or 0) - len(digits.partition(".")[2]))
+
 
 _MEMBER = re.compile(r"\s*(?:family\s+)?(IV|I{1,3})\s*(?:\((.*)\))?\s*", re.IGNORECASE)
 _TABLES = (".csv", ".txt", ".tsv", ".tab", ".dat")
 _ENDINGS = (".json", *_TABLES)
-_SAID: dict[str, Callable[[str], Any]] = {"tolerance": float, "columns": lambda text: tuple(text.split(","))}
+_OPTIONS: dict[str, Callable[[str], Any]] = {"tolerance": float, "columns": lambda text: tuple(text.split(","))}
 #: a file's name and what is said of its table in brackets
 _OF_TABLE = re.compile(r"(.+)\((?=[^()]*=)([^()]*)\)", re.DOTALL)
 _LONGEST = 100
@@ -61,8 +250,8 @@ def read_law(
     """
     file = text if isinstance(text, Path) else None
     if isinstance(text, str) and member(text) is None and is_file(text):
-        name, said = _of_table(text)
-        file, tolerance, columns = Path(name), said.get("tolerance", tolerance), said.get("columns", columns)
+        name, options = _of_table(text)
+        file, tolerance, columns = Path(name), options.get("tolerance", tolerance), options.get("columns", columns)
     if file is not None and file.suffix.lower() in _TABLES:
         return law_of_points(file, tolerance, columns)
     if tolerance is not None or columns is not None:
@@ -83,16 +272,16 @@ def _of_table(text: str) -> tuple[str, dict[str, Any]]:
     match = _OF_TABLE.fullmatch(text)
     if match is None or not match[1].lower().endswith(_TABLES):
         return text, {}
-    said: dict[str, Any] = {}
+    options: dict[str, Any] = {}
     for part in match[2].split(";"):
         name, _, value = (piece.strip() for piece in part.partition("="))
         try:
-            said[name] = _SAID[name](value)
+            options[name] = _OPTIONS[name](value)
         except (KeyError, ValueError):
             raise InputError(
                 f"a table is said to be read as in old.csv(tolerance=0.02; columns=1,3), got {shortened(text)}"
             ) from None
-    return match[1], said
+    return match[1], options
 
 
 def is_file(text: str) -> bool:

@@ -7,8 +7,7 @@ from math import pi
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
-from optlaws.laws.making.half_cycle import from_half
-from optlaws.laws.making.trapezoids import trapezoid
+from optlaws.laws.making.trapezoids import from_half, trapezoid
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import Segment
 from optlaws.laws.segments.sine import SineSegment

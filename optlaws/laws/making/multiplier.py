@@ -59,7 +59,7 @@ def multiplied(law: MotionLaw, y: Multiplier) -> MotionLaw:
     Examples
     --------
     >>> from optlaws.laws import smoothstep
-    >>> from optlaws.laws.savin.savin import savin
+    >>> from optlaws.laws.savin import savin
     >>> multiplied(smoothstep(4), [2, -6, 6]) == savin("III", alpha=6.0)
     True
     >>> import math
@@ -68,7 +68,7 @@ def multiplied(law: MotionLaw, y: Multiplier) -> MotionLaw:
     """
     even = _even(y)
     _check_nowhere_negative(even)
-    return _made(law, even)
+    return _product(law, even)
 
 
 def multiplier_for(
@@ -110,43 +110,43 @@ def multiplier_for(
     >>> multiplied(smoothstep(4), y)
     PolynomialLaw(degree=11, B=1.9, C=6.5, D=7.14..., J=53.2...)
     """
-    wanted = _wanted({"B": B, "C": C, "D": D, "J": J, "c0": c0})
-    powers = _scaled_powers(law, len(wanted) + 1)
-    values = np.array(list(wanted.values()))
-    start = _values(law, wanted)
+    targets = _targets({"B": B, "C": C, "D": D, "J": J, "c0": c0})
+    powers = _scaled_powers(law, len(targets) + 1)
+    values = np.array(list(targets.values()))
+    start = _values(law, targets)
     size = np.maximum(np.abs(start), np.abs(values))
 
     def missing(weights: Array) -> Array:
-        made = _values(_made(law, _combined(powers, weights)), wanted)
-        return np.asarray((made - values) / np.where(size > 0.0, size, 1.0))
+        product = _values(_product(law, _combined(powers, weights)), targets)
+        return np.asarray((product - values) / np.where(size > 0.0, size, 1.0))
 
-    coefficients = _searched(missing, len(wanted))
+    coefficients = _searched(missing, len(targets))
     even = _combined(powers, coefficients)
     if _most(missing(coefficients)) > MET:
-        nearest = _told(wanted, _values(_made(law, even), wanted))
+        nearest = _in_words(targets, _values(_product(law, even), targets))
         raise InputError(
-            f"no y of {len(powers)} even powers was found that gives {_told(wanted, values)}; "
-            f"the nearest gives {nearest}, and y = 1 {_told(wanted, start)}"
+            f"no y of {len(powers)} even powers was found that gives {_in_words(targets, values)}; "
+            f"the nearest gives {nearest}, and y = 1 {_in_words(targets, start)}"
         )
     _check_nowhere_negative(even)
     return exact.rounded(exact.exact_powers(even))
 
 
-def _made(law: MotionLaw, even: Sequence[Fraction]) -> MotionLaw:
+def _product(law: MotionLaw, even: Sequence[Fraction]) -> MotionLaw:
     if isinstance(law, PiecewiseLaw):
         return _of_pieces(law, np.array(exact.rounded(even)))
     return _of_polynomial(law if isinstance(law, PolynomialLaw) else as_polynomial(law), even)
 
 
-def _wanted(constants: Mapping[str, float | None]) -> dict[str, float]:
-    wanted = {name: finite(value, name) for name, value in constants.items() if value is not None}
-    if not wanted:
+def _targets(constants: Mapping[str, float | None]) -> dict[str, float]:
+    targets = {name: finite(value, name) for name, value in constants.items() if value is not None}
+    if not targets:
         raise InputError(f"a multiplier is found for one or more of {', '.join(constants)}, such as B=1.9")
-    return wanted
+    return targets
 
 
-def _values(law: MotionLaw, wanted: Iterable[str]) -> Array:
-    return np.array([law.c(0.0) if name == "c0" else getattr(law.constants, name).value for name in wanted])
+def _values(law: MotionLaw, targets: Iterable[str]) -> Array:
+    return np.array([law.c(0.0) if name == "c0" else getattr(law.constants, name).value for name in targets])
 
 
 def _scaled_powers(law: MotionLaw, count: int) -> list[list[Fraction]]:
@@ -154,9 +154,9 @@ def _scaled_powers(law: MotionLaw, count: int) -> list[list[Fraction]]:
     powers: list[list[Fraction]] = []
     for n in range(count):
         power = fractions(np.polynomial.chebyshev.poly2cheb([*(2 * n * [0.0]), 1.0]), "y")
-        made = _made(law, power)
-        k = law.peak(2).k if n == 0 else made.peak(2).k
-        scale = Fraction(made.c(k)) / Fraction(law.c(k) * (2.0 * k - 1.0) ** (2 * n))
+        product = _product(law, power)
+        k = law.peak(2).k if n == 0 else product.peak(2).k
+        scale = Fraction(product.c(k)) / Fraction(law.c(k) * (2.0 * k - 1.0) ** (2 * n))
         powers.append([scale * value for value in power])
     return powers
 
@@ -172,7 +172,7 @@ def _combined(powers: Sequence[Sequence[Fraction]], weights: Array) -> list[Frac
 
 
 def _searched(missing: Callable[[Array], Array], count: int) -> Array:
-    """What misses least, sought from y = 1, from a y that is less in the middle and from one that is more."""
+    """The weights that miss least, sought from y = 1, from a y that is less in the middle and from one that is more."""
     answers = []
     for first in (0.0, 0.5, -0.5):
         start = np.zeros(count)
@@ -205,7 +205,7 @@ def _most(misses: Array) -> float:
     return float(np.abs(misses).max())
 
 
-def _told(names: Iterable[str], values: Iterable[float]) -> str:
+def _in_words(names: Iterable[str], values: Iterable[float]) -> str:
     return ", ".join(f"{name} = {value:.6g}" for name, value in zip(names, values, strict=True))
 
 

@@ -3,19 +3,209 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Any
+from itertools import pairwise
+from math import inf, sqrt
+from typing import Any, NamedTuple
 from warnings import warn
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError, NoisyTable
-from optlaws.laws.making.noise import noise, of_rounding, through_noise
-from optlaws.laws.making.splines import DEGREE, derivatives, divisions, knots_of, law_of, nearest, values
 from optlaws.laws.segments.piecewise import PiecewiseLaw
+from optlaws.laws.segments.segment import PolynomialSegment
 from optlaws.numbers import not_negative, numbers
+from optlaws.series import chebyshev
 
 Array = NDArray[np.float64]
+
+#: displacement to snap run through
+DEGREE = 5
+#: each division tried has so many times the pieces of the one before
+_FINER = 1.3
+
+
+class LawSpline(NamedTuple):
+    """A spline: breaks, knots, coefficients, and how many of these were free."""
+
+    breaks: Array
+    knots: Array
+    coefficients: Array
+    free: int
+
+    def __call__(self, places: Array) -> Array:
+        """The values of the spline at places."""
+        return spline_values(self.knots, places) @ self.coefficients
+
+    def law(self) -> PiecewiseLaw:
+        """The law of a spline, whose ends become 0 and 1."""
+        first, last = self.coefficients[0], self.coefficients[-1]
+        return law_of(self.breaks, self.knots, (self.coefficients - first) / (last - first))
+
+
+def divisions(most: int) -> Iterator[int]:
+    """Numbers of pieces to try, each larger than the one before.
+
+    Examples
+    --------
+    >>> list(divisions(10))
+    [1, 2, 3, 4, 5, 6, 7, 9]
+    """
+    count = 1
+    while count <= most:
+        yield count
+        count = max(count + 1, int(_FINER * count))
+
+
+def nearest_spline(places: Array, heights: Array, count: int, *, rest: bool, known: bool = True) -> LawSpline | None:
+    """The spline of even pieces nearest the points by least squares; None where the points do not determine it.
+
+    With `rest` it begins and ends in rest; its ends are at 0 and 1 where they are known, else as the points have them.
+    """
+    breaks = np.linspace(0.0, 1.0, count + 1)
+    knots = knots_of(breaks)
+    same = 3 if rest else 1
+    rows = spline_values(knots, places)
+    free = np.column_stack([rows[:, :same].sum(axis=1), rows[:, same:-same], rows[:, -same:].sum(axis=1)])
+    solution = np.concatenate([np.zeros(free.shape[1] - 1), [1.0]])
+    inner = slice(1, -1) if known else slice(None)
+    sides = heights - free[:, -1] if known else heights
+    solution[inner], _, rank, _ = np.linalg.lstsq(free[:, inner], sides, rcond=None)
+    coefficients = np.concatenate([np.full(same, solution[0]), solution[1:-1], np.full(same, solution[-1])])
+    return LawSpline(breaks, knots, coefficients, rank) if rank == free[:, inner].shape[1] else None
+
+
+def law_of(breaks: Array, knots: Array, coefficients: Array) -> PiecewiseLaw:
+    """The law of a spline from its coefficients."""
+    velocity, acceleration = (_derived(knots, coefficients, nu) for nu in (1, 2))
+    x = chebyshev.nodes(DEGREE - 1)
+    segments = []
+    for low, high in pairwise(breaks.tolist()):
+        inside = 0.5 * (low + high) + 0.5 * (high - low) * x
+        c = chebyshev.from_values(spline_values(knots[2:-2], inside, DEGREE - 2) @ acceleration)
+        b = spline_values(knots[1:-1], np.array([low]), DEGREE - 1) @ velocity
+        segments.append(PolynomialSegment(tuple(c.tolist()), float(b[0])))
+    return PiecewiseLaw(breaks, segments)
+
+
+def knots_of(breaks: Array) -> Array:
+    """Knots of splines that pass breaks with four derivatives, and end in them."""
+    return np.concatenate([np.zeros(DEGREE), breaks, np.ones(DEGREE)])
+
+
+def _derived(knots: Array, coefficients: Array, nu: int) -> Array:
+    """Coefficients of the derivative of order nu of a spline."""
+    for i in range(nu):
+        degree = DEGREE - i
+        inner = knots[i : len(knots) - i]
+        coefficients = degree * np.diff(coefficients) / (inner[degree + 1 : -1] - inner[1 : -degree - 1])
+    return coefficients
+
+
+def end_derivatives(knots: Array, nu: int) -> Array:
+    """Rows that give the derivatives of order 1 to nu at both ends from the coefficients of a spline."""
+    columns = np.eye(len(knots) - DEGREE - 1)
+    derived = [np.array([_derived(knots, column, i) for column in columns]).T for i in range(1, nu + 1)]
+    return np.array([row for one_order in derived for row in (one_order[0], one_order[-1])])
+
+
+def spline_values(knots: Array, places: Array, degree: int = DEGREE) -> Array:
+    """B-splines at places, a row for each place (de Boor's recursion)."""
+    x = np.minimum(places, np.nextafter(1.0, 0.0))[:, None]
+    splines = ((knots[:-1] <= x) & (x < knots[1:])).astype(np.float64)
+    for p in range(1, degree + 1):
+        spans = knots[p:] - knots[:-p]
+        shares = np.divide(x - knots[:-p], spans, out=np.zeros((len(x), len(spans))), where=spans > 0.0)
+        fall = np.where(spans[1:] > 0.0, 1.0 - shares[:, 1:], 0.0)
+        splines = shares[:, :-1] * splines[:, :-1] + fall * splines[:, 1:]
+    return splines
+
+
+#: orders of the differences: high enough to hide a smooth law, and few enough points for its joints not to fill them
+_ORDERS = range(4, 9)
+#: fewer points tell no noise from the joints of a law's pieces
+_FEWEST = 31
+#: noise that changes the acceleration of a law through the points by less is none, in units of stroke over time squared
+_UNSEEN = 0.1
+#: the mean of the lower half of the sizes of normal deviates
+_LOWER_HALF = 0.324672
+#: pieces of the splines to which the points are compared, and numbers in their matrices
+_MOST_COMPARED = 200
+_LARGEST = 2_000_000
+#: by how much, times the number of points to the power -1/2, an estimate of rounding may pass what rounding scatters
+_BEYOND_ROUNDING = 5.0
+#: times the number of points to the power -1/2: splines that scatter no more above the best are as good
+_AS_GOOD = 1.5
+
+
+def noise(places: Array, heights: Array) -> float:
+    """The standard deviation of what scatters the points; 0 where none is seen, or the points are too few to tell.
+
+    Divided differences of points on a smooth law become small as their order rises, those of white noise do not; joints
+    of the law may show in them as noise.
+
+    Examples
+    --------
+    >>> k = np.linspace(0.0, 1.0, 361)
+    >>> exact = k**3 * (10 - 15 * k + 6 * k**2)
+    >>> noise(k, exact), round(noise(k, exact + np.random.default_rng(1).normal(0.0, 1e-4, 361)), 5)
+    (0.0, 0.0001)
+    """
+    if len(places) < _FEWEST:
+        return 0.0
+    scatters = [_scatter(places, heights, order) for order in _ORDERS]
+    steps = _step_of_rounding(heights) / sqrt(12.0)
+    if 6.0 * max(steps, min(scatters)) <= _UNSEEN * float(np.median(np.diff(places))) ** 2:
+        return 0.0
+    return max(steps, float(np.median(scatters[-3:])))
+
+
+def of_rounding(size: float, unit: float, count: int) -> bool:
+    """Whether noise of a size, estimated from so many points, may be that of rounding to a unit alone.
+
+    Examples
+    --------
+    >>> of_rounding(0.003, 0.01, 361), of_rounding(0.005, 0.01, 361)
+    (True, False)
+    """
+    return size**2 <= unit**2 / 12.0 * (1.0 + _BEYOND_ROUNDING / sqrt(count))
+
+
+def through_noise(places: Array, heights: Array, *, rest: bool) -> tuple[float, LawSpline]:
+    """How far points scatter about the spline that foretells left-out ones best, and the simplest that does as well.
+
+    The first is that of generalised cross-validation (Craven and Wahba); of the others that scatter no more than
+    chance explains the one of fewest pieces is taken. Its ends are free, for the first and the last point scatter too.
+    """
+    count = len(places)
+    best, splines = (inf, inf), []
+    for pieces in divisions(max(1, min(_MOST_COMPARED, count // 2, _LARGEST // count))):
+        spline = nearest_spline(places, heights, pieces, rest=rest, known=False)
+        if spline is not None:
+            squares = float(((spline(places) - heights) ** 2).sum())
+            splines.append((sqrt(squares / (count - spline.free)), spline))
+            best = min(best, (squares / (count - spline.free) ** 2, splines[-1][0]))
+    enough = best[1] * (1.0 + _AS_GOOD / sqrt(count))
+    return best[1], next(spline for scatter, spline in splines if scatter <= enough)
+
+
+def _scatter(places: Array, heights: Array, order: int) -> float:
+    """The size of white noise whose divided differences are as large as those of the points."""
+    k, a = sliding_window_view(places / np.median(np.diff(places)), order + 1), sliding_window_view(heights, order + 1)
+    apart = k[:, :, None] - k[:, None, :] + np.eye(order + 1)
+    weights = 1.0 / apart.prod(axis=2)
+    sizes = np.sort(np.abs((weights * a).sum(axis=1)) / np.sqrt((weights**2).sum(axis=1)))
+    # the larger half may be those of the law's joints
+    return float(sizes[: (len(sizes) + 1) // 2].mean()) / _LOWER_HALF
+
+
+def _step_of_rounding(heights: Array) -> float:
+    """The unit of heights so coarse that most of them come more than once; else 0."""
+    levels = np.unique(heights)
+    return float(np.diff(levels).min()) if 2 * len(levels) <= len(heights) else 0.0
+
+
 Many = NDArray[Any] | Sequence[Any]
 
 #: points through which a law may go; within a tolerance there may be more
@@ -168,9 +358,9 @@ def _joined_at(places: Array, heights: Array, *, rest: bool) -> PiecewiseLaw:
     """The law whose pieces join at the points."""
     breaks = places if rest else np.delete(places, [1, 2, -3, -2])
     knots = knots_of(breaks)
-    rows, sides = values(knots, places), heights
+    rows, sides = spline_values(knots, places), heights
     if rest:
-        edge = derivatives(knots, 2)
+        edge = end_derivatives(knots, 2)
         rows, sides = np.vstack([rows, edge]), np.concatenate([sides, np.zeros(len(edge))])
     return law_of(breaks, knots, np.asarray(np.linalg.solve(rows, sides), dtype=np.float64))
 
@@ -194,7 +384,7 @@ def _ever_nearer(places: Array, heights: Array, *, rest: bool) -> Iterator[Piece
     # the pieces have that many coefficients more than the ends have points
     beside = -1 if rest else 3
     for count in divisions(min(_MOST_PIECES, len(places) - 2 - beside)):
-        spline = nearest(places, heights, count, rest=rest)
+        spline = nearest_spline(places, heights, count, rest=rest)
         if spline is not None:
             yield spline.law()
     if len(places) <= MOST_THROUGH:

@@ -1,4 +1,4 @@
-"""Laws made from laws: with an end velocity (eq. 1.17), reversed in time, mirrored."""
+"""Laws made from laws: with an end velocity (eq. 1.17), reversed in time, mirrored, between two laws, a part of one."""
 
 from __future__ import annotations
 
@@ -7,9 +7,11 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.errors import InputError
 from optlaws.laws.law import MotionLaw
 from optlaws.laws.polynomial import PolynomialLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
+from optlaws.laws.segments.segment import PolynomialSegment
 from optlaws.numbers import finite
 from optlaws.series import chebyshev
 
@@ -133,3 +135,81 @@ def _scaled(law: MotionLaw, scale: float, drift: float) -> PolynomialLaw | Piece
         segments = [segment.scaled(length, scale, drift) for segment, length in zip(law.segments, lengths, strict=True)]
         return PiecewiseLaw(law.breaks, segments, scale * law.a0)
     return _scaled(as_polynomial(law), scale, drift)
+
+
+def law_between(first: MotionLaw, last: MotionLaw, share: float) -> MotionLaw:
+    """The law (1 - share) first + share last, of two that are polynomials, or polynomials between the same breaks.
+
+    Raises
+    ------
+    InputError
+        If they are of different kinds or breaks, or no polynomials.
+
+    Examples
+    --------
+    >>> from optlaws.laws.polynomial import smoothstep
+    >>> law_between(smoothstep(2), smoothstep(3), 0.5).b(0.5)
+    1.6875
+    """
+    if isinstance(first, PolynomialLaw) and isinstance(last, PolynomialLaw):
+        mean = _mean(first.acceleration, last.acceleration, share)
+        return PolynomialLaw(mean, *_mean((first.a0, first.b0), (last.a0, last.b0), share))
+    if isinstance(first, PiecewiseLaw) and isinstance(last, PiecewiseLaw) and first.breaks == last.breaks:
+        segments = [
+            _segment(segment, other, share) for segment, other in zip(first.segments, last.segments, strict=True)
+        ]
+        return PiecewiseLaw(first.breaks, segments, *_mean((first.a0,), (last.a0,), share))
+    raise InputError(
+        f"laws between two laws need polynomials, or polynomials with the same breaks, got {first!r} and {last!r}"
+    )
+
+
+def _segment(first: object, last: object, share: float) -> PolynomialSegment:
+    if not isinstance(first, PolynomialSegment) or not isinstance(last, PolynomialSegment):
+        raise InputError(f"laws between two laws need polynomial segments, got {first!r} and {last!r}")
+    return PolynomialSegment(
+        tuple(_mean(first.acceleration, last.acceleration, share)), *_mean((first.b0,), (last.b0,), share)
+    )
+
+
+def _mean(first: tuple[float, ...], last: tuple[float, ...], share: float) -> list[float]:
+    longest = max(len(first), len(last))
+    padded = (series + (0.0,) * (longest - len(series)) for series in (first, last))
+    return [(1.0 - share) * low + share * high for low, high in zip(*padded, strict=True)]
+
+
+def section(law: PiecewiseLaw, first: int, last: int) -> PiecewiseLaw:
+    """The part of a law of polynomials between two of its breaks, its displacement and its duration scaled to 1.
+
+    Parameters
+    ----------
+    law
+        Made of polynomial segments.
+    first, last
+        The numbers of the breaks.
+
+    Raises
+    ------
+    InputError
+        If a segment is no polynomial, or it ends where it begins.
+
+    Examples
+    --------
+    >>> law = PiecewiseLaw([0, 0.5, 1], [PolynomialSegment([4.0]), PolynomialSegment([-4.0], b0=2.0)])
+    >>> half = section(law, 0, 1)
+    >>> half(1.0), half(1.0, 1), half(0.0, 2)
+    (1.0, 2.0, 2.0)
+    """
+    start, stop = law.breaks[first], law.breaks[last]
+    moved = float(law(stop)) - float(law(start))
+    length = stop - start
+    if moved == 0.0:
+        raise InputError(f"the part of the law from {start:g} to {stop:g} ends where it begins")
+    parts = []
+    for segment in law.segments[first:last]:
+        if not isinstance(segment, PolynomialSegment):
+            raise InputError("a part can be taken of a law of polynomial segments only")
+        bent = tuple(length * length / moved * value for value in segment.acceleration)
+        parts.append(PolynomialSegment(bent, length / moved * segment.b0))
+    inner = [(place - start) / length for place in law.breaks[first + 1 : last]]
+    return PiecewiseLaw([0.0, *inner, 1.0], parts)

@@ -64,13 +64,13 @@ class PiecewiseLaw(MotionLaw, kind="piecewise"):
         places = numbers(breaks, "breaks")
         if len(places) < 2 or places[0] != 0.0 or places[-1] != 1.0 or any(b <= a for a, b in pairwise(places)):
             raise InputError(f"breaks must increase from 0 to 1, got {places}")
-        kept = tuple(_listed(segments))
-        if len(kept) != len(places) - 1 or not all(isinstance(segment, Segment) for segment in kept):
+        parts = tuple(_listed(segments))
+        if len(parts) != len(places) - 1 or not all(isinstance(segment, Segment) for segment in parts):
             raise InputError(
                 f"segments must be {len(places) - 1} segments, one between breaks, got {shortened(segments)}"
             )
         object.__setattr__(self, "breaks", places)
-        object.__setattr__(self, "segments", kept)
+        object.__setattr__(self, "segments", parts)
         object.__setattr__(self, "a0", finite(a0, "a0"))
 
     @kept_property

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.files.reading import JsonText
 from optlaws.laws.polynomial import PolynomialLaw
 from optlaws.laws.storage import contents, known_fields
 from optlaws.lazy import Registry
@@ -41,7 +42,7 @@ class Waves(NamedTuple):
     sines: tuple[Wave, ...] = ()
 
 
-class Segment(ABC):
+class Segment(JsonText, ABC):
     """A stretch of a motion law in u = (k - start) / length, u in [0, 1]; frozen, with a name and plain contents.
 
     A kind is a frozen dataclass of numbers and tuples of numbers, declared with its name, for example
@@ -54,6 +55,9 @@ class Segment(ABC):
     >>> Segment.from_dict({"kind": "power", "b0": 0.0, "b1": 1.5})
     PowerSegment(b0=0.0, b1=1.5)
     """
+
+    _json_name = "a segment"
+    _json_layout: ClassVar[Mapping[str, Any]] = {"allow_nan": False}
 
     kind: ClassVar[str]
     kinds: ClassVar[Registry[type[Segment]]] = Registry("segment")
@@ -184,8 +188,8 @@ class Segment(ABC):
         """The segment as plain data, from which `from_dict` makes an equal one."""
         return {"kind": self.kind, **contents(self)}
 
-    @staticmethod
-    def from_dict(data: Mapping[str, Any]) -> Segment:
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> Segment:
         """The segment that `to_dict` described.
 
         Raises
@@ -201,8 +205,8 @@ class Segment(ABC):
             raise InputError(
                 f"kind of segment {shortened(kind)} is unknown; known are {', '.join(sorted(Segment.kinds))}"
             )
-        made = Segment.kinds[kind]
-        return made(**known_fields(made, given, f"a {kind} segment"))
+        segment_class = Segment.kinds[kind]
+        return segment_class(**known_fields(segment_class, given, f"a {kind} segment"))
 
     def _check(self) -> None:
         """Turn every field into floats."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import cmath
+from abc import abstractmethod
 from dataclasses import dataclass, replace
 from math import cos, remainder, tau
 
@@ -21,8 +22,36 @@ Array = NDArray[np.float64]
 _SLOWEST = 1e-150
 
 
+class SwingingSegment(Segment):
+    """A segment that swings, whose extremes are looked for in panels as short as its highest frequency asks."""
+
+    @property
+    @abstractmethod
+    def _fastest(self) -> float:
+        """The highest frequency, radians per unit of k."""
+
+    def candidates(self, length: float, nu: int) -> Array:  # noqa: D102
+        return of_waves(self._fastest, length).roots(
+            lambda u: self.derivative(u, length, nu + 1), lambda u: length * self.derivative(u, length, nu + 2)
+        )
+
+    def power_candidates(self, length: float) -> Array:  # noqa: D102
+        def slope(u: Array) -> Array:
+            b, c, j = (self.derivative(u, length, nu) for nu in (1, 2, 3))
+            return c * c + b * j
+
+        def curvature(u: Array) -> Array:
+            b, c, j, s = (self.derivative(u, length, nu) for nu in (1, 2, 3, 4))
+            return length * (3.0 * c * j + b * s)
+
+        return of_waves(self._fastest, length).roots(slope, curvature)
+
+    def square(self, length: float, nu: int) -> float:  # noqa: D102
+        return length * of_waves(self._fastest, length).square(lambda u: self.derivative(u, length, nu))
+
+
 @dataclass(frozen=True)
-class SineSegment(Segment, kind="sine"):
+class SineSegment(SwingingSegment, kind="sine"):
     """Acceleration c = p0 + p1 s + p2 s² + A sin(w s + phi) of s = k - start; velocity b0 at the start.
 
     Parameters
@@ -104,22 +133,17 @@ class SineSegment(Segment, kind="sine"):
 
     @kept_property
     def _steady(self) -> tuple[Array, ...]:
-        """What the powers give to a, b, c and the derivatives above, to the first that is zero."""
+        """The share of the powers in a, b, c and the derivatives above, to the first that is zero."""
         whole = np.polynomial.Polynomial([*self.powers, 0.0]).integ(2)
         return tuple(np.asarray(whole.deriv(nu).coef, dtype=np.float64) for nu in range(len(self.powers) + 3))
 
-    def candidates(self, length: float, nu: int) -> Array:  # noqa: D102
-        return candidates(self, self.frequency, length, nu)
-
-    def power_candidates(self, length: float) -> Array:  # noqa: D102
-        return power_candidates(self, self.frequency, length)
-
-    def square(self, length: float, nu: int) -> float:  # noqa: D102
-        return length * of_waves(self.frequency, length).square(lambda u: self.derivative(u, length, nu))
+    @property
+    def _fastest(self) -> float:
+        return self.frequency
 
 
 @dataclass(frozen=True)
-class HarmonicSegment(Segment, kind="harmonics"):
+class HarmonicSegment(SwingingSegment, kind="harmonics"):
     """Acceleration c = sum of A sin(w s + phi) of s = k - start; velocity b0 at the start.
 
     Parameters
@@ -156,14 +180,9 @@ class HarmonicSegment(Segment, kind="harmonics"):
     def derivative(self, u: Array, length: float, nu: int) -> Array:  # noqa: D102
         return np.asarray(sum(sine.derivative(u, length, nu) for sine in self.sines), dtype=np.float64)
 
-    def candidates(self, length: float, nu: int) -> Array:  # noqa: D102
-        return candidates(self, max(self.frequencies), length, nu)
-
-    def power_candidates(self, length: float) -> Array:  # noqa: D102
-        return power_candidates(self, max(self.frequencies), length)
-
-    def square(self, length: float, nu: int) -> float:  # noqa: D102
-        return length * of_waves(max(self.frequencies), length).square(lambda u: self.derivative(u, length, nu))
+    @property
+    def _fastest(self) -> float:
+        return max(self.frequencies)
 
     def scaled(self, length: float, scale: float, drift: float = 0.0) -> Segment:  # noqa: ARG002, D102
         amplitudes = tuple(scale * amplitude for amplitude in self.amplitudes)
@@ -175,11 +194,11 @@ class HarmonicSegment(Segment, kind="harmonics"):
         return replace(self, phases=phases, b0=self.velocity(length, last=True))
 
     def plus_derivatives(self, length: float, once: float, twice: float) -> Segment:  # noqa: D102
-        made = [_transferred(*wave, (once, twice)) for wave in self._waves]
+        transferred = [_transferred(*wave, (once, twice)) for wave in self._waves]
         return replace(
             self,
-            amplitudes=tuple(amplitude for amplitude, _ in made),
-            phases=tuple(phase for _, phase in made),
+            amplitudes=tuple(amplitude for amplitude, _ in transferred),
+            phases=tuple(phase for _, phase in transferred),
             b0=self._velocity_plus(length, once, twice),
         )
 
@@ -189,39 +208,6 @@ class HarmonicSegment(Segment, kind="harmonics"):
     @property
     def _waves(self) -> tuple[Wave, ...]:
         return tuple(map(Wave, self.amplitudes, self.frequencies, self.phases))
-
-
-def candidates(wave: Segment, frequency: float, length: float, nu: int) -> Array:
-    """Every u where the derivative of order nu of a segment that swings at most at a frequency may be extreme.
-
-    Examples
-    --------
-    >>> 0.523599 in candidates(SineSegment(1.0, 3.0), 3.0, 1.0, 2).round(6)
-    True
-    """
-    return of_waves(frequency, length).roots(
-        lambda u: wave.derivative(u, length, nu + 1), lambda u: length * wave.derivative(u, length, nu + 2)
-    )
-
-
-def power_candidates(wave: Segment, frequency: float, length: float) -> Array:
-    """Every u where d = b c of a segment that swings at most at a frequency may be extreme.
-
-    Examples
-    --------
-    >>> power_candidates(SineSegment(1.0, 1.0, b0=-1.0), 1.0, 1.0).size > 0
-    True
-    """
-
-    def slope(u: Array) -> Array:
-        b, c, j = (wave.derivative(u, length, nu) for nu in (1, 2, 3))
-        return c * c + b * j
-
-    def curvature(u: Array) -> Array:
-        b, c, j, s = (wave.derivative(u, length, nu) for nu in (1, 2, 3, 4))
-        return length * (3.0 * c * j + b * s)
-
-    return of_waves(frequency, length).roots(slope, curvature)
 
 
 def _turned(frequency: float, phase: float, length: float) -> float:

@@ -89,7 +89,7 @@ def cam_constant(name: str, *, nu: float, damping: float = 0.0) -> Functional:
 
     Examples
     --------
-    >>> from optlaws.laws.savin.savin import savin
+    >>> from optlaws.laws.savin import savin
     >>> C_cam = cam_constant("C", nu=20, damping=0.05)
     >>> C_cam, round(C_cam.value(savin("III", 7.2)), 6)
     (C_cam(nu=20.0, damping=0.05), 5.755781)

@@ -42,7 +42,7 @@ def polydyne(law: MotionLaw, nu: float, damping: float = 0.0) -> MotionLaw:
 
     Examples
     --------
-    >>> from optlaws.laws.savin.savin import savin
+    >>> from optlaws.laws.savin import savin
     >>> from optlaws.mechanisms import Follower
     >>> law = savin("III", 7.2)
     >>> cam = polydyne(law, nu=20, damping=0.05)

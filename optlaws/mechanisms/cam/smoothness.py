@@ -29,7 +29,7 @@ def check_mass_law(law: MotionLaw) -> None:
 
     Examples
     --------
-    >>> from optlaws.laws.savin.savin import savin
+    >>> from optlaws.laws.savin import savin
     >>> check_mass_law(savin("III", 7.2))
     >>> check_mass_law(savin("I", 0.0))
     Traceback (most recent call last):

@@ -34,7 +34,7 @@ class Deviation:
 
     Examples
     --------
-    >>> from optlaws.laws.savin.savin import savin
+    >>> from optlaws.laws.savin import savin
     >>> worst = off_design(savin("III", 7.2), savin("III", 7.2), Follower(nu=20))[0]
     >>> worst.percent, worst.dynamic_factor
     (-10.0, 2.035976)
@@ -88,7 +88,7 @@ def off_design(
 
     Examples
     --------
-    >>> from optlaws.laws.savin.savin import savin
+    >>> from optlaws.laws.savin import savin
     >>> from optlaws.mechanisms import polydyne
     >>> law = savin("IV", 11.0)
     >>> [round(deviation.dynamic_factor, 6) for deviation in off_design(polydyne(law, nu=20), law, Follower(nu=20))]

@@ -41,7 +41,7 @@ class Response(MassMotion):
 
     Examples
     --------
-    >>> from optlaws.laws.savin.savin import savin
+    >>> from optlaws.laws.savin import savin
     >>> from optlaws.mechanisms import Follower
     >>> response = Follower(nu=18).response(savin("III", 7.2))
     >>> response.dynamic_factor(), response.residual_acceleration

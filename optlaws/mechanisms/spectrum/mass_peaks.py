@@ -35,7 +35,7 @@ def peak_accelerations(law: MotionLaw, frequencies: Array, w: Complex) -> Array:
 
     Examples
     --------
-    >>> from optlaws.laws.savin.savin import savin
+    >>> from optlaws.laws.savin import savin
     >>> peak_accelerations(savin("III", 7.2), np.array([18.0]), np.array([18.0j])).round(5)
     array([13.76515])
     """

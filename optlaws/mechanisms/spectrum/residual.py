@@ -45,7 +45,7 @@ def residual_phasor(law: MotionLaw, nu: Any, damping: float = 0.0) -> Complex:  
 
     Examples
     --------
-    >>> from optlaws.laws.savin.savin import savin
+    >>> from optlaws.laws.savin import savin
     >>> 18**2 * abs(residual_phasor(savin("III", 7.2), 18)).round(12)
     array([7.204401])
     """

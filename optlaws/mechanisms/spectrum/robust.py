@@ -165,7 +165,7 @@ def residual(
 
     Examples
     --------
-    >>> from optlaws.laws.savin.savin import savin
+    >>> from optlaws.laws.savin import savin
     >>> vibration = residual(nu=18)
     >>> round(vibration.value(savin("III", 7.2)), 6)
     7.204401

@@ -34,7 +34,7 @@ class ResponseSpectrum:
 
     Examples
     --------
-    >>> from optlaws.laws.savin.savin import savin
+    >>> from optlaws.laws.savin import savin
     >>> spectrum = response_spectrum(savin("III", 7.2), [18.0, 20.0])
     >>> spectrum.residual_acceleration.round(6), spectrum.peak_acceleration.round(4)
     (array([7.204401, 1.140114]), array([13.7651, 11.2675]))

@@ -15,7 +15,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import Constants, MotionLaw
-from optlaws.laws.making.between import law_between
+from optlaws.laws.making.transform import law_between
 from optlaws.numbers import bounded, real
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.evaluation import worth

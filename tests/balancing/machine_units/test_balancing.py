@@ -8,8 +8,8 @@ from optlaws.balancing.loaders.loader import Loader
 from optlaws.balancing.machine_units.balancing import Balancing
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.translating_roller import TranslatingRoller
-from optlaws.cams.loads.forces import CamForces
-from optlaws.cycles.drive.effort import effort
+from optlaws.cams.forces import CamForces
+from optlaws.cycles.specification.drive import effort
 from optlaws.errors import InputError
 
 

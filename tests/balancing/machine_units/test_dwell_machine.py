@@ -6,7 +6,7 @@ import pytest
 
 from optlaws import catalogue
 from optlaws.balancing.machine_units.dwell_machine import DwellMachine, dwell_machine
-from optlaws.cams.loads.forces import CamForces
+from optlaws.cams.forces import CamForces
 from optlaws.errors import InputError
 
 DATA: dict[str, Any] = {

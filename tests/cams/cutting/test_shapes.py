@@ -2,8 +2,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from optlaws.cams.cutting.biarcs import Arcs, arcs
-from optlaws.cams.cutting.chords import polygon
+from optlaws.cams.cutting.arcs_and_chords import Arcs, arcs, polygon
 from optlaws.cams.cutting.spline import even, spline, through
 from optlaws.errors import InputError
 from tests.cams.outlines import Bumped, Ellipse

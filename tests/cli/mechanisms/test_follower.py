@@ -151,7 +151,7 @@ def test_a_stroke_with_its_unit_gives_machine_units(capsys: Capture) -> None:
     [
         ((*MACHINE, "--nu", 20), "give no --nu"),
         (("--nu", 20, "--stroke", "35mm"), "--stroke needs the time"),
-        (("--frequency", "16.7 Hz"), "give time"),
+        (("--frequency", "16.7 Hz"), "give duration"),
         (("--frequency", 16.7, "--time", "0.1 s"), "without a unit"),
     ],
 )

@@ -21,9 +21,8 @@ from optlaws import (
     smoothstep,
     synthesize,
 )
-from optlaws.cycles.drive.drive import read_drive
-from optlaws.cycles.drive.effort import peak_of
 from optlaws.cycles.optimisation.objectives import FORCE, POWER
+from optlaws.cycles.specification.drive import peak_of, read_drive
 from optlaws.motion.piece import Piece
 from tests.sampling import sampled
 

@@ -3,7 +3,7 @@ import re
 import numpy as np
 import pytest
 
-from optlaws.cams.loads.forces import CamForces
+from optlaws.cams.forces import CamForces
 from optlaws.errors import InputError
 from optlaws.jobs.cam.animation import animated
 from optlaws.plots.cam import forces_figure

@@ -16,8 +16,7 @@ from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.laws.making.multiplier import multiplied, multiplier_for
 from optlaws.laws.making.transform import with_end_velocity
 from optlaws.laws.making.trapezoids import scca, trapezoid
-from optlaws.laws.savin.family import SavinFamily
-from optlaws.laws.savin.savin import savin
+from optlaws.laws.savin import SavinFamily, savin
 from optlaws.laws.segments.constant_power import PowerSegment
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from tests.laws.examples import cut, random_law

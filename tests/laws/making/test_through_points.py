@@ -23,7 +23,7 @@ from optlaws import (
     read_law,
     smoothstep,
 )
-from optlaws.jobs.cycle.cycle import table_of_motion
+from optlaws.jobs.cycle import table_of_motion
 from optlaws.laws.making.through_points import law_of_table
 from optlaws.laws.values import table_of_values
 
@@ -223,7 +223,7 @@ def test_tables_that_optlaws_writes_are_read_back(tmp_path: Path) -> None:
     for name in ("csv", "sew", "lenze", "kas", "technosoft"):
         options: list[dict[str, Any]] = [{}, {"decimal": ","}] if name == "csv" else [{}]
         for more in options:
-            made = law.export(name, stroke="35 mm", master="120 deg", time="0.1 s", points=61, **more)
+            made = law.export(name, stroke="35 mm", master="120 deg", duration="0.1 s", points=61, **more)
             table = made.write(tmp_path / f"{name}.txt")
             row = compare(str(table), law).rows[0]
             assert row["C"] == pytest.approx(law.constants.C.value, rel=2e-3), name

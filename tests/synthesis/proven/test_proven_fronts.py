@@ -19,7 +19,7 @@ from optlaws import (
     synthesize,
 )
 from optlaws.laws import smoothstep
-from optlaws.laws.making.between import law_between
+from optlaws.laws.making.transform import law_between
 from optlaws.synthesis.program.evaluation import worth
 from tests.sampling import sampled
 

@@ -1,0 +1,363 @@
+"""Cams as they are made: the follower on curves with the digits of a file, or an error of the profile."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import inf, pi, tau
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.cams.cutting.arcs_and_chords import Arcs, arcs
+from optlaws.cams.cutting.file_options import Cutting
+from optlaws.cams.cutting.manufactured_curves import ArcChain, PointSpline, PolarSpline, WavyCurve
+from optlaws.cams.cutting.outline import Outline
+from optlaws.cams.cutting.spline import spline
+from optlaws.cams.cutting.text_formats import polar
+from optlaws.cams.disc import DiscCam
+from optlaws.cams.followers.contact import FollowerContact, shifted
+from optlaws.errors import InputError
+from optlaws.kept import kept_property
+from optlaws.laws.storage import PlainNumbers
+from optlaws.motion.quantities import positive_quantity, quantity
+from optlaws.numbers import Quantity, whole
+from optlaws.series.enclosures.branch_and_bound import Function, extremes
+from optlaws.series.enclosures.interval_arrays import Interval
+from optlaws.series.enclosures.jets import Jet
+from optlaws.suggest import unknown_key
+
+Array = NDArray[np.float64]
+
+_SAMPLES = 721
+
+
+@dataclass(frozen=True)
+class Following:
+    """A follower on a closed curve, at any place of it: the cam's angle there, and the displacement.
+
+    The follower is taken to touch the curve at one place, as it does where the curve bulges outward or its hollows are
+    wider than the roller.
+
+    Parameters
+    ----------
+    contact
+        The follower, in numbers.
+    curve
+        The cam's profile as it is made, m; any parameter.
+    phase
+        By how much the cam's coordinates are turned, rad.
+    outside
+        How far outside of the profile the curve is, m: the radius of a cutter whose path it is.
+
+    Examples
+    --------
+    >>> from optlaws.cams.disc import DiscCam
+    >>> from optlaws.cams.followers.translating_roller import TranslatingRoller
+    >>> from optlaws.cams.curves.motion_by_angle import CamMotion
+    >>> motion = CamMotion.of_law("cycloidal", "40 mm", "360 deg")
+    >>> cam = DiscCam(motion, base_radius="80 mm", follower=TranslatingRoller("12 mm"))
+    >>> following = Following(cam.contact, cam.profile)
+    >>> angle, displacement = (float(value) for value in following.at(np.array(1.0), 0))
+    >>> round(angle, 12), round(displacement - cam.displacement(1.0), 12) + 0.0
+    (1.0, 0.0)
+    """
+
+    contact: FollowerContact
+    curve: Outline
+    phase: float = 0.0
+    outside: float = 0.0
+
+    @kept_property
+    def outward(self) -> float:
+        """1 where the curve runs counterclockwise, so that outward is to its right, else -1."""
+        places = np.linspace(self.curve.breaks[0], self.curve.breaks[-1], _SAMPLES)
+        x, y = self.curve(places).T
+        area = float(np.sum(x[:-1] * y[1:] - x[1:] * y[:-1]))
+        if area == 0.0:
+            raise InputError("the curve encloses nothing: no follower runs on it")
+        return 1.0 if area > 0.0 else -1.0
+
+    def at(self, places: Array, nu: int) -> tuple[Array, Array]:
+        """The cam's angle at places of the curve, rad, and the derivative of order nu of the displacement by it."""
+        angle, derivative = self.derivative(places, nu, 0)
+        return np.asarray(angle.terms[0]), np.asarray(derivative.terms[0])
+
+    def derivative(self, places: Array | Interval, nu: int, order: int) -> tuple[Jet, Jet]:
+        """The cam's angle and the derivative of order nu by it, both with Taylor terms by the curve's parameter."""
+        angle, derivative = self.jets(places, nu + order)
+        pace = angle.slope()
+        for _ in range(nu):
+            derivative = derivative.slope() / pace
+        return angle, derivative
+
+    def jets(self, places: Array | Interval, order: int) -> tuple[Jet, Jet]:
+        """The cam's angle and the displacement, by the curve's parameter."""
+        point = self.curve.jets(places, order + 1)
+        slopes = (point[0].slope(), point[1].slope())
+        length = (slopes[0] * slopes[0] + slopes[1] * slopes[1]).root()
+        normal = (slopes[1] / length * self.outward, slopes[0] / length * -self.outward)
+        profile = shifted((point[0].cut(order), point[1].cut(order)), normal, -self.outside)
+        state = self.contact.state(profile, normal)
+        return (state.direction + self.phase - state.in_cam) * self.contact.turning, state.displacement
+
+
+CURVES = ("profile", "pitch")
+ManufacturedFormat = Literal["csv", "csv polar", "dxf spline", "svg", "dxf arcs", "g-code arcs"]
+_SHARE, _NEAR = 1e-3, 1e-6  # how near deviations and peaks are enclosed
+_CELLS = 128
+_LEAP = 1e-6
+_SHIFTS = (0.0, 0.5 * pi, pi, 1.5 * pi)
+_MOST_WAVES = 100_000
+_UNREACHED = (
+    "the follower does not reach all of the cam as made: it has corners or hollows narrower than the roller; "
+    "ask for more decimals, fewer points or waves, or a lesser error"
+)
+
+
+class UnreachedProfileError(InputError):
+    """The follower does not touch all of a cam as made, so that its motion is not that of the curve."""
+
+
+@dataclass(frozen=True)
+class AsMade(PlainNumbers):
+    """The motion of a follower on a cam as it is made, over the whole turn.
+
+    Deviation, acceleration and jerk are enclosed, and no less than the greatest: by 1e-3 of it the first, by 1e-6 the
+    others. Splines are taken as the polynomials between their knots; a leap is what it is next to where parts meet.
+
+    Attributes
+    ----------
+    deviation
+        Greatest difference of its displacement from the one that was meant, m or rad.
+    acceleration, jerk
+        Greatest second and third derivative of the displacement by the cam's angle, m or rad; at w rad/s they are
+        multiplied by w² and w³.
+        The jerk is infinite where the acceleration leaps.
+    leap
+        Greatest leap of the second derivative, m or rad; 0 where it is continuous.
+    acceleration_ratio, jerk_ratio
+        Those of the second and third derivative over those of the motion that was meant.
+
+    Examples
+    --------
+    >>> AsMade(1e-6, 0.05, 0.4, 0.0, 1.25, 1.1).acceleration_ratio
+    1.25
+    """
+
+    deviation: float
+    acceleration: float
+    jerk: float
+    leap: float
+    acceleration_ratio: float
+    jerk_ratio: float
+
+
+def run_against(cam: DiscCam, curve: Outline, outside: float = 0.0, *, leaps: bool = True) -> AsMade:
+    """The motion of a cam's follower on a curve in place of its profile.
+
+    Parameters
+    ----------
+    cam
+        The cam that was meant.
+    curve
+        A closed curve, as it was made; any parameter.
+    outside
+        How far outside of the profile the curve is, m: the radius of the cutter whose path it is.
+    leaps
+        Whether leaps of the acceleration make the jerk infinite; otherwise it is the greatest between them.
+
+    Raises
+    ------
+    InputError
+        If the cam's motion is not a whole turn.
+    """
+    if not cam.displacement.closed:
+        raise InputError("a cam as made is run over a whole turn: make it of a Cycle, with dwells and the way back")
+    following = Following(cam.contact, curve, quantity(cam.phase, "angle", "phase"), outside)
+    edges = np.array(curve.breaks)
+
+    def off(places: Interval, order: int) -> Jet:
+        angle, displacement = following.derivative(places, 0, order)
+        return displacement - cam.displacement.along(angle)
+
+    _check_hollows(following, edges)
+    deviation = _bound(off, edges, _SHARE)
+    acceleration = _peak(following, edges, 2)
+    leap = _leap(following, edges, acceleration)
+    jerk = inf if leap and leaps else _peak(following, edges, 3)
+    return AsMade(deviation, acceleration, jerk, leap, acceleration / _meant(cam, 2), jerk / _meant(cam, 3))
+
+
+def _check_hollows(following: Following, edges: Array) -> None:
+    """Refuse a curve along which the follower would turn back, as a roller does in hollows narrower than itself."""
+    places = edges[:-1, None] + np.multiply.outer(np.diff(edges), np.linspace(0.1, 0.9, 5))
+    rates = np.asarray(following.jets(places, 1)[0].terms[1])
+    if rates.min() * rates.max() <= 0.0:
+        raise UnreachedProfileError(_UNREACHED)
+
+
+def _peak(following: Following, edges: Array, nu: int) -> float:
+    return _bound(lambda places, order: following.derivative(places, nu, order)[1], edges, _NEAR)
+
+
+def _bound(function: Function, edges: Array, share: float) -> float:
+    """The greatest magnitude, as it is proven."""
+    bound = extremes(function, edges, share=share, parts=max(1, _CELLS // len(edges)), magnitude=True).bound
+    if bound == inf:
+        raise UnreachedProfileError(_UNREACHED)
+    return bound
+
+
+def _leap(following: Following, edges: Array, size: float) -> float:
+    """The greatest leap of the second derivative where parts meet."""
+    beside = 1e-9 * np.diff(edges)
+    before, after = (following.at(places, 2)[1] for places in (edges[1:] - beside, edges[:-1] + beside))
+    leap = float(np.abs(np.roll(after, -1) - before).max())
+    return leap if leap > _LEAP * size else 0.0
+
+
+def _meant(cam: DiscCam, nu: int) -> float:
+    return max(abs(value) for stretch in cam.displacement.stretches for value in stretch.extremes(nu))
+
+
+def as_made(
+    cam: DiscCam,
+    form: ManufacturedFormat = "csv",
+    *,
+    curve: Literal["profile", "pitch"] = "profile",
+    points: int = 721,
+    decimals: int = 6,
+    tolerance: Quantity = "1 um",
+    degree: int = 3,
+) -> AsMade:
+    """The motion of a cam's follower if the cam is made from a file with the digits and tolerance of its entries.
+
+    Points of a table are joined by the cubic spline with continuous curvature that drawing programs draw, radii of a
+    polar table by such a spline over the angle. A spline is cut as it is in the file, and so are arcs, under which the
+    acceleration leaps from arc to arc.
+
+    Parameters
+    ----------
+    cam
+        The cam.
+    form
+        The format: "csv", "csv polar", "dxf spline", "svg", "dxf arcs" or "g-code arcs".
+    curve
+        "profile", or "pitch", whose points a machine is given that offsets them itself.
+    points, decimals
+        Of tables: how many points over the turn, and how many decimals of a millimetre.
+    tolerance, degree
+        Of splines and arcs, as in `DiscCam.export`.
+
+    Raises
+    ------
+    InputError
+        If the format is unknown or makes corners, where a follower's velocity leaps.
+
+    Examples
+    --------
+    >>> from optlaws import Cycle, Dwell, Return, Rise
+    >>> from optlaws.cams.followers.translating_roller import TranslatingRoller
+    >>> moves = [Rise("40 mm", "120 deg", law="3-4-5"), Dwell("60 deg"), Return(law="3-4-5")]
+    >>> cam = DiscCam(Cycle(moves, speed="200 rpm"), base_radius="80 mm", follower=TranslatingRoller("12 mm"))
+    >>> [round(as_made(cam, points=361, decimals=decimals).acceleration_ratio, 3) for decimals in (3, 4)]
+    [1.188, 1.026]
+    """
+    if curve not in CURVES:
+        raise InputError(unknown_key(curve, CURVES, "curve"))
+    if form not in _CURVES_OF:
+        raise InputError(
+            f"{unknown_key(form, _CURVES_OF, 'format')}; polygons have corners, where the follower's velocity leaps"
+        )
+    outline = cam.profile if curve == "profile" else cam.pitch_curve
+    outside = 0.0 if curve == "profile" else cam.contact.roller
+    return run_against(cam, _CURVES_OF[form](outline, Cutting(tolerance, decimals, points, degree)), outside)
+
+
+def with_error(cam: DiscCam, error: Quantity, waves: Any) -> AsMade:  # noqa: ANN401 - a quantity and a number
+    """The motion of a cam's follower if the profile is off by waves of an amplitude along its normals.
+
+    Of four phases of the wave, the greatest values. A wave with n periods in a turn adds about n² times its amplitude
+    to the second derivative by the cam's angle, and n³ times to the third. The jerk is the greatest between places
+    where the cam's own leaps, at which the error makes the acceleration leap a little.
+
+    Parameters
+    ----------
+    cam
+        The cam.
+    error
+        The amplitude, such as "0.1 mm" where the profile is within ±0.1 mm.
+    waves
+        Periods over the turn.
+
+    Raises
+    ------
+    InputError
+        If the error is no length above 0.
+
+    Examples
+    --------
+    >>> from optlaws import Cycle, Dwell, Return, Rise
+    >>> from optlaws.cams.followers.translating_roller import TranslatingRoller
+    >>> moves = [Rise("40 mm", "120 deg", law="3-4-5"), Dwell("60 deg"), Return(law="3-4-5")]
+    >>> cam = DiscCam(Cycle(moves, speed="200 rpm"), base_radius="80 mm", follower=TranslatingRoller("12 mm"))
+    >>> round(with_error(cam, "0.01 mm", waves=3).acceleration_ratio, 3)
+    1.002
+    """
+    amplitude, count = positive_quantity(error, "length", "error"), whole(waves, "waves", least=1, most=_MOST_WAVES)
+    cases = [run_against(cam, WavyCurve(cam.profile, amplitude, count, shift), leaps=False) for shift in _SHIFTS]
+    return AsMade(*(max(getattr(case, name) for case in cases) for name in AsMade.__dataclass_fields__))
+
+
+def rounding_bound(resolution: float, step: float) -> float:
+    """The greatest error of the second derivative of a cubic spline whose values are rounded: 6 eps/dk².
+
+    Parameters
+    ----------
+    resolution
+        Of the values: each is off by half of it at most.
+    step
+        Between the places.
+
+    Examples
+    --------
+    >>> round(float(rounding_bound(1e-6, np.radians(1.0))), 6)
+    0.019697
+    """
+    return 6.0 * resolution / step**2
+
+
+def _points(outline: Outline, options: Cutting) -> Outline:
+    return PointSpline(_rounded(outline(np.linspace(0.0, tau, options.points)), options, closed=True))
+
+
+def _radii(outline: Outline, options: Cutting) -> Outline:
+    return PolarSpline(_rounded(polar(outline, options.points), options, closed=True))
+
+
+def _splined(outline: Outline, options: Cutting) -> Outline:
+    return spline(outline, options.metres, options.degree)
+
+
+def _chain(outline: Outline, options: Cutting) -> Outline:
+    cases = arcs(outline, options.metres)
+    return ArcChain(Arcs(cases.points, cases.bulges, cases.deviation))
+
+
+def _rounded(values: Array, options: Cutting, *, closed: bool) -> Array:
+    rounded = 1e-3 * np.round(1e3 * values, options.decimals)
+    if closed:
+        rounded[-1] = rounded[0]
+    return rounded
+
+
+_CURVES_OF: dict[str, Callable[[Outline, Cutting], Outline]] = {
+    "csv": _points,
+    "csv polar": _radii,
+    "dxf spline": _splined,
+    "svg": _splined,
+    "dxf arcs": _chain,
+    "g-code arcs": _chain,
+}

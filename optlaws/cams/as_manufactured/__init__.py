@@ -1,1 +1,0 @@
-"""Cams as they are made: their points rounded, splined and run against the follower."""

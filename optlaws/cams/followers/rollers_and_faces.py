@@ -1,0 +1,215 @@
+"""Rollers and flat faces on cams: pitch curves and envelopes, their curvature, rolling and sliding."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from math import inf, pi, sin, sqrt
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.cams.curves.extremes import CamExtremes, Extreme, Undercut, enclosed_extremes, widened
+from optlaws.cams.curves.motion_by_angle import CamMotion
+from optlaws.cams.followers.contact import ContactState, CurvatureTerms, FollowerContact, bearing, shifted
+from optlaws.series.enclosures.interval_arrays import Interval
+from optlaws.series.enclosures.jets import Jet, Pair, Term
+
+_COARSE = 1e-3
+
+
+class RollerContact(FollowerContact):
+    """A roller: its centre runs along the pitch curve, `along` the follower's way and `across` it.
+
+    With p along and q across, both by the angle, tan(alpha) = p/q, and the curvature of the pitch curve, above 0 where
+    it bulges outward, is (w (p² + q²) + p q' - q p')/(p² + q²)^(3/2), where w is how fast the follower's way turns
+    against the cam.
+    """
+
+    @abstractmethod
+    def components(self, s: Jet) -> Pair:
+        """How fast the centre goes along the follower's way and across it, seen from the cam."""
+
+    @abstractmethod
+    def rate(self, s: Jet) -> Jet | float:
+        """How fast the follower's way turns against the cam."""
+
+    @abstractmethod
+    def curvature_terms(self, displacement: str, slope: str) -> CurvatureTerms:
+        """The curvature of the pitch curve as texts of the displacement above the lowest and of s'."""
+
+    @property
+    def lost(self) -> int:
+        """Zero, as the jet of a point is as long as that of the displacement."""
+        return 0
+
+    def pressure(self, s: Jet) -> Jet:
+        """The tangent of the pressure angle: velocity along the follower's way over velocity across it."""
+        along, across = self.components(s)
+        return along / across
+
+    def curvature(self, s: Jet) -> Jet:
+        """The curvature of the pitch curve."""
+        p, q = self.components(s)
+        square = p * p + q * q
+        turned = p * q.slope() - q * p.slope()
+        return (square * self.rate(s) + turned) / (square * square.root())
+
+    def profile_curvature(self, s: Jet) -> Jet:
+        """That of the parallel curve which is the roller's radius inward."""
+        curvature = self.curvature(s)
+        return curvature / (curvature * -self.roller + 1.0)
+
+    def radius_of_curvature(self, s: Jet) -> Term:
+        """That of the pitch curve less the roller's; infinite where it is straight."""
+        with np.errstate(divide="ignore"):
+            return 1.0 / self.curvature(s).terms[0] - self.roller
+
+    def curvature_excess(self, s: Jet, limit: float) -> Interval:
+        """The excess of the curvature of the pitch curve over its limit, 1/m."""
+        excess: Interval = self.curvature(s).terms[0] - 1.0 / (limit + self.roller)
+        return excess
+
+    def pitch_curvatures(self, motion: CamMotion) -> tuple[Extreme, Extreme]:
+        """The least and the greatest curvature of the pitch curve, 1/m."""
+        return enclosed_extremes(motion, self.curvature, 2)
+
+    def least_convex_radius(self, motion: CamMotion) -> Extreme:
+        """The least radius of curvature of the profile where it bulges, m."""
+        return self._inside(self.pitch_curvatures(motion)[1])
+
+    def extremes(self, motion: CamMotion) -> CamExtremes:
+        """Enclosed extremes over the whole motion."""
+        pressure = self.pressure_angles(motion)
+        least, greatest = self.pitch_curvatures(motion)
+        roller, convex = self.roller, self._inside(greatest)
+        concave = None
+        if least.low < 0.0:
+            nearest = -1.0 / least.low + roller
+            farthest = -1.0 / least.high + roller if least.high < 0.0 else inf
+            concave = widened(nearest, farthest, least.angle, nearest)
+        simple = motion.closed and convex.low > 0.0 and self._is_star(motion)
+        return CamExtremes(pressure, convex, concave, Undercut.of(convex, simple=simple))
+
+    def _inside(self, curvature: Extreme) -> Extreme:
+        """The radius of curvature of the profile where the pitch curve bulges most."""
+        low, high = 1.0 / curvature.high, 1.0 / curvature.low
+        return widened(low - self.roller, high - self.roller, curvature.angle, high)
+
+    def _is_star(self, motion: CamMotion) -> bool:
+        """Whether pitch curve and profile are proven to run around the centre without turning back.
+
+        Both then are simple closed curves, and so is no place met twice by the parallel curves between them: the roller
+        cuts the profile nowhere else.
+        """
+
+        def support(s: Jet) -> Jet:
+            x, y = self.point(s)
+            turning = self.turning
+            return (y * (x.slope() + y * turning) - x * (y.slope() - x * turning)) / self._speed(s) * turning
+
+        # the distance of the tangent from the centre; that of the profile's is less by the roller's radius
+        return enclosed_extremes(motion, support, 1, _COARSE)[0].low > self.roller
+
+    def _speed(self, s: Jet) -> Jet:
+        along, across = self.components(s)
+        return (along * along + across * across).root()
+
+    def rolling(self, s: Jet) -> Jet:
+        """How fast the roller's surface runs past its centre: the centre's own way, less the cam's turning with it."""
+        return (self._speed(s) - self.roller).magnitude()
+
+    def state_at(self, displacement: Jet, point: Pair, normal: Pair) -> ContactState:
+        """The state whose displacement is known: seen from either side it is about the roller's centre."""
+        in_cam = bearing(*shifted(point, normal, self.roller))
+        return ContactState(displacement, bearing(*self.point(displacement)), in_cam)
+
+    def square_of_centre(self, point: Pair, normal: Pair) -> Jet:
+        """How far the roller's centre is from the cam's, squared, where it touches a profile."""
+        x, y = shifted(point, normal, self.roller)
+        return x * x + y * y
+
+
+def side_of(long: float, short: float) -> float:
+    """The other leg of a right triangle.
+
+    Examples
+    --------
+    >>> side_of(5.0, 3.0)
+    4.0
+    """
+    return sqrt((long - short) * (long + short))
+
+
+def half_turn(angle: float) -> bool:
+    """Whether an angle is strictly within half a turn, where its sine is above 0.
+
+    Examples
+    --------
+    >>> half_turn(1.0), half_turn(-0.1)
+    (True, False)
+    """
+    return 0.0 < angle < pi and sin(angle) > 0.0
+
+
+Array = NDArray[np.float64]
+
+
+class FaceContact(FollowerContact):
+    """A flat face, of which the cam's profile is the envelope."""
+
+    @property
+    def roller(self) -> float:
+        """Zero, as a flat face has no roller."""
+        return 0.0
+
+    @property
+    def lost(self) -> int:
+        """One, as the place on the face is a derivative."""
+        return 1
+
+    @abstractmethod
+    def radius(self, s: Jet) -> Jet:
+        """The radius of curvature of the profile, by which it is free of undercut where it is above 0."""
+
+    def profile_curvature(self, s: Jet) -> Jet:
+        """One over the radius."""
+        return 1.0 / self.radius(s)
+
+    def radius_of_curvature(self, s: Jet) -> Term:
+        """The radius of curvature of the profile, above 0 where it bulges outward."""
+        return self.radius(s).terms[0]
+
+    def curvature_excess(self, s: Jet, limit: float) -> Interval:
+        """The excess of the least radius over the radius of the profile, m."""
+        excess: Interval = -self.radius(s).terms[0] + limit
+        return excess
+
+    def least_convex_radius(self, motion: CamMotion) -> Extreme:
+        """The least radius of curvature of the profile, m."""
+        return enclosed_extremes(motion, self.radius, 2)[0]
+
+    def extremes(self, motion: CamMotion) -> CamExtremes:
+        """Enclosed extremes over the whole motion."""
+        pressure, least = self.pressure_angles(motion), self.least_convex_radius(motion)
+        # a face turns with the cam all the way, so that its envelope is convex where its radius is above 0
+        return CamExtremes(pressure, least, None, Undercut.of(least, simple=motion.closed))
+
+    @abstractmethod
+    def reach(self, s: Jet) -> Jet:
+        """The place along the face where it is touched."""
+
+
+def sign(jet: Jet) -> Jet:
+    """1 or -1; where intervals leave open which, all between.
+
+    Examples
+    --------
+    >>> sign(Jet((np.array([0.5, -2.0]), np.array([1.0, 1.0])))).terms[0].tolist()
+    [1.0, -1.0]
+    """
+    first = jet.terms[0]
+    if not isinstance(first, Interval):
+        return Jet((np.sign(first), *(np.zeros(np.shape(first)),) * jet.order))
+    signs: Array = np.where(first.low > 0.0, 1.0, np.where(first.high < 0.0, -1.0, 0.0))
+    leap = Interval(np.zeros(signs.shape), np.where(signs == 0.0, np.inf, 0.0))
+    return Jet((Interval(signs, np.where(signs == 0.0, 1.0, 0.0)), *(leap,) * jet.order))

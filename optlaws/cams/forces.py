@@ -1,0 +1,394 @@
+"""Forces of a cam at a speed: contact force, Hertz's pressure and shaft torque, over the turn and enclosed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from math import degrees, pi, sqrt
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.cams.curves.extremes import UNDERCUT
+from optlaws.cams.disc import DiscCam
+from optlaws.cams.followers.contact import Friction, Transmission
+from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.specification.drive import CycleDrive, read_drive
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.kept import kept_property
+from optlaws.motion.quantities import TURN, positive_quantity, quantity
+from optlaws.numbers import Quantity, finite, real_times
+from optlaws.series.enclosures.branch_and_bound import Extremes, Function, extremes
+from optlaws.series.enclosures.enclosed_integral import integral
+from optlaws.series.enclosures.interval_arrays import Interval, highest, middle
+from optlaws.series.enclosures.jets import Jet
+from optlaws.suggest import unknown_key
+
+Array = NDArray[np.float64]
+
+#: Young's modulus and Poisson's ratio within the ranges of J. M. Gere, Mechanics of Materials, 5th edition, appendix H
+#: (steel 190 to 210 GPa and 0.27 to 0.30, cast iron 83 to 170 and 0.2 to 0.3, bronze 96 to 120 and 0.34, aluminium
+#: 6061-T6 70 and 0.33); 210 GPa and 0.30 are those of EN 1993-1-1. One's own is a mapping with "young" and "poisson".
+MATERIALS = {
+    "steel": ("210 GPa", 0.30),
+    "cast iron": ("110 GPa", 0.26),
+    "bronze": ("110 GPa", 0.34),
+    "aluminium": ("70 GPa", 0.33),
+}
+_ENTRIES = ("young", "poisson")
+
+
+@dataclass(frozen=True)
+class LineContact:
+    """A contact along a line: p = sqrt(N E / (pi width R)) with 1/E the sum of (1 - nu²)/E of both bodies.
+
+    Attributes
+    ----------
+    width
+        Of the line, m.
+    modulus
+        E of both together, Pa.
+    roller_curvature
+        Of the follower, 1/m; 0 of a face.
+
+    Examples
+    --------
+    >>> contact = line_contact("20 mm", ("steel", "steel"), roller=0.012)
+    >>> round(float(contact.pressure(np.array(1000.0), np.array(0.08))) / 1e6, 3)
+    419.51
+    """
+
+    width: float
+    modulus: float
+    roller_curvature: float
+
+    def pressure(self, force: Array, radius: Array) -> Array:
+        """Greatest pressure under a force in N, where the cam has a radius of curvature in m; Pa.
+
+        0 where nothing is pressed. The radius is below 0 where the cam is hollow.
+
+        Raises
+        ------
+        InputError
+            If a hollow of the cam is narrower than the roller.
+        """
+        with np.errstate(divide="ignore"):
+            squared = self.squared(Jet((np.asarray(force),)), Jet((1.0 / np.asarray(radius),)))
+        return np.asarray(np.sqrt(np.maximum(squared.terms[0], 0.0)))
+
+    def squared(self, force: Jet, curvature: Jet) -> Jet:
+        """The square of it where the cam has a curvature: smooth where the follower lifts off, and below 0 beyond.
+
+        Raises
+        ------
+        InputError
+            As for `pressure`.
+        """
+        both = curvature + self.roller_curvature
+        if np.any(highest(both.terms[0]) < 0.0):
+            raise InputError("the cam is hollow where a flat face or a roller that is wider would touch it elsewhere")
+        return force * both * (self.modulus / (pi * self.width))
+
+
+def line_contact(width: Any, materials: Any, roller: float) -> LineContact:  # noqa: ANN401 - they are checked here
+    """A contact from its width, the materials of cam and follower, and the follower's radius in m (0 for a face).
+
+    A material is one of `MATERIALS`, whose values are those of a handbook, or {"young": "3 GPa", "poisson": 0.4} from a
+    data sheet.
+
+    Raises
+    ------
+    InputError
+        If the width is no length above 0, or a material is not known.
+
+    Examples
+    --------
+    >>> line_contact("20 mm", ("steel", {"young": "3 GPa", "poisson": 0.4}), 0.012).width
+    0.02
+    """
+    length = positive_quantity(width, "length", "width")
+    if not isinstance(materials, tuple | list) or len(materials) != 2:
+        raise InputError(f"materials must be two, of the cam and of the follower, got {shortened(materials)}")
+    yielding = sum((1.0 - poisson**2) / young for young, poisson in map(_material, materials))
+    return LineContact(length, 1.0 / yielding, 1.0 / roller if roller else 0.0)
+
+
+def _material(given: Any) -> tuple[float, float]:  # noqa: ANN401
+    """Young's modulus in Pa, and Poisson's ratio."""
+    if isinstance(given, str):
+        if given not in MATERIALS:
+            raise InputError(
+                f"{unknown_key(given, MATERIALS, 'material')}; one of your own is {{'young': '3 GPa', 'poisson': 0.4}}"
+            )
+        young, poisson = MATERIALS[given]
+    elif isinstance(given, Mapping) and set(given) == set(_ENTRIES):
+        young, poisson = given["young"], finite(given["poisson"], "poisson")
+    else:
+        raise InputError(f"a material is a name or has 'young' and 'poisson', got {shortened(given)}")
+    modulus = quantity(young, "pressure", "young")
+    if modulus <= 0.0 or not -1.0 < poisson < 0.5 + 1e-12:
+        raise InputError(f"young must be above 0 and poisson between -1 and 0.5, got {shortened(given)}")
+    return modulus, poisson
+
+
+_SHARE = 1e-8
+_PARTS = 12
+_WAY = 1e-12  # of the stroke: what is less is rounding
+_FRICTION = ("contact", "guide", "overhang", "length")
+
+
+@dataclass(frozen=True)
+class CamForces:
+    """The forces of a cam and its follower at a speed, over the cam's angle in radians; N, N m, Pa.
+
+    Parameters
+    ----------
+    cam
+        The cam.
+    speed
+        Of the cam, such as "300 rpm"; that of its cycle unless given.
+    drive
+        What the follower moves: entries of a cycle's drive, mass (or inertia), stiffness, preload, gravity, viscous and
+        dry; the drive of its cycle unless given. Spring and preload press the follower on the cam.
+    friction
+        `contact`, the coefficient between cam and face or of a rolling roller; for slides `guide`, the coefficient in
+        the guide, with `overhang` and `length` of the guide.
+    width, materials
+        Of the contact, for Hertz's pressure: "20 mm", ("steel", "steel").
+
+    Raises
+    ------
+    InputError
+        If there is no speed or no drive, or an entry is unknown or of another dimension.
+
+    Examples
+    --------
+    >>> from optlaws import Cycle, Dwell, Return, Rise
+    >>> from optlaws.cams.followers.translating_roller import TranslatingRoller
+    >>> moves = [Rise("40 mm", "120 deg", law="3-4-5"), Dwell("60 deg"), Return(law="3-4-5")]
+    >>> cam = DiscCam(Cycle(moves, speed="200 rpm"), base_radius="80 mm", follower=TranslatingRoller("12 mm"))
+    >>> forces = CamForces(cam, drive={"mass": "2 kg", "stiffness": "3 N/mm", "preload": "60 N"}, width="20 mm")
+    >>> round(forces.contact.most, 3), round(forces.torque.most, 3), round(forces.rms_torque[1], 3)
+    (180.0, 4.299, 2.05)
+    >>> forces.lifts_off, abs(forces.mean_torque[1]) < 1e-7, round(forces.pressure.most / 1e6, 2)
+    (False, True, 174.95)
+    """
+
+    cam: DiscCam
+    speed: Quantity | None = None
+    drive: Mapping[str, Any] | None = None
+    friction: Mapping[str, Any] = field(default_factory=dict)
+    width: Quantity | None = None
+    materials: Any = ("steel", "steel")
+
+    def __post_init__(self) -> None:
+        self.rate, self.load, self._friction, self._line  # noqa: B018 - what is wrong is refused at once
+
+    @kept_property
+    def rate(self) -> float:
+        """The cam's angular velocity, rad/s."""
+        if self.speed is not None:
+            return positive_quantity(self.speed, "angular velocity", "speed")
+        if not isinstance(self.cam.motion, Cycle):
+            raise InputError("forces need the cam's speed: give one, such as speed='300 rpm'")
+        return TURN / self.cam.motion.duration
+
+    @kept_property
+    def load(self) -> CycleDrive:
+        """The inertia, spring and friction that the follower moves, in SI units."""
+        given = self.drive
+        if given is None and isinstance(self.cam.motion, Cycle):
+            given = self.cam.motion.drive
+        if given is None:
+            raise InputError("forces need what the follower moves: give a drive, such as drive={'mass': '2 kg'}")
+        return read_drive(given, self.cam.displacement.axis)
+
+    @kept_property
+    def edges(self) -> Array:
+        """Angles between which forces are smooth, rad: breaks of the motion, and where the follower turns back."""
+        places = [np.array(self.cam.displacement.breaks)]
+        for stretch in self.cam.displacement.stretches:
+            inner = stretch.segment.candidates(stretch.length, 0) if stretch.stroke else np.empty(0)
+            if inner.size:
+                turns = stretch.start + (stretch.stop - stretch.start) * inner
+                ends = np.array([[stretch.start], [stretch.stop]])
+                way = np.abs(self.cam.displacement(turns) - self.cam.displacement(ends))
+                # roots of the velocity beside an end that is at rest are rounding
+                places.append(turns[(way > _WAY * abs(stretch.stroke)).all(axis=0)])
+        return np.unique(np.concatenate(places))
+
+    def follower_force(self, angle: Any) -> Any:  # noqa: ANN401 - a number for a number, an array for arrays
+        """The force on the follower along its way, N, or the torque about its pivot, N m."""
+        return self._given(self._follower_force, angle)
+
+    def contact_force(self, angle: Any) -> Any:  # noqa: ANN401 - as for the follower's
+        """The force between cam and follower along their normal, N; below 0 where the follower would lift off."""
+        return self._given(self._contact_force, angle)
+
+    def shaft_torque(self, angle: Any) -> Any:  # noqa: ANN401 - as for the follower's
+        """The torque that turns the cam, N m; below 0 where the follower drives it."""
+        return self._given(self._torque, angle)
+
+    def contact_pressure(self, angle: Any) -> Any:  # noqa: ANN401 - as for the follower's
+        """Hertz's greatest pressure in the contact, Pa.
+
+        Raises
+        ------
+        InputError
+            If no width was given.
+        """
+        squared = self._given(self._squared_pressure, angle)
+        values = np.sqrt(np.maximum(squared, 0.0))
+        return values if np.ndim(values) else float(values)
+
+    @kept_property
+    def contact(self) -> Extremes:
+        """Least and greatest contact force, enclosed over the turn."""
+        return self._enclosed(self._contact_force)
+
+    @property
+    def lifts_off(self) -> bool:
+        """Whether the follower leaves the cam somewhere."""
+        return self.contact.low < 0.0
+
+    @kept_property
+    def torque(self) -> Extremes:
+        """Least and greatest torque at the shaft, enclosed over the turn."""
+        return self._enclosed(self._torque)
+
+    @kept_property
+    def pressure(self) -> Extremes:
+        """Least and greatest of Hertz's pressure, enclosed over the turn; 0 where the follower lifts off."""
+        square = self._enclosed(self._squared_pressure)
+        sizes = {name: sqrt(max(getattr(square, name), 0.0)) for name in ("least", "low", "most", "high")}
+        return square._replace(**sizes)
+
+    @kept_property
+    def mean_torque(self) -> tuple[float, float]:
+        """The interval of the mean torque, which is 0 over a turn without friction."""
+        low, high = integral(self._torque, self.edges, share=_SHARE)
+        return low / self._angle, high / self._angle
+
+    @kept_property
+    def rms_torque(self) -> tuple[float, float]:
+        """The interval of the root mean square of the torque."""
+        low, high = integral(lambda angle, order: _square(self._torque(angle, order)), self.edges, share=_SHARE)
+        return sqrt(max(low, 0.0) / self._angle), sqrt(max(high, 0.0) / self._angle)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Peaks with their places in degrees, and means, as plain data in SI units."""
+        extremes = {name: _plain(getattr(self, name)) for name in ("contact", "torque")}
+        pressed = {} if self.width is None else {"pressure": _plain(self.pressure)}
+        return {
+            "speed": self.rate,
+            **extremes,
+            **pressed,
+            "rms_torque": self.rms_torque[1],
+            "mean_torque": 0.5 * sum(self.mean_torque),
+            "lifts_off": self.lifts_off,
+        }
+
+    @property
+    def _angle(self) -> float:
+        return float(self.edges[-1] - self.edges[0])
+
+    @kept_property
+    def _friction(self) -> Friction:
+        for key in self.friction:
+            if key not in _FRICTION:
+                raise InputError(f"friction: {unknown_key(key, _FRICTION)}")
+        given = self.friction
+        sizes = {name: quantity(given[name], "length", f"friction: {name}") for name in _FRICTION[2:] if name in given}
+        shares = {name: finite(given[name], f"friction: {name}") for name in _FRICTION[:2] if name in given}
+        for name, value in (sizes | shares).items():
+            if value < 0.0 or (name == "length" and value == 0.0):
+                raise InputError(f"friction: {name} must be {'above' if name == 'length' else 'at least'} 0")
+        if shares.get("guide") and (self.cam.displacement.axis == "angle" or len(sizes) < 2):
+            raise InputError("friction: guide is that of a slide, and needs overhang and length of its guide")
+        return Friction(**shares, **sizes)
+
+    @kept_property
+    def _line(self) -> LineContact | None:
+        return None if self.width is None else line_contact(self.width, self.materials, self.cam.contact.roller)
+
+    @kept_property
+    def _directions(self) -> Array:
+        """1, -1 or 0 between edges: whether the follower goes up, down, or rests."""
+        middles = 0.5 * (self.edges[1:] + self.edges[:-1])
+        slopes = np.asarray(self.cam.displacement(middles, 1))
+        return np.where(np.abs(slopes) > 1e-12 * np.abs(slopes).max(), np.sign(slopes), 0.0)
+
+    def direction(self, angle: Array | Interval) -> Array:
+        """1 where the follower goes up, -1 where it goes down, 0 where it rests."""
+        which = np.searchsorted(self.edges[1:-1], self.cam.displacement.within(middle(angle)), side="right")
+        return np.asarray(self._directions[which])
+
+    def _given(self, function: Callable[[Any, int], Jet], angle: Any) -> Any:  # noqa: ANN401
+        values = np.asarray(function(real_times(angle), 0).terms[0])
+        return values if np.ndim(values) else float(values)
+
+    def _enclosed(self, function: Function) -> Extremes:
+        return extremes(function, self.edges, share=_SHARE, parts=_PARTS)
+
+    def _follower_force(self, angle: Array | Interval, order: int) -> Jet:
+        return self._taken(self.cam.displacement.jet(angle, order + 2), angle)
+
+    def _taken(self, s: Jet, angle: Array | Interval) -> Jet:
+        rate, load, slope = self.rate, self.load, s.slope()
+        moved = slope.slope() * (load.inertia * rate**2) + slope * (load.viscous * rate) + s * load.stiffness
+        return moved + (load.constant + load.dry * self.direction(angle))
+
+    def _contact_force(self, angle: Array | Interval, order: int) -> Jet:
+        return self._pressed(angle, order)[-1]
+
+    def _pressed(self, angle: Array | Interval, order: int) -> tuple[Jet, Transmission, Jet]:
+        """The displacement, what a force of 1 N does, and the contact force."""
+        s = self.cam.displacement.jet(angle, order + 2)
+        unit = self.cam.contact.transmission(s)
+        lever = unit.lever_with(self._friction.contact)
+        if self._friction.guide:
+            lever = lever - self._friction.in_guide(unit) * self.direction(angle)
+        sure = highest(lever.terms[0])
+        if np.any(sure <= 0.0):
+            place = degrees(float(middle(angle).flat[int(np.argmin(sure))]))
+            raise InputError(
+                f"the follower jams in its guide at {place:.6g} deg of the cam: lessen the pressure angle, the "
+                "friction of the guide or its overhang, or make the guide longer"
+            )
+        return s, unit, self._taken(s, angle) / lever
+
+    def _torque(self, angle: Array | Interval, order: int) -> Jet:
+        s, unit, force = self._pressed(angle, order)
+        driven = force * unit.lever_with(self._friction.contact) * s.slope()
+        if not self._friction.contact:
+            return driven
+        return driven + unit.sliding * force.maximum(0.0) * self._friction.contact
+
+    def _squared_pressure(self, angle: Array | Interval, order: int) -> Jet:
+        if self._line is None:
+            raise InputError("the pressure needs the width of the contact: give one, such as width='20 mm'")
+        s, _, force = self._pressed(angle, order)
+        try:
+            return self._line.squared(force, self.cam.contact.profile_curvature(s))
+        except InputError:
+            undercut = self.cam.extremes.undercut
+            if undercut.status != UNDERCUT:
+                raise
+            raise InputError(f"the follower cannot follow the cam, so that there is no pressure: {undercut}") from None
+
+
+def _square(jet: Jet) -> Jet:
+    return jet * jet
+
+
+def _plain(enclosure: Extremes) -> dict[str, float]:
+    return {
+        "least": enclosure.least,
+        "least_at": degrees(enclosure.least_at),
+        "most": enclosure.most,
+        "most_at": degrees(enclosure.most_at),
+        "low": enclosure.low,
+        "high": enclosure.high,
+    }

@@ -1,0 +1,72 @@
+"""Rows that summarise a disc cam: enclosed pressure angles and radii, undercut and, with a drive, its forces."""
+
+from __future__ import annotations
+
+from math import degrees
+from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
+
+from optlaws.cams.forces import CamForces
+from optlaws.cycles.cycle import Cycle
+from optlaws.shown.summary import Row, Summary
+
+if TYPE_CHECKING:
+    from optlaws.cams.curves.extremes import Extreme
+    from optlaws.cams.disc import DiscCam
+    from optlaws.series.enclosures.branch_and_bound import Extremes
+
+T = TypeVar("T")
+
+_NOTHING = 1e-100
+
+
+class Labelled(NamedTuple, Generic[T]):
+    """Enclosed extremes with their name, and the unit they are shown in, of so many to that of SI."""
+
+    name: str
+    extremes: T
+    unit: str
+    factor: float
+
+
+def geometry(cam: DiscCam) -> list[Labelled[Extreme]]:
+    """Extreme pressure angles, where there are any but 0, and least radii of curvature."""
+    extremes = cam.extremes
+    angles = {
+        "greatest pressure angle": extremes.greatest_pressure_angle,
+        "pressure angle, least": extremes.pressure_angles[0],
+        "pressure angle, greatest": extremes.pressure_angles[1],
+    }
+    seen = extremes.greatest_pressure_angle.value > _NOTHING
+    radii = {"bulging": extremes.least_convex_radius, "hollow": extremes.least_concave_radius}
+    return [
+        *(Labelled(name, extreme, "deg", degrees(1.0)) for name, extreme in angles.items() if seen),
+        *(
+            Labelled(f"least radius of curvature, {name}", extreme, "mm", 1e3)
+            for name, extreme in radii.items()
+            if extreme is not None
+        ),
+    ]
+
+
+def named_forces(forces: CamForces) -> list[Labelled[Extremes]]:
+    """Contact force, torque at the shaft and, where the contact has a width, Hertz's pressure."""
+    named = [
+        Labelled("contact force", forces.contact, "N", 1.0),
+        Labelled("torque at the shaft", forces.torque, "N m", 1.0),
+    ]
+    pressure = [] if forces.width is None else [Labelled("Hertz's pressure", forces.pressure, "MPa", 1e-6)]
+    return [*named, *pressure]
+
+
+def summary(cam: DiscCam) -> Summary:
+    """The rows of a cam: intervals enclose an extreme, places are degrees of the cam."""
+    undercut = cam.extremes.undercut
+    rows = [Row("undercut", undercut.status, note=str(undercut))]
+    for name, extreme, unit, factor in geometry(cam):
+        ends = factor * extreme.low, factor * extreme.high
+        rows.append(Row(name, ends, unit, degrees(extreme.angle)))
+    if isinstance(cam.motion, Cycle) and cam.motion.drive is not None:
+        for name, extremes, unit, factor in named_forces(CamForces(cam)):
+            rows.append(Row(f"{name}, least", factor * extremes.least, unit, degrees(extremes.least_at)))
+            rows.append(Row(f"{name}, greatest", factor * extremes.most, unit, degrees(extremes.most_at)))
+    return Summary(rows, at="deg")

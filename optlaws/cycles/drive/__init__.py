@@ -1,1 +1,0 @@
-"""The drive of a motion: forces, torques and power, and elastic loads."""

@@ -1,0 +1,147 @@
+"""Lower bounds of a cycle: of its spans by their proofs or by energy, and of the whole with what given laws take.
+
+Power is the rate at which kinetic energy and the work against springs, weight and friction grow. From rest they are,
+after the share k of a move, no more than k times the greatest power; what is left of them before the end, no more than
+1 - k times it. Both are convex in the law where a spring pulls back, and viscous friction only helps the first: a
+convex bound beneath a problem that is not convex.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import partial, reduce
+from math import hypot, inf, sqrt
+from typing import Any
+
+from optlaws.cycles.optimisation.drive_formulas import driven_mean, driven_peak, may_turn
+from optlaws.cycles.optimisation.objectives import FORCE, LOADED, POWER, CycleObjective, kind_of
+from optlaws.cycles.specification.drive import CycleDrive, effort, read_drive
+from optlaws.cycles.specification.joints import LawSpan, Layout
+from optlaws.errors import InfeasibleProblem, SolverFailure
+from optlaws.motion.piece import Piece, factor
+from optlaws.synthesis.functionals.makers import peak
+from optlaws.synthesis.problem.constants import Functional
+from optlaws.synthesis.problem.expression import maximum
+from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.problem.ranges import Range
+from optlaws.synthesis.solution import Solution
+from optlaws.synthesis.solve import synthesize
+
+_NEAR_END = 0.02  # share of a move next to its ends where energies are small and say nothing
+
+
+@dataclass(frozen=True)
+class _Powers:
+    """The terms of the power of a move in a unit: inertia b c + viscous b² + spring a b + constant b."""
+
+    inertia: float
+    viscous: float
+    spring: float
+    constant: float
+
+    def fastest(self, most: float) -> float:
+        """The velocity b that no law with so much power exceeds; it gets no further than that in the move."""
+        return (abs(self.constant) + sqrt(self.constant**2 + 2.0 * self.inertia * most)) / self.inertia
+
+    def energies(self, fastest: float, *, forth: bool) -> tuple[Functional, Functional]:
+        """Constants that are at most the peak of the power, of laws no faster than is said."""
+        kinetic, half = f"({0.5 * self.inertia!r})*b^2", 0.5 * self.spring
+        gained = f"({kinetic} + ({self.constant!r})*a + ({half!r})*a^2)/k"
+        # what is braked by friction needs no power: at most so much
+        damped = f" - ({self.viscous * fastest!r})*(1 - a)" if forth else ""
+        spared = "" if forth else f" - ({self.viscous * fastest**2!r})"
+        lost = f"({kinetic} - ({self.constant!r})*(1 - a) - ({half!r})*(1 - a^2){damped})/(1 - k){spared}"
+        return peak(gained, side="high", start=_NEAR_END), peak(lost, side="high", stop=1.0 - _NEAR_END)
+
+
+def bound_by_energy(span: LawSpan, objective: CycleObjective, stroke: float, solution: Solution) -> float:
+    """The lower bound of a span, dimensionless: that of its solution, or a better one by energy."""
+    least, most = kind_of(objective.minimise)[0] == POWER, objective.limits.get(POWER)
+    if (
+        solution.problem.convex
+        or not (least or most)
+        or objective.drive is None
+        or not _is_plain(span, objective.drive)
+    ):
+        return solution.lower_bound
+    unit = driven_peak(span, objective.drive, stroke, POWER).unit
+    ceiling = min(solution.objective if least else inf, most / unit if most else inf)
+    try:
+        relaxed = synthesize(
+            _relaxed(solution.problem, _powers(span, objective.drive, stroke, unit), ceiling, least=least)
+        )
+    except (InfeasibleProblem, SolverFailure):
+        return solution.lower_bound
+    # laws that are faster than the relaxed ones may be take more power than the one found
+    return max(solution.lower_bound, min(relaxed.lower_bound, solution.objective))
+
+
+def _relaxed(problem: Problem, powers: _Powers, ceiling: float, *, least: bool) -> Problem:
+    """The problem with energies in place of the power, among laws that are no faster than so much power makes them."""
+    fastest, known = powers.fastest(ceiling), problem.range("B")
+    energies = powers.energies(fastest, forth=problem.monotone)
+    convex = {
+        constant: bounds_of_constant for constant, bounds_of_constant in problem.bounds.items() if constant.convex
+    }
+    bounds: dict[Any, Range] = convex if least else convex | dict.fromkeys(energies, Range(0.0, ceiling))
+    most = Range(0.0, fastest if known is None else min(fastest, known.high))
+    minimise = maximum(*energies) if least else problem.minimise
+    return replace(problem, minimise=minimise, bounds=bounds, B=most, D=None)
+
+
+def _powers(span: LawSpan, drive: CycleDrive, stroke: float, unit: float) -> _Powers:
+    way = factor(stroke, span.duration, 1)
+    direction = 1.0 if span.displacement > 0.0 else -1.0
+    constant = drive.constant + drive.stiffness * span.origin + drive.dry * direction
+    inertia = drive.inertia * factor(stroke, span.duration, 2) * way
+    parts = (inertia, drive.viscous * way**2, drive.stiffness * stroke * way, constant * way)
+    return _Powers(*(part / unit for part in parts))
+
+
+def _is_plain(span: LawSpan, drive: CycleDrive) -> bool:
+    """Whether a span is one move from rest to rest, with an inertia and no spring that pushes away."""
+    resting = span.first.velocity == 0.0 == span.last.velocity
+    return not may_turn(span) and resting and drive.inertia > 0.0 and drive.stiffness >= 0.0
+
+
+Solved = Sequence[tuple[Piece, Solution]]
+
+
+def bound_of(layout: Layout, solved: Solved, objective: CycleObjective, period: float) -> float | None:
+    """The lower bound of a cycle in the same times, from bounds of laws looked for and what the others take."""
+    nu, mean = kind_of(objective.minimise)
+    if nu == LOADED and not solved:
+        return None
+    if nu == LOADED:
+        ((piece, solution),) = solved
+        return solution.lower_bound * abs(piece.stroke)
+    sizes = [
+        (piece.duration, span_bound(layout.spans[i], *solved[i], objective)) for i, (piece, _) in enumerate(solved)
+    ]
+    sizes += [(piece.duration, _taken(piece, objective)) for piece in layout.pieces]
+    if not mean:
+        return max(size for _, size in sizes)
+    return reduce(hypot, (size * sqrt(time / period) for time, size in sizes), 0.0)
+
+
+def span_bound(span: LawSpan, piece: Piece, solution: Solution, objective: CycleObjective) -> float:
+    """The lower bound of a span in SI units."""
+    nu, mean = kind_of(objective.minimise)
+    least = bound_by_energy(span, objective, piece.stroke, solution)
+    if nu not in {FORCE, POWER}:
+        return least * abs(factor(piece.stroke, piece.duration, nu))
+    driven = driven_mean if mean else partial(driven_peak, nu=nu)
+    effort = driven(span, objective.drive, piece.stroke)
+    # neither a peak nor a mean is below 0, whether or not anything is proven
+    return hypot(max(least, 0.0) * effort.unit, sqrt(max(effort.friction, 0.0)))
+
+
+def _taken(piece: Piece, objective: CycleObjective) -> float:
+    """The value of the objective for a law that was given, in SI units."""
+    nu, mean = kind_of(objective.minimise)
+    if nu in {FORCE, POWER}:
+        taken = effort(objective.drive or read_drive({}, "length"), [piece], piece.duration)
+        return taken.peak_power if nu == POWER else taken.rms_force if mean else taken.peak_force
+    constant = piece.law.rms(nu) if mean else piece.law.peak(nu).value
+    return constant * abs(factor(piece.stroke, piece.duration, nu)) if piece.stroke else 0.0

@@ -1,0 +1,149 @@
+"""What a cycle drives elastically: a mass on a spring, or any machine, in its steady motion over the whole cycle."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from math import pi
+from typing import Any
+
+from optlaws.cycles.specification.programme import AXES
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.mechanisms.machine import drives
+from optlaws.mechanisms.machine.machine import Machine
+from optlaws.mechanisms.machine.over_time import RepeatedMotion, jumps
+from optlaws.mechanisms.machine.state_space import FASTEST
+from optlaws.motion.piece import Piece, factor
+from optlaws.motion.quantities import positive_quantity, quantity
+from optlaws.numbers import not_negative, positive
+from optlaws.suggest import unknown_key
+from optlaws.synthesis.problem.constants import Functional
+
+_ENTRIES = ("period", "damping", "mass", "inertia")
+LOAD = "load "
+
+
+@dataclass(frozen=True)
+class Load:
+    """A machine in seconds and SI units that the motion drives, and the dimensions of its outputs where they are known.
+
+    Examples
+    --------
+    >>> load = read_load({"period": "20 ms", "damping": 0.05}, "length")
+    >>> load.machine.outputs, load.dimensions["deflection"]
+    (('acceleration', 'deflection'), 'length')
+    """
+
+    machine: Machine
+    dimensions: Mapping[str, str]
+
+    @property
+    def absolute(self) -> bool:
+        """Whether it is driven by positions, so that these must come back."""
+        return "a" in self.machine.inputs
+
+    def constant(self, output: str, period: float, *, mean: bool) -> Functional:
+        """Peak or root mean square of an output as a constant of the law of a whole cycle; per metre or radian."""
+        from optlaws.mechanisms.machine.output_constants import output_peak, output_rms
+
+        return (output_rms if mean else output_peak)(of=self.machine.at_speed(1.0 / period), output=output, steady=True)
+
+    def motion(self, pieces: Sequence[Piece]) -> RepeatedMotion:
+        """The steady outputs of the load under pieces that make a cycle, over time in seconds."""
+        drives_of_pieces, leaps = [], list[tuple[float, float]]()
+        for piece in pieces:
+            drives_of_pieces += drives.of_law(piece.law, piece.start, piece.duration, piece.offset, piece.stroke)
+            size = factor(piece.stroke, piece.duration, 1)
+            leaps += [(piece.start + k * piece.duration, size * leap) for k, leap in jumps(piece.law)]
+        return RepeatedMotion(self.machine, tuple(drives_of_pieces), tuple(leaps))
+
+    def limit(self, value: Any, output: str, name: str) -> float:  # noqa: ANN401 - it is checked here
+        """A limit of an output in SI units: with its unit where that is known, else a number."""
+        known = self.dimensions.get(output)
+        return positive(value, name) if known is None else positive_quantity(value, known, name)
+
+
+def read_load(given: Any, axis: str) -> Load:  # noqa: ANN401 - it is checked here
+    """A load from its entries, or a machine in seconds and SI units.
+
+    Raises
+    ------
+    InputError
+        If an entry is unknown or of another dimension, or the period is missing.
+
+    Examples
+    --------
+    >>> read_load({"damping": 0.05}, "length")
+    Traceback (most recent call last):
+    optlaws.errors.InputError: load: give the period of its free vibration, such as period = '20 ms'
+    """
+    if isinstance(given, Machine):
+        return Load(given, {})
+    if not isinstance(given, Mapping):
+        raise InputError(
+            "load must be a table such as {'period': '20 ms', 'damping': 0.05}, or a Machine in seconds and SI units, "
+            f"got {shortened(given)}"
+        )
+    for key in given:
+        if key not in _ENTRIES:
+            raise InputError(f"load: {unknown_key(key, _ENTRIES)}")
+    if "period" not in given:
+        raise InputError("load: give the period of its free vibration, such as period = '20 ms'")
+    period = positive_quantity(given["period"], "time", "load: period")
+    if 2.0 * pi > FASTEST * period:
+        raise InputError(
+            f"load: a period of {shortened(given['period'])} is too short: below {2e6 * pi / FASTEST:.0f} us a load "
+            "moves as if it were rigid: leave it out, and minimise or limit the cycle's own quantities"
+        )
+    return _mass_on_a_spring(given, axis, 2.0 * pi / period)
+
+
+def _mass_on_a_spring(given: Mapping[str, Any], axis: str, frequency: float) -> Load:
+    """The follower of `Cycle.cam`, damped against the ground, in its deflection x - y, driven by velocity and c."""
+    damping = not_negative(given.get("damping", 0.0), "load: damping")
+    n = damping * frequency
+    motion = [-(frequency**2), -2.0 * n]
+    rows, direct = [motion, [1.0, 0.0]], [[-2.0 * n, 0.0], [0.0, 0.0]]
+    names = {"acceleration": AXES[axis][2], "deflection": axis}
+    weight = {"length": "mass", "angle": "inertia"}[axis]
+    other = {"mass": "inertia", "inertia": "mass"}[weight]
+    if other in given:
+        raise InputError(f"load: the motion is {_article(axis)}: give its {weight}, not its {other}")
+    if weight in given:
+        kind = {"mass": "mass", "inertia": "moment of inertia"}[weight]
+        size = quantity(given[weight], kind, f"load: {weight}")
+        rows.append([-size * frequency**2, 0.0])
+        direct.append([0.0, 0.0])
+        force = {"length": "force", "angle": "torque"}[axis]
+        names[force] = force
+    load = [[0.0, 0.0], [-2.0 * n, -1.0]]
+    machine = Machine([[0.0, 1.0], motion], load, rows, direct, inputs="bc", outputs=list(names))
+    return Load(machine, names)
+
+
+def _article(axis: str) -> str:
+    return f"{'an' if axis == 'angle' else 'a'} {axis}"
+
+
+def load_output(name: str, load: Load | None) -> tuple[str, bool] | None:
+    """The output that an objective or a limit speaks of, and whether of its root mean square; None if of none.
+
+    Raises
+    ------
+    InputError
+        If there is no load, or it has no such output.
+
+    Examples
+    --------
+    >>> load_output("rms load deflection", read_load({"period": "20 ms"}, "length"))
+    ('deflection', True)
+    """
+    mean = name.startswith(f"rms {LOAD}")
+    if not mean and not name.startswith(LOAD):
+        return None
+    output = name.removeprefix("rms ").removeprefix(LOAD)
+    if load is None:
+        raise InputError(f"{name} is of a load: give one, such as load={{'period': '20 ms', 'damping': 0.05}}")
+    load.machine.place(output)
+    return output, mean

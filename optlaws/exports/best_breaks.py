@@ -1,0 +1,240 @@
+"""Where few polynomials have their breaks best: the fewest whose peak of the acceleration is the law's."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.errors import InputError
+from optlaws.exports.fitting import HIGHER, Fitted, fitted
+from optlaws.exports.polynomial_pieces import LawSection
+from optlaws.laws.law import MotionLaw
+from optlaws.mechanisms.checks import motion_law
+from optlaws.motion.motion import Motion
+from optlaws.motion.piece import Piece
+from optlaws.motion.polynomials import PiecewiseMotion
+from optlaws.numbers import whole
+
+Array = NDArray[np.float64]
+
+#: how far the position may be off, as a share of the law's displacement
+FAR = 1e-3
+MOST = 64
+_EVALUATIONS = 150
+_GRADINGS = (1.0, 0.7)
+_SYMMETRIC = 1e-9
+
+
+@dataclass(frozen=True)
+class Tried:
+    """A number of pieces: C of the run over C of the law with even breaks, and with the best that were found."""
+
+    count: int
+    even: float
+    best: float
+
+
+@dataclass(frozen=True)
+class BestBreaks:
+    """The fewest Hermite polynomials that were found to run a law with its own peak of the acceleration.
+
+    Parameters
+    ----------
+    breaks
+        Their breaks in k.
+    run
+        The polynomials, dimensionless.
+    ratio
+        C of the run over C of the law.
+    deviation
+        How far the displacement is off at most, over the whole interval.
+    tried
+        Every number of pieces that was tried, in order: more pieces are not always better.
+    """
+
+    breaks: tuple[float, ...]
+    run: PiecewiseMotion
+    ratio: float
+    deviation: float
+    tried: tuple[Tried, ...]
+
+
+class _Enough(Exception):  # noqa: N818 - no error: the search has what it looked for
+    """The search may stop."""
+
+
+def best_breaks(law: MotionLaw, degree: int = 7, most: int = MOST) -> BestBreaks:
+    """The fewest pieces of degree 3, 5, 7 or 9 with the law's derivatives at their breaks that run with its C.
+
+    C of the run is to be within 0.1 % of the law's, and the displacement within 0.1 % of it. Breaks are looked for by
+    Nelder and Mead from even and from graded ones: what comes out is what was found, no proof that fewer will not do.
+
+    Parameters
+    ----------
+    law
+        The law, or what has one.
+    degree
+        Of the pieces, odd.
+    most
+        How many pieces there may be.
+
+    Raises
+    ------
+    InputError
+        If so many do not do, or a derivative that the pieces share at their breaks leaps within the law.
+
+    Examples
+    --------
+    >>> from optlaws.laws import smoothstep
+    >>> best = best_breaks(smoothstep(5), degree=7)
+    >>> len(best.breaks) - 1, abs(best.ratio - 1) <= 1e-3, [attempt.count for attempt in best.tried]
+    (3, True, [1, 2, 3])
+    """
+    orders = (whole(degree, "degree", least=3, most=9) + 1) // 2
+    if degree % 2 == 0:
+        raise InputError(f"degree must be odd, for as many derivatives are met at both ends, got {degree}")
+    return _best_breaks(motion_law(law), orders, whole(most, "most", least=1, most=1000))
+
+
+@lru_cache(maxsize=32)
+def _best_breaks(law: MotionLaw, orders: int, most: int) -> BestBreaks:
+    _refuse_leaps(law, orders)
+    return BreakSearch(LawSection(law, (0.0, 1.0)), orders, law.constants.C.value).fewest(most)
+
+
+@dataclass(frozen=True)
+class BreakSearch:
+    """The search on a stretch of a law.
+
+    Parameters
+    ----------
+    stretch
+        The stretch.
+    orders
+        How many derivatives are met at each break.
+    peak
+        C of the law.
+    """
+
+    stretch: LawSection
+    orders: int
+    peak: float
+
+    def fewest(self, most: int) -> BestBreaks:
+        """The fewest pieces that will do.
+
+        Raises
+        ------
+        InputError
+            If so many do not do.
+        """
+        tried: list[Tried] = []
+        for count in range(1, most + 1):
+            even, best, breaks = self._best(count)
+            tried.append(Tried(count, even, best))
+            run = self.run(breaks)
+            off = self.stretch.off(run, 0)
+            if abs(best - 1.0) <= HIGHER and off <= FAR:
+                return BestBreaks(tuple(breaks.tolist()), run, best, off, tuple(tried))
+        raise InputError(
+            f"{most} pieces of degree {2 * self.orders - 1} do not bring C within {HIGHER:.1%} of the law's: take a "
+            "higher degree or more pieces"
+        )
+
+    def run(self, breaks: Array) -> PiecewiseMotion:
+        """The polynomials between breaks."""
+        return self.stretch.hermite(breaks, self.orders)
+
+    def ratio(self, breaks: Array) -> float:
+        """C of the run over C of the law."""
+        return self.run(breaks).peak(2).value / self.peak
+
+    def _best(self, count: int) -> tuple[float, float, Array]:
+        even = self._placed(np.ones(count))
+        tried: list[tuple[float, Array]] = [(self.ratio(even), even)]
+        first = tried[0][0]
+        for grading in _GRADINGS if abs(first - 1.0) > HIGHER and count > 1 else ():
+            self._descend(count, grading, tried)
+            if abs(tried[-1][0] - 1.0) <= HIGHER:
+                break
+        ratio, breaks = min(tried, key=lambda pair: abs(pair[0] - 1.0))
+        return first, ratio, breaks
+
+    def _descend(self, count: int, grading: float, tried: list[tuple[float, Array]]) -> None:
+        from scipy.optimize import minimize
+
+        half = (count + 1) // 2 if self._symmetric else count
+
+        def lengths(logarithms: Array) -> Array:
+            some = np.exp(np.concatenate([[0.0], logarithms]))
+            return np.concatenate([some, some[: count - half][::-1]])
+
+        def off(logarithms: Array) -> float:
+            breaks = self._placed(lengths(np.clip(logarithms, -6.0, 6.0)))
+            ratio = self.ratio(breaks)
+            if abs(ratio - 1.0) < abs(tried[-1][0] - 1.0) or len(tried) == 1:
+                tried.append((ratio, breaks))
+            if abs(ratio - 1.0) <= HIGHER:
+                raise _Enough
+            return abs(ratio - 1.0)
+
+        start = -np.log(grading) * np.minimum(np.arange(1, half), np.arange(half - 1, 0, -1) + (count - half))
+        if half > 1:
+            _until_enough(lambda: minimize(off, start, method="Nelder-Mead", options={"maxfev": _EVALUATIONS}))
+
+    @staticmethod
+    def _placed(lengths: Array) -> Array:
+        """Breaks with gaps like the lengths."""
+        breaks: Array = np.concatenate([[0.0], np.cumsum(lengths)]) / lengths.sum()
+        breaks[-1] = 1.0
+        return breaks
+
+    @property
+    def _symmetric(self) -> bool:
+        k = np.linspace(0.0, 1.0, 33)
+        c = self.stretch.values(k, 2)
+        return bool(np.abs(c + c[::-1]).max() <= _SYMMETRIC * self.peak)
+
+
+def _refuse_leaps(law: MotionLaw, orders: int) -> None:
+    for nu in range(1, orders):
+        if law.jumps(nu) or not np.isfinite(law.peak(nu).value):
+            raise InputError(
+                f"the derivative of order {nu} of the law leaps, and pieces of degree {2 * orders - 1} share it at "
+                "their breaks: take a lower degree, or the law's own breaks (points not 'best')"
+            )
+
+
+def _until_enough(work: Callable[[], object]) -> None:
+    try:
+        work()
+    except _Enough:
+        return
+
+
+def fitted_best(motion: Motion, degree: int, most: int) -> Fitted:
+    """Polynomials for a motion with their breaks where `best_breaks` finds them; its own where they are low enough.
+
+    Raises
+    ------
+    InputError
+        If the target does not take as many, or a law's derivatives leap.
+
+    Examples
+    --------
+    >>> from optlaws.motion.motion import motion_of_law
+    >>> from optlaws.laws import smoothstep
+    >>> motion = motion_of_law(smoothstep(6), stroke="35 mm", duration="0.1 s")
+    >>> fit = fitted_best(motion, degree=7, most=50)
+    >>> fit.count, abs(fit.run.peak(2).value / motion.peak(2) - 1) <= 1e-3
+    (3, True)
+    """
+
+    def best(piece: Piece) -> PiecewiseMotion:
+        return best_breaks(piece.law, degree - 1 + degree % 2, min(most, MOST)).run
+
+    return fitted(motion, degree, most, laid=best)

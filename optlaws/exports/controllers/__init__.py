@@ -1,1 +1,0 @@
-"""Programs of controllers that run polynomials: CODESYS CamBuilder, TwinCAT, Siemens LCamHdl, B&R, and source code."""

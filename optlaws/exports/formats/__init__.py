@@ -1,0 +1,1 @@
+"""Formats of controllers, a file for each manufacturer or language, and what tables and programs share."""

@@ -1,0 +1,215 @@
+"""Tables as text without a language: SEW, Lenze, KAS, ISG and TwinCAT CNC, Technosoft, and CSV for all others."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from functools import partial
+from itertools import pairwise
+
+import numpy as np
+
+from optlaws.errors import InputError
+from optlaws.exports.format import MOST_POINTS, Request, Written, file_format
+from optlaws.exports.formats.point_table import (
+    NumberFormat,
+    PointTable,
+    hermite_table,
+    linear_table,
+    positions,
+    spline_table,
+    table_by_interpolation,
+)
+from optlaws.exports.interpolation import linear_powers
+from optlaws.exports.spacing import chosen
+from optlaws.exports.text import plain, plain_column, table_heading
+from optlaws.files.writing import MARK
+from optlaws.motion.motion import Motion
+from optlaws.motion.quantities import quantity
+
+MODELS = {
+    "linear": "straight lines",
+    "cubic": "C2 cubic spline clamped to the law's velocities at the ends",
+    "akima": "Akima's cubics, as in Modelica's tables",
+    "c1": "cubic Hermite with the law's velocities at the points",
+    "quintic": "quintic Hermite",
+    "septic": "Hermite of degree 7",
+}
+ORDERS = {"c1": 2, "quintic": 3, "septic": 4}
+ISG_STEP, ISG_LINES, ISG_LEAST = 1e-4, 360, 0.1
+TECHNOSOFT_POINTS, TECHNOSOFT_STEPS = 8192, 128
+
+
+_TEXT = ("points", "counts", "digits", "decimal")
+_plain_format = partial(file_format, takes=_TEXT, contents="x, y as text", limits="no number of points is stated")
+
+
+@_plain_format(
+    "csv",
+    target="any, comma-separated values with units in the table_heading",
+    contents="x, y and as many of V, A, J as the interpolation takes",
+    model=f"as asked: {', '.join(MODELS)}",
+    extension=".csv",
+    takes=(*_TEXT, "interpolation"),
+)
+def _csv(motion: Motion, request: Request) -> Written:
+    interpolation = request.interpolation_among(("cubic", "linear", "akima", "c1", "quintic", "septic"))
+    number_format = NumberFormat(request.counts, request.digits)
+
+    def make(count: int) -> PointTable:
+        return table_by_interpolation(motion, count, number_format, interpolation)
+
+    table = chosen(motion, request, make, least=2, most=MOST_POINTS)
+    separator = ";" if request.decimal == "," else ","
+    units = motion.units
+    derivatives = [f"{units.slave}/{units.master}{power}" for power in ("", "^2", "^3")]
+    columns = [f"x {units.master}", f"y {units.slave}"]
+    columns += [f"{letter} {unit}" for letter, unit in zip("VAJ", derivatives, strict=True)]
+    rows = [table.x.tolist(), *table.values.tolist()]
+    lines = [f"# {table_heading(motion, 'table')[0]}; {MARK}", separator.join(columns[: len(rows)])]
+    lines += _rows(rows, request, separator)
+    return table.written(_lines(lines), MODELS[interpolation])
+
+
+@_plain_format(
+    "sew",
+    target="SEW MOVI-C, list of points",
+    model="cubics whose acceleration leaps at every point, or straight lines",
+    extension=".csv",
+    takes=(*_TEXT, "interpolation"),
+)
+def _sew(motion: Motion, request: Request) -> Written:
+    interpolation = request.interpolation_among(("c1", "linear"), "c1")
+    number_format = NumberFormat(request.counts, request.digits)
+
+    def make(count: int) -> PointTable:
+        return (
+            linear_table(motion, count, number_format)
+            if interpolation == "linear"
+            else hermite_table(motion, count, number_format, 2, with_derivatives=False)
+        )
+
+    table = chosen(motion, request, make, least=2, most=MOST_POINTS)
+    lines = [str(len(table.x)), *_rows(_x_and_y(table), request, ";")]
+    model = {"linear": "straight lines", "c1": "cubics whose acceleration leaps at every point, here with the law's V"}
+    return table.written(_lines(lines), model[interpolation])
+
+
+@_plain_format("lenze", target="Lenze Cam Loader", model="C2 cubic spline (assumed)", extension=".txt")
+def _lenze(motion: Motion, request: Request) -> Written:
+    number_format = NumberFormat(request.counts, request.digits)
+    table = chosen(motion, request, lambda count: spline_table(motion, count, number_format), least=2, most=MOST_POINTS)
+    first, *others = _rows(_x_and_y(table), request, " ")
+    return table.written(_lines([f"{first} // {table_heading(motion, 'cam')[0]}; {MARK}", *others]), MODELS["cubic"])
+
+
+@_plain_format(
+    "kas",
+    target="Kollmorgen KAS, cam profile as CSV",
+    model="C2 cubic spline",
+    limits="at least 4 segments; scaled by the greatest X and Y when it is imported",
+    extension=".csv",
+)
+def _kas(motion: Motion, request: Request) -> Written:
+    number_format = NumberFormat(request.counts, request.digits)
+    table = chosen(motion, request, lambda count: spline_table(motion, count, number_format), least=5, most=MOST_POINTS)
+    lines = ["CYCLIC;YES;" if motion.repeats else "CYCLIC;NO;", "TABLE_BEGIN;;"]
+    lines += [f"{row};SPLINE" for row in _rows(_x_and_y(table), request, ";")]
+    top = [plain(float(np.abs(values).max())) for values in (table.x, table.values[0])]
+    notes = (f"KAS divides X and Y by their greatest values: set the scales to {top[0]} and {top[1]} in the dialog",)
+    return table.written(_lines([*lines, "TABLE_END;;"]), MODELS["cubic"], notes)
+
+
+@_plain_format(
+    "isg",
+    target="ISG kernel and TwinCAT CNC, cam table",
+    contents="master, slave as integers of 1e-4 deg or 1e-4 mm",
+    model="straight lines",
+    limits=f"at most {ISG_LINES} points, at least {ISG_LEAST} deg apart; the master is an angle",
+    extension=".txt",
+    takes=("points",),
+)
+def _isg(motion: Motion, request: Request) -> Written:
+    x_size = _unit_size(motion.units.master, "deg", "master")
+    y_size = _unit_size(motion.units.slave, "deg" if motion.units.slave in {"deg", "rad", "°"} else "mm", "slave")
+    most = min(ISG_LINES, 1 + int(np.floor(motion.length * x_size / ISG_LEAST * (1 + 1e-12))))
+
+    def make(count: int) -> PointTable:
+        return _integers(motion, count, ISG_STEP / x_size, ISG_STEP / y_size)
+
+    table = chosen(motion, request, make, least=2, most=most)
+    name = "".join(letter if letter.isalnum() else "_" for letter in request.name)
+    rows = _whole(table, ISG_STEP / x_size, ISG_STEP / y_size)
+    if min(after[0] - before[0] for before, after in pairwise(rows)) < round(ISG_LEAST / ISG_STEP):
+        raise InputError(f"ISG wants points at least {ISG_LEAST} deg apart: take fewer points")
+    head = [
+        f"Tablename = {name} # {table_heading(motion, 'cam')[0]}; {MARK}",
+        "Table-ID = 1",
+        "Tabletype = 7 # pairs of integers, 1e-4 deg or 1e-4 mm",
+        "Function type = 1 # linear",
+        f"Lines = {len(rows)}",
+    ]
+    return table.written(_lines([*head, "Begintable", *(f"{x} {y}" for x, y in rows), "EndTable"]), "straight lines")
+
+
+@_plain_format(
+    "technosoft",
+    target="Technosoft, cam table",
+    contents="x, y as integers",
+    model="straight lines",
+    limits=f"at most {TECHNOSOFT_POINTS} points with equal steps of a power of two, 32 bits",
+    extension=".txt",
+    takes=("points", "counts"),
+)
+def _technosoft(motion: Motion, request: Request) -> Written:
+    counts = request.counts or 65_536
+    step = motion.stroke / counts
+
+    def make(count: int) -> PointTable:
+        return _integers(motion, count, motion.length / (count - 1), step, even=True)
+
+    table = chosen(motion, request, make, least=2, most=TECHNOSOFT_POINTS)
+    spacing = TECHNOSOFT_STEPS
+    rows = [(i * spacing, round(y / step)) for i, y in enumerate(table.values[0].tolist())]
+    if max(abs(y) for _, y in rows) >= 2**31:
+        raise InputError("counts: a position is beyond 32 bits; take fewer counts")
+    notes = (f"one count of the master is {motion.length / ((len(rows) - 1) * spacing):.12g} {motion.units.master}",)
+    return table.written(_lines([f"{x} {y}" for x, y in rows]), "straight lines", notes)
+
+
+def _integers(motion: Motion, count: int, x_step: float, y_step: float, *, even: bool = False) -> PointTable:
+    """Points whose coordinates are whole multiples of steps, in machine units."""
+    exact, _ = positions(motion, count, NumberFormat(), even=even)
+    x = np.rint(exact / x_step) * x_step
+    if (np.diff(x) <= 0.0).any():
+        raise InputError(f"{count} points of the master are closer than the target's step {x_step:g}: take fewer")
+    y = np.rint(np.asarray(motion(exact)) / y_step) * y_step
+    return PointTable(x, y[None], linear_powers(x, y), y_step, 0.0)
+
+
+def _whole(table: PointTable, x_step: float, y_step: float) -> list[tuple[int, int]]:
+    return [(round(x / x_step), round(y / y_step)) for x, y in zip(*_x_and_y(table), strict=True)]
+
+
+def _unit_size(unit: str, target_unit: str, side: str) -> float:
+    """How many of the wanted unit one of a unit is."""
+    dimension = "angle" if target_unit == "deg" else "length"
+    try:
+        return quantity(f"1 {unit}", dimension, side) / quantity(f"1 {target_unit}", dimension, side)
+    except InputError:
+        example = f"{side}='120 deg'" if dimension == "angle" else f"a stroke such as '35 {target_unit}'"
+        refused = f"the {side} must be in {target_unit}, which the target counts, got {unit}"
+        raise InputError(f"{refused}: give {example}") from None
+
+
+def _x_and_y(table: PointTable) -> tuple[list[float], list[float]]:
+    return table.x.tolist(), table.values[0].tolist()
+
+
+def _rows(columns: Sequence[Iterable[float]], request: Request, separator: str) -> list[str]:
+    """Lines of a table whose numbers are given column by column."""
+    texts = (plain_column(column, request.digits, request.decimal) for column in columns)
+    return list(map(separator.join, zip(*texts, strict=True)))
+
+
+def _lines(lines: Sequence[str]) -> str:
+    return "\n".join([*lines, ""])

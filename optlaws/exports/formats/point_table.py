@@ -1,0 +1,206 @@
+"""Points as a target holds them, rounded as it rounds, and what it makes of them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.errors import InputError
+from optlaws.exports.format import Written
+from optlaws.exports.interpolation import Ends, akima_powers, hermite_powers, linear_powers, spline_powers
+from optlaws.exports.spacing import places
+from optlaws.kept import kept_property
+from optlaws.motion.motion import Motion
+from optlaws.motion.polynomials import PiecewiseMotion
+
+Array = NDArray[np.float64]
+
+NOISE = 2.0**-46
+DEGREES = {1: "linear", 2: "cubic Hermite", 3: "quintic Hermite", 4: "Hermite of degree 7"}
+
+
+@dataclass(frozen=True)
+class NumberFormat:
+    """How a target holds numbers.
+
+    Parameters
+    ----------
+    counts
+        Steps over the stroke to which positions are rounded; None where they are not.
+    digits
+        Digits behind the decimal sign; None for all that a double has.
+    single
+        Whether they are REAL32.
+    """
+
+    counts: int | None = None
+    digits: int | None = None
+    single: bool = False
+
+    def resolution(self, motion: Motion) -> float:
+        """Step of positions in units of the slave; 0 for doubles."""
+        top = max(abs(value) for value, _ in motion.extrema(0))
+        return max(
+            motion.stroke / self.counts if self.counts else 0.0,
+            0.0 if self.digits is None else 10.0**-self.digits,
+            float(np.spacing(np.float32(top))) if self.single else 0.0,
+        )
+
+    def positions(self, y: Array, motion: Motion) -> Array:
+        """Positions as the target stores them."""
+        step = motion.stroke / self.counts if self.counts else 0.0
+        return self.numbers(np.rint(y / step) * step if step else y)
+
+    def numbers(self, values: Array) -> Array:
+        """Numbers as the target stores them."""
+        rounded = values if self.digits is None else np.round(values, self.digits)
+        return (rounded.astype(np.float32).astype(np.float64) if self.single else rounded) + 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class PointTable:
+    """Points as the target stores them, and what becomes of them.
+
+    Parameters
+    ----------
+    x
+        Of the master, shape (n,).
+    values
+        y, V, A, ... of the slave, shape (m, n).
+    powers
+        Of the polynomials that the controller lays between them, ascending, a row for each.
+    resolution
+        Step of positions; 0 for doubles.
+    bound
+        What roundings may add to the peak of the acceleration.
+    """
+
+    x: Array
+    values: Array
+    powers: Array
+    resolution: float
+    bound: float
+
+    @kept_property
+    def run(self) -> PiecewiseMotion:
+        """The motion that the controller makes of the points."""
+        return PiecewiseMotion(self.x, self.powers)
+
+    def written(self, text: str, model: str, notes: tuple[str, ...] = ()) -> Written:
+        """The file of the table, with what a controller makes of it."""
+        return Written(text, self.run, model, len(self.x), "points", self.resolution, self.bound, notes)
+
+
+def positions(
+    motion: Motion, count: int, number_format: NumberFormat, *, even: bool = False, lines: bool = False
+) -> tuple[Array, Array]:
+    """x and y of so many points as the target stores them.
+
+    Raises
+    ------
+    InputError
+        If points are the same as they are stored.
+    """
+    exact = np.linspace(motion.start, motion.stop, count) if even else places(motion, count, straight=lines)
+    x = number_format.numbers(exact)
+    if (np.diff(x) <= 0.0).any():
+        raise InputError(
+            f"{count} points of the master are closer than they can be held: take fewer points, more digits, "
+            "or a unit that is smaller"
+        )
+    return x, number_format.positions(np.asarray(motion(exact)), motion)
+
+
+def spline_table(
+    motion: Motion, count: int, number_format: NumberFormat, *, ends: Ends = "clamped", even: bool = False
+) -> PointTable:
+    """Positions through which the controller lays the cubic spline; clamped to the velocities of the motion's ends.
+
+    A periodic one ends exactly where it begins, as the motion does but for rounding.
+    """
+    x, y = positions(motion, count, number_format, even=even)
+    slopes = number_format.numbers(np.array(motion.ends(1)))
+    if ends == "periodic":
+        y[-1] = y[0]
+    powers = spline_powers(x, y, ends, (float(slopes[0]), float(slopes[1])))
+    return PointTable(x, y[None], powers, number_format.resolution(motion), rounding_bound(motion, x, y, slopes))
+
+
+def linear_table(motion: Motion, count: int, number_format: NumberFormat, *, even: bool = False) -> PointTable:
+    """Positions between which the controller goes straight."""
+    x, y = positions(motion, count, number_format, even=even, lines=True)
+    return PointTable(x, y[None], linear_powers(x, y), number_format.resolution(motion), 0.0)
+
+
+def akima_table(motion: Motion, count: int, number_format: NumberFormat) -> PointTable:
+    """Positions through which the controller lays Akima's cubics."""
+    x, y = positions(motion, count, number_format)
+    return PointTable(x, y[None], akima_powers(x, y), number_format.resolution(motion), 0.0)
+
+
+def hermite_table(
+    motion: Motion, count: int, number_format: NumberFormat, orders: int, *, with_derivatives: bool = True
+) -> PointTable:
+    """Positions with derivatives, so many in all, from which the controller makes Hermite's polynomials.
+
+    Where the table has no derivatives the controller computes them, and they are taken as the law's.
+
+    Raises
+    ------
+    InputError
+        If a derivative is infinite at a point.
+    """
+    exact = places(motion, count, straight=True)
+    values = _without_rounding(np.array([motion(exact, nu) for nu in range(orders)]))
+    if not np.isfinite(values).all():
+        raise InputError(
+            "the law's acceleration or jerk is infinite at a point: export positions alone, or another law"
+        )
+    x = number_format.numbers(exact)
+    derivatives = number_format.numbers(values[1:]) if with_derivatives else values[1:]
+    held_values = np.vstack([number_format.positions(values[0], motion)[None], derivatives])
+    return PointTable(x, held_values, hermite_powers(x, held_values), number_format.resolution(motion), 0.0)
+
+
+def table_by_interpolation(motion: Motion, count: int, number_format: NumberFormat, interpolation: str) -> PointTable:
+    """A table for an interpolation by its name: linear, cubic, akima, c1, quintic, septic."""
+    orders = {"c1": 2, "quintic": 3, "septic": 4}
+    if interpolation in orders:
+        return hermite_table(motion, count, number_format, orders[interpolation])
+    if interpolation == "akima":
+        return akima_table(motion, count, number_format)
+    return (
+        linear_table(motion, count, number_format)
+        if interpolation == "linear"
+        else spline_table(motion, count, number_format)
+    )
+
+
+def _without_rounding(values: Array) -> Array:
+    """The values with 0 where rounding, beside the greatest of their row, has missed it."""
+    return np.where(np.abs(values) <= NOISE * np.abs(values).max(axis=1, keepdims=True), 0.0, values)
+
+
+def rounding_bound(motion: Motion, x: Array, y: Array, slopes: Array) -> float:
+    """The greatest addition of roundings to the acceleration of a clamped cubic spline: 6 eps/dx², for errors of eps/2.
+
+    The spline's accelerations at its points solve a system whose diagonal is twice the sum of what is beside it, with
+    six times the second divided differences of the positions on the right; these are wrong by eps/(h_i h_i+1) at most.
+
+    Examples
+    --------
+    >>> from optlaws.motion.motion import motion_of_law
+    >>> from optlaws.laws import smoothstep
+    >>> motion = motion_of_law(smoothstep(3), stroke="1 m", duration="1 s")
+    >>> x = np.linspace(0.0, 1.0, 11)
+    >>> round(rounding_bound(motion, x, motion(x) + 0.001 * (-1.0) ** np.arange(11), np.zeros(2)), 9)
+    1.2
+    """
+    exact = np.asarray(motion(np.clip(x, motion.start, motion.stop)))
+    eps = 2.0 * float(np.abs(y - exact).max())
+    steps = np.diff(x)
+    ends = np.abs(slopes - np.array(motion.ends(1))) * 6.0 / steps[[0, -1]]
+    inner = float((6.0 * eps / (steps[1:] * steps[:-1])).max(initial=0.0))
+    return max(inner, float((6.0 * eps / steps[[0, -1]] ** 2 + ends).max()))

@@ -1,0 +1,159 @@
+"""The polynomials of a request, and the comments, fields and checks that formats of polynomials share."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from optlaws.errors import InputError
+from optlaws.exports.best_breaks import fitted_best
+from optlaws.exports.error_bounds import SINGLE, error_bounds
+from optlaws.exports.fitting import OFF, Fitted, exactly, fitted
+from optlaws.exports.format import BEST, Request
+from optlaws.exports.text import Labels, program_heading, real, rounded_up, safe
+from optlaws.files.writing import MARK
+from optlaws.motion.motion import Motion
+from optlaws.motion.polynomials import PiecewiseMotion
+
+#: of source code: the degree of polynomials for laws that are none, and of laws whose own polynomials are taken
+SOURCE_DEGREE, OWN_DEGREE = 9, 40
+SOURCE_PIECES = 1000
+SOURCE_MODEL = f"the law's own polynomials to degree {OWN_DEGREE}, else of degree {SOURCE_DEGREE}"
+_SOURCE_OFF = 1e-6
+_ROUNDING = 1e-9
+
+
+def polynomials_for(
+    motion: Motion, request: Request, degree: int, most: int, *, points: bool = False, near: float = OFF
+) -> Fitted:
+    """Polynomials of at most a degree and a number: so many, the best, or as few as will do.
+
+    Parameters
+    ----------
+    motion
+        The motion.
+    request
+        Its `points` is a number of segments, or of points where `points` says so.
+    degree, most
+        Of the polynomials that the target holds, and how many segments it holds.
+    points
+        Whether it is points that are counted, one more than segments.
+    near
+        How far the acceleration may be off where as few as will do are laid.
+
+    Raises
+    ------
+    InputError
+        If the target cannot hold them.
+    """
+    if request.points is None:
+        return fitted(motion, degree, most, near=near)
+    if request.points == BEST:
+        return fitted_best(motion, degree, most)
+    count = int(request.points) - points
+    if count > most:
+        raise InputError(f"points must be at most {most + points}, which the target holds, got {request.points}")
+    return fitted(motion, degree, most, count)
+
+
+def source_polynomials(motion: Motion, request: Request) -> tuple[Fitted, tuple[str, ...]]:
+    """The polynomials of source code, the law's own cut where their powers would lose digits, else near ones."""
+    fit = None if request.points else exactly(motion, OWN_DEGREE)
+    fit = fit or polynomials_for(motion, request, SOURCE_DEGREE, SOURCE_PIECES, near=_SOURCE_OFF)
+    return fit, (fit.in_words(motion.units.slave),)
+
+
+def labels_of(motion: Motion, notes: Sequence[str] = ()) -> Labels:
+    """Units of a motion, and notes, for comments."""
+    rate = motion.units.rate
+    speed = (
+        [] if rate is None or motion.units.master == "s" else [f"the master goes {rate:.9g} {motion.units.master}/s"]
+    )
+    return Labels(motion.units.master, motion.units.slave, (*speed, *motion.proof, *notes))
+
+
+def iec_heading(title: str, motion: Motion, run: PiecewiseMotion, notes: Sequence[str]) -> str:
+    """The comment at the head of a program in a language of IEC 61131-3."""
+    lines = safe([title, *program_heading(run, labels_of(motion, notes), []), MARK])
+    return "\n".join(["(*", *(f"   {line}".rstrip() for line in lines), "*)", ""])
+
+
+def fields(**values: object) -> str:
+    """Fields of a structure with their values, floats as literals.
+
+    Examples
+    --------
+    >>> fields(PointIndex=1, MasterPos=0.5)
+    'PointIndex := 1, MasterPos := 0.5'
+    """
+    texts = ((name, real(value) if isinstance(value, float) else str(value)) for name, value in values.items())
+    return ", ".join(f"{name} := {text}" for name, text in texts)
+
+
+def leaps_of_single(run: PiecewiseMotion) -> tuple[float, ...]:
+    """The greatest leaps of velocity, acceleration and jerk where polynomials meet, for the rounding of REAL32."""
+    return tuple(2.0 * bound for bound in error_bounds(run, SINGLE)[1:])
+
+
+def leaps_in_words(motion: Motion, leaps: tuple[float, ...]) -> str:
+    """The jumps of a motion in words."""
+    units = labels_of(motion)
+    words = ", ".join(f"{rounded_up(leap)} {units.unit(nu)}" for nu, leap in enumerate(leaps, start=1))
+    return f"leaps at joints by at most {words} are roundings of REAL32"
+
+
+class Ends(NamedTuple):
+    """A piece by its ends: places of the master, and y, V, A, ... just inside each."""
+
+    x: tuple[float, float]
+    first: tuple[float, ...]
+    last: tuple[float, ...]
+
+
+def ends_of(motion: Motion, run: PiecewiseMotion, orders: int) -> list[Ends]:
+    """Pieces by their ends; where nothing but rounding leaps both sides of a joint have the same values.
+
+    Positions that powers end at miss by their roundings; what the next piece begins with, and the motion's own end,
+    do not.
+    """
+    firsts, lasts = [], []
+    for nu in range(orders):
+        first, ends_here = run.ends(nu)
+        known = np.append(first[1:], motion.ends(nu)[1])
+        lasts.append(np.where(np.abs(known - ends_here) <= rounding(run, nu), known, ends_here).tolist())
+        firsts.append(first.tolist())
+    places = zip(run.breaks, run.breaks[1:], strict=False)
+    return [Ends(*joint) for joint in zip(places, zip(*firsts, strict=True), zip(*lasts, strict=True), strict=True)]
+
+
+def rounding(run: PiecewiseMotion, nu: int) -> float:
+    """The greatest leap of the derivative of order nu that is no more than rounding."""
+    size = max(abs(extreme.value) for extreme in run.extremes(nu))
+    # positions are rounded, and what is left of that in a derivative grows as pieces get shorter
+    return float(max(_ROUNDING * size, 2.0**-44 * run.peak(0).value / float(run.lengths.min()) ** nu))
+
+
+def leaping(run: PiecewiseMotion, nu: int) -> float | None:
+    """The first break where the derivative of order nu leaps by more than rounding; None where there is none."""
+    small = rounding(run, nu)
+    for x, leap in zip(run.breaks[1:], run.jumps(nu).tolist(), strict=False):
+        if abs(leap) > small:
+            return x
+    return None
+
+
+def refuse_leaps(motion: Motion, run: PiecewiseMotion, holder: str, remedy: str) -> None:
+    """Refuse polynomials whose velocity or acceleration leaps, for what holds one value of each at a point.
+
+    Raises
+    ------
+    InputError
+        If one leaps by more than rounding; the error says where, and the remedy.
+    """
+    for nu, quantity in ((1, "velocity"), (2, "acceleration")):
+        x = leaping(run, nu)
+        if x is not None:
+            place = f"x = {x:.9g} {motion.units.master}"
+            raise InputError(f"the {quantity} leaps at {place}, and {holder} holds one value of it: {remedy}")

@@ -1,0 +1,144 @@
+"""Rockwell Logix: arrays of CAM and CAM_EXTENDED for MCCP, and rows of CAM_PROFILE as it computes them."""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Sequence
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.errors import InputError
+from optlaws.exports.format import MOST_POINTS, Request, Written, file_format
+from optlaws.exports.formats.point_table import NumberFormat, PointTable, table_by_interpolation
+from optlaws.exports.identifiers import iec_name
+from optlaws.exports.spacing import chosen
+from optlaws.exports.text import iec_comment, real, table_heading
+from optlaws.motion.motion import Motion
+from optlaws.motion.polynomials import PiecewiseMotion
+
+Array = NDArray[np.float64]
+
+SEGMENT_TYPES = {"linear": 0, "cubic": 1}
+CALCULATED = 2  # Status of an element of CAM_PROFILE
+_CUBIC = "C2 cubic spline clamped to StartSlope and EndSlope"
+_logix = partial(
+    file_format,
+    model=f"{_CUBIC}, or straight lines",
+    limits="no number of points is stated",
+    extension=".st",
+    takes=("points", "counts", "digits", "interpolation"),
+)
+_HALVES = struct.Struct(">ii")
+_DOUBLE = struct.Struct(">d")
+
+
+def profile_rows(run: PiecewiseMotion, *, cubic: bool = True) -> list[list[int]]:
+    """The elements of CAM_PROFILE for a motion of cubics: 14 DINT each, halves of doubles, the upper one first.
+
+    Status, X, Y, segment type, C0, C1, C2, C3: y = Y + C1 d + C2 d² + C3 d³ with d = x - X. The last element is the
+    last point alone.
+
+    Examples
+    --------
+    >>> from optlaws.exports.interpolation import spline_powers
+    >>> x = np.array([0.0, 40.0, 100.0])
+    >>> profile_rows(PiecewiseMotion(x, spline_powers(x, np.array([0.0, 20.0, 25.0]), slopes=(1.0, 0.0))))[-1]
+    [2, 1079574528, 0, 1077477376, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0]
+    """
+    kind = SEGMENT_TYPES["cubic" if cubic else "linear"]
+    rows = []
+    for x, powers in zip(run.breaks, run.coefficients, strict=False):
+        y, *slopes = (*powers, 0.0, 0.0, 0.0)[:4]
+        rows.append(_row(x, y, kind, (0.0, *slopes)))
+    return [*rows, _row(run.stop, float(run.ends(0)[1][-1]), kind, (0.0,) * 4)]
+
+
+def profile_motion(rows: Sequence[Sequence[int]]) -> PiecewiseMotion:
+    """The motion that rows of CAM_PROFILE run.
+
+    Raises
+    ------
+    InputError
+        If a row has not 14 numbers of 32 bits.
+    """
+    decoded = [_values(row) for row in rows]
+    breaks = [x for x, *_ in decoded]
+    return PiecewiseMotion(breaks, [[y + constant, *slopes] for _, y, constant, *slopes in decoded[:-1]])
+
+
+def _row(x: float, y: float, kind: int, constants: Sequence[float]) -> list[int]:
+    return [CALCULATED, *_halves(x), *_halves(y), kind, *(half for constant in constants for half in _halves(constant))]
+
+
+def _halves(value: float) -> tuple[int, ...]:
+    return _HALVES.unpack(_DOUBLE.pack(value + 0.0))
+
+
+def _values(row: Sequence[int]) -> list[float]:
+    if len(row) != 14:
+        raise InputError(f"an element of CAM_PROFILE has 14 DINT, got {len(row)}")
+    numbers = [*row[1:5], *row[6:]]
+    return [_DOUBLE.unpack(_HALVES.pack(*numbers[i : i + 2]))[0] for i in range(0, len(numbers), 2)]
+
+
+def _table(motion: Motion, request: Request, *, single: bool) -> PointTable:
+    interpolation = request.interpolation_among(SEGMENT_TYPES)
+    number_format = NumberFormat(request.counts, request.digits, single)
+
+    def make(count: int) -> PointTable:
+        return table_by_interpolation(motion, count, number_format, interpolation)
+
+    return chosen(motion, request, make, least=2, most=MOST_POINTS)
+
+
+def _array(motion: Motion, request: Request, *, single: bool) -> Written:
+    name = iec_name(request.name, "Logix")
+    table = _table(motion, request, single=single)
+    kind = SEGMENT_TYPES[request.interpolation_among(SEGMENT_TYPES)]
+    start, end = (
+        real(float(number), single=single) for number in NumberFormat(single=single).numbers(np.array(motion.ends(1)))
+    )
+    rows = [
+        f"{name}[{i}].Master := {real(x, single=single)}; {name}[{i}].Slave := {real(y, single=single)}; "
+        f"{name}[{i}].SegmentType := {kind};"
+        for i, (x, y) in enumerate(zip(table.x.tolist(), table.values[0].tolist(), strict=True))
+    ]
+    structure = "CAM" if single else "CAM_EXTENDED"
+    notes = (f"tag {name} : {structure}[{len(rows)}]", f"MCCP: StartSlope = {start}, EndSlope = {end}")
+    text = iec_comment((*notes, *table_heading(motion, f"Rockwell Logix, {structure}"))) + "\n".join([*rows, ""])
+    return _written(text, table, request, notes[1:])
+
+
+@_logix(
+    "rockwell-cam-profile",
+    target="Rockwell Logix, rows of CAM_PROFILE as in L5K and L5X",
+    contents="Status, X, Y, type, C0 to C3 as 14 DINT",
+    extension=".txt",
+)
+def _profile(motion: Motion, request: Request) -> Written:
+    name = iec_name(request.name, "Logix")
+    table = _table(motion, request, single=False)
+    rows = profile_rows(table.run, cubic=request.interpolation_among(SEGMENT_TYPES) == "cubic")
+    data = ",\n".join(f"  [{','.join(map(str, row))}]" for row in rows)
+    text = iec_comment(table_heading(motion, "Rockwell Logix, elements of CAM_PROFILE")) + f"{name} := [\n{data}\n];\n"
+    return _written(text, table, request)
+
+
+def _written(text: str, table: PointTable, request: Request, notes: tuple[str, ...] = ()) -> Written:
+    cubic = request.interpolation_among(SEGMENT_TYPES) == "cubic"
+    return table.written(text, _CUBIC if cubic else "straight lines", notes)
+
+
+_logix(
+    "rockwell-cam",
+    target="Rockwell Logix, array of CAM for MCCP",
+    contents="Master, Slave (REAL), SegmentType",
+    limits="REAL32; no number of points is stated",
+)(partial(_array, single=True))
+_logix(
+    "rockwell-cam-extended",
+    target="Rockwell Logix 5380, 5480, 5580, array of CAM_EXTENDED for MCCP",
+    contents="Master, Slave (LREAL), SegmentType",
+)(partial(_array, single=False))

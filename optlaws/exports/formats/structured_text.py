@@ -1,0 +1,158 @@
+"""A motion as a function block of IEC 61131-3 in Structured Text: position and derivatives at a time or a master."""
+
+from __future__ import annotations
+
+from functools import partial
+
+from optlaws.exports.error_bounds import DOUBLE, SINGLE, as_stored
+from optlaws.exports.format import Request, Written, file_format
+from optlaws.exports.formats.program_polynomials import (
+    SOURCE_MODEL,
+    SOURCE_PIECES,
+    labels_of,
+    leaps_in_words,
+    leaps_of_single,
+    source_polynomials,
+)
+from optlaws.exports.identifiers import iec_name
+from optlaws.exports.text import Labels, program_heading, real, safe, wrapped
+from optlaws.files.writing import MARK
+from optlaws.motion.motion import Motion
+from optlaws.motion.polynomials import PiecewiseMotion
+
+_BODY = """\
+place := LIMIT(breaks[0], x, breaks[{last}]);
+inside := (place = x);
+WHILE piece > 0 AND place < breaks[piece] DO
+    piece := piece - 1;
+END_WHILE
+WHILE piece < {most} AND place >= breaks[piece + 1] DO
+    piece := piece + 1;
+END_WHILE
+s := place - breaks[piece];
+position := coefficients[piece * {width} + {degree}];
+velocity := 0.0;
+acceleration := 0.0;
+jerk := 0.0;
+FOR power := {degree} - 1 TO 0 BY -1 DO
+    jerk := jerk * s + acceleration;
+    acceleration := acceleration * s + velocity;
+    velocity := velocity * s + position;
+    position := position * s + coefficients[piece * {width} + power];
+END_FOR
+acceleration := 2.0 * acceleration;
+jerk := 6.0 * jerk;
+"""
+_INTERFACE = """\
+VAR_INPUT
+    x : {kind};
+END_VAR
+VAR_OUTPUT
+    position : {kind};
+    velocity : {kind};
+    acceleration : {kind};
+    jerk : {kind};
+    inside : BOOL;
+END_VAR
+"""
+_LOCALS = """\
+VAR
+    piece : DINT := 0;
+    power : DINT;
+    place : {kind};
+    s : {kind};
+END_VAR
+"""
+
+
+def function_block(
+    motion: PiecewiseMotion, name: str = "FB_Motion", labels: Labels | None = None, *, single: bool = False
+) -> str:
+    """The source of a function block that evaluates a motion by Horner's scheme.
+
+    Its output is position, velocity, acceleration and jerk at the input x; outside the motion x is brought to the
+    nearer end, and `inside` says so. The piece is kept from call to call, so that a master that moves on costs one
+    comparison. Nothing but arithmetic, arrays and loops is used, which every target of the standard has.
+
+    Parameters
+    ----------
+    motion
+        The motion.
+    name
+        Of the function block.
+    labels
+        Units and notes for its program_heading.
+    single
+        REAL in place of LREAL.
+
+    Raises
+    ------
+    InputError
+        If the name is none for a function block, or a number is beyond REAL.
+
+    Examples
+    --------
+    >>> source = function_block(PiecewiseMotion([0.0, 0.1], [[0.0, 0.0, 300.0, -2000.0]]), "FB_Press")
+    >>> [line for line in source.splitlines() if "coefficients :" in line]
+    ['    coefficients : ARRAY[0..3] OF LREAL := [']
+    """
+    called = iec_name(name, "IEC 61131-3")
+    arithmetic = SINGLE if single else DOUBLE
+    run, kind = as_stored(motion, arithmetic), arithmetic.name
+    lines = program_heading(motion, labels or Labels(), [arithmetic])
+    comment = "\n".join(f"   {line}".rstrip() for line in safe([*lines, MARK]))
+    numbers = {"last": len(run.breaks) - 1, "most": len(run.breaks) - 2, "degree": run.degree}
+    parts = [
+        f"(* {called}\n{comment}\n*)\nFUNCTION_BLOCK {called}\n",
+        _INTERFACE.format(kind=kind),
+        _tables(run, kind, single=single),
+        _LOCALS.format(kind=kind),
+        _BODY.format(**numbers, width=run.degree + 1),
+        "END_FUNCTION_BLOCK\n",
+    ]
+    return "".join(parts)
+
+
+def _tables(motion: PiecewiseMotion, kind: str, *, single: bool) -> str:
+    flat = motion.powers().ravel().tolist()
+    lines = ["VAR CONSTANT"]
+    for name, values in (("breaks", motion.breaks), ("coefficients", flat)):
+        lines.append(f"    {name} : ARRAY[0..{len(values) - 1}] OF {kind} := [")
+        lines += wrapped([real(value, single=single) for value in values], "        ")
+        lines.append("    ];")
+    return "\n".join([*lines, "END_VAR\n"])
+
+
+def _write(motion: Motion, request: Request, *, single: bool) -> Written:
+    fit, notes = source_polynomials(motion, request)
+    text = function_block(fit.run, request.name, labels_of(motion, notes), single=single)
+    if not single:
+        return Written(text, fit.run, "polynomials in LREAL", fit.count, "segments", notes=notes)
+    roundings = leaps_of_single(fit.run)
+    notes = (*notes, leaps_in_words(motion, roundings))
+    run = _single(fit.run)
+    return Written(text, run, "polynomials in REAL", fit.count, "segments", notes=notes, roundings=roundings)
+
+
+def _single(run: PiecewiseMotion) -> PiecewiseMotion:
+    """The polynomials in REAL32 where the motion lies: its ends stay, which REAL32 may round."""
+    stored = as_stored(run, SINGLE)
+    return PiecewiseMotion((run.start, *stored.breaks[1:-1], run.stop), stored.coefficients)
+
+
+file_format(
+    "iec-st",
+    target="IEC 61131-3, a function block in Structured Text",
+    contents="breaks and coefficients (LREAL)",
+    model=SOURCE_MODEL,
+    limits=f"at most {SOURCE_PIECES} pieces",
+    extension=".st",
+)(partial(_write, single=False))
+file_format(
+    "iec-st-real",
+    target="IEC 61131-3, a function block in Structured Text, in REAL",
+    contents="breaks and coefficients (REAL)",
+    model=f"{SOURCE_MODEL}, in REAL32",
+    limits=f"at most {SOURCE_PIECES} pieces, REAL32",
+    extension=".st",
+)(partial(_write, single=True))

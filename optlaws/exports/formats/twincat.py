@@ -1,0 +1,178 @@
+"""TwinCAT: tables of positions, and motion functions of points with polynomials of degree 5 and 7 between them."""
+
+from __future__ import annotations
+
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.exports.fitting import Fitted
+from optlaws.exports.format import MOST_POINTS, Request, Written, file_format
+from optlaws.exports.formats.point_table import NumberFormat, PointTable, linear_table, spline_table
+from optlaws.exports.formats.program_polynomials import (
+    ends_of,
+    fields,
+    iec_heading,
+    leaping,
+    polynomials_for,
+    refuse_leaps,
+)
+from optlaws.exports.identifiers import iec_name
+from optlaws.exports.interpolation import hermite_powers
+from optlaws.exports.spacing import chosen
+from optlaws.exports.text import iec_comment, real, table_heading
+from optlaws.motion.motion import Motion
+from optlaws.motion.polynomials import PiecewiseMotion
+
+INTERPOLATIONS = {"linear": "MC_INTERPOLATIONTYPE_LINEAR", "spline": "MC_INTERPOLATIONTYPE_SPLINE"}
+
+
+@file_format(
+    "twincat-table",
+    target="TwinCAT NC, table of positions in MC_CAM_REF",
+    contents="master, slave (LREAL)",
+    model="C2 cubic spline, cyclic or tangential, or straight lines",
+    limits="no number of points is stated",
+    extension=".st",
+    takes=("points", "counts", "interpolation"),
+)
+def _table(motion: Motion, request: Request) -> Written:
+    name = iec_name(request.name, "TwinCAT")
+    interpolation = request.interpolation_among(INTERPOLATIONS, "spline")
+    cyclic = motion.repeats and abs(motion.advance) <= 1e-9 * motion.stroke
+
+    def make(count: int) -> PointTable:
+        number_format = NumberFormat(request.counts)
+        if interpolation == "linear":
+            return linear_table(motion, count, number_format)
+        return spline_table(motion, count, number_format, ends="periodic" if cyclic else "clamped")
+
+    table = chosen(motion, request, make, least=2, most=MOST_POINTS)
+    text = _table_text(name, motion, table, INTERPOLATIONS[interpolation])
+    model = (
+        "straight lines" if interpolation == "linear" else f"C2 cubic spline, {'cyclic' if cyclic else 'tangential'}"
+    )
+    return table.written(text, model)
+
+
+def _table_text(name: str, motion: Motion, table: PointTable, interpolation: str) -> str:
+    count = len(table.x)
+    kind = f"TableType := MC_TABLETYPE_NONEQUIDISTANT, NoOfRows := {count}, NoOfColumns := 2"
+    rows = [f"        {real(x)}, {real(y)}" for x, y in zip(table.x, table.values[0], strict=True)]
+    return "\n".join(
+        [
+            iec_comment(table_heading(motion, "TwinCAT, table of positions")) + "VAR_GLOBAL",
+            f"    {name}_table : ARRAY[1..{count}, 1..2] OF LREAL := [",
+            ",\n".join(rows) + "];",
+            f"    {name} : MC_CAM_REF := (ArraySize := SIZEOF({name}_table), {kind});",
+            "END_VAR",
+            f"(* in the program, before MC_CamTableSelect: {name}.pArray := ADR({name}_table);",
+            f"   for MC_CamIn: Options.InterpolationType := {interpolation}; its default is linear *)",
+            "",
+        ]
+    )
+
+
+DEGREE = 7
+#: by the degree of the polynomial: names in MC_MotionFunctionType and in EMotionFunctionType
+FUNCTIONS = {5: ("MOTIONFUNCTYPE_POLYNOM5_MM", "Polynomial5"), 7: ("MOTIONFUNCTYPE_POLYNOM7_MM", "Polynomial7")}
+_REMEDY = "take a smoother law, or a format whose pieces have ends of their own, such as codesys-cambuilder"
+_LAST = ("MOTIONFUNCTYPE_NOTDEF", "Undefined")
+
+
+def _motion_function(motion: Motion, request: Request, *, third: bool) -> Written:
+    name = iec_name(request.name, "TwinCAT")
+    fit = _shared(motion, request)
+    degrees = [5 if len(row) <= 6 or not any(row[6:]) else 7 for row in fit.run.coefficients]
+    ends = ends_of(motion, fit.run, 4)
+    values = np.array([*(end.first for end in ends), ends[-1].last]).T
+    run = _run(fit.run.breaks, values, degrees)
+    rows = [
+        (_of_mc3 if third else _of_nc2)(i, x, values[:, i].tolist(), degree)
+        for i, (x, degree) in enumerate(zip(fit.run.breaks, [*degrees, 0], strict=True))
+    ]
+    kind = "MotionFunctionPoint" if third else "MC_MotionFunctionPoint"
+    notes = (fit.in_words(motion.units.slave),)
+    text = "\n".join(
+        [
+            iec_heading(f"{name}: a motion function for TwinCAT, {kind}", motion, run, notes) + "VAR_GLOBAL",
+            f"    {name} : ARRAY[1..{len(rows)}] OF {kind} := [",
+            ",\n".join(f"        ({row})" for row in rows),
+            "    ];",
+            "END_VAR",
+            "",
+        ]
+    )
+    model = "Hermite polynomials of degree 5 and 7" if 7 in degrees else "Hermite polynomials of degree 5"
+    return Written(text, run, model, len(rows), notes=notes)
+
+
+def _shared(motion: Motion, request: Request) -> Fitted:
+    """Polynomials whose neighbours share what a point holds: velocity and acceleration, and the jerk where one is used.
+
+    Raises
+    ------
+    InputError
+        If velocity or acceleration leap, for a point holds one value of each.
+    """
+    fit = polynomials_for(motion, request, DEGREE, MOST_POINTS - 1, points=True)
+    refuse_leaps(motion, fit.run, "a point of TwinCAT", _REMEDY)
+    if fit.run.degree > 5 and leaping(fit.run, 3) is not None:
+        return polynomials_for(motion, request, 5, MOST_POINTS - 1, points=True)
+    return fit
+
+
+def _run(breaks: tuple[float, ...], values: NDArray[np.float64], degrees: list[int]) -> PiecewiseMotion:
+    x = np.array(breaks)
+    five, seven = hermite_powers(x, values[:3]), hermite_powers(x, values)
+    rows = [five[i].tolist() if degree == 5 else seven[i].tolist() for i, degree in enumerate(degrees)]
+    return PiecewiseMotion(breaks, rows)
+
+
+def _of_nc2(place: int, x: float, values: list[float], degree: int) -> str:
+    function = FUNCTIONS[degree][0] if degree else _LAST[0]
+    y, v, a, j = values
+    return fields(
+        PointIndex=place + 1,
+        FunctionType=function,
+        PointType="MOTIONPOINTTYPE_MOTION",
+        RelIndexNextPoint=1 if degree else 0,
+        MasterPos=x,
+        SlavePos=y,
+        SlaveVelo=v,
+        SlaveAcc=a,
+        SlaveJerk=j,
+    )
+
+
+def _of_mc3(place: int, x: float, values: list[float], degree: int) -> str:  # noqa: ARG001 - as the other
+    function = FUNCTIONS[degree][1] if degree else _LAST[1]
+    y, v, a, j = values
+    return fields(
+        FunctionType=f"EMotionFunctionType.{function}",
+        MasterPosition=x,
+        SlavePosition=y,
+        SlaveVelocity=v,
+        SlaveAcceleration=a,
+        SlaveJerk=j,
+    )
+
+
+_points = partial(
+    file_format,
+    model="Hermite polynomials of degree 5 or 7, by FunctionType",
+    limits="one velocity, acceleration and jerk at each point; pieces of degree 7 at most",
+    extension=".st",
+)
+_points(
+    "twincat-nc2",
+    target="TwinCAT NC2 camming, motion function of MC_MotionFunctionPoint",
+    contents="PointIndex, FunctionType, PointType, RelIndexNextPoint, MasterPos, SlavePos, SlaveVelo, SlaveAcc, "
+    "SlaveJerk (LREAL)",
+)(partial(_motion_function, third=False))
+_points(
+    "twincat-mc3",
+    target="TwinCAT MC3 camming, MotionFunctionPoint",
+    contents="FunctionType, MasterPosition, SlavePosition, SlaveVelocity, SlaveAcceleration, SlaveJerk (LREAL)",
+)(partial(_motion_function, third=True))

@@ -1,1 +1,0 @@
-"""Motions as few polynomials: those of their laws, exactly, or near ones, and how near."""

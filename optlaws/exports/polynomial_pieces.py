@@ -1,0 +1,246 @@
+"""Laws and motions as polynomials in machine units: exact where laws are made of such, else within a tolerance."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import reduce
+from itertools import pairwise
+from math import inf
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.errors import InputError
+from optlaws.exports.interpolation import hermite_powers
+from optlaws.laws.law import MotionLaw
+from optlaws.laws.polynomial import PolynomialLaw
+from optlaws.laws.segments.piecewise import PiecewiseLaw
+from optlaws.laws.segments.segment import PolynomialSegment
+from optlaws.motion.motion import Motion, motion_of_law
+from optlaws.motion.piece import Piece
+from optlaws.motion.polynomials import PiecewiseMotion, from_exact
+from optlaws.numbers import finite, positive
+from optlaws.series import exact
+
+Array = NDArray[np.float64]
+#: a stretch of a law: its first and its last k, and powers of k less the first
+Stretch = tuple[Fraction, Fraction, Sequence[Fraction]]
+
+_SHORTEST = Fraction(1, 4096)
+
+
+@dataclass(frozen=True)
+class LawSection:
+    """A smooth part of a law between k and k: its own polynomial where it is one of low degree.
+
+    Parameters
+    ----------
+    law
+        The law.
+    ends
+        Its first and its last k.
+    exact_powers
+        Powers of k less the first, or None where it is to be approximated.
+    """
+
+    law: MotionLaw
+    ends: tuple[float, float]
+    exact_powers: tuple[Fraction, ...] | None = None
+
+    def values(self, k: Array, nu: int) -> Array:
+        """The derivative of order nu; at the last k that of this side of it."""
+        return np.asarray(self.law(np.minimum(k, self._last), nu))
+
+    def hermite(self, k: Array, orders: int) -> PiecewiseMotion:
+        """Polynomials between places that have the law's first derivatives at each of them.
+
+        Raises
+        ------
+        InputError
+            If a derivative is infinite at one of them.
+        """
+        values = np.array([self.values(k, nu) for nu in range(orders)])
+        if not np.isfinite(values).all():
+            raise InputError(
+                f"the law has infinite derivatives at k = {float(k[~np.isfinite(values).all(axis=0)][0]):.6g}, which "
+                "no polynomial has: take a law of finite acceleration, or a format of points"
+            )
+        return PiecewiseMotion(k, hermite_powers(k, values))
+
+    def off(self, run: PiecewiseMotion, nu: int) -> float:
+        """How far polynomials on this stretch are from the law."""
+        return run.deviation(self.values, nu).value
+
+    @property
+    def _last(self) -> float:
+        high = self.ends[1]
+        return high if high == 1.0 else float(np.nextafter(high, 0.0))
+
+
+def is_polynomial(law: MotionLaw) -> bool:
+    """Whether a law is made of polynomials alone, so that controllers can run it without loss.
+
+    Examples
+    --------
+    >>> from optlaws import catalogue, smoothstep
+    >>> is_polynomial(smoothstep(3)), is_polynomial(catalogue["cycloidal"].law)
+    (True, False)
+    """
+    if isinstance(law, PiecewiseLaw):
+        return all(isinstance(segment, PolynomialSegment) for segment in law.segments)
+    return isinstance(law, PolynomialLaw)
+
+
+def polynomials_of_law(
+    law: MotionLaw, stroke: float = 1.0, time: float = 1.0, *, cancelled: float = inf
+) -> PiecewiseMotion:
+    """A law of polynomials with its stroke and duration: the same pieces, every coefficient rounded once.
+
+    Parameters
+    ----------
+    law
+        The law.
+    stroke, time
+        What multiplies its displacement and its time.
+    cancelled
+        How large the terms of a piece may be in sum, over the stroke: high powers cancel each other, and with them
+        the digits of whoever evaluates them. Pieces whose terms are larger are halved, which changes no value.
+
+    Raises
+    ------
+    InputError
+        If the law is not made of polynomials, or the duration is not above 0.
+
+    Examples
+    --------
+    >>> from optlaws import smoothstep
+    >>> polynomials_of_law(smoothstep(2), stroke=0.5, time=2.0).coefficients
+    ((0.0, 0.0, 0.375, -0.125),)
+    """
+    height, duration = Fraction(finite(stroke, "stroke")), Fraction(positive(time, "time"))
+    tame = [part for stretch in stretches(law) for part in _tame(stretch, cancelled)]
+    rows = [[height * a / duration**n for n, a in enumerate(powers)] for _, _, powers in tame]
+    return from_exact([duration * k for k in (tame[0][0], *(last for _, last, _ in tame))], rows)
+
+
+def _tame(stretch: Stretch, cancelled: float) -> Iterator[Stretch]:
+    """The stretch in parts whose terms are no larger in sum."""
+    low, high, powers = stretch
+    length = high - low
+    if high - low <= _SHORTEST or sum(abs(float(a * length**n)) for n, a in enumerate(powers)) <= cancelled:
+        yield stretch
+        return
+    middle = (low + high) / 2
+    yield from _tame((low, middle, powers), cancelled)
+    yield from _tame((middle, high, exact.shifted(list(powers), middle - low)), cancelled)
+
+
+def stretches(law: MotionLaw) -> Iterator[Stretch]:
+    """The polynomials of a law in exact arithmetic.
+
+    Raises
+    ------
+    InputError
+        If the law is not made of polynomials.
+
+    Examples
+    --------
+    >>> from optlaws import smoothstep
+    >>> [list(map(str, powers)) for _, _, powers in stretches(smoothstep(2))]
+    [['0', '0', '3', '-2']]
+    """
+    if not is_polynomial(law):
+        raise InputError("the law is not made of polynomials: approximate it by pieces within a stated deviation")
+    if isinstance(law, PolynomialLaw):
+        yield Fraction(0), Fraction(1), law.exact_powers()
+    if isinstance(law, PiecewiseLaw):
+        height = Fraction(law.a0)
+        for segment, ends in zip(law.segments, pairwise(map(Fraction, law.breaks)), strict=True):
+            assert isinstance(segment, PolynomialSegment)  # noqa: S101 - said above
+            powers = _powers(segment, ends[1] - ends[0], height)
+            yield *ends, powers
+            height = sum((a * (ends[1] - ends[0]) ** n for n, a in enumerate(powers)), Fraction(0))
+
+
+def _powers(segment: PolynomialSegment, length: Fraction, height: Fraction) -> list[Fraction]:
+    """Powers of k less the segment's start, of the displacement."""
+    acceleration = exact.exact_powers([Fraction(coefficient) for coefficient in segment.acceleration])
+    steps = [power / (length**n * (n + 1) * (n + 2)) for n, power in enumerate(acceleration)]
+    return [height, Fraction(segment.b0), *steps]
+
+
+TOLERANCE = 1e-9
+_ORDERS = 4  # derivatives at both ends, so that pieces have the degree 7
+_MOST = 4096
+_ROUNDING = 2.0**-50
+_LEAST = 16.0  # terms that sum up to so many strokes are no cause to halve pieces
+
+
+def pieces_of_motion(motion: Motion, tolerance: float = TOLERANCE) -> PiecewiseMotion:
+    """The polynomials of a motion between breaks, in units of its master and slave.
+
+    Parameters
+    ----------
+    motion
+        The motion.
+    tolerance
+        How far the position may be from the law's, as a share of the stroke, where laws are not made of polynomials:
+        over the whole interval, no grid. Polynomials whose powers lose more digits than that are halved, which
+        changes no value.
+
+    Raises
+    ------
+    InputError
+        If derivatives are infinite, or too many pieces would be needed.
+
+    Examples
+    --------
+    >>> from optlaws.laws import smoothstep
+    >>> motion = motion_of_law(smoothstep(2), stroke="35 mm", duration="0.1 s")
+    >>> [round(coefficient, 6) for coefficient in pieces_of_motion(motion).coefficients[0]]
+    [0.0, 0.0, 10500.0, -70000.0]
+    """
+    share = positive(tolerance, "tolerance")
+    parts = [_of_piece(piece, share * motion.stroke) for piece in motion.pieces]
+    breaks = [x for part in parts for x in part.breaks[:-1]]
+    return PiecewiseMotion([*breaks, motion.stop], [row for part in parts for row in part.coefficients])
+
+
+def pieces_of_law(law: MotionLaw, tolerance: float = TOLERANCE, **placement: Any) -> PiecewiseMotion:  # noqa: ANN401
+    """The polynomials of a law with its stroke, time and master, as `motion_of_law` takes them."""
+    return pieces_of_motion(motion_of_law(law, **placement), tolerance)
+
+
+def _of_piece(piece: Piece, tolerance: float) -> PiecewiseMotion:
+    if piece.stroke == 0.0:
+        return PiecewiseMotion([piece.start, piece.stop], [[piece.offset]])
+    if is_polynomial(piece.law):
+        cancelled = max(tolerance / (_ROUNDING * abs(piece.stroke)), _LEAST)
+        return _at_its_place(polynomials_of_law(piece.law, piece.stroke, piece.duration, cancelled=cancelled), piece)
+    stretches = [LawSection(piece.law, ends) for ends in pairwise(piece.law.breaks)]
+    near = reduce(PiecewiseMotion.then, (_near(stretch, tolerance / abs(piece.stroke)) for stretch in stretches))
+    return _at_its_place(near.in_units(piece.duration, piece.stroke), piece)
+
+
+def _at_its_place(motion: PiecewiseMotion, piece: Piece) -> PiecewiseMotion:
+    """The motion where its piece lies: laws begin at 0 and with their own displacement."""
+    height = piece.offset - piece.stroke * float(piece.law.a(0.0))
+    rows = [(row[0] + height, *row[1:]) for row in motion.coefficients]
+    return PiecewiseMotion([piece.start + x for x in motion.breaks], rows)
+
+
+def _near(stretch: LawSection, tolerance: float) -> PiecewiseMotion:
+    """So many of Hermite's polynomials of degree 7 on a stretch, each time twice as many, that they are near enough."""
+    count = 1
+    while count <= _MOST:
+        run = stretch.hermite(np.linspace(*stretch.ends, count + 1), _ORDERS)
+        if stretch.off(run, 0) <= tolerance:
+            return run
+        count *= 2
+    raise InputError(
+        f"{_MOST} polynomials do not come within {tolerance:.3g} of the law near k = {stretch.ends[0]:.6g}: take a "
+        "greater tolerance, a law of polynomials, or a format of points"
+    )

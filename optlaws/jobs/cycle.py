@@ -1,0 +1,235 @@
+"""The job "cycle": whole cycles of one or several axes, tabled, drawn, exported and kept with their proofs."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import numpy as np
+
+from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.summary import drive_rows, joint_rows, proof_rows
+from optlaws.errors import InputError
+from optlaws.exports.export import Export, export_cycle
+from optlaws.exports.format import FORMATS, format_of
+from optlaws.exports.identifiers import variable_names
+from optlaws.files import tables, writing
+from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile, ExportEntries, read
+from optlaws.plots.cycle import QUANTITIES, UNITS, axes_figure, cycle_figure
+from optlaws.plots.style import save_pictures
+from optlaws.results.page import Page
+
+#: the exports of each axis by the names of their files
+Exports = dict[str, dict[str, Export]]
+
+#: what the picture of all axes is called
+TOGETHER = "axes"
+_PEAKS = ("peak velocity", "peak acceleration", "peak jerk")
+_EXPORT_HEADINGS = ("file", "format", "points", *_PEAKS, "greatest deviation, unit")
+
+
+def exports_of(spec: CycleProblemFile, cycles: Mapping[str, Cycle], file: Path) -> Exports:
+    """The exports that the axes name, made but not yet written.
+
+    Raises
+    ------
+    InputError
+        If one is wrong or cannot hold its axis, or two have the same file; the error names file and axis.
+    """
+    exports: Exports = {}
+    if len(spec.axis) > 1 and TOGETHER in {plain_name(axis.name) for axis in spec.axis}:
+        raise InputError(f"{file}: an axis is called {TOGETHER}, as the picture of all is: give it another name")
+    taken = {"cycle.md", "cycle.json", f"{TOGETHER}.svg", f"{TOGETHER}.png"}
+    taken |= {f"{plain_name(axis.name)}{ending}" for axis in spec.axis for ending in (".csv", ".svg", ".png")}
+    names = variable_names(axis.name for axis in spec.axis)
+    for axis in spec.axis:
+        try:
+            exports[axis.name] = _of_axis(axis, cycles[axis.name], names[axis.name], taken)
+        except InputError as error:
+            raise InputError(f"{file}: axis {axis.name}: export {error}") from None
+    return exports
+
+
+def plain_name(axis: str) -> str:
+    """The name of an axis as files have it.
+
+    Examples
+    --------
+    >>> plain_name("Weld head")
+    'weld_head'
+    """
+    return "".join(letter if letter.isalnum() else "_" for letter in axis.lower())
+
+
+def add_exports(page: Page, exports: Mapping[str, Export]) -> None:
+    """A table of what controllers will run, where there are exports."""
+    if exports:
+        page.text("What controllers will run: peaks of the exported files as interpolated, over the law's.")
+        page.table(_EXPORT_HEADINGS, [_export_row(name, export) for name, export in exports.items()], digits=7)
+
+
+def _of_axis(axis: AxisEntries, cycle: Cycle, variable: str, taken: set[str]) -> dict[str, Export]:
+    exports: dict[str, Export] = {}
+    for entry in axis.export:
+        name = _file_name(axis.name, entry)
+        if name in taken:
+            raise InputError(f"to {entry.to}: another file is called {name}: give each a name of its own")
+        taken.add(name)
+        try:
+            exports[name] = _export(cycle, entry, variable)
+        except InputError as error:
+            raise InputError(f"to {entry.to}: {error}") from None
+    return exports
+
+
+def _export(cycle: Cycle, entry: ExportEntries, variable: str) -> Export:
+    given = msgspec.structs.asdict(entry)
+    given["name"] = variable if entry.name is None else entry.name
+    placement = {"master": given.pop("master"), "unit": given.pop("unit")}
+    del given["file"], given["to"]
+    return export_cycle(cycle, entry.to, placement, **given)
+
+
+def _file_name(axis: str, entry: ExportEntries) -> str:
+    form = format_of(entry.to)
+    name = entry.file or f"{plain_name(axis)}_{form.name}{FORMATS[form.name].extension}"
+    if Path(name).name != name:
+        raise InputError(f"to {entry.to}: file must be a name without a folder, got {name}")
+    writing.check_name(Path(name))
+    return name
+
+
+def _export_row(name: str, export: Export) -> list[tables.Cell]:
+    ratios = [export.report.ratio(nu) for nu in (1, 2, 3)]
+    shown = [f"{ratio:.7g}" if abs(ratio) < float("inf") else "leaps" for ratio in ratios]
+    deviation = f"{export.report.deviation[0].value:.3g} {export.motion.units.slave}"
+    return [name, export.format.name, export.points, *shown, deviation]
+
+
+_ROUNDING = 1e-11  # what is below this share of a peak is 0
+_SHARE = 360.0
+
+
+def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
+    """Do the job and return the files written."""
+    spec, cycles = read(data, file)
+    exports = exports_of(spec, cycles, file)
+    about = f"{spec.title}; from {file.name}"
+    texts = {"cycle.md": str(page(spec, cycles, exports)), "cycle.json": _stored(cycles, about)}
+    for name, cycle in cycles.items():
+        texts[f"{plain_name(name)}.csv"] = table_of_motion(cycle, spec.rows, about)
+    figures = {plain_name(name): cycle_figure(cycle, f"{spec.title}: {name}") for name, cycle in cycles.items()}
+    if len(cycles) > 1:
+        figures[TOGETHER] = axes_figure(cycles, spec.title)
+    files = [writing.write(out / name, text) for name, text in texts.items()] + save_pictures(figures, out)
+    return files + [export.write(out / name) for named in exports.values() for name, export in named.items()]
+
+
+def table_of_motion(cycle: Cycle, rows: int, about: str) -> str:
+    """Angle, time, position, velocity, acceleration and jerk at equal steps over the cycle, as CSV."""
+    return tables.to_csv(_columns(cycle), _rows(cycle, rows), about=about)
+
+
+def answer(cycles: Mapping[str, Cycle]) -> dict[str, Any]:
+    """The data of the cycles for programs, in SI units, by the names of the axes."""
+    return {name: _facts(cycle) for name, cycle in cycles.items()}
+
+
+def page(spec: CycleProblemFile, cycles: Mapping[str, Cycle], exports: Exports) -> Page:
+    """The page of results."""
+    result = Page(spec.title).text(spec.text)
+    if len(cycles) > 1:
+        result.figure(TOGETHER, f"{spec.title}: all axes over one time")
+    for name, cycle in cycles.items():
+        result.heading(name).figure(plain_name(name), f"{spec.title}: {name}")
+        result.table(_headings(cycle), [*_segment_rows(cycle), _whole_row(cycle)], digits=7)
+        rows = [*proof_rows(cycle), *drive_rows(cycle), *joint_rows(cycle)]
+        result.table(("what", "value", "unit"), [[row.name, row.value, row.unit or None] for row in rows], digits=9)
+        add_exports(result, exports[name])
+    return result
+
+
+def _headings(cycle: Cycle) -> list[str]:
+    sized = [f"peak {name}, {unit}" for name, (unit, _) in zip(QUANTITIES, UNITS[cycle.axis], strict=True)]
+    return ["segment", "from, ms", "takes, ms", "takes, deg", "ends at, " + UNITS[cycle.axis][0][0], *sized[1:]]
+
+
+def _segment_rows(cycle: Cycle) -> list[list[tables.Cell]]:
+    position, factor = cycle.programme.start, UNITS[cycle.axis][0][1]
+    rows: list[list[tables.Cell]] = []
+    for stretch, peaks in zip(cycle.programme.stretches, cycle.peaks, strict=True):
+        position += stretch.displacement
+        rows.append(
+            [
+                peaks.name,
+                1e3 * peaks.start,
+                1e3 * peaks.duration,
+                _SHARE * peaks.duration / cycle.duration,
+                _plain(factor * position, factor * max(abs(position), abs(cycle.peak(0)))),
+                *(peaks.peak(nu) * UNITS[cycle.axis][nu][1] for nu in (1, 2, 3)),
+            ]
+        )
+    return rows
+
+
+def _whole_row(cycle: Cycle) -> list[tables.Cell]:
+    peaks = [cycle.peak(nu) * UNITS[cycle.axis][nu][1] for nu in (1, 2, 3)]
+    return ["whole cycle", 0.0, 1e3 * cycle.duration, _SHARE, None, *peaks]
+
+
+def _columns(cycle: Cycle) -> list[str]:
+    return [
+        "master, deg",
+        "time, s",
+        *(f"{name}, {unit}" for name, (unit, _) in zip(QUANTITIES, UNITS[cycle.axis], strict=True)),
+    ]
+
+
+def _rows(cycle: Cycle, count: int) -> list[list[tables.Cell]]:
+    degrees = np.linspace(0.0, _SHARE, count)
+    times = degrees * (cycle.duration / _SHARE)
+    columns = [
+        [_plain(value * factor, cycle.peak(nu) * factor) for value in cycle(times, nu).tolist()]
+        for nu, (_, factor) in enumerate(UNITS[cycle.axis])
+    ]
+    return [list(row) for row in zip(degrees.tolist(), times.tolist(), *columns, strict=True)]
+
+
+def _plain(value: float, size: float) -> float:
+    return 0.0 if abs(value) <= _ROUNDING * size else value
+
+
+def _stored(cycles: Mapping[str, Cycle], about: str) -> str:
+    axes = answer(cycles)
+    for name, cycle in cycles.items():
+        axes[name]["laws"] = [
+            {"start": piece.start, "duration": piece.duration, "offset": piece.offset, "stroke": piece.stroke,
+             "law": piece.law.to_dict()}
+            for piece in cycle.pieces
+        ]  # fmt: skip
+    return json.dumps({"about": f"{about}; {writing.MARK}", "unit": "SI", "axes": axes}, indent=1) + "\n"
+
+
+def _facts(cycle: Cycle) -> dict[str, Any]:
+    drive: dict[str, Any] = {} if cycle.drive is None else {"effort": cycle.effort.to_dict()}
+    if cycle.load is not None:
+        drive["load"] = {name: cycle.load_motion.peak(name).value for name in cycle.load_motion.machine.outputs}
+    return {
+        "period": cycle.duration,
+        "status": cycle.status.value,
+        "minimise": cycle.minimise,
+        "objective": cycle.objective if cycle.solutions else None,
+        "lower_bound": cycle.lower_bound if cycle.solutions else None,
+        "search_space": cycle.search_space,
+        "remarks": list(cycle.remarks),
+        "segments": [
+            {"name": peak.name, "start": peak.start, "duration": peak.duration}
+            | {name: peak.peak(nu) for nu, name in enumerate(QUANTITIES) if nu}
+            for peak in cycle.peaks
+        ],
+        "joints": list(cycle.joints),
+        **drive,
+    }

@@ -1,1 +1,0 @@
-"""The job about whole cycles in machine units: entries, tables, pictures."""

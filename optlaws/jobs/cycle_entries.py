@@ -1,0 +1,169 @@
+"""The problem file of the job "cycle": axes with their segments, every number with its unit."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+import msgspec
+
+from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.serialisation import KINDS
+from optlaws.cycles.specification.segments import CycleSegment
+from optlaws.errors import InfeasibleProblem, InputError
+from optlaws.files.problem_file import Text, convert
+
+Kind = Literal["dwell", "constant velocity", "move", "rise", "return", "free"]
+
+
+class SegmentEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """A segment; which entries it may have beside its duration depends on its kind."""
+
+    kind: Kind
+    duration: str | list[str] | None = None
+    name: str | None = None
+    by: str | None = None
+    to: str | None = None
+    law: Text | None = None
+    limits: dict[str, str] | None = None
+    velocity: str | None = None
+    start_velocity: str | None = None
+    end_velocity: str | None = None
+    via: list[list[str]] | None = None
+
+
+class ElasticFollowerEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """An elastic follower whose mass is to move as the cycle says."""
+
+    period: str
+    damping: float = 0.0
+
+
+class ExportEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """An export of an axis: its format, its file, and what the format takes."""
+
+    to: str
+    file: Text | None = None
+    master: str = "360 deg"
+    unit: str | None = None
+    points: int | str | None = None
+    counts: int | None = None
+    digits: int | None = None
+    decimal: str | None = None
+    interpolation: str | None = None
+    task: str | None = None
+    name: str | None = None
+
+
+class LoadEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """A mass on a spring that the motion drives."""
+
+    period: str
+    damping: float = 0.0
+    mass: str | None = None
+    inertia: str | None = None
+
+
+class AxisEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """One axis of the machine."""
+
+    name: Text
+    segment: Annotated[list[SegmentEntries], msgspec.Meta(min_length=1, max_length=100)]
+    minimise: str = "acceleration"
+    limits: dict[str, str] = {}
+    start: str | None = None
+    advance: str | None = None
+    drive: dict[str, str] | None = None
+    load: LoadEntries | None = None
+    follower: ElasticFollowerEntries | None = None
+    export: Annotated[list[ExportEntries], msgspec.Meta(max_length=20)] = []
+    order: int = 3
+    degree: int = 9
+
+
+class CycleProblemFile(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """The problem file of a cycle with its axes."""
+
+    job: str
+    title: Text
+    axis: Annotated[list[AxisEntries], msgspec.Meta(min_length=1, max_length=8)]
+    speed: str | None = None
+    period: str | None = None
+    rows: Annotated[int, msgspec.Meta(ge=2, le=100_000)] = 361
+    text: str = ""
+
+
+def read(data: Mapping[str, Any], file: Path) -> tuple[CycleProblemFile, dict[str, Cycle]]:
+    """The entries of a file, and the cycles of its axes by their names.
+
+    Raises
+    ------
+    InputError
+        If an entry is unknown or wrong; the error names the file, the axis and the segment.
+    """
+    spec = convert(data, CycleProblemFile, file)
+    cycles: dict[str, Cycle] = {}
+    for axis in spec.axis:
+        if axis.name in cycles:
+            raise InputError(f"{file}: two axes are called {axis.name}: give each a name of its own")
+        try:
+            cycles[axis.name] = cycle_of(axis, spec.speed, spec.period)
+        except (InputError, InfeasibleProblem) as error:
+            raise type(error)(f"{file}: axis {axis.name}: {error}") from None
+    return spec, cycles
+
+
+def cycle_of(axis: AxisEntries, speed: str | None, period: str | None) -> Cycle:
+    """The cycle of an axis: that of the cam, where there is a follower.
+
+    Raises
+    ------
+    InputError
+        If durations, positions or velocities do not fit, or a quantity is wrong.
+    """
+    cycle = Cycle(
+        [segment_of(entry, i + 1) for i, entry in enumerate(axis.segment)],
+        speed=speed,
+        period=period,
+        minimise=axis.minimise,
+        limits=axis.limits,
+        start=axis.start,
+        advance=axis.advance,
+        drive=axis.drive,
+        load=None if axis.load is None else _given(axis.load),
+        order=axis.order,
+        degree=axis.degree,
+    )
+    return cycle if axis.follower is None else cycle.cam(axis.follower.period, axis.follower.damping)
+
+
+def _given(entries: msgspec.Struct) -> dict[str, Any]:
+    """Entries that were given."""
+    return {name: value for name, value in msgspec.structs.asdict(entries).items() if value is not None}
+
+
+def segment_of(entries: SegmentEntries, number: int) -> CycleSegment:
+    """A segment of a file.
+
+    Raises
+    ------
+    InputError
+        If it has an entry that its kind does not take, or lacks one.
+
+    Examples
+    --------
+    >>> segment_of(SegmentEntries(kind="dwell", duration="90 deg"), 1)
+    Dwell(duration='90 deg', name='')
+    """
+    kind = KINDS[entries.kind]
+    given = _given(entries)
+    del given["kind"]
+    taken = kind.__dataclass_fields__
+    for name in given:
+        if name not in taken:
+            raise InputError(f"segment {number}: a {entries.kind} takes no {name}; it takes {', '.join(taken)}")
+    if entries.kind == "constant velocity" and entries.velocity is None:
+        raise InputError(f"segment {number}: a constant velocity needs its velocity, such as velocity = '300 mm/s'")
+    segment: CycleSegment = kind(**given)
+    return segment

@@ -1,0 +1,415 @@
+"""The job "machine laws": laws made for a machine beside standard ones and shaped ones, tabled and drawn."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, Literal
+
+import msgspec
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.errors import InputError
+from optlaws.files import tables, writing
+from optlaws.files.problem_file import Text, convert
+from optlaws.kept import kept_property
+from optlaws.laws import MotionLaw
+from optlaws.laws.catalogue.catalogue import catalogue
+from optlaws.laws.making.input_shaping import Shaper, shaped_law
+from optlaws.mechanisms.machine.machine import Machine
+from optlaws.mechanisms.machine.modes import mode
+from optlaws.mechanisms.spectrum.laplace import velocity_transform
+from optlaws.plots.style import BLUES, GREEN, GREY, WARM, empty_figure, plot_style, save_picture
+from optlaws.results.page import Page
+from optlaws.studies.problem_entries import gap, record
+from optlaws.synthesis import Functional, Problem, Solution, at_most, synthesize
+from optlaws.synthesis.problem.fields import from_entries
+from optlaws.synthesis.problem.named_constants import named
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+Pair = tuple[float, float]
+Spread = Annotated[float, msgspec.Meta(ge=0.0, lt=1.0)]
+
+
+class MachineTable(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """A machine of masses and links, of measured modes, or of matrices."""
+
+    masses: dict[str, float] | None = None
+    links: list[list[Any]] = []
+    drive: str | list[str] = ""
+    outputs: dict[str, str] | list[str] = []
+    modes: list[list[float]] | None = None
+    A: list[list[float]] | None = None
+    B: list[list[float]] = []
+    C: list[list[float]] = []
+    D: list[list[float]] = []
+    inputs: str = "a"
+    duration: float = 1.0
+    stroke: float = 1.0
+
+    def machine(self) -> Machine:
+        """The machine of the table, checked.
+
+        Raises
+        ------
+        InputError
+            If it is none; the message begins with the table's name.
+        """
+        if sum(given is not None for given in (self.masses, self.modes, self.A)) != 1:
+            raise InputError("machine: give either masses with links and a drive, or modes, or matrices A, B, C and D")
+        try:
+            if self.modes is not None:
+                return Machine.from_modes(
+                    self.modes, duration=self.duration, stroke=self.stroke, outputs=self.outputs or None
+                )
+            return self._of_masses(self.masses) if self.masses is not None else self._of_matrices()
+        except InputError as error:
+            raise InputError(f"machine: {error}") from None
+
+    def _of_masses(self, masses: dict[str, float]) -> Machine:
+        drive = self.drive if isinstance(self.drive, str) else tuple(self.drive)
+        outputs = self.outputs or None
+        units = {"duration": self.duration, "stroke": self.stroke}
+        return Machine.from_masses(masses, self.links, drive=drive, outputs=outputs, **units)  # type: ignore[arg-type]
+
+    def _of_matrices(self) -> Machine:
+        names = list(self.outputs)
+        units = {"duration": self.duration, "stroke": self.stroke}
+        assert self.A is not None  # noqa: S101 - as the caller saw
+        return Machine.from_units(self.A, self.B, self.C, self.D, inputs=self.inputs, outputs=names, **units)
+
+
+class Measure(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """A constant of the machine: the peak or the RMS of an output, or what a mode is left with in one."""
+
+    peak: Text | None = None
+    rms: Text | None = None
+    residual: int | None = None
+    output: Text | None = None
+    within: Pair = (0.0, 1.0)
+    cycle: Pair | None = None
+    dwell: float = 0.0
+    spread: Spread = 0.0
+    damping: Pair | None = None
+    side: Literal["both", "high", "low"] = "both"
+    offset: float = 0.0
+
+    def constant(self, machine: Machine) -> Functional:
+        """The constant of this machine.
+
+        Raises
+        ------
+        InputError
+            If it is none of the three, or more than one.
+        """
+        if sum(wish is not None for wish in (self.peak, self.rms, self.residual)) != 1:
+            raise InputError(
+                "a constant of the machine is one of peak and rms, each of an output, and residual of a mode"
+            )
+        if self.peak is not None:
+            return machine.peak(self.peak, within=self.within, cycle=self.cycle, side=self.side, offset=self.offset)
+        if self.rms is not None:
+            return machine.rms(self.rms, dwell=self.dwell, cycle=self.cycle, offset=self.offset)
+        return machine.residual(self.residual or 0, self.output, spread=self.spread, damping=self.damping)
+
+
+class Kept(Measure, kw_only=True, forbid_unknown_fields=True):
+    """A constant with what it is at most; of the machine, or of the law by its name."""
+
+    most: float
+    constant_name: Text | None = msgspec.field(default=None, name="constant")
+
+    def bounded(self, machine: Machine) -> Functional:
+        """The constant that is bounded."""
+        return self.constant(machine) if self.constant_name is None else named(self.constant_name)
+
+
+class Sought(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """A law that is sought: what is minimised, what is kept, and any entry of a problem."""
+
+    name: Text
+    minimise: Text | Measure = "C"
+    keep: list[Kept] = []
+    problem: dict[str, Any] = {}
+
+    def stated(self, machine: Machine) -> Problem:
+        """The problem of the law that is sought.
+
+        Raises
+        ------
+        InputError
+            If an entry is wrong; the message begins with the law's name.
+        """
+        try:
+            entries = from_entries({"order": 3, **self.problem})
+            objective = self.minimise if isinstance(self.minimise, str) else self.minimise.constant(machine)
+            limits = {bound.bounded(machine): at_most(bound.most) for bound in self.keep}
+            entries["bounds"] = {**entries.get("bounds", {}), **limits}
+            return Problem(**entries, minimise=objective)
+        except InputError as error:
+            raise InputError(f"sought {self.name!r}: {error}") from None
+
+
+SHAPERS: tuple[Shaper, ...] = ("ZV", "ZVD")
+_POINTS = 401
+_FLOOR = 1e-4  # of the greatest residual: what the logarithmic picture still shows
+_NOTHING = 1e-12  # of the vibration of a step: a residual that is rounding
+
+
+class Vibration(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """In which output what is left of which modes counts, and by how much frequencies may be off."""
+
+    output: Text
+    modes: Annotated[list[int], msgspec.Meta(min_length=1, max_length=4)] = msgspec.field(default_factory=lambda: [1])
+    shaped: int = 1
+    spread: Spread = 0.1
+
+
+class Pictured(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """The output and the laws that are drawn, with how much of the dwell."""
+
+    output: Text
+    laws: Annotated[list[Text], msgspec.Meta(min_length=1, max_length=6)]
+    dwell: Annotated[float, msgspec.Meta(ge=0.0, le=5.0)] = 0.5
+    spread: Spread = 0.25
+
+
+class MachineLawsProblemFile(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """The problem file of laws for a machine."""
+
+    job: str
+    title: Text
+    machine: MachineTable
+    vibration: Vibration
+    report: list[Text]
+    standard: Annotated[list[Text], msgspec.Meta(min_length=1, max_length=8)]
+    sought: Annotated[list[Sought], msgspec.Meta(min_length=1, max_length=8)]
+    figure: Pictured
+    units: dict[str, Text] = {}
+    text: str = ""
+
+    def titled(self, output: str) -> str:
+        """An output with its unit, where that is given."""
+        return f"{output}, {self.units[output]}" if output in self.units else output
+
+
+@dataclass(frozen=True, eq=False)
+class Compared:
+    """A law for the machine; its solution if it is an optimum, nothing if it does not exist."""
+
+    name: str
+    machine: Machine
+    vibration: Vibration
+    law: MotionLaw | None
+    solution: Solution | None = None
+
+    def left(self, number: int, factors: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Amplitudes that a mode is left with where all frequencies are so many times as high."""
+        assert self.law is not None  # noqa: S101 - only laws that are there are asked
+        vibration = self.machine.residual(number, self.vibration.output)
+        roots = np.asarray(mode(self.machine, number).root * factors, dtype=np.complex128)
+        amplitudes = np.abs(velocity_transform(self.law, roots))
+        # the mode's share in the output is the same at every speed
+        return np.where(amplitudes > _NOTHING, vibration.share * amplitudes, 0.0)
+
+    @kept_property
+    def residuals(self) -> list[float]:
+        """Those of every mode that is asked: too slow, as it should be, too fast; and the greatest in between."""
+        spread = self.vibration.spread
+        residuals = []
+        for number in self.vibration.modes:
+            residuals += self.left(number, np.array([1.0 - spread, 1.0, 1.0 + spread])).tolist()
+            assert self.law is not None  # noqa: S101 - as above
+            residuals.append(self.machine.residual(number, self.vibration.output, spread=spread).value(self.law))
+        return residuals
+
+
+def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
+    """Do the job and return the files written."""
+    spec = convert(data, MachineLawsProblemFile, file)
+    machine = spec.machine.machine()
+    _check(spec, machine)
+    laws = list(compared(spec, machine))
+    headings, lines = _headings(spec), [_line(spec, law) for law in laws]
+    about = f"{spec.title}; from {file.name}"
+    written = [
+        writing.write(out / "table.csv", tables.to_csv(headings, lines, about=about)),
+        writing.write(out / "table.md", str(_page(spec, machine, headings, lines))),
+        writing.write(out / "laws.json", _laws(about, laws)),
+    ]
+    return written + save_picture(draw(spec, machine, laws), out / "figure")
+
+
+def _check(spec: MachineLawsProblemFile, machine: Machine) -> None:
+    for where, output in (
+        ("vibration", spec.vibration.output),
+        ("figure", spec.figure.output),
+        *(("report", heading) for heading in spec.report),
+        *(("units", unit) for unit in spec.units),
+    ):
+        try:
+            machine.place(output)
+        except InputError as error:
+            raise InputError(f"{where}: {error}") from None
+    for number in (*spec.vibration.modes, spec.vibration.shaped):
+        try:
+            mode(machine, number)
+        except InputError as error:
+            raise InputError(f"vibration: {error}") from None
+    known = _names(spec)
+    for name in spec.figure.laws:
+        if name not in known:
+            raise InputError(f"figure: no law is called {name!r}; there are {', '.join(known)}")
+    for stated in spec.sought:
+        stated.stated(machine)
+
+
+def _names(spec: MachineLawsProblemFile) -> list[str]:
+    shaped = [f"{name}, {shaper}" for name in spec.standard for shaper in SHAPERS]
+    return [*spec.standard, *shaped, *(stated.name for stated in spec.sought)]
+
+
+def compared(spec: MachineLawsProblemFile, machine: Machine) -> Iterator[Compared]:
+    """All laws, in the order of the table: standard ones, each as it is and shaped, and those made for the machine."""
+    vibration = mode(machine, spec.vibration.shaped)
+    for name in spec.standard:
+        law = catalogue[name].law
+        yield Compared(name, machine, spec.vibration, law)
+        for shaper in SHAPERS:
+            try:
+                shaped: MotionLaw | None = shaped_law(law, vibration.frequency, vibration.damping, shaper)
+            except InputError:
+                shaped = None  # the vibration is too slow for it: the table says so
+            yield Compared(f"{name}, {shaper}", machine, spec.vibration, shaped)
+    for stated in spec.sought:
+        solution = synthesize(stated.stated(machine))
+        yield Compared(stated.name, machine, spec.vibration, solution.law, solution)
+
+
+def _headings(spec: MachineLawsProblemFile) -> list[str]:
+    percent = f"{100.0 * spec.vibration.spread:g} %"
+    ends = (f"-{percent}", "nominal", f"+{percent}", f"greatest within {percent}")
+    residuals = [f"mode {number} left, {end}" for number in spec.vibration.modes for end in ends]
+    peaks = [f"peak {spec.titled(name)}" for name in spec.report]
+    return ["law", "B", "C", "J", *peaks, *residuals, "lower bound", "gap", "status"]
+
+
+def _line(spec: MachineLawsProblemFile, law: Compared) -> list[tables.Cell]:
+    if law.law is None:
+        return [law.name, *[None] * (len(_headings(spec)) - 2), "no time for it"]
+    constants, response = law.law.constants, law.machine.response(law.law)
+    peaks = [response.rise_peak(name).value for name in spec.report]
+    proof: list[tables.Cell] = [None, None, None]
+    if law.solution is not None:
+        proof = [law.solution.lower_bound, gap(law.solution), law.solution.status.value]
+    shown = [constants.B.value, constants.C.value, _finite(constants.J.value)]
+    return [law.name, *shown, *peaks, *law.residuals, *proof]
+
+
+def _finite(value: float) -> float | None:
+    return value if np.isfinite(value) else None
+
+
+def _laws(about: str, laws: Sequence[Compared]) -> str:
+    """The laws that were sought with all that proves them, for `optlaws verify`."""
+    lines = [f"{json.dumps(law.name)}: {json.dumps(record(law.solution))}" for law in laws if law.solution is not None]
+    head = json.dumps({"about": f"{about}; {writing.MARK}"})[1:-1]
+    return f'{{{head}, "laws": {{\n' + ",\n".join(lines) + "\n}}\n"
+
+
+def _page(
+    spec: MachineLawsProblemFile, machine: Machine, headings: Sequence[str], lines: list[list[tables.Cell]]
+) -> Page:
+    page = Page(spec.title).text(spec.text).figure("figure", spec.title)
+    page.heading("The machine's modes").table(*_modes(machine, spec.machine.duration))
+    about = (
+        f"{_in_machine_units(spec.machine)} "
+        f"What is left of a mode is its amplitude in {spec.vibration.output!r}{_unit(spec)} after the motion, "
+        "with all frequencies as they are and off by the share that is named. A law without a finite J has jumps of c."
+    )
+    return page.heading("Laws").text(about).table(headings, lines, digits=5)
+
+
+def _modes(machine: Machine, duration: float) -> tuple[list[str], list[list[tables.Cell]]]:
+    """The machine's modes as a table; in Hz too where the duration is known."""
+    headings = ["mode", "radians in the rise", "periods in the rise", "damping"]
+    lines: list[list[tables.Cell]] = []
+    for vibration in machine.modes:
+        periods = vibration.frequency / (2.0 * np.pi)
+        hertz = [periods / duration] if duration != 1.0 else []
+        lines.append([vibration.number, vibration.frequency, periods, vibration.damping, *hertz])
+    return [*headings, *(["frequency, Hz"] if duration != 1.0 else [])], lines
+
+
+def _unit(spec: MachineLawsProblemFile) -> str:
+    """The unit of what is left, in brackets."""
+    unit = spec.units.get(spec.vibration.output)
+    return f" ({unit})" if unit else ""
+
+
+def _in_machine_units(machine: MachineTable) -> str:
+    """The dimensionless constants in the machine's units, in words."""
+    stroke, duration = machine.stroke, machine.duration
+    if (stroke, duration) == (1.0, 1.0):
+        return "C and J are dimensionless."
+    acceleration, jerk = (f"{stroke / duration**nu:.6g}" for nu in (2, 3))
+    return (
+        f"C and J are dimensionless: the peak acceleration is C times {acceleration}, the peak jerk J times {jerk}, in "
+        "units of the stroke and seconds."
+    )
+
+
+def draw(spec: MachineLawsProblemFile, machine: Machine, laws: Sequence[Compared]) -> Figure:
+    """The residual of each mode over its frequency, and an output over time."""
+    drawn = [law for name in spec.figure.laws for law in laws if law.name == name and law.law is not None]
+    with plot_style():
+        modes = spec.vibration.modes
+        figure = empty_figure(9.6 + 3.6 * (len(modes) - 1), 4.6)
+        *left, right = figure.subplots(1, len(modes) + 1)
+        for number, axes in zip(modes, left, strict=True):
+            _residuals(axes, spec, number, drawn)
+        _outputs(right, spec, machine, drawn)
+        handles, labels = right.get_legend_handles_labels()
+        figure.suptitle(spec.title, x=0.01, ha="left", fontsize=11.0)
+        figure.legend(handles, labels, loc="outside lower center", ncols=3)
+        return figure
+
+
+def _residuals(axes: Axes, spec: MachineLawsProblemFile, number: int, laws: Sequence[Compared]) -> None:
+    spread = spec.figure.spread
+    factors = np.linspace(1.0 - spread, 1.0 + spread, _POINTS)
+    courses = [law.left(number, factors) for law in laws]
+    least = _FLOOR * max(float(values.max()) for values in courses)
+    for course, style in zip(courses, _styles(laws), strict=True):
+        axes.semilogy(100.0 * (factors - 1.0), np.maximum(course, least), **style)
+    band = 100.0 * spec.vibration.spread
+    axes.axvspan(-band, band, color="#f2f2f2", zorder=0)
+    axes.set(xlim=(-100.0 * spread, 100.0 * spread), ylim=(least, None), xlabel="frequency off by, %")
+    axes.set(title=f"mode {number} left in {spec.titled(spec.vibration.output)}")
+
+
+def _outputs(axes: Axes, spec: MachineLawsProblemFile, machine: Machine, laws: Sequence[Compared]) -> None:
+    k = np.linspace(0.0, 1.0 + spec.figure.dwell, _POINTS)
+    for law, style in zip(laws, _styles(laws), strict=True):
+        assert law.law is not None  # noqa: S101 - only those that are there are drawn
+        axes.plot(k, machine.response(law.law, dwell=spec.figure.dwell)[spec.figure.output](k), label=law.name, **style)
+    axes.axvline(1.0, color="black", linewidth=0.7, linestyle=":")
+    axes.set(xlim=(0.0, k[-1]), xlabel="k", title=spec.titled(spec.figure.output))
+
+
+def _styles(laws: Sequence[Compared]) -> list[dict[str, Any]]:
+    ours = iter((BLUES[-1], GREEN, "#66c2a5", BLUES[1]))
+    known = iter((GREY, WARM, "#fdae61", "#8c8c8c", "#a6761d"))
+    styles = []
+    for law in laws:
+        if law.solution is None:
+            styles.append({"color": next(known, GREY), "linestyle": "--", "linewidth": 1.2})
+        else:
+            styles.append({"color": next(ours, BLUES[-1]), "linewidth": 1.6})
+    return styles

@@ -1,1 +1,0 @@
-"""Jobs about machines that a law drives."""

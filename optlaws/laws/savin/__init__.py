@@ -1,1 +1,0 @@
-"""Savin's families of laws, for every u, with their members by any peak constant."""

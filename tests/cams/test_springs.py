@@ -1,0 +1,73 @@
+from math import pi, radians
+from typing import Any
+
+import numpy as np
+import pytest
+
+from optlaws.cams.forces import CamForces
+from optlaws.cams.springs import least_spring
+from optlaws.errors import InfeasibleProblem, InputError
+from tests.cams.placed import cam_of
+
+MASS = {"mass": "2 kg", "viscous": "12 N s/m", "dry": "4 N", "gravity": "5 N"}
+SPEEDS = ("60 rpm", "300 rpm")
+
+
+@pytest.mark.sample(2)
+@pytest.mark.parametrize("said", [{}, {"preload": "40 N"}, {"stiffness": "1 N/mm"}, {"force": "15 N"}])
+def test_the_least_spring_keeps_the_follower_on_and_no_lesser_does(said: dict[str, str]) -> None:
+    cam = cam_of("translating roller")
+    spring = least_spring(cam, drive=MASS, speeds=SPEEDS, **said)
+    asked = 15.0 if "force" in said else 0.0
+    assert spring.margin == pytest.approx(asked, abs=1e-6)
+    assert spring.lower_bound <= spring.value * (1 + 1e-12)
+    assert spring.value == pytest.approx(spring.lower_bound, rel=1e-6)
+
+    def least(stiffness: float, preload: float, rpm: float) -> float:
+        own = MASS | {"stiffness": f"{stiffness!r} N/m", "preload": f"{preload!r} N"}
+        force = CamForces(cam, speed=f"{rpm!r} rpm", drive=own).follower_force(np.linspace(0.0, 2 * pi, 1441))
+        return float(np.min(force))
+
+    for rpm in np.linspace(60.0, 300.0, 9):
+        assert least(spring.stiffness, spring.preload, float(rpm)) >= asked - 1e-6
+    # the same spring made lesser by a hundredth presses less where it was critical
+    rpm = spring.critical[1] * 30.0 / pi
+    lesser = CamForces(
+        cam, speed=f"{rpm!r} rpm", drive=MASS | {"stiffness": f"{0.99 * spring.stiffness!r} N/m",
+                                                 "preload": f"{0.99 * spring.preload!r} N"},
+    )  # fmt: skip
+    assert lesser.follower_force(radians(spring.critical[0])) < asked
+
+
+def test_without_stiffness_the_preload_is_that_of_the_greatest_deceleration() -> None:
+    cam = cam_of("translating flat", law="cycloidal")
+    spring = least_spring(cam, drive={"mass": "2 kg"}, speeds=("0 rpm", "300 rpm"), stiffness="0 N/m")
+    # cycloid: C = 2 pi, on the shorter way of 120 deg
+    known = 2.0 * (10.0 * pi) ** 2 * 2.0 * pi * 0.012 / radians(120.0) ** 2
+    assert spring.preload == pytest.approx(known, rel=1e-8)
+    assert spring.lower_bound == pytest.approx(known, rel=1e-6)
+
+
+def test_a_damper_is_worst_at_a_speed_between() -> None:
+    cam = cam_of("translating flat", law="3-4-5")
+    drive = {"mass": "0.05 kg", "viscous": "60 N s/m"}
+    spring = least_spring(cam, drive=drive, speeds=("1 rpm", "4000 rpm"), stiffness="0 N/m")
+    for rpm in np.geomspace(1.0, 4000.0, 25).tolist():
+        forces = CamForces(cam, speed=f"{rpm!r} rpm", drive=drive | {"preload": f"{spring.preload!r} N"})
+        assert forces.follower_force(np.linspace(0.0, 2 * pi, 721)).min() > -1e-6
+
+
+def test_wrong_springs_say_why() -> None:
+    cam = cam_of("translating roller")
+    for said, match in (
+        ({"speeds": "300 rpm"}, "speeds must be two"),
+        ({"speeds": ("300 rpm", "60 rpm")}, "speeds must rise"),
+        ({"drive": MASS | {"stiffness": "1 N/mm"}}, "to fix it give stiffness"),
+        ({"preload": "-1 N"}, "preload must be at least 0"),
+        ({"force": "1 N m"}, "force must be a force"),
+    ):
+        asked: dict[str, Any] = {"drive": MASS, "speeds": SPEEDS, **said}
+        with pytest.raises(InputError, match=match):
+            least_spring(cam, **asked)
+    with pytest.raises(InfeasibleProblem, match="are missing; give so much more preload"):
+        least_spring(cam, drive={"mass": "2 kg"}, speeds=SPEEDS, force="20 N", preload="10 N")

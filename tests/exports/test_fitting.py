@@ -1,0 +1,67 @@
+"""Polynomials for laws that are none of low degree: near them over the whole interval, and few with the best breaks."""
+
+import numpy as np
+import pytest
+
+from optlaws import Chebyshev, InputError, Problem, catalogue, limit_law, smoothstep, synthesize
+from optlaws.exports.best_breaks import best_breaks
+from optlaws.exports.fitting import fitted
+from optlaws.laws.making.trapezoids import scca
+from optlaws.motion.motion import motion_of_law
+
+SAID = {"stroke": "35 mm", "duration": "0.1 s"}
+
+
+@pytest.mark.parametrize("name", ["cycloidal", "modified sine", "modified trapezoid"])
+@pytest.mark.parametrize("degree", [5, 7])
+def test_deviations_that_are_stated_are_the_greatest(name: str, degree: int) -> None:
+    motion = motion_of_law(catalogue[name].law, **SAID)
+    made = fitted(motion, degree, 50)
+    x = np.linspace(0.0, 0.1, 20001)
+    for nu, stated in ((0, made.deviation), (2, made.acceleration)):
+        seen = np.abs(made.run(x, nu) - motion(x, nu)).max()
+        assert 0.99 * stated <= seen <= stated * (1.0 + 1e-6) + 1e-12 * motion.peak(nu)
+    assert made.acceleration <= 1e-2 * motion.peak(2)
+    assert made.run.peak(2).value <= (1.0 + 1.001e-3) * motion.peak(2)
+    assert np.abs(made.run.jumps(1)).max(initial=0.0) <= 1e-10 * motion.peak(1)
+
+
+def test_each_side_of_a_leap_keeps_its_own_derivatives() -> None:
+    motion = motion_of_law(scca(0.25, 0.5, 0.25), **SAID)
+    made = fitted(motion, 7, 50)
+    assert made.run.peak(3).value == pytest.approx(motion.peak(3), rel=1e-3)
+    pieces = catalogue["modified trapezoid"].law.pieces("35 mm", "0.1 s")
+    whole = motion_of_law(catalogue["modified trapezoid"].law, **SAID)
+    off = pieces.deviation(lambda x, nu: whole(np.clip(x, 0.0, 0.1), nu), 0, whole.breaks)
+    assert off.value <= 1e-9 * 35.0
+
+
+def test_what_no_polynomial_is_near_to_is_refused() -> None:
+    with pytest.raises(InputError, match="acceleration of the motion has no bound"):
+        fitted(motion_of_law(limit_law("D", None), **SAID), 7, 50)
+    with pytest.raises(InputError, match="pieces of its own, and the target holds 2: export its parts"):
+        fitted(motion_of_law(catalogue["modified trapezoid"].law, **SAID), 5, 2)
+    with pytest.raises(InputError, match=r"do not bring the acceleration within .*points='best'"):
+        fitted(motion_of_law(smoothstep(12), **SAID), 5, 3)
+
+
+@pytest.mark.parametrize("degree", [5, pytest.param(7, marks=pytest.mark.long)])
+def test_few_pieces_with_the_best_breaks_run_with_the_peak_of_the_law(degree: int) -> None:
+    law = synthesize(Problem(B=1.859, order=4, basis=Chebyshev(9))).law
+    found = best_breaks(law, degree)
+    assert len(found.breaks) - 1 <= 6
+    assert abs(found.ratio - 1.0) <= 1e-3
+    assert found.run.peak(2).value == pytest.approx(found.ratio * law.constants.C.value, rel=1e-12)
+    assert found.deviation == pytest.approx(found.run.deviation(law, 0).value)
+    assert [one.count for one in found.tried] == list(range(1, len(found.breaks)))
+    assert abs(found.tried[-1].even - 1.0) > 0.03
+    assert all(abs(one.best - 1.0) <= abs(one.even - 1.0) for one in found.tried)
+
+
+def test_the_search_says_what_it_cannot_do() -> None:
+    with pytest.raises(InputError, match="degree must be odd"):
+        best_breaks(smoothstep(4), 6)
+    with pytest.raises(InputError, match=r"the derivative of order 2 of the law leaps"):
+        best_breaks(catalogue["constant acceleration"].law, 5)
+    with pytest.raises(InputError, match=r"1 pieces of degree 5 do not bring C within 0.1%"):
+        best_breaks(smoothstep(6), 5, most=1)
