@@ -1,4 +1,4 @@
-"""Rules of the house: how much a function takes, and that a name of a class means one class."""
+"""Rules of the house: how much a function takes, that a name of a class means one class, where tolerances stand."""
 
 import ast
 from collections import Counter
@@ -79,3 +79,58 @@ def test_a_function_takes_few_arguments(room: str) -> None:
 def test_a_name_of_a_class_means_one_class() -> None:
     names = Counter(node.name for _, node in nodes(ROOT / "optlaws") if isinstance(node, ast.ClassDef))
     assert {name for name, count in names.items() if count > 1} <= SEVERAL_CLASSES
+
+
+MODULE = ROOT / "optlaws" / "series" / "tolerances.py"
+LARGEST = 1e-2
+#: rooms whose tolerances stand in that module; those that are missing have some to move
+WITHOUT_TOLERANCES = ("balancing", "formulas", "mechanisms", "plots", "results", "series", "shown", "studies")
+
+
+def assigned(tree: ast.Module) -> Iterator[tuple[str, ast.expr]]:
+    """Names that a module gives values to, each with its value; of a tuple each by itself."""
+    for node in tree.body:
+        if isinstance(node, ast.Assign | ast.AnnAssign) and node.value is not None:
+            targets = node.targets if isinstance(node, ast.Assign) else [node.target]
+            for target in targets:
+                pair = (target, node.value)
+                several = all(isinstance(one, ast.Tuple) for one in pair)
+                pairs = zip(*(one.elts for one in pair), strict=True) if several else [pair]  # type: ignore[attr-defined]
+                yield from ((name.id, value) for name, value in pairs if isinstance(name, ast.Name))
+
+
+def tolerances(source: str) -> list[str]:
+    """Constants of a module that are numbers above 0 and below a hundredth."""
+    known: dict[str, float] = {}
+    for name, node in assigned(ast.parse(source)):
+        try:
+            value = eval(compile(ast.Expression(node), "constant", "eval"), {"__builtins__": {}, **known})  # noqa: S307
+        except Exception:  # noqa: BLE001, S112 - not a plain number
+            continue
+        if isinstance(value, float | int):
+            known[name] = value
+    return [name for name, value in known.items() if 0.0 < value < LARGEST]
+
+
+@pytest.mark.parametrize("room", WITHOUT_TOLERANCES)
+def test_tolerances_stand_in_one_module(room: str) -> None:
+    files = [path for path in (ROOT / "optlaws" / room).rglob("*.py") if path != MODULE]
+    assert files
+    assert {str(path): names for path in files if (names := tolerances(path.read_text("utf-8")))} == {}
+
+
+def test_every_tolerance_has_a_reason_and_a_use() -> None:
+    source = MODULE.read_text("utf-8")
+    names = tolerances(source)
+    lines = {name: line for line in source.splitlines() for name in names if line.startswith(f"{name} = ")}
+    assert [name for name in names if "  # " not in lines[name]] == []
+    others = "".join(path.read_text("utf-8") for path in Path(ROOT / "optlaws").rglob("*.py") if path != MODULE)
+    assert [name for name in names if name not in others] == []
+
+
+def test_a_tolerance_is_seen() -> None:
+    assert tolerances("A = 2.0**-48\nB, C = 3, 1e-9\nD: float = 4.0 * A\nE = -0.001\nF = 0.01\nG = 'x'") == [
+        "A",
+        "C",
+        "D",
+    ]

@@ -102,6 +102,7 @@ SEVERAL = {
     "sublevel_bounds",
     "summary",
     "table",
+    "tolerances",
     "tables",
 }
 #: what finds a law or a proof: no part of what checks a proof again

@@ -23,8 +23,9 @@ from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.motion.quantities import quantity
 from optlaws.numbers import Quantity
-from optlaws.series.enclosures.interval_arrays import ROUNDING, Interval, exact
+from optlaws.series.enclosures.interval_arrays import Interval, exact
 from optlaws.series.enclosures.jets import Jet
+from optlaws.series.tolerances import ROUNDOFF
 
 Kind = TypeVar("Kind", bound=FollowerContact)
 
@@ -176,7 +177,7 @@ def greatest_roller(cam: DiscCam, *, radius_of_curvature: Quantity = "0 mm") -> 
             f"radius_of_curvature: the pitch curve itself has {shown(1.0 / greatest.low)} at"
             f" {degrees(greatest.angle):.6g} deg, so that no roller leaves {shown(least)}: make the base circle larger"
         )
-    slack = 8.0 * ROUNDING * (1.0 / greatest.low + abs(least))
+    slack = 8.0 * ROUNDOFF * (1.0 / greatest.low + abs(least))
     return GreatestRoller(low - slack, high + slack, greatest.angle)
 
 
@@ -337,7 +338,7 @@ def _spanning(smaller: Kind, larger: Kind) -> Kind:
         first, last = getattr(smaller, name), getattr(larger, name)
         if first != last:
             middle = 0.5 * (first + last)
-            radius = 0.5 * abs(last - first) + 16.0 * ROUNDING * (abs(first) + abs(last))
+            radius = 0.5 * abs(last - first) + 16.0 * ROUNDOFF * (abs(first) + abs(last))
             changed[name] = Interval(np.array(middle), np.array(radius))
     return replace(smaller, **changed)
 

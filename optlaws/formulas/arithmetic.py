@@ -12,11 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.formulas.tree import Call, Formula, Name, Negative, Number, Power, Product, Reciprocal, Sum, Table
+from optlaws.series.tolerances import NORM_OFFSET
 
 Array = NDArray[np.float64]
-
-#: keeps the slope of a norm finite where it vanishes
-_NOTHING = 1e-24
 
 
 @dataclass(frozen=True)
@@ -188,7 +186,12 @@ def casadi_arithmetic() -> Arithmetic:
         return value
 
     functions = {name: getattr(ca, name) for name in ("sin", "cos", "tan", "atan", "tanh", "exp", "log", "sqrt")}
-    several = {"abs": ca.fabs, "max": ca.fmax, "min": ca.fmin, "norm": lambda x, y: ca.sqrt(x * x + y * y + _NOTHING)}
+    several = {
+        "abs": ca.fabs,
+        "max": ca.fmax,
+        "min": ca.fmin,
+        "norm": lambda x, y: ca.sqrt(x * x + y * y + NORM_OFFSET),
+    }
     return Arithmetic(float, functions | several, lambda base, exponent: base**exponent, table)
 
 

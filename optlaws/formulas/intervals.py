@@ -13,12 +13,11 @@ from numpy.typing import NDArray
 from optlaws.formulas.arithmetic import pieces
 from optlaws.formulas.slopes import constant
 from optlaws.formulas.tree import Call, Formula, Name, Negative, Number, Power, Product, Reciprocal, Sum, Table
+from optlaws.series.tolerances import OPERATIONS_ROUNDING
 
 Array = NDArray[np.float64]
 
 _PARTS = 256
-#: roundings of a few operations, relative
-_ROUNDED = 2.0**-48
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,7 +42,7 @@ class Interval:
 
     def outward(self) -> Interval:
         """A little wider, for rounding; exact zeros and ones stay."""
-        sizes = (np.where(np.isfinite(end), _ROUNDED * np.abs(end), 0.0) for end in (self.low, self.high))
+        sizes = (np.where(np.isfinite(end), OPERATIONS_ROUNDING * np.abs(end), 0.0) for end in (self.low, self.high))
         below, above = sizes
         return Interval(self.low - below, self.high + above)
 

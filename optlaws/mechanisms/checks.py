@@ -8,9 +8,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
 from optlaws.numbers import numbers
-
-#: of a stroke, what it may differ by from another
-RETURNED = 1e-9
+from optlaws.series.tolerances import CLOSURE
 
 
 def state(value: Any) -> tuple[float, float]:  # noqa: ANN401 - whatever a caller hands over
@@ -71,5 +69,5 @@ def leads_back(rise: MotionLaw, fall: MotionLaw) -> None:
     >>> leads_back(smoothstep(3), smoothstep(4))
     """
     strokes = [float(law.a(1.0)) - float(law.a(0.0)) for law in (rise, fall)]
-    if abs(strokes[1] - strokes[0]) > RETURNED * max(1.0, abs(strokes[0])):
+    if abs(strokes[1] - strokes[0]) > CLOSURE * max(1.0, abs(strokes[0])):
         raise InputError(f"fall must lead back over the rise's stroke {strokes[0]:g}, but has {strokes[1]:g}")

@@ -10,14 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.series.chebyshev import nodes
-from optlaws.series.peaks import TIE
+from optlaws.series.tolerances import OPERATIONS_ROUNDING, TIE, TOP_WIDTH
 
 Array = NDArray[np.float64]
 
-ROUNDING = 2.0**-48
 PARTS = 8
 _ROUNDS = 20
-_WIDTH = 1e-4  # a smooth top is flat to TIE over about so much
 
 
 class Top(NamedTuple):
@@ -72,7 +70,7 @@ def top(control: Array) -> Top:
             near = control[:, side] >= best - TIE * scale
             met.append(np.stack([rows[near], u[near], control[near, side]]))
         height = control.max(axis=1)
-        kept = height > best + ROUNDING * scale
+        kept = height > best + OPERATIONS_ROUNDING * scale
         above = max(above, float(height[~kept].max(initial=-np.inf)))
         if not kept.any():
             break
@@ -100,7 +98,7 @@ def _first(places: Array, least: float) -> tuple[int, float]:
     """Row and place of the first of the highest tops: of rows, places and values, those of at least a value count."""
     rows, u, values = places[:, places[2] >= least]
     first = int(np.lexsort((u, rows))[0])
-    same_top = (rows == rows[first]) & (u <= u[first] + _WIDTH)
+    same_top = (rows == rows[first]) & (u <= u[first] + TOP_WIDTH)
     highest = int(np.argmax(np.where(same_top, values, -np.inf)))
     return int(rows[highest]), float(u[highest])
 

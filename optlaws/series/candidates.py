@@ -10,14 +10,11 @@ from numpy.typing import NDArray
 
 from optlaws.errors import InputError
 from optlaws.series.chebyshev import derivative, from_values, interpolated, nodes, real_parts_of_roots
+from optlaws.series.tolerances import QUOTIENT_BLUR, VALUE_ROUNDING
 
 Array = NDArray[np.float64]
 
 _DEEPEST, _DENSE = 12, 129
-#: of the greatest value: quotients of small numbers are rounded more than others
-_BLUR = 1e-8
-#: of the greatest value: less has no sign
-_ROUNDING = 1e-12
 
 
 def series_between(
@@ -47,7 +44,7 @@ def series_between(
     if count is not None:
         return from_values(of_local(nodes(count)))
     try:
-        return interpolated(of_local, "the function", _BLUR)
+        return interpolated(of_local, "the function", QUOTIENT_BLUR)
     except InputError:
         return None
 
@@ -133,6 +130,6 @@ def cut_at_all(functions: Iterable[Callable[[Array], Array]], edges: list[float]
 def _changes(function: Callable[[Array], Array], places: Array) -> list[float]:
     """Those of the inner places at which a function that is more than rounding changes its sign."""
     values = function((places[1:] + places[:-1]) / 2.0)
-    plain = np.flatnonzero(np.abs(values) > _ROUNDING * np.abs(values).max())
+    plain = np.flatnonzero(np.abs(values) > VALUE_ROUNDING * np.abs(values).max())
     turns = np.sign(values[plain[1:]]) != np.sign(values[plain[:-1]])
     return [float(place) for place in places[plain[1:]][turns]]

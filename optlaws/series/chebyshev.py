@@ -13,15 +13,14 @@ from numpy.polynomial.legendre import leggauss
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
+from optlaws.series.tolerances import EPSILON, SERIES_ROUNDING
 
 Array = NDArray[np.float64]
 Place = TypeVar("Place", float, Array)
 Values = TypeVar("Values", Array, NDArray[np.complex128])
 
-NEGLIGIBLE = 2.0**-52
 FEWEST, MOST = 17, 1025
 _PLATEAU = 4.0  # times the greatest of the last half: what rounding makes of coefficients before these
-RESOLVED = 2.0**-50  # what is left of the last tenth of the coefficients, relative to the largest
 _LONGEST, _SHORTER = 160, 0.9
 _CUT = -0.004849834917525  # no place that anybody would choose for a root
 
@@ -65,7 +64,7 @@ def _transform(count: int) -> Array:
     return matrix
 
 
-def interpolated(function: Callable[[Array], Array], name: str, blur: float = RESOLVED) -> Array:
+def interpolated(function: Callable[[Array], Array], name: str, blur: float = SERIES_ROUNDING) -> Array:
     """Series in x, |x| <= 1, of a smooth function of an array of x, to rounding; `name` is what an error calls it.
 
     The number of nodes is doubled until the last coefficients are rounding; those are then left out. Where they never
@@ -88,8 +87,8 @@ def interpolated(function: Callable[[Array], Array], name: str, blur: float = RE
             raise InputError(f"{name} must have finite values on the whole interval")
         series = from_values(values)
         size, tail = float(np.abs(values).max()), float(np.abs(series[-max(2, count // 10) :]).max())
-        if tail <= RESOLVED * size:
-            return shortened(series, RESOLVED * size)
+        if tail <= SERIES_ROUNDING * size:
+            return shortened(series, SERIES_ROUNDING * size)
         rounding = _PLATEAU * float(np.abs(series[count // 2 :]).max())
         if count >= MOST and rounding <= blur * size:
             return shortened(series, rounding)
@@ -259,11 +258,11 @@ def _divided(odd: Array) -> Array:
 
 def _roots(series: Array) -> Array:
     size = np.abs(series)
-    kept = shortened(series, NEGLIGIBLE * float(size.max()))
+    kept = shortened(series, EPSILON * float(size.max()))
     if len(kept) <= _LONGEST:
         return _eigenvalues(kept)
     # eigenvalues cost the cube of the length, and on a half of the interval a function has a shorter series
-    noise = RESOLVED * float(size.sum())
+    noise = SERIES_ROUNDING * float(size.sum())
     places = [np.array([_CUT])]
     for low, high in ((-1.0, _CUT), (_CUT, 1.0)):
         x = low + (high - low) * (nodes(len(kept)) + 1.0) / 2.0

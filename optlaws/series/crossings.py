@@ -8,11 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.series.halving import halved
+from optlaws.series.tolerances import TOUCHING
 
 Array = NDArray[np.float64]
-
-#: how near the value, in shares of the function's size, a place where the function turns or jumps has it
-TOUCHED = 1e-12
 
 
 def crossings(f: Callable[[float], float], places: Array, after: Array, before: Array, value: float) -> Array:
@@ -39,7 +37,7 @@ def crossings(f: Callable[[float], float], places: Array, after: Array, before: 
     """
     heights = np.array([after, before])
     size = np.abs(heights[np.isfinite(heights)]).max(initial=abs(value))
-    signs = np.where(np.abs(heights - value) <= TOUCHED * size, 0.0, np.sign(heights - value))
+    signs = np.where(np.abs(heights - value) <= TOUCHING * size, 0.0, np.sign(heights - value))
     touched = places[(signs == 0.0).any(axis=0)]
     passed = np.flatnonzero(signs[0, :-1] * signs[1, 1:] < 0.0)
     crossed = [_crossing(f, places[i], places[i + 1], value, signs[0, i] > 0.0) for i in passed]

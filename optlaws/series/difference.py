@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 
 from optlaws.errors import InputError
 from optlaws.series import bernstein, chebyshev
+from optlaws.series.tolerances import DIFFERENCE_ROUNDING, DIFFERENCE_SHARE
 
 Array = NDArray[np.float64]
 Function = Callable[[Array], Array]
 
 _NODES = 10
-_RESOLVED, _SHARE = 2.0**-42, 1e-10  # laws of high degree know their own accelerations to no more
 _CUTS = 30
 
 
@@ -53,7 +53,7 @@ def greatest_difference(first: Function, second: Function, places: Array) -> tup
         values, met = _differences(first, second, low, high)
         size, greatest = max(size, met), max(greatest, float(np.abs(values).max()))
         tail = np.abs(chebyshev.from_values(values.T)[-2:]).max(axis=0)
-        done = tail <= max(_RESOLVED * size, _SHARE * greatest)
+        done = tail <= max(DIFFERENCE_ROUNDING * size, DIFFERENCE_SHARE * greatest)
         for kept, fresh in ((control, bernstein.from_values(values)), (lows, low), (highs, high)):
             kept.append(fresh[done])
         if done.all():

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from optlaws.errors import SolverFailure
 from optlaws.series import chebyshev
 from optlaws.series.peaks import polished
+from optlaws.series.tolerances import PANEL_ROUNDING, SHORTEST_PANEL
 
 Array = NDArray[np.float64]
 Function = Callable[[Array], Array]
@@ -20,8 +21,6 @@ Function = Callable[[Array], Array]
 Short = Callable[[Array, float], bool]
 
 TERMS = 33
-RESOLVED = 2e-15
-SMALLEST = 1e-6
 RADIANS, WAVE_TERMS = 10.0, 41  # so many terms resolve so many radians of a sine, and of its square, to rounding
 
 
@@ -149,8 +148,8 @@ def of_root(f: Function, low: float, high: float, scale: float) -> Panels:
 
     def short(series: Array, length: float) -> bool:
         values = np.abs(series)
-        rounding = RESOLVED * scale * max(1.0, scale / max(float(values[0]), 1e-9 * scale))
-        return bool(values[-3:].max() <= rounding) or length < SMALLEST
+        rounding = PANEL_ROUNDING * scale * max(1.0, scale / max(float(values[0]), 1e-9 * scale))
+        return bool(values[-3:].max() <= rounding) or length < SHORTEST_PANEL
 
     return resolved(f, Panels((low, high)), short)[0]
 

@@ -10,13 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.numbers import bounded
+from optlaws.series.tolerances import POLISHED, POLISHING_REACH, TIE
 
 Array = NDArray[np.float64]
 
-TIE = 1e-10
 POLISH_STEPS = 3
-POLISH_REACH = 1e-3
-POLISHED = 1e-12
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,4 +112,4 @@ def polished(x: Array, residual: Callable[[Array], tuple[Array, Array]]) -> Arra
 def _step(value: Array, slope: Array) -> tuple[Array, Array]:
     safe = np.where(slope == 0.0, 1.0, slope)
     step = np.where(slope == 0.0, 0.0, value / safe)
-    return np.abs(value), np.clip(step, -POLISH_REACH, POLISH_REACH)
+    return np.abs(value), np.clip(step, -POLISHING_REACH, POLISHING_REACH)

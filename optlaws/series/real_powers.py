@@ -10,11 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.series.halving import halved
+from optlaws.series.tolerances import SAME_EXPONENT
 
 Array = NDArray[np.float64]
 Sum = Mapping[float, float]  # exponent: coefficient
-
-ONE = 1e-9  # exponents nearer than this were the same number before they were rounded
 
 
 def gathered(terms: Iterable[tuple[float, float]]) -> dict[float, float]:
@@ -28,7 +27,7 @@ def gathered(terms: Iterable[tuple[float, float]]) -> dict[float, float]:
     total: dict[float, float] = {}
     last = -inf
     for exponent, coefficient in sorted(terms):
-        last = last if exponent - last < ONE else exponent
+        last = last if exponent - last < SAME_EXPONENT else exponent
         total[last] = total.get(last, 0.0) + coefficient
     return {exponent: coefficient for exponent, coefficient in total.items() if coefficient != 0.0}
 

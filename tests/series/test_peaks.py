@@ -8,7 +8,8 @@ import pytest
 from numpy.typing import NDArray
 
 from optlaws import Chebyshev, PolynomialLaw, Problem, synthesize
-from optlaws.series.peaks import POLISH_REACH, Peak, extremes, highest, peak, polished
+from optlaws.series.peaks import Peak, extremes, highest, peak, polished
+from optlaws.series.tolerances import POLISHING_REACH
 
 Array = NDArray[np.float64]
 Residual = Callable[[Array], tuple[Array, Array]]
@@ -48,9 +49,9 @@ def test_a_root_is_left_alone() -> None:
 
 def test_a_step_is_short() -> None:
     line: Residual = lambda x: (x - 0.5, np.ones_like(x))  # noqa: E731
-    far = np.array([0.5 + 10.0 * POLISH_REACH, 0.5 - 10.0 * POLISH_REACH, 0.5 + 2.5 * POLISH_REACH])
+    far = np.array([0.5 + 10.0 * POLISHING_REACH, 0.5 - 10.0 * POLISHING_REACH, 0.5 + 2.5 * POLISHING_REACH])
     values = polished(far, line)
-    assert values[:2] == pytest.approx([0.5 + 7.0 * POLISH_REACH, 0.5 - 7.0 * POLISH_REACH], abs=1e-15)
+    assert values[:2] == pytest.approx([0.5 + 7.0 * POLISHING_REACH, 0.5 - 7.0 * POLISHING_REACH], abs=1e-15)
     assert values[2] == pytest.approx(0.5, abs=1e-15)
 
 

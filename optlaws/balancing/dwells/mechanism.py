@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from math import degrees, inf, tau
 from typing import Any
 
-from optlaws.balancing.dwells.section_laws import REST, check_law, loader_of, own_law, peak_power, peak_velocity, top
+from optlaws.balancing.dwells.section_laws import check_law, loader_of, own_law, peak_power, peak_velocity, top
 from optlaws.balancing.dwells.sections import Section, composed, excursion
 from optlaws.balancing.loaders.loader import Loader
 from optlaws.echo import shortened
@@ -15,6 +15,7 @@ from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.numbers import finite, real
+from optlaws.series.tolerances import AGREEMENT
 
 KINDS = ("I", "II", "III")
 LAWS = ("law", "law_1", "law_2", "return_law")
@@ -151,7 +152,7 @@ class DwellMechanism:
     @kept_property
     def remarks(self) -> tuple[str, ...]:
         """What to mind: a cycle that is not one turn of the cam."""
-        if abs(self.cycle / tau - 1.0) < REST:
+        if abs(self.cycle / tau - 1.0) < AGREEMENT:
             return ()
         return (f"rise, return and dwells add up to {degrees(self.cycle):.6g} degrees, not to one turn",)
 
@@ -194,7 +195,7 @@ class DwellMechanism:
         else:
             phi, law, stroke = phi2, self.law_2, self.S2
             rest = self.free(dwell) - phi2
-            middle = [Section("standstill", rest, 0.0)] if rest > REST else []
+            middle = [Section("standstill", rest, 0.0)] if rest > AGREEMENT else []
         cut = top(law)
         run_out = Section.run("run-out", (1.0 - cut) * phi, law, way * stroke, (cut, 1.0))
         run_up = Section.run("run-up", cut * phi, law, way * stroke, (0.0, cut))
@@ -229,7 +230,7 @@ def _check(mechanism: DwellMechanism) -> None:
 
 def _speeds(mechanism: DwellMechanism) -> None:
     back = loader_of(mechanism.return_law).B / mechanism.return_angle
-    if abs(mechanism.speed / back - 1.0) > REST:
+    if abs(mechanism.speed / back - 1.0) > AGREEMENT:
         raise InputError(
             f"return_angle must suit the rise, for the loader keeps its speed in the dwell: it ends the rise with "
             f"{mechanism.speed:.6g} S per radian (B / rise), and the return begins with {back:.6g}; for the return's "
@@ -238,7 +239,7 @@ def _speeds(mechanism: DwellMechanism) -> None:
 
 
 def _equal_dwells(mechanism: DwellMechanism) -> None:
-    if abs(mechanism.lower_dwell - mechanism.dwell) > REST:
+    if abs(mechanism.lower_dwell - mechanism.dwell) > AGREEMENT:
         raise InputError(
             f"lower_dwell of type I must equal dwell, {degrees(mechanism.dwell):.6g} degrees, or its rocker drifts; "
             f"got {degrees(mechanism.lower_dwell):.6g} degrees: take type II, or III if there are two dwells"
@@ -249,13 +250,13 @@ def _room(mechanism: DwellMechanism) -> None:
     for name, dwell in (("dwell", mechanism.dwell), ("lower_dwell", mechanism.lower_dwell)):
         if mechanism.kind == "II" and dwell == 0.0:
             continue
-        if mechanism.free(dwell) <= REST or mechanism.second(dwell) <= REST:
+        if mechanism.free(dwell) <= AGREEMENT or mechanism.second(dwell) <= AGREEMENT:
             least = degrees(2.0 * mechanism.clutch_angle + (mechanism.standstill if mechanism.kind == "III" else 0.0))
             raise InputError(
                 f"{name} must exceed twice clutch_angle{' and the standstill' if mechanism.kind == 'III' else ''}, "
                 f"{least:.6g} degrees, got {degrees(dwell):.6g} degrees"
             )
-        if mechanism.free(dwell) - mechanism.second(dwell) < -REST:
+        if mechanism.free(dwell) - mechanism.second(dwell) < -AGREEMENT:
             raise InputError(
                 f"{name} of type III must leave room for the same way as the upper one: at least "
                 f"{degrees(mechanism.dwell - mechanism.standstill):.6g} degrees, got {degrees(dwell):.6g} degrees"

@@ -10,8 +10,7 @@ from optlaws.balancing.loaders.tops import tops
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
-
-REST = 1e-9
+from optlaws.series.tolerances import AGREEMENT
 
 
 @lru_cache(maxsize=64)
@@ -91,7 +90,7 @@ def check_law(name: str, law: Any) -> None:  # noqa: ANN401 - whatever the calle
     if not isinstance(law, MotionLaw):
         raise InputError(f"{name} must be a MotionLaw, or what has one in `law`, got {shortened(law)}")
     a0, b0, a1, b1 = _ends(law)
-    if max(abs(b0), abs(b1)) > REST * peak_velocity(law) or abs(a1 - a0 - 1.0) > REST:
+    if max(abs(b0), abs(b1)) > AGREEMENT * peak_velocity(law) or abs(a1 - a0 - 1.0) > AGREEMENT:
         raise InputError(
             f"{name} must run from rest to rest over a stroke of 1; it begins with a = {a0:g}, b = {b0:g}, ends with "
             f"a = {a1:g}, b = {b1:g}"

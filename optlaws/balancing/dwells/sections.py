@@ -12,10 +12,9 @@ from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment, Segment
+from optlaws.series.tolerances import CLOSURE
 
 Pair = tuple[float, float]
-
-CLOSED = 1e-9
 
 
 @dataclass(frozen=True)
@@ -95,7 +94,7 @@ def composed(sections: Sequence[Section]) -> PiecewiseLaw:
         If the rocker is not back after the cycle.
     """
     net = sum(section.travel for section in sections)
-    if abs(net) > CLOSED:
+    if abs(net) > CLOSURE:
         raise InputError(f"the rocker is {net:.6g} S off its start after the cycle; dwells or laws do not match")
     whole = sum(section.angle for section in sections)
     places, segments = [0.0], list[Segment]()

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from optlaws.balancing.levers.motion import LeverMotion
 from optlaws.errors import InputError, SolverFailure
+from optlaws.series.tolerances import SWING_INTEGRATED, SWING_RESOLVED, SWING_SETTLED
 
 Array = NDArray[np.float64]
 Function = Callable[[Array], Array]
@@ -17,9 +18,6 @@ Function = Callable[[Array], Array]
 POINTS = (96, 256, 768)  # of the quadrature: more where fewer do not resolve the motion
 MOST = 400  # cosines
 
-_SETTLED = 1e-14
-_RESOLVED = 1e-15
-_INTEGRATED = 1e-9
 _STEPS = 12
 _TRIED = 65
 
@@ -86,7 +84,7 @@ def swung(
     """
     for points in POINTS:
         amplitudes, frequency = _integrated(potential, chi01, swing, points)
-        last = int(np.flatnonzero(np.abs(amplitudes) > _INTEGRATED * swing)[-1])
+        last = int(np.flatnonzero(np.abs(amplitudes) > SWING_INTEGRATED * swing)[-1])
         if 4 * last < points:
             break
     count = 16 + 2 * last
@@ -94,8 +92,8 @@ def swung(
         start = np.zeros(count + 1)
         start[: len(amplitudes)] = amplitudes[: count + 1]
         amplitudes, frequency = _settled(moment, start, frequency, swing)
-        if np.abs(amplitudes[-3:]).max() <= _RESOLVED * swing:
-            known = np.flatnonzero(np.abs(amplitudes) > 0.01 * _RESOLVED * swing)
+        if np.abs(amplitudes[-3:]).max() <= SWING_RESOLVED * swing:
+            known = np.flatnonzero(np.abs(amplitudes) > 0.01 * SWING_RESOLVED * swing)
             return LeverMotion(tuple(amplitudes[: known[-1] + 1].tolist()), float(2.0 * pi / np.sqrt(frequency)))
         count = 3 * count // 2
     raise SolverFailure(
@@ -144,7 +142,7 @@ def _settled(
         step = np.linalg.solve(jacobian, np.append(value - frequency * curve, ends @ amplitudes - swing))
         amplitudes = amplitudes - step[:-1]
         frequency -= float(step[-1])
-        if np.abs(step[:-1]).max() <= _SETTLED * swing:
+        if np.abs(step[:-1]).max() <= SWING_SETTLED * swing:
             return amplitudes, frequency
     raise SolverFailure(
         "the equation of motion did not settle; reduce swing",

@@ -9,12 +9,12 @@ import numpy as np
 
 from optlaws.balancing.levers.linkage import FourBar
 from optlaws.errors import InputError
+from optlaws.series.tolerances import ANGLE_LIMIT
 
 #: least transmission angle that is allowed unless another is given, radians
 LEAST_TRANSMISSION = pi / 6.0
 #: greatest swing of the rocker that is allowed unless another is given, radians
 MOST_ROCKER_SWING = pi / 3.0
-ROUNDING = 1e-9  # an angle this far beyond its limit, radians, is still within
 
 
 class Limited(Protocol):
@@ -58,13 +58,13 @@ def check(lever: Limited, chi02: float, chi01: float, where: str) -> None:
             (smallest, least - smallest, least),
             (greatest, greatest - pi + least, pi - least),
         ):
-            if beyond > ROUNDING:
+            if beyond > ANGLE_LIMIT:
                 raise InputError(
                     f"the angle between coupler and {link} is {degrees(angle):.6g} deg {ends}, the limit is "
                     f"{degrees(limit):.6g} deg (least_transmission); reduce swing or change beta or lam"
                 )
     swing = float(np.diff(lever.linkage.rocker(np.array([chi02, chi01])))[0])
-    if swing - lever.most_rocker_swing > ROUNDING:
+    if swing - lever.most_rocker_swing > ANGLE_LIMIT:
         raise InputError(
             f"the rocker swings by {degrees(swing):.6g} deg {ends}, the limit is "
             f"{degrees(lever.most_rocker_swing):.6g} deg (most_rocker_swing); reduce swing or beta"

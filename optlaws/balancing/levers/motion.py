@@ -18,11 +18,10 @@ from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
 from optlaws.numbers import derivative, finite, numbers, positive
 from optlaws.series import chebyshev
+from optlaws.series.tolerances import EPSILON, OPERATIONS_ROUNDING
 
 Array = NDArray[np.float64]
 
-_NOISE = 2.0**-48  # of the greatest coefficient
-_SETTLED = 2.0**-52
 _SAMPLES = 129
 _STEPS = 50
 
@@ -99,7 +98,7 @@ class LeverMotion:
             # the series derives with respect to (z + 1) / 2
             step = chebyshev.value(self._series, z) / (0.5 * chebyshev.value(slope, z))
             z = min(max(z - step, -1.0), 1.0)
-            if abs(step) <= _SETTLED:
+            if abs(step) <= EPSILON:
                 break
         return z
 
@@ -203,4 +202,4 @@ class LeverMotion:
 def _fitted(function: Callable[[Array], Array], count: int) -> tuple[float, ...]:
     """Chebyshev series of an entire function on [-1, 1], without the coefficients that rounding makes."""
     series = chebyshev.from_values(function(chebyshev.nodes(count)))
-    return tuple(chebyshev.shortened(series, _NOISE * float(np.abs(series).max())).tolist())
+    return tuple(chebyshev.shortened(series, OPERATIONS_ROUNDING * float(np.abs(series).max())).tolist())

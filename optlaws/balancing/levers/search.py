@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from optlaws.balancing.levers.lever import TorsionLever
 from optlaws.errors import InputError, OptlawsError
 from optlaws.series.halving import halved
+from optlaws.series.tolerances import LINKAGE_MET, SAME_LINKAGE
 
 Array = NDArray[np.float64]
 Quantity = Callable[[TorsionLever], float]
@@ -19,8 +20,6 @@ Make = Callable[..., TorsionLever]
 _TRIED, _TRIED_EACH = 33, 8  # samples along one length, and along each of two
 _HALVINGS = 40
 _STARTS = 4
-_MET = 1e-9
-_SAME = 1e-6
 _BAR = 1e3  # residual where there is no lever: far above any that a lever has
 
 
@@ -120,7 +119,7 @@ def within(
     if not known.any():
         next(iter(wanted.values()))[0](lever(0.5 * (low + high)))  # raises, and says which limit it is
     grid, reached = grid[known], reached[known]
-    scale = np.maximum(np.ptp(reached, axis=0), _MET)
+    scale = np.maximum(np.ptp(reached, axis=0), LINKAGE_MET)
 
     def miss(logs: Array) -> Array:
         return np.asarray(np.nan_to_num((values(logs) - targets) / scale, nan=_BAR))
@@ -129,8 +128,8 @@ def within(
     ends = [least_squares(miss, start, bounds=(low, high), xtol=3e-16, ftol=3e-16, gtol=3e-16).x for start in starts]
     solved: list[Array] = []
     for end in ends:
-        met = np.abs(miss(end)).max() <= _MET
-        if met and not any(np.abs(end - other).max() <= _SAME for other in solved):
+        met = np.abs(miss(end)).max() <= LINKAGE_MET
+        if met and not any(np.abs(end - other).max() <= SAME_LINKAGE for other in solved):
             solved.append(end)
     if not solved:
         best = min(ends, key=lambda end: float(np.abs(miss(end)).max()))

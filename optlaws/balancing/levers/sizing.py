@@ -11,10 +11,9 @@ from numpy.polynomial import Polynomial
 from optlaws.balancing.levers.linkage import FourBar
 from optlaws.errors import InputError
 from optlaws.series.peaks import polished
+from optlaws.series.tolerances import REAL_ROOT
 
 LEAST_SHARE, GREATEST_SHARE = 0.2, 0.8  # of the swing, between which chi01 is looked for
-
-_REAL = 1e-7
 
 
 class Sizing(NamedTuple):
@@ -48,7 +47,7 @@ def sized(linkage: FourBar, rho: float, nu: float, swing: float) -> Sizing:
     p = (linkage.P - linkage.R * (1.0 + rho) * gamma01) * chi02
     quartic = 1536.0 * n * chi01 - swing * (768.0 * n - 64.0 * swing * q + swing**2 * p)
     roots = quartic.roots()
-    real = roots.real[np.abs(roots.imag) <= _REAL * swing] / swing
+    real = roots.real[np.abs(roots.imag) <= REAL_ROOT * swing] / swing
     inside = real[(real > LEAST_SHARE) & (real < GREATEST_SHARE)]
     if not len(inside):
         raise InputError(

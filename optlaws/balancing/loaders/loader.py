@@ -14,9 +14,7 @@ from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.checks import motion_law
 from optlaws.numbers import bounded, real
-
-AGREES = 1e-9
-ROUNDING = 1e-13
+from optlaws.series.tolerances import AGREEMENT, LOADER_TERM
 
 
 @dataclass(frozen=True, repr=False)
@@ -91,14 +89,14 @@ class Loader:
         """
         c, j = abs(self.executive.c(self.turn)), abs(self.executive.j(self.turn))
         B, C = (self.executive.peak(nu).value for nu in (1, 2))
-        if c > AGREES * C or not isfinite(j):
+        if c > AGREEMENT * C or not isfinite(j):
             return inf
-        return self.Y * sqrt(B * j) if B * j > ROUNDING * C * C else 0.0
+        return self.Y * sqrt(B * j) if B * j > LOADER_TERM * C * C else 0.0
 
     @property
     def peaks_at_turn(self) -> bool:
         """Whether C is reached at the turn, so that the paper's formula gives it."""
-        return self.C_at_turn == self.C or abs(self.C_at_turn / self.C - 1.0) <= AGREES
+        return self.C_at_turn == self.C or abs(self.C_at_turn / self.C - 1.0) <= AGREEMENT
 
     @kept_property
     def symmetric(self) -> bool:

@@ -12,13 +12,12 @@ from numpy.typing import NDArray
 
 from optlaws.errors import InputError
 from optlaws.series import chebyshev
+from optlaws.series.tolerances import CONVERGENCE_RADIUS, VALUE_ROUNDING
 
 Array = NDArray[np.float64]
 Derivative = Callable[[float, int], float]
 
 TERMS = 48
-CLEAR = 1e-12  # a term of B - b that is smaller, relative to B at its radius of convergence, is rounding
-SHORTEST = 1e-3  # share of the length below which a radius of convergence is of no use
 OVERFLOW = 1e120
 REACH = 0.35  # share of the radius of convergence that the series is used on: 0.35^48 = 1e-22
 
@@ -106,7 +105,7 @@ def deficit(derivative: Derivative, B: float, length: float, where: str) -> Defi
         radius = _radius(taylor, B)
         w = [0.0, *taylor]
         for n in range(1, TERMS):
-            if abs(w[n]) * min(radius, length) ** n > CLEAR * B:
+            if abs(w[n]) * min(radius, length) ** n > VALUE_ROUNDING * B:
                 break
             w[n] = 0.0
         return _made(w, 1.0, B, reach=REACH * radius, length=length, where=where)
@@ -122,7 +121,7 @@ def _taylor(derivative: Derivative, B: float, length: float) -> list[float] | No
     coefficients: list[float] = []
     for n in range(1, TERMS + 1):
         coefficient = -derivative(0.0, n) / factorial(n)
-        if n >= 3 and not (abs(coefficient) / B) ** (1.0 / n) * SHORTEST * length <= 1.0:
+        if n >= 3 and not (abs(coefficient) / B) ** (1.0 / n) * CONVERGENCE_RADIUS * length <= 1.0:
             return None
         coefficients.append(coefficient)
     return coefficients

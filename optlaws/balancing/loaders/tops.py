@@ -11,11 +11,8 @@ import numpy as np
 
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
+from optlaws.series.tolerances import AGREEMENT, TOP_POINT, TOP_REACHED, TOP_STEP
 
-TOUCH = 1e-10  # velocities this close to B, relative to it, count as B
-SAME = 1e-9
-ONE = 1e-4  # a top narrower than this is a point: b - B is of the fourth order in it
-FIRST_STEP = 1e-6
 MOST = 41
 
 
@@ -37,7 +34,7 @@ def is_symmetric(law: MotionLaw) -> bool:
     True
     """
     k = np.linspace(0.0, 0.5, 65)
-    return bool(np.abs(law.b(k) - law.b(1.0 - k)).max() <= SAME * law.peak(1).value)
+    return bool(np.abs(law.b(k) - law.b(1.0 - k)).max() <= AGREEMENT * law.peak(1).value)
 
 
 @lru_cache(maxsize=256)
@@ -79,12 +76,12 @@ def tops(law: MotionLaw) -> tuple[Top, ...]:
 
 
 def _regions(law: MotionLaw, B: float, low: float, high: float, depth: int = 0) -> list[tuple[float, float]]:
-    """Stretches of [low, high] with |b| within TOUCH of B, each with the least room around it."""
+    """Stretches of [low, high] on which |b| reaches B, each with the least room around it."""
     if not low < high or depth > MOST:
         return []
     least, most = law.extrema(1, (low, high))
     k = most.k if most.value >= -least.value else least.k
-    if max(most.value, -least.value) < B * (1.0 - TOUCH):
+    if max(most.value, -least.value) < B * (1.0 - TOP_REACHED):
         return []
     start, end = (_left_behind(law, B, k, limit) for limit in (low, high))
     return [
@@ -96,13 +93,13 @@ def _regions(law: MotionLaw, B: float, low: float, high: float, depth: int = 0) 
 
 def _left_behind(law: MotionLaw, B: float, k: float, limit: float) -> float:
     """The first place on the way from k to the limit where |b| is clearly below B."""
-    step = FIRST_STEP if limit > k else -FIRST_STEP
+    step = TOP_STEP if limit > k else -TOP_STEP
     place = k
     while (limit - place) * step > 0.0:
         place += step
         if (limit - place) * step <= 0.0:
             break
-        if abs(law.b(place)) < B * (1.0 - TOUCH):
+        if abs(law.b(place)) < B * (1.0 - TOP_REACHED):
             return place
         step *= 1.5
     return limit
@@ -116,7 +113,7 @@ def _narrowed(law: MotionLaw, B: float, low: float, high: float) -> Top:
         first = last = _polished(law, first, low, high)
     if low < 0.5 < high and is_symmetric(law):
         first, last = min(first, 1.0 - last), max(last, 1.0 - first)
-        if last - first < ONE:
+        if last - first < TOP_POINT:
             first = last = 0.5
     return Top(first, last)
 
@@ -135,7 +132,7 @@ def _polished(law: MotionLaw, k: float, low: float, high: float) -> float:
     """A stationary point of b by Newton's method; a peak at a break, where c leaps, stays."""
     for _ in range(3):
         c, j = law.c(k), law.j(k)
-        if not (isfinite(c) and isfinite(j)) or j == 0.0 or abs(c / j) > FIRST_STEP:
+        if not (isfinite(c) and isfinite(j)) or j == 0.0 or abs(c / j) > TOP_STEP:
             break
         k = min(max(k - c / j, low), high)
     return k

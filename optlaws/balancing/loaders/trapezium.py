@@ -11,8 +11,7 @@ from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.making.trapezoids import trapezoid
 from optlaws.laws.segments.piecewise import PiecewiseLaw
-
-ROUNDING = 1e-12
+from optlaws.series.tolerances import VALUE_ROUNDING
 
 
 def closed_form_Y(e13: float, gamma_w: float) -> float:
@@ -37,7 +36,7 @@ def closed_form_Y(e13: float, gamma_w: float) -> float:
         ramp = B * (m - 0.9 * m**3 / ratio**2 - 1.125 * m**5 / ratio**4 - 3.5 * m**7 / ratio**6)
         plateau = _circle(m + 2.0 * n, A, B) - _circle(m, A, B)
         fall = 0.0
-        if rest > ROUNDING:
+        if rest > VALUE_ROUNDING:
             fall = sqrt(8.0 * A * B**3 * rest / 27.0)
             fall -= sqrt((2.0 * ratio * rest - 3.0 * rest**2) ** 3 / 27.0) / (A * rest)
     except ValueError:
@@ -77,7 +76,7 @@ class TrapeziumSubstitute:
         if not (isfinite(self.e13) and isfinite(self.gamma_w) and 0.25 <= self.gamma_w <= 0.5):
             raise InputError(f"gamma_w of a trapezium must be from 0.25 to 0.5, got {shortened(self.gamma_w)}")
         least, most = _bounds(self.gamma_w)
-        if not least - ROUNDING <= self.e13 <= most + ROUNDING:
+        if not least - VALUE_ROUNDING <= self.e13 <= most + VALUE_ROUNDING:
             raise InputError(
                 f"no trapezium has e13 = {self.e13:g} with gamma_w = {self.gamma_w:g}; {_range(self.gamma_w)}"
             )
@@ -145,5 +144,7 @@ def _circle(width: float, A: float, B: float) -> float:
     """Half of the area under sqrt(B² - x²) from 0 to x = 3 width / A, in units of k."""
     x = 3.0 * width / A
     inside = B * B - x * x
-    inside = 0.0 if abs(inside) < ROUNDING * B * B else inside
-    return 0.25 * width * sqrt(inside) + A * B * B / 12.0 * asin(min(x / B, 1.0) if x < B * (1.0 + ROUNDING) else 2.0)
+    inside = 0.0 if abs(inside) < VALUE_ROUNDING * B * B else inside
+    return 0.25 * width * sqrt(inside) + A * B * B / 12.0 * asin(
+        min(x / B, 1.0) if x < B * (1.0 + VALUE_ROUNDING) else 2.0
+    )

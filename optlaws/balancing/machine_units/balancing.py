@@ -26,12 +26,11 @@ from optlaws.series.enclosures.branch_and_bound import Extremes, extremes
 from optlaws.series.enclosures.enclosed_integral import integral
 from optlaws.series.enclosures.interval_arrays import Interval
 from optlaws.series.enclosures.jets import Jet
+from optlaws.series.tolerances import AGREEMENT, BALANCING_EXTREMES
 
 Array = NDArray[np.float64]
 
-_SHARE = 1e-7
 _PARTS = 12
-_AGREES = 1e-9
 
 
 class TorqueOverTurn(NamedTuple):
@@ -156,10 +155,10 @@ class Balancing:
         """The loader of each piece that moves."""
         moving = [piece for piece in self.cycle.pieces if piece.stroke]
         for piece in moving:
-            if max(abs(piece.end(1, side)) for side in (0, 1)) > _AGREES * self.cycle.peak(1):
+            if max(abs(piece.end(1, side)) for side in (0, 1)) > AGREEMENT * self.cycle.peak(1):
                 raise InputError("an inertial loader balances moves from rest to rest: let each begin and end so")
         speeds = [abs(piece.stroke) / piece.duration * piece.law.peak(1).value for piece in moving]
-        if max(speeds) - min(speeds) > _AGREES * max(speeds):
+        if max(speeds) - min(speeds) > AGREEMENT * max(speeds):
             raise InputError(
                 "the moves have different peak speeds, from "
                 f"{min(speeds):.6g} to {max(speeds):.6g} in SI units, and the loader's energy would not suit them all: "
@@ -183,9 +182,9 @@ class Balancing:
             jet = torque(angle, order)
             return jet * jet
 
-        known = extremes(torque, motion.breaks, share=_SHARE, parts=_PARTS)
+        known = extremes(torque, motion.breaks, share=BALANCING_EXTREMES, parts=_PARTS)
         times = known._replace(least_at=known.least_at / rate, most_at=known.most_at / rate)
-        _, square = integral(squared, motion.breaks, share=_SHARE)
+        _, square = integral(squared, motion.breaks, share=BALANCING_EXTREMES)
         return TorqueOverTurn(times, sqrt(max(square, 0.0) / TURN))
 
     def _executive(self, time: Array) -> Array:

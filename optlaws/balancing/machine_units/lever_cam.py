@@ -20,13 +20,13 @@ from optlaws.motion.quantities import TURN, quantity
 from optlaws.numbers import positive
 from optlaws.series import chebyshev
 from optlaws.series.enclosures.branch_and_bound import Extremes, extremes
-from optlaws.series.enclosures.interval_arrays import ROUNDING, Interval
+from optlaws.series.enclosures.interval_arrays import Interval
 from optlaws.series.enclosures.jets import Jet, variable
+from optlaws.series.tolerances import ROUNDOFF, TORQUE_EXTREMES
 
 Array = NDArray[np.float64]
 
 _EDGES = 9
-_SHARE = 1e-8
 
 
 def rocker_law(lever: TorsionLever) -> PolynomialLaw:
@@ -162,12 +162,12 @@ class LeverCam:
         """A share of the inertia's torque at the bars' own speed."""
 
         def torque(k: Interval, order: int) -> Jet:
-            phase = variable(k, order + 2) * Interval(np.array(pi), np.array(2.0 * ROUNDING * pi))
+            phase = variable(k, order + 2) * Interval(np.array(pi), np.array(2.0 * ROUNDOFF * pi))
             waves = [(phase * float(i)).waves()[1] * size for i, size in enumerate(self.lever.exact.amplitudes) if i]
             slope = sum(waves[1:], start=waves[0]).slope()
             return slope * slope.slope() * (share * self.moved * self.rate**2 / self.angle**3)
 
-        return extremes(torque, np.linspace(0.0, 1.0, _EDGES), share=_SHARE)
+        return extremes(torque, np.linspace(0.0, 1.0, _EDGES), share=TORQUE_EXTREMES)
 
     def _chi(self, k: Array, nu: int) -> Array:
         """Derivatives of the link's deviation by the cam's angle."""

@@ -17,8 +17,9 @@ from optlaws.laws.segments.constant_power import PowerSegment
 from optlaws.laws.segments.fractional import FractionalSegment
 from optlaws.laws.segments.segment import Segment, Waves
 from optlaws.series import chebyshev, real_powers
-from optlaws.series.enclosures.interval_arrays import ROUNDING, Interval, between, exact
+from optlaws.series.enclosures.interval_arrays import Interval, between, exact
 from optlaws.series.enclosures.jets import Jet
+from optlaws.series.tolerances import ROUNDOFF
 
 Array = NDArray[np.float64]
 
@@ -84,13 +85,13 @@ def _by_taylor(segment: Segment, length: float, middle: Array, half: Array, orde
     with np.errstate(over="ignore"):
         values = [np.asarray(segment.derivative(middle, length, nu)) for nu in range(last)]
     errors = [share * size for size in sizes]
-    steps = half * length * (1.0 + 4.0 * ROUNDING)
+    steps = half * length * (1.0 + 4.0 * ROUNDOFF)
     enclosures = []
     for nu in range(order + 1):
         radius = sizes[last] * steps ** (last - nu) / factorial(last - nu)
         for i in range(last - nu - 1, 0, -1):
             radius = radius + (np.abs(values[nu + i]) + errors[nu + i]) * steps**i / factorial(i)
-        enclosures.append(Interval(values[nu], (radius + errors[nu]) * (1.0 + 64.0 * ROUNDING)))
+        enclosures.append(Interval(values[nu], (radius + errors[nu]) * (1.0 + 64.0 * ROUNDOFF)))
     return enclosures
 
 
@@ -101,7 +102,7 @@ def _sizes(segment: Segment, length: float, last: int) -> tuple[tuple[float, ...
     assert waves is not None  # noqa: S101 - such segments are asked for
     sizes = tuple(_size(waves, length, nu) for nu in range(last + 1))
     swiftest = max((wave.frequency + abs(wave.phase) for wave in waves.sines), default=0.0)
-    return sizes, (4.0 * (len(waves.acceleration) + last) + 32.0 * (1.0 + swiftest)) * ROUNDING
+    return sizes, (4.0 * (len(waves.acceleration) + last) + 32.0 * (1.0 + swiftest)) * ROUNDOFF
 
 
 def _size(waves: Waves, length: float, nu: int) -> float:
@@ -126,14 +127,14 @@ def _of_powers(segment: FractionalSegment, length: float, middle: Array, half: A
     at = np.asarray(segment.derivative(middle, length, 0))
     size = abs(segment.steady) * length + float(np.abs(segment.derivative(np.array([0.0, 1.0]), length, 0)).max())
     swiftest = np.abs(derivatives[0].middle) + derivatives[0].radius if order else np.asarray(0.0)
-    return [Interval(at, swiftest * half * length * (1.0 + 16.0 * ROUNDING) + 64.0 * ROUNDING * size), *derivatives]
+    return [Interval(at, swiftest * half * length * (1.0 + 16.0 * ROUNDOFF) + 64.0 * ROUNDOFF * size), *derivatives]
 
 
 def _inside(segment: FractionalSegment, middle: Array, half: Array) -> tuple[Array, Array]:
     """The least and the greatest v in cells."""
     ends = [segment.first * (1.0 - u) + segment.last * u for u in (middle - half, middle + half)]
     low, high = np.maximum(np.minimum(*ends), 0.0), np.maximum(*ends)
-    slack = 4.0 * ROUNDING * max(segment.first, segment.last)
+    slack = 4.0 * ROUNDOFF * max(segment.first, segment.last)
     return np.maximum(low - np.where(low > 0.0, slack, 0.0), 0.0), high + np.where(half > 0.0, slack, 0.0)
 
 
@@ -142,6 +143,6 @@ def _power_sum(powers: dict[float, float], low: Array, high: Array) -> Interval:
     with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
         for exponent, factor in powers.items():
             first, last = factor * low**exponent, factor * high**exponent
-            blurred = 8.0 * ROUNDING * (np.abs(first) + np.abs(last))
+            blurred = 8.0 * ROUNDOFF * (np.abs(first) + np.abs(last))
             total = total + between(np.minimum(first, last) - blurred, np.maximum(first, last) + blurred)
     return total

@@ -9,15 +9,13 @@ from typing import TypeAlias
 
 from optlaws.cams.curves.motion_by_angle import CamMotion
 from optlaws.series.enclosures.branch_and_bound import extremes
-from optlaws.series.enclosures.interval_arrays import ROUNDING
 from optlaws.series.enclosures.jets import Jet
+from optlaws.series.tolerances import CAM_EXTREMES, EQUAL_EXTREMES, ROUNDOFF
 
 #: of the displacement's jet; shorter than it by as many orders as the function takes derivatives
 Function: TypeAlias = Callable[[Jet], Jet]
 
 _PARTS = 12
-TOLERANCE = 1e-10  # relative to the greatest magnitude
-_ALIKE = 1e-9  # so near to each other extremes are equal
 
 FREE, UNDERCUT, UNDECIDED = "free", "undercut", "undecided"
 
@@ -46,7 +44,7 @@ class Extreme:
 
 
 def enclosed_extremes(
-    motion: CamMotion, function: Function, lost: int, tolerance: float = TOLERANCE
+    motion: CamMotion, function: Function, lost: int, tolerance: float = CAM_EXTREMES
 ) -> tuple[Extreme, Extreme]:
     """The least and the greatest value of a function of a motion.
 
@@ -89,7 +87,7 @@ def first_least(*known: Extreme) -> Extreme:
     Extreme(low=1.0, high=1.0, angle=0.2)
     """
     low, high = min(extreme.low for extreme in known), min(extreme.high for extreme in known)
-    alike = high + _ALIKE * max(abs(low), abs(high))
+    alike = high + EQUAL_EXTREMES * max(abs(low), abs(high))
     return Extreme(low, high, min(extreme.angle for extreme in known if extreme.high <= alike))
 
 
@@ -179,5 +177,5 @@ def angle_of_tangent(tangent: Extreme) -> Extreme:
 
 def widened(low: float, high: float, angle: float, size: float) -> Extreme:
     """An enclosure, a little wider for the roundings of a few operations on numbers up to a size."""
-    slack = 8.0 * ROUNDING * abs(size)
+    slack = 8.0 * ROUNDOFF * abs(size)
     return Extreme(nextafter(low - slack, -inf), nextafter(high + slack, inf), angle)

@@ -23,15 +23,15 @@ from optlaws.motion.piece import Piece, factor, named_law
 from optlaws.motion.quantities import TURN, either, in_small_units, quantity
 from optlaws.numbers import Quantity, derivative, real_times
 from optlaws.series import chebyshev
-from optlaws.series.enclosures.interval_arrays import ROUNDING, Interval, exact, hull
+from optlaws.series.enclosures.interval_arrays import Interval, exact, hull
 from optlaws.series.enclosures.jets import Jet
+from optlaws.series.tolerances import CLOSURE, ROUNDOFF
 from optlaws.suggest import unknown_key
 
 Array = NDArray[np.float64]
 
 Direction = Literal["rise", "return"]
 DIRECTIONS: dict[Direction, float] = {"rise": 1.0, "return": -1.0}
-_CLOSED = 1e-9
 
 
 @dataclass(frozen=True)
@@ -78,7 +78,7 @@ class CamStretch:
         values = enclosed_derivatives(self.segment, self.length, *self._cells(angle), order)
         factors = [self.stroke / self.duration**nu / factorial(nu) for nu in range(order + 1)]
         terms = [
-            value * Interval(np.array(by), np.array(abs(by) * (nu + 3) * ROUNDING))
+            value * Interval(np.array(by), np.array(abs(by) * (nu + 3) * ROUNDOFF))
             for nu, (value, by) in enumerate(zip(values, factors, strict=True))
         ]
         return Jet((terms[0] + self.offset, *terms[1:]))
@@ -92,7 +92,7 @@ class CamStretch:
         return Jet(
             tuple(
                 term
-                * Interval(np.array(by / self.duration**nu), np.array(by / self.duration**nu * (nu + 6) * ROUNDING))
+                * Interval(np.array(by / self.duration**nu), np.array(by / self.duration**nu * (nu + 6) * ROUNDOFF))
                 for nu, term in enumerate(power.terms)
             )
         )
@@ -101,9 +101,9 @@ class CamStretch:
         """Middles and half lengths of intervals as shares of the stretch, and of no more than it."""
         span = self.stop - self.start
         middle, half = (angle.middle - self.start) / span, angle.radius / span
-        half = np.where(np.isfinite(half), half * (1.0 + 4.0 * ROUNDING), np.inf)
+        half = np.where(np.isfinite(half), half * (1.0 + 4.0 * ROUNDOFF), np.inf)
         low, high = (np.clip(middle + side * half, 0.0, 1.0) for side in (-1.0, 1.0))
-        return 0.5 * (low + high), 0.5 * (high - low) + 8.0 * ROUNDING
+        return 0.5 * (low + high), 0.5 * (high - low) + 8.0 * ROUNDOFF
 
     def extremes(self, nu: int) -> tuple[float, float]:
         """Least and greatest derivative of order nu."""
@@ -156,7 +156,7 @@ class CamMotion:
         pieces = cycle.pieces
         moved = sum(stretch.displacement for stretch in cycle.programme.stretches)
         size = max(abs(piece.stroke) for piece in pieces)
-        if abs(moved) > _CLOSED * size:
+        if abs(moved) > CLOSURE * size:
             raise InputError(
                 f"motion: the cycle ends {in_small_units(moved, cycle.axis)} from where it starts, and a cam comes back"
                 " with every turn: end the cycle with a Return(), and give it no advance"
@@ -196,7 +196,7 @@ class CamMotion:
             raise InputError(
                 f"stroke must be above 0, got {shortened(stroke)}; take direction='return' is the way back"
             )
-        if not 0.0 < turn <= TURN * (1.0 + _CLOSED):
+        if not 0.0 < turn <= TURN * (1.0 + CLOSURE):
             raise InputError(f"angle must be above 0 and at most 360 deg, got {shortened(angle)}")
         if direction not in tuple(DIRECTIONS):
             raise InputError(unknown_key(direction, DIRECTIONS, "direction"))
@@ -274,7 +274,7 @@ class CamMotion:
         start, stop = self.interval
         known_at = np.isfinite(angle.radius)
         turns = np.floor((angle.middle - start) / (stop - start)) if self.closed else 0.0 * angle.middle
-        at = angle - turns * Interval(np.array(stop - start), np.array(2.0 * ROUNDING * (stop - start)))
+        at = angle - turns * Interval(np.array(stop - start), np.array(2.0 * ROUNDOFF * (stop - start)))
         known = self.jet(at, order)
         for way in (-1.0, 1.0):
             # what an interval has beyond an end of its stretch belongs to the next one
@@ -302,7 +302,7 @@ class CamMotion:
         if self.closed:
             beyond = (angle < first) | (angle > last)
             return np.where(beyond, first + np.mod(angle - first, last - first), angle)
-        slack = _CLOSED * (last - first)
+        slack = CLOSURE * (last - first)
         if np.any((angle < first - slack) | (angle > last + slack)):
             raise InputError(
                 f"angles of this motion are {first:g} to {last:g} rad, got {shortened(np.asarray(angle).tolist())}:"

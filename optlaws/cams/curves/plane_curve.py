@@ -12,13 +12,13 @@ from numpy.typing import NDArray
 
 from optlaws.numbers import derivative, finite, real_times, whole
 from optlaws.series import chebyshev
-from optlaws.series.enclosures.interval_arrays import ROUNDING, Interval
+from optlaws.series.enclosures.interval_arrays import Interval
 from optlaws.series.enclosures.jets import Jet, Pair
 
 Array = NDArray[np.float64]
 
 _BLUR = (
-    128.0 * ROUNDING
+    128.0 * ROUNDOFF
 )  # of the greatest control point: values are means of these, and the polynomials go through them
 
 

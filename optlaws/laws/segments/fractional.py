@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from optlaws.errors import InputError
 from optlaws.laws.segments.segment import Segment
 from optlaws.series import real_powers
+from optlaws.series.tolerances import SAME_EXPONENT
 
 Array = NDArray[np.float64]
 
@@ -50,7 +51,7 @@ class FractionalSegment(Segment, kind="fractional"):
 
     def __post_init__(self) -> None:
         self._check()
-        if abs(self.exponent - round(self.exponent)) < real_powers.ONE:
+        if abs(self.exponent - round(self.exponent)) < SAME_EXPONENT:
             object.__setattr__(self, "exponent", float(round(self.exponent)))
         low, high = sorted((self.first, self.last))
         if self.exponent <= -1.0 or low < 0.0 or low == high:

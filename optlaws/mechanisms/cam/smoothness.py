@@ -6,8 +6,7 @@ import numpy as np
 
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
-
-SMOOTH = 1e-9  # a derivative at an end below this share of its peak is rounding
+from optlaws.series.tolerances import JUMP
 
 _NAMES = {1: ("velocity", "b"), 2: ("acceleration", "c"), 3: ("jerk", "j")}
 _REMEDY = (
@@ -39,7 +38,7 @@ def check_mass_law(law: MotionLaw) -> None:
         cam = "velocity" if order == 3 else "displacement"
         for k, value in zip((0.0, 1.0), law([0.0, 1.0], order).tolist(), strict=True):
             size = _size(law, order)
-            if not abs(value) <= SMOOTH * size:
+            if not abs(value) <= JUMP * size:
                 raise InputError(
                     f"the mass law has {name} {letter}({k:g}) = {value:.6g}, so the {cam} of the cam would jump there; "
                     f"{_REMEDY}"

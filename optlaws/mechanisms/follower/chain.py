@@ -15,16 +15,13 @@ from optlaws.mechanisms.follower.particular import RADIANS, Stretch, stretches
 from optlaws.mechanisms.follower.vibration import Oscillator
 from optlaws.series import chebyshev
 from optlaws.series.panels import Panels, equal, resolved
+from optlaws.series.tolerances import MOTION_RESOLVED, STRETCH_RESOLVED
 
 Array = NDArray[np.float64]
 State = tuple[float, float]
 #: of a slope on a stretch by its number, at times since its start: the slope itself, or its derivative
 Slope = Callable[[int, Array, int], Array]
 
-RESOLVED = (
-    1e-9  # what a series misses by, relative to the whole motion, where roots are looked for; Newton does the rest
-)
-EXACT = 1e-14  # and where squares are integrated, relative to the stretch
 DEEPEST = 5
 MANY = 64
 COUNT = 41
@@ -140,7 +137,7 @@ class Motion:
 
     def _square(self, i: int, length: float, order: int) -> float:
         """Integral over a stretch, halved until the product of its series is known to rounding."""
-        negligible = EXACT * float(np.abs(self._values(i, length * SAMPLES, order)).max())
+        negligible = STRETCH_RESOLVED * float(np.abs(self._values(i, length * SAMPLES, order)).max())
         panels, series = self._resolved(lambda s: self._values(i, s, order), length, negligible)
         pieces = zip(np.diff(panels.edges).tolist(), series.T, strict=True)
         return float(sum(span * chebyshev.mean_product(column, column) for span, column in pieces))
@@ -148,7 +145,7 @@ class Motion:
     def _gathered(self, values: Callable[[int, Array], Array], slope: Slope) -> tuple[Array, Array]:
         """Both ends of every stretch and its roots of a slope, with the values there."""
         slopes = [slope(i, stretch.length * SAMPLES, 0) for i, stretch in enumerate(self.stretches)]
-        negligible = RESOLVED * float(max(np.abs(steepness).max() for steepness in slopes))
+        negligible = MOTION_RESOLVED * float(max(np.abs(steepness).max() for steepness in slopes))
         times, heights = [], []
         for i, stretch in enumerate(self.stretches):
             s = np.concatenate([[0.0], self._stops(i, slope, negligible), [stretch.length]])

@@ -16,11 +16,9 @@ from optlaws.mechanisms.follower.chain import Motion
 from optlaws.mechanisms.follower.law_motion import forcings
 from optlaws.mechanisms.follower.mass_motion import MassMotion
 from optlaws.mechanisms.follower.vibration import Oscillator
+from optlaws.series.tolerances import RESONANCE, SHORTEST_STRETCH
 
 Array = NDArray[np.float64]
-
-RESONANT = 1e-9
-BRIEF = 1e-12  # a dwell shorter than this is none
 
 
 @dataclass(frozen=True, repr=False)
@@ -79,10 +77,10 @@ class CycleResponse(MassMotion):
     def _forcings(self) -> list[Forcing]:
         low, high = float(self.rise.a(0.0)), float(self.rise.a(1.0))
         driven = list(forcings(self.rise))
-        if self.dwell > BRIEF:
+        if self.dwell > SHORTEST_STRETCH:
             driven.append(rest(1.0, self.dwell, high))
         driven += forcings(self.fall, 1.0 + self.dwell, self.fall_duration, high, -1.0)
-        if self.rest > BRIEF:
+        if self.rest > SHORTEST_STRETCH:
             driven.append(rest(1.0 + self.dwell + self.fall_duration, self.rest, low))
         return driven
 
@@ -98,7 +96,7 @@ class CycleResponse(MassMotion):
         ]
         matrix = np.eye(2) - np.array([columns[0], np.array(columns[1]) / self.nu]).T
         scaled = matrix * np.array([[1.0, self.nu], [1.0 / self.nu, 1.0]])
-        if np.linalg.svd(scaled, compute_uv=False)[-1] < RESONANT:
+        if np.linalg.svd(scaled, compute_uv=False)[-1] < RESONANCE:
             raise InputError(
                 f"an undamped follower of nu = {self.nu:g} is in resonance with a cycle of {self.period:g} durations "
                 "of the rise (nu period / 2 pi is whole): it has no steady motion; give it damping or change the cycle"

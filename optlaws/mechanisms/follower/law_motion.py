@@ -15,12 +15,11 @@ from optlaws.laws.segments.segment import Segment, Wave, Waves
 from optlaws.mechanisms.follower.cam_motion import Forcing
 from optlaws.series import chebyshev
 from optlaws.series.panels import Panels, resolved
+from optlaws.series.tolerances import VELOCITY_ABSORBED, VELOCITY_RESOLVED
 
 Array = NDArray[np.float64]
 
 COUNT = 41
-RESOLVED = 1e-14  # of the velocity, what a series may miss anywhere
-ABSORBED = 1e-15  # the same times half the length on which it is missed
 
 
 def forcings(
@@ -88,7 +87,7 @@ class _Frame:
 
         def short(b: Array, length: float) -> bool:
             missed = float(np.abs(b[-4:]).max()) / size
-            return missed <= RESOLVED or 0.5 * missed * length <= ABSORBED
+            return missed <= VELOCITY_RESOLVED or 0.5 * missed * length <= VELOCITY_ABSORBED
 
         panels, series = resolved(velocity, Panels((low, high), COUNT), short)
         pieces = []

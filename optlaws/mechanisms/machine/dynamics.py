@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
 from optlaws.series import chebyshev
+from optlaws.series.tolerances import SAME_ROOT, SAME_TIME, VIBRATING
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -25,12 +26,9 @@ RADIANS = 10.0  # of the fastest vibration in a panel
 DECAY = 40.0  # of the fastest decay in a panel, while it is not over
 SPARED = 2  # times as many panels as are enough where vibrations die away
 SPARE = 32  # coefficients beyond those of the law that resolve a vibration on such a panel
-VIBRATING = 1e-6  # of a root's size: with less, it is a decay that rounding has split in two
 STEEP = 2.0  # of the number of coefficients: what is faster is over before any of them shows it
 SAMPLES = 4001  # of a response to an impulse
 ROOM = 1.01  # for what the sum over samples misses of an integral
-ROUNDING = 1e-12  # by which lengths of panels differ that are the same
-SAME = 1e-6  # of a root's size: what is no further away is the same vibration
 PER_ROOT_OF_DECAY = 6.5  # coefficients that an exponential needs for each root of its exponent
 
 
@@ -124,7 +122,7 @@ class Dynamics:
         upper = self.roots[self.roots.imag > VIBRATING * np.abs(self.roots)]
         groups: list[list[complex]] = []
         for root in upper[np.argsort(np.abs(upper))].tolist():
-            near = [group for group in groups if abs(group[0] - root) <= SAME * max(abs(root), 1.0)]
+            near = [group for group in groups if abs(group[0] - root) <= SAME_ROOT * max(abs(root), 1.0)]
             if near:
                 near[0].append(root)
             else:
@@ -210,7 +208,7 @@ class Dynamics:
 
     def _alive(self, time: float) -> float:
         """The fastest vibration that has not died away after a time, radians in the duration of the rise."""
-        alive = np.abs(self.roots.real) * time < (1.0 - ROUNDING) * DECAY
+        alive = np.abs(self.roots.real) * time < (1.0 - SAME_TIME) * DECAY
         return float(np.abs(self.roots.imag[alive]).max(initial=0.0))
 
     def terms(self, drive: int, half: float, begun: float = 0.0) -> int:
@@ -263,7 +261,7 @@ def _alike(lengths: Sequence[float]) -> list[list[int]]:
     """Which of some lengths are the same but for rounding."""
     groups = dict[float, list[int]]()
     for j, length in enumerate(lengths):
-        same = next((known for known in groups if abs(known - length) <= ROUNDING * length), length)
+        same = next((known for known in groups if abs(known - length) <= SAME_TIME * length), length)
         groups.setdefault(same, []).append(j)
     return list(groups.values())
 

@@ -12,14 +12,12 @@ from numpy.typing import NDArray
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
-from optlaws.mechanisms.machine.dynamics import SAME
 from optlaws.mechanisms.machine.state_space import StateSpace
 from optlaws.numbers import not_negative, numbers, positive
+from optlaws.series.tolerances import DEFECTIVE, SAME_ROOT
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
-
-DEFECTIVE = 1e-6
 
 
 @dataclass(frozen=True)
@@ -98,7 +96,7 @@ def participation(machine: StateSpace, wanted: Mode, output: str) -> complex:
     from scipy.linalg import schur, solve_sylvester
 
     dynamics = machine.dynamics
-    near = SAME * max(abs(wanted.root), 1.0)
+    near = SAME_ROOT * max(abs(wanted.root), 1.0)
     # conjugate roots are apart, so that what is sorted first is this vibration alone
     chosen: Any = lambda root: bool(abs(root - wanted.root) <= 2.0 * near)  # noqa: E731 - the stubs know no such order
     triangle, turn, size = schur(dynamics.triangle, output="complex", sort=chosen)

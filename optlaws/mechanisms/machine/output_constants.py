@@ -20,18 +20,11 @@ from optlaws.mechanisms.checks import motion_law
 from optlaws.mechanisms.machine import drives
 from optlaws.mechanisms.machine.dynamics import Panel, inverse_gain
 from optlaws.mechanisms.machine.output_curve import OutputCurve
-from optlaws.mechanisms.machine.over_time import (
-    BRIEF,
-    MachineCycle,
-    MachineResponse,
-    RepeatedMotion,
-    around,
-    jumps,
-    steady,
-)
+from optlaws.mechanisms.machine.over_time import MachineCycle, MachineResponse, RepeatedMotion, around, jumps, steady
 from optlaws.mechanisms.machine.state_space import StateSpace
 from optlaws.mechanisms.machine.texts import asked_of_output, check_repeats, check_rest, time_of, title_of
 from optlaws.numbers import power_of_two
+from optlaws.series.tolerances import NEGLIGIBLE_TERM, SHORTEST_STRETCH, VALUE_ROUNDING
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.families.family import Family, LinearFamily, NormFamily
 from optlaws.synthesis.functionals.sizes import Reach, by_norm, reach_of
@@ -45,8 +38,6 @@ Array = NDArray[np.float64]
 _RADIANS = 40.0  # of the fastest vibration on one piece of the rows
 _MOST_GAIN = 1e6
 _MOST_PANELS = 800  # of a cycle that repeats, some six vibrations long each
-_NEGLIGIBLE = 2.0**-54
-_ROUNDED = 1e-12
 _SMOOTH = 4  # the order of the law that scales are taken from
 _KNOWN = 3  # end conditions of which the acceleration is one
 SIDES = {"both": (1.0, -1.0), "high": (1.0,), "low": (-1.0,)}
@@ -189,7 +180,7 @@ class OutputConstant(Functional):
             dwell, rest = self.cycle
             fall = drives.backward(rise, 1.0 + dwell, 1.0, high)
             return steady(self.machine, around(rise, fall, (high, low), (dwell, 1.0, rest)), _RADIANS)
-        if self.within[1] > 1.0 + BRIEF:
+        if self.within[1] > 1.0 + SHORTEST_STRETCH:
             rise.append(drives.rest(1.0, self.within[1] - 1.0, high))
         initial = self.machine.settled(low)
         return self.machine.dynamics.moved(rise, initial, radians=_RADIANS)[0]
@@ -252,7 +243,7 @@ class OutputPeak(OutputConstant):
         still = (states @ self.machine.settled(np.array([level]))).real[0]
         value = float(still) + direct[0] * level + self.offset
         size = abs(float(still)) + abs(direct[0] * level) + abs(self.offset)
-        return float(self.signs[0] * value - _ROUNDED * size)
+        return float(self.signs[0] * value - VALUE_ROUNDING * size)
 
     def _reached(self, space: LawSpace) -> tuple[int, float, float] | None:
         reach = self.reach(space)
@@ -313,7 +304,7 @@ class OutputPeak(OutputConstant):
 def _terms(series: Array) -> int:
     """How many coefficients count: short panels have more than are needed, and places are looked for by them all."""
     sizes = np.abs(series).max(axis=0)
-    kept = np.flatnonzero((sizes > _NEGLIGIBLE * sizes.max(axis=0)).any(axis=1))
+    kept = np.flatnonzero((sizes > NEGLIGIBLE_TERM * sizes.max(axis=0)).any(axis=1))
     return int(kept[-1]) + 1 if len(kept) else 1
 
 

@@ -14,11 +14,9 @@ from optlaws.kept import kept_property
 from optlaws.laws.curve import Curve, Sides
 from optlaws.numbers import real_times, whole
 from optlaws.series import chebyshev
+from optlaws.series.tolerances import END_ROUNDING
 
 Array = NDArray[np.float64]
-
-#: of the time: the end is a sum of the panels' lengths
-_ROUNDING = 1e-14
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -92,7 +90,7 @@ class OutputCurve(Curve):
 
     def _times(self, k: Any) -> Array:  # noqa: ANN401 - whatever users give
         places, (low, high) = real_times(k), self.interval
-        rounding = _ROUNDING * max(abs(low), abs(high))
+        rounding = END_ROUNDING * max(abs(low), abs(high))
         if places.size and not (low - rounding <= places.min() and places.max() <= high + rounding):
             raise InputError(f"k must be in {low:g} to {high:g}, of which the motion is known, got {shortened(k)}")
         return np.clip(places, low, high)

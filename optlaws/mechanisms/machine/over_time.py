@@ -20,13 +20,10 @@ from optlaws.mechanisms.machine import drives
 from optlaws.mechanisms.machine.dynamics import RADIANS, Drive, Panel
 from optlaws.mechanisms.machine.output_curve import OutputCurve
 from optlaws.mechanisms.machine.state_space import StateSpace
-from optlaws.series import chebyshev
+from optlaws.series.tolerances import EPSILON, RESONANCE, SHORTEST_STRETCH
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
-
-BRIEF = 1e-12  # a dwell shorter than this is none
-RESONANT = 1e-9
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -174,7 +171,7 @@ class MachineResponse(MachineMotion):
         InputError
             If there is no such output, or no dwell was asked for.
         """
-        if self.dwell <= BRIEF:
+        if self.dwell <= SHORTEST_STRETCH:
             raise InputError("this response has no dwell: ask for one, machine.response(law, dwell=1.0)")
         return self._greatest(output, (1.0, self[output].interval[1]))
 
@@ -186,7 +183,7 @@ class MachineResponse(MachineMotion):
     def _panels(self) -> list[Panel]:
         level = np.array([float(self.law.a(0.0))])
         moved = drives.of_law(self.law)
-        if self.dwell > BRIEF:
+        if self.dwell > SHORTEST_STRETCH:
             moved.append(drives.rest(1.0, self.dwell, np.array([float(self.law.a(1.0))])))
         return self.machine.dynamics.moved(moved, self.machine.settled(level))[0]
 
@@ -294,10 +291,10 @@ def around(
     """A cycle: rise, dwell at the upper level, return, rest at the lower one; `durations` are those after the rise."""
     (high, low), (dwell, fall_duration, pause) = levels, durations
     moved = list(rise)
-    if dwell > BRIEF:
+    if dwell > SHORTEST_STRETCH:
         moved.append(drives.rest(1.0, dwell, high))
     moved += fall
-    if pause > BRIEF:
+    if pause > SHORTEST_STRETCH:
         moved.append(drives.rest(1.0 + dwell + fall_duration, pause, low))
     return moved
 
@@ -319,7 +316,7 @@ def steady(machine: StateSpace, cycle: Sequence[Drive], radians: float = RADIANS
     forced = dynamics.moved(cycle, nothing, radians=radians, before=before)[1]
     free = dynamics.moved(still, np.eye(size, dtype=np.complex128), radians=radians)[1]
     returned = np.eye(size) - free
-    if np.linalg.svd(returned, compute_uv=False)[-1] < RESONANT:
+    if np.linalg.svd(returned, compute_uv=False)[-1] < RESONANCE:
         raise InputError(
             f"the machine has no steady motion: a vibration without damping is in resonance with a cycle of {period:g} "
             "durations of the rise, or a state drifts; give it damping or change the cycle"
@@ -336,5 +333,5 @@ def jumps(law: MotionLaw) -> list[tuple[float, float]]:
 def trimmed(series: Array) -> Array:
     """A series without the coefficients at its end that are rounding."""
     size = np.abs(series)
-    kept = np.flatnonzero(size > chebyshev.NEGLIGIBLE * size.max())
+    kept = np.flatnonzero(size > EPSILON * size.max())
     return series[: kept[-1] + 1] if len(kept) else np.zeros(1)

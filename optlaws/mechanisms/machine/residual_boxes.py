@@ -27,6 +27,7 @@ from optlaws.mechanisms.spectrum.laplace import velocity_transform_of
 from optlaws.mechanisms.spectrum.robust import gauss_rule
 from optlaws.numbers import not_negative, numbers, power_of_two
 from optlaws.series import chebyshev
+from optlaws.series.tolerances import NEGLIGIBLE_TERM
 from optlaws.synthesis.families.cone import ConeFamily, stationary_places
 from optlaws.synthesis.problem.constants import MAKERS, Functional
 from optlaws.synthesis.spaces.space import LawSpace
@@ -35,7 +36,6 @@ Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 _SPARE = 40
-_NEGLIGIBLE = 2.0**-54
 _WIDEST = 1000.0
 _MOST_DAMPING = 0.95
 _ACCELERATION = 6.0  # of a smooth law
@@ -178,7 +178,7 @@ class ModeResidual(Functional):
         velocities = weights[:, None] * family.columns(places)[0]
         transforms = self.share * (np.exp(roots[:, None] * (1.0 - k)) @ velocities)
         series = chebyshev.from_values(transforms)
-        kept = np.flatnonzero(np.abs(series).max(axis=1) > _NEGLIGIBLE * np.abs(series).max())
+        kept = np.flatnonzero(np.abs(series).max(axis=1) > NEGLIGIBLE_TERM * np.abs(series).max())
         # an output may not see the mode at all
         return np.ascontiguousarray(series[: kept[-1] + 1 if len(kept) else 1])
 
@@ -190,7 +190,7 @@ def _terms_of_exponential(half: float) -> int:
     Where |exp(w t)| is at most 1 on the line the coefficient n is at most 2 (half / 2)^n / n!.
     """
     n, size = 0, 2.0
-    while size > _NEGLIGIBLE or n < half:
+    while size > NEGLIGIBLE_TERM or n < half:
         n += 1
         size *= 0.5 * half / n
     return n + 1

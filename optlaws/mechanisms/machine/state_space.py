@@ -15,6 +15,7 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.mechanisms.machine.dynamics import Dynamics
 from optlaws.numbers import MAGNITUDE_LIMIT, positive, real_times
+from optlaws.series.tolerances import SETTLED, UNSTABLE
 from optlaws.suggest import unknown_key
 
 Array = NDArray[np.float64]
@@ -29,8 +30,6 @@ MOST_OUTPUTS = 100
 LONGEST_NAME = 80
 FASTEST = 1e5  # radians of a vibration in the rise, as for followers
 STIFFEST = 1e8  # the same for what decays
-UNSTABLE = 1e-7  # of the fastest root, what its rounding may be
-SETTLED = 1e-9
 
 
 @dataclass(frozen=True, init=False, repr=False)

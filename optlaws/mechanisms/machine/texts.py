@@ -10,9 +10,9 @@ from optlaws.errors import InputError
 from optlaws.files import reading
 from optlaws.mechanisms.machine.state_space import StateSpace
 from optlaws.numbers import numbers
+from optlaws.series.tolerances import CLOSURE
 from optlaws.synthesis.spaces.space import LawSpace
 
-_CLOSED = 1e-9
 _LATEST = 100.0
 
 
@@ -75,7 +75,7 @@ def check_repeats(name: str, machine: StateSpace, stroke: float) -> None:
     InputError
         If it does.
     """
-    if "a" in machine.inputs and abs(stroke) > _CLOSED:
+    if "a" in machine.inputs and abs(stroke) > CLOSURE:
         short = name.partition("(")[0]
         raise InputError(
             f"{short}: steady is of a law that ends where it begins, but its stroke is {stroke:g}: a machine whose "

@@ -9,11 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.series import chebyshev
+from optlaws.series.tolerances import TINY
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
-
-_TINY = 1e-300
 
 
 def moments(sigma: Complex, count: int) -> Complex:
@@ -57,7 +56,7 @@ def _alike(sigma: Complex, count: int, largest: float) -> Complex:
     inverse = 1.0 / sigma
     for n in range(top, 0, -1):
         below = ratio - (2.0 * n + 1.0) * inverse
-        below[below == 0.0] = _TINY
+        below[below == 0.0] = TINY
         ratio = 1.0 / below
         if n < count:
             kept[:, n] = ratio

@@ -17,14 +17,13 @@ from optlaws.mechanisms.follower.cam_motion import Forcing
 from optlaws.mechanisms.follower.law_motion import forcings
 from optlaws.mechanisms.spectrum.bessel import legendre_from_chebyshev, moments
 from optlaws.series import chebyshev
+from optlaws.series.tolerances import BEYOND_CUBIC, LOAD_RESOLVED
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 RADIANS = 0.7
 TERMS = 9
-RESOLVED = 1e-10
-QUINTIC = 1e-6  # of the load, what may lie beyond a cubic: integrated twice it is beyond the quintic
 CHUNK = 400
 FINEST = 4096
 SAMPLES = np.array([0.0, 0.25, 0.5, 0.75])
@@ -86,7 +85,7 @@ def _panels(piece: Forcing, fastest: float) -> tuple[int, Array, Array, Array, A
         s = starts[:, None] + 0.5 * piece.length / count * (x + 1.0)
         b, c = (chebyshev.from_values(piece.derivative(s, order).T).T for order in (1, 2))
         size = float(np.abs(c).max())
-        if np.abs(c[:, -2:]).max() <= RESOLVED * size and np.abs(c[:, 4:]).max() <= QUINTIC * size:
+        if np.abs(c[:, -2:]).max() <= LOAD_RESOLVED * size and np.abs(c[:, 4:]).max() <= BEYOND_CUBIC * size:
             break
         if count >= FINEST:
             break

@@ -16,8 +16,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import SolverFailure
-from optlaws.series.enclosures.interval_arrays import ROUNDING, Interval, exact
+from optlaws.series.enclosures.interval_arrays import Interval, exact
 from optlaws.series.enclosures.jets import Jet
+from optlaws.series.tolerances import (
+    CELL_END,
+    EQUAL_EXTREMES,
+    EXTREME_POLISHED,
+    EXTREME_WIDTH,
+    NEAR_TIE,
+    ROUNDOFF,
+    SMALLEST_CELL,
+    SMALLEST_SIZE,
+    TIE,
+)
 
 Array = NDArray[np.float64]
 #: of places, as intervals, and of an order: the Taylor terms of a function anywhere in each, up to that order
@@ -27,17 +38,10 @@ Function: TypeAlias = Callable[[Interval, int], Jet]
 Valued: TypeAlias = tuple[float, float]
 
 _ROUNDS = 80
-_STEPS, _SETTLED = 2, 1e-11
+_STEPS = 2
 _MOST = 50_000
-_NOTHING = 1e-200
-_TIE = 1e-10
-#: of the greatest magnitude: an extreme that is sampled to so little may be as good; and, after Newton's steps, is
-_NEAR_TIE, _AS_GOOD = 1e-7, 1e-9
-_TOP = 1e-3  # of the whole: ties so near are one extreme
 _NARROWED = 0.25
 _BLUR = 4.0
-_END = 2.0**-10
-_SMALLER = 2.0**-48  # of the place: no cell is cut further
 
 
 class Extremes(NamedTuple):
@@ -118,12 +122,12 @@ def extremes(
     low, high = search.first(parts)
     for _ in range(_ROUNDS):
         cells = search.look(low, high)
-        slack = max(share * max(_finite(search.least), _finite(search.most), scale), _NOTHING) + cells.rounding
+        slack = max(share * max(_finite(search.least), _finite(search.most), scale), SMALLEST_SIZE) + cells.rounding
         least, most = search.least, search.most
         if magnitude:
             least, most = min(least, -most), max(most, -least)
         beyond = (cells.top > most + slack) | (cells.bottom < least - slack)
-        beyond &= cells.half > _SMALLER * (np.abs(cells.middle) + cells.half)
+        beyond &= cells.half > SMALLEST_CELL * (np.abs(cells.middle) + cells.half)
         search.take(cells, ~beyond)
         low, high = search.split(cells, beyond)
         if not 0 < len(low) <= _MOST or max(-search.least, search.most) > enough:
@@ -169,7 +173,7 @@ class _Search:
     def look(self, low: Array, high: Array) -> _Cells:
         """What the function is in cells; what it reaches in them is kept."""
         count, middle = len(low), 0.5 * (low + high)
-        half = np.maximum(high - middle, middle - low) * (1.0 + 4.0 * ROUNDING)
+        half = np.maximum(high - middle, middle - low) * (1.0 + 4.0 * ROUNDOFF)
         places = Interval(np.concatenate([middle, middle]), np.concatenate([np.zeros(count), half]))
         terms = [_as_interval(term, 2 * count) for term in self.function(places, self.order).terms]
         value, rate, at, slope = terms[0], terms[1], terms[0][:count], terms[1][:count]
@@ -180,10 +184,10 @@ class _Search:
             self._reached(place, at if place is middle else _moved(at, slope, bend, middle, place))
         with np.errstate(invalid="ignore", over="ignore"):
             turn = 2.0 * half * np.maximum(np.abs(swing.low), np.abs(swing.high))
-            turn = turn + ROUNDING * (8.0 * turn + 4.0 * np.abs(slope.middle))
+            turn = turn + ROUNDOFF * (8.0 * turn + 4.0 * np.abs(slope.middle))
             slopes = np.fmax(slope.low - turn, rate.low[count:]), np.fmin(slope.high + turn, rate.high[count:])
             reach = half * np.maximum(np.abs(slopes[0]), np.abs(slopes[1]))
-            reach = reach + ROUNDING * (8.0 * reach + 4.0 * np.abs(at.middle))
+            reach = reach + ROUNDOFF * (8.0 * reach + 4.0 * np.abs(at.middle))
             tops = [at.high + reach, _highest(at.high, slope, bend.high, half)]
             bottoms = [at.low - reach, -_highest(-at.low, -slope, -bend.low, half)]
         top, bottom = np.fmin.reduce([value.high[count:], *tops]), np.fmax.reduce([value.low[count:], *bottoms])
@@ -202,14 +206,14 @@ class _Search:
             top,
             slopes,
             rounding,
-            _stationary(slope, swing, 4.0 * (_SMALLER * half + ROUNDING * np.abs(middle))),
+            _stationary(slope, swing, 4.0 * (SMALLEST_CELL * half + ROUNDOFF * np.abs(middle))),
         )
 
     def _reached(self, places: Array, values: Interval) -> None:
         low, high = values.low[np.isfinite(values.low)], values.high[np.isfinite(values.high)]
         size = max(np.abs(low).max(initial=0.0), np.abs(high).max(initial=0.0), _finite(self.least), _finite(self.most))
-        self.least, self.lows = _kept(self.least, self.lows, values.high, places, _NEAR_TIE * size)
-        negative, self.highs = _kept(-self.most, self.highs, -values.low, places, _NEAR_TIE * size)
+        self.least, self.lows = _kept(self.least, self.lows, values.high, places, NEAR_TIE * size)
+        negative, self.highs = _kept(-self.most, self.highs, -values.low, places, NEAR_TIE * size)
         self.most = -negative
 
     def take(self, cells: _Cells, done: NDArray[np.bool_]) -> None:
@@ -227,8 +231,8 @@ class _Search:
         plain = ~sloped & ~narrowed
         ends = sloped | narrowed
         starts, stops = ends & np.isin(low, self.edges), ends & np.isin(high, self.edges)
-        lows = [first[narrowed], low[plain], middle[plain], low[starts], high[stops] - _END * width[stops]]
-        highs = [last[narrowed], middle[plain], high[plain], low[starts] + _END * width[starts], high[stops]]
+        lows = [first[narrowed], low[plain], middle[plain], low[starts], high[stops] - CELL_END * width[stops]]
+        highs = [last[narrowed], middle[plain], high[plain], low[starts] + CELL_END * width[starts], high[stops]]
         some, others = np.concatenate(lows), np.concatenate(highs)
         real = others > some
         return some[real], others[real]
@@ -239,13 +243,13 @@ class _Search:
             raise SolverFailure(
                 "a function has no finite value where it is looked at: nothing is known of its extremes"
             )
-        least, most = self._lowest(_TIE)
+        least, most = self._lowest(TIE)
         if polished:
             # of extremes as good as one another the first, however near to each of them a sample happened to be
             least, most = (
-                first if first[0] <= known[0] + _AS_GOOD * max(abs(self.least), abs(self.most)) else known
+                first if first[0] <= known[0] + EQUAL_EXTREMES * max(abs(self.least), abs(self.most)) else known
                 for first, known in zip(
-                    self._polished(self._lowest(_NEAR_TIE)), self._polished((least, most)), strict=True
+                    self._polished(self._lowest(NEAR_TIE)), self._polished((least, most)), strict=True
                 )
             )
         return Extremes(*least, min(self.bottom, least[0]), -most[0], most[1], max(self.top, -most[0]))
@@ -258,11 +262,11 @@ class _Search:
 
     def _on_edge(self, lowest: Valued, sign: float) -> Valued:
         """The first edge beside a lowest value that is as good: from there on a function may be flat."""
-        edges = self.edges[np.abs(self.edges - lowest[1]) <= _TOP * float(self.edges[-1] - self.edges[0])]
+        edges = self.edges[np.abs(self.edges - lowest[1]) <= EXTREME_WIDTH * float(self.edges[-1] - self.edges[0])]
         if not edges.size:
             return lowest
         value = _as_interval(self.function(Interval(edges, np.zeros(edges.shape)), 0).terms[0], len(edges)) * sign
-        good = np.flatnonzero(value.high <= lowest[0] + _AS_GOOD * max(abs(self.least), abs(self.most)))
+        good = np.flatnonzero(value.high <= lowest[0] + EQUAL_EXTREMES * max(abs(self.least), abs(self.most)))
         return (float(value.high[good[0]]), float(edges[good[0]])) if good.size else lowest
 
     def _polished(self, known: tuple[Valued, Valued]) -> tuple[Valued, Valued]:
@@ -276,7 +280,7 @@ class _Search:
                 moved = places - 0.5 * slope / bend
             part = np.searchsorted(self.edges[1:-1], places)
             inside = (self.edges[part] < moved) & (moved < self.edges[part + 1]) & ~np.isin(places, self.edges)
-            inside &= np.abs(moved - places) > _SETTLED * np.abs(self.edges[-1] - self.edges[0])
+            inside &= np.abs(moved - places) > EXTREME_POLISHED * np.abs(self.edges[-1] - self.edges[0])
             if not inside.any():
                 break
             places = np.where(inside, moved, 0.5 * (self.edges[part] + self.edges[part + 1]))
@@ -305,7 +309,7 @@ def _bends(terms: list[Interval], half: Array) -> tuple[Interval, Interval]:
 
 def _moved(at: Interval, slope: Interval, bend: Interval, middle: Array, place: Array) -> Interval:
     """Values at places of cells, by Taylor's formula from their middles."""
-    step = Interval(place - middle, 4.0 * ROUNDING * np.abs(place - middle))
+    step = Interval(place - middle, 4.0 * ROUNDOFF * np.abs(place - middle))
     return at + slope * step + bend * (step * step)
 
 
@@ -316,8 +320,8 @@ def _highest(start: Array, rate: Interval, bend: Array, half: Array) -> Array:
         top = np.where(bend < 0.0, np.clip(-0.5 * steep / bend, 0.0, half), half)
         risen = steep * top + bend * top * top
         sizes = 2.0 * steep * top + 2.0 * np.abs(bend) * top * top
-        apart = rate.radius * half * (1.0 + 16.0 * ROUNDING)
-        return np.asarray(start + risen + apart + ROUNDING * (16.0 * sizes + 8.0 * np.abs(start)))
+        apart = rate.radius * half * (1.0 + 16.0 * ROUNDOFF)
+        return np.asarray(start + risen + apart + ROUNDOFF * (16.0 * sizes + 8.0 * np.abs(start)))
 
 
 def _stationary(slope: Interval, bend: Interval, slack: Array) -> tuple[Array, Array]:
@@ -349,6 +353,6 @@ def _first(known: list[tuple[Array, Array]], most: float, whole: float) -> Value
     """The first place among the lowest values, and the value there."""
     values, places = np.concatenate([one for one, _ in known]), np.concatenate([one for _, one in known])
     values, places = values[values <= most], places[values <= most]
-    same = places <= places.min() + _TOP * whole
+    same = places <= places.min() + EXTREME_WIDTH * whole
     lowest = int(np.argmin(np.where(same, values, np.inf)))
     return float(values[lowest]), float(places[lowest])

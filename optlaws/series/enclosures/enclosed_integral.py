@@ -9,12 +9,12 @@ from numpy.typing import NDArray
 
 from optlaws.errors import SolverFailure
 from optlaws.series.enclosures.branch_and_bound import Function
-from optlaws.series.enclosures.interval_arrays import ROUNDING, Interval
+from optlaws.series.enclosures.interval_arrays import Interval
+from optlaws.series.tolerances import ROUNDOFF, SMALLEST_SIZE
 
 Array = NDArray[np.float64]
 
 _ORDER = 6
-_NOTHING = 1e-200
 _BLUR = 4.0
 _DEEPEST = 60
 _MOST = 200_000
@@ -54,10 +54,10 @@ def integral(function: Function, edges: Any, *, share: float = 1e-9, scale: floa
         sizes = np.abs(part.middle)
         size += float(sizes[np.isfinite(part.radius)].sum())
         with np.errstate(invalid="ignore"):
-            near = np.maximum(0.5 * share * max(size / whole, scale, _NOTHING), _BLUR * rounding)
+            near = np.maximum(0.5 * share * max(size / whole, scale, SMALLEST_SIZE), _BLUR * rounding)
             open_ones = ~(part.radius <= near * (high - low))
         total = total + Interval(*(np.array([values[~open_ones].sum()]) for values in (part.middle, part.radius)))
-        total = total + Interval(np.zeros(1), len(low) * ROUNDING * sizes[~open_ones].sum(keepdims=True))
+        total = total + Interval(np.zeros(1), len(low) * ROUNDOFF * sizes[~open_ones].sum(keepdims=True))
         if not open_ones.any():
             return float(total.low[0]), float(total.high[0])
         size -= float(sizes[open_ones & np.isfinite(part.radius)].sum())
@@ -75,14 +75,14 @@ def _of_cells(function: Function, low: Array, high: Array) -> tuple[Interval, Ar
     With what values are rounded, beyond which smaller cells are known no better.
     """
     count, middle = len(low), 0.5 * (low + high)
-    half = np.maximum(high - middle, middle - low) * (1.0 + 4.0 * ROUNDING)
+    half = np.maximum(high - middle, middle - low) * (1.0 + 4.0 * ROUNDOFF)
     places = Interval(np.concatenate([middle, middle]), np.concatenate([np.zeros(count), half]))
     terms = [term + np.zeros(2 * count) for term in function(places, _ORDER).terms]
-    width = Interval(high - low, 2.0 * ROUNDING * (high - low))
+    width = Interval(high - low, 2.0 * ROUNDOFF * (high - low))
     # a middle is rounded, so that odd terms do not vanish in full
-    askew = 4.0 * ROUNDING * np.abs(middle) * np.abs(terms[1].middle[:count])
+    askew = 4.0 * ROUNDOFF * np.abs(middle) * np.abs(terms[1].middle[:count])
     mean, power = terms[0][:count] + Interval(np.zeros(count), askew), Interval(np.ones(count), np.zeros(count))
-    square = Interval(half * half, 16.0 * ROUNDING * half * half)
+    square = Interval(half * half, 16.0 * ROUNDOFF * half * half)
     polynomial = mean
     for i in range(2, _ORDER, 2):
         power = power * square
@@ -92,7 +92,7 @@ def _of_cells(function: Function, low: Array, high: Array) -> tuple[Interval, Ar
     slope = terms[1][count:]
     ways = [
         polynomial + rest,
-        Interval(mean.middle, mean.radius + 0.5 * slope.radius * half * (1.0 + 8.0 * ROUNDING)),
+        Interval(mean.middle, mean.radius + 0.5 * slope.radius * half * (1.0 + 8.0 * ROUNDOFF)),
         terms[0][count:],
     ]
     radii = np.array([np.where(np.isfinite(way.radius), way.radius, np.inf) for way in ways])

@@ -9,11 +9,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.series.tolerances import ROUNDOFF, TINY, WAVE_ROUNDING
+
 Array = NDArray[np.float64]
 
-ROUNDING = 2.0**-53
-_WAVES = 8.0 * ROUNDING  # of sines and cosines as numpy has them
-_SMALLEST = 1e-300
 _FEW = 2  # products whose sum is taken one by one
 
 
@@ -46,7 +45,7 @@ class Interval:
 
     @property
     def _outer(self) -> Array:
-        return self.radius + 2.0 * ROUNDING * (self.radius + np.abs(self.middle))
+        return self.radius + 2.0 * ROUNDOFF * (self.radius + np.abs(self.middle))
 
     def __neg__(self) -> Interval:
         return Interval(-self.middle, self.radius)
@@ -87,31 +86,31 @@ class Interval:
 
     def _reciprocal(self) -> Interval:
         size = np.abs(self.middle)
-        known = size > self.radius * (1.0 + 4.0 * ROUNDING)
+        known = size > self.radius * (1.0 + 4.0 * ROUNDOFF)
         least, most = np.where(known, size - self.radius, 1.0), size + self.radius
         with np.errstate(over="ignore"):
             low, high = 1.0 / np.where(known, most, 1.0), 1.0 / least
-        middle, radius = 0.5 * (high + low), 0.5 * (high - low) + 4.0 * ROUNDING * high
+        middle, radius = 0.5 * (high + low), 0.5 * (high - low) + 4.0 * ROUNDOFF * high
         return Interval(np.where(known, np.sign(self.middle) * middle, 0.0), np.where(known, radius, np.inf))
 
     def root(self) -> Interval:
         """The square root, of what is at least 0 of it."""
         with np.errstate(invalid="ignore"):
             low, high = np.sqrt(np.maximum(self.middle - self.radius, 0.0)), np.sqrt(self.middle + self.radius)
-            return between(low * (1.0 - 4.0 * ROUNDING), high * (1.0 + 4.0 * ROUNDING))
+            return between(low * (1.0 - 4.0 * ROUNDOFF), high * (1.0 + 4.0 * ROUNDOFF))
 
     def arctangent(self) -> Interval:
         """The angle of a tangent, within a right one."""
         with np.errstate(invalid="ignore"):
-            return between(np.arctan(self.low) - _WAVES, np.arctan(self.high) + _WAVES)
+            return between(np.arctan(self.low) - WAVE_ROUNDING, np.arctan(self.high) + WAVE_ROUNDING)
 
     def sine(self) -> Interval:
         """The sine."""
-        return Interval(np.sin(self.middle), self.radius + _WAVES)
+        return Interval(np.sin(self.middle), self.radius + WAVE_ROUNDING)
 
     def cosine(self) -> Interval:
         """The cosine."""
-        return Interval(np.cos(self.middle), self.radius + _WAVES)
+        return Interval(np.cos(self.middle), self.radius + WAVE_ROUNDING)
 
 
 def between(low: Array, high: Array) -> Interval:
@@ -126,7 +125,7 @@ def between(low: Array, high: Array) -> Interval:
     known = np.isfinite(low) & np.isfinite(high)
     low, high = np.where(known, low, 0.0), np.where(known, high, 0.0)
     middle = 0.5 * low + 0.5 * high
-    radius = np.maximum(middle - low, high - middle) * (1.0 + 4.0 * ROUNDING)
+    radius = np.maximum(middle - low, high - middle) * (1.0 + 4.0 * ROUNDOFF)
     return Interval(middle, np.where(known, radius, np.inf))
 
 
@@ -141,9 +140,9 @@ def bearing(y: Interval, x: Interval) -> Interval:
     """
     off, size = np.hypot(x.radius, y.radius), np.hypot(x.middle, y.middle)
     with np.errstate(divide="ignore", invalid="ignore"):
-        share = off / size * (1.0 + 16.0 * ROUNDING)
+        share = off / size * (1.0 + 16.0 * ROUNDOFF)
         turned = np.where(share < 1.0, np.arcsin(np.where(share < 1.0, share, 0.0)), np.inf)
-    return Interval(np.arctan2(y.middle, x.middle), turned * (1.0 + 8.0 * ROUNDING) + _WAVES)
+    return Interval(np.arctan2(y.middle, x.middle), turned * (1.0 + 8.0 * ROUNDOFF) + WAVE_ROUNDING)
 
 
 def dot(first: Sequence[Any], second: Sequence[Any]) -> Any:  # noqa: ANN401 - numbers, arrays or intervals
@@ -167,8 +166,8 @@ def dot(first: Sequence[Any], second: Sequence[Any]) -> Any:  # noqa: ANN401 - n
     p, q = np.array([one.radius for one, _ in pairs]), np.array([two.radius for _, two in pairs])
     products, size = m * n, np.abs(n)
     with np.errstate(invalid="ignore"):  # 0 times infinity: no bound
-        radius = np.abs(m) * q + p * (size + q) + (len(pairs) + 1) * ROUNDING * np.abs(products)
-    return Interval(products.sum(axis=0), radius.sum(axis=0) * (1.0 + 32.0 * ROUNDING) + _SMALLEST)
+        radius = np.abs(m) * q + p * (size + q) + (len(pairs) + 1) * ROUNDOFF * np.abs(products)
+    return Interval(products.sum(axis=0), radius.sum(axis=0) * (1.0 + 32.0 * ROUNDOFF) + TINY)
 
 
 def hull(first: Interval, second: Interval) -> Interval:
@@ -233,7 +232,7 @@ def _interval(value: Any) -> Interval:  # noqa: ANN401
 
 
 def _rounded(middle: Array, radius: Array) -> Interval:
-    return Interval(middle, (radius + ROUNDING * np.abs(middle)) * (1.0 + 8.0 * ROUNDING) + _SMALLEST)
+    return Interval(middle, (radius + ROUNDOFF * np.abs(middle)) * (1.0 + 8.0 * ROUNDOFF) + TINY)
 
 
 _FUNCTIONS: dict[Any, Callable[..., Interval]] = {
