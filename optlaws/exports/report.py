@@ -16,6 +16,7 @@ from optlaws.motion.polynomials import Extreme, PiecewiseMotion
 from optlaws.motion.quantities import quantity
 from optlaws.numbers import MOST_VALUES, Quantity
 from optlaws.series import bernstein
+from optlaws.series.bisection import bisect_each
 
 Array = NDArray[np.float64]
 
@@ -230,7 +231,6 @@ def _point(x: float | None, values: tuple[float, ...]) -> dict[str, Any]:
 
 
 _EACH = 257
-_HALVINGS = 60
 _CUTS = 9  # in eight: the way is of second order in the length that is left
 
 
@@ -266,16 +266,10 @@ def travel_of_law(motion: Motion) -> float:
     x = np.concatenate([[motion.start], *(grid[1:] for grid in grids)])
     signs = np.sign(motion(x, 1))
     which = np.flatnonzero(signs[1:] * signs[:-1] < 0.0)
-    turns = _halved(motion, x[which], x[which + 1], signs[which]) if which.size else x[which]
+    turns, sign = x[which], signs[which]
+    if which.size:
+        turns, _ = bisect_each(lambda at: motion(at, 1) * sign > 0.0, turns, x[which + 1])
     return float(np.abs(np.diff(motion(np.sort(np.concatenate([x, turns]))))).sum())
-
-
-def _halved(motion: Motion, low: Array, high: Array, sign: Array) -> Array:
-    for _ in range(_HALVINGS):
-        middle = 0.5 * (low + high)
-        before = motion(middle, 1) * sign > 0.0
-        low, high = np.where(before, middle, low), np.where(before, high, middle)
-    return low
 
 
 def _turns(control: Array) -> NDArray[np.bool_]:

@@ -16,7 +16,7 @@ from optlaws.extras import needed
 from optlaws.kept import kept_property
 from optlaws.numbers import MOST_VALUES, derivative, finite, whole
 from optlaws.series import peaks
-from optlaws.series.crossings import crossings
+from optlaws.series.bisection import crossings
 from optlaws.series.peaks import Peak
 
 Array = NDArray[np.float64]

@@ -18,7 +18,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws.polynomial import PolynomialLaw
 from optlaws.numbers import MOST_EXPONENT, finite, fractions, whole
-from optlaws.series.halving import halved
+from optlaws.series.bisection import bisect
 from optlaws.series.panels import Panels
 from optlaws.series.peaks import Peak
 from optlaws.suggest import unknown_key
@@ -344,7 +344,7 @@ def _check_reachable(family: SavinFamily, name: str, value: float, least: float,
 
 def _root(excess: Callable[[float], float], inner: float, outer: float) -> float:
     """The place between, to the last digit: excess is below zero at the inner end and not below at the outer one."""
-    return outer if excess(outer) == 0.0 else halved(lambda place: excess(place) < 0.0, inner, outer)[1]
+    return outer if excess(outer) == 0.0 else bisect(lambda place: excess(place) < 0.0, inner, outer)[1]
 
 
 def savin(

@@ -22,6 +22,7 @@ from optlaws.synthesis.solution import Solution
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
+from optlaws.series.tolerances import LOOKS_EQUAL
 
 Array = NDArray[np.float64]
 Panels = Sequence["Axes"]
@@ -31,8 +32,8 @@ PEAKS = (None, "B", "C", "J")
 
 _SAMPLES = 801
 _MARGIN = 0.08
-#: of the highest peak: others that are so near look as high; and of the interval: how near to it a place is its own
-_ALIKE, _BESIDE = 1e-4, 0.01
+#: of the interval: how near to the highest peak a place is its own
+_BESIDE = 0.01
 #: curves drawn into one pair of axes, each by its peak
 _COLOURS = (GREY, GREEN, BLUES[3], WARM)
 _ABOVE: Any = {
@@ -161,8 +162,8 @@ def _first_peak(curve: Curve, nu: int, k: Array, values: Array) -> tuple[list[fl
     """The first of the peaks that look equally high: which of them is the highest may be rounding."""
     low, high = curve.extrema(nu)
     peak = high if high.value >= -low.value else low
-    first = int(np.nanargmax(np.abs(values) >= (1.0 - _ALIKE) * abs(peak.value)))
-    if abs(peak.value) * (1.0 - _ALIKE) > abs(values[first]) or abs(k[first] - peak.k) < _BESIDE:
+    first = int(np.nanargmax(np.abs(values) >= (1.0 - LOOKS_EQUAL) * abs(peak.value)))
+    if abs(peak.value) * (1.0 - LOOKS_EQUAL) > abs(values[first]) or abs(k[first] - peak.k) < _BESIDE:
         return [peak.k], [peak.value]
     return [float(k[first])], [float(values[first])]
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from itertools import pairwise
 
 import numpy as np
@@ -14,7 +14,9 @@ from optlaws.series.tolerances import QUOTIENT_BLUR, VALUE_ROUNDING
 
 Array = NDArray[np.float64]
 
-_DEEPEST, _DENSE = 12, 129
+_DEEPEST = 12
+#: for parts so short that nothing is smooth on them
+_CLOSE = np.cos(np.linspace(0.0, np.pi, 129))
 
 
 def series_between(
@@ -49,9 +51,7 @@ def series_between(
         return None
 
 
-def candidates(
-    function: Callable[[Array], Array], ends: tuple[float, float], count: int | None = None, depth: int = 0
-) -> Array:
+def candidates(function: Callable[[Array], Array], ends: tuple[float, float], count: int | None = None) -> Array:
     """Places among which every stationary point of a function is; parts that are not smooth are cut in two.
 
     Examples
@@ -59,19 +59,14 @@ def candidates(
     >>> candidates(lambda x: (x - 0.25) ** 2, (0.0, 1.0)).round(12)
     array([0.25])
     """
-    series = series_between(function, ends, count)
-    low, high = ends
-    if series is not None:
-        places: Array = low + (high - low) * (real_parts_of_roots(derivative(series)) + 1.0) / 2.0
-        return places
-    if depth >= _DEEPEST:
-        return low + (high - low) * (np.cos(np.linspace(0.0, np.pi, _DENSE)) + 1.0) / 2.0
-    middle = (low + high) / 2.0
-    halves = [candidates(function, half, None, depth + 1) for half in ((low, middle), (middle, high))]
-    return np.concatenate([*halves, [middle]])
+    places: list[Array] = []
+    for low, high, series in _parts(function, ends, count):
+        x = _CLOSE if series is None else real_parts_of_roots(derivative(series))
+        places += [low + (high - low) * (x + 1.0) / 2.0, np.array([high])]
+    return np.concatenate(places[:-1])
 
 
-def roots_between(function: Callable[[Array], Array], ends: tuple[float, float], depth: int = 0) -> Array:
+def roots_between(function: Callable[[Array], Array], ends: tuple[float, float]) -> Array:
     """Places strictly between two among which every change of sign of a function is; kinks are cut at.
 
     Examples
@@ -79,16 +74,25 @@ def roots_between(function: Callable[[Array], Array], ends: tuple[float, float],
     >>> roots_between(lambda x: x * x - 0.25, (0.0, 2.0)).round(12)
     array([0.5])
     """
-    low, high = ends
-    series = series_between(function, ends)
-    if series is not None:
-        places: Array = low + (high - low) * (real_parts_of_roots(series) + 1.0) / 2.0
-        return np.unique(places[(places > low) & (places < high)])
-    if depth >= _DEEPEST:
-        return np.empty(0)
+    places: list[Array] = []
+    for low, high, series in _parts(function, ends):
+        x = np.empty(0) if series is None else real_parts_of_roots(series)
+        roots = low + (high - low) * (x + 1.0) / 2.0
+        places += [np.unique(roots[(roots > low) & (roots < high)]), np.array([high])]
+    return np.concatenate(places[:-1])
+
+
+def _parts(
+    function: Callable[[Array], Array], ends: tuple[float, float], count: int | None = None, depth: int = 0
+) -> Iterator[tuple[float, float, Array | None]]:
+    """Ends of parts in which a function is smooth, with its series there; None where no short part is smooth."""
+    series, (low, high) = series_between(function, ends, count), ends
+    if series is not None or depth >= _DEEPEST:
+        yield low, high, series
+        return
     middle = (low + high) / 2.0
-    halves = [roots_between(function, half, depth + 1) for half in ((low, middle), (middle, high))]
-    return np.concatenate([halves[0], [middle], halves[1]])
+    yield from _parts(function, (low, middle), None, depth + 1)
+    yield from _parts(function, (middle, high), None, depth + 1)
 
 
 def cut_at_roots(function: Callable[[float, float], Callable[[Array], Array]], edges: list[float]) -> list[float]:

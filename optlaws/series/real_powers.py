@@ -9,7 +9,7 @@ from math import inf, log
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.series.halving import halved
+from optlaws.series.bisection import bisect
 from optlaws.series.tolerances import SAME_EXPONENT
 
 Array = NDArray[np.float64]
@@ -107,7 +107,7 @@ def roots(powers: Sum, low: float, high: float) -> list[float]:
     heights = [_at(divided, v) for v in marks]
     zeros = [v for v, height in zip(marks[1:-1], heights[1:-1], strict=True) if height == 0.0]
     zeros += [
-        sum(halved(partial(_same_sign, divided, before), start, end)) / 2.0
+        sum(bisect(partial(_same_sign, divided, before), start, end)) / 2.0
         for start, end, before, after in zip(marks, marks[1:], heights, heights[1:], strict=False)
         if before * after < 0.0
     ]

@@ -84,3 +84,4 @@ CONVERGENCE_RADIUS = 1e-3  # of a length: a smaller radius of convergence is of 
 TOP_REACHED = 1e-10  # of B: velocities so near count as B
 TOP_STEP = 1e-6  # of a law: the first step along its top
 TOP_POINT = 1e-4  # a narrower top is a point: b - B is of the fourth order in it
+LOOKS_EQUAL = 1e-4  # of the highest peak in a picture: others that are so near look as high

@@ -24,7 +24,7 @@ TESTS: dict[str, tuple[str, ...]] = {
     ),
     "optlaws.series.chebyshev": SERIES,
     "optlaws.series.exact": ("tests/laws/test_polynomial.py", *LAWS),
-    "optlaws.series.halving": ("tests/laws/test_savin.py", *LAWS),
+    "optlaws.series.bisection": ("tests/laws/test_savin.py", *LAWS),
     "optlaws.series.panels": SERIES,
     "optlaws.laws.curve": LAWS,
     "optlaws.laws.law": LAWS,

@@ -1,4 +1,4 @@
-"""The one transform, root finder and halving of the library: against mpmath, scipy and numpy."""
+"""The one transform, root finder and bisection of the library: against mpmath, scipy and numpy."""
 
 import mpmath  # type: ignore[import-untyped] # ships no types
 import numpy as np
@@ -8,7 +8,7 @@ from scipy.special import j0, j1, jn_zeros
 
 from optlaws.errors import InputError
 from optlaws.series import chebyshev
-from optlaws.series.halving import halved
+from optlaws.series.bisection import bisect
 from optlaws.series.panels import Panels, equal, integral, of_waves, resolved
 
 Array = NDArray[np.float64]
@@ -80,6 +80,6 @@ def test_squares_of_waves(frequency: float) -> None:
 
 
 def test_halving_ends_with_neighbours_or_where_it_is_told() -> None:
-    inside, outside = halved(lambda x: x < 1.0 / 3.0, 0.0, 1.0)
+    inside, outside = bisect(lambda x: x < 1.0 / 3.0, 0.0, 1.0)
     assert inside < 1.0 / 3.0 <= outside == np.nextafter(inside, 1.0)
-    assert halved(lambda x: x > 1.0 / 3.0, 1.0, 0.0, halvings=3) == (0.375, 0.25)
+    assert bisect(lambda x: x > 1.0 / 3.0, 1.0, 0.0, halvings=3) == (0.375, 0.25)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from optlaws.balancing.levers.lever import TorsionLever
 from optlaws.errors import InputError, OptlawsError
-from optlaws.series.halving import halved
+from optlaws.series.bisection import bisect
 from optlaws.series.tolerances import LINKAGE_MET, SAME_LINKAGE
 
 Array = NDArray[np.float64]
@@ -85,7 +85,7 @@ def _samples(line: Line) -> tuple[Array, Array]:
 
 
 def _edge(line: Line, inside: float, outside: float) -> float:
-    return float(halved(lambda length: bool(np.isfinite(line.value(length))), inside, outside, _HALVINGS)[0])
+    return float(bisect(lambda length: bool(np.isfinite(line.value(length))), inside, outside, _HALVINGS)[0])
 
 
 def within(

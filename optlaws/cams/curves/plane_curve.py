@@ -14,6 +14,7 @@ from optlaws.numbers import derivative, finite, real_times, whole
 from optlaws.series import chebyshev
 from optlaws.series.enclosures.interval_arrays import Interval
 from optlaws.series.enclosures.jets import Jet, Pair
+from optlaws.series.tolerances import ROUNDOFF
 
 Array = NDArray[np.float64]
 

@@ -13,11 +13,11 @@ from optlaws.cams.cutting.outline import Outline
 from optlaws.cams.cutting.spline import Spline, spline
 from optlaws.errors import InputError
 from optlaws.files.writing import MARK
+from optlaws.series.bisection import bisect_each
 
 Array = NDArray[np.float64]
 
 _SAMPLES = 7201
-_HALVINGS = 60
 
 
 def as_points(outline: Outline, options: Cutting) -> str:
@@ -78,15 +78,12 @@ def _met(outline: Outline, bearings: Array) -> Array:
     first = float(np.arctan2(points[0, 1], points[0, 0]))
     turns = np.mod(sign * (bearings - first), tau)
     which = np.clip(np.searchsorted(swept, turns, side="right") - 1, 0, _SAMPLES - 2)
-    return _halved(outline, angles[which], angles[which + 1], bearings, sign)
 
+    def before(angle: Array) -> NDArray[np.bool_]:
+        x, y = outline(angle).T
+        return np.asarray(~(sign * (y * np.cos(bearings) - x * np.sin(bearings)) > 0.0))
 
-def _halved(outline: Outline, low: Array, high: Array, bearings: Array, sign: float) -> Array:
-    for _ in range(_HALVINGS):
-        middle = 0.5 * (low + high)
-        points = outline(middle)
-        beyond = sign * (points[:, 1] * np.cos(bearings) - points[:, 0] * np.sin(bearings)) > 0.0
-        low, high = np.where(beyond, low, middle), np.where(beyond, middle, high)
+    low, high = bisect_each(before, angles[which], angles[which + 1])
     return 0.5 * (low + high)
 
 

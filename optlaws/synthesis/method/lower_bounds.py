@@ -20,7 +20,7 @@ from numpy.polynomial.chebyshev import chebpts2
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
-from optlaws.series.halving import halved
+from optlaws.series.bisection import bisect
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Family, NormFamily, Program
 from optlaws.synthesis.families.names import at_least
@@ -275,5 +275,5 @@ def _without(problem: Problem, constant: Functional) -> Problem:
 
 def _met(value: Callable[[Array], float], low: float, short: Array, beyond: Array) -> Array:
     """On the way from a law with too little to one with enough, the first found that has enough: by halving."""
-    _, share = halved(lambda share: value(short + share * (beyond - short)) < low, 0.0, 1.0, _HALVINGS)
+    _, share = bisect(lambda share: value(short + share * (beyond - short)) < low, 0.0, 1.0, _HALVINGS)
     return short + share * (beyond - short)

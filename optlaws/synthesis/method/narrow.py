@@ -14,7 +14,7 @@ from math import isfinite
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.series.halving import halved
+from optlaws.series.bisection import bisect
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import NormFamily, Program
 from optlaws.synthesis.method.exchange import solve
@@ -87,5 +87,5 @@ def on_equations(program: Program, x: Array) -> Array:
 def _inward(near: Array, roomy: Array, excess: Callable[[Array], float]) -> Array:
     """The nearest to `near`, on the way to `roomy`, that breaks no bound by more than `roomy` does."""
     allowed = excess(roomy)
-    share, _ = halved(lambda share: excess(roomy + share * (near - roomy)) <= allowed, 0.0, 1.0, _HALVINGS)
+    share, _ = bisect(lambda share: excess(roomy + share * (near - roomy)) <= allowed, 0.0, 1.0, _HALVINGS)
     return np.asarray(roomy + share * (near - roomy))
