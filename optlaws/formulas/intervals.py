@@ -1,4 +1,9 @@
-"""Between which values a formula stays while its names stay between theirs: interval arithmetic, many boxes at once."""
+"""Between which values a formula stays while its names stay between theirs: interval arithmetic, many boxes at once.
+
+Intervals are known by their ends, since boxes may have no bound on one side; functions in narrow cells have the
+middles and radii of `optlaws.series.enclosures`. Every operation is rounded outward by itself: terms that cancel each
+other would else leave less than what they are rounded by.
+"""
 
 from __future__ import annotations
 
@@ -18,6 +23,7 @@ from optlaws.series.tolerances import OPERATIONS_ROUNDING
 Array = NDArray[np.float64]
 
 _PARTS = 256
+_MOST_ANGLE = 2.0**24
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,17 +37,18 @@ class Interval:
         return Interval(-self.high, -self.low)
 
     def __add__(self, other: Interval) -> Interval:
-        return Interval(self.low + other.low, self.high + other.high)
+        with np.errstate(invalid="ignore"):
+            return Interval(self.low + other.low, self.high + other.high).outward()
 
     def __mul__(self, other: Interval) -> Interval:
         with np.errstate(invalid="ignore"):
             ends = [low * two for low in (self.low, self.high) for two in (other.low, other.high)]
         # nothing times whatever is nothing
         ends = [np.where(np.isnan(end), 0.0, end) for end in ends]
-        return Interval(np.minimum.reduce(ends), np.maximum.reduce(ends))
+        return Interval(np.minimum.reduce(ends), np.maximum.reduce(ends)).outward()
 
     def outward(self) -> Interval:
-        """A little wider, for rounding; exact zeros and ones stay."""
+        """A little wider, for the rounding of an operation; a sum or a product that is 0 is exact, and stays."""
         sizes = (np.where(np.isfinite(end), OPERATIONS_ROUNDING * np.abs(end), 0.0) for end in (self.low, self.high))
         below, above = sizes
         return Interval(self.low - below, self.high + above)
@@ -75,9 +82,9 @@ def enclosed(formula: Formula, names: Mapping[str, Interval]) -> Interval:
     if isinstance(formula, Negative):
         return -parts[0]
     if isinstance(formula, Sum):
-        return reduce(lambda total, other: total + other, parts).outward()
+        return reduce(lambda total, other: total + other, parts)
     if isinstance(formula, Product):
-        return reduce(lambda product, other: product * other, parts).outward()
+        return reduce(lambda product, other: product * other, parts)
     if isinstance(formula, Reciprocal):
         return _reciprocal(parts[0])
     if isinstance(formula, Power):
@@ -133,7 +140,7 @@ def _table(table: Table, at: Interval) -> Interval:
         # the first and the last piece go on beyond the table
         start, stop = (-np.inf if i == 0 else places[i]), (np.inf if i == len(rows) - 1 else places[i + 1])
         met = (at.low <= stop) & (at.high >= start)
-        s = Interval(np.maximum(at.low, start) - places[i], np.minimum(at.high, stop) - places[i])
+        s = Interval(np.maximum(at.low, start), np.minimum(at.high, stop)) + between(-places[i])
         total = reduce(lambda sum_, value: between(value) + sum_ * s, row[::-1].tolist(), between(0.0))
         lows = np.where(met, np.minimum(lows, total.low), lows)
         highs = np.where(met, np.maximum(highs, total.high), highs)
@@ -158,17 +165,17 @@ def _call(function: str, parts: list[Interval]) -> Interval:
         same = np.floor(first.low / pi + 0.5) == np.floor(first.high / pi + 0.5)
         tangents = first.through(np.tan)
         return Interval(np.where(same, tangents.low, -np.inf), np.where(same, tangents.high, np.inf))
-    quarter = pi / 2.0 if function == "sin" else 0.0
-    return _wave(Interval(first.low - quarter, first.high - quarter))
+    return _cosine(first + -between(pi / 2.0).outward() if function == "sin" else first)
 
 
-def _wave(turn: Interval) -> Interval:
-    """The range of a cosine."""
+def _cosine(turn: Interval) -> Interval:
+    """The range of a cosine; of so large an angle that its turns are rounded nothing is known."""
     with np.errstate(invalid="ignore"):
         ends = [np.cos(turn.low), np.cos(turn.high)]
     top = np.floor(turn.high / (2 * pi)) * 2 * pi >= turn.low
     bottom = np.floor((turn.high - pi) / (2 * pi)) * 2 * pi + pi >= turn.low
-    return Interval(np.where(bottom, -1.0, np.minimum(*ends)), np.where(top, 1.0, np.maximum(*ends)))
+    large = np.maximum(np.abs(turn.low), np.abs(turn.high)) > _MOST_ANGLE
+    return Interval(np.where(bottom | large, -1.0, np.minimum(*ends)), np.where(top | large, 1.0, np.maximum(*ends)))
 
 
 _RISING: dict[str, Callable[[Array], Array]] = {

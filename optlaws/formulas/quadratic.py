@@ -9,7 +9,8 @@ import numpy as np
 
 from optlaws.formulas.intervals import Interval, enclosed
 from optlaws.formulas.slopes import added, constant, multiplied, opposite
-from optlaws.formulas.tree import Formula, Name, Negative, Number, Power, Product, Reciprocal, Sum
+from optlaws.formulas.tree import Formula, Name, Negative, Number, Power, Product, Sum
+from optlaws.series.tolerances import OPERATIONS_ROUNDING
 
 #: factors of products of names: none, one or two of them, sorted
 Terms = dict[tuple[str, ...], Formula]
@@ -41,8 +42,6 @@ def quadratic(formula: Formula, names: Collection[str], most: int = _MOST) -> Te
         if exponent is None or not 0.0 <= exponent <= most or exponent % 1.0:
             return None
         return _product([{(): Number(1.0)}, *[quadratic(formula.base, names, most)] * int(exponent)], most)
-    if isinstance(formula, Reciprocal):
-        return None
     return None
 
 
@@ -95,7 +94,8 @@ def _widely(entries: Mapping[tuple[int, int], Interval], size: int, sign: int) -
         reach[:, i, j] = reach[:, j, i] = half * (entry.high - entry.low) / 2.0
     if not np.isfinite(middles).all() or not np.isfinite(reach).all():
         return False
-    least = np.linalg.eigvalsh(middles)[:, 0] - np.linalg.norm(reach, axis=(1, 2))
+    sizes = np.linalg.norm(middles, axis=(1, 2)) + np.linalg.norm(reach, axis=(1, 2))
+    least = np.linalg.eigvalsh(middles)[:, 0] - np.linalg.norm(reach, axis=(1, 2)) - OPERATIONS_ROUNDING * sizes
     return bool(least.min() > 0.0)
 
 

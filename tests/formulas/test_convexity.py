@@ -23,6 +23,8 @@ RULES = Judge(frozenset("bc"))
         ("-(c - b)^2", "concave"),
         ("k*(1 - k)*c^2", "convex"),
         ("(k - 0.5)*c^2", "not known to be convex"),
+        # what cancels is rounded, and with it the sign
+        ("(k - 0.5 + 1e17 - 1e17)*c^2", "not known to be convex"),
         ("b*c", "not known to be convex"),
         ("a*c", "not known to be convex"),
         ("c^2 + b*c + b^2", "convex"),

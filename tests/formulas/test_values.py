@@ -46,6 +46,16 @@ def test_every_arithmetic_agrees_with_python(batch: int) -> None:
         assert around.low <= wanted <= around.high
 
 
+@pytest.mark.parametrize("written", ["k + 1e17 - 1e17", "k*1e-9*1e9", "sin(3e5*k)", "cos(1e12*k)", "k*3/3 - k/7*7"])
+@pytest.mark.parametrize("k", [0.1, 0.7, 1.0])
+def test_bounds_hold_what_rounding_loses(written: str, k: float) -> None:
+    formula, box = read(written), Interval(np.array(k), np.array(k))
+    around = enclosed(formula, {"k": box})
+    with mpmath.workdps(60):
+        value = evaluate(formula, {"k": mpmath.mpf(k)}, mpmath_arithmetic())
+        assert mpmath.mpf(float(around.low)) <= value <= mpmath.mpf(float(around.high))
+
+
 def test_slopes_are_those_of_differences() -> None:
     checked = 0
     for seed in range(200):
