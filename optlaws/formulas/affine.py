@@ -25,13 +25,13 @@ class Affine:
     rest: Formula
 
     def scaled(self, by: Formula) -> Affine:
-        """Times a formula without the names."""
+        """The affine form times a formula without the names."""
         return Affine(
             tuple((name, multiplied([by, factor])) for name, factor in self.factors), multiplied([by, self.rest])
         )
 
     def opposite(self) -> Affine:
-        """With every sign turned."""
+        """The affine form with every sign turned."""
         return Affine(tuple((name, opposite(factor)) for name, factor in self.factors), opposite(self.rest))
 
 

@@ -174,7 +174,7 @@ NUMPY = Arithmetic(
 
 @lru_cache(maxsize=1)
 def casadi_arithmetic() -> Arithmetic:
-    """CasADi's symbols."""
+    """The arithmetic of CasADi's symbols."""
     import casadi as ca
 
     def table(lookup: Table, at: Any) -> Any:  # noqa: ANN401 - a symbol

@@ -100,7 +100,8 @@ def knots(formula: Formula, names: Collection[str]) -> tuple[list[Formula], list
     ([b, c], [abs(b) - 1 - c, abs(b) - 1])
     """
     several = switches(formula, names)
-    return [one for one in several if not switches(one, names)], [one for one in several if switches(one, names)]
+    inner = {switch: bool(switches(switch, names)) for switch in several}
+    return [switch for switch in several if not inner[switch]], [switch for switch in several if inner[switch]]
 
 
 def branch_at(formula: Formula, names: Mapping[str, float]) -> Formula:

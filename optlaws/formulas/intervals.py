@@ -60,7 +60,7 @@ class Interval:
 
 
 def between(value: float) -> Interval:
-    """A single number."""
+    """The interval that holds a single number."""
     return Interval(np.array(value), np.array(value))
 
 

@@ -57,17 +57,17 @@ def semidefinite(formula: Formula, names: Collection[str], within: Mapping[str, 
     form = quadratic(formula, names)
     if form is None:
         return False
-    kept = sorted({name for key in form if len(key) == _MOST for name in key})
+    variables = sorted({name for key in form if len(key) == _MOST for name in key})
     entries = {
         (i, j): form.get((first, other), Number(0.0))
-        for i, first in enumerate(kept)
-        for j, other in enumerate(kept)
+        for i, first in enumerate(variables)
+        for j, other in enumerate(variables)
         if i <= j
     }
     values = {place: constant(entry) for place, entry in entries.items()}
     if None not in values.values():
-        return _exactly({place: sign * Fraction(value or 0.0) for place, value in values.items()}, len(kept))
-    return _widely({place: enclosed(entry, within) for place, entry in entries.items()}, len(kept), sign)
+        return _exactly({place: sign * Fraction(value or 0.0) for place, value in values.items()}, len(variables))
+    return _widely({place: enclosed(entry, within) for place, entry in entries.items()}, len(variables), sign)
 
 
 def _exactly(entries: Mapping[tuple[int, int], Fraction], size: int) -> bool:

@@ -97,7 +97,7 @@ class Scanner:
 
     @property
     def token(self) -> Token:
-        """The next token."""
+        """The next token of the text."""
         return self.tokens[self._at]
 
     @property

@@ -142,8 +142,8 @@ def opposite(formula: Formula) -> Formula:
 
 def added(terms: list[Formula]) -> Formula:
     """The sum without what is 0."""
-    kept = [term for term in terms if term != _ZERO]
-    return total(kept) if kept else _ZERO
+    nonzero = [term for term in terms if term != _ZERO]
+    return total(nonzero) if nonzero else _ZERO
 
 
 def scaled(formula: Formula, factor: float) -> Formula:
@@ -177,6 +177,5 @@ def multiplied(factors: list[Formula]) -> Formula:
             others.append(bare)
     if value == 0.0:
         return _ZERO
-    kept = others if value == 1.0 and others else [Number(value), *others]
-    derivative = product(kept)
-    return Negative(derivative) if minus else derivative
+    result = product(others if value == 1.0 and others else [Number(value), *others])
+    return Negative(result) if minus else result

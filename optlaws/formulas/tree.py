@@ -26,7 +26,7 @@ class Formula:
 
     @property
     def parts(self) -> tuple[Formula, ...]:
-        """What it is made of."""
+        """The formulas that it is made of."""
         return ()
 
     def walk(self) -> Iterator[Formula]:
@@ -36,7 +36,7 @@ class Formula:
             yield from part.walk()
 
     def names(self) -> frozenset[str]:
-        """The names in it."""
+        """The names that occur anywhere in it."""
         return frozenset(part.name for part in self.walk() if isinstance(part, Name))
 
     def within(self, level: int) -> str:
@@ -69,16 +69,22 @@ class Name(Formula):
 
 
 @dataclass(frozen=True, repr=False)
-class Negative(Formula):
-    """The opposite."""
+class OfOnePart(Formula):
+    """What is made of a single part."""
 
     of: Formula
-    level = _SUM
 
     @property
     def parts(self) -> tuple[Formula, ...]:
-        """The one part."""
+        """The single part that it is made of."""
         return (self.of,)
+
+
+@dataclass(frozen=True, repr=False)
+class Negative(OfOnePart):
+    """A part with its sign turned."""
+
+    level = _SUM
 
     def __str__(self) -> str:
         return f"-{self.of.within(_PRODUCT)}"
@@ -93,7 +99,7 @@ class Sum(Formula):
 
     @property
     def parts(self) -> tuple[Formula, ...]:
-        """The terms."""
+        """The terms of the sum."""
         return self.terms
 
     def __str__(self) -> str:
@@ -107,16 +113,10 @@ class Sum(Formula):
 
 
 @dataclass(frozen=True, repr=False)
-class Reciprocal(Formula):
+class Reciprocal(OfOnePart):
     """One divided by a part; within a product, what is divided by."""
 
-    of: Formula
     level = _PRODUCT
-
-    @property
-    def parts(self) -> tuple[Formula, ...]:
-        """The one part."""
-        return (self.of,)
 
     def __str__(self) -> str:
         return f"1/{self.of.within(_SIGNED)}"
@@ -131,7 +131,7 @@ class Product(Formula):
 
     @property
     def parts(self) -> tuple[Formula, ...]:
-        """The factors."""
+        """The factors of the product."""
         return self.factors
 
     def __str__(self) -> str:
@@ -152,7 +152,7 @@ class Power(Formula):
 
     @property
     def parts(self) -> tuple[Formula, ...]:
-        """Base and exponent."""
+        """The base and the exponent."""
         return self.base, self.exponent
 
     def __str__(self) -> str:
@@ -168,7 +168,7 @@ class Call(Formula):
 
     @property
     def parts(self) -> tuple[Formula, ...]:
-        """The arguments."""
+        """The arguments of the function."""
         return self.arguments
 
     def __str__(self) -> str:
@@ -176,23 +176,17 @@ class Call(Formula):
 
 
 @dataclass(frozen=True, repr=False)
-class Table(Formula):
+class Table(OfOnePart):
     """A function of one part, given by values at places: straight lines between them, which go on beyond them.
 
     With `smooth` it is the cubic spline through them (not a knot), which goes on as well. Of an order above 0 it is
     that derivative, with the order in its text: spline1(a, ...).
     """
 
-    of: Formula
     places: tuple[float, ...]
     values: tuple[float, ...]
     smooth: bool = False
     order: int = 0
-
-    @property
-    def parts(self) -> tuple[Formula, ...]:
-        """The one part."""
-        return (self.of,)
 
     def __str__(self) -> str:
         pairs = (f"{plain(x)}:{plain(y)}" for x, y in zip(self.places, self.values, strict=True))
@@ -276,7 +270,7 @@ def rebuilt(formula: Formula, parts: list[Formula]) -> Formula:
         return total(parts, formula.place)
     if isinstance(formula, Product):
         return product(parts, formula.place)
-    if isinstance(formula, Negative | Reciprocal | Table):
+    if isinstance(formula, OfOnePart):
         return replace(formula, of=parts[0])
     if isinstance(formula, Power):
         return replace(formula, base=parts[0], exponent=parts[1])

@@ -70,13 +70,13 @@ def top(control: Array) -> Top:
             near = control[:, side] >= best - TIE * scale
             met.append(np.stack([rows[near], u[near], control[near, side]]))
         height = control.max(axis=1)
-        kept = height > best + OPERATIONS_ROUNDING * scale
-        above = max(above, float(height[~kept].max(initial=-np.inf)))
-        if not kept.any():
+        higher = height > best + OPERATIONS_ROUNDING * scale
+        above = max(above, float(height[~higher].max(initial=-np.inf)))
+        if not higher.any():
             break
         width /= PARTS
-        control = in_parts(control[kept])
-        rows, lows = np.repeat(rows[kept], PARTS), (lows[kept, None] + width * np.arange(PARTS)).ravel()
+        control = in_parts(control[higher])
+        rows, lows = np.repeat(rows[higher], PARTS), (lows[higher, None] + width * np.arange(PARTS)).ravel()
     else:
         above = max(above, float(control.max()))
     which, place = _first(np.concatenate(met, axis=1), best - TIE * scale)

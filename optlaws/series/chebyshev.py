@@ -121,8 +121,8 @@ def shortened(series: Array, noise: float) -> Array:
     >>> shortened(np.array([1.0, 0.0, 2.0, 1e-17]), 1e-16)
     array([1., 0., 2.])
     """
-    kept = np.flatnonzero(np.abs(series) > noise)
-    return series[: kept[-1] + 1] if len(kept) else np.zeros(1)
+    counted = np.flatnonzero(np.abs(series) > noise)
+    return series[: counted[-1] + 1] if len(counted) else np.zeros(1)
 
 
 def value(series: Array, x: Place) -> Place:
@@ -258,16 +258,16 @@ def _divided(odd: Array) -> Array:
 
 def _roots(series: Array) -> Array:
     size = np.abs(series)
-    kept = shortened(series, EPSILON * float(size.max()))
-    if len(kept) <= _LONGEST:
-        return _eigenvalues(kept)
+    counted = shortened(series, EPSILON * float(size.max()))
+    if len(counted) <= _LONGEST:
+        return _eigenvalues(counted)
     # eigenvalues cost the cube of the length, and on a half of the interval a function has a shorter series
     noise = SERIES_ROUNDING * float(size.sum())
     places = [np.array([_CUT])]
     for low, high in ((-1.0, _CUT), (_CUT, 1.0)):
-        x = low + (high - low) * (nodes(len(kept)) + 1.0) / 2.0
-        half = shortened(from_values(np.asarray(value(kept, x))), noise)
-        local = _roots(half) if len(half) < _SHORTER * len(kept) else _eigenvalues(half)
+        x = low + (high - low) * (nodes(len(counted)) + 1.0) / 2.0
+        half = shortened(from_values(np.asarray(value(counted, x))), noise)
+        local = _roots(half) if len(half) < _SHORTER * len(counted) else _eigenvalues(half)
         places.append(low + (high - low) * (local + 1.0) / 2.0)
     return np.concatenate(places)
 

@@ -54,8 +54,8 @@ def greatest_difference(first: Function, second: Function, places: Array) -> tup
         size, greatest = max(size, met), max(greatest, float(np.abs(values).max()))
         tail = np.abs(chebyshev.from_values(values.T)[-2:]).max(axis=0)
         done = tail <= max(DIFFERENCE_ROUNDING * size, DIFFERENCE_SHARE * greatest)
-        for kept, fresh in ((control, bernstein.from_values(values)), (lows, low), (highs, high)):
-            kept.append(fresh[done])
+        for gathered, fresh in ((control, bernstein.from_values(values)), (lows, low), (highs, high)):
+            gathered.append(fresh[done])
         if done.all():
             return _top(*map(partial(np.concatenate, axis=0), (control, lows, highs)))
         low, high = low[~done], high[~done]

@@ -82,7 +82,7 @@ def exact_powers(series: Sequence[Fraction]) -> list[Fraction]:
 
 
 def rounded(values: Iterable[Fraction]) -> tuple[float, ...]:
-    """The nearest floats.
+    """The floats nearest to fractions.
 
     Examples
     --------
@@ -93,7 +93,7 @@ def rounded(values: Iterable[Fraction]) -> tuple[float, ...]:
 
 
 def times(first: Polynomial, second: Polynomial) -> Polynomial:
-    """The product.
+    """The product of two polynomials.
 
     Examples
     --------
@@ -110,7 +110,7 @@ def times(first: Polynomial, second: Polynomial) -> Polynomial:
 
 
 def plus(first: Polynomial, second: Polynomial) -> Polynomial:
-    """The sum.
+    """The sum of two polynomials.
 
     Examples
     --------

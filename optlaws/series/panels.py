@@ -65,7 +65,7 @@ class Panels:
         return _places(low, high, polished(np.concatenate(roots), residual)) if sum(counts) else np.empty(0)
 
     def square(self, f: Function) -> float:
-        """Integral of f²."""
+        """The integral of the square of f over all panels."""
         return sum(
             (high - low) * chebyshev.mean_product(product, product)
             for (low, high), product in zip(pairwise(self.edges), self.series(f).T, strict=True)

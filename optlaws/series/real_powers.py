@@ -60,7 +60,7 @@ def derivative(powers: Sum) -> dict[float, float]:
 
 
 def product(first: Sum, second: Sum) -> dict[float, float]:
-    """Product of two sums.
+    """The product of two sums of powers.
 
     Examples
     --------

@@ -118,14 +118,14 @@ def buildable(make: Callable[[str], DwellMechanism]) -> tuple[dict[str, DwellMec
     >>> [*made], [*refused]
     (['II'], ['I', 'III'])
     """
-    made: dict[str, DwellMechanism] = {}
+    built: dict[str, DwellMechanism] = {}
     refused: dict[str, InputError] = {}
     for kind in KINDS:
         try:
-            made[kind] = make(kind)
+            built[kind] = make(kind)
         except InputError as error:
             refused[kind] = error
-    return made, refused
+    return built, refused
 
 
 def _compared(
@@ -135,16 +135,16 @@ def _compared(
         number = real(limit)
         if number is None or not number > 0.0:
             raise InputError(f"{name} must be positive, got {shortened(limit)}")
-    made, refused = buildable(make)
-    if not made:
+    built, refused = buildable(make)
+    if not built:
         raise refused[KINDS[-1]]
     reasons = {
-        kind: _reason(made[kind], most_torque, most_size) if kind in made else f"cannot be built: {refused[kind]}"
+        kind: _reason(built[kind], most_torque, most_size) if kind in built else f"cannot be built: {refused[kind]}"
         for kind in KINDS
     }
-    usable = [mechanism for kind, mechanism in made.items() if reasons[kind].startswith("yes")]
+    usable = [mechanism for kind, mechanism in built.items() if reasons[kind].startswith("yes")]
     chosen = min(usable, key=lambda mechanism: (mechanism.a, mechanism.b)).kind if usable else None
-    return DwellComparison(made, reasons, chosen, by_rule)
+    return DwellComparison(built, reasons, chosen, by_rule)
 
 
 def least_dwell(mechanism: DwellMechanism, most_torque: float, *, half_turn: bool = True) -> float:

@@ -142,39 +142,39 @@ class Clutch:
         """
         whole(p, "the whole number p")
         mechanism = self.mechanism
-        wanted = p / whole(N, "the whole number N", least=1)
-        share = wanted / self.ratio if self.ratio else inf
+        target = p / whole(N, "the whole number N", least=1)
+        share = target / self.ratio if self.ratio else inf
         possible = 0.0 < share < inf
         return Teeth(
             p=p,
             N=N,
-            error=(self.ratio - wanted) * tau,
+            error=(self.ratio - target) * tau,
             swing=mechanism.swing * share if possible else None,
-            dwell=self._exact_dwell(wanted) if possible else None,
+            dwell=self._exact_dwell(target) if possible else None,
             rise=mechanism.rise / share if possible else None,
-            B2=self._exact_B2(wanted) if mechanism.kind == "III" else None,
+            B2=self._exact_B2(target) if mechanism.kind == "III" else None,
         )
 
     @property
     def _dwell(self) -> float:
         return self.mechanism.lower_dwell if self.lower else self.mechanism.dwell
 
-    def _exact_dwell(self, wanted: float) -> float | None:
+    def _exact_dwell(self, target: float) -> float | None:
         """p/N is linear in the dwell: for type II without a constant, for III beginning at its angles of rest."""
         mechanism = self.mechanism
         turn = mechanism.swing * mechanism.speed / tau
         if mechanism.kind == "II":
-            return wanted / turn
+            return target / turn
         slack = 1.0 - 1.0 / peak_velocity(mechanism.law_2)
         still = mechanism.free(self._dwell) - mechanism.phi2
         if slack == 0.0:
             return None
-        dwell = 2.0 * mechanism.clutch_angle + still + (wanted / turn - still) / slack
+        dwell = 2.0 * mechanism.clutch_angle + still + (target / turn - still) / slack
         return dwell if dwell > 2.0 * mechanism.clutch_angle + still else None
 
-    def _exact_B2(self, wanted: float) -> float | None:
+    def _exact_B2(self, target: float) -> float | None:
         mechanism = self.mechanism
-        left = (self.loader_turn - wanted * tau) / (mechanism.swing * mechanism.speed * mechanism.phi2)
+        left = (self.loader_turn - target * tau) / (mechanism.swing * mechanism.speed * mechanism.phi2)
         return 1.0 / left if 0.0 < left < 1.0 else None
 
 

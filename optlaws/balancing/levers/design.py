@@ -32,7 +32,7 @@ QUANTITIES: Mapping[str, Callable[[TorsionLever], float]] = {
 
 
 def find_torsion_levers(
-    wanted: Mapping[str, float],
+    targets: Mapping[str, float],
     *,
     rho: float,
     nu: float,
@@ -42,22 +42,22 @@ def find_torsion_levers(
     least_transmission: float = LEAST_TRANSMISSION,
     most_rocker_swing: float = MOST_ROCKER_SWING,
 ) -> tuple[TorsionLever, ...]:
-    """All levers with a wanted constant, or two of them, of the exact motion.
+    """All levers whose exact motion has a constant of a given value, or two of them.
 
     Parameters
     ----------
-    wanted
+    targets
         Values by name: B1, B3, B1/B3, C1, C3, C1/C3, T (in units of sqrt(I / c1)), T/T0, zeta, xi.
     rho, nu, swing
         As of `TorsionLever`; swing in radians.
     beta, lam
-        A number, or the range in which it is sought: as many ranges as there are wanted values.
+        A number, or the range in which it is sought: as many ranges as there are targets.
     least_transmission, most_rocker_swing
         Limits, as of `TorsionLever`; radians.
 
     Returns
     -------
-    The levers in the order of what is sought; at least one. With two wanted values, those that a search from several
+    The levers in the order of what is sought; at least one. With two targets, those that a search from several
     starts found.
 
     Raises
@@ -72,24 +72,24 @@ def find_torsion_levers(
     >>> round(lever.beta, 6), round(lever.exact.B1 / lever.exact.B3, 9)
     (0.717435, 0.99)
     """
-    for name, value in wanted.items():
+    for name, value in targets.items():
         if name not in QUANTITIES:
             raise InputError(unknown_key(name, QUANTITIES, "wanted constant"))
         finite(value, name)
     spans = {"beta": beta, "lam": lam}
     sought = {name: _span(name, span) for name, span in spans.items() if isinstance(span, tuple)}
-    if len(sought) != len(wanted):
+    if len(sought) != len(targets):
         raise InputError(
-            f"as many of beta and lam must be ranges as there are wanted values: {len(wanted)} wanted "
-            f"({', '.join(wanted) or 'none'}), {len(sought)} sought ({', '.join(sought) or 'none'})"
+            f"as many of beta and lam must be ranges as there are targets: {len(targets)} targets "
+            f"({', '.join(targets) or 'none'}), {len(sought)} sought ({', '.join(sought) or 'none'})"
         )
     fixed = {name: span for name, span in spans.items() if not isinstance(span, tuple)}
     limits = {"least_transmission": least_transmission, "most_rocker_swing": most_rocker_swing}
     make = partial(TorsionLever, rho=rho, nu=nu, swing=swing, **fixed, **limits)
-    if len(wanted) == 1:
-        ((quantity, value),), ((name, span),) = wanted.items(), sought.items()
+    if len(targets) == 1:
+        ((quantity, value),), ((name, span),) = targets.items(), sought.items()
         return along(Line(make, name, span, quantity, QUANTITIES[quantity]), value)
-    return within(make, sought, {name: (QUANTITIES[name], value) for name, value in wanted.items()})
+    return within(make, sought, {name: (QUANTITIES[name], value) for name, value in targets.items()})
 
 
 def _span(name: str, span: tuple[float, ...]) -> tuple[float, float]:

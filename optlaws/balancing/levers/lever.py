@@ -92,7 +92,7 @@ class TorsionLever:
 
     @kept_property
     def linkage(self) -> FourBar:
-        """The four-bar linkage."""
+        """The four-bar linkage between rocker and driven link."""
         return FourBar(self.beta, self.lam)
 
     @kept_property
@@ -215,7 +215,8 @@ class TorsionLever:
         (-0.001482, 0.000417)
         """
         names = {"T": "period"} | {name: name for name in ("chi01", "chi02", "zeta", "B1", "B3", "C1", "C3")}
-        off = {name: getattr(self.asymptotic, kept) / getattr(self.exact, kept) - 1.0 for name, kept in names.items()}
+        pairs = {name: [getattr(half, key) for half in (self.asymptotic, self.exact)] for name, key in names.items()}
+        off = {name: near / exact - 1.0 for name, (near, exact) in pairs.items()}
         k = np.linspace(0.0, 1.0, 801)
         apart = np.abs(self.asymptotic.halves.a(k) - self.exact.halves.a(k))
         return {**off, "max |da|": float(apart.max())}

@@ -22,7 +22,7 @@ class Limited(Protocol):
 
     @property
     def linkage(self) -> FourBar:
-        """The linkage."""
+        """The four-bar linkage of the lever."""
         ...
 
     @property

@@ -77,7 +77,7 @@ class LeverMotion:
 
     @property
     def swing(self) -> float:
-        """chi01 - chi02, radians."""
+        """The swing between the extremes, chi01 - chi02, radians."""
         return self.chi01 - self.chi02
 
     @kept_property

@@ -89,9 +89,9 @@ def _edge(line: Line, inside: float, outside: float) -> float:
 
 
 def within(
-    make: Make, spans: Mapping[str, tuple[float, float]], wanted: Mapping[str, tuple[Quantity, float]]
+    make: Make, spans: Mapping[str, tuple[float, float]], goals: Mapping[str, tuple[Quantity, float]]
 ) -> tuple[TorsionLever, ...]:
-    """Levers with several constants of wanted values, searched from the best of a grid of lengths.
+    """Levers with several constants of given values, searched from the best of a grid of lengths.
 
     Raises
     ------
@@ -102,14 +102,14 @@ def within(
 
     names = list(spans)
     low, high = np.log(np.array(list(spans.values()))).T
-    targets = np.array([value for _, value in wanted.values()])
+    targets = np.array([value for _, value in goals.values()])
 
     def lever(logs: Array) -> TorsionLever:
         return make(**dict(zip(names, np.exp(logs).tolist(), strict=True)))
 
     def values(logs: Array) -> Array:
         try:
-            return np.array([quantity(lever(logs)) for quantity, _ in wanted.values()])
+            return np.array([quantity(lever(logs)) for quantity, _ in goals.values()])
         except OptlawsError:
             return np.full(len(targets), np.nan)
 
@@ -117,7 +117,7 @@ def within(
     reached = np.array([values(point) for point in grid])
     known = np.isfinite(reached).all(axis=1)
     if not known.any():
-        next(iter(wanted.values()))[0](lever(0.5 * (low + high)))  # raises, and says which limit it is
+        next(iter(goals.values()))[0](lever(0.5 * (low + high)))  # raises, and says which limit it is
     grid, reached = grid[known], reached[known]
     scale = np.maximum(np.ptp(reached, axis=0), LINKAGE_MET)
 
@@ -133,14 +133,14 @@ def within(
             solved.append(end)
     if not solved:
         best = min(ends, key=lambda end: float(np.abs(miss(end)).max()))
-        near = ", ".join(f"{name} = {value:.6g}" for name, value in zip(wanted, values(best), strict=True))
+        near = ", ".join(f"{name} = {value:.6g}" for name, value in zip(goals, values(best), strict=True))
         at = ", ".join(f"{name} = {length:.5g}" for name, length in zip(names, np.exp(best), strict=True))
         reach = ", ".join(
             f"{name} from {least:.6g} to {most:.6g}"
-            for name, least, most in zip(wanted, reached.min(axis=0), reached.max(axis=0), strict=True)
+            for name, least, most in zip(goals, reached.min(axis=0), reached.max(axis=0), strict=True)
         )
         raise InputError(
-            f"no lever has {' and '.join(f'{name} = {value:.6g}' for name, (_, value) in wanted.items())}: the nearest "
+            f"no lever has {' and '.join(f'{name} = {value:.6g}' for name, (_, value) in goals.items())}: the nearest "
             f"has {near} at {at}; alone each reaches about: {reach}"
         )
     return tuple(lever(point) for point in sorted(solved, key=lambda point: float(point[0])))

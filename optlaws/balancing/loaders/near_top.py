@@ -66,8 +66,8 @@ class Germ:
         values = np.array(self.coefficients)
         for i in range(order):
             values = values * (powers - i)
-        kept = np.flatnonzero(values)
-        lead = int(kept[0]) if len(kept) else 0
+        nonzero = np.flatnonzero(values)
+        lead = int(nonzero[0]) if len(nonzero) else 0
         return float(powers[lead] - order), values[lead:]
 
 
@@ -165,6 +165,6 @@ def _differentiated(coefficients: tuple[float, ...], step: float, t: Array, orde
     values = np.array(coefficients)
     for i in range(order):
         values = values * (powers - i)
-    kept = np.flatnonzero(values)
-    lead = int(kept[0]) if len(kept) else 0
+    nonzero = np.flatnonzero(values)
+    lead = int(nonzero[0]) if len(nonzero) else 0
     return np.asarray(t ** (powers[lead] - order) * np.polynomial.polynomial.polyval(t**step, values[lead:]))

@@ -67,7 +67,7 @@ class BalancedLaw:
         return (self.objective - self.lower_bound) / self.objective
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain JSON-able dict."""
+        """The result as a plain dict for JSON."""
         return {
             "status": self.status.value,
             "minimise": repr(self.minimise),
@@ -167,11 +167,11 @@ def balanced_problem(
     >>> balanced_problem(1.875, order=3, minimise="D_loader")
     Problem(B=1.875, order=3, basis=Chebyshev(degree=9), minimise='D_loader', monotone=True)
     """
-    wanted, given = objective(minimise), Chebyshev(9) if basis is None else basis
+    goal, given = objective(minimise), Chebyshev(9) if basis is None else basis
     _check_degree(given)
     loader_velocity_limit(B)
-    asked = None if most_C is None else at_most(positive(most_C, "most_C"))
-    problem = Problem(B=B, order=order, basis=given, minimise=wanted, monotone=True, C=asked)
+    limit = None if most_C is None else at_most(positive(most_C, "most_C"))
+    problem = Problem(B=B, order=order, basis=given, minimise=goal, monotone=True, C=limit)
     if problem.order < _AT_REST:
         raise InputError("order must be at least 2: the executive link starts at rest")
     return problem

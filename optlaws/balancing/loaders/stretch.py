@@ -43,7 +43,7 @@ class Stretch:
 
     @property
     def length(self) -> float:
-        """The greatest t."""
+        """The length of the stretch, the greatest t."""
         return abs(self.end - self.origin)
 
     def value(self, t: Array, order: int) -> Array:

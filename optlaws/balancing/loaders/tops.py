@@ -58,19 +58,19 @@ def tops(law: MotionLaw) -> tuple[Top, ...]:
         raise InputError(f"law must move with finite velocity to have a loader; its peak velocity B is {B:g}")
     regions = sorted(_regions(law, B, 0.0, 1.0))
     places = tuple(_narrowed(law, B, *region) for region in regions)
-    said = ", ".join(
+    at_places = ", ".join(
         f"{place.first:.6g}" if place.first == place.last else f"{place.first:.6g} to {place.last:.6g}"
         for place in places
     )
     if places[0].first <= 0.0 or places[-1].last >= 1.0:
         raise InputError(
             f"law must reach its peak velocity B = {B:.6g} inside the motion, where the loader reverses; it has it at "
-            f"k = {said}"
+            f"k = {at_places}"
         )
     if len(places) % 2 == 0:
         raise InputError(
             f"law must reach its peak velocity B = {B:.6g} an odd number of times, for the loader reverses at each; it "
-            f"does so at k = {said}"
+            f"does so at k = {at_places}"
         )
     return places
 

@@ -101,12 +101,12 @@ class TrapeziumSubstitute:
 
     @property
     def m(self) -> float:
-        """Length of the ramp."""
+        """The length of the ramp, a share of the motion."""
         return max(_lengths(self.e13, self.gamma_w)[0], 0.0)
 
     @property
     def n(self) -> float:
-        """Length of the plateau."""
+        """The length of the plateau, a share of the motion."""
         return _lengths(self.e13, self.gamma_w)[1]
 
     @property

@@ -41,7 +41,7 @@ class TorqueOverTurn(NamedTuple):
 
     @property
     def peak(self) -> float:
-        """The greatest magnitude."""
+        """The greatest magnitude of the torque."""
         return self.extremes.peak
 
 
@@ -85,7 +85,7 @@ class Balancing:
 
     @kept_property
     def load(self) -> CycleDrive:
-        """What the cycle drives."""
+        """The load that the cycle drives."""
         if self.cycle.drive is None:
             raise InputError("the cycle has no drive: give one, such as drive={'mass': '3 kg'}")
         return read_drive(self.cycle.drive, self.cycle.axis)
@@ -97,7 +97,7 @@ class Balancing:
 
     @kept_property
     def before(self) -> TorqueOverTurn:
-        """The torque without loaders."""
+        """The torque at the shaft without loaders."""
         return self._over_turn(0.0)
 
     @kept_property
@@ -174,9 +174,9 @@ class Balancing:
         def torque(angle: Interval, order: int) -> Jet:
             s = motion.jet(angle, order + 1)
             slope = s.slope()
-            held = (s * load.stiffness + load.constant) * slope + slope * slope * (load.viscous * rate)
+            resisted = (s * load.stiffness + load.constant) * slope + slope * slope * (load.viscous * rate)
             moved = motion.power(angle, order) * (load.inertia * (1.0 - share) * rate**2)
-            return moved + held + slope.magnitude() * load.dry
+            return moved + resisted + slope.magnitude() * load.dry
 
         def squared(angle: Interval, order: int) -> Jet:
             jet = torque(angle, order)

@@ -106,7 +106,7 @@ class LeverCam:
 
     @kept_property
     def angle(self) -> float:
-        """The stroke's angle, rad."""
+        """The angle of the cam during the stroke, rad."""
         angle = quantity(self.stroke, "angle", "stroke")
         if not 0.0 < angle <= pi:
             raise InputError(f"stroke must be above 0 and at most 180 deg, got {shortened(self.stroke)}")

@@ -216,12 +216,12 @@ class CamMotion:
 
     @kept_property
     def range(self) -> tuple[float, float]:
-        """Least and greatest displacement."""
+        """The least and the greatest displacement."""
         return self._extremes(0)
 
     @kept_property
     def slopes(self) -> tuple[float, float]:
-        """Least and greatest derivative by the angle."""
+        """The least and the greatest derivative by the angle."""
         return self._extremes(1)
 
     def __call__(self, angle: Any, nu: int = 0) -> Any:  # noqa: ANN401 - a number for a number, an array for arrays

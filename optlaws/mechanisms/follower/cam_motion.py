@@ -74,7 +74,7 @@ class Forcing:
 
 
 def rest(start: float, length: float, a0: float) -> Forcing:
-    """A dwell.
+    """The forcing of a cam that dwells.
 
     Examples
     --------

@@ -64,7 +64,7 @@ class CycleResponse(MassMotion):
 
     @property
     def interval(self) -> tuple[float, float]:
-        """The whole cycle."""
+        """The times at which the cycle begins and ends."""
         return 0.0, self.period
 
     def __repr__(self) -> str:

@@ -189,13 +189,13 @@ def _solved(forcing: Forcing, oscillator: Oscillator) -> list[Stretch]:
     integral = length * _integration(size)
     matrix = np.eye(size) + 2.0 * oscillator.n * integral + oscillator.nu**2 * (integral @ integral)
     coefficients: Array = np.asarray(np.linalg.solve(matrix, -load), dtype=np.float64)
-    made = []
+    solved = []
     for i in range(count):
         w = coefficients[:, i]
         v = chebyshev.integral(length * w, 0.0)
         solution = PolynomialSolution(length, (chebyshev.integral(length * v, 0.0), v, w))
-        made.append(Stretch(forcing, float(offsets[i]), length, solution, closed=False))
-    return made
+        solved.append(Stretch(forcing, float(offsets[i]), length, solution, closed=False))
+    return solved
 
 
 def _integration(size: int) -> Array:

@@ -165,9 +165,10 @@ class Dynamics:
         series = [drive.within(low, high) for low, high in parts]
         alike = _alike(lengths)
         groups = [
-            _Group(self, [series[j] for j in own], 0.5 * lengths[own[0]], edges[own[0]] * drive.length) for own in alike
+            _Group(self, [series[j] for j in members], 0.5 * lengths[members[0]], edges[members[0]] * drive.length)
+            for members in alike
         ]
-        place = {j: (group, at) for group, own in zip(groups, alike, strict=True) for at, j in enumerate(own)}
+        place = {j: (group, at) for group, members in zip(groups, alike, strict=True) for at, j in enumerate(members)}
         for i in range(len(self.roots) - 1, -1, -1):
             for group in groups:
                 group.solve(i)

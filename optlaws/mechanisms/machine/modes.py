@@ -63,7 +63,7 @@ def modes(machine: StateSpace) -> tuple[Mode, ...]:
 
 
 def mode(machine: StateSpace, number: object) -> Mode:
-    """One of them.
+    """The vibration of a machine with a given number.
 
     Raises
     ------
@@ -85,7 +85,7 @@ def mode(machine: StateSpace, number: object) -> Mode:
     return vibrations[int(number) - 1]
 
 
-def participation(machine: StateSpace, wanted: Mode, output: str) -> complex:
+def participation(machine: StateSpace, vibration: Mode, output: str) -> complex:
     """The complex amplitude of a mode in an output, over the integral of exp(root (1 - k)) b(k).
 
     Raises
@@ -96,18 +96,18 @@ def participation(machine: StateSpace, wanted: Mode, output: str) -> complex:
     from scipy.linalg import schur, solve_sylvester
 
     dynamics = machine.dynamics
-    near = SAME_ROOT * max(abs(wanted.root), 1.0)
+    near = SAME_ROOT * max(abs(vibration.root), 1.0)
     # conjugate roots are apart, so that what is sorted first is this vibration alone
-    chosen: Any = lambda root: bool(abs(root - wanted.root) <= 2.0 * near)  # noqa: E731 - the stubs know no such order
+    chosen: Any = lambda root: bool(abs(root - vibration.root) <= 2.0 * near)  # noqa: E731 - the stubs know no such order
     triangle, turn, size = schur(dynamics.triangle, output="complex", sort=chosen)
-    own, rest = triangle[:size, :size], triangle[size:, size:]
-    root = complex(np.trace(own)) / size
-    if np.abs(own - root * np.eye(size)).max() > DEFECTIVE * max(abs(root), 1.0):
+    block, rest = triangle[:size, :size], triangle[size:, size:]
+    root = complex(np.trace(block)) / size
+    if np.abs(block - root * np.eye(size)).max() > DEFECTIVE * max(abs(root), 1.0):
         raise InputError(
-            f"mode {wanted.number} is defective: one of its {size} equal vibrations drives the next, so that there is "
-            "no amplitude; ask for the peak of an output in the dwell instead"
+            f"mode {vibration.number} is defective: one of its {size} equal vibrations drives the next, so that there "
+            "is no amplitude; ask for the peak of an output in the dwell instead"
         )
-    beside = solve_sylvester(own, -rest, -triangle[:size, size:]) if len(rest) else np.zeros((size, 0))
+    beside = solve_sylvester(block, -rest, -triangle[:size, size:]) if len(rest) else np.zeros((size, 0))
     load = turn.conj().T @ dynamics.load
     driven = load[:, 0] / root + load[:, 1] + root * load[:, 2]
     part = driven[:size] - beside @ driven[size:]

@@ -101,11 +101,11 @@ class OutputConstant(Functional):
         "peak of 'speed' of a machine of 1 state, times 0 to 1.5"
         """
         first, last = self.within
-        said = [] if self.cycle is not None or self.within == (0.0, 1.0) else [f"times {first:g} to {last:g}"]
-        said += [] if self.cycle is None else ["over a cycle with dwell {:g} and rest {:g}".format(*self.cycle)]
-        said += ["steady"] if self.steady else []
-        said += [f"{self.offset:+g}"] if self.offset else []
-        return title_of(self.machine, self._what, self.output, *said)
+        words = [] if self.cycle is not None or self.within == (0.0, 1.0) else [f"times {first:g} to {last:g}"]
+        words += [] if self.cycle is None else ["over a cycle with dwell {:g} and rest {:g}".format(*self.cycle)]
+        words += ["steady"] if self.steady else []
+        words += [f"{self.offset:+g}"] if self.offset else []
+        return title_of(self.machine, self._what, self.output, *words)
 
     @property
     def duration(self) -> float:
@@ -154,8 +154,9 @@ class OutputConstant(Functional):
         """Columns of the output at Gauss points of each panel that counts, and their weights."""
         for start, length, series in self.panels(space):
             x, weights = legendre.leggauss(len(series))
-            own = start + 0.5 * length * (x + 1.0) >= self.within[0]
-            yield np.polynomial.chebyshev.chebvander(x, len(series) - 1)[own] @ series, 0.5 * length * weights[own]
+            inside = start + 0.5 * length * (x + 1.0) >= self.within[0]
+            basis = np.polynomial.chebyshev.chebvander(x, len(series) - 1)
+            yield basis[inside] @ series, 0.5 * length * weights[inside]
 
     def panels(self, space: LawSpace) -> list[tuple[float, float, Array]]:
         """Start, length and series of the output on short stretches, a column for each function of a space."""
@@ -304,8 +305,8 @@ class OutputPeak(OutputConstant):
 def _terms(series: Array) -> int:
     """How many coefficients count: short panels have more than are needed, and places are looked for by them all."""
     sizes = np.abs(series).max(axis=0)
-    kept = np.flatnonzero((sizes > NEGLIGIBLE_TERM * sizes.max(axis=0)).any(axis=1))
-    return int(kept[-1]) + 1 if len(kept) else 1
+    counted = np.flatnonzero((sizes > NEGLIGIBLE_TERM * sizes.max(axis=0)).any(axis=1))
+    return int(counted[-1]) + 1 if len(counted) else 1
 
 
 @dataclass(frozen=True, repr=False)
@@ -396,9 +397,9 @@ def output_peak(
     """
     if side not in tuple(SIDES):
         raise InputError(unknown_key(side, SIDES, "side"))
-    asked, said = asked_of_output(of, output, within=within, cycle=cycle, steady=steady, offset=offset)
-    said += [] if side == "both" else [f"side={side}"]
-    return OutputPeak(f"output_peak({', '.join(said)})", nan, convex=True, **asked, signs=SIDES[side])
+    entries, words = asked_of_output(of, output, within=within, cycle=cycle, steady=steady, offset=offset)
+    words += [] if side == "both" else [f"side={side}"]
+    return OutputPeak(f"output_peak({', '.join(words)})", nan, convex=True, **entries, signs=SIDES[side])
 
 
 def output_rms(
@@ -440,9 +441,9 @@ def output_rms(
     0.29...
     """
     within = (0.0, 1.0 + time_of(dwell, "dwell"))
-    asked, said = asked_of_output(of, output, within=within, cycle=cycle, steady=steady, offset=offset)
-    text = ", ".join(f"dwell={float(dwell)!r}" if part.startswith("within") else part for part in said)
-    return OutputRms(f"output_rms({text})", nan, convex=True, **asked)
+    entries, words = asked_of_output(of, output, within=within, cycle=cycle, steady=steady, offset=offset)
+    text = ", ".join(f"dwell={float(dwell)!r}" if part.startswith("within") else part for part in words)
+    return OutputRms(f"output_rms({text})", nan, convex=True, **entries)
 
 
 MAKERS.setdefault("output_peak", output_peak)

@@ -134,10 +134,10 @@ class OutputCurve(Curve):
 
     def _candidates(self, series: list[Array], slopes: list[Array]) -> Sides:
         places, values = [], []
-        for start, length, own, slope in zip(self.starts, self.lengths, series, slopes, strict=True):
+        for start, length, column, slope in zip(self.starts, self.lengths, series, slopes, strict=True):
             x = np.concatenate([[-1.0], np.sort(chebyshev.real_parts_of_roots(slope)), [1.0]])
             places.append(start + 0.5 * length * (x + 1.0))
-            values.append(chebyshev.value(own, x))
+            values.append(chebyshev.value(column, x))
         return np.concatenate(places), np.concatenate(values)
 
     def _mean_square(self, nu: int) -> float:

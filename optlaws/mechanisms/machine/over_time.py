@@ -122,7 +122,7 @@ class MachineMotion(ABC):
     @property
     @abstractmethod
     def _panels(self) -> list[Panel]:
-        """The machine's states."""
+        """The states of the machine, panel by panel."""
 
     @property
     @abstractmethod
@@ -333,5 +333,5 @@ def jumps(law: MotionLaw) -> list[tuple[float, float]]:
 def trimmed(series: Array) -> Array:
     """A series without the coefficients at its end that are rounding."""
     size = np.abs(series)
-    kept = np.flatnonzero(size > EPSILON * size.max())
-    return series[: kept[-1] + 1] if len(kept) else np.zeros(1)
+    counted = np.flatnonzero(size > EPSILON * size.max())
+    return series[: counted[-1] + 1] if len(counted) else np.zeros(1)

@@ -108,9 +108,9 @@ class ModeResidual(Functional):
         >>> Machine([[0, 1], [-400, -2]], [[0], [400]], [[1, 0]], outputs=["sway"]).residual(spread=0.1).title
         "residual of mode 1 in 'sway' of a machine of 2 states, within 10 %"
         """
-        said = [f"within {100.0 * self.spread:g} %"] if self.spread else []
-        said += [] if self.dampings is None else ["damping {:g} to {:g}".format(*self.dampings)]
-        return title_of(self.machine, f"residual of mode {self.mode} in", self.output, *said)
+        words = [f"within {100.0 * self.spread:g} %"] if self.spread else []
+        words += [] if self.dampings is None else ["damping {:g} to {:g}".format(*self.dampings)]
+        return title_of(self.machine, f"residual of mode {self.mode} in", self.output, *words)
 
     def value(self, law: MotionLaw) -> float:
         """The greatest over the box."""
@@ -131,13 +131,13 @@ class ModeResidual(Functional):
     @kept_property
     def edges(self) -> tuple[Edge, ...]:
         """The edges of the box; one where it is thin."""
-        own = mode(self.machine, self.mode)
-        low, high = ((1.0 + sign * self.spread) * own.frequency for sign in (-1.0, 1.0))
-        least, most = (asin(damping) for damping in self.dampings or (own.damping, own.damping))
+        vibration = mode(self.machine, self.mode)
+        low, high = ((1.0 + sign * self.spread) * vibration.frequency for sign in (-1.0, 1.0))
+        least, most = (asin(damping) for damping in self.dampings or (vibration.damping, vibration.damping))
         corners = [(low, least), (high, least), (high, most), (low, most)]
         sides = [Edge(*sorted((a, b))) for a, b in zip(corners, [*corners[1:], corners[0]], strict=True)]
-        kept = list(dict.fromkeys(side for side in sides if not side.single)) or [Edge(corners[0], corners[0])]
-        return tuple(kept)
+        counted = list(dict.fromkeys(side for side in sides if not side.single)) or [Edge(corners[0], corners[0])]
+        return tuple(counted)
 
     def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConeFamily, ...]:
         """One cone for each place of each edge. In units of the bound, or of what the base law leaves."""
@@ -178,9 +178,9 @@ class ModeResidual(Functional):
         velocities = weights[:, None] * family.columns(places)[0]
         transforms = self.share * (np.exp(roots[:, None] * (1.0 - k)) @ velocities)
         series = chebyshev.from_values(transforms)
-        kept = np.flatnonzero(np.abs(series).max(axis=1) > NEGLIGIBLE_TERM * np.abs(series).max())
+        counted = np.flatnonzero(np.abs(series).max(axis=1) > NEGLIGIBLE_TERM * np.abs(series).max())
         # an output may not see the mode at all
-        return np.ascontiguousarray(series[: kept[-1] + 1 if len(kept) else 1])
+        return np.ascontiguousarray(series[: counted[-1] + 1 if len(counted) else 1])
 
 
 @lru_cache(maxsize=256)
@@ -247,7 +247,7 @@ def mode_residual(
     """
     machine = machine_of(of)
     name = machine.outputs[machine.place(output)]
-    own = _mode_number(machine, mode, name)
+    mode_number = _mode_number(machine, mode, name)
     share = not_negative(spread, "spread")
     pair = damping if isinstance(damping, list | tuple) else (damping, damping)
     dampings = None if damping is None else numbers(pair, "damping")
@@ -258,14 +258,16 @@ def mode_residual(
         )
     if share >= 1.0:
         raise InputError(f"spread is a share of the frequency, below 1, such as 0.1, got {share:g}")
-    said = [f"of={text_of(machine, name)!s}", f"mode={own}"]
-    said += [f"spread={share!r}"] if share else []
-    said += [f"damping=({dampings[0]!r}, {dampings[1]!r})"] if dampings else []
-    text = f"mode_residual({', '.join(said)})"
+    words = [f"of={text_of(machine, name)!s}", f"mode={mode_number}"]
+    words += [f"spread={share!r}"] if share else []
+    words += [f"damping=({dampings[0]!r}, {dampings[1]!r})"] if dampings else []
+    text = f"mode_residual({', '.join(words)})"
     pairs = None if dampings is None else (dampings[0], dampings[1])
-    made = ModeResidual(text, nan, convex=True, machine=machine, output=name, mode=own, spread=share, dampings=pairs)
-    made.share  # noqa: B018 - a defective mode is refused at once
-    return made
+    constant = ModeResidual(
+        text, nan, convex=True, machine=machine, output=name, mode=mode_number, spread=share, dampings=pairs
+    )
+    constant.share  # noqa: B018 - a defective mode is refused at once
+    return constant
 
 
 def _mode_number(machine: StateSpace, number: float, output: str) -> int:

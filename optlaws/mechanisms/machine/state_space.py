@@ -182,7 +182,7 @@ class StateSpace:
         return np.asarray(self.dynamics.into @ states)
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain JSON-able dict.
+        """The machine as a plain dict for JSON.
 
         Examples
         --------
@@ -194,7 +194,7 @@ class StateSpace:
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> Self:
-        """Read what `to_dict` wrote.
+        """The machine that `to_dict` wrote.
 
         Raises
         ------

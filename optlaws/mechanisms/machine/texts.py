@@ -30,7 +30,7 @@ def text_of(machine: StateSpace, output: str) -> str:
     return f"'{json.dumps(plain, separators=(',', ':'), ensure_ascii=False)}'"
 
 
-def title_of(machine: StateSpace, what: str, output: str, *said: str) -> str:
+def title_of(machine: StateSpace, what: str, output: str, *words: str) -> str:
     """What messages call a constant of a machine.
 
     Examples
@@ -40,7 +40,7 @@ def title_of(machine: StateSpace, what: str, output: str, *said: str) -> str:
     """
     count = len(machine.A)
     states = "1 state" if count == 1 else f"{count} states"
-    return ", ".join([f"{what} {output!r} of a machine of {states}", *said])
+    return ", ".join([f"{what} {output!r} of a machine of {states}", *words])
 
 
 def machine_of(given: Any) -> StateSpace:  # noqa: ANN401 - a machine, or what text calls one
@@ -122,19 +122,19 @@ def asked_of_output(
     times, pauses = _pair(within, "within"), None
     if not times[0] < times[1]:
         raise InputError(f"within must be two times, the first before the last, got {shortened(within)}")
-    said = [f"of={text_of(machine, name)}"]
+    words = [f"of={text_of(machine, name)}"]
     if cycle is not None:
         pauses = _pair(cycle, "cycle")
         times = 0.0, 2.0 + sum(pauses)
-        said.append(f"cycle=({pauses[0]!r}, {pauses[1]!r})")
+        words.append(f"cycle=({pauses[0]!r}, {pauses[1]!r})")
     elif times != (0.0, 1.0):
-        said.append(f"within=({times[0]!r}, {times[1]!r})")
+        words.append(f"within=({times[0]!r}, {times[1]!r})")
     repeats = _repeats(steady, alone=pauses is None and times == (0.0, 1.0))
-    said += ["steady=True"] if repeats else []
+    words += ["steady=True"] if repeats else []
     (added,) = numbers([offset], "offset")
-    said += [f"offset={added!r}"] if added else []
-    asked = Asked(machine=machine, output=name, within=times, cycle=pauses, steady=repeats, offset=added)
-    return asked, said
+    words += [f"offset={added!r}"] if added else []
+    entries = Asked(machine=machine, output=name, within=times, cycle=pauses, steady=repeats, offset=added)
+    return entries, words
 
 
 def _repeats(steady: object, *, alone: bool) -> bool:

@@ -146,10 +146,10 @@ def machine_spectrum(
     >>> spectrum.residuals.ravel().round(6).tolist()
     [0.00..., 0.2...]
     """
-    asked = np.array(numbers(np.atleast_1d(np.asarray(values)).tolist(), "values"))
-    if not len(asked):
+    swept = np.array(numbers(np.atleast_1d(np.asarray(values)).tolist(), "values"))
+    if not len(swept):
         raise InputError("values must be at least one number")
-    machines: list[Any] = [make(float(value)) for value in asked]
+    machines: list[Any] = [make(float(value)) for value in swept]
     for machine in machines:
         if not isinstance(machine, Machine) or machine.outputs != machines[0].outputs:
             raise InputError("make must give a Machine for every value, all with the same outputs")
@@ -159,9 +159,9 @@ def machine_spectrum(
     output = names[machines[0].place(output)]
     peaks = {name: np.array([response.peak(name).value for response in responses]) for name in names}
     count = max((len(machine.modes) for machine in machines), default=0)
-    frequencies, residuals = np.full((len(asked), count), np.nan), np.full((len(asked), count), np.nan)
+    frequencies, residuals = np.full((len(swept), count), np.nan), np.full((len(swept), count), np.nan)
     for i, machine in enumerate(machines):
         for mode in machine.modes:
             frequencies[i, mode.number - 1] = mode.frequency
             residuals[i, mode.number - 1] = machine.residual(mode.number, output).value(known)
-    return MachineSpectrum(asked, peaks, frequencies, residuals, output, str(parameter))
+    return MachineSpectrum(swept, peaks, frequencies, residuals, output, str(parameter))

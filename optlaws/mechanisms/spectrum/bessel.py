@@ -51,7 +51,7 @@ def moments(sigma: Complex, count: int) -> Complex:
 
 def _alike(sigma: Complex, count: int, largest: float) -> Complex:
     ratio = np.zeros(len(sigma), dtype=np.complex128)
-    kept = np.empty((len(sigma), count), dtype=np.complex128)
+    ratios = np.empty((len(sigma), count), dtype=np.complex128)
     top = max(count, ceil(largest)) + 20 + ceil(8.0 * largest ** (1.0 / 3.0))
     inverse = 1.0 / sigma
     for n in range(top, 0, -1):
@@ -59,17 +59,17 @@ def _alike(sigma: Complex, count: int, largest: float) -> Complex:
         below[below == 0.0] = TINY
         ratio = 1.0 / below
         if n < count:
-            kept[:, n] = ratio
+            ratios[:, n] = ratio
     decay = np.exp(2.0 * sigma)
     first = np.expm1(2.0 * sigma) * (0.5 * inverse)
     second = (first - 0.5 * (decay + 1.0)) * inverse
     # the larger of the two is known without cancellation
     from_second = np.abs(second) > np.abs(first)
-    table = np.empty_like(kept)
+    table = np.empty_like(ratios)
     table[:, 0] = first
-    table[:, 1] = np.where(from_second, second, first * kept[:, 1])
+    table[:, 1] = np.where(from_second, second, first * ratios[:, 1])
     for n in range(2, count):
-        table[:, n] = table[:, n - 1] * kept[:, n]
+        table[:, n] = table[:, n - 1] * ratios[:, n]
     return table
 
 

@@ -183,12 +183,12 @@ def residual(
     roots(low, ratio)
     if design is None and design_damping is not None:
         raise InputError("design_damping belongs to a design frequency: give design too")
-    made = None if design is None else positive(design, "design")
+    design_frequency = None if design is None else positive(design, "design")
     made_ratio = ratio if design_damping is None else not_negative(design_damping, "design_damping")
     parts = [f"nu={low!r}" if low == high else f"nu=({low!r}, {high!r})"]
     parts += [f"damping={ratio!r}"] if ratio else []
-    parts += [f"design={made!r}"] if made else []
-    parts += [f"design_damping={made_ratio!r}"] if made and made_ratio != ratio else []
+    parts += [f"design={design_frequency!r}"] if design_frequency else []
+    parts += [f"design_damping={made_ratio!r}"] if design_frequency and made_ratio != ratio else []
     name = f"residual({', '.join(parts)})"
     return Residual(
         name,
@@ -197,8 +197,8 @@ def residual(
         low=low,
         high=high,
         damping=ratio,
-        design=made,
-        design_damping=made_ratio if made else 0.0,
+        design=design_frequency,
+        design_damping=made_ratio if design_frequency else 0.0,
     )
 
 

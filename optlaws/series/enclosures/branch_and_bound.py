@@ -135,7 +135,7 @@ def extremes(
     if len(low):
         cells = search.look(low, high)
         search.take(cells, np.ones(len(low), dtype=bool))
-    return search.found(polished=enough == np.inf and not magnitude)
+    return search.result(polished=enough == np.inf and not magnitude)
 
 
 @dataclass(frozen=True)
@@ -237,7 +237,7 @@ class _Search:
         real = others > some
         return some[real], others[real]
 
-    def found(self, *, polished: bool) -> Extremes:
+    def result(self, *, polished: bool) -> Extremes:
         """All that is known in the end."""
         if not np.isfinite([self.least, self.most]).all():
             raise SolverFailure(
@@ -351,7 +351,7 @@ def _kept(
 
 def _first(known: list[tuple[Array, Array]], most: float, whole: float) -> Valued:
     """The first place among the lowest values, and the value there."""
-    values, places = np.concatenate([one for one, _ in known]), np.concatenate([one for _, one in known])
+    values, places = (np.concatenate(parts) for parts in zip(*known, strict=True))
     values, places = values[values <= most], places[values <= most]
     same = places <= places.min() + EXTREME_WIDTH * whole
     lowest = int(np.argmin(np.where(same, values, np.inf)))

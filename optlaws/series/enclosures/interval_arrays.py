@@ -105,11 +105,11 @@ class Interval:
             return between(np.arctan(self.low) - WAVE_ROUNDING, np.arctan(self.high) + WAVE_ROUNDING)
 
     def sine(self) -> Interval:
-        """The sine."""
+        """The sine, which is never steeper than its angle."""
         return Interval(np.sin(self.middle), self.radius + WAVE_ROUNDING)
 
     def cosine(self) -> Interval:
-        """The cosine."""
+        """The cosine, which is never steeper than its angle."""
         return Interval(np.cos(self.middle), self.radius + WAVE_ROUNDING)
 
 
@@ -155,15 +155,15 @@ def dot(first: Sequence[Any], second: Sequence[Any]) -> Any:  # noqa: ANN401 - n
     """
     pairs = list(zip(first, second, strict=False))
     alike = all(
-        isinstance(one, Interval) and one.middle.shape == pairs[0][0].middle.shape for pair in pairs for one in pair
+        isinstance(left, Interval) and left.middle.shape == pairs[0][0].middle.shape for pair in pairs for left in pair
     )
     if len(pairs) < _FEW or not alike:
         total = pairs[0][0] * pairs[0][1]
-        for one, two in pairs[1:]:
-            total = total + one * two
+        for left, right in pairs[1:]:
+            total = total + left * right
         return total
-    m, n = np.array([one.middle for one, _ in pairs]), np.array([two.middle for _, two in pairs])
-    p, q = np.array([one.radius for one, _ in pairs]), np.array([two.radius for _, two in pairs])
+    m, n = np.array([left.middle for left, _ in pairs]), np.array([right.middle for _, right in pairs])
+    p, q = np.array([left.radius for left, _ in pairs]), np.array([right.radius for _, right in pairs])
     products, size = m * n, np.abs(n)
     with np.errstate(invalid="ignore"):  # 0 times infinity: no bound
         radius = np.abs(m) * q + p * (size + q) + (len(pairs) + 1) * ROUNDOFF * np.abs(products)
@@ -216,7 +216,7 @@ def chosen(where: Any, first: Interval, second: Interval) -> Interval:  # noqa: 
 
 
 def exact(value: Any) -> Interval:  # noqa: ANN401 - a number or an array
-    """Numbers as they are.
+    """Intervals without width around exact numbers.
 
     Examples
     --------

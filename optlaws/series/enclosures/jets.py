@@ -103,15 +103,15 @@ class Jet:
         first, second = self.terms[0], two.terms[0]
         pairs = list(zip(self.terms, two.terms, strict=False))
         if not isinstance(first, Interval):
-            return Jet(tuple(np.where(first >= second, one, another) for one, another in pairs))
+            return Jet(tuple(np.where(first >= second, left, right) for left, right in pairs))
         over, under = first.low >= second.high, second.low >= first.high
         either = [between(np.maximum(first.low, second.low), np.maximum(first.high, second.high))]
-        either += [hull(one, another) for one, another in pairs[1:2]]
-        either += [Interval(one.middle, np.full(one.middle.shape, np.inf)) for one, _ in pairs[2:]]
+        either += [hull(left, right) for left, right in pairs[1:2]]
+        either += [Interval(left.middle, np.full(left.middle.shape, np.inf)) for left, _ in pairs[2:]]
         return Jet(
             tuple(
-                chosen(over, one, chosen(under, another, open_one))
-                for (one, another), open_one in zip(pairs, either, strict=True)
+                chosen(over, left, chosen(under, right, open_one))
+                for (left, right), open_one in zip(pairs, either, strict=True)
             )
         )
 
@@ -131,7 +131,7 @@ class Jet:
         return Jet((chosen(np.isfinite(first.radius), first, whole), *inside.terms[1:]))
 
     def magnitude(self) -> Jet:
-        """The absolute value."""
+        """The absolute value of the function."""
         return self.maximum(-self)
 
     def arctangent(self) -> Jet:
