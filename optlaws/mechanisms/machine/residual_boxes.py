@@ -8,7 +8,6 @@ ratios its magnitude is greatest on the edges, each of which is a second-order c
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import lru_cache
 from math import asin, ceil, nan
@@ -24,11 +23,11 @@ from optlaws.mechanisms.machine.modes import mode, participation
 from optlaws.mechanisms.machine.state_space import StateSpace
 from optlaws.mechanisms.machine.texts import check_rest, machine_of, text_of, title_of
 from optlaws.mechanisms.spectrum.laplace import velocity_transform_of
-from optlaws.mechanisms.spectrum.robust import gauss_rule
+from optlaws.mechanisms.spectrum.robust import cached_columns, domain_of, greatest_modulus, velocity_transforms, widened
 from optlaws.numbers import not_negative, numbers, power_of_two
 from optlaws.series import chebyshev
 from optlaws.series.tolerances import NEGLIGIBLE_TERM
-from optlaws.synthesis.families.cone import ConeFamily, stationary_places
+from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.problem.constants import MAKERS, Functional
 from optlaws.synthesis.spaces.space import LawSpace
 
@@ -119,9 +118,12 @@ class ModeResidual(Functional):
     def worst(self, law: MotionLaw) -> Peak:
         """The greatest over the box; its `k` is the frequency at which it is, in radians in the rise's duration."""
         transform = velocity_transform_of(law)
-        edge_peaks = [_greatest(edge, lambda roots: self.share * transform(roots)) for edge in self.edges]
-        value, root = max(edge_peaks, key=lambda pair: pair[0])
-        return Peak(value, abs(root))
+
+        def greatest(edge: Edge) -> Peak:
+            value, place = greatest_modulus(lambda u: self.share * transform(edge.roots(u)), edge.nodes)
+            return Peak(value, abs(complex(edge.roots(np.array([place]))[0])))
+
+        return max(map(greatest, self.edges), key=lambda peak: peak.value)
 
     @kept_property
     def share(self) -> float:
@@ -144,13 +146,11 @@ class ModeResidual(Functional):
         check_rest(self.name, space)
         families = []
         for i, edge in enumerate(self.edges):
-            columns = self._columns(space, i)
-            wide = np.zeros((len(columns), len(slack) + 1), dtype=np.complex128)
-            wide[:, : space.terms], wide[:, -1] = columns[:, :-1], columns[:, -1]
             unit = self.unit(space, i, bound, sought=bool(slack.any()))
-            domain = (1.0, 1.0) if edge.single else (-1.0, 1.0)
+            series = widened(self._columns(space, i), len(slack)) / unit
             name = f"{self.name}, edge {i + 1}" if i else self.name
-            families.append(ConeFamily(name, slack / unit, bound / unit, domain=domain, series=wide / unit))
+            domain = domain_of(edge.nodes)
+            families.append(ConeFamily(name, slack / unit, bound / unit, domain=domain, series=series))
         return tuple(families)
 
     def unit(self, space: LawSpace, edge: int, bound: float, *, sought: bool) -> float:
@@ -163,21 +163,12 @@ class ModeResidual(Functional):
 
     def _columns(self, space: LawSpace, edge: int) -> Complex:
         """Chebyshev series of the complex amplitude: free functions, then the base law."""
-        parts = space.cached(
-            ("mode", self.name, edge), lambda: self._computed(space, self.edges[edge]).view(np.float64)
-        )
-        return parts.view(np.complex128)
+        return cached_columns(space, ("mode", self.name, edge), lambda: self._computed(space, self.edges[edge]))
 
     def _computed(self, space: LawSpace, edge: Edge) -> Complex:
-        u = edge.nodes
-        roots = edge.roots(u)
-        k, weights = gauss_rule(space, float(np.abs(roots).max()))
-        family = space.derivative(1, "b", np.zeros(space.terms))
-        # b of a symmetric law is even about 1/2, and its rows may be those of the first half
-        places = np.abs(1.0 - 2.0 * k) if space.symmetric else 1.0 - 2.0 * k
-        velocities = weights[:, None] * family.columns(places)[0]
-        transforms = self.share * (np.exp(roots[:, None] * (1.0 - k)) @ velocities)
-        series = chebyshev.from_values(transforms)
+        roots = edge.roots(edge.nodes)
+        transforms = velocity_transforms(space, roots, float(np.abs(roots).max()))
+        series = chebyshev.from_values(self.share * transforms)
         counted = np.flatnonzero(np.abs(series).max(axis=1) > NEGLIGIBLE_TERM * np.abs(series).max())
         # an output may not see the mode at all
         return np.ascontiguousarray(series[: counted[-1] + 1 if len(counted) else 1])
@@ -194,18 +185,6 @@ def _terms_of_exponential(half: float) -> int:
         n += 1
         size *= 0.5 * half / n
     return n + 1
-
-
-def _greatest(edge: Edge, amplitude: Callable[[Complex], Complex]) -> tuple[float, complex]:
-    """The greatest magnitude on an edge, and its root."""
-    u = edge.nodes
-    if not edge.single:
-        series = chebyshev.from_values(amplitude(edge.roots(u)))
-        u = np.concatenate([[-1.0, 1.0], stationary_places(series)])
-    roots = edge.roots(u)
-    sizes = np.abs(amplitude(roots))
-    best = int(np.argmax(sizes))
-    return float(sizes[best]), complex(roots[best])
 
 
 def mode_residual(

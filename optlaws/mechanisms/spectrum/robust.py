@@ -6,6 +6,7 @@ second-order cone; the greatest of them over the interval is convex.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from math import ceil, nan
 
@@ -65,15 +66,8 @@ class Residual(Functional):
 
     def peak(self, law: MotionLaw) -> Peak:
         """The greatest over the whole interval; its `k` is the frequency at which it is."""
-        places = np.array([1.0])
-        if self.low < self.high:
-            phasors = from_values(self._phasors(law, self._frequencies(_nodes(self.low, self.high))))
-            inner = stationary_places(phasors)
-            places = np.concatenate([[-1.0, 1.0], inner])
-        frequencies = self._frequencies(places)
-        sizes = np.abs(self._phasors(law, frequencies))
-        best = int(np.argmax(sizes))
-        return Peak(float(sizes[best]), float(frequencies[best]))
+        value, place = greatest_modulus(lambda u: self._phasors(law, self._frequencies(u)), self._nodes)
+        return Peak(value, float(self._frequencies(np.array([place]))[0]))
 
     def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConeFamily, ...]:
         """One cone for each frequency. A bound becomes 1, so that residuals are measured by it."""
@@ -81,13 +75,9 @@ class Residual(Functional):
             check_order(self.name, space, _MOST_POLYDYNE)
         elif space.start_velocity != 0.0 or space.velocity_change != 0.0 or space.boundary.order < 2:
             raise InputError(f"{self.name} needs laws from rest to rest, of order 2 at least")
-        columns = self._columns(space)
-        wide = np.zeros((len(columns), len(slack) + 1), dtype=np.complex128)
-        wide[:, : space.terms], wide[:, -1] = columns[:, :-1], columns[:, -1]
         unit = bound or 1.0
-        single = self.low == self.high
-        domain = (1.0, 1.0) if single else (-1.0, 1.0)
-        return (ConeFamily(self.name, slack, bound / unit, domain=domain, series=wide / unit),)
+        series = widened(self._columns(space), len(slack)) / unit
+        return (ConeFamily(self.name, slack, bound / unit, domain=domain_of(self._nodes), series=series),)
 
     def where(self, k: float) -> str:
         """The frequency of a place."""
@@ -115,24 +105,21 @@ class Residual(Functional):
         ratio = frequencies / self.design
         return np.asarray(1.0 - ratio**2 + 2.0 * (n0 - n) * w / self.design**2)
 
+    @property
+    def _nodes(self) -> Array:
+        """Chebyshev nodes, enough for functions of exponential type 1 in nu; a single place where there is no more."""
+        length = self.high - self.low
+        return nodes(ceil(0.75 * length) + _SPARE) if length else np.ones(1)
+
     def _columns(self, space: LawSpace) -> Complex:
         """Chebyshev series in u of nu² times the complex amplitude: free functions, then the base law."""
-        key = ("residual", self.name)
-        parts = space.cached(key, lambda: self._computed(space).view(np.float64))
-        return parts.view(np.complex128)
+        return cached_columns(space, ("residual", self.name), lambda: self._computed(space))
 
     def _computed(self, space: LawSpace) -> Complex:
-        u = _nodes(self.low, self.high) if self.low < self.high else np.ones(1)
-        frequencies = self._frequencies(u)
+        frequencies = self._frequencies(self._nodes)
         _, w, damped = roots(frequencies, self.damping)
-        k, weights = gauss_rule(space, self.high)
-        family = space.derivative(1, "b", np.zeros(space.terms))
-        # b of a symmetric law is even about 1/2, and its rows may be those of the first half
-        places = np.abs(1.0 - 2.0 * k) if space.symmetric else 1.0 - 2.0 * k
-        velocities = family.columns(places)[0]
-        transform = np.exp(w[:, None] * (1.0 - k)) @ (weights[:, None] * velocities)
         scale = -1j * frequencies**2 * w.conj() / damped * self._detuning(frequencies)
-        return np.ascontiguousarray(from_values(scale[:, None] * transform))
+        return np.ascontiguousarray(from_values(scale[:, None] * velocity_transforms(space, w, self.high)))
 
 
 def residual(
@@ -202,12 +189,66 @@ def residual(
     )
 
 
-def _nodes(low: float, high: float) -> Array:
-    """Chebyshev nodes, enough for functions of exponential type 1 in nu."""
-    return nodes(ceil(0.75 * (high - low)) + _SPARE)
+def greatest_modulus(amplitude: Callable[[Array], Complex], nodes: Array) -> tuple[float, float]:
+    """The greatest magnitude of an amplitude over places from -1 to 1, and its place.
+
+    Parameters
+    ----------
+    amplitude
+        An analytic function of places.
+    nodes
+        Chebyshev nodes that resolve it, or a single place.
+
+    Examples
+    --------
+    >>> greatest_modulus(lambda u: 1.0 + 1j * u * u, np.ones(1))
+    (1.414214, 1.0)
+    """
+    places = nodes
+    if len(nodes) > 1:
+        places = np.concatenate([[-1.0, 1.0], stationary_places(from_values(amplitude(nodes)))])
+    sizes = np.abs(amplitude(places))
+    best = int(np.argmax(sizes))
+    return float(sizes[best]), float(places[best])
 
 
-def gauss_rule(space: LawSpace, highest: float) -> tuple[Array, Array]:
+def domain_of(nodes: Array) -> tuple[float, float]:
+    """The places that nodes stand for: all from -1 to 1, or the single one."""
+    return (-1.0, 1.0) if len(nodes) > 1 else (1.0, 1.0)
+
+
+def widened(columns: Complex, count: int) -> Complex:
+    """Columns of the free functions and of the base law, with columns of 0 for further variables between them."""
+    wide = np.zeros((len(columns), count + 1), dtype=np.complex128)
+    wide[:, : columns.shape[1] - 1], wide[:, -1] = columns[:, :-1], columns[:, -1]
+    return wide
+
+
+def cached_columns(space: LawSpace, key: tuple[object, ...], computed: Callable[[], Complex]) -> Complex:
+    """Complex columns that a space keeps as the real ones that it can keep."""
+    return space.cached(key, lambda: computed().view(np.float64)).view(np.complex128)
+
+
+def velocity_transforms(space: LawSpace, w: Complex, highest: float) -> Complex:
+    """Integrals of exp(w (1 - k)) b(k), a row for each root w, for the free functions and the base law of a space.
+
+    Parameters
+    ----------
+    space
+        The laws.
+    w
+        Roots with real parts of at most 0.
+    highest
+        The greatest magnitude of a root.
+    """
+    k, weights = _gauss_rule(space, highest)
+    family = space.derivative(1, "b", np.zeros(space.terms))
+    # b of a symmetric law is even about 1/2, and its rows may be those of the first half
+    places = np.abs(1.0 - 2.0 * k) if space.symmetric else 1.0 - 2.0 * k
+    return np.asarray(np.exp(w[:, None] * (1.0 - k)) @ (weights[:, None] * family.columns(places)[0]))
+
+
+def _gauss_rule(space: LawSpace, highest: float) -> tuple[Array, Array]:
     """Gauss points on every piece of the law, enough for a vibration of the highest frequency, and weights."""
     breaks = np.array(getattr(space, "breaks", (0.0, 1.0)))
     degree = len(space.derivative(1, "b", np.zeros(space.terms)).series)
