@@ -67,7 +67,7 @@ _load, __dir__, __all__ = face(
         "optlaws.mechanisms.spectrum.residual": "residual_functional residual_phasor",
         "optlaws.mechanisms.spectrum.robust": "residual",
         "optlaws.mechanisms.spectrum.spectrum": "ResponseSpectrum response_spectrum",
-        "optlaws.series.peaks": "Peak",
+        "optlaws.numerics.peaks": "Peak",
         "optlaws.studies.run": "run_study",
         "optlaws.studies.study": "open_study",
         "optlaws.synthesis.arrays.problems": "ProblemArray each",

@@ -94,7 +94,7 @@ from optlaws.mechanisms.spectrum.robust import residual as residual
 from optlaws.mechanisms.spectrum.spectrum import ResponseSpectrum as ResponseSpectrum
 from optlaws.mechanisms.spectrum.spectrum import response_spectrum as response_spectrum
 from optlaws.motion.polynomials import PiecewiseMotion as PiecewiseMotion
-from optlaws.series.peaks import Peak as Peak
+from optlaws.numerics.peaks import Peak as Peak
 from optlaws.studies.run import run_study as run_study
 from optlaws.studies.study import open_study as open_study
 from optlaws.synthesis.arrays.problems import ProblemArray as ProblemArray

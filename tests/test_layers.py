@@ -23,7 +23,7 @@ BASE = {
     "shown",
     "suggest",
 }
-KNOWN = BASE | {"series"}
+KNOWN = BASE | {"numerics"}
 CORE = KNOWN | {"formulas", "laws", "synthesis", "mechanisms", "motion", "cycles", "exports", "cams", "verification"}
 MAY_IMPORT = {
     "echo": set[str](),
@@ -37,7 +37,8 @@ MAY_IMPORT = {
     "numbers": {"echo", "errors"},
     "shown": set[str](),
     "suggest": {"echo"},
-    "series": BASE,
+    "numerics": BASE,
+    "series": {"laws", "numerics"},
     "laws": KNOWN,
     "synthesis": KNOWN | {"formulas", "laws"},
     "mechanisms": KNOWN | {"formulas", "laws", "synthesis"},
@@ -125,7 +126,7 @@ CHECKERS = (
 )
 MUST_NOT_IMPORT = {
     "errors": {"casadi", "matplotlib", "scipy"},
-    "series": {"casadi", "matplotlib", "scipy"},
+    "numerics": {"casadi", "matplotlib", "scipy"},
     "formulas": {"matplotlib", "scipy"},
     "laws": {"casadi", "matplotlib", "scipy"},
     "synthesis": {"matplotlib"},
@@ -376,7 +377,7 @@ FREE_OF_VAGUE_NAMES = (
     "mechanisms",
     "motion",
     "plots",
-    "series",
+    "numerics",
 )
 
 

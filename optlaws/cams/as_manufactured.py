@@ -23,9 +23,9 @@ from optlaws.kept import kept_property
 from optlaws.laws.storage import PlainNumbers
 from optlaws.motion.quantities import positive_quantity, quantity
 from optlaws.numbers import Quantity, whole
-from optlaws.series.enclosures.branch_and_bound import Function, extremes
-from optlaws.series.enclosures.interval_arrays import Interval
-from optlaws.series.enclosures.jets import Jet
+from optlaws.numerics.enclosures.branch_and_bound import Function, extremes
+from optlaws.numerics.enclosures.interval import Interval
+from optlaws.numerics.enclosures.taylor import Jet
 from optlaws.suggest import unknown_key
 
 Array = NDArray[np.float64]

@@ -22,8 +22,8 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.motion.quantities import quantity
 from optlaws.numbers import Quantity, derivative, real_times
-from optlaws.series.enclosures.interval_arrays import Interval
-from optlaws.series.enclosures.jets import Pair, turned, variable
+from optlaws.numerics.enclosures.interval import Interval
+from optlaws.numerics.enclosures.taylor import Pair, turned, variable
 from optlaws.shown.summary import Summary
 from optlaws.suggest import keywords_of, unknown_key
 

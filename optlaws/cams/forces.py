@@ -20,10 +20,10 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.motion.quantities import TURN, positive_quantity, quantity
 from optlaws.numbers import Quantity, finite, real_times
-from optlaws.series.enclosures.branch_and_bound import Extremes, Function, extremes
-from optlaws.series.enclosures.enclosed_integral import integral
-from optlaws.series.enclosures.interval_arrays import Interval, highest, middle
-from optlaws.series.enclosures.jets import Jet
+from optlaws.numerics.enclosures.branch_and_bound import Extremes, Function, extremes
+from optlaws.numerics.enclosures.integral import integral
+from optlaws.numerics.enclosures.interval import Interval, highest, middle
+from optlaws.numerics.enclosures.taylor import Jet
 from optlaws.suggest import unknown_key
 
 Array = NDArray[np.float64]

@@ -23,9 +23,9 @@ from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.motion.quantities import quantity
 from optlaws.numbers import Quantity
-from optlaws.series.enclosures.interval_arrays import Interval, exact
-from optlaws.series.enclosures.jets import Jet
-from optlaws.series.tolerances import ROUNDOFF
+from optlaws.numerics.enclosures.interval import Interval, exact
+from optlaws.numerics.enclosures.taylor import Jet
+from optlaws.numerics.tolerances import ROUNDOFF
 
 Kind = TypeVar("Kind", bound=FollowerContact)
 

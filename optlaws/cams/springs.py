@@ -17,9 +17,9 @@ from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.laws.storage import PlainNumbers
 from optlaws.motion.quantities import quantity
 from optlaws.numbers import Quantity
-from optlaws.series.enclosures.branch_and_bound import Extremes, Function, extremes
-from optlaws.series.enclosures.interval_arrays import Interval
-from optlaws.series.enclosures.jets import Jet
+from optlaws.numerics.enclosures.branch_and_bound import Extremes, Function, extremes
+from optlaws.numerics.enclosures.interval import Interval
+from optlaws.numerics.enclosures.taylor import Jet
 
 Array = NDArray[np.float64]
 

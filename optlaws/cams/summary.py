@@ -12,7 +12,7 @@ from optlaws.shown.summary import Row, Summary
 if TYPE_CHECKING:
     from optlaws.cams.curves.extremes import Extreme
     from optlaws.cams.disc import DiscCam
-    from optlaws.series.enclosures.branch_and_bound import Extremes
+    from optlaws.numerics.enclosures.branch_and_bound import Extremes
 
 T = TypeVar("T")
 

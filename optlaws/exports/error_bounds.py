@@ -7,7 +7,7 @@ from fractions import Fraction
 from math import factorial, inf, nextafter, perm
 
 from optlaws.motion.polynomials import PiecewiseMotion
-from optlaws.series import exact
+from optlaws.numerics import exact
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ from optlaws.exports.polynomial_pieces import LawSection, is_polynomial, stretch
 from optlaws.motion.motion import Motion
 from optlaws.motion.piece import Piece
 from optlaws.motion.polynomials import PiecewiseMotion, from_exact
-from optlaws.series import exact
+from optlaws.numerics import exact
 
 Array = NDArray[np.float64]
 Laid = Callable[[Piece], PiecewiseMotion]

@@ -23,7 +23,7 @@ from optlaws.motion.motion import Motion, motion_of_law
 from optlaws.motion.piece import Piece
 from optlaws.motion.polynomials import PiecewiseMotion, from_exact
 from optlaws.numbers import finite, positive
-from optlaws.series import exact
+from optlaws.numerics import exact
 
 Array = NDArray[np.float64]
 #: a stretch of a law: its first and its last k, and powers of k less the first

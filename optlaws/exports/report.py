@@ -15,8 +15,8 @@ from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import Extreme, PiecewiseMotion
 from optlaws.motion.quantities import quantity
 from optlaws.numbers import MOST_VALUES, Quantity
-from optlaws.series import bernstein
-from optlaws.series.bisection import bisect_each
+from optlaws.numerics import bernstein
+from optlaws.numerics.bisection import bisect_each
 
 Array = NDArray[np.float64]
 

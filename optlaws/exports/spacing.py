@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from optlaws.errors import InputError
 from optlaws.exports.format import BEST, Request
 from optlaws.motion.motion import Motion
-from optlaws.series import bernstein
+from optlaws.numerics import bernstein
 
 Array = NDArray[np.float64]
 

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.formulas.tree import Call, Formula, Name, Negative, Number, Power, Product, Reciprocal, Sum, Table
-from optlaws.series.tolerances import NORM_OFFSET
+from optlaws.numerics.tolerances import NORM_OFFSET
 
 Array = NDArray[np.float64]
 

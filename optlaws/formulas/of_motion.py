@@ -34,7 +34,7 @@ from optlaws.formulas.tree import (
 from optlaws.formulas.vocabulary import ORDERS, VOCABULARY
 from optlaws.kept import kept_property
 from optlaws.numbers import power_of_two
-from optlaws.series.chebyshev import interpolated, real_parts_of_roots
+from optlaws.numerics.chebyshev import interpolated, real_parts_of_roots
 
 Array = NDArray[np.float64]
 

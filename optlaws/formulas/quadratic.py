@@ -10,7 +10,7 @@ import numpy as np
 from optlaws.formulas.intervals import Interval, enclosed
 from optlaws.formulas.slopes import added, constant, multiplied, opposite
 from optlaws.formulas.tree import Formula, Name, Negative, Number, Power, Product, Sum
-from optlaws.series.tolerances import OPERATIONS_ROUNDING
+from optlaws.numerics.tolerances import OPERATIONS_ROUNDING
 
 #: factors of products of names: none, one or two of them, sorted
 Terms = dict[tuple[str, ...], Formula]

@@ -9,6 +9,6 @@ __getattr__, __dir__, __all__ = face(
         "optlaws.laws.law": "MotionLaw",
         "optlaws.laws.making.trapezoids": "from_half",
         "optlaws.laws.polynomial": "PolynomialLaw smoothstep",
-        "optlaws.series.peaks": "Peak",
+        "optlaws.numerics.peaks": "Peak",
     },
 )

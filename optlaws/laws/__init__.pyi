@@ -4,7 +4,7 @@ from optlaws.laws.law import MotionLaw as MotionLaw
 from optlaws.laws.making.trapezoids import from_half as from_half
 from optlaws.laws.polynomial import PolynomialLaw as PolynomialLaw
 from optlaws.laws.polynomial import smoothstep as smoothstep
-from optlaws.series.peaks import Peak as Peak
+from optlaws.numerics.peaks import Peak as Peak
 
 __all__ = [
     "Constants",

@@ -5,8 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from optlaws.numbers import bounded
-from optlaws.series import peaks
-from optlaws.series.peaks import Peak
+from optlaws.numerics.peaks import Peak
 from optlaws.shown.summary import Row, Summary
 
 
@@ -67,7 +66,3 @@ class Constants:
 
     def _repr_html_(self) -> str:
         return self.summary()._repr_html_()
-
-
-# where pickles of laws made before it stood here look for it
-vars(peaks)["Constants"] = Constants

@@ -15,9 +15,9 @@ from optlaws.errors import InputError
 from optlaws.extras import needed
 from optlaws.kept import kept_property
 from optlaws.numbers import MOST_VALUES, derivative, finite, whole
-from optlaws.series import peaks
-from optlaws.series.bisection import crossings
-from optlaws.series.peaks import Peak
+from optlaws.numerics import peaks
+from optlaws.numerics.bisection import crossings
+from optlaws.numerics.peaks import Peak
 
 Array = NDArray[np.float64]
 Many = NDArray[Any] | Sequence[Any]

@@ -15,7 +15,7 @@ from optlaws.laws.curve import Curve, Sides
 from optlaws.laws.exporting import LawExport
 from optlaws.laws.storage import StoredLaw
 from optlaws.numbers import Quantity, derivative, times
-from optlaws.series.peaks import Peak
+from optlaws.numerics.peaks import Peak
 
 Array = NDArray[np.float64]
 Jumps = tuple[tuple[float, float], ...]

@@ -8,7 +8,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
 from optlaws.numbers import numbers
-from optlaws.series.tolerances import CLOSURE
+from optlaws.numerics.tolerances import CLOSURE
 
 
 def state(value: Any) -> tuple[float, float]:  # noqa: ANN401 - whatever a caller hands over

@@ -16,8 +16,8 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.numbers import MAGNITUDE_LIMIT, derivative, listed, numbers, real_times
-from optlaws.series import bernstein
-from optlaws.series.difference import greatest_difference
+from optlaws.numerics import bernstein
+from optlaws.numerics.difference import greatest_difference
 
 Array = NDArray[np.float64]
 #: a motion by its derivatives: of places and of the order nu of the derivative

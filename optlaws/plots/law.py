@@ -22,7 +22,7 @@ from optlaws.synthesis.solution import Solution
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
-from optlaws.series.tolerances import LOOKS_EQUAL
+from optlaws.numerics.tolerances import LOOKS_EQUAL
 
 Array = NDArray[np.float64]
 Panels = Sequence["Axes"]

@@ -1,1 +1,1 @@
-"""Functions of one variable: Chebyshev series, sums of powers, their roots and peaks. Knows no law."""
+"""The former room of `optlaws.numerics`: pickles made before name it."""

@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.cams.curves.plane_curve import derivatives
-from optlaws.series.enclosures.interval_arrays import Interval
-from optlaws.series.enclosures.jets import Pair, variable
+from optlaws.numerics.enclosures.interval import Interval
+from optlaws.numerics.enclosures.taylor import Pair, variable
 
 Array = NDArray[np.float64]
 

@@ -22,7 +22,7 @@ from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.laws import smoothstep
 from optlaws.motion.piece import Piece
-from optlaws.series.enclosures.jets import Jet
+from optlaws.numerics.enclosures.taylor import Jet
 from optlaws.synthesis.solution import Status
 
 Array = NDArray[np.float64]

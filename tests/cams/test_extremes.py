@@ -26,8 +26,8 @@ from optlaws.laws.polynomial import PolynomialLaw
 from optlaws.laws.segments.constant_power import PowerSegment
 from optlaws.laws.segments.fractional import FractionalSegment
 from optlaws.laws.segments.piecewise import PiecewiseLaw
-from optlaws.series import chebyshev
-from optlaws.series.enclosures.interval_arrays import Interval
+from optlaws.numerics import chebyshev
+from optlaws.numerics.enclosures.interval import Interval
 from tests.cams.placed import FOLLOWERS, cam_of, cycle_of, face_lines, points, roller_centres
 
 Array = NDArray[np.float64]

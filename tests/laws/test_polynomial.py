@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw, Peak, PolynomialLaw, smoothstep
-from optlaws.series.exact import chebyshev_from_powers, powers_from_chebyshev
+from optlaws.numerics.exact import chebyshev_from_powers, powers_from_chebyshev
 
 numbers = st.floats(-1e6, 1e6, allow_subnormal=False)
 

@@ -12,7 +12,7 @@ from optlaws import Pieces, Problem, catalogue, smoothstep, synthesize
 from optlaws.errors import InputError
 from optlaws.exports.polynomial_pieces import polynomials_of_law
 from optlaws.motion.polynomials import PiecewiseMotion
-from optlaws.series import bernstein
+from optlaws.numerics import bernstein
 from tests.exports.motions import random_motion
 from tests.sampling import examples
 

@@ -6,11 +6,11 @@ BOUNDS = (
     "tests/synthesis/proof/test_certificate.py",
 )
 LAWS = ("tests/contracts/test_laws.py", "tests/laws/test_exactness.py")
-SERIES = ("tests/series", *LAWS)
+NUMERICS = ("tests/numerics", *LAWS)
 
 TESTS: dict[str, tuple[str, ...]] = {
     "optlaws.synthesis.program.evaluation": ("tests/synthesis/program/test_evaluation.py",),
-    "optlaws.series.peaks": ("tests/series/test_peaks.py", "tests/laws/test_exactness.py"),
+    "optlaws.numerics.peaks": ("tests/numerics/test_peaks.py", "tests/laws/test_exactness.py"),
     "optlaws.synthesis.proof.certificate": BOUNDS,
     "optlaws.synthesis.proof.duality": BOUNDS,
     "optlaws.synthesis.proof.sublevel_bounds": BOUNDS,
@@ -22,10 +22,10 @@ TESTS: dict[str, tuple[str, ...]] = {
         "tests/verification/exact/test_bound_by_hand.py",
         "tests/verification/test_verify.py",
     ),
-    "optlaws.series.chebyshev": SERIES,
-    "optlaws.series.exact": ("tests/laws/test_polynomial.py", *LAWS),
-    "optlaws.series.bisection": ("tests/laws/test_savin.py", *LAWS),
-    "optlaws.series.panels": SERIES,
+    "optlaws.numerics.chebyshev": NUMERICS,
+    "optlaws.numerics.exact": ("tests/laws/test_polynomial.py", *LAWS),
+    "optlaws.numerics.bisection": ("tests/laws/test_savin.py", *LAWS),
+    "optlaws.numerics.panels": NUMERICS,
     "optlaws.laws.curve": LAWS,
     "optlaws.laws.law": LAWS,
     "optlaws.laws.polynomial": ("tests/laws/test_polynomial.py", *LAWS),

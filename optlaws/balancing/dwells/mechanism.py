@@ -15,7 +15,7 @@ from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.numbers import finite, real
-from optlaws.series.tolerances import AGREEMENT
+from optlaws.numerics.tolerances import AGREEMENT
 
 KINDS = ("I", "II", "III")
 LAWS = ("law", "law_1", "law_2", "return_law")

@@ -10,7 +10,7 @@ from optlaws.balancing.loaders.tops import tops
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
-from optlaws.series.tolerances import AGREEMENT
+from optlaws.numerics.tolerances import AGREEMENT
 
 
 @lru_cache(maxsize=64)

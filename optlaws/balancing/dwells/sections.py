@@ -12,7 +12,7 @@ from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment, Segment
-from optlaws.series.tolerances import CLOSURE
+from optlaws.numerics.tolerances import CLOSURE
 
 Pair = tuple[float, float]
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from optlaws.balancing.levers.motion import LeverMotion
 from optlaws.errors import InputError, SolverFailure
-from optlaws.series.tolerances import SWING_INTEGRATED, SWING_RESOLVED, SWING_SETTLED
+from optlaws.numerics.tolerances import SWING_INTEGRATED, SWING_RESOLVED, SWING_SETTLED
 
 Array = NDArray[np.float64]
 Function = Callable[[Array], Array]

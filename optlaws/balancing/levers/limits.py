@@ -9,7 +9,7 @@ import numpy as np
 
 from optlaws.balancing.levers.linkage import FourBar
 from optlaws.errors import InputError
-from optlaws.series.tolerances import ANGLE_LIMIT
+from optlaws.numerics.tolerances import ANGLE_LIMIT
 
 #: least transmission angle that is allowed unless another is given, radians
 LEAST_TRANSMISSION = pi / 6.0

@@ -17,8 +17,8 @@ from optlaws.laws import PolynomialLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
 from optlaws.numbers import derivative, finite, numbers, positive
-from optlaws.series import chebyshev
-from optlaws.series.tolerances import EPSILON, OPERATIONS_ROUNDING
+from optlaws.numerics import chebyshev
+from optlaws.numerics.tolerances import EPSILON, OPERATIONS_ROUNDING
 
 Array = NDArray[np.float64]
 

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from optlaws.balancing.levers.lever import TorsionLever
 from optlaws.errors import InputError, OptlawsError
-from optlaws.series.bisection import bisect
-from optlaws.series.tolerances import LINKAGE_MET, SAME_LINKAGE
+from optlaws.numerics.bisection import bisect
+from optlaws.numerics.tolerances import LINKAGE_MET, SAME_LINKAGE
 
 Array = NDArray[np.float64]
 Quantity = Callable[[TorsionLever], float]

@@ -10,8 +10,8 @@ from numpy.polynomial import Polynomial
 
 from optlaws.balancing.levers.linkage import FourBar
 from optlaws.errors import InputError
-from optlaws.series.peaks import polished
-from optlaws.series.tolerances import REAL_ROOT
+from optlaws.numerics.peaks import polished
+from optlaws.numerics.tolerances import REAL_ROOT
 
 LEAST_SHARE, GREATEST_SHARE = 0.2, 0.8  # of the swing, between which chi01 is looked for
 

@@ -17,7 +17,7 @@ from optlaws.balancing.loaders.loader import loader
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
-from optlaws.series.chebyshev import product
+from optlaws.numerics.chebyshev import product
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.energy import Energy, EnergyFamily
 from optlaws.synthesis.families.family import EvenFamily, Family, LinearFamily

@@ -14,7 +14,7 @@ from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.checks import motion_law
 from optlaws.numbers import bounded, real
-from optlaws.series.tolerances import AGREEMENT, LOADER_TERM
+from optlaws.numerics.tolerances import AGREEMENT, LOADER_TERM
 
 
 @dataclass(frozen=True, repr=False)

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
-from optlaws.series import chebyshev
-from optlaws.series.tolerances import CONVERGENCE_RADIUS, VALUE_ROUNDING
+from optlaws.numerics import chebyshev
+from optlaws.numerics.tolerances import CONVERGENCE_RADIUS, VALUE_ROUNDING
 
 Array = NDArray[np.float64]
 Derivative = Callable[[float, int], float]

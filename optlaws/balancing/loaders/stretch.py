@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from optlaws.balancing.loaders.near_top import Deficit, deficit
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
-from optlaws.series import panels
+from optlaws.numerics import panels
 
 Array = NDArray[np.float64]
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
-from optlaws.series.tolerances import AGREEMENT, TOP_POINT, TOP_REACHED, TOP_STEP
+from optlaws.numerics.tolerances import AGREEMENT, TOP_POINT, TOP_REACHED, TOP_STEP
 
 MOST = 41
 

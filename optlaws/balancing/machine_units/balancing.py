@@ -22,11 +22,11 @@ from optlaws.kept import kept_property
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import TURN, either
 from optlaws.numbers import finite, real_times
-from optlaws.series.enclosures.branch_and_bound import Extremes, extremes
-from optlaws.series.enclosures.enclosed_integral import integral
-from optlaws.series.enclosures.interval_arrays import Interval
-from optlaws.series.enclosures.jets import Jet
-from optlaws.series.tolerances import AGREEMENT, BALANCING_EXTREMES
+from optlaws.numerics.enclosures.branch_and_bound import Extremes, extremes
+from optlaws.numerics.enclosures.integral import integral
+from optlaws.numerics.enclosures.interval import Interval
+from optlaws.numerics.enclosures.taylor import Jet
+from optlaws.numerics.tolerances import AGREEMENT, BALANCING_EXTREMES
 
 Array = NDArray[np.float64]
 

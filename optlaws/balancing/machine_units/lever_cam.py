@@ -18,11 +18,11 @@ from optlaws.kept import kept_property
 from optlaws.laws import PolynomialLaw
 from optlaws.motion.quantities import TURN, quantity
 from optlaws.numbers import positive
-from optlaws.series import chebyshev
-from optlaws.series.enclosures.branch_and_bound import Extremes, extremes
-from optlaws.series.enclosures.interval_arrays import Interval
-from optlaws.series.enclosures.jets import Jet, variable
-from optlaws.series.tolerances import ROUNDOFF, TORQUE_EXTREMES
+from optlaws.numerics import chebyshev
+from optlaws.numerics.enclosures.branch_and_bound import Extremes, extremes
+from optlaws.numerics.enclosures.interval import Interval
+from optlaws.numerics.enclosures.taylor import Jet, variable
+from optlaws.numerics.tolerances import ROUNDOFF, TORQUE_EXTREMES
 
 Array = NDArray[np.float64]
 

@@ -16,10 +16,10 @@ from numpy.typing import NDArray
 from optlaws.laws.segments.constant_power import PowerSegment
 from optlaws.laws.segments.fractional import FractionalSegment
 from optlaws.laws.segments.segment import Segment, Waves
-from optlaws.series import chebyshev, real_powers
-from optlaws.series.enclosures.interval_arrays import Interval, between, exact
-from optlaws.series.enclosures.jets import Jet
-from optlaws.series.tolerances import ROUNDOFF
+from optlaws.numerics import chebyshev, real_powers
+from optlaws.numerics.enclosures.interval import Interval, between, exact
+from optlaws.numerics.enclosures.taylor import Jet
+from optlaws.numerics.tolerances import ROUNDOFF
 
 Array = NDArray[np.float64]
 

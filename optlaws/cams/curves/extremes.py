@@ -8,9 +8,9 @@ from math import atan, degrees, inf, nextafter
 from typing import TypeAlias
 
 from optlaws.cams.curves.motion_by_angle import CamMotion
-from optlaws.series.enclosures.branch_and_bound import extremes
-from optlaws.series.enclosures.jets import Jet
-from optlaws.series.tolerances import CAM_EXTREMES, EQUAL_EXTREMES, ROUNDOFF
+from optlaws.numerics.enclosures.branch_and_bound import extremes
+from optlaws.numerics.enclosures.taylor import Jet
+from optlaws.numerics.tolerances import CAM_EXTREMES, EQUAL_EXTREMES, ROUNDOFF
 
 #: of the displacement's jet; shorter than it by as many orders as the function takes derivatives
 Function: TypeAlias = Callable[[Jet], Jet]

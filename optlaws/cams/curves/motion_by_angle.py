@@ -22,10 +22,10 @@ from optlaws.laws.segments.segment import PolynomialSegment, Segment
 from optlaws.motion.piece import Piece, factor, named_law
 from optlaws.motion.quantities import TURN, either, in_small_units, quantity
 from optlaws.numbers import Quantity, derivative, real_times
-from optlaws.series import chebyshev
-from optlaws.series.enclosures.interval_arrays import Interval, exact, hull
-from optlaws.series.enclosures.jets import Jet
-from optlaws.series.tolerances import CLOSURE, ROUNDOFF
+from optlaws.numerics import chebyshev
+from optlaws.numerics.enclosures.interval import Interval, exact, hull
+from optlaws.numerics.enclosures.taylor import Jet
+from optlaws.numerics.tolerances import CLOSURE, ROUNDOFF
 from optlaws.suggest import unknown_key
 
 Array = NDArray[np.float64]

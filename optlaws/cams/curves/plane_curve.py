@@ -11,10 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.numbers import derivative, finite, real_times, whole
-from optlaws.series import chebyshev
-from optlaws.series.enclosures.interval_arrays import Interval
-from optlaws.series.enclosures.jets import Jet, Pair
-from optlaws.series.tolerances import ROUNDOFF
+from optlaws.numerics import chebyshev
+from optlaws.numerics.enclosures.interval import Interval
+from optlaws.numerics.enclosures.taylor import Jet, Pair
+from optlaws.numerics.tolerances import ROUNDOFF
 
 Array = NDArray[np.float64]
 

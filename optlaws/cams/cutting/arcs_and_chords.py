@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.cams.cutting.outline import Outline, curvature, divided, greatest_deviation, speed
-from optlaws.series.enclosures.interval_arrays import Interval, middle
-from optlaws.series.enclosures.jets import Jet
+from optlaws.numerics.enclosures.interval import Interval, middle
+from optlaws.numerics.enclosures.taylor import Jet
 
 Array = NDArray[np.float64]
 

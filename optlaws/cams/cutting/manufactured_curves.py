@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from optlaws.cams.curves.plane_curve import CurveAlongNormals, PiecewiseCurve, derivatives
 from optlaws.cams.cutting.arcs_and_chords import Arcs
 from optlaws.kept import kept_property
-from optlaws.series.enclosures.interval_arrays import Interval
-from optlaws.series.enclosures.jets import Pair, turned, variable
+from optlaws.numerics.enclosures.interval import Interval
+from optlaws.numerics.enclosures.taylor import Pair, turned, variable
 
 Array = NDArray[np.float64]
 

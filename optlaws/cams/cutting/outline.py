@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
-from optlaws.series.enclosures.branch_and_bound import extremes
-from optlaws.series.enclosures.interval_arrays import Interval
-from optlaws.series.enclosures.jets import Jet, Pair
+from optlaws.numerics.enclosures.branch_and_bound import extremes
+from optlaws.numerics.enclosures.interval import Interval
+from optlaws.numerics.enclosures.taylor import Jet, Pair
 
 Array = NDArray[np.float64]
 Density = Callable[[Array], Array]

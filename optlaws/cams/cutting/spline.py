@@ -12,8 +12,8 @@ from optlaws.cams.curves.plane_curve import PiecewiseCurve, derivatives
 from optlaws.cams.cutting.outline import MOST_PARTS, Outline, greatest_deviation, stretches
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
-from optlaws.series.enclosures.interval_arrays import Interval
-from optlaws.series.enclosures.jets import Jet, Pair
+from optlaws.numerics.enclosures.interval import Interval
+from optlaws.numerics.enclosures.taylor import Jet, Pair
 
 Array = NDArray[np.float64]
 

@@ -13,7 +13,7 @@ from optlaws.cams.cutting.outline import Outline
 from optlaws.cams.cutting.spline import Spline, spline
 from optlaws.errors import InputError
 from optlaws.files.writing import MARK
-from optlaws.series.bisection import bisect_each
+from optlaws.numerics.bisection import bisect_each
 
 Array = NDArray[np.float64]
 

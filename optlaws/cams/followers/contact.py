@@ -13,8 +13,8 @@ from optlaws.cams.curves.extremes import CamExtremes, Extreme, angle_of_tangent,
 from optlaws.cams.curves.motion_by_angle import CamMotion
 from optlaws.errors import InputError
 from optlaws.motion.piece import Piece
-from optlaws.series.enclosures.interval_arrays import Interval
-from optlaws.series.enclosures.jets import Jet, Pair, Term
+from optlaws.numerics.enclosures.interval import Interval
+from optlaws.numerics.enclosures.taylor import Jet, Pair, Term
 from optlaws.synthesis.functionals.makers import peak
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.windows import Window

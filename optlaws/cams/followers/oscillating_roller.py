@@ -17,7 +17,7 @@ from optlaws.cams.followers.rollers_and_faces import RollerContact, half_turn
 from optlaws.errors import InputError
 from optlaws.motion.piece import Piece
 from optlaws.numbers import Quantity
-from optlaws.series.enclosures.jets import Jet, Pair
+from optlaws.numerics.enclosures.taylor import Jet, Pair
 
 Array = NDArray[np.float64]
 

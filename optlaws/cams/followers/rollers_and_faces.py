@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from optlaws.cams.curves.extremes import CamExtremes, Extreme, Undercut, enclosed_extremes, widened
 from optlaws.cams.curves.motion_by_angle import CamMotion
 from optlaws.cams.followers.contact import ContactState, CurvatureTerms, FollowerContact, bearing, shifted
-from optlaws.series.enclosures.interval_arrays import Interval
-from optlaws.series.enclosures.jets import Jet, Pair, Term
+from optlaws.numerics.enclosures.interval import Interval
+from optlaws.numerics.enclosures.taylor import Jet, Pair, Term
 
 _COARSE = 1e-3
 

@@ -18,7 +18,7 @@ from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.explorer.answers.cam_view import AskedCam, cams_of, panel
 from optlaws.explorer.answers.law_view import digits, drawn
 from optlaws.jobs.cam.forces_and_files import Findings, ForcesEntries, forces_of
-from optlaws.series.enclosures.branch_and_bound import Extremes
+from optlaws.numerics.enclosures.branch_and_bound import Extremes
 
 Array = NDArray[np.float64]
 

@@ -15,7 +15,7 @@ from optlaws.laws.law import MotionLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
 from optlaws.numbers import frequency, not_negative
-from optlaws.series import chebyshev
+from optlaws.numerics import chebyshev
 
 Array = NDArray[np.float64]
 Shaper = Literal["ZV", "ZVD"]

@@ -18,7 +18,7 @@ from optlaws.laws.polynomial import PolynomialLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import Segment
 from optlaws.numbers import finite, fractions
-from optlaws.series import chebyshev, exact
+from optlaws.numerics import chebyshev, exact
 
 Array = NDArray[np.float64]
 Multiplier = Sequence[Any] | NDArray[Any] | Callable[[float], float]

@@ -16,7 +16,7 @@ from optlaws.errors import InputError, NoisyTable
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
 from optlaws.numbers import not_negative, numbers
-from optlaws.series import chebyshev
+from optlaws.numerics import chebyshev
 
 Array = NDArray[np.float64]
 

@@ -12,7 +12,7 @@ from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment, Segment
 from optlaws.laws.segments.sine import SineSegment
 from optlaws.numbers import finite
-from optlaws.series.exact import chebyshev_from_powers
+from optlaws.numerics.exact import chebyshev_from_powers
 
 Piece = tuple[float, Segment]
 

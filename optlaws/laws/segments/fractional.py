@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from optlaws.errors import InputError
 from optlaws.laws.segments.segment import Segment
-from optlaws.series import real_powers
-from optlaws.series.tolerances import SAME_EXPONENT
+from optlaws.numerics import real_powers
+from optlaws.numerics.tolerances import SAME_EXPONENT
 
 Array = NDArray[np.float64]
 

@@ -18,7 +18,7 @@ from optlaws.laws.polynomial import PolynomialLaw
 from optlaws.laws.storage import contents, known_fields
 from optlaws.lazy import Registry
 from optlaws.numbers import finite, numbers
-from optlaws.series import chebyshev
+from optlaws.numerics import chebyshev
 
 Array = NDArray[np.float64]
 

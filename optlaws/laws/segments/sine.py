@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws.segments.segment import Segment, Wave, Waves
-from optlaws.series.panels import of_waves
+from optlaws.numerics.panels import of_waves
 
 Array = NDArray[np.float64]
 

@@ -17,7 +17,7 @@ from optlaws.errors import InputError
 from optlaws.laws import MotionLaw, PolynomialLaw
 from optlaws.mechanisms.cam.polydyne import cam_factors, polydyne
 from optlaws.numbers import not_negative, positive
-from optlaws.series import chebyshev
+from optlaws.numerics import chebyshev
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.problem.combined import CombinedPeak, CombinedPower
 from optlaws.synthesis.problem.constants import FUNCTIONALS, MAKERS, Functional

@@ -15,7 +15,7 @@ from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.mechanisms.cam.smoothness import check_mass_law
 from optlaws.mechanisms.checks import motion_law
 from optlaws.numbers import not_negative, positive
-from optlaws.series import chebyshev
+from optlaws.numerics import chebyshev
 
 Array = NDArray[np.float64]
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
-from optlaws.series.tolerances import JUMP
+from optlaws.numerics.tolerances import JUMP
 
 _NAMES = {1: ("velocity", "b"), 2: ("acceleration", "c"), 3: ("jerk", "j")}
 _REMEDY = (

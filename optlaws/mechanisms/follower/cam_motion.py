@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from optlaws.kept import kept_property
 from optlaws.laws.segments.segment import Wave
 from optlaws.laws.segments.sine import SineSegment
-from optlaws.series import chebyshev
+from optlaws.numerics import chebyshev
 
 Array = NDArray[np.float64]
 

@@ -13,9 +13,9 @@ from optlaws.kept import kept_property
 from optlaws.mechanisms.follower.cam_motion import Forcing
 from optlaws.mechanisms.follower.particular import RADIANS, Stretch, stretches
 from optlaws.mechanisms.follower.vibration import Oscillator
-from optlaws.series import chebyshev
-from optlaws.series.panels import Panels, equal, resolved
-from optlaws.series.tolerances import MOTION_RESOLVED, STRETCH_RESOLVED
+from optlaws.numerics import chebyshev
+from optlaws.numerics.panels import Panels, equal, resolved
+from optlaws.numerics.tolerances import MOTION_RESOLVED, STRETCH_RESOLVED
 
 Array = NDArray[np.float64]
 State = tuple[float, float]

@@ -16,7 +16,7 @@ from optlaws.mechanisms.follower.chain import Motion
 from optlaws.mechanisms.follower.law_motion import forcings
 from optlaws.mechanisms.follower.mass_motion import MassMotion
 from optlaws.mechanisms.follower.vibration import Oscillator
-from optlaws.series.tolerances import RESONANCE, SHORTEST_STRETCH
+from optlaws.numerics.tolerances import RESONANCE, SHORTEST_STRETCH
 
 Array = NDArray[np.float64]
 

@@ -13,9 +13,9 @@ from optlaws.laws import MotionLaw, PolynomialLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import Segment, Wave, Waves
 from optlaws.mechanisms.follower.cam_motion import Forcing
-from optlaws.series import chebyshev
-from optlaws.series.panels import Panels, resolved
-from optlaws.series.tolerances import VELOCITY_ABSORBED, VELOCITY_RESOLVED
+from optlaws.numerics import chebyshev
+from optlaws.numerics.panels import Panels, resolved
+from optlaws.numerics.tolerances import VELOCITY_ABSORBED, VELOCITY_RESOLVED
 
 Array = NDArray[np.float64]
 

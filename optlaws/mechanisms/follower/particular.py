@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from optlaws.kept import kept_property
 from optlaws.mechanisms.follower.cam_motion import Forcing
 from optlaws.mechanisms.follower.vibration import Oscillator
-from optlaws.series import chebyshev
+from optlaws.numerics import chebyshev
 
 Array = NDArray[np.float64]
 

@@ -13,7 +13,7 @@ from optlaws.laws import MotionLaw
 from optlaws.mechanisms.follower.cam_motion import Forcing
 from optlaws.mechanisms.follower.law_motion import forcings
 from optlaws.mechanisms.machine.dynamics import Drive
-from optlaws.series import chebyshev
+from optlaws.numerics import chebyshev
 from optlaws.synthesis.spaces.pieces.rows import PieceFamily
 from optlaws.synthesis.spaces.space import LawSpace
 

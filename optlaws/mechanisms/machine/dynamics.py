@@ -16,8 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
-from optlaws.series import chebyshev
-from optlaws.series.tolerances import SAME_ROOT, SAME_TIME, VIBRATING
+from optlaws.numerics import chebyshev
+from optlaws.numerics.tolerances import SAME_ROOT, SAME_TIME, VIBRATING
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]

@@ -14,7 +14,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.mechanisms.machine.state_space import StateSpace
 from optlaws.numbers import not_negative, numbers, positive
-from optlaws.series.tolerances import DEFECTIVE, SAME_ROOT
+from optlaws.numerics.tolerances import DEFECTIVE, SAME_ROOT
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]

@@ -24,7 +24,7 @@ from optlaws.mechanisms.machine.over_time import MachineCycle, MachineResponse, 
 from optlaws.mechanisms.machine.state_space import StateSpace
 from optlaws.mechanisms.machine.texts import asked_of_output, check_repeats, check_rest, time_of, title_of
 from optlaws.numbers import power_of_two
-from optlaws.series.tolerances import NEGLIGIBLE_TERM, SHORTEST_STRETCH, VALUE_ROUNDING
+from optlaws.numerics.tolerances import NEGLIGIBLE_TERM, SHORTEST_STRETCH, VALUE_ROUNDING
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.families.family import Family, LinearFamily, NormFamily
 from optlaws.synthesis.functionals.sizes import Reach, by_norm, reach_of

@@ -13,8 +13,8 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws.curve import Curve, Sides
 from optlaws.numbers import real_times, whole
-from optlaws.series import chebyshev
-from optlaws.series.tolerances import END_ROUNDING
+from optlaws.numerics import chebyshev
+from optlaws.numerics.tolerances import END_ROUNDING
 
 Array = NDArray[np.float64]
 

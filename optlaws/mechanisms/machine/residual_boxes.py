@@ -25,8 +25,8 @@ from optlaws.mechanisms.machine.texts import check_rest, machine_of, text_of, ti
 from optlaws.mechanisms.spectrum.laplace import velocity_transform_of
 from optlaws.mechanisms.spectrum.robust import cached_columns, domain_of, greatest_modulus, velocity_transforms, widened
 from optlaws.numbers import not_negative, numbers, power_of_two
-from optlaws.series import chebyshev
-from optlaws.series.tolerances import NEGLIGIBLE_TERM
+from optlaws.numerics import chebyshev
+from optlaws.numerics.tolerances import NEGLIGIBLE_TERM
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.problem.constants import MAKERS, Functional
 from optlaws.synthesis.spaces.space import LawSpace

@@ -15,7 +15,7 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.mechanisms.machine.dynamics import Dynamics
 from optlaws.numbers import MAGNITUDE_LIMIT, positive, real_times
-from optlaws.series.tolerances import SETTLED, UNSTABLE
+from optlaws.numerics.tolerances import SETTLED, UNSTABLE
 from optlaws.suggest import unknown_key
 
 Array = NDArray[np.float64]

@@ -10,7 +10,7 @@ from optlaws.errors import InputError
 from optlaws.files import reading
 from optlaws.mechanisms.machine.state_space import StateSpace
 from optlaws.numbers import numbers
-from optlaws.series.tolerances import CLOSURE
+from optlaws.numerics.tolerances import CLOSURE
 from optlaws.synthesis.spaces.space import LawSpace
 
 _LATEST = 100.0

@@ -13,8 +13,8 @@ from optlaws.errors import InputError
 from optlaws.laws import MotionLaw, PolynomialLaw
 from optlaws.mechanisms.checks import motion_law
 from optlaws.mechanisms.machine.state_space import StateSpace
-from optlaws.series import chebyshev
-from optlaws.series.tolerances import FEEDTHROUGH, FLAT_OUTPUT_JUMP
+from optlaws.numerics import chebyshev
+from optlaws.numerics.tolerances import FEEDTHROUGH, FLAT_OUTPUT_JUMP
 
 Array = NDArray[np.float64]
 

@@ -8,8 +8,8 @@ from math import ceil
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.series import chebyshev
-from optlaws.series.tolerances import TINY
+from optlaws.numerics import chebyshev
+from optlaws.numerics.tolerances import TINY
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]

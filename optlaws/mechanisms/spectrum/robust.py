@@ -20,8 +20,8 @@ from optlaws.laws import MotionLaw
 from optlaws.mechanisms.cam.constants import check_order
 from optlaws.mechanisms.spectrum.residual import residual_phasor, roots
 from optlaws.numbers import not_negative, positive
-from optlaws.series.chebyshev import from_values, nodes
-from optlaws.series.peaks import Peak
+from optlaws.numerics.chebyshev import from_values, nodes
+from optlaws.numerics.peaks import Peak
 from optlaws.synthesis.families.cone import ConeFamily, stationary_places
 from optlaws.synthesis.problem.constants import MAKERS, Functional
 from optlaws.synthesis.spaces.space import LawSpace

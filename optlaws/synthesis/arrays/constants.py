@@ -10,7 +10,7 @@ from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
 from optlaws.laws import PolynomialLaw
-from optlaws.series.chebyshev import from_values, nodes
+from optlaws.numerics.chebyshev import from_values, nodes
 
 Array = NDArray[np.float64]
 

@@ -11,7 +11,7 @@ from optlaws.formulas.affine import degree
 from optlaws.formulas.of_motion import Motion
 from optlaws.formulas.tree import Call, Formula, Number, Power, total
 from optlaws.kept import kept_property
-from optlaws.series.chebyshev import FEWEST, MOST, from_values, nodes
+from optlaws.numerics.chebyshev import FEWEST, MOST, from_values, nodes
 from optlaws.synthesis.arrays.columns import Columns, CurvedTangents
 from optlaws.synthesis.arrays.constants import peaks
 from optlaws.synthesis.families.curved import CurvedFamily, IntegralFamily, OfFormula

@@ -10,7 +10,7 @@ from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
-from optlaws.series.chebyshev import basis_values, product, real_parts_of_roots
+from optlaws.numerics.chebyshev import basis_values, product, real_parts_of_roots
 from optlaws.synthesis.families.family import Family, Jet
 
 Array = NDArray[np.float64]

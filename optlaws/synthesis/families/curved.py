@@ -15,7 +15,7 @@ from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.formulas.slopes import derivative, scaled
 from optlaws.formulas.tree import Formula
 from optlaws.kept import kept_property
-from optlaws.series.candidates import candidates
+from optlaws.numerics.candidates import candidates
 from optlaws.synthesis.families.family import Family, Jet, LinearFamily
 
 Array = NDArray[np.float64]

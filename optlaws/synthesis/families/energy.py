@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
-from optlaws.series.chebyshev import product, real_parts_of_roots
+from optlaws.numerics.chebyshev import product, real_parts_of_roots
 from optlaws.synthesis.families.family import Family, Jet, LinearFamily
 
 Array = NDArray[np.float64]

@@ -12,8 +12,8 @@ from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
-from optlaws.series.chebyshev import product, real_parts_of_roots
-from optlaws.series.gegenbauer import even_gegenbauer_jet
+from optlaws.numerics.chebyshev import product, real_parts_of_roots
+from optlaws.numerics.gegenbauer import even_gegenbauer_jet
 
 Array = NDArray[np.float64]
 

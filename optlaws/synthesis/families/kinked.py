@@ -19,8 +19,8 @@ from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.formulas.branches import branch_at, knots
 from optlaws.formulas.tree import Formula
 from optlaws.kept import kept_property
-from optlaws.series.candidates import cut_at_all, cut_at_roots
-from optlaws.series.chebyshev import gauss
+from optlaws.numerics.candidates import cut_at_all, cut_at_roots
+from optlaws.numerics.chebyshev import gauss
 from optlaws.synthesis.families.curved import IntegralFamily, Slopes, bent
 from optlaws.synthesis.families.family import Jet
 

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from optlaws.formulas.affine import degree
 from optlaws.formulas.of_motion import Motion
-from optlaws.series.chebyshev import from_values, interpolated, nodes
-from optlaws.series.chebyshev import gauss as gauss_rule
+from optlaws.numerics.chebyshev import from_values, interpolated, nodes
+from optlaws.numerics.chebyshev import gauss as gauss_rule
 from optlaws.synthesis.families.family import LinearFamily
 from optlaws.synthesis.families.names import mirrored
 from optlaws.synthesis.spaces.pieces.rows import PieceFamily, PieceSeries

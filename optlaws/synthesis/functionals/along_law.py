@@ -16,9 +16,9 @@ from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, PolynomialLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
-from optlaws.series.candidates import candidates, cut_at_all, cut_at_roots, series_between
-from optlaws.series.chebyshev import gauss, value
-from optlaws.series.peaks import Peak, extremes
+from optlaws.numerics.candidates import candidates, cut_at_all, cut_at_roots, series_between
+from optlaws.numerics.chebyshev import gauss, value
+from optlaws.numerics.peaks import Peak, extremes
 
 Array = NDArray[np.float64]
 

@@ -17,7 +17,7 @@ from optlaws.formulas.of_motion import Motion
 from optlaws.formulas.quadratic import quadratic
 from optlaws.formulas.tree import Call, Formula, Name, Negative, Number, Power, number, product, total
 from optlaws.formulas.vocabulary import ORDERS
-from optlaws.series.chebyshev import gauss
+from optlaws.numerics.chebyshev import gauss
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.curved import CurvedFamily, IntegralFamily
 from optlaws.synthesis.families.family import Family

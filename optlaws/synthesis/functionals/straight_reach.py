@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.formulas.of_motion import Motion
-from optlaws.series.chebyshev import gauss
+from optlaws.numerics.chebyshev import gauss
 from optlaws.synthesis.functionals.curved_rows import columns_of, rule_cells
 from optlaws.synthesis.functionals.sizes import kept_directions
 

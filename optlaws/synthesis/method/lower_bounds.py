@@ -20,7 +20,7 @@ from numpy.polynomial.chebyshev import chebpts2
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
-from optlaws.series.bisection import bisect
+from optlaws.numerics.bisection import bisect
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Family, NormFamily, Program
 from optlaws.synthesis.families.names import at_least

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.laws import MotionLaw
-from optlaws.series.chebyshev import nodes
+from optlaws.numerics.chebyshev import nodes
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Family, Program
 from optlaws.synthesis.families.names import RowName

@@ -16,7 +16,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.lazy import Registry
 from optlaws.numbers import MOST_DEGREE, MOST_PIECE_DEGREE, MOST_PIECES, fractions, numbers, positive, whole
-from optlaws.series.exact import (
+from optlaws.numerics.exact import (
     chebyshev_from_powers,
     exact_powers,
     powers_from_chebyshev,

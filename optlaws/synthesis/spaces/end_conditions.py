@@ -12,7 +12,7 @@ from optlaws.errors import InputError
 from optlaws.laws import PolynomialLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.numbers import MOST_ORDER, fractions, listed, whole
-from optlaws.series.exact import Polynomial, edge, exact_powers, plus, shifted, times
+from optlaws.numerics.exact import Polynomial, edge, exact_powers, plus, shifted, times
 from optlaws.synthesis.spaces.bases import PolynomialBasis, Powers
 from optlaws.synthesis.spaces.spline_law import piecewise_law
 from optlaws.synthesis.spaces.splines import PiecewiseBasis

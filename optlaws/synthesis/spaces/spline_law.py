@@ -9,7 +9,7 @@ from typing import Any
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
 from optlaws.numbers import fractions
-from optlaws.series.exact import Polynomial, chebyshev_from_powers, edge, plus, shifted, times
+from optlaws.numerics.exact import Polynomial, chebyshev_from_powers, edge, plus, shifted, times
 
 
 def piecewise_law(

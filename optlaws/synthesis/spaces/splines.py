@@ -17,7 +17,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.numbers import MOST_PIECE_DEGREE, fractions, whole
-from optlaws.series.exact import chebyshev_from_powers
+from optlaws.numerics.exact import chebyshev_from_powers
 from optlaws.synthesis.spaces.bases import Basis
 from optlaws.synthesis.spaces.breaks import mirrored, order_of_continuity, places
 

@@ -14,7 +14,7 @@ from optlaws.laws.segments.fractional import FractionalSegment
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import Segment
 from optlaws.laws.segments.sine import HarmonicSegment
-from optlaws.series import real_powers
+from optlaws.numerics import real_powers
 
 mpf = mpmath.mpf
 CASES: list[tuple[Segment, Any]] = [  # a segment on [0, 1] and its velocity

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.polynomial.chebyshev import chebpts2
 from numpy.typing import NDArray
 
-from optlaws.series.chebyshev import nodes
+from optlaws.numerics.chebyshev import nodes
 from optlaws.synthesis.families.family import EvenFamily, Family, Points, Program
 from optlaws.synthesis.method.tolerances import NEARLY_BINDING
 

@@ -18,7 +18,7 @@ from optlaws.formulas.branches import branch_at, switches
 from optlaws.formulas.of_motion import Motion
 from optlaws.formulas.slopes import opposite
 from optlaws.formulas.tree import Call, Formula, Name, Negative, Product, Sum
-from optlaws.series.chebyshev import gauss
+from optlaws.numerics.chebyshev import gauss
 from optlaws.synthesis.families.curved import Slopes
 from optlaws.synthesis.families.family import LinearFamily, Points, Program
 from optlaws.synthesis.families.kinked import KinkedIntegralFamily

@@ -22,7 +22,7 @@ from optlaws.formulas.slopes import derivative
 from optlaws.formulas.tree import Formula
 from optlaws.formulas.vocabulary import ORDERS
 from optlaws.kept import kept_property
-from optlaws.series.chebyshev import gauss
+from optlaws.numerics.chebyshev import gauss
 from optlaws.synthesis.families.curved import IntegralFamily
 from optlaws.synthesis.functionals.curved_rows import columns_of, rule_cells
 

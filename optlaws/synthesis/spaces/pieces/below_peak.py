@@ -8,7 +8,7 @@ import numpy as np
 from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
-from optlaws.series.chebyshev import from_values, nodes
+from optlaws.numerics.chebyshev import from_values, nodes
 from optlaws.synthesis.spaces.pieces.rows import PieceSeries
 from optlaws.synthesis.spaces.polynomials.below_peak import chord, kink
 

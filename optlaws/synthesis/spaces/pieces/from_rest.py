@@ -8,7 +8,7 @@ import numpy as np
 from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
-from optlaws.series.chebyshev import product, real_parts_of_roots
+from optlaws.numerics.chebyshev import product, real_parts_of_roots
 from optlaws.synthesis.families.family import MirroredFamily, RootFamily
 from optlaws.synthesis.spaces.pieces.rows import PieceFamily, PieceSeries
 

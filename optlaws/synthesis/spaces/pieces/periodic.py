@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from optlaws.errors import InputError
 from optlaws.numbers import MOST_PIECES, numbers, whole
-from optlaws.series.chebyshev import from_values, nodes
+from optlaws.numerics.chebyshev import from_values, nodes
 from optlaws.synthesis.spaces.bases import Pieces
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 from optlaws.synthesis.spaces.pieces.free import PieceSpace

@@ -11,7 +11,7 @@ from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
-from optlaws.series.chebyshev import nodes, product, real_parts_of_roots
+from optlaws.numerics.chebyshev import nodes, product, real_parts_of_roots
 from optlaws.synthesis.families.family import LinearFamily, ProductFamily
 
 Array = NDArray[np.float64]

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from optlaws.kept import kept_property
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
-from optlaws.series.chebyshev import from_values, nodes
+from optlaws.numerics.chebyshev import from_values, nodes
 from optlaws.synthesis.families.family import Family
 from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions, construct

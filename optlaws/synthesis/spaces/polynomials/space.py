@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
 from optlaws.laws import PolynomialLaw
-from optlaws.series.chebyshev import from_values, nodes
-from optlaws.series.gegenbauer import gegenbauer
+from optlaws.numerics.chebyshev import from_values, nodes
+from optlaws.numerics.gegenbauer import gegenbauer
 from optlaws.synthesis.families.family import (
     EvenFamily,
     Family,

@@ -16,9 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import SolverFailure
-from optlaws.series.enclosures.interval_arrays import Interval, exact
-from optlaws.series.enclosures.jets import Jet
-from optlaws.series.tolerances import (
+from optlaws.numerics.enclosures.interval import Interval, exact
+from optlaws.numerics.enclosures.taylor import Jet
+from optlaws.numerics.tolerances import (
     CELL_END,
     EQUAL_EXTREMES,
     EXTREME_POLISHED,
@@ -113,7 +113,7 @@ def extremes(
 
     Examples
     --------
-    >>> from optlaws.series.enclosures.jets import variable
+    >>> from optlaws.numerics.enclosures.taylor import variable
     >>> enclosure = extremes(lambda x, order: variable(x, order).waves()[0], [0.0, 2.0, 7.0])
     >>> round(enclosure.most, 9), round(enclosure.most_at, 6), 0.0 <= enclosure.high - enclosure.most < 1e-8
     (1.0, 1.570796, True)

@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import SolverFailure
-from optlaws.series.enclosures.branch_and_bound import Function
-from optlaws.series.enclosures.interval_arrays import Interval
-from optlaws.series.tolerances import ROUNDOFF, SMALLEST_SIZE
+from optlaws.numerics.enclosures.branch_and_bound import Function
+from optlaws.numerics.enclosures.interval import Interval
+from optlaws.numerics.tolerances import ROUNDOFF, SMALLEST_SIZE
 
 Array = NDArray[np.float64]
 
@@ -41,7 +41,7 @@ def integral(function: Function, edges: Any, *, share: float = 1e-9, scale: floa
 
     Examples
     --------
-    >>> from optlaws.series.enclosures.jets import variable
+    >>> from optlaws.numerics.enclosures.taylor import variable
     >>> low, high = integral(lambda x, order: variable(x, order).magnitude(), [-1.0, 2.0])
     >>> low <= 2.5 <= high, high - low < 1e-7
     (True, True)

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.series.tolerances import ROUNDOFF, TINY, WAVE_ROUNDING
+from optlaws.numerics.tolerances import ROUNDOFF, TINY, WAVE_ROUNDING
 
 Array = NDArray[np.float64]
 

@@ -8,7 +8,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from optlaws.series.enclosures.interval_arrays import Interval, between, chosen, dot, exact, hull
+from optlaws.numerics.enclosures.interval import Interval, between, chosen, dot, exact, hull
 
 #: an array of numbers, intervals, or a number
 Term: TypeAlias = Any

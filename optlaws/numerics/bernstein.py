@@ -9,8 +9,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.series.chebyshev import nodes
-from optlaws.series.tolerances import OPERATIONS_ROUNDING, TIE, TOP_WIDTH
+from optlaws.numerics.chebyshev import nodes
+from optlaws.numerics.tolerances import OPERATIONS_ROUNDING, TIE, TOP_WIDTH
 
 Array = NDArray[np.float64]
 

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
-from optlaws.series.chebyshev import derivative, from_values, interpolated, nodes, real_parts_of_roots
-from optlaws.series.tolerances import QUOTIENT_BLUR, VALUE_ROUNDING
+from optlaws.numerics.chebyshev import derivative, from_values, interpolated, nodes, real_parts_of_roots
+from optlaws.numerics.tolerances import QUOTIENT_BLUR, VALUE_ROUNDING
 
 Array = NDArray[np.float64]
 

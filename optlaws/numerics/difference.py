@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
-from optlaws.series import bernstein, chebyshev
-from optlaws.series.tolerances import DIFFERENCE_ROUNDING, DIFFERENCE_SHARE
+from optlaws.numerics import bernstein, chebyshev
+from optlaws.numerics.tolerances import DIFFERENCE_ROUNDING, DIFFERENCE_SHARE
 
 Array = NDArray[np.float64]
 Function = Callable[[Array], Array]

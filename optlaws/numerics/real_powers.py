@@ -9,8 +9,8 @@ from math import inf, log
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.series.bisection import bisect
-from optlaws.series.tolerances import SAME_EXPONENT
+from optlaws.numerics.bisection import bisect
+from optlaws.numerics.tolerances import SAME_EXPONENT
 
 Array = NDArray[np.float64]
 Sum = Mapping[float, float]  # exponent: coefficient

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from optlaws import InputError
-from optlaws.series import bernstein
-from optlaws.series.chebyshev import nodes
-from optlaws.series.difference import greatest_difference
+from optlaws.numerics import bernstein
+from optlaws.numerics.chebyshev import nodes
+from optlaws.numerics.difference import greatest_difference
 
 
 @pytest.mark.parametrize("degree", [0, 1, 5, 9])

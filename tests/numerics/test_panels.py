@@ -7,9 +7,9 @@ from numpy.typing import NDArray
 from scipy.special import j0, j1, jn_zeros
 
 from optlaws.errors import InputError
-from optlaws.series import chebyshev
-from optlaws.series.bisection import bisect
-from optlaws.series.panels import Panels, equal, integral, of_waves, resolved
+from optlaws.numerics import chebyshev
+from optlaws.numerics.bisection import bisect
+from optlaws.numerics.panels import Panels, equal, integral, of_waves, resolved
 
 Array = NDArray[np.float64]
 

@@ -13,7 +13,7 @@ from numpy.polynomial.legendre import leggauss
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
-from optlaws.series.tolerances import EPSILON, SERIES_ROUNDING
+from optlaws.numerics.tolerances import EPSILON, SERIES_ROUNDING
 
 Array = NDArray[np.float64]
 Place = TypeVar("Place", float, Array)

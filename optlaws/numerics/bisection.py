@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.series.tolerances import TOUCHING
+from optlaws.numerics.tolerances import TOUCHING
 
 Array = NDArray[np.float64]
 

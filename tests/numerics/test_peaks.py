@@ -8,8 +8,8 @@ import pytest
 from numpy.typing import NDArray
 
 from optlaws import Chebyshev, PolynomialLaw, Problem, synthesize
-from optlaws.series.peaks import Peak, extremes, highest, peak, polished
-from optlaws.series.tolerances import POLISHING_REACH
+from optlaws.numerics.peaks import Peak, extremes, highest, peak, polished
+from optlaws.numerics.tolerances import POLISHING_REACH
 
 Array = NDArray[np.float64]
 Residual = Callable[[Array], tuple[Array, Array]]

@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import SolverFailure
-from optlaws.series import chebyshev
-from optlaws.series.peaks import polished
-from optlaws.series.tolerances import PANEL_ROUNDING, SHORTEST_PANEL
+from optlaws.numerics import chebyshev
+from optlaws.numerics.peaks import polished
+from optlaws.numerics.tolerances import PANEL_ROUNDING, SHORTEST_PANEL
 
 Array = NDArray[np.float64]
 Function = Callable[[Array], Array]

@@ -8,10 +8,10 @@ import pytest
 from numpy.typing import NDArray
 
 from optlaws.errors import SolverFailure
-from optlaws.series.enclosures.branch_and_bound import extremes
-from optlaws.series.enclosures.enclosed_integral import integral
-from optlaws.series.enclosures.interval_arrays import Interval, bearing, between, dot, exact
-from optlaws.series.enclosures.jets import Jet, variable
+from optlaws.numerics.enclosures.branch_and_bound import extremes
+from optlaws.numerics.enclosures.integral import integral
+from optlaws.numerics.enclosures.interval import Interval, bearing, between, dot, exact
+from optlaws.numerics.enclosures.taylor import Jet, variable
 
 Array = NDArray[np.float64]
 Plain = Callable[[Array], Array]

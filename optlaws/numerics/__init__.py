@@ -1,0 +1,1 @@
+"""Numbers and functions of one variable: series, roots, bisection, enclosures, tolerances. Knows no law."""

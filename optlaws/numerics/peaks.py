@@ -1,0 +1,115 @@
+"""Peaks over the whole interval: what they are, and how they are chosen and polished."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import inf
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.numbers import bounded
+from optlaws.numerics.tolerances import POLISHED, POLISHING_REACH, TIE
+
+Array = NDArray[np.float64]
+
+POLISH_STEPS = 3
+
+
+@dataclass(frozen=True, slots=True)
+class Peak:
+    """An extreme value and the smallest k at which it is reached, both dimensionless.
+
+    Examples
+    --------
+    >>> Peak(1.875, 0.5)
+    Peak(value=1.875, k=0.5)
+    """
+
+    value: float
+    k: float
+
+    def to_dict(self) -> dict[str, float | None]:
+        """Value and place as plain data; a value without bound is None, for JSON knows no infinite number.
+
+        Examples
+        --------
+        >>> Peak(1.875, 0.5).to_dict()
+        {'value': 1.875, 'k': 0.5}
+        >>> Peak(float("inf"), 0.0).to_dict()
+        {'value': None, 'k': 0.0}
+        """
+        return {"value": bounded(self.value), "k": self.k}
+
+
+def highest(k: Array, values: Array, tie: float) -> Peak:
+    """The largest of `values`, with the smallest k whose value is within `tie` of it.
+
+    Examples
+    --------
+    >>> highest(np.array([0.75, 0.25, 0.5]), np.array([2.0, 2.0, 1.0]), 1e-10)
+    Peak(value=2.0, k=0.25)
+    """
+    top = float(values.max())
+    return Peak(top, float(k[values >= top - tie].min()))
+
+
+def extremes(k: Array, values: Array) -> tuple[Peak, Peak]:
+    """Minimum and maximum, signed, of values at candidate points; infinite where a value is.
+
+    Examples
+    --------
+    >>> extremes(np.array([0.0, 1.0]), np.array([-6.0, 6.0]))
+    (Peak(value=-6.0, k=0.0), Peak(value=6.0, k=1.0))
+    """
+    tie = _tie(np.abs(values))
+    lowest = highest(k, -values, tie)
+    return Peak(-lowest.value if lowest.value else 0.0, lowest.k), highest(k, values, tie)
+
+
+def peak(k: Array, values: Array) -> Peak:
+    """Peak magnitude of values at candidate points; infinite where a value is.
+
+    Examples
+    --------
+    >>> peak(np.array([0.0, 1.0]), np.array([-6.0, 6.0]))
+    Peak(value=6.0, k=0.0)
+    """
+    size = np.abs(values)
+    return highest(k, size, _tie(size))
+
+
+def _tie(size: Array) -> float:
+    top = float(size.max())
+    return TIE * (top if top < inf else float(size[np.isfinite(size)].max(initial=0.0)))
+
+
+def polished(x: Array, residual: Callable[[Array], tuple[Array, Array]]) -> Array:
+    """Candidates in [-1, 1] moved by Newton steps towards roots of a residual, where that makes it smaller.
+
+    `residual(x)` gives the residual and its derivative with respect to x. A step is short and stays only
+    where the residual shrinks, so that a candidate that is already good cannot be lost.
+
+    Examples
+    --------
+    >>> polished(np.array([0.4995]), lambda x: (x * x - 0.25, 2 * x)).round(12)
+    array([0.5])
+    """
+    size, step = _step(*residual(x))
+    for _ in range(POLISH_STEPS):
+        if np.abs(step).max(initial=0.0) < POLISHED:
+            break
+        trial = np.clip(x - step, -1.0, 1.0)
+        trial_size, trial_step = _step(*residual(trial))
+        better = trial_size < size
+        x = np.where(better, trial, x)
+        size = np.where(better, trial_size, size)
+        step = np.where(better, trial_step, 0.0)
+    return x
+
+
+def _step(value: Array, slope: Array) -> tuple[Array, Array]:
+    safe = np.where(slope == 0.0, 1.0, slope)
+    step = np.where(slope == 0.0, 0.0, value / safe)
+    return np.abs(value), np.clip(step, -POLISHING_REACH, POLISHING_REACH)
