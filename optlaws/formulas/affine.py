@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 
-from optlaws.formulas.slopes import added, constant, multiplied, opposite
-from optlaws.formulas.tree import Call, Formula, Name, Negative, Number, Power, Product, Reciprocal, Sum, Table
+from optlaws.formulas.quadratic import quadratic
+from optlaws.formulas.slopes import constant
+from optlaws.formulas.tree import Call, Formula, Name, Negative, Number, Power, Product, Sum, Table
 
 
 @dataclass(frozen=True)
@@ -24,16 +25,6 @@ class Affine:
     factors: tuple[tuple[str, Formula], ...]
     rest: Formula
 
-    def scaled(self, by: Formula) -> Affine:
-        """The affine form times a formula without the names."""
-        return Affine(
-            tuple((name, multiplied([by, factor])) for name, factor in self.factors), multiplied([by, self.rest])
-        )
-
-    def opposite(self) -> Affine:
-        """The affine form with every sign turned."""
-        return Affine(tuple((name, opposite(factor)) for name, factor in self.factors), opposite(self.rest))
-
 
 def affine(formula: Formula, names: Collection[str]) -> Affine | None:
     """The formula as an affine one of these names; None where it is not.
@@ -46,35 +37,10 @@ def affine(formula: Formula, names: Collection[str]) -> Affine | None:
     >>> affine(read("b*c"), "bc") is None
     True
     """
-    if not formula.names() & set(names):
-        return Affine((), formula)
-    if isinstance(formula, Name):
-        return Affine(((formula.name, Number(1.0)),), Number(0.0))
-    if isinstance(formula, Negative):
-        form = affine(formula.of, names)
-        return None if form is None else form.opposite()
-    if isinstance(formula, Sum):
-        return _sum([affine(term, names) for term in formula.terms])
-    if isinstance(formula, Product):
-        moving = [factor for factor in formula.factors if factor.names() & set(names)]
-        if len(moving) > 1 or isinstance(moving[0], Reciprocal):
-            return None
-        form = affine(moving[0], names)
-        still = [factor for factor in formula.factors if factor is not moving[0]]
-        return None if form is None else form.scaled(multiplied(still))
-    return None
-
-
-def _sum(terms: list[Affine | None]) -> Affine | None:
-    gathered: dict[str, list[Formula]] = {}
-    rest = []
-    for term in terms:
-        if term is None:
-            return None
-        rest.append(term.rest)
-        for name, factor in term.factors:
-            gathered.setdefault(name, []).append(factor)
-    return Affine(tuple((name, added(factors)) for name, factors in gathered.items()), added(rest))
+    form = quadratic(formula, names, most=1)
+    if form is None:
+        return None
+    return Affine(tuple((key[0], factor) for key, factor in form.items() if key), form.get((), Number(0.0)))
 
 
 def degree(formula: Formula, names: Mapping[str, int]) -> int | None:

@@ -36,12 +36,12 @@ def quadratic(formula: Formula, names: Collection[str], most: int = _MOST) -> Te
     if isinstance(formula, Sum):
         return _sum([quadratic(term, names, most) for term in formula.terms])
     if isinstance(formula, Product):
-        return _product([quadratic(factor, names, most) for factor in formula.factors], most)
-    if isinstance(formula, Power):
+        return _product(formula, names, most)
+    if isinstance(formula, Power) and most > 1:
         exponent = constant(formula.exponent)
         if exponent is None or not 0.0 <= exponent <= most or exponent % 1.0:
             return None
-        return _product([{(): Number(1.0)}, *[quadratic(formula.base, names, most)] * int(exponent)], most)
+        return _multiplied([{(): Number(1.0)}, *[quadratic(formula.base, names, most)] * int(exponent)], most)
     return None
 
 
@@ -109,7 +109,15 @@ def _sum(terms: list[Terms | None]) -> Terms | None:
     return {key: added(factors) for key, factors in gathered.items()}
 
 
-def _product(factors: list[Terms | None], most: int) -> Terms | None:
+def _product(formula: Product, names: Collection[str], most: int) -> Terms | None:
+    """What has none of the names times the product of what has."""
+    moving = [factor for factor in formula.factors if factor.names() & set(names)]
+    still = multiplied([factor for factor in formula.factors if factor not in moving])
+    form = _multiplied([quadratic(factor, names, most) for factor in moving], most)
+    return None if form is None else {key: multiplied([still, factor]) for key, factor in form.items()}
+
+
+def _multiplied(factors: list[Terms | None], most: int) -> Terms | None:
     terms: Terms = {(): Number(1.0)}
     for factor in factors:
         if factor is None:
