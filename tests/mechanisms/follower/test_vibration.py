@@ -10,6 +10,8 @@ from optlaws.mechanisms.follower.vibration import Oscillator
 
 NEAR_ONE = [1.0, 1.0 - 1e-15, 1.0 + 1e-15, 1.0 - 1e-9, 1.0 + 1e-9, 1.0 - 1e-4, 1.0 + 1e-4]
 DAMPINGS = st.one_of(st.sampled_from([0.0, *NEAR_ONE]), st.floats(0.0, 1.5))
+#: a share of 1e-13 of a state must itself be a normal number
+STATES = st.floats(-1.0, 1.0).map(lambda state: state if abs(state) > 1e-280 else 0.0)
 
 
 def exact(nu: float, damping: float, h0: float, v0: float, s: float) -> tuple[float, float]:
@@ -20,7 +22,7 @@ def exact(nu: float, damping: float, h0: float, v0: float, s: float) -> tuple[fl
         return float(found[0]), float(found[1])
 
 
-@given(st.floats(0.1, 60.0), DAMPINGS, st.floats(-1.0, 1.0), st.floats(-1.0, 1.0), st.floats(0.0, 1.0))
+@given(st.floats(0.1, 60.0), DAMPINGS, STATES, STATES, st.floats(0.0, 1.0))
 def test_motion_is_the_matrix_exponential(nu: float, damping: float, h0: float, speed: float, s: float) -> None:
     one, v0 = Oscillator(nu, damping), speed * nu
     found = [float(one.motion(h0, v0, np.array([s]), order)[0]) for order in (0, 1)]
