@@ -23,8 +23,8 @@ REACH = 0.35  # share of the radius of convergence that the series is used on: 0
 
 
 @dataclass(frozen=True, slots=True)
-class Germ:
-    """sum coefficients[n] t^(exponent + step n) for 0 <= t <= reach."""
+class PuiseuxSeries:
+    """The series sum coefficients[n] t^(exponent + step n) for 0 <= t <= reach."""
 
     exponent: float
     step: float
@@ -72,17 +72,15 @@ class Germ:
 
 
 @dataclass(frozen=True, slots=True)
-class Deficit:
-    """w = B - |b| beside a top: sum coefficients[n] t^(step n) for 0 <= t <= reach, and sqrt(w (2B - w)) = `root`."""
+class VelocityDeficit:
+    """Series of the deficit w = B - |b| beside a top of the velocity, and of sqrt(w (2B - w)), the `root`."""
 
-    coefficients: tuple[float, ...]
-    step: float
-    reach: float
-    root: Germ
+    deficit: PuiseuxSeries
+    root: PuiseuxSeries
 
     def energy(self, t: Array, B: float, order: int) -> list[Array]:
         """Derivatives 0 to `order` of w (2B - w) with respect to t > 0."""
-        w = [_differentiated(self.coefficients, self.step, t, i) for i in range(order + 1)]
+        w = [self.deficit.derivative(t, i) for i in range(order + 1)]
         orders = [w[0] * (2.0 * B - w[0])]
         for n in range(1, order + 1):
             cross = sum(comb(n, i) * w[i] * w[n - i] for i in range(1, n))
@@ -90,7 +88,7 @@ class Deficit:
         return orders
 
 
-def deficit(derivative: Derivative, B: float, length: float, where: str) -> Deficit:
+def velocity_deficit(derivative: Derivative, B: float, length: float, where: str) -> VelocityDeficit:
     """The deficit beside a top from one-sided derivatives of |b| with respect to t, `derivative(t, order)`.
 
     Either |b| is analytic there, or c is a power of t.
@@ -108,12 +106,12 @@ def deficit(derivative: Derivative, B: float, length: float, where: str) -> Defi
             if abs(w[n]) * min(radius, length) ** n > VALUE_ROUNDING * B:
                 break
             w[n] = 0.0
-        return _made(w, 1.0, B, reach=REACH * radius, length=length, where=where)
+        return _series_of(w, 1.0, B, reach=REACH * radius, length=length, where=where)
     p = _power(derivative, length)
     if p is None:
         raise InputError(f"velocity of the law at k = {where} must fall analytically or as a power of the distance")
     w = [0.0, -derivative(length, 1) * length**-p / (p + 1.0), *([0.0] * (TERMS - 1))]
-    return _made(w, p + 1.0, B, reach=inf, length=length, where=where)
+    return _series_of(w, p + 1.0, B, reach=inf, length=length, where=where)
 
 
 def _taylor(derivative: Derivative, B: float, length: float) -> list[float] | None:
@@ -127,7 +125,7 @@ def _taylor(derivative: Derivative, B: float, length: float) -> list[float] | No
     return coefficients
 
 
-def _made(w: list[float], step: float, B: float, *, reach: float, length: float, where: str) -> Deficit:
+def _series_of(w: list[float], step: float, B: float, *, reach: float, length: float, where: str) -> VelocityDeficit:
     energy = -np.convolve(w, w)[: TERMS + 1]
     energy += 2.0 * B * np.array(w)
     lead = int(np.flatnonzero(energy)[0]) if energy.any() else 0
@@ -140,7 +138,9 @@ def _made(w: list[float], step: float, B: float, *, reach: float, length: float,
         if abs(q[-1]) > OVERFLOW * q[0]:  # tops that all but meet: fewer terms on a shorter reach do as well
             break
     near = min(length, reach, (REACH * _radius(q[1:], q[0])) ** (1.0 / step))
-    return Deficit(tuple(w), step, min(reach, length), Germ(0.5 * step * lead, step, tuple(q), near))
+    return VelocityDeficit(
+        PuiseuxSeries(0.0, step, tuple(w), min(reach, length)), PuiseuxSeries(0.5 * step * lead, step, tuple(q), near)
+    )
 
 
 def _radius(coefficients: list[float], scale: float) -> float:
@@ -158,13 +158,3 @@ def _power(derivative: Derivative, length: float) -> float | None:
     if max(exponents) - min(exponents) > 1e-9:
         return None
     return float(np.mean(exponents))
-
-
-def _differentiated(coefficients: tuple[float, ...], step: float, t: Array, order: int) -> Array:
-    powers = step * np.arange(len(coefficients))
-    values = np.array(coefficients)
-    for i in range(order):
-        values = values * (powers - i)
-    nonzero = np.flatnonzero(values)
-    lead = int(nonzero[0]) if len(nonzero) else 0
-    return np.asarray(t ** (powers[lead] - order) * np.polynomial.polynomial.polyval(t**step, values[lead:]))

@@ -9,7 +9,7 @@ from math import comb, inf
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.balancing.loaders.near_top import Deficit, deficit
+from optlaws.balancing.loaders.near_top import VelocityDeficit, velocity_deficit
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.numerics import panels
@@ -83,7 +83,7 @@ class Stretch:
             b, c, j, s = (self._executive(t, order) for order in range(4))
             return 3.0 * c * j + b * s
 
-        least = 0.0 if self._deficit is None or self._deficit.step == 1.0 else 1e-6 * self.length
+        least = 0.0 if self._deficit is None or self._deficit.deficit.step == 1.0 else 1e-6 * self.length
         edges = (least, *(t for t in self._panels.edges if t > least)) if self._panels.edges else (least, self.length)
         return panels.Panels(edges).roots(slope, curvature)
 
@@ -93,10 +93,10 @@ class Stretch:
         return near if near == inf else near + self._panels.square(lambda t: self.value(t, order))
 
     @kept_property
-    def _deficit(self) -> Deficit | None:
+    def _deficit(self) -> VelocityDeficit | None:
         if not self.top:
             return None
-        return deficit(self._one, self.B, self.length, f"{self.origin:.6g}")
+        return velocity_deficit(self._one, self.B, self.length, f"{self.origin:.6g}")
 
     @kept_property
     def _root_reach(self) -> float:
@@ -104,7 +104,7 @@ class Stretch:
 
     @kept_property
     def _reach(self) -> float:
-        return -1.0 if self._deficit is None else self._deficit.reach
+        return -1.0 if self._deficit is None else self._deficit.deficit.reach
 
     @kept_property
     def _panels(self) -> panels.Panels:

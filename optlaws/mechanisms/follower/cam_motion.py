@@ -16,6 +16,27 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
+class PolynomialMotion:
+    """A polynomial over a stretch of time by the Chebyshev series of itself and of its first two derivatives."""
+
+    length: float
+    series: tuple[Array, Array, Array]
+
+    def derivative(self, s: Array, order: int) -> Array:
+        """Derivative of order `order` at s."""
+        return chebyshev.value(self._series(order), 2.0 * s / self.length - 1.0)
+
+    @kept_property
+    def _known(self) -> dict[int, Array]:
+        return dict(enumerate(self.series))
+
+    def _series(self, order: int) -> Array:
+        if order not in self._known:
+            self._known[order] = chebyshev.derivative(self._series(order - 1)) / self.length
+        return self._known[order]
+
+
+@dataclass(frozen=True, eq=False)
 class Forcing:
     """Displacement a over one stretch of time, s = time - start in [0, length]: a polynomial and sines.
 
@@ -50,27 +71,20 @@ class Forcing:
     def derivative(self, s: Array, order: int) -> Array:
         """Derivative of order `order` of a at s."""
         if not self.sines:
-            return self._polynomial(s, order)
+            return self._polynomial.derivative(s, order)
         first, *others = (motion.derivative(s, 1.0, order) for motion in self._swings)
         swing: Array = sum(others, first)
-        return swing if order > 1 and not self.acceleration.any() else swing + self._polynomial(s, order)
-
-    def _polynomial(self, s: Array, order: int) -> Array:
-        return chebyshev.value(self._series(order), 2.0 * s / self.length - 1.0)
+        return swing if order > 1 and not self.acceleration.any() else swing + self._polynomial.derivative(s, order)
 
     @kept_property
     def _swings(self) -> tuple[SineSegment, ...]:
         return tuple(SineSegment(*sine) for sine in self.sines)
 
     @kept_property
-    def _known(self) -> dict[int, Array]:
+    def _polynomial(self) -> PolynomialMotion:
         velocity = chebyshev.integral(self.length * self.acceleration, self.b0)
-        return {0: chebyshev.integral(self.length * velocity, self.a0), 1: velocity, 2: self.acceleration}
-
-    def _series(self, order: int) -> Array:
-        if order not in self._known:
-            self._known[order] = chebyshev.derivative(self._series(order - 1)) / self.length
-        return self._known[order]
+        series = chebyshev.integral(self.length * velocity, self.a0), velocity, self.acceleration
+        return PolynomialMotion(self.length, series)
 
 
 def rest(start: float, length: float, a0: float) -> Forcing:

@@ -16,8 +16,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.kept import kept_property
-from optlaws.mechanisms.follower.cam_motion import Forcing
+from optlaws.mechanisms.follower.cam_motion import Forcing, PolynomialMotion
 from optlaws.mechanisms.follower.vibration import Oscillator
 from optlaws.numerics import chebyshev
 
@@ -70,31 +69,10 @@ class Stretch:
 
 
 @dataclass(frozen=True, eq=False)
-class PolynomialSolution:
-    """Chebyshev series of u, u' and u'' on a stretch of this length."""
-
-    length: float
-    series: tuple[Array, Array, Array]
-
-    def derivative(self, s: Array, order: int) -> Array:
-        """Derivative of order `order` at s."""
-        return chebyshev.value(self._series(order), 2.0 * s / self.length - 1.0)
-
-    @kept_property
-    def _higher(self) -> dict[int, Array]:
-        return dict(enumerate(self.series))
-
-    def _series(self, order: int) -> Array:
-        if order not in self._higher:
-            self._higher[order] = chebyshev.derivative(self._series(order - 1)) / self.length
-        return self._higher[order]
-
-
-@dataclass(frozen=True, eq=False)
 class SineSolution:
     """A polynomial and the real parts of amplitude exp(i frequency s)."""
 
-    steady: PolynomialSolution
+    steady: PolynomialMotion
     waves: tuple[tuple[complex, float], ...]
 
     def derivative(self, s: Array, order: int) -> Array:
@@ -123,7 +101,7 @@ def stretches(forcing: Forcing, oscillator: Oscillator) -> list[Stretch]:
     return _solved(forcing, oscillator)
 
 
-def closed_form(load: Array, oscillator: Oscillator, length: float) -> PolynomialSolution | None:
+def closed_form(load: Array, oscillator: Oscillator, length: float) -> PolynomialMotion | None:
     """The polynomial u with u'' + 2 n u' + nu² u = -load (1.25); None where it is large beside the load.
 
     Examples
@@ -146,7 +124,7 @@ def closed_form(load: Array, oscillator: Oscillator, length: float) -> Polynomia
         sum_of_u += abs(float(u[i]))
         if square * sum_of_u > most:
             return None
-    return PolynomialSolution(length, (u[:size], v[:size], w[:size]))
+    return PolynomialMotion(length, (u[:size], v[:size], w[:size]))
 
 
 def _load(acceleration: Array, velocity: Array, oscillator: Oscillator) -> Array:
@@ -193,7 +171,7 @@ def _solved(forcing: Forcing, oscillator: Oscillator) -> list[Stretch]:
     for i in range(count):
         w = coefficients[:, i]
         v = chebyshev.integral(length * w, 0.0)
-        solution = PolynomialSolution(length, (chebyshev.integral(length * v, 0.0), v, w))
+        solution = PolynomialMotion(length, (chebyshev.integral(length * v, 0.0), v, w))
         solved.append(Stretch(forcing, float(offsets[i]), length, solution, closed=False))
     return solved
 
