@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from optlaws.cams.followers.contact import FollowerContact
 from optlaws.errors import InfeasibleProblem, OptlawsError
 from optlaws.formulas.arithmetic import NUMPY, evaluate
-from optlaws.formulas.intervals import Interval, enclosed
+from optlaws.formulas.intervals import Endpoints, enclosed
 from optlaws.formulas.reading import read
 from optlaws.formulas.slopes import derivative
 from optlaws.formulas.tree import Formula
@@ -119,7 +119,7 @@ class RollerCurvature:
         values = dict(zip("ab", at, strict=True))
         height = np.asarray(evaluate(self._formula, values, NUMPY)) + 0.0 * at[0]
         slopes = np.array([np.asarray(evaluate(slope, values, NUMPY)) + 0.0 * at[0] for slope in self._slopes])
-        within = {name: Interval(*ends) for name, *ends in zip("ab", low, high, strict=True)}
+        within = {name: Endpoints(*ends) for name, *ends in zip("ab", low, high, strict=True)}
         size = np.abs(height) + (np.abs(slopes) * np.maximum(np.abs(low), np.abs(high))).sum(axis=0)
         base = height - (slopes * at).sum(axis=0) - self._taken(within, reach) - _ROUNDED * size
         known = np.isfinite(base) & np.isfinite(slopes).all(axis=0)
@@ -131,7 +131,7 @@ class RollerCurvature:
             if sure
         ]
 
-    def _taken(self, within: dict[str, Interval], reach: Array) -> Array:
+    def _taken(self, within: dict[str, Endpoints], reach: Array) -> Array:
         """The greatest distance of G below a plane that touches it in the middle, by Taylor's formula."""
         taken = np.zeros(reach.shape[1])
         for i, j in combinations_with_replacement(range(2), 2):

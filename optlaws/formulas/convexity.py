@@ -16,7 +16,7 @@ import numpy as np
 
 from optlaws.formulas.affine import affine
 from optlaws.formulas.arithmetic import pieces
-from optlaws.formulas.intervals import Interval, enclosed
+from optlaws.formulas.intervals import Endpoints, enclosed
 from optlaws.formulas.quadratic import semidefinite
 from optlaws.formulas.slopes import constant
 from optlaws.formulas.tree import Call, Formula, Negative, Power, Product, Reciprocal, Sum, Table
@@ -122,10 +122,10 @@ class Judge:
         return self._call(formula)
 
     @property
-    def _interval(self) -> dict[str, Interval]:
+    def _interval(self) -> dict[str, Endpoints]:
         edges = np.linspace(self.start, self.stop, _PARTS + 1)
-        whole = Interval(np.array(-np.inf), np.array(np.inf))
-        return {**dict.fromkeys(self.names, whole), "k": Interval(edges[:-1], edges[1:])}
+        whole = Endpoints(np.array(-np.inf), np.array(np.inf))
+        return {**dict.fromkeys(self.names, whole), "k": Endpoints(edges[:-1], edges[1:])}
 
     def sign(self, formula: Formula) -> int:
         """1 where it is nowhere below 0, -1 where nowhere above, 0 where neither is known."""

@@ -27,50 +27,50 @@ _MOST_ANGLE = 2.0**24
 
 
 @dataclass(frozen=True, eq=False)
-class Interval:
+class Endpoints:
     """Least and greatest values, an array of each."""
 
     low: Array
     high: Array
 
-    def __neg__(self) -> Interval:
-        return Interval(-self.high, -self.low)
+    def __neg__(self) -> Endpoints:
+        return Endpoints(-self.high, -self.low)
 
-    def __add__(self, other: Interval) -> Interval:
+    def __add__(self, other: Endpoints) -> Endpoints:
         with np.errstate(invalid="ignore"):
-            return Interval(self.low + other.low, self.high + other.high).outward()
+            return Endpoints(self.low + other.low, self.high + other.high).outward()
 
-    def __mul__(self, other: Interval) -> Interval:
+    def __mul__(self, other: Endpoints) -> Endpoints:
         with np.errstate(invalid="ignore"):
             ends = [low * two for low in (self.low, self.high) for two in (other.low, other.high)]
         # nothing times whatever is nothing
         ends = [np.where(np.isnan(end), 0.0, end) for end in ends]
-        return Interval(np.minimum.reduce(ends), np.maximum.reduce(ends)).outward()
+        return Endpoints(np.minimum.reduce(ends), np.maximum.reduce(ends)).outward()
 
-    def outward(self) -> Interval:
+    def outward(self) -> Endpoints:
         """A little wider, for the rounding of an operation; a sum or a product that is 0 is exact, and stays."""
         sizes = (np.where(np.isfinite(end), OPERATIONS_ROUNDING * np.abs(end), 0.0) for end in (self.low, self.high))
         below, above = sizes
-        return Interval(self.low - below, self.high + above)
+        return Endpoints(self.low - below, self.high + above)
 
-    def through(self, function: Callable[[Array], Array]) -> Interval:
+    def through(self, function: Callable[[Array], Array]) -> Endpoints:
         """The image under a rising function."""
         with np.errstate(all="ignore"):
-            return Interval(np.asarray(function(self.low)), np.asarray(function(self.high)))
+            return Endpoints(np.asarray(function(self.low)), np.asarray(function(self.high)))
 
 
-def between(value: float) -> Interval:
+def between(value: float) -> Endpoints:
     """The interval that holds a single number."""
-    return Interval(np.array(value), np.array(value))
+    return Endpoints(np.array(value), np.array(value))
 
 
-def enclosed(formula: Formula, names: Mapping[str, Interval]) -> Interval:
+def enclosed(formula: Formula, names: Mapping[str, Endpoints]) -> Endpoints:
     """Bounds of a formula over boxes; NaN where it has no value in a part of one.
 
     Examples
     --------
     >>> from optlaws.formulas.reading import read
-    >>> values = enclosed(read("(1 + k)^2"), {"k": Interval(np.array(0.0), np.array(1.0))})
+    >>> values = enclosed(read("(1 + k)^2"), {"k": Endpoints(np.array(0.0), np.array(1.0))})
     >>> round(float(values.low), 9), round(float(values.high), 9)
     (1.0, 4.0)
     """
@@ -105,19 +105,19 @@ def over_parts(formula: Formula, name: str, start: float, stop: float) -> tuple[
     0.0
     """
     edges = np.linspace(start, stop, _PARTS + 1)
-    values = enclosed(formula, {name: Interval(edges[:-1], edges[1:])})
+    values = enclosed(formula, {name: Endpoints(edges[:-1], edges[1:])})
     return float(np.min(values.low)), float(np.max(values.high))
 
 
-def _reciprocal(of: Interval) -> Interval:
+def _reciprocal(of: Endpoints) -> Endpoints:
     crossing = (of.low < 0.0) & (of.high > 0.0)
     with np.errstate(divide="ignore"):
         low = np.where(of.high == 0.0, -np.inf, 1.0 / of.high)
         high = np.where(of.low == 0.0, np.inf, 1.0 / of.low)
-    return Interval(np.where(crossing, -np.inf, low), np.where(crossing, np.inf, high)).outward()
+    return Endpoints(np.where(crossing, -np.inf, low), np.where(crossing, np.inf, high)).outward()
 
 
-def _power(base: Interval, exponent: Interval, known: float | None) -> Interval:
+def _power(base: Endpoints, exponent: Endpoints, known: float | None) -> Endpoints:
     if known is not None and known == int(known):
         whole = int(known)
         with np.errstate(all="ignore"):
@@ -125,14 +125,14 @@ def _power(base: Interval, exponent: Interval, known: float | None) -> Interval:
         low, high = np.minimum(*ends), np.maximum(*ends)
         if whole % 2 == 0:
             low = np.where((base.low <= 0.0) & (base.high >= 0.0), 0.0, low)
-        interval = Interval(low, high)
+        interval = Endpoints(low, high)
         return interval if whole >= 0 else _reciprocal(interval)
     with np.errstate(all="ignore"):
         ends = [np.power(x, y) for x in (base.low, base.high) for y in (exponent.low, exponent.high)]
-    return Interval(np.minimum.reduce(ends), np.maximum.reduce(ends))
+    return Endpoints(np.minimum.reduce(ends), np.maximum.reduce(ends))
 
 
-def _table(table: Table, at: Interval) -> Interval:
+def _table(table: Table, at: Endpoints) -> Endpoints:
     """What its pieces are between, each where it is met."""
     places, rows = np.array(table.places), pieces(table)
     lows, highs = np.full(np.shape(at.low), np.inf), np.full(np.shape(at.low), -np.inf)
@@ -140,42 +140,42 @@ def _table(table: Table, at: Interval) -> Interval:
         # the first and the last piece go on beyond the table
         start, stop = (-np.inf if i == 0 else places[i]), (np.inf if i == len(rows) - 1 else places[i + 1])
         met = (at.low <= stop) & (at.high >= start)
-        s = Interval(np.maximum(at.low, start), np.minimum(at.high, stop)) + between(-places[i])
+        s = Endpoints(np.maximum(at.low, start), np.minimum(at.high, stop)) + between(-places[i])
         total = reduce(lambda sum_, value: between(value) + sum_ * s, row[::-1].tolist(), between(0.0))
         lows = np.where(met, np.minimum(lows, total.low), lows)
         highs = np.where(met, np.maximum(highs, total.high), highs)
-    return Interval(lows, highs)
+    return Endpoints(lows, highs)
 
 
-def _call(function: str, parts: list[Interval]) -> Interval:
+def _call(function: str, parts: list[Endpoints]) -> Endpoints:
     first = parts[0]
     if function == "max":
-        return reduce(lambda p, q: Interval(np.maximum(p.low, q.low), np.maximum(p.high, q.high)), parts)
+        return reduce(lambda p, q: Endpoints(np.maximum(p.low, q.low), np.maximum(p.high, q.high)), parts)
     if function == "min":
-        return reduce(lambda p, q: Interval(np.minimum(p.low, q.low), np.minimum(p.high, q.high)), parts)
+        return reduce(lambda p, q: Endpoints(np.minimum(p.low, q.low), np.minimum(p.high, q.high)), parts)
     if function == "norm":
         squares = [_power(part, part, 2.0) for part in parts]
         return reduce(lambda total, other: total + other, squares).through(np.sqrt)
     if function == "abs":
-        return Interval(np.maximum(np.maximum(first.low, -first.high), 0.0), np.maximum(-first.low, first.high))
+        return Endpoints(np.maximum(np.maximum(first.low, -first.high), 0.0), np.maximum(-first.low, first.high))
     if function in _RISING:
         return first.through(_RISING[function])
     if function == "tan":
         # a pole lies where the half turns differ
         same = np.floor(first.low / pi + 0.5) == np.floor(first.high / pi + 0.5)
         tangents = first.through(np.tan)
-        return Interval(np.where(same, tangents.low, -np.inf), np.where(same, tangents.high, np.inf))
+        return Endpoints(np.where(same, tangents.low, -np.inf), np.where(same, tangents.high, np.inf))
     return _cosine(first + -between(pi / 2.0).outward() if function == "sin" else first)
 
 
-def _cosine(turn: Interval) -> Interval:
+def _cosine(turn: Endpoints) -> Endpoints:
     """The range of a cosine; of so large an angle that its turns are rounded nothing is known."""
     with np.errstate(invalid="ignore"):
         ends = [np.cos(turn.low), np.cos(turn.high)]
     top = np.floor(turn.high / (2 * pi)) * 2 * pi >= turn.low
     bottom = np.floor((turn.high - pi) / (2 * pi)) * 2 * pi + pi >= turn.low
     large = np.maximum(np.abs(turn.low), np.abs(turn.high)) > _MOST_ANGLE
-    return Interval(np.where(bottom | large, -1.0, np.minimum(*ends)), np.where(top | large, 1.0, np.maximum(*ends)))
+    return Endpoints(np.where(bottom | large, -1.0, np.minimum(*ends)), np.where(top | large, 1.0, np.maximum(*ends)))
 
 
 _RISING: dict[str, Callable[[Array], Array]] = {

@@ -7,7 +7,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from optlaws.formulas.intervals import Interval, enclosed
+from optlaws.formulas.intervals import Endpoints, enclosed
 from optlaws.formulas.slopes import added, constant, multiplied, opposite
 from optlaws.formulas.tree import Formula, Name, Negative, Number, Power, Product, Sum
 from optlaws.numerics.tolerances import OPERATIONS_ROUNDING
@@ -45,7 +45,7 @@ def quadratic(formula: Formula, names: Collection[str], most: int = _MOST) -> Te
     return None
 
 
-def semidefinite(formula: Formula, names: Collection[str], within: Mapping[str, Interval], sign: int) -> bool:
+def semidefinite(formula: Formula, names: Collection[str], within: Mapping[str, Endpoints], sign: int) -> bool:
     """Whether the formula, times the sign, is a quadratic form that is nowhere negative, at every k.
 
     Examples
@@ -83,7 +83,7 @@ def _exactly(entries: Mapping[tuple[int, int], Fraction], size: int) -> bool:
     return True
 
 
-def _widely(entries: Mapping[tuple[int, int], Interval], size: int, sign: int) -> bool:
+def _widely(entries: Mapping[tuple[int, int], Endpoints], size: int, sign: int) -> bool:
     """By the eigenvalues at the middles of many parts, less what the entries may be off."""
     count = max(np.size(entry.low) for entry in entries.values())
     middles, reach = np.zeros((count, size, size)), np.zeros((count, size, size))

@@ -18,7 +18,7 @@ PARTS = 8
 _ROUNDS = 20
 
 
-class Top(NamedTuple):
+class GreatestValue(NamedTuple):
     """The greatest value of polynomials on [0, 1]: between `value`, which is taken, and `above`; its row and place."""
 
     value: float
@@ -49,7 +49,7 @@ def from_values(values: Array) -> Array:
     return values @ _of_values(values.shape[1])
 
 
-def top(control: Array) -> Top:
+def top(control: Array) -> GreatestValue:
     """The greatest value of polynomials on [0, 1], given by Bernstein coefficients, a row each.
 
     What can still be higher than the highest value met is cut in eight, to rounding; of places as high as one another
@@ -58,7 +58,7 @@ def top(control: Array) -> Top:
     Examples
     --------
     >>> top(from_powers(np.array([[0.0, 1.0, -1.0]])))
-    Top(value=0.25, above=0.25, row=0, u=0.5)
+    GreatestValue(value=0.25, above=0.25, row=0, u=0.5)
     """
     scale = float(np.abs(control).max())
     rows, lows, width = np.arange(len(control)), np.zeros(len(control)), 1.0
@@ -80,7 +80,7 @@ def top(control: Array) -> Top:
     else:
         above = max(above, float(control.max()))
     which, place = _first(np.concatenate(met, axis=1), best - TIE * scale)
-    return Top(best, max(above, best), which, place)
+    return GreatestValue(best, max(above, best), which, place)
 
 
 def in_parts(control: Array) -> Array:

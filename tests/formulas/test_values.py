@@ -12,7 +12,7 @@ from scipy.interpolate import CubicSpline
 from optlaws import InputError
 from optlaws.formulas.affine import affine, degree
 from optlaws.formulas.arithmetic import NUMPY, casadi_arithmetic, evaluate, mpmath_arithmetic
-from optlaws.formulas.intervals import Interval, enclosed
+from optlaws.formulas.intervals import Endpoints, enclosed
 from optlaws.formulas.quadratic import quadratic
 from optlaws.formulas.reading import read
 from optlaws.formulas.slopes import derivative
@@ -41,7 +41,7 @@ def test_every_arithmetic_agrees_with_python(batch: int) -> None:
         assert float(casadi.DM(evaluate(formula, values, casadi_arithmetic()))) == close
         value = evaluate(formula, {n: arb(v) for n, v in values.items()}, BALLS)
         assert float(value.mid()) == close
-        boxes = {n: Interval(np.array(v - 1e-3), np.array(v + 1e-3)) for n, v in values.items()}
+        boxes = {n: Endpoints(np.array(v - 1e-3), np.array(v + 1e-3)) for n, v in values.items()}
         around = enclosed(formula, boxes)
         assert around.low <= wanted <= around.high
 
@@ -49,7 +49,7 @@ def test_every_arithmetic_agrees_with_python(batch: int) -> None:
 @pytest.mark.parametrize("written", ["k + 1e17 - 1e17", "k*1e-9*1e9", "sin(3e5*k)", "cos(1e12*k)", "k*3/3 - k/7*7"])
 @pytest.mark.parametrize("k", [0.1, 0.7, 1.0])
 def test_bounds_hold_what_rounding_loses(written: str, k: float) -> None:
-    formula, box = read(written), Interval(np.array(k), np.array(k))
+    formula, box = read(written), Endpoints(np.array(k), np.array(k))
     around = enclosed(formula, {"k": box})
     with mpmath.workdps(60):
         value = evaluate(formula, {"k": mpmath.mpf(k)}, mpmath_arithmetic())

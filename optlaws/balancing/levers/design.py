@@ -7,7 +7,7 @@ from functools import partial
 
 from optlaws.balancing.levers.lever import TorsionLever
 from optlaws.balancing.levers.limits import LEAST_TRANSMISSION, MOST_ROCKER_SWING
-from optlaws.balancing.levers.search import Line, along, within
+from optlaws.balancing.levers.search import LengthSearch, along, within
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.numbers import finite
@@ -88,7 +88,7 @@ def find_torsion_levers(
     make = partial(TorsionLever, rho=rho, nu=nu, swing=swing, **fixed, **limits)
     if len(targets) == 1:
         ((quantity, value),), ((name, span),) = targets.items(), sought.items()
-        return along(Line(make, name, span, quantity, QUANTITIES[quantity]), value)
+        return along(LengthSearch(make, name, span, quantity, QUANTITIES[quantity]), value)
     return within(make, sought, {name: (QUANTITIES[name], value) for name, value in targets.items()})
 
 

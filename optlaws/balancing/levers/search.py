@@ -23,7 +23,7 @@ _STARTS = 4
 _BAR = 1e3  # residual where there is no lever: far above any that a lever has
 
 
-class Line(NamedTuple):
+class LengthSearch(NamedTuple):
     """One constant of the lever as a function of one length."""
 
     make: Make
@@ -44,7 +44,7 @@ class Line(NamedTuple):
             return float("nan")
 
 
-def along(line: Line, value: float) -> tuple[TorsionLever, ...]:
+def along(line: LengthSearch, value: float) -> tuple[TorsionLever, ...]:
     """The levers whose constant has a value, in order of their length.
 
     Raises
@@ -70,7 +70,7 @@ def along(line: Line, value: float) -> tuple[TorsionLever, ...]:
     return tuple(line.lever(length) for length in sorted(places))
 
 
-def _samples(line: Line) -> tuple[Array, Array]:
+def _samples(line: LengthSearch) -> tuple[Array, Array]:
     """Lengths within all limits, up to the very limits, and the constant there."""
     lengths = np.geomspace(*line.span, _TRIED)
     values = np.array([line.value(float(length)) for length in lengths])
@@ -84,7 +84,7 @@ def _samples(line: Line) -> tuple[Array, Array]:
     return lengths[order], values[order]
 
 
-def _edge(line: Line, inside: float, outside: float) -> float:
+def _edge(line: LengthSearch, inside: float, outside: float) -> float:
     return float(bisect(lambda length: bool(np.isfinite(line.value(length))), inside, outside, _HALVINGS)[0])
 
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.balancing.loaders.stretch import Stretch, stretch
+from optlaws.balancing.loaders.stretch import LoaderStretch, stretch
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.segments.segment import Segment
@@ -75,7 +75,7 @@ class LoaderSegment(Segment, kind="loader"):
         return self.top == "end"
 
     @kept_property
-    def _stretch(self) -> Stretch:
+    def _stretch(self) -> LoaderStretch:
         ends = (self.end, self.start) if self._back else (self.start, self.end)
         B = self.executive.peak(1).value
         return stretch(self.executive, B, *ends, top=bool(self.top))

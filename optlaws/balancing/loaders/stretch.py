@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Stretch:
+class LoaderStretch:
     """g(t) = sqrt(B² - b²) for 0 <= t <= length, at k = origin + t or, going back, at k = origin - t.
 
     Parameters
@@ -144,9 +144,9 @@ class Stretch:
 
 
 @lru_cache(maxsize=256)
-def stretch(executive: MotionLaw, B: float, origin: float, end: float, *, top: bool) -> Stretch:
+def stretch(executive: MotionLaw, B: float, origin: float, end: float, *, top: bool) -> LoaderStretch:
     """The stretch of these data, kept with what has been computed of it."""
-    return Stretch(executive, B, origin, end, top)
+    return LoaderStretch(executive, B, origin, end, top)
 
 
 def _root(energy: list[Array]) -> Array:

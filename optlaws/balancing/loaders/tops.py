@@ -17,7 +17,7 @@ MOST = 41
 
 
 @dataclass(frozen=True, slots=True)
-class Top:
+class VelocityTop:
     """A place, or a stretch of k, where |b| = B; the loader stands still there, and reverses."""
 
     first: float
@@ -38,7 +38,7 @@ def is_symmetric(law: MotionLaw) -> bool:
 
 
 @lru_cache(maxsize=256)
-def tops(law: MotionLaw) -> tuple[Top, ...]:
+def tops(law: MotionLaw) -> tuple[VelocityTop, ...]:
     """Every top of the velocity, in order.
 
     Raises
@@ -51,7 +51,7 @@ def tops(law: MotionLaw) -> tuple[Top, ...]:
     --------
     >>> from optlaws.laws import smoothstep
     >>> tops(smoothstep(2))
-    (Top(first=0.5, last=0.5),)
+    (VelocityTop(first=0.5, last=0.5),)
     """
     B = law.peak(1).value
     if not (isfinite(B) and B > 0.0):
@@ -105,7 +105,7 @@ def _left_behind(law: MotionLaw, B: float, k: float, limit: float) -> float:
     return limit
 
 
-def _narrowed(law: MotionLaw, B: float, low: float, high: float) -> Top:
+def _narrowed(law: MotionLaw, B: float, low: float, high: float) -> VelocityTop:
     least, most = law.extrema(1, (low, high))
     first = most.k if most.value >= -least.value else least.k
     last = _end_of_flat(law, B, first)
@@ -115,7 +115,7 @@ def _narrowed(law: MotionLaw, B: float, low: float, high: float) -> Top:
         first, last = min(first, 1.0 - last), max(last, 1.0 - first)
         if last - first < TOP_POINT:
             first = last = 0.5
-    return Top(first, last)
+    return VelocityTop(first, last)
 
 
 def _end_of_flat(law: MotionLaw, B: float, first: float) -> float:

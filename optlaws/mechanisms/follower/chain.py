@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
 from optlaws.mechanisms.follower.cam_motion import Forcing
-from optlaws.mechanisms.follower.particular import RADIANS, Stretch, stretches
+from optlaws.mechanisms.follower.particular import RADIANS, ForcedStretch, stretches
 from optlaws.mechanisms.follower.vibration import Oscillator
 from optlaws.numerics import chebyshev
 from optlaws.numerics.panels import Panels, equal, resolved
@@ -29,7 +29,7 @@ SAMPLES = 0.5 - 0.5 * chebyshev.nodes(17)
 
 
 @dataclass(frozen=True, eq=False)
-class Motion:
+class MassChain:
     """What the mass does over consecutive forcings, from a given state at their start.
 
     Parameters
@@ -47,7 +47,7 @@ class Motion:
     initial: State
 
     @kept_property
-    def stretches(self) -> list[Stretch]:
+    def stretches(self) -> list[ForcedStretch]:
         """The forcings with their particular solutions."""
         return [stretch for forcing in self.forcings for stretch in stretches(forcing, self.oscillator)]
 

@@ -12,7 +12,7 @@ from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.checks import leads_back
 from optlaws.mechanisms.follower.cam_motion import Forcing, rest
-from optlaws.mechanisms.follower.chain import Motion
+from optlaws.mechanisms.follower.chain import MassChain
 from optlaws.mechanisms.follower.law_motion import forcings
 from optlaws.mechanisms.follower.mass_motion import MassMotion
 from optlaws.mechanisms.follower.vibration import Oscillator
@@ -89,7 +89,7 @@ class CycleResponse(MassMotion):
         """State that comes back after one period."""
         oscillator = Oscillator(self.nu, self.damping)
         low = float(self.rise.a(0.0))
-        forced = Motion(oscillator, self._forcings, (low, 0.0)).end
+        forced = MassChain(oscillator, self._forcings, (low, 0.0)).end
         end = np.array([self.period])
         columns = [
             [oscillator.motion(*unit, end, order)[0] for order in (0, 1)] for unit in ((1.0, 0.0), (0.0, self.nu))
@@ -105,8 +105,8 @@ class CycleResponse(MassMotion):
         return low + float(start[0]), float(start[1])
 
     @kept_property
-    def _motion(self) -> Motion:
-        return Motion(Oscillator(self.nu, self.damping), self._forcings, self._initial)
+    def _motion(self) -> MassChain:
+        return MassChain(Oscillator(self.nu, self.damping), self._forcings, self._initial)
 
     def _derivative(self, k: Array, nu: int) -> Array:
         return self._motion.derivative(np.mod(k, self.period), nu)

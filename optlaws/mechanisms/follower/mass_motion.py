@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.laws.curve import Curve, Sides
-from optlaws.mechanisms.follower.chain import Motion
+from optlaws.mechanisms.follower.chain import MassChain
 from optlaws.numbers import real_times
 
 Array = NDArray[np.float64]
@@ -29,7 +29,7 @@ class MassMotion(Curve):
 
     @property
     @abstractmethod
-    def _motion(self) -> Motion:
+    def _motion(self) -> MassChain:
         """The motion over the interval."""
 
     @property

@@ -37,7 +37,7 @@ class Particular(Protocol):
 
 
 @dataclass(frozen=True, eq=False)
-class Stretch:
+class ForcedStretch:
     """A part of a forcing with a particular solution on it.
 
     Parameters
@@ -84,7 +84,7 @@ class SineSolution:
         return values
 
 
-def stretches(forcing: Forcing, oscillator: Oscillator) -> list[Stretch]:
+def stretches(forcing: Forcing, oscillator: Oscillator) -> list[ForcedStretch]:
     """A forcing with particular solutions: the closed form, or short stretches where that would cancel.
 
     Examples
@@ -97,7 +97,7 @@ def stretches(forcing: Forcing, oscillator: Oscillator) -> list[Stretch]:
     """
     closed = _closed(forcing, oscillator)
     if closed is not None:
-        return [Stretch(forcing, 0.0, forcing.length, closed, closed=True)]
+        return [ForcedStretch(forcing, 0.0, forcing.length, closed, closed=True)]
     return _solved(forcing, oscillator)
 
 
@@ -152,7 +152,7 @@ def _closed(forcing: Forcing, oscillator: Oscillator) -> Particular | None:
     return SineSolution(steady, tuple(waves)) if steady is not None and waves else steady
 
 
-def _solved(forcing: Forcing, oscillator: Oscillator) -> list[Stretch]:
+def _solved(forcing: Forcing, oscillator: Oscillator) -> list[ForcedStretch]:
     fastest = max(oscillator.fastest, *(sine.frequency for sine in forcing.sines), 0.0)
     terms = max(len(forcing.acceleration) + 1, WAVE_TERMS if forcing.sines else 0)
     count = max(1, ceil(fastest * forcing.length / RADIANS))
@@ -172,7 +172,7 @@ def _solved(forcing: Forcing, oscillator: Oscillator) -> list[Stretch]:
         w = coefficients[:, i]
         v = chebyshev.integral(length * w, 0.0)
         solution = PolynomialMotion(length, (chebyshev.integral(length * v, 0.0), v, w))
-        solved.append(Stretch(forcing, float(offsets[i]), length, solution, closed=False))
+        solved.append(ForcedStretch(forcing, float(offsets[i]), length, solution, closed=False))
     return solved
 
 

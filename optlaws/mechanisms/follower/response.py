@@ -14,7 +14,7 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, Peak
 from optlaws.mechanisms.checks import motion_law
-from optlaws.mechanisms.follower.chain import Motion
+from optlaws.mechanisms.follower.chain import MassChain
 from optlaws.mechanisms.follower.law_motion import forcings
 from optlaws.mechanisms.follower.mass_motion import MassMotion
 from optlaws.mechanisms.follower.vibration import Oscillator
@@ -131,8 +131,8 @@ class Response(MassMotion):
         return Oscillator(self.nu, self.damping)
 
     @kept_property
-    def _motion(self) -> Motion:
-        return Motion(self._oscillator, forcings(self.law), self.initial)
+    def _motion(self) -> MassChain:
+        return MassChain(self._oscillator, forcings(self.law), self.initial)
 
     @kept_property
     def _off(self) -> tuple[float, float]:

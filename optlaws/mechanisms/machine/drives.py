@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.follower.cam_motion import Forcing
 from optlaws.mechanisms.follower.law_motion import forcings
-from optlaws.mechanisms.machine.dynamics import Drive
+from optlaws.mechanisms.machine.dynamics import DriveStretch
 from optlaws.numerics import chebyshev
 from optlaws.synthesis.spaces.pieces.rows import PieceFamily
 from optlaws.synthesis.spaces.space import LawSpace
@@ -25,7 +25,7 @@ _COUNT = 41
 
 def of_law(
     law: MotionLaw, start: float = 0.0, length: float = 1.0, a0: float | None = None, stroke: float = 1.0
-) -> list[Drive]:
+) -> list[DriveStretch]:
     """A law as it drives a machine, a0 + stroke (law(k) - law(0)) with k = (time - start) / length.
 
     Examples
@@ -38,7 +38,7 @@ def of_law(
     return [drive for forcing in forcings(law, start, length, a0, stroke) for drive in _drives(forcing)]
 
 
-def rest(start: float, length: float, level: Array) -> Drive:
+def rest(start: float, length: float, level: Array) -> DriveStretch:
     """A dwell at displacements, one for each column.
 
     Examples
@@ -48,10 +48,10 @@ def rest(start: float, length: float, level: Array) -> Drive:
     """
     series = np.zeros((1, 3, len(level)))
     series[0, 0] = level
-    return Drive(start, length, series)
+    return DriveStretch(start, length, series)
 
 
-def of_space(space: LawSpace) -> list[Drive]:
+def of_space(space: LawSpace) -> list[DriveStretch]:
     """All laws of a space at once: a column for each free function, the base law's last.
 
     Examples
@@ -69,18 +69,18 @@ def of_space(space: LawSpace) -> list[Drive]:
         k = low + 0.5 * (high - low) * (x + 1.0)
         values = np.stack([_values(space, nu, k) for nu in range(3)], axis=1)
         series = chebyshev.from_values(values.reshape(len(k), -1)).reshape(values.shape)
-        drives.append(Drive(float(low), float(high - low), np.ascontiguousarray(series)))
+        drives.append(DriveStretch(float(low), float(high - low), np.ascontiguousarray(series)))
     return drives
 
 
-def backward(drives: Sequence[Drive], start: float, length: float, level: Array) -> list[Drive]:
+def backward(drives: Sequence[DriveStretch], start: float, length: float, level: Array) -> list[DriveStretch]:
     """The return of such drives, level - (a - a(0)), stretched to a length."""
     panels = []
     low = drives[0].ends[0][0]
     for drive in drives:
         series = -drive.series / length ** np.arange(3.0)[:, None]
         series[0, 0] += level + low
-        panels.append(Drive(start + length * drive.start, length * drive.length, series))
+        panels.append(DriveStretch(start + length * drive.start, length * drive.length, series))
     return panels
 
 
@@ -103,7 +103,7 @@ def _values(space: LawSpace, nu: int, k: Array) -> Array:
     return np.asarray(columns)
 
 
-def _drives(forcing: Forcing) -> list[Drive]:
+def _drives(forcing: Forcing) -> list[DriveStretch]:
     fastest = max((sine.frequency for sine in forcing.sines), default=0.0)
     count = max(1, ceil(fastest * forcing.length / _RADIANS))
     length = forcing.length / count
@@ -114,5 +114,5 @@ def _drives(forcing: Forcing) -> list[Drive]:
         s = np.minimum(i * length + places, forcing.length)
         values = np.column_stack([forcing.derivative(s, order) for order in range(3)])
         series = np.asarray(chebyshev.from_values(values))[:, :, None]
-        drives.append(Drive(forcing.start + i * length, length, series))
+        drives.append(DriveStretch(forcing.start + i * length, length, series))
     return drives

@@ -33,7 +33,7 @@ PER_ROOT_OF_DECAY = 6.5  # coefficients that an exponential needs for each root 
 
 
 @dataclass(frozen=True, eq=False)
-class Drive:
+class DriveStretch:
     """What the law does on one stretch of time.
 
     Attributes
@@ -140,7 +140,7 @@ class Dynamics:
         return float(np.abs(self.roots.real).max())
 
     def moved(
-        self, drives: Sequence[Drive], initial: Complex, *, radians: float = RADIANS, before: Array | None = None
+        self, drives: Sequence[DriveStretch], initial: Complex, *, radians: float = RADIANS, before: Array | None = None
     ) -> tuple[list[Panel], Complex]:
         """The motion over consecutive drives from given states, shape (states, columns), and the states at its end.
 
@@ -157,7 +157,7 @@ class Dynamics:
             state = panels[-1].states.sum(axis=0)
         return panels, state
 
-    def _over(self, drive: Drive, initial: Complex, radians: float) -> list[Panel]:
+    def _over(self, drive: DriveStretch, initial: Complex, radians: float) -> list[Panel]:
         """The motion over one drive: one triangular equation after the other, each over all panels."""
         edges = self.edges(drive.length, radians)
         parts = list(pairwise(edges))

@@ -232,7 +232,7 @@ def _check_joined(masses: Mapping[str, float], links: Sequence[Link], driven: st
         raise InputError(f"the mass {alone[0]!r} is linked to nothing that the drive moves: link it, or leave it out")
 
 
-class Model(Protocol):
+class MachineModel(Protocol):
     """What has outputs of its own."""
 
     @property
@@ -244,7 +244,7 @@ class Model(Protocol):
         """Its outputs by their names."""
 
 
-def named_outputs(given: Model, outputs: Any) -> dict[str, str]:  # noqa: ANN401 - whatever users give
+def named_outputs(given: MachineModel, outputs: Any) -> dict[str, str]:  # noqa: ANN401 - whatever users give
     """What users call outputs, and what the model does; all of them unless some are asked for.
 
     Raises

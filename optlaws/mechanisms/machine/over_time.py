@@ -17,7 +17,7 @@ from optlaws.laws import MotionLaw, Peak
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.mechanisms.checks import leads_back
 from optlaws.mechanisms.machine import drives
-from optlaws.mechanisms.machine.dynamics import RADIANS, Drive, Panel
+from optlaws.mechanisms.machine.dynamics import RADIANS, DriveStretch, Panel
 from optlaws.mechanisms.machine.output_curve import OutputCurve
 from optlaws.mechanisms.machine.state_space import StateSpace
 from optlaws.numerics.tolerances import EPSILON, RESONANCE, SHORTEST_STRETCH
@@ -269,7 +269,7 @@ class RepeatedMotion(MachineMotion):
     True
     """
 
-    drives: tuple[Drive, ...]
+    drives: tuple[DriveStretch, ...]
     jumps: tuple[tuple[float, float], ...]
 
     @kept_property
@@ -286,8 +286,11 @@ class RepeatedMotion(MachineMotion):
 
 
 def around(
-    rise: Sequence[Drive], fall: Sequence[Drive], levels: tuple[Array, Array], durations: tuple[float, float, float]
-) -> list[Drive]:
+    rise: Sequence[DriveStretch],
+    fall: Sequence[DriveStretch],
+    levels: tuple[Array, Array],
+    durations: tuple[float, float, float],
+) -> list[DriveStretch]:
     """A cycle: rise, dwell at the upper level, return, rest at the lower one; `durations` are those after the rise."""
     (high, low), (dwell, fall_duration, pause) = levels, durations
     moved = list(rise)
@@ -299,7 +302,7 @@ def around(
     return moved
 
 
-def steady(machine: StateSpace, cycle: Sequence[Drive], radians: float = RADIANS) -> list[Panel]:
+def steady(machine: StateSpace, cycle: Sequence[DriveStretch], radians: float = RADIANS) -> list[Panel]:
     """The motion that comes back after a cycle, a column for each of the cycle's.
 
     Raises

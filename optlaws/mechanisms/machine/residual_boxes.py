@@ -41,7 +41,7 @@ _ACCELERATION = 6.0  # of a smooth law
 
 
 @dataclass(frozen=True)
-class Edge:
+class BoxEdge:
     """Roots i nu exp(i angle) with sin(angle) the damping ratio, between two of one frequency or of one angle."""
 
     first: tuple[float, float]
@@ -119,7 +119,7 @@ class ModeResidual(Functional):
         """The greatest over the box; its `k` is the frequency at which it is, in radians in the rise's duration."""
         transform = velocity_transform_of(law)
 
-        def greatest(edge: Edge) -> Peak:
+        def greatest(edge: BoxEdge) -> Peak:
             value, place = greatest_modulus(lambda u: self.share * transform(edge.roots(u)), edge.nodes)
             return Peak(value, abs(complex(edge.roots(np.array([place]))[0])))
 
@@ -131,14 +131,14 @@ class ModeResidual(Functional):
         return abs(participation(self.machine, mode(self.machine, self.mode), self.output))
 
     @kept_property
-    def edges(self) -> tuple[Edge, ...]:
+    def edges(self) -> tuple[BoxEdge, ...]:
         """The edges of the box; one where it is thin."""
         vibration = mode(self.machine, self.mode)
         low, high = ((1.0 + sign * self.spread) * vibration.frequency for sign in (-1.0, 1.0))
         least, most = (asin(damping) for damping in self.dampings or (vibration.damping, vibration.damping))
         corners = [(low, least), (high, least), (high, most), (low, most)]
-        sides = [Edge(*sorted((a, b))) for a, b in zip(corners, [*corners[1:], corners[0]], strict=True)]
-        counted = list(dict.fromkeys(side for side in sides if not side.single)) or [Edge(corners[0], corners[0])]
+        sides = [BoxEdge(*sorted((a, b))) for a, b in zip(corners, [*corners[1:], corners[0]], strict=True)]
+        counted = list(dict.fromkeys(side for side in sides if not side.single)) or [BoxEdge(corners[0], corners[0])]
         return tuple(counted)
 
     def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConeFamily, ...]:
@@ -165,7 +165,7 @@ class ModeResidual(Functional):
         """Chebyshev series of the complex amplitude: free functions, then the base law."""
         return cached_columns(space, ("mode", self.name, edge), lambda: self._computed(space, self.edges[edge]))
 
-    def _computed(self, space: LawSpace, edge: Edge) -> Complex:
+    def _computed(self, space: LawSpace, edge: BoxEdge) -> Complex:
         roots = edge.roots(edge.nodes)
         transforms = velocity_transforms(space, roots, float(np.abs(roots).max()))
         series = chebyshev.from_values(self.share * transforms)

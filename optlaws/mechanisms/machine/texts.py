@@ -96,7 +96,7 @@ def check_rest(name: str, space: LawSpace) -> None:
         raise InputError(f"{short} of a machine needs laws from rest to rest, of order 2 at least")
 
 
-class Asked(TypedDict):
+class OutputEntries(TypedDict):
     """What constants of an output have alike, as their classes take it."""
 
     machine: StateSpace
@@ -109,7 +109,7 @@ class Asked(TypedDict):
 
 def asked_of_output(
     of: str | StateSpace, output: str | None, *, within: object, cycle: object, steady: object, offset: object
-) -> tuple[Asked, list[str]]:
+) -> tuple[OutputEntries, list[str]]:
     """What is asked of an output, checked, and how a text says it.
 
     Raises
@@ -133,7 +133,7 @@ def asked_of_output(
     words += ["steady=True"] if repeats else []
     (added,) = numbers([offset], "offset")
     words += [f"offset={added!r}"] if added else []
-    entries = Asked(machine=machine, output=name, within=times, cycle=pauses, steady=repeats, offset=added)
+    entries = OutputEntries(machine=machine, output=name, within=times, cycle=pauses, steady=repeats, offset=added)
     return entries, words
 
 

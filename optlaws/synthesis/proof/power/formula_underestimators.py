@@ -15,7 +15,7 @@ from math import inf, isfinite
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.formulas.intervals import Interval, enclosed
+from optlaws.formulas.intervals import Endpoints, enclosed
 from optlaws.formulas.vocabulary import ORDERS
 from optlaws.kept import kept_property
 from optlaws.synthesis.families import names
@@ -128,8 +128,8 @@ class Plane:
         taken = np.zeros(k.shape)
         if self.sign in self.family.tangents:
             return taken
-        within = {name: Interval(*ends) for name, *ends in zip(self.family.names, low, high, strict=True)}
-        within["k"] = Interval(k, k)
+        within = {name: Endpoints(*ends) for name, *ends in zip(self.family.names, low, high, strict=True)}
+        within["k"] = Endpoints(k, k)
         reach = (high - low) / (2.0 if self.way is None else 1.0)
         for i, j in combinations_with_replacement(range(len(reach)), 2):
             bend = enclosed(self.family.slopes.second[i][j], within)

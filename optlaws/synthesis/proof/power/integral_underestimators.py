@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.formulas.intervals import Interval, enclosed
+from optlaws.formulas.intervals import Endpoints, enclosed
 from optlaws.formulas.of_motion import Motion
 from optlaws.formulas.slopes import derivative
 from optlaws.formulas.tree import Formula
@@ -151,10 +151,10 @@ class ConvexUnderestimator:
         least_there = float(least @ (2.0 * self.reach))
         return least_there - _BLUR * float(np.abs(least) @ self.reach)
 
-    def _intervals(self, low: Array, high: Array) -> dict[str, Interval]:
+    def _intervals(self, low: Array, high: Array) -> dict[str, Endpoints]:
         """The ranges of the derivatives and of k on the cells."""
-        within = {name: Interval(*ends) for name, *ends in zip(self.family.names, low, high, strict=True)}
-        return within | {"k": Interval(self.middle - self.reach, self.middle + self.reach)}
+        within = {name: Endpoints(*ends) for name, *ends in zip(self.family.names, low, high, strict=True)}
+        return within | {"k": Endpoints(self.middle - self.reach, self.middle + self.reach)}
 
     def _lawful(self, side: Array) -> Array:
         """A side of a box with nothing for what is no velocity."""
