@@ -10,10 +10,8 @@ from math import ceil
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.errors import SolverFailure
 from optlaws.numerics import chebyshev
 from optlaws.numerics.peaks import polished
-from optlaws.numerics.tolerances import PANEL_ROUNDING, SHORTEST_PANEL
 
 Array = NDArray[np.float64]
 Function = Callable[[Array], Array]
@@ -134,24 +132,6 @@ def resolved(f: Function, first: Panels, short: Short) -> tuple[Panels, Array]:
             middle = 0.5 * (low + high)
             waiting += [(middle, high), (low, middle)]
     return Panels(tuple(edges), first.terms), np.array(heights).T
-
-
-def of_root(f: Function, low: float, high: float, scale: float) -> Panels:
-    """Panels from low to high on which f = sqrt(scale² - b²) is resolved to rounding; none where low = high.
-
-    Where f is small next to its scale, rounding of b is all the larger in it, and nothing finer is asked.
-    """
-    if not low < high:
-        return Panels(())
-    if not np.isfinite(f(np.linspace(low, high, TERMS))).all():
-        raise SolverFailure(f"the velocity of the loader is not finite between t = {low:g} and {high:g}")
-
-    def short(series: Array, length: float) -> bool:
-        values = np.abs(series)
-        rounding = PANEL_ROUNDING * scale * max(1.0, scale / max(float(values[0]), 1e-9 * scale))
-        return bool(values[-3:].max() <= rounding) or length < SHORTEST_PANEL
-
-    return resolved(f, Panels((low, high)), short)[0]
 
 
 def integral(f: Function, on: Panels) -> Integral:

@@ -54,6 +54,7 @@ BALANCING_EXTREMES = 1e-7  # torques of a machine that is balanced
 
 # --- resolution of functions by series ------------------------------------------------------------------------------
 PANEL_ROUNDING = 2e-15  # of the scale of a root: what its series leaves on a panel
+LEAST_ROOT = 1e-9  # of its scale: a root that is smaller is known no worse
 SHORTEST_PANEL = 1e-6  # panels of a root are cut no further
 VELOCITY_RESOLVED = 1e-14  # of the velocity: what a series may miss anywhere
 VELOCITY_ABSORBED = 1e-15  # the same times half the length on which it is missed

@@ -10,9 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.balancing.loaders.near_top import VelocityDeficit, velocity_deficit
+from optlaws.errors import SolverFailure
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.numerics import panels
+from optlaws.numerics.tolerances import LEAST_ROOT, PANEL_ROUNDING, SHORTEST_PANEL
 
 Array = NDArray[np.float64]
 
@@ -108,7 +110,7 @@ class LoaderStretch:
 
     @kept_property
     def _panels(self) -> panels.Panels:
-        return panels.of_root(lambda t: self.value(t, 0), max(self._root_reach, 0.0), self.length, self.B)
+        return _panels_of_root(lambda t: self.value(t, 0), max(self._root_reach, 0.0), self.length, self.B)
 
     @kept_property
     def _far_integral(self) -> panels.Integral:
@@ -157,3 +159,21 @@ def _root(energy: list[Array]) -> Array:
             cross = sum((comb(n, i) * g[i] * g[n - i] for i in range(1, n)), np.zeros_like(g[0]))
             g.append((energy[n] - cross) / (2.0 * g[0]))
     return g[-1]
+
+
+def _panels_of_root(f: panels.Function, low: float, high: float, scale: float) -> panels.Panels:
+    """Panels from low to high on which f = sqrt(scale² - b²) is resolved to rounding; none where low = high.
+
+    Where f is small next to its scale, rounding of b is all the larger in it, and nothing finer is needed.
+    """
+    if not low < high:
+        return panels.Panels(())
+    if not np.isfinite(f(np.linspace(low, high, panels.TERMS))).all():
+        raise SolverFailure(f"the velocity of the loader is not finite between t = {low:g} and {high:g}")
+
+    def short(series: Array, length: float) -> bool:
+        values = np.abs(series)
+        rounding = PANEL_ROUNDING * scale * max(1.0, scale / max(float(values[0]), LEAST_ROOT * scale))
+        return bool(values[-3:].max() <= rounding) or length < SHORTEST_PANEL
+
+    return panels.resolved(f, panels.Panels((low, high)), short)[0]
