@@ -37,8 +37,7 @@ class Endpoints:
         return Endpoints(-self.high, -self.low)
 
     def __add__(self, other: Endpoints) -> Endpoints:
-        with np.errstate(invalid="ignore"):
-            return Endpoints(self.low + other.low, self.high + other.high).outward()
+        return Endpoints(self.low + other.low, self.high + other.high).outward()
 
     def __mul__(self, other: Endpoints) -> Endpoints:
         with np.errstate(invalid="ignore"):
@@ -49,9 +48,9 @@ class Endpoints:
 
     def outward(self) -> Endpoints:
         """A little wider, for the rounding of an operation; a sum or a product that is 0 is exact, and stays."""
-        sizes = (np.where(np.isfinite(end), OPERATIONS_ROUNDING * np.abs(end), 0.0) for end in (self.low, self.high))
-        below, above = sizes
-        return Endpoints(self.low - below, self.high + above)
+        less, more = 1.0 - OPERATIONS_ROUNDING, 1.0 + OPERATIONS_ROUNDING
+        below, above = np.where(self.low > 0.0, less, more), np.where(self.high > 0.0, more, less)
+        return Endpoints(self.low * below, self.high * above)
 
     def through(self, function: Callable[[Array], Array]) -> Endpoints:
         """The image under a rising function."""

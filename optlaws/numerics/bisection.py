@@ -78,8 +78,10 @@ def crossings(f: Callable[[float], float], places: Array, after: Array, before: 
     signs = np.where(np.abs(heights - value) <= TOUCHING * size, 0.0, np.sign(heights - value))
     touched = places[(signs == 0.0).any(axis=0)]
     passed = np.flatnonzero(signs[0, :-1] * signs[1, 1:] < 0.0)
-    falling = signs[0] > 0.0
-    crossed = [
-        bisect(lambda k, i=i: (f(k) > value) == falling[i], float(places[i]), float(places[i + 1]))[0] for i in passed
-    ]
+    crossed = [_crossing(f, float(places[i]), float(places[i + 1]), value, signs[0, i] > 0.0) for i in passed]
     return np.sort(np.concatenate([touched, crossed]))
+
+
+def _crossing(f: Callable[[float], float], left: float, right: float, value: float, falling: bool) -> float:  # noqa: FBT001
+    """Where a monotone function passes a value; nothing is evaluated at its two ends."""
+    return bisect(lambda k: (f(k) > value) == falling, left, right)[0]
