@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Arithmetic:
-    """How numbers of a kind are made and what functions take them.
+    """The operations on numbers of a kind: how they are built, and the functions that take them.
 
     Attributes
     ----------

@@ -60,7 +60,7 @@ def smooth(formula: Formula, names: Collection[str]) -> bool:
 
 
 def smooth_itself(part: Formula) -> bool:
-    """Whether a part has no kinks but those of what it is made of."""
+    """Whether a part has no kinks beside those of its own parts."""
     if isinstance(part, Table):
         return part.smooth
     return not (isinstance(part, Call) and part.function in {"abs", "max", "min"})

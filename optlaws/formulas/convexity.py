@@ -25,7 +25,7 @@ _PARTS = 256
 
 
 class Curvature(Enum):
-    """What a formula is in its names.
+    """The curvature of a formula in its names.
 
     Examples
     --------
@@ -57,7 +57,7 @@ class Curvature(Enum):
 
 @dataclass(frozen=True)
 class Verdict:
-    """What a formula is, the rule that says so, and the part that the rule speaks of.
+    """The curvature of a formula, the rule that shows it, and the part to which the rule applies.
 
     Examples
     --------
@@ -89,7 +89,7 @@ class Judge:
     stop: float = 1.0
 
     def verdict(self, formula: Formula) -> Verdict:
-        """What a formula is; rules first, then as a quadratic form."""
+        """The verdict on a formula, by the rules first, then as a quadratic form."""
         verdict = self.by_rules(formula)
         if verdict.curvature is not Curvature.UNKNOWN:
             return verdict
@@ -100,7 +100,7 @@ class Judge:
         return verdict
 
     def by_rules(self, formula: Formula) -> Verdict:
-        """What the rules say part by part."""
+        """The verdict of the rules alone, part by part."""
         if not formula.names() & self.names:
             return Verdict(Curvature.CONSTANT, f"{formula} does not depend on the law", formula)
         if affine(formula, self.names) is not None:
@@ -216,7 +216,7 @@ class Judge:
 
 
 def judge(formula: Formula, names: Collection[str]) -> Verdict:
-    """What a formula is in some of its names, k being between 0 and 1.
+    """The verdict on a formula in some of its names, k being between 0 and 1.
 
     Examples
     --------

@@ -132,7 +132,7 @@ def _power(base: Endpoints, exponent: Endpoints, known: float | None) -> Endpoin
 
 
 def _table(table: Table, at: Endpoints) -> Endpoints:
-    """What its pieces are between, each where it is met."""
+    """The bounds of a table: those of its pieces, each where the argument reaches it."""
     places, rows = np.array(table.places), pieces(table)
     lows, highs = np.full(np.shape(at.low), np.inf), np.full(np.shape(at.low), -np.inf)
     for i, row in enumerate(rows):

@@ -74,7 +74,7 @@ class Motion:
 
     @kept_property
     def affine(self) -> Affine | None:
-        """It as an affine formula of the law and its derivatives; None where it is not."""
+        """The formula as an affine one of the law and its derivatives; None where it is not."""
         return affine(self.formula, ORDERS)
 
     @property
@@ -84,7 +84,7 @@ class Motion:
 
     @property
     def rest(self) -> Formula:
-        """What an affine formula has beside; 0 where it is not affine."""
+        """The part of an affine formula without the law; 0 where it is not affine."""
         return Number(0.0) if self.affine is None else self.affine.rest
 
     @property
@@ -94,12 +94,12 @@ class Motion:
 
     @kept_property
     def verdict(self) -> Verdict:
-        """Whether it is convex at every k of its part, and which rule says so."""
+        """The verdict on its convexity at every k of its part, with the rule that shows it."""
         return Judge(frozenset(ORDERS), self.start, self.stop).verdict(self.formula)
 
     @property
     def curvature(self) -> Curvature:
-        """What it is in the law."""
+        """The curvature of the formula in the law."""
         return self.verdict.curvature
 
     def branches(self, sign: float) -> list[Formula] | None:
@@ -108,11 +108,11 @@ class Motion:
         return branches(self.formula if sign > 0.0 else Negative(self.formula), ORDERS, judge.sign)
 
     def mirrored(self) -> Motion:
-        """What it says of a symmetric law on the other side: a(1-k) = 1 - a(k), b and j even, c odd about 1/2."""
+        """The formula for a symmetric law on the other side: a(1-k) = 1 - a(k), b and j even, c odd about 1/2."""
         return Motion(substituted(self.formula, _MIRRORED), 1.0 - self.stop, 1.0 - self.start)
 
     def halves(self) -> tuple[Motion, ...]:
-        """What says the same of a symmetric law on k <= 1/2 alone."""
+        """The formulas on k <= 1/2 alone that mean the same for a symmetric law."""
         if self.stop <= 0.5:
             return (self,)
         if self.start >= 0.5:
@@ -143,7 +143,7 @@ class Motion:
 
     @kept_property
     def scale(self) -> float:
-        """Of what size it is in smooth laws: a power of 2 near its parts there, never 0.
+        """The size of the formula in smooth laws: a power of 2 near its parts there, never 0.
 
         Examples
         --------
@@ -232,7 +232,7 @@ def _along(motion: Motion, x: Array) -> Array:
 
 
 def of_text(text: str, start: float = 0.0, stop: float = 1.0) -> Motion:
-    """The formula that a text says, over a part of the interval.
+    """The formula of a text, over a part of the interval.
 
     Raises
     ------

@@ -71,7 +71,7 @@ def semidefinite(formula: Formula, names: Collection[str], within: Mapping[str, 
 
 
 def _exactly(entries: Mapping[tuple[int, int], Fraction], size: int) -> bool:
-    """By elimination in exact arithmetic; entries off the diagonal are those of both sides together."""
+    """The test by elimination in exact arithmetic; entries off the diagonal are those of both sides together."""
     matrix = [[entries[min(i, j), max(i, j)] / (1 if i == j else 2) for j in range(size)] for i in range(size)]
     for i in range(size):
         if matrix[i][i] < 0 or (matrix[i][i] == 0 and any(matrix[i][j] for j in range(i + 1, size))):
@@ -84,7 +84,7 @@ def _exactly(entries: Mapping[tuple[int, int], Fraction], size: int) -> bool:
 
 
 def _widely(entries: Mapping[tuple[int, int], Endpoints], size: int, sign: int) -> bool:
-    """By the eigenvalues at the middles of many parts, less what the entries may be off."""
+    """The test by eigenvalues at the middles of many parts, less what the entries may be off."""
     count = max(np.size(entry.low) for entry in entries.values())
     middles, reach = np.zeros((count, size, size)), np.zeros((count, size, size))
     for (i, j), entry in entries.items():
@@ -110,7 +110,7 @@ def _sum(terms: list[Terms | None]) -> Terms | None:
 
 
 def _product(formula: Product, names: Collection[str], most: int) -> Terms | None:
-    """What has none of the names times the product of what has."""
+    """The factors without names times the product of the others."""
     moving = [factor for factor in formula.factors if factor.names() & set(names)]
     still = multiplied([factor for factor in formula.factors if factor not in moving])
     form = _multiplied([quadratic(factor, names, most) for factor in moving], most)

@@ -26,7 +26,7 @@ class Token:
 
 
 class FormulaError(InputError):
-    """What is wrong in a text, and where.
+    """An error in the text of a formula, with its place.
 
     Parameters
     ----------

@@ -30,7 +30,7 @@ class Formula:
         return ()
 
     def walk(self) -> Iterator[Formula]:
-        """Itself and all that it is made of."""
+        """The formula itself and all parts within it."""
         yield self
         for part in self.parts:
             yield from part.walk()
@@ -70,7 +70,7 @@ class Name(Formula):
 
 @dataclass(frozen=True, repr=False)
 class OfOnePart(Formula):
-    """What is made of a single part."""
+    """A formula that is made of a single part."""
 
     of: Formula
 

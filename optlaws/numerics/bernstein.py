@@ -121,7 +121,7 @@ def _of_values(count: int) -> Array:
 
 @lru_cache(maxsize=64)
 def _cuts(degree: int) -> Array:
-    """By what control points are multiplied for those of eight equal parts, side by side."""
+    """The matrices that take control points to those of eight equal parts, side by side."""
     left = np.array([[comb(i, j) / 2.0**i for i in range(degree + 1)] for j in range(degree + 1)])
     matrices = [np.eye(degree + 1)]
     while len(matrices) < PARTS:

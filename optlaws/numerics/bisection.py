@@ -83,5 +83,5 @@ def crossings(f: Callable[[float], float], places: Array, after: Array, before: 
 
 
 def _crossing(f: Callable[[float], float], left: float, right: float, value: float, falling: bool) -> float:  # noqa: FBT001
-    """Where a monotone function passes a value; nothing is evaluated at its two ends."""
+    """The place where a monotone function passes a value; nothing is evaluated at its two ends."""
     return bisect(lambda k: (f(k) > value) == falling, left, right)[0]

@@ -1,4 +1,4 @@
-"""Where smooth functions may be extreme between two places."""
+"""Places between two others where functions may be extreme or change their sign, from series of smooth parts."""
 
 from __future__ import annotations
 

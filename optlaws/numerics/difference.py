@@ -1,4 +1,4 @@
-"""How far two functions seem to be apart at most: an estimate by series of their difference on parts."""
+"""The greatest difference of two functions: an estimate, by series of the difference on parts."""
 
 from __future__ import annotations
 

@@ -90,7 +90,7 @@ class Integral:
 
 
 def equal(low: float, high: float, count: int, terms: int = TERMS) -> Panels:
-    """As many panels of one length.
+    """A number of panels of equal length.
 
     Examples
     --------
@@ -146,5 +146,5 @@ def integral(f: Function, on: Panels) -> Integral:
 
 
 def _places(low: Array, high: Array, x: Array) -> Array:
-    """Where x in [-1, 1] is between the edges of its panel."""
+    """The places between the edges of panels for x in [-1, 1]."""
     return np.clip(low + 0.5 * (high - low) * (x + 1.0), low, high)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from math import degrees, inf, tau
 from typing import Any
 
-from optlaws.balancing.dwells.section_laws import check_law, loader_of, own_law, peak_power, peak_velocity, top
+from optlaws.balancing.dwells.section_laws import check_law, law_of, loader_of, peak_power, peak_velocity, top
 from optlaws.balancing.dwells.sections import Section, composed, excursion
 from optlaws.balancing.loaders.loader import Loader
 from optlaws.echo import shortened
@@ -72,7 +72,7 @@ class DwellMechanism:
 
     def __post_init__(self) -> None:
         for name in LAWS:
-            object.__setattr__(self, name, own_law(getattr(self, name)))
+            object.__setattr__(self, name, law_of(getattr(self, name)))
         for name, other in INSTEAD.items():
             if getattr(self, name) is None:
                 object.__setattr__(self, name, getattr(self, other))
@@ -151,7 +151,7 @@ class DwellMechanism:
 
     @kept_property
     def remarks(self) -> tuple[str, ...]:
-        """What to mind: a cycle that is not one turn of the cam."""
+        """Remarks on the mechanism: a cycle that is not one turn of the cam."""
         if abs(self.cycle / tau - 1.0) < AGREEMENT:
             return ()
         return (f"rise, return and dwells add up to {degrees(self.cycle):.6g} degrees, not to one turn",)

@@ -1,4 +1,4 @@
-"""What a dwell mechanism needs of the laws on its sections."""
+"""The properties that a dwell mechanism needs of the laws on its sections."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def peak_power(law: MotionLaw) -> float:
 
 @lru_cache(maxsize=64)
 def top(law: MotionLaw) -> float:
-    """Where a law is cut into a run-up and a run-out: in the middle of the top of its velocity.
+    """The place where a law is cut into a run-up and a run-out: the middle of the top of its velocity.
 
     Examples
     --------
@@ -66,13 +66,13 @@ def _ends(law: MotionLaw) -> tuple[float, float, float, float]:
     return a0, b0, a1, b1
 
 
-def own_law(given: Any) -> Any:  # noqa: ANN401 - whatever the caller gave, a law or not
+def law_of(given: Any) -> Any:  # noqa: ANN401 - whatever the caller gave, a law or not
     """The law of an entry of the catalogue or of a solution; everything else as it is.
 
     Examples
     --------
     >>> from optlaws.laws.catalogue.catalogue import catalogue
-    >>> own_law(catalogue["cycloidal"]) == catalogue["cycloidal"].law
+    >>> law_of(catalogue["cycloidal"]) == catalogue["cycloidal"].law
     True
     """
     law = getattr(given, "law", None)

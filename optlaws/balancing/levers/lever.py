@@ -203,7 +203,7 @@ class TorsionLever:
 
     @kept_property
     def errors(self) -> dict[str, float]:
-        """What the asymptotic motion is off by: relative errors of T, chi01, chi02, zeta, B1, B3, C1, C3, and max |da|.
+        """The errors of the asymptotic motion: relative ones of T, chi01, chi02, zeta, B1, B3, C1, C3, and max |da|.
 
         The last is the greatest difference of the displacements of the two `halves`.
 

@@ -15,7 +15,7 @@ _SAMPLES = 33  # enough to see a link that passes its dead point and comes back
 
 
 class Linkage(NamedTuple):
-    """Where the linkage is; arrays of the shape of chi.
+    """The position of the linkage; arrays of the shape of chi.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""How lengths of a torsion lever are found: along one length by its sign changes, in two by least squares."""
+"""The search for lengths of a torsion lever: along one length by sign changes, in two by least squares."""
 
 from __future__ import annotations
 

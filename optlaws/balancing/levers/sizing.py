@@ -17,7 +17,7 @@ LEAST_SHARE, GREATEST_SHARE = 0.2, 0.8  # of the swing, between which chi01 is l
 
 
 class Sizing(NamedTuple):
-    """What (3), (12) and (13) give: chi01 and gamma01 in radians, xi = c2/c1 dimensionless."""
+    """The solution of (3), (12) and (13): chi01 and gamma01 in radians, xi = c2/c1 dimensionless."""
 
     chi01: float
     gamma01: float

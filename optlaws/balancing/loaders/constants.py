@@ -74,7 +74,7 @@ class LoaderPeak(Functional):
             )
 
     def limit(self, problem: Asked) -> Fraction | None:
-        """What no law with the problem's B is below; with any B where that is free."""
+        """The lower limit for laws with the problem's B; with any B where that is free."""
         if not problem.symmetric or (self.of != "B" and not problem.monotone):
             return None
         if not isinstance(problem.B, float) or problem.B <= 1.0:
@@ -150,7 +150,7 @@ PLAIN.update({functional.name: functional for functional in (B_loader, C_loader,
 
 
 def objective(minimise: str | Term | Expression) -> Expression:
-    """What to minimise: a sum of C and peaks of the loader, one of the loader's among them.
+    """The objective to minimise: a sum of C and peaks of the loader, one of the loader's among them.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""What no loader of a symmetric law with b >= 0 and a given B can beat: least peak velocity, acceleration, power."""
+"""The limits of loaders of symmetric laws with b >= 0 and a given B: least peak velocity, acceleration, power."""
 
 from __future__ import annotations
 
@@ -111,7 +111,7 @@ LIMITS: Mapping[str, Callable[[float], float]] = {
 
 
 def _rate(B: float, angle: float, slopes: float) -> float:
-    """How steep two equal slopes are between which the loader runs evenly at cos(angle) of its peak velocity."""
+    """The steepness of two equal slopes between which the loader runs evenly at cos(angle) of its peak velocity."""
     return (2.0 * sin(angle) - slopes) / (sin(angle) - 1.0 / B)
 
 

@@ -1,4 +1,4 @@
-"""Where the velocity of an executive law reaches its peak B, and the loader that balances it stands still."""
+"""The tops of an executive law's velocity, where it reaches its peak B and the loader stands still."""
 
 from __future__ import annotations
 

@@ -167,7 +167,7 @@ class Balancing:
         return tuple(Loader(piece.law) if piece.stroke else None for piece in self.cycle.pieces)
 
     def _over_turn(self, share: float) -> TorqueOverTurn:
-        """Where loaders take a share of the inertia's torque."""
+        """The torque over the turn where loaders take a share of the inertia's torque."""
         load, rate = self.load, self.rate
         motion = CamMotion.of_pieces(self.cycle.pieces, self.cycle.duration, self.cycle.axis)
 

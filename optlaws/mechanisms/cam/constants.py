@@ -66,7 +66,7 @@ class CamPower(CombinedPower):
         check_order(self.name, space, _ORDER)
 
     def curbs(self) -> tuple[tuple[int, float], ...]:
-        """From rest to rest b of the cam is at most the root of 2 D k and of 2 D (1-k), in the mean less than D's."""
+        """A bound of the velocity: from rest to rest b of the cam is at most the root of 2 D k and of 2 D (1-k)."""
         return ((1, gain(self.frequency, self.damping)),)
 
 
@@ -115,7 +115,7 @@ def cam_constant(name: str, *, nu: float, damping: float = 0.0) -> Functional:
 
 
 def cam_law(law: MotionLaw, nu: float, damping: float) -> MotionLaw:
-    """As `polydyne`, but quick and without its checks for a polynomial, whose ends are the problem's business."""
+    """The law of `polydyne`, computed quickly and without checks for a polynomial, whose ends the problem checks."""
     if not isinstance(law, PolynomialLaw):
         return polydyne(law, nu, damping)
     once, twice = map(float, cam_factors(nu, damping))
@@ -128,7 +128,7 @@ def cam_law(law: MotionLaw, nu: float, damping: float) -> MotionLaw:
 
 
 def gain(nu: float, damping: float) -> float:
-    """What the mean of |c| of the mass is at most, in units of the mean of |c| of its cam.
+    """The greatest mean of |c| of the mass, in units of the mean of |c| of its cam.
 
     It is nu² times the integral over the rise of the magnitude of the response to an impulse, which is at most k,
     and exp(-n k)/lambda below critical damping; from critical damping on it has no zero and the whole is at most 1.

@@ -1,4 +1,4 @@
-"""What a mass law must be for a cam to make it: smooth up to its jerk, within and at both ends."""
+"""The smoothness that a cam needs of a mass law: up to its jerk, within and at both ends."""
 
 from __future__ import annotations
 

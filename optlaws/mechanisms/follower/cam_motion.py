@@ -1,4 +1,4 @@
-"""What a cam does to its follower: displacement as exact pieces in time, polynomials and sines."""
+"""The displacement of a cam as exact pieces in time: polynomials and sines."""
 
 from __future__ import annotations
 

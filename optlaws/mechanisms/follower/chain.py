@@ -30,7 +30,7 @@ SAMPLES = 0.5 - 0.5 * chebyshev.nodes(17)
 
 @dataclass(frozen=True, eq=False)
 class MassChain:
-    """What the mass does over consecutive forcings, from a given state at their start.
+    """The motion of the mass over consecutive forcings, from a given state at their start.
 
     Parameters
     ----------
@@ -82,7 +82,7 @@ class MassChain:
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """Where one forcing ends and the next begins, both ends of the chain included."""
+        """The times at which one forcing ends and the next begins, both ends of the chain included."""
         last = self.forcings[-1]
         return (*(forcing.start for forcing in self.forcings), last.start + last.length)
 

@@ -1,4 +1,4 @@
-"""What every motion of a follower's mass can be asked: what a law can, over an interval of its own."""
+"""The interface of every motion of a follower's mass: that of a law, over an interval of its own."""
 
 from __future__ import annotations
 

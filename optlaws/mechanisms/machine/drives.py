@@ -52,7 +52,7 @@ def rest(start: float, length: float, level: Array) -> DriveStretch:
 
 
 def of_space(space: LawSpace) -> list[DriveStretch]:
-    """All laws of a space at once: a column for each free function, the base law's last.
+    """The drives of all laws of a space at once: a column for each free function, the base law's last.
 
     Examples
     --------

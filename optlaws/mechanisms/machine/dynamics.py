@@ -34,7 +34,7 @@ PER_ROOT_OF_DECAY = 6.5  # coefficients that an exponential needs for each root 
 
 @dataclass(frozen=True, eq=False)
 class DriveStretch:
-    """What the law does on one stretch of time.
+    """The motion of the drive on one stretch of time.
 
     Attributes
     ----------
@@ -254,7 +254,7 @@ class _Group:
         return values
 
     def join(self, i: int) -> None:
-        """As much of the free solution on every panel as it was begun with."""
+        """The share of the free solution on every panel that its start asks for."""
         self.states[i] += np.multiply.outer(self._free, self._shares)
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.checks import motion_law
-from optlaws.mechanisms.machine.making import MadeMachine
+from optlaws.mechanisms.machine.making import MachineConstructors
 from optlaws.mechanisms.machine.modes import Mode, modes
 from optlaws.mechanisms.machine.over_time import MachineCycle, MachineResponse
 from optlaws.numbers import not_negative, positive
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, init=False, repr=False)
-class Machine(MadeMachine):
+class Machine(MachineConstructors):
     """A linear machine that a law drives: x' = A x + B w, y = C x + D w, in durations of the rise.
 
     The machine is at rest before the law begins. Made from matrices as here, from matrices in seconds (`from_units`),
@@ -82,7 +82,7 @@ class Machine(MadeMachine):
         return modes(self)
 
     def response(self, law: MotionLaw, *, dwell: float = 0.0) -> MachineResponse:
-        """What the machine does during a rise and the dwell after it.
+        """The response of the machine during a rise and the dwell after it.
 
         Parameters
         ----------
@@ -108,7 +108,7 @@ class Machine(MadeMachine):
     def cycle(
         self, rise: MotionLaw, fall: MotionLaw | None = None, *, dwell: float, fall_duration: float = 1.0, rest: float
     ) -> MachineCycle:
-        """What the machine does steadily when the law rises, dwells, returns and rests again and again.
+        """The steady motion of the machine when the law rises, dwells, returns and rests again and again.
 
         Parameters
         ----------

@@ -19,8 +19,8 @@ Matrices = tuple[Any, Any, Any, Any]
 
 
 @dataclass(frozen=True, init=False, repr=False)
-class MadeMachine(StateSpace):
-    """What is made from masses, modes, systems or followers; `Machine` is what it is asked as."""
+class MachineConstructors(StateSpace):
+    """The ways to build a machine: from masses, modes, systems or followers; `Machine` has them."""
 
     @classmethod
     def from_masses(

@@ -60,7 +60,7 @@ class Link:
 
     @property
     def name(self) -> str:
-        """What its outputs are called by: "motor-load"."""
+        """The name of the link in outputs: "motor-load"."""
         return f"{self.first}-{self.second}"
 
 
@@ -162,7 +162,7 @@ class Assembly:
         return motion
 
     def _drive_force(self) -> Array:
-        """What the drive exerts: the work of the law's displacement."""
+        """The force of the drive, by the work of the law's displacement."""
         unit = np.eye(len(self.free) + 1)
         total = np.zeros(2 * len(self.free) + 3)
         for nu, part in zip((2, 1, 0), self._parts, strict=True):
@@ -233,11 +233,11 @@ def _check_joined(masses: Mapping[str, float], links: Sequence[Link], driven: st
 
 
 class MachineModel(Protocol):
-    """What has outputs of its own."""
+    """A model of a machine that has outputs of its own."""
 
     @property
     def what(self) -> str:
-        """What it is called in errors."""
+        """The name of the model in errors."""
 
     @property
     def outputs(self) -> Mapping[str, Any]:
@@ -245,7 +245,7 @@ class MachineModel(Protocol):
 
 
 def named_outputs(given: MachineModel, outputs: Any) -> dict[str, str]:  # noqa: ANN401 - whatever users give
-    """What users call outputs, and what the model does; all of them unless some are asked for.
+    """The names of outputs for users, with those of the model; all outputs unless some are chosen.
 
     Raises
     ------

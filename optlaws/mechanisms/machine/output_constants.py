@@ -22,7 +22,7 @@ from optlaws.mechanisms.machine.dynamics import Panel, inverse_gain
 from optlaws.mechanisms.machine.output_curve import OutputCurve
 from optlaws.mechanisms.machine.over_time import MachineCycle, MachineResponse, RepeatedMotion, around, jumps, steady
 from optlaws.mechanisms.machine.state_space import StateSpace
-from optlaws.mechanisms.machine.texts import asked_of_output, check_repeats, check_rest, time_of, title_of
+from optlaws.mechanisms.machine.texts import check_repeats, check_rest, output_entries, time_of, title_of
 from optlaws.numbers import power_of_two
 from optlaws.numerics.tolerances import NEGLIGIBLE_TERM, SHORTEST_STRETCH, VALUE_ROUNDING
 from optlaws.suggest import unknown_key
@@ -46,7 +46,7 @@ _SIDE = {signs: side for side, signs in SIDES.items()}
 
 @dataclass(frozen=True, repr=False)
 class OutputConstant(Functional):
-    """What the constants of an output share.
+    """The common part of constants of an output.
 
     Attributes
     ----------
@@ -87,7 +87,7 @@ class OutputConstant(Functional):
 
     @kept_property
     def scale(self) -> float:
-        """Of the output while a smooth law drives the machine, and of its offset; a power of 2."""
+        """The size of the output under a smooth law, with its offset; a power of 2."""
         return _scale_of_output(self.machine, self.output, self.offset)
 
     @property
@@ -127,7 +127,7 @@ class OutputConstant(Functional):
         return (order, gain * self.duration) if gain * self.scale < _MOST_GAIN else None
 
     def sizes(self, space: LawSpace) -> tuple[tuple[int, float, float], ...]:
-        """How large a law is: its output determines a derivative at once, or all of it among the laws of the space."""
+        """Bounds of a law's derivatives by its output: of one at once, or of all among the laws of the space."""
         if self.steady and self.both:
             return by_norm(space, self.rows_of_output(space))
         if self._gain is not None and self.both:
@@ -146,7 +146,7 @@ class OutputConstant(Functional):
         """A bound of the law from places of the output, if they determine it."""
 
     def reach(self, space: LawSpace) -> Reach | None:
-        """By how much the output at places moves a law of a space."""
+        """The bound of a law of a space by its output at places."""
         values, weights = zip(*self._samples(space), strict=True)
         return reach_of(space, np.vstack(values), np.concatenate(weights))
 
@@ -303,7 +303,7 @@ class OutputPeak(OutputConstant):
 
 
 def _terms(series: Array) -> int:
-    """How many coefficients count: short panels have more than are needed, and places are looked for by them all."""
+    """The number of coefficients that count; short panels have more, and roots are looked for by all of them."""
     sizes = np.abs(series).max(axis=0)
     counted = np.flatnonzero((sizes > NEGLIGIBLE_TERM * sizes.max(axis=0)).any(axis=1))
     return int(counted[-1]) + 1 if len(counted) else 1
@@ -397,7 +397,7 @@ def output_peak(
     """
     if side not in tuple(SIDES):
         raise InputError(unknown_key(side, SIDES, "side"))
-    entries, words = asked_of_output(of, output, within=within, cycle=cycle, steady=steady, offset=offset)
+    entries, words = output_entries(of, output, within=within, cycle=cycle, steady=steady, offset=offset)
     words += [] if side == "both" else [f"side={side}"]
     return OutputPeak(f"output_peak({', '.join(words)})", nan, convex=True, **entries, signs=SIDES[side])
 
@@ -441,7 +441,7 @@ def output_rms(
     0.29...
     """
     within = (0.0, 1.0 + time_of(dwell, "dwell"))
-    entries, words = asked_of_output(of, output, within=within, cycle=cycle, steady=steady, offset=offset)
+    entries, words = output_entries(of, output, within=within, cycle=cycle, steady=steady, offset=offset)
     text = ", ".join(f"dwell={float(dwell)!r}" if part.startswith("within") else part for part in words)
     return OutputRms(f"output_rms({text})", nan, convex=True, **entries)
 

@@ -21,7 +21,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False, repr=False)
 class OutputCurve(Curve):
-    """An output of a machine over time, in its own units; ask it what laws are asked: values, peaks, RMS, samples.
+    """An output of a machine over time, in its own units, with values, peaks, RMS and samples like a law.
 
     Its derivative of order 0 is the output itself: `curve(k)`, `curve.peak(0)`, `curve.extrema(0)`, `curve.rms(0)`.
 

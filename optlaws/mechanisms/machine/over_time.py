@@ -1,4 +1,4 @@
-"""What a law does to a machine: its outputs in the motion and the dwell after it, and over a cycle that repeats."""
+"""The outputs of a machine under a law: in the motion and the dwell after it, and over a cycle that repeats."""
 
 from __future__ import annotations
 
@@ -127,7 +127,7 @@ class MachineMotion(ABC):
     @property
     @abstractmethod
     def _velocity_jumps(self) -> list[tuple[float, float]]:
-        """Where the law's velocity jumps inside, so that its acceleration is an impulse there."""
+        """The places where the law's velocity jumps inside, so that its acceleration is an impulse there."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -329,7 +329,7 @@ def steady(machine: StateSpace, cycle: Sequence[DriveStretch], radians: float = 
 
 
 def jumps(law: MotionLaw) -> list[tuple[float, float]]:
-    """Where the velocity of a law jumps inside, and by how much."""
+    """The places where the velocity of a law jumps inside, and by how much."""
     return list(law.jumps(1)) if isinstance(law, PiecewiseLaw) else []
 
 

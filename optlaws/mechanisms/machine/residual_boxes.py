@@ -93,7 +93,7 @@ class ModeResidual(Functional):
 
     @kept_property
     def scale(self) -> float:
-        """Of the mode's vibration after a law with a jump of its acceleration; a power of 2."""
+        """The size of the mode's vibration after a law whose acceleration jumps; a power of 2."""
         least = min(min(edge.first[0], edge.last[0]) for edge in self.edges)
         return power_of_two(self.share * min(1.0, _ACCELERATION / least**2))
 
@@ -176,7 +176,7 @@ class ModeResidual(Functional):
 
 @lru_cache(maxsize=256)
 def _terms_of_exponential(half: float) -> int:
-    """How many Chebyshev coefficients of exp(w t) count, w over a straight line of twice that length, 0 <= t <= 1.
+    """The number of coefficients of exp(w t) that count, w over a line of twice that length, 0 <= t <= 1.
 
     Where |exp(w t)| is at most 1 on the line the coefficient n is at most 2 (half / 2)^n / n!.
     """

@@ -144,7 +144,7 @@ class StateSpace:
         return _spread(np.array(self.D), self.inputs)
 
     def output_rows(self, output: str) -> tuple[NDArray[np.complex128], Array]:
-        """What turns the triangular form's states into an output, and what turns a, b and c into it."""
+        """The rows that take the triangular form's states to an output, and those that take a, b and c to it."""
         place = self.place(output)
         return np.array(self.C[place]) @ self.dynamics.out_of, self.direct[place]
 

@@ -31,7 +31,7 @@ def text_of(machine: StateSpace, output: str) -> str:
 
 
 def title_of(machine: StateSpace, what: str, output: str, *words: str) -> str:
-    """What messages call a constant of a machine.
+    """The title of a constant of a machine in messages.
 
     Examples
     --------
@@ -44,7 +44,7 @@ def title_of(machine: StateSpace, what: str, output: str, *words: str) -> str:
 
 
 def machine_of(given: Any) -> StateSpace:  # noqa: ANN401 - a machine, or what text calls one
-    """The machine that is given, or that a text says.
+    """The machine that is given, or that a text describes.
 
     Raises
     ------
@@ -97,7 +97,7 @@ def check_rest(name: str, space: LawSpace) -> None:
 
 
 class OutputEntries(TypedDict):
-    """What constants of an output have alike, as their classes take it."""
+    """The common entries of constants of an output."""
 
     machine: StateSpace
     output: str
@@ -107,10 +107,10 @@ class OutputEntries(TypedDict):
     offset: float
 
 
-def asked_of_output(
+def output_entries(
     of: str | StateSpace, output: str | None, *, within: object, cycle: object, steady: object, offset: object
 ) -> tuple[OutputEntries, list[str]]:
-    """What is asked of an output, checked, and how a text says it.
+    """The checked entries of an output's constant, and the words for them in a text.
 
     Raises
     ------

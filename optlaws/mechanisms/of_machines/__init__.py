@@ -1,1 +1,1 @@
-"""What machines are asked beside responses: laws that make an output move as it should, spectra over parameters."""
+"""Questions to machines beside responses: laws that make an output move as it should, spectra over parameters."""

@@ -116,7 +116,7 @@ def machine_spectrum(
     output: str | None = None,
     parameter: str = "parameter",
 ) -> MachineSpectrum:
-    """What a law does to a machine over one of its parameters.
+    """The outputs and residuals of a machine under a law, over one of its parameters.
 
     Parameters
     ----------

@@ -96,7 +96,7 @@ class Residual(Functional):
         return np.asarray(frequencies**2 * self._detuning(frequencies) * phasors)
 
     def _detuning(self, frequencies: Array) -> Complex:
-        """What the polydyne cam leaves of the residual of its mass law cut directly on a cam."""
+        """The share that a polydyne cam leaves of the residual of its mass law cut directly on a cam."""
         if self.design is None:
             return np.ones(len(frequencies), dtype=np.complex128)
         _, w, _ = roots(frequencies, self.damping)

@@ -154,7 +154,7 @@ class _Cells:
 
 
 class _Search:
-    """What a function reaches, and what it is known not to go beyond in cells that are done with."""
+    """The state of a search: the extremes that are reached, and bounds from the cells that are done with."""
 
     def __init__(self, function: Function, edges: Array, order: int) -> None:
         self.function, self.edges, self.order = function, edges, order
@@ -171,7 +171,7 @@ class _Search:
         return low[high > low], high[high > low]
 
     def look(self, low: Array, high: Array) -> _Cells:
-        """What the function is in cells; what it reaches in them is kept."""
+        """The bounds of the function in cells; extremes that it reaches in them are stored."""
         count, middle = len(low), 0.5 * (low + high)
         half = np.maximum(high - middle, middle - low) * (1.0 + 4.0 * ROUNDOFF)
         places = Interval(np.concatenate([middle, middle]), np.concatenate([np.zeros(count), half]))
@@ -238,7 +238,7 @@ class _Search:
         return some[real], others[real]
 
     def result(self, *, polished: bool) -> Extremes:
-        """All that is known in the end."""
+        """The extremes and their bounds when the search ends."""
         if not np.isfinite([self.least, self.most]).all():
             raise SolverFailure(
                 "a function has no finite value where it is looked at: nothing is known of its extremes"
@@ -314,7 +314,7 @@ def _moved(at: Interval, slope: Interval, bend: Interval, middle: Array, place: 
 
 
 def _highest(start: Array, rate: Interval, bend: Array, half: Array) -> Array:
-    """What start + rate t + bend t² is at most for |t| <= half; not a number where nothing is known."""
+    """An upper bound of start + rate t + bend t² for |t| <= half; not a number where nothing is known."""
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         steep = np.abs(rate.middle)
         top = np.where(bend < 0.0, np.clip(-0.5 * steep / bend, 0.0, half), half)

@@ -79,7 +79,7 @@ class Interval:
         return self._reciprocal().__mul__(other)
 
     def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any) -> Any:  # noqa: ANN401 - numpy's
-        """What numpy's functions and an array to the left of an operator mean."""
+        """The meaning of numpy's functions, and of an array to the left of an operator."""
         if method != "__call__" or ufunc not in _FUNCTIONS:
             return NotImplemented
         return _FUNCTIONS[ufunc](*inputs)
