@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.laws import MotionLaw
-from optlaws.synthesis.arrays import constants
 from optlaws.synthesis.arrays.found import NO_CONTACT, Found
+from optlaws.synthesis.families import peaks
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.problem.fields import CONSTANTS
 from optlaws.synthesis.problem.problem import Problem
@@ -81,8 +81,8 @@ class Part:
         laws = [space.series(nu) for nu in (1, 2, 3)]
         b, c, j = (self.coordinates @ series[:, :-1].T + series[:, -1] for series in laws)
         if name in _PEAKS:
-            return constants.peaks((b, c, j)[_PEAKS[name] - 1])
-        return constants.power_peaks(b, c) if name == "D" else constants.root_mean_squares(c)
+            return peaks.peaks((b, c, j)[_PEAKS[name] - 1])
+        return peaks.power_peaks(b, c) if name == "D" else peaks.root_mean_squares(c)
 
     @property
     def contacts(self) -> dict[str, NDArray[Any]]:

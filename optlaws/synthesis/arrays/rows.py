@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -10,14 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
-from optlaws.synthesis.arrays.columns import Columns, Cones, CurvedTangents, Norms, Products
-from optlaws.synthesis.arrays.formula_columns import formula_tangents
 from optlaws.synthesis.families.active_set import ActiveSet
-from optlaws.synthesis.families.cone import ConeFamily
-from optlaws.synthesis.families.curved import OfFormula
-from optlaws.synthesis.families.family import Family, LinearFamily, NormFamily, ProductFamily
+from optlaws.synthesis.families.family import BatchFamily, NonlinearFamily
 from optlaws.synthesis.program.writer import Model
-from optlaws.synthesis.spaces.pieces.rows import PieceFamily
 
 Array = NDArray[np.float64]
 
@@ -84,13 +78,13 @@ class Structure:
         """Which contacts are held at an end off which they could move."""
         return np.asarray(~self.free & (self.domains[:, 0] != self.domains[:, 1]))
 
-    def hidden(self, x: Array, u: Array, weights: Array) -> Array:
+    def rounding_errors(self, x: Array, u: Array, weights: Array) -> Array:
         """What rounding may hide of each entry of the sum of weights times rows, (laws, variables + 1)."""
-        point, columns = with_one(x), columns_of(self.model)
-        values = np.zeros(point.shape)
-        for i, own in self._own:
-            values += columns[i].hidden(weights[:, own], u[:, own], point)
-        return values
+        point = with_one(x)
+        errors = np.zeros(point.shape)
+        for family, own in self._own:
+            errors += family.rounding_errors(weights[:, own], u[:, own], point)
+        return errors
 
     @kept_property
     def of_families(self) -> list[slice]:
@@ -99,9 +93,10 @@ class Structure:
         return [slice(low, high) for low, high in pairwise(ends)]
 
     @kept_property
-    def _own(self) -> list[tuple[int, slice]]:
+    def _own(self) -> list[tuple[BatchFamily, slice]]:
         """The families that have contacts, each with which these are."""
-        return [(i, own) for i, own in enumerate(self.of_families) if own.start < own.stop]
+        families = zip(batch_families(self.model), self.of_families, strict=True)
+        return [(family, own) for family, own in families if own.start < own.stop]
 
     def jets(self, x: Array, u: Array) -> tuple[Array, Array, Array]:
         """Planes of s f and of their derivatives by the place, (laws, contacts, variables + 1), and second derivatives.
@@ -112,9 +107,8 @@ class Structure:
         value, slope = np.empty((2, laws, self.count, width))
         bend = np.empty((laws, self.count))
         point = with_one(x)
-        columns = columns_of(self.model)
-        for i, own in self._own:
-            f0, f1, f2 = columns[i].at(u[:, own], point)
+        for family, own in self._own:
+            f0, f1, f2 = family.planes(u[:, own], point)
             sign = self.sign[own]
             np.multiply(f0, sign[:, None], out=value[:, own])
             np.multiply(f1, sign[:, None], out=slope[:, own])
@@ -124,11 +118,9 @@ class Structure:
     def hessian(self, x: Array, u: Array, weights: Array) -> Array | float:
         """Second derivatives by the variables of the sum of weights times s f; 0 where all is affine."""
         total: Array | float = 0.0
-        if self.model.program.curved:
-            point, columns = with_one(x), columns_of(self.model)
-            for i, own in self._own:
-                bent = columns[i].hessian(u[:, own], point, self.sign[own] * weights[:, own])
-                total = total if bent is None else total + bent
+        for family, own in self._own:
+            if isinstance(family, NonlinearFamily):
+                total = total + family.hessians(u[:, own], with_one(x), self.sign[own] * weights[:, own])
         return total
 
 
@@ -154,47 +146,17 @@ def weighted(weights: Array, rows: Array) -> Array:
     return np.asarray(np.matmul(weights[:, None, :], rows)[:, 0])
 
 
-def columns_of(model: Model) -> Sequence[Columns | CurvedTangents]:
-    """The columns of each family, kept with the model's space.
+def batch_families(model: Model) -> list[BatchFamily]:
+    """The families of a model's program, which many laws are continued by.
 
     Raises
     ------
     TypeError
-        If a family is of a kind that is not solved in arrays.
+        If one is of a kind that is not solved in arrays.
     """
-    families = model.program.families
-    key = tuple((type(family), id(_series(family))) for family in families)
-    if key not in _KEPT:
-        if len(_KEPT) >= _MOST:
-            _KEPT.clear()
-        _KEPT[key] = [_known(family) for family in families]
-    return _KEPT[key]
-
-
-def _known(family: Family) -> Columns | CurvedTangents:
-    tangents = tangents_of(family)
-    if tangents is None:
-        raise TypeError(f"rows of {type(family).__name__} are not solved in arrays")
-    return tangents
-
-
-def tangents_of(family: Family) -> Columns | CurvedTangents | None:
-    """The tangents of a family's rows; None of a kind that is not known here."""
-    if isinstance(family, LinearFamily):
-        # contacts at kinks are neither held at an end nor free
-        return None if isinstance(family, PieceFamily) else Columns(family)
-    if isinstance(family, ProductFamily):
-        return Products(family)
-    if isinstance(family, OfFormula):
-        return formula_tangents(family)
-    if isinstance(family, ConeFamily):
-        return Cones(family)
-    return Norms(family) if isinstance(family, NormFamily) else None
-
-
-_KEPT: dict[tuple[object, ...], list[Columns | CurvedTangents]] = {}
-_MOST = 64
-
-
-def _series(family: Family) -> object:
-    return family.series if isinstance(family, LinearFamily) else family
+    families: list[BatchFamily] = []
+    for family in model.program.families:
+        if not isinstance(family, BatchFamily) or not family.continuable:
+            raise TypeError(f"rows of {type(family).__name__} are not solved in arrays")
+        families.append(family)
+    return families

@@ -48,7 +48,7 @@ def lower_bounds(path: Path, structure: Structure, numbers: Numbers, states: Sta
     count = _UNIT * (_IN_A_ROW + structure.count + len(program.equalities) + 2)
     sizes = np.abs(equations)
     blur = weighted(weights, np.abs(rows)) + sizes @ np.abs(program.equalities) + np.abs(cost)
-    unseen = structure.hidden(states.x, states.u, weights)
+    unseen = structure.rounding_errors(states.x, states.u, weights)
     blur = count * blur + unseen[:, :-1]
     hidden = (weights * np.abs(right)).sum(axis=1) + (sizes * np.abs(numbers.right)).sum(axis=1)
     hidden = count * hidden + unseen[:, -1]

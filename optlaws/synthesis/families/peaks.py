@@ -39,7 +39,7 @@ def peaks(series: Array) -> Array:
 
 def power_peaks(velocity: Array, acceleration: Array) -> Array:
     """Greatest magnitude of the product of two series, for each of many laws."""
-    return peaks(product(velocity, acceleration))
+    return peaks(products(velocity, acceleration))
 
 
 def of_polynomials(laws: Sequence[PolynomialLaw], name: str) -> Array:
@@ -62,7 +62,7 @@ def of_polynomials(laws: Sequence[PolynomialLaw], name: str) -> Array:
     return peaks({"B": b, "C": c, "J": 2.0 * chebyshev.chebder(c, axis=1)}[name])
 
 
-def product(first: Array, second: Array) -> Array:
+def products(first: Array, second: Array) -> Array:
     """Products of Chebyshev series, law by law."""
     count = first.shape[1] + second.shape[1]
     values = [factor @ chebyshev.chebvander(nodes(count), factor.shape[1] - 1).T for factor in (first, second)]
