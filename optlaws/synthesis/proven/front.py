@@ -21,9 +21,8 @@ from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.evaluation import worth
 from optlaws.synthesis.proof.certificate import OBJECTIVE, Certificate, Contact, contact_of
 from optlaws.synthesis.proof.data import StatedContact, problem_of, stated
-from optlaws.synthesis.proven.interval_gaps import interval_gaps
-from optlaws.synthesis.proven.lazily import Lazily
-from optlaws.synthesis.proven.line import lower_line
+from optlaws.synthesis.proven.lazy_sequence import LazySequence
+from optlaws.synthesis.proven.lines import gap_bounds, lower_line
 from optlaws.synthesis.proven.running import RunningNumber
 from optlaws.synthesis.solution import measure
 
@@ -151,7 +150,7 @@ class ProvenFront:
             raise InputError("a proven front needs at least two certified laws, at ascending values")
         if not len(self.values) == len(self.laws) == len(self.certificates):
             raise InputError("a proven front needs a law and a certificate for each value")
-        made_here = isinstance(self.certificates, Lazily)
+        made_here = isinstance(self.certificates, LazySequence)
         for value, certificate in () if made_here else zip(self.values, self.certificates, strict=True):
             if certificate.program != OBJECTIVE or certificate.problem != self.number.at(value):
                 raise InputError(f"the certificate at {self.number.name} = {value!r} is not of the problem there")
@@ -161,8 +160,8 @@ class ProvenFront:
         cls,
         number: RunningNumber,
         values: Array,
-        laws: Lazily[MotionLaw],
-        certificates: Lazily[Certificate],
+        laws: LazySequence[MotionLaw],
+        certificates: LazySequence[Certificate],
         sides: Array,
     ) -> ProvenFront:
         """A front whose laws are made when they are asked for, with what is known at each already."""
@@ -205,9 +204,7 @@ class ProvenFront:
     @kept_property
     def gaps(self) -> Array:
         """Between each two certified laws the greatest gap of any value, relative as of a `Solution`."""
-        return interval_gaps(
-            np.array(self.values), self.sides, self.problem.objective.scale, concave=self.number.concave
-        )
+        return gap_bounds(np.array(self.values), self.sides, self.problem.objective.scale, concave=self.number.concave)
 
     @property
     def gap(self) -> float:

@@ -20,10 +20,8 @@ from optlaws.synthesis.problem.named_constants import apart
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.evaluation import worth
 from optlaws.synthesis.proven.front import ProvenFront, weighted_value
-from optlaws.synthesis.proven.interval_gaps import interval_gaps
-from optlaws.synthesis.proven.lazily import Lazily
-from optlaws.synthesis.proven.line import lower_line
-from optlaws.synthesis.proven.line_array import lower_lines
+from optlaws.synthesis.proven.lazy_sequence import LazySequence
+from optlaws.synthesis.proven.lines import gap_bounds, lower_line, lower_lines
 from optlaws.synthesis.proven.running import RunningNumber
 from optlaws.synthesis.solution import Solution, Status, measure
 from optlaws.synthesis.solution_array import SolutionArray
@@ -123,15 +121,15 @@ class _Refined:
         while (parts > 1).any():
             self._insert(parts, gap)
             self._check(gap)
-            gaps = interval_gaps(self.values, self.known, self._scale, concave=self.number.concave)
+            gaps = gap_bounds(self.values, self.known, self._scale, concave=self.number.concave)
             pieces = np.clip(np.ceil(np.sqrt(np.maximum(gaps, gap) / (_AIM * gap))), 2, _MOST_PIECES)
             parts = np.where(gaps <= gap, 1, pieces).astype(int)
         count, solution = len(self.laws), self._solution
         return ProvenFront.of_known(
             self.number,
             self.values,
-            Lazily(count, lambda i: solution(i).law),
-            Lazily(count, lambda i: solution(i).certificate),
+            LazySequence(count, lambda i: solution(i).law),
+            LazySequence(count, lambda i: solution(i).certificate),
             self.known,
         )
 

@@ -8,7 +8,7 @@ from typing import TypeVar, overload
 T = TypeVar("T")
 
 
-class Lazily(Sequence[T]):
+class LazySequence(Sequence[T]):
     """Items that are made when they are first asked for, and kept; equal to others with equal items."""
 
     def __init__(self, count: int, make: Callable[[int], T]) -> None:
