@@ -22,7 +22,7 @@ from optlaws.synthesis.program.evaluation import worth
 from optlaws.synthesis.proof.certificate import OBJECTIVE, Certificate, Contact, contact_of
 from optlaws.synthesis.proof.data import StatedContact, problem_of, stated
 from optlaws.synthesis.proven.lazy_sequence import LazySequence
-from optlaws.synthesis.proven.lines import gap_bounds, lower_line
+from optlaws.synthesis.proven.bounds_along import gap_bounds, lower_line
 from optlaws.synthesis.proven.running import RunningNumber
 from optlaws.synthesis.solution import measure
 

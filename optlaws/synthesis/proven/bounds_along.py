@@ -1,6 +1,6 @@
 """What certificates prove not of their own problems alone but of all whose right sides differ by one number.
 
-Certificates of many laws are summed as arrays; how far both sides of a front are apart follows from these lines.
+How far both sides of a front are apart follows from these lines.
 """
 
 from __future__ import annotations
@@ -13,15 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
-from optlaws.synthesis.arrays.dual_bounds import bounds_below, rounding_charge, sharp_sums
-from optlaws.synthesis.families.family import LinearFamily
-from optlaws.synthesis.program.writer import Model, model_of
-from optlaws.synthesis.proof.below_claim import greatest_values
 from optlaws.synthesis.proof.certificate import Certificate, weighted_rows
 from optlaws.synthesis.proof.duality import charge, summed
 from optlaws.synthesis.proven.running import RunningNumber
 from optlaws.synthesis.solution import measure
-from optlaws.synthesis.solved_parts import Part
 
 Array = NDArray[np.float64]
 Ends = tuple[float, float]
@@ -74,50 +69,6 @@ def _rates(number: RunningNumber, ends: Ends, *rows: list[tuple[float, Array, fl
     low, high = (np.array([right for _, _, right in some]) for some in rows)
     rates = (high - low) / (ends[1] - ends[0])
     return rates, np.where(rates == 0.0, 0.0, _ROUNDED * np.maximum(np.abs(low), np.abs(high)))
-
-
-def lower_lines(part: Part, values: Array, number: RunningNumber, ends: tuple[float, float]) -> Array | None:
-    """Value and slope of what the certificates of a part prove between the ends; None where a row is not linear.
-
-    Parameters
-    ----------
-    part, values
-        Laws that were found together, and the B of each.
-    number, ends
-        B, and between which values.
-    """
-    families = part.model.program.families
-    if number.name != "B" or not all(isinstance(family, LinearFamily) for family in families):
-        return None
-    model = model_of(number.at(ends[1]))
-    both = np.concatenate([np.maximum(part.found.multiplier, 0.0), part.found.equations], axis=1)
-    every = _rows(part, model, values - ends[1])
-    # nowhere between the ends is a right side greater
-    sizes, contacts = np.abs(every), part.found.u.shape[1]
-    sizes[:, contacts:, -1] = np.maximum(sizes[:, contacts:, -1], np.abs(model.program.right))
-    cost = np.broadcast_to(model.program.objective, (len(both), model.program.size))
-    slope, blur, plain, hidden = sharp_sums(model, cost, both, every, sizes)
-    rise = -part.found.equations[:, 0]
-    claim = max(float((plain + rise * (end - values)).max()) for end in ends)
-    below = bounds_below(model, greatest_values(model, max(model.unit * claim, 0.0)))
-    lost = rounding_charge(model, below, slope, blur)
-    return model.unit * np.column_stack([plain - hidden - lost, rise])
-
-
-def _rows(part: Part, model: Model, further: Array) -> Array:
-    """The rows of the contacts and of the equations, with the opposites of their right sides; of no contact 0."""
-    laws, contacts, size = part.found, part.found.u.shape[1], part.model.program.size
-    rows = np.zeros((len(further), contacts + len(model.program.right), size + 1))
-    for i, family in enumerate(part.model.program.families):
-        law, place = np.nonzero(laws.family == i)
-        if len(law) and isinstance(family, LinearFamily):
-            u = np.clip(laws.u[law, place], *family.domain)
-            rows[law, place, :-1], right = family.rows(u, laws.sign[law, place])
-            rows[law, place, -1] = -right
-    rows[:, contacts:, :-1], rows[:, contacts:, -1] = model.program.equalities, -model.program.right
-    # of the equations the first alone has B on its right side, and there B itself
-    rows[:, contacts, -1] -= further
-    return rows
 
 
 def gap_bounds(t: Array, known: Array, scale: float | Array, *, concave: bool) -> Array:
