@@ -546,11 +546,6 @@ class Program:
         return len(self.objective)
 
     @property
-    def scale(self) -> float:
-        """What residuals are compared with: 1, as laws have stroke and duration 1."""
-        return 1.0
-
-    @property
     def curved(self) -> bool:
         """Whether a family is not affine in x."""
         return not all(isinstance(family, LinearFamily) for family in self.families)

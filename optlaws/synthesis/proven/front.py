@@ -21,8 +21,8 @@ from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.evaluation import worth
 from optlaws.synthesis.proof.certificate import OBJECTIVE, Certificate, Contact, contact_of
 from optlaws.synthesis.proof.data import StatedContact, problem_of, stated
-from optlaws.synthesis.proven.lazy_sequence import LazySequence
 from optlaws.synthesis.proven.bounds_along import gap_bounds, lower_line
+from optlaws.synthesis.proven.lazy_sequence import LazySequence
 from optlaws.synthesis.proven.running import RunningNumber
 from optlaws.synthesis.solution import measure
 
