@@ -187,37 +187,48 @@ class CurvedFamily(OfFormula):
 
     def planes(self, u: Array, point: Array) -> tuple[Array, Array, Array]:
         """Planes that touch the formula and its derivative by the place, by the chain rule."""
-        columns = self.columns(u)
+        columns, (values, turned, bends), names, gradient, bend = self._expansion(u, point)
         rows, slopes = columns[:, 0], columns[:, 1]
-        values, turned, bends = (columns @ point[:, :, None])[..., 0].swapaxes(0, 1)
-        names, formula = self._at(values, u), self.slopes
-        gradient, bend = formula.gradient(names), formula.hessian(names)
         way = np.concatenate([turned, np.full((1, *u.shape), -0.5)])
         turning = np.einsum("ijmp,jmp->imp", bend, way)
         own = gradient[:-1]
         value = np.einsum("imp,impn->mpn", own, rows)
-        value[:, :, -1] += formula.value(names) - (own * values).sum(axis=0)
+        value[:, :, -1] += self.slopes.value(names) - (own * values).sum(axis=0)
         slope = np.einsum("imp,impn->mpn", turning[:-1], rows) + np.einsum("imp,impn->mpn", own, slopes)
         slope[:, :, -1] += gradient[-1] * -0.5 - (turning[:-1] * values).sum(axis=0)
         curvature = (turning * way).sum(axis=0) + (own * bends).sum(axis=0)
         return value, slope, curvature
 
-    def _rows(self, u: Array, point: Array) -> tuple[Array, dict[str, Array]]:
-        """The rows of the parts, and what the names are in each law."""
-        rows = self.columns(u)[:, 0]
-        return rows, self._at((rows @ point[:, :, None])[..., 0], u)
+    def _expansion(self, u: Array, point: Array) -> tuple[Array, Array, dict[str, Array], Array, Array]:
+        """The parts' columns, what these are in each law, the names, and the formula's slopes and second derivatives.
+
+        The last is kept: what Newton's method asks one after the other is of the same places.
+        """
+        key = (u.tobytes(), point.tobytes())
+        if key not in self._last:
+            columns = self.columns(u)
+            moved = (columns @ point[:, :, None])[..., 0].swapaxes(0, 1)
+            names = self._at(moved[0], u)
+            self._last.clear()
+            self._last[key] = (columns, moved, names, self.slopes.gradient(names), self.slopes.hessian(names))
+        return self._last[key]
+
+    @kept_property
+    def _last(self) -> dict[tuple[bytes, bytes], tuple[Array, Array, dict[str, Array], Array, Array]]:
+        return {}
 
     def hessians(self, u: Array, point: Array, weights: Array) -> Array:
         """The second derivatives of the weighted formula, between each two parts' rows."""
-        rows, names = self._rows(u, point)
-        return between(self.slopes.hessian(names)[:-1, :-1] * weights, rows[..., :-1])
+        columns, *_, bend = self._expansion(u, point)
+        return between(bend[:-1, :-1] * weights, columns[:, 0, ..., :-1])
 
     def rounding_errors(self, weights: Array, u: Array, point: Array) -> Array:
         """What rounding hides of the parts' rows, by the slopes of the formula at each place."""
-        rows, names = self._rows(u, point)
-        shares = np.abs(self.slopes.gradient(names)[:-1]) * weights
+        columns, _, _, gradient, _ = self._expansion(u, point)
+        shares = np.abs(gradient[:-1]) * weights
         own = np.array([part.rounding for _, part in self.parts])
-        return np.asarray(np.einsum("imp,impn->mn", shares, _IN_A_ROW * _UNIT * np.abs(rows) + own[:, None, None]))
+        sizes = _IN_A_ROW * _UNIT * np.abs(columns[:, 0]) + own[:, None, None]
+        return np.asarray(np.einsum("imp,impn->mn", shares, sizes))
 
     def greatest(self, point: Array) -> Array:
         """The greatest of the formula, with the signs that count, on its part of the interval in each law."""
@@ -409,8 +420,8 @@ class IntegralFamily(OfFormula):
         value, share, rows = self._planes(point)
         plane = share[:, None] * rows
         plane[:, -1] += value - (plane * point).sum(axis=1)
-        planes = np.repeat(plane[:, None, :], u.shape[1], axis=1)
-        return planes, np.zeros_like(planes), np.zeros(u.shape)
+        shape = (*u.shape, point.shape[1])
+        return np.broadcast_to(plane[:, None, :], shape), np.zeros(shape), np.zeros(u.shape)
 
     def hessians(self, u: Array, point: Array, weights: Array) -> Array:  # noqa: ARG002 - it has no place
         """The second derivatives of f, times the sum of weights."""

@@ -184,10 +184,10 @@ class NonlinearFamily(BatchFamily):
     def jet(self, x: Array, u: Array, s: Array) -> Jet:
         """Residuals of one law with their derivatives."""
         point = np.append(x, 1.0)
-        planes, slopes, bend = (part[0] for part in self.planes(u[None], point[None]))
-        planes, slopes = planes * s[:, None], slopes * s[:, None]
-        gradient = planes[:, :-1] - self.slack
-        return Jet(planes @ point - self.room(x), slopes @ point, s * bend, gradient, slopes[:, :-1])
+        planes, slopes, bend = self.planes(u[None], point[None])
+        signs = s[:, None]
+        rows, turned = signs * planes[0], signs * slopes[0]
+        return Jet(rows @ point - self.room(x), turned @ point, s * bend[0], rows[:, :-1] - self.slack, turned[:, :-1])
 
     def hessian(self, x: Array, u: Array, weights: Array) -> Array | None:
         """Second derivative by x of the sum of weights times f in one law."""
@@ -461,8 +461,8 @@ class NormFamily(NonlinearFamily):
 
     def planes(self, u: Array, point: Array) -> tuple[Array, Array, Array]:
         """What the direction of each law shows of the norm; no law's norm is less."""
-        value = np.repeat(self._shown(point)[1][:, None, :], u.shape[1], axis=1)
-        return value, np.zeros_like(value), np.zeros(u.shape)
+        shape = (*u.shape, point.shape[1])
+        return np.broadcast_to(self._shown(point)[1][:, None, :], shape), np.zeros(shape), np.zeros(u.shape)
 
     def _shown(self, point: Array) -> tuple[Array, Array]:
         """The norm of each law, and the plane that touches it there."""
