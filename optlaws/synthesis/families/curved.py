@@ -86,11 +86,8 @@ def between(bend: Array, rows: Array) -> Array:
 
     Those by the names are (names, names, laws, places), the names' rows (names, laws or 1, places, variables).
     """
-    turned = np.einsum("ijmp,jmpn->impn", bend, np.broadcast_to(rows, (len(rows), *bend.shape[2:], rows.shape[-1])))
-    wide = np.broadcast_to(rows, turned.shape)
-    names, laws, places, size = turned.shape
-    left, right = (part.transpose(1, 3, 0, 2).reshape(laws, size, names * places) for part in (wide, turned))
-    return np.asarray(np.matmul(left, right.transpose(0, 2, 1)))
+    turned = np.einsum("ijmp,jmpn->impn", bend, rows)
+    return np.asarray((rows.swapaxes(2, 3) @ turned).sum(axis=0))
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -408,27 +405,26 @@ class IntegralFamily(OfFormula):
     def _names(self, point: Array) -> dict[str, Array]:
         return self._at((self.columns @ point.T).swapaxes(1, 2))
 
-    def _planes(self, point: Array) -> tuple[Array, Array, Array]:
+    def _planes(self, names: dict[str, Array]) -> tuple[Array, Array, Array]:
         """What f is in each law, its slope by the sum over the nodes, and the sum's rows with 1 last."""
-        names = self._names(point)
         weighted = self.slopes.gradient(names) * self.weights
         value, share = self.outer(self.slopes.value(names) @ self.weights)
         return value, share, np.asarray((weighted @ self.columns).sum(axis=0))
 
     def planes(self, u: Array, point: Array) -> tuple[Array, Array, Array]:
         """The plane that touches f in each law."""
-        value, share, rows = self._planes(point)
+        value, share, rows = self._planes(self._names(point))
         plane = share[:, None] * rows
         plane[:, -1] += value - (plane * point).sum(axis=1)
-        shape = (*u.shape, point.shape[1])
-        return np.broadcast_to(plane[:, None, :], shape), np.zeros(shape), np.zeros(u.shape)
+        planes = plane[:, None, :].repeat(u.shape[1], axis=1)
+        return planes, np.zeros(planes.shape), np.zeros(u.shape)
 
     def hessians(self, u: Array, point: Array, weights: Array) -> Array:  # noqa: ARG002 - it has no place
         """The second derivatives of f, times the sum of weights."""
-        bend = self.slopes.hessian(self._names(point)) * self.weights
-        moved = between(bend, self.columns[:, None, :, :-1])
+        names = self._names(point)
+        moved = between(self.slopes.hessian(names) * self.weights, self.columns[:, None, :, :-1])
         if self.root:
-            value, share, rows = self._planes(point)
+            value, share, rows = self._planes(names)
             own = rows[:, :-1]
             across = own[:, :, None] * own[:, None, :]
             moved = share[:, None, None] * moved - across / (4.0 * value**3)[:, None, None]
@@ -445,7 +441,7 @@ class IntegralFamily(OfFormula):
 
     def greatest(self, point: Array) -> Array:
         """The integral in each law."""
-        return self._planes(point)[0]
+        return self.outer(self.slopes.value(self._names(point)) @ self.weights)[0]
 
     def value(self, x: Array, u: Array) -> Array:
         """f."""

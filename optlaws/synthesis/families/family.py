@@ -461,8 +461,8 @@ class NormFamily(NonlinearFamily):
 
     def planes(self, u: Array, point: Array) -> tuple[Array, Array, Array]:
         """What the direction of each law shows of the norm; no law's norm is less."""
-        shape = (*u.shape, point.shape[1])
-        return np.broadcast_to(self._shown(point)[1][:, None, :], shape), np.zeros(shape), np.zeros(u.shape)
+        planes = self._shown(point)[1][:, None, :].repeat(u.shape[1], axis=1)
+        return planes, np.zeros(planes.shape), np.zeros(u.shape)
 
     def _shown(self, point: Array) -> tuple[Array, Array]:
         """The norm of each law, and the plane that touches it there."""
