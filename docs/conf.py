@@ -87,7 +87,7 @@ nitpick_ignore = [
     ("py:class", "optlaws.synthesis.proof.power.certificate.Cut"),
     ("py:class", "optlaws.synthesis.proof.power.certificate.Step"),
     ("py:class", "optlaws.synthesis.problem.constants.Asked"),
-    ("py:class", "optlaws.synthesis.proven.lazy_sequence.LazySequence"),
+    ("py:class", "optlaws.synthesis.proven.front.LazySequence"),
     ("py:class", "optlaws.synthesis.proven.running.RunningNumber"),
     ("py:class", "optlaws.synthesis.solved_parts.Part"),
     ("py:class", "optlaws.synthesis.spaces.space.LawSpace"),

@@ -11,9 +11,8 @@ from numpy.typing import NDArray
 from optlaws.kept import kept_property
 from optlaws.synthesis.arrays.cells import Cells, excess, excess_at
 from optlaws.synthesis.arrays.dual_bounds import lower_bounds, sharp_bounds
-from optlaws.synthesis.arrays.newton_steps import States, best_nearby
+from optlaws.synthesis.arrays.newton_steps import States, Structure, batch_families, best_nearby, product, with_one
 from optlaws.synthesis.arrays.programs import Numbers, Path
-from optlaws.synthesis.arrays.rows import Structure, batch_families, product, with_one
 from optlaws.synthesis.families.family import BatchFamily, LinearFamily, NonlinearFamily
 from optlaws.synthesis.program.writer import Model
 

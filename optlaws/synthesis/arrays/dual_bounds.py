@@ -8,9 +8,8 @@ from math import ceil, inf, log
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.synthesis.arrays.newton_steps import States
+from optlaws.synthesis.arrays.newton_steps import States, Structure, weighted
 from optlaws.synthesis.arrays.programs import Numbers, Path
-from optlaws.synthesis.arrays.rows import Structure, weighted
 from optlaws.synthesis.families.family import LinearFamily
 from optlaws.synthesis.program.writer import Model
 from optlaws.synthesis.proof.below_claim import greatest_values, least_values, moments

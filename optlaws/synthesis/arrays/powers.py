@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from optlaws.synthesis.arrays.along import laws_along
 from optlaws.synthesis.arrays.found import Found
+from optlaws.synthesis.arrays.newton_steps import with_one
 from optlaws.synthesis.arrays.programs import Path, between
-from optlaws.synthesis.arrays.rows import with_one
 from optlaws.synthesis.families.peaks import power_peaks
 from optlaws.synthesis.problem.constants import D
 from optlaws.synthesis.problem.problem import Problem

@@ -27,7 +27,7 @@ from optlaws.synthesis.families.names import at_least
 from optlaws.synthesis.method.aligned import aligned
 from optlaws.synthesis.method.exchange import solve
 from optlaws.synthesis.method.on_points.grids import first_points
-from optlaws.synthesis.method.on_points.highs import vertex_on_points
+from optlaws.synthesis.method.on_points.linear import vertex_on_points
 from optlaws.synthesis.method.ways.contacts import polished
 from optlaws.synthesis.problem.constants import B, Functional, RootMeanSquare
 from optlaws.synthesis.problem.expression import leaves

@@ -22,10 +22,8 @@ from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.evaluation import worth
 from optlaws.synthesis.program.writer import Model, model_of
 from optlaws.synthesis.proof.below_claim import greatest_values
-from optlaws.synthesis.proven.bounds_along import gap_bounds, lower_line
-from optlaws.synthesis.proven.front import ProvenFront, weighted_value
-from optlaws.synthesis.proven.lazy_sequence import LazySequence
-from optlaws.synthesis.proven.running import RunningNumber
+from optlaws.synthesis.proven.front import LazySequence, ProvenFront, weighted_value
+from optlaws.synthesis.proven.running import RunningNumber, gap_bounds, lower_line
 from optlaws.synthesis.solution import Solution, Status, measure
 from optlaws.synthesis.solution_array import SolutionArray
 from optlaws.synthesis.solve import synthesize
