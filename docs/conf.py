@@ -84,7 +84,7 @@ nitpick_ignore = [
     ("py:class", "optlaws.synthesis.families.active_set.ActiveSet"),
     ("py:class", "optlaws.synthesis.families.cone.ConeFamily"),
     ("py:class", "optlaws.synthesis.problem.constants.Asked"),
-    ("py:class", "optlaws.synthesis.proven.lazily.Lazily"),
+    ("py:class", "optlaws.synthesis.proven.front.LazySequence"),
     ("py:class", "optlaws.synthesis.proven.running.RunningNumber"),
     ("py:class", "optlaws.synthesis.solved_parts.Part"),
     ("py:class", "optlaws.synthesis.spaces.space.LawSpace"),

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from optlaws.extras import needed
 from optlaws.kept import kept_property
 from optlaws.laws import PolynomialLaw
-from optlaws.synthesis.arrays.constants import of_polynomials
+from optlaws.synthesis.families.peaks import of_polynomials
 from optlaws.synthesis.problem.fields import CONSTANTS
 from optlaws.synthesis.problem.named_constants import named, title_of
 from optlaws.synthesis.solution import Solution

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import fields, replace
+from dataclasses import replace
 from math import inf, log2, sqrt
 from typing import Any
 
@@ -14,7 +14,6 @@ from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.numbers import real, whole
 from optlaws.shown.steps import Steps
-from optlaws.synthesis.arrays.problems import ProblemArray
 from optlaws.synthesis.front import IN_ARRAYS, SAME, Front, undominated, value_of, values_of
 from optlaws.synthesis.method.exchange import solve
 from optlaws.synthesis.problem.constants import Functional
@@ -25,7 +24,7 @@ from optlaws.synthesis.problem.ranges import Range
 from optlaws.synthesis.program.writer import extreme_velocity
 from optlaws.synthesis.solution import Solution, Status
 from optlaws.synthesis.solve import synthesize
-from optlaws.synthesis.solved_line import SolvedLine
+from optlaws.synthesis.solve_array import SolvedLine
 
 Array = NDArray[np.float64]
 
@@ -153,7 +152,7 @@ class _Curve:
         # the middles of the first stretches, and of their halves, and so on
         begun = 2 ** int(log2(count / _EVEN))
         values = [low * (high / low) ** (i / begun) for i in range(1, begun)]
-        line = SolvedLine(self._problems, low, high)
+        line = SolvedLine(self.problem, self.over[0], self._asked, low, high)
         while values:
             results = line.at(np.array(values))
             proven = np.flatnonzero(results.status == Status.OPTIMAL.value)
@@ -171,12 +170,6 @@ class _Curve:
             wanting = np.flatnonzero(widths >= max(_SHARE * widths.max(), SAME))
             places = wanting[np.argsort(-widths[wanting])][: count - len(self.points)]
             values = [sqrt(self.points[i][0] * self.points[i + 1][0]) for i in sorted(places.tolist())]
-
-    def _problems(self, values: Array) -> ProblemArray:
-        if self.over[0] != "B":
-            return ProblemArray.of([self._asked(value) for value in values.tolist()])
-        entries = {field.name: getattr(self.problem, field.name) for field in fields(Problem)}
-        return ProblemArray(**{**entries, "B": values})
 
     def _asked(self, value: float) -> Problem:
         return _at_most(self.problem, self.over[0], value)

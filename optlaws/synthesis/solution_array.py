@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError, OptlawsError
+from optlaws.extras import needed
 from optlaws.kept import kept_property
 from optlaws.shown.summary import Row, Summary
 from optlaws.synthesis.arrays.problems import ProblemArray
@@ -18,7 +19,6 @@ from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.problem.plain_entries import plain_entries
 from optlaws.synthesis.search import status_of
 from optlaws.synthesis.solution import Solution, Status, measure
-from optlaws.synthesis.solution_tables import NUMBERS, as_pandas, as_xarray
 from optlaws.synthesis.solved_parts import Part, constant_of, stored_laws
 from optlaws.synthesis.stored_solutions import (
     FAILED,
@@ -35,6 +35,8 @@ if TYPE_CHECKING:
     import xarray as xr
 
 Array = NDArray[np.float64]
+
+NUMBERS = ("objective", "lower_bound", "gap", "B", "C", "D", "J", "rms_c")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -241,7 +243,12 @@ class SolutionArray:
 
     def to_pandas(self) -> pd.DataFrame:
         """A table with a row for each problem: what varies, the numbers and the status; needs pandas."""
-        return as_pandas(self.problems, self._columns)
+        needed("pandas", "to_pandas")
+        import pandas as pd
+
+        varied = {name: arrays[0] for name, arrays in self.problems.varied.items() if len(arrays) == 1}
+        columns = {**{_asked(name): values for name, values in varied.items()}, **self._columns}
+        return pd.DataFrame({name: values.reshape(-1) for name, values in columns.items()})
 
     def to_xarray(self) -> xr.Dataset:
         """A dataset over the axes of the problems: numbers, statuses, coefficients and contacts; needs xarray.
@@ -249,9 +256,14 @@ class SolutionArray:
         An axis along which one entry of numbers varies has its name and its values, such as "B asked"; others are
         "axis 0", "axis 1", ....
         """
-        longer = {"z_series": ("coefficient", self.z_series)}
-        longer |= {f"contact {name}": ("contact", values) for name, values in self.contacts.items()}
-        return as_xarray(self.problems, self._columns, longer)
+        needed("xarray", "to_xarray")
+        import xarray as xr
+
+        dims, coords = _axes(self.problems)
+        variables: dict[str, Any] = {name: (dims, values) for name, values in self._columns.items()}
+        variables["z_series"] = ([*dims, "coefficient"], self.z_series)
+        variables |= {f"contact {name}": ([*dims, "contact"], values) for name, values in self.contacts.items()}
+        return xr.Dataset(variables, coords)
 
     @property
     def _columns(self) -> dict[str, NDArray[Any]]:
@@ -406,3 +418,21 @@ def statuses_of(result: Solution | OptlawsError) -> list[str]:
     ways = {True: [True, False] if held_up else [True], False: [False]}[problem.convex]
     scale = problem.objective.scale
     return [status_of(result.objective, result.lower_bound, scale, proven=proven).value for proven in ways]
+
+
+def _axes(problems: ProblemArray) -> tuple[list[str], dict[str, Any]]:
+    """Names of the problems' axes, and the values along those that have one entry of numbers alone."""
+    dims = [f"axis {i}" for i in range(len(problems.shape))]
+    coords = {}
+    for name, arrays in problems.varied.items():
+        strides = [i for i, step in enumerate(arrays[0].strides) if step and problems.shape[i] > 1]
+        alone = len(arrays) == 1 and len(strides) == 1 and arrays[0].dtype.kind in "fiu"
+        if alone and dims[strides[0]].startswith("axis "):
+            dims[strides[0]] = _asked(name)
+            coords[_asked(name)] = np.moveaxis(arrays[0], strides[0], 0).reshape(problems.shape[strides[0]], -1)[:, 0]
+    return dims, coords
+
+
+def _asked(name: str) -> str:
+    """What a column of an entry's values is called beside the numbers of the laws."""
+    return f"{name} asked" if name in NUMBERS else name

@@ -78,6 +78,11 @@ def _check_types(problem: object, start: object, bound: object) -> None:
         raise InputError(f"synthesize takes a Problem, got {type(problem).__name__}")
     if start is not None and not isinstance(start, Solution):
         raise InputError(f"start must be a Solution of a neighbouring problem, got {type(start).__name__}")
+    check_bound(bound)
+
+
+def check_bound(bound: object) -> None:
+    """Refuse what is no way to bound a problem."""
     if bound not in BOUNDS:
         raise InputError(unknown_key(bound, BOUNDS, "bound"))
 

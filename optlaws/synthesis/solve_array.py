@@ -1,29 +1,31 @@
-"""synthesize_array(problems) -> SolutionArray: the best laws of many problems that differ in numbers, with proof.
+"""How many problems are solved: together along lines on which their numbers differ, the others one by one.
 
 What other modules build on is `solved(problems)`: it takes a `ProblemArray` (`ProblemArray.of(list_of_problems)` makes
 one of any problems that are there, of one kind or of several) and raises nothing but for wrong arguments. Its
 `SolutionArray` has `result(place)`, which is a `Solution` or the error of that problem, in the order of the problems.
+`SolvedLine` is asked for laws again and again.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import fields
 from math import inf
 from time import perf_counter
 
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError
-from optlaws.numbers import whole
+from optlaws.kept import kept_property
 from optlaws.shown.steps import Steps
-from optlaws.suggest import unknown_key
-from optlaws.synthesis.arrays.along import laws_along
+from optlaws.synthesis.arrays.along import laws_along, laws_on, segments_of
 from optlaws.synthesis.arrays.found import Found
-from optlaws.synthesis.arrays.lines import Line, along_velocities, least_count, lines_of
+from optlaws.synthesis.arrays.lines import Line, along_velocities, form_of, least_count, lines_of
 from optlaws.synthesis.arrays.powers import unrivalled, with_quick_bounds
 from optlaws.synthesis.arrays.problems import ProblemArray
+from optlaws.synthesis.arrays.programs import Path, between
+from optlaws.synthesis.arrays.walk import Segment
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import model_of
@@ -31,73 +33,10 @@ from optlaws.synthesis.proof.no_law import proof_of_no_law
 from optlaws.synthesis.search import Search
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.solution_array import SolutionArray
-from optlaws.synthesis.solve import BOUNDS, TIGHT, synthesize
+from optlaws.synthesis.solve import TIGHT, synthesize
 from optlaws.synthesis.solved_parts import Part
 
-_CHUNK = 10_000
-
-
-def synthesize_array(problems: ProblemArray, *, bound: str = "quick") -> SolutionArray:
-    """Find the best law of each of many problems and prove it: what `synthesize` gives for each, in far less time.
-
-    A problem without a law, or a number that makes no problem, spoils its own place alone.
-
-    Parameters
-    ----------
-    problems
-        What to solve.
-    bound
-        As for `synthesize`.
-
-    Returns
-    -------
-    SolutionArray
-        Laws, constants, bounds and statuses as arrays; errors where there is no law.
-
-    Raises
-    ------
-    InputError
-        If `problems` is no `ProblemArray`, or the bound is none.
-
-    Examples
-    --------
-    >>> laws = synthesize_array(ProblemArray(B=np.linspace(1.6, 1.9, 4), order=4))
-    >>> laws.C.round(5).tolist(), bool((laws.gap < 1e-10).all())
-    ([5.26222, 4.81977, 4.69579, 4.63147], True)
-    """
-    if not isinstance(problems, ProblemArray):
-        raise InputError(f"synthesize_array takes a ProblemArray, got {shortened(problems)}")
-    if bound not in BOUNDS:
-        raise InputError(unknown_key(bound, BOUNDS, "bound"))
-    return solved(problems, bound=bound)
-
-
-def synthesize_chunks(problems: ProblemArray, *, size: int = _CHUNK, bound: str = "quick") -> Iterator[SolutionArray]:
-    """The same piece by piece, in the order of the flattened array: memory is that of one piece.
-
-    Parameters
-    ----------
-    problems, bound
-        As for `synthesize_array`.
-    size
-        The number of problems in a piece.
-
-    Raises
-    ------
-    InputError
-        As `synthesize_array`, or if the size is no whole number of at least 1.
-
-    Examples
-    --------
-    >>> pieces = synthesize_chunks(ProblemArray(B=np.linspace(1.6, 1.9, 5), order=4), size=2)
-    >>> [piece.shape for piece in pieces]
-    [(2,), (2,), (1,)]
-    """
-    if not isinstance(problems, ProblemArray):
-        raise InputError(f"synthesize_chunks takes a ProblemArray, got {shortened(problems)}")
-    step = whole(size, "size", least=1)
-    places = range(0, problems.size, step)
-    return (synthesize_array(problems.taken(np.arange(i, min(i + step, problems.size))), bound=bound) for i in places)
+Array = NDArray[np.float64]
 
 
 def solved(problems: ProblemArray, *, bound: str = "quick") -> SolutionArray:
@@ -230,3 +169,67 @@ def _alone(problems: ProblemArray, place: int, near: Solution | None, bound: str
         return synthesize(problem, start=near if convex else None, bound=bound)
     except OptlawsError as error:
         return error
+
+
+class SolvedLine:
+    """Convex problems between two, that differ in one number in which their programs are affine.
+
+    Where their structures change is found once, so that laws may be asked for again and again.
+
+    Parameters
+    ----------
+    problem
+        What else is asked.
+    name, at
+        The number, and the problem at a value of it; of B the values alone tell.
+    low, high
+        The ends.
+
+    Examples
+    --------
+    >>> problem = Problem(order=4)
+    >>> line = SolvedLine(problem, "B", problem.at_velocity, 1.6, 1.8)
+    >>> line.at(np.array([1.62, 1.7])).C.round(5).tolist(), line.at(np.array([1.65])).C.round(5).tolist()
+    ([5.17368, 4.81977], [5.04086])
+    """
+
+    def __init__(self, problem: Problem, name: str, at: Callable[[float], Problem], low: float, high: float) -> None:
+        self.problem, self.name, self._at, self.low, self.high = problem, name, at, low, high
+
+    def _problems(self, values: Array) -> ProblemArray:
+        if self.name != "B":
+            return ProblemArray.of([self._at(value) for value in values.tolist()])
+        entries = {field.name: getattr(self.problem, field.name) for field in fields(Problem)}
+        return ProblemArray(**{**entries, "B": values})
+
+    def at(self, values: Array) -> SolutionArray:
+        """What is solved at values of the number; few at a time are as quick as many."""
+        began, problems = perf_counter(), self._problems(values)
+        if self._path is None:
+            return solved(problems)
+        t = (values - self.low) / (self.high - self.low)
+        order = np.argsort(t, kind="stable")
+        order = order[(t[order] >= 0.0) & (t[order] <= 1.0)]
+        laws = laws_on(self._path, self._segments, t[order])
+        rows = np.flatnonzero(laws.solved)
+        parts = [Part(order[rows], self._path.model, laws.taken(rows).frozen())] if len(rows) else []
+        return completed(problems, parts, {}, began)
+
+    @kept_property
+    def _path(self) -> Path | None:
+        """The programs from one end to the other; None where they are not on a path."""
+        ends = self._problems(np.array([self.low, self.high]))
+        try:
+            first, last = ends.problem(0), ends.problem(1)
+        except InputError:
+            return None
+        return between(first, last) if _one_form(first, last) else None
+
+    @kept_property
+    def _segments(self) -> list[Segment]:
+        return [] if self._path is None else segments_of(self._path, 0.0, 1.0)
+
+
+def _one_form(first: Problem, last: Problem) -> bool:
+    one, other = form_of(first).key, form_of(last).key
+    return first.convex and one is not None and one == other

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.laws import MotionLaw
-from optlaws.synthesis.arrays import constants
 from optlaws.synthesis.arrays.found import NO_CONTACT, Found
+from optlaws.synthesis.families.peaks import constant_of_series
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.problem.fields import CONSTANTS
 from optlaws.synthesis.problem.problem import Problem
@@ -27,8 +27,6 @@ from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
 
 Array = NDArray[np.float64]
-
-_PEAKS = {"B": 1, "C": 2, "J": 3}
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,9 +78,7 @@ class Part:
             return np.array([constant_of(space.law(coordinate), name) for coordinate in self.coordinates])
         laws = [space.series(nu) for nu in (1, 2, 3)]
         b, c, j = (self.coordinates @ series[:, :-1].T + series[:, -1] for series in laws)
-        if name in _PEAKS:
-            return constants.peaks((b, c, j)[_PEAKS[name] - 1])
-        return constants.power_peaks(b, c) if name == "D" else constants.root_mean_squares(c)
+        return constant_of_series(name, b, c, j)
 
     @property
     def contacts(self) -> dict[str, NDArray[Any]]:

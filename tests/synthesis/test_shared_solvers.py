@@ -7,6 +7,7 @@ import pytest
 
 from optlaws import Chebyshev, Problem
 from optlaws.synthesis.method.on_points import ipopt
+from optlaws.synthesis.method.on_points.expressions import KINDS, Shape
 from optlaws.synthesis.program import writer
 from tests.documents import ROOT
 
@@ -20,14 +21,14 @@ def test_threads_and_children_answer_as_one_thread_does(rounds: int) -> None:
 
 
 def test_solvers_are_kept_as_many_as_their_rows_allow(monkeypatch: pytest.MonkeyPatch) -> None:
-    counts = [ipopt._Counts(4, 1000, count, 0, ()) for count in range(5)]
+    counts = [ipopt._Shapes(4, 1000, (Shape(count, KINDS[0], (), None),)) for count in range(5)]
     monkeypatch.setattr(ipopt, "_solvers", {})
     monkeypatch.setattr(ipopt, "_build", lambda counts, **_: counts)
     for one in (0, 1, 0, 2, 0, 3, 4):
         assert ipopt._solver((counts[one], False, False)) == counts[one]
     # those used last; the rows of all kinds count
     assert [shape[0] for shape in ipopt._solvers] == [counts[3], counts[4]]
-    ipopt._solver((ipopt._Counts(4, 10_000, 0, 0, ()), False, False))
+    ipopt._solver((ipopt._Shapes(4, 10_000), False, False))
     assert len(ipopt._solvers) == 1
 
 

@@ -13,12 +13,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.synthesis.arrays.certification import Judgement, judged
+from optlaws.synthesis.arrays.dual_bounds import lower_bounds
 from optlaws.synthesis.arrays.found import Found
-from optlaws.synthesis.arrays.judging.dual_bounds import lower_bounds
-from optlaws.synthesis.arrays.judging.verified import Judgement, judged
-from optlaws.synthesis.arrays.newton_steps import States, clipped, converged, step
+from optlaws.synthesis.arrays.newton_steps import States, Structure, clipped, converged, step
 from optlaws.synthesis.arrays.programs import Numbers, Path
-from optlaws.synthesis.arrays.rows import Structure
 from optlaws.synthesis.arrays.walk import Segment, Walk
 
 Array = NDArray[np.float64]

@@ -96,15 +96,6 @@ class Found:
             getattr(self, field.name).setflags(write=False)
         return self
 
-    def put(self, places: NDArray[np.intp], part: Found) -> None:
-        """Enter the rows of a part with as many contacts or fewer."""
-        for field in fields(self):
-            mine, given = getattr(self, field.name), getattr(part, field.name)
-            if mine.ndim == 1:
-                mine[places] = given
-            else:
-                mine[places, : given.shape[1]] = given
-
     def to_dict(self) -> dict[str, Any]:
         """Plain lists of what does not follow from the laws: all but objectives and excesses."""
         return {field.name: getattr(self, field.name).tolist() for field in fields(self) if field.name not in FOLLOWING}

@@ -13,10 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.synthesis.arrays.along import laws_along
-from optlaws.synthesis.arrays.constants import power_peaks
 from optlaws.synthesis.arrays.found import Found
+from optlaws.synthesis.arrays.newton_steps import with_one
 from optlaws.synthesis.arrays.programs import Path, between
-from optlaws.synthesis.arrays.rows import with_one
+from optlaws.synthesis.families.peaks import power_peaks
 from optlaws.synthesis.problem.constants import D
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import relaxed

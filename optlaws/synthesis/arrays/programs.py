@@ -10,10 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.synthesis.arrays.rows import tangents_of
 from optlaws.synthesis.families.cone import ConeFamily
-from optlaws.synthesis.families.curved import OfFormula
-from optlaws.synthesis.families.family import Family, LinearFamily, NormFamily, ProductFamily, Program
+from optlaws.synthesis.families.family import Family, Program
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, model_of
 
@@ -146,21 +144,8 @@ def _measured(first: Family, other: Family) -> Family:
 
 
 def _alike(first: Family, other: Family) -> bool:
-    if type(first) is not type(other) or tangents_of(first) is None:
+    """Whether two families have the same rows, which many laws are continued by."""
+    if type(first) is not type(other) or not first.continuable:
         return False
     plain = (first.name, first.signs, first.domain, first.held) == (other.name, other.signs, other.domain, other.held)
-    return plain and np.array_equal(first.slack, other.slack) and _same_rows(first, other)
-
-
-def _same_rows(first: Family, other: Family) -> bool:
-    if isinstance(first, ProductFamily) and isinstance(other, ProductFamily):
-        return _same_rows(first.first, other.first) and _same_rows(first.second, other.second)
-    if isinstance(first, NormFamily) and isinstance(other, NormFamily):
-        return np.array_equal(first.matrix, other.matrix)
-    if isinstance(first, ConeFamily) and isinstance(other, ConeFamily):
-        return np.array_equal(first.series, other.series)
-    if isinstance(first, LinearFamily) and isinstance(other, LinearFamily):
-        return first.series is other.series or np.array_equal(first.series, other.series)
-    if isinstance(first, OfFormula) and isinstance(other, OfFormula):
-        return first is other or first.same_rows(other)
-    return False
+    return plain and np.array_equal(first.slack, other.slack) and (first is other or first.same_rows(other))

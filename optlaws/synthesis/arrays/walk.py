@@ -13,10 +13,9 @@ from math import isnan, prod
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.synthesis.arrays.judging.verified import judged
-from optlaws.synthesis.arrays.newton_steps import States, clipped, converged
+from optlaws.synthesis.arrays.certification import judged
+from optlaws.synthesis.arrays.newton_steps import States, Structure, clipped, converged, structure_of
 from optlaws.synthesis.arrays.programs import Path
-from optlaws.synthesis.arrays.rows import Structure, structure_of
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.method.exchange import solve
 from optlaws.synthesis.method.ways.contacts import polished

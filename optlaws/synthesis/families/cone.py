@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
 from optlaws.numerics.chebyshev import basis_values, product, real_parts_of_roots
-from optlaws.synthesis.families.family import Family, Jet
+from optlaws.synthesis.families.family import ROUNDING, Family, NonlinearFamily
+from optlaws.synthesis.families.peaks import peaks, products
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -21,7 +22,7 @@ _NEGLIGIBLE = 2.0**-52
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class ConeFamily(Family):
+class ConeFamily(NonlinearFamily):
     """f = |p|, p a complex Chebyshev series in u for each variable, and one that belongs to none as the last column.
 
     The place is no k but stands for another parameter, such as a frequency; u = -1 is its least value.
@@ -74,30 +75,44 @@ class ConeFamily(Family):
         size = max(abs(p), _NOTHING)
         return p.real / size, p.imag / size
 
-    def jet(self, x: Array, u: Array, s: Array) -> Jet:
-        """Residuals with their derivatives."""
-        columns = self.columns(u)
-        p0, p1, p2 = columns @ np.append(x, 1.0)
-        f0, f1 = columns[:2, :, :-1]
+    def _jets(self, u: Array, point: Array) -> tuple[Complex, Complex]:
+        """The columns with two derivatives by the place, and what they are in each law."""
+        columns = self.columns(u.reshape(-1)).reshape(3, *u.shape, -1)
+        return columns, (columns @ point[:, :, None])[..., 0]
+
+    def planes(self, u: Array, point: Array) -> tuple[Array, Array, Array]:
+        """What the direction of each law shows of the magnitude; no law's is less."""
+        (f0, f1, _), (p0, p1, p2) = self._jets(u, point)
         size = np.maximum(np.abs(p0), _NOTHING)
         slope = (p0.conj() * p1).real / size
-        curvature = (np.abs(p1) ** 2 + (p0.conj() * p2).real) / size - slope**2 / size
-        gradient = (p0.conj()[:, None] * f0).real / size[:, None]
-        turning = (p1.conj()[:, None] * f0 + p0.conj()[:, None] * f1).real / size[:, None]
-        slope_gradient = turning - gradient * (slope / size)[:, None]
-        room = self.room(x)
-        signs = s[:, None]
-        return Jet(s * size - room, s * slope, s * curvature, signs * gradient - self.slack, signs * slope_gradient)
+        value = (p0.conj()[:, :, None] * f0).real / size[:, :, None]
+        turning = (p1.conj()[:, :, None] * f0 + p0.conj()[:, :, None] * f1).real / size[:, :, None]
+        bend = (np.abs(p1) ** 2 + (p0.conj() * p2).real) / size - slope**2 / size
+        return value, turning - value * (slope / size)[:, :, None], bend
 
-    def hessian(self, x: Array, u: Array, weights: Array) -> Array | None:
-        """The second derivatives of the weighted sum of the magnitudes."""
-        columns = self.columns(u)[0]
-        p = columns @ np.append(x, 1.0)
+    def hessians(self, u: Array, point: Array, weights: Array) -> Array:
+        """Second derivatives of the weighted magnitudes: what turns p counts, what lengthens it does not."""
+        (columns, *_), (p, *_) = self._jets(u, point)
         size = np.maximum(np.abs(p), _NOTHING)
-        # what turns p counts, what lengthens it does not
-        across = (p.conj()[:, None] * columns[:, :-1]).imag / size[:, None]
-        curved: Array = (across * (weights / size)[:, None]).T @ across
-        return curved
+        across = (p.conj()[:, :, None] * columns[:, :, :-1]).imag / size[:, :, None]
+        return np.asarray(np.matmul((across * (weights / size)[:, :, None]).transpose(0, 2, 1), across))
+
+    def rounding_errors(self, weights: Array, u: Array, point: Array) -> Array:  # noqa: ARG002 - the same everywhere
+        """The rounding hidden in a unit vector times the two parts of the columns."""
+        own = ROUNDING * (np.abs(self.series.real) + np.abs(self.series.imag)).sum(axis=0)
+        return np.asarray(weights.sum(axis=1)[:, None] * own)
+
+    def greatest(self, point: Array) -> Array:
+        """The greatest magnitude in each law, wherever it is."""
+        low, high = self.domain
+        if low == high:
+            return np.abs(self._jets(np.full((len(point), 1), low), point)[1][0, :, 0])
+        real, imaginary = (point @ part.T for part in (self.series.real, self.series.imag))
+        return np.asarray(np.sqrt(peaks(products(real, real) + products(imaginary, imaginary))))
+
+    def same_rows(self, other: Family) -> bool:
+        """Whether another family has the same series."""
+        return isinstance(other, ConeFamily) and np.array_equal(self.series, other.series)
 
     def value(self, x: Array, u: Array) -> Array:
         """|p| at the points u."""

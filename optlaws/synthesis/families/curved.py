@@ -11,17 +11,25 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.formulas.affine import degree
 from optlaws.formulas.arithmetic import NUMPY, evaluate
+from optlaws.formulas.of_motion import Motion
 from optlaws.formulas.slopes import derivative, scaled
-from optlaws.formulas.tree import Formula
+from optlaws.formulas.tree import Call, Formula, Number, Power, total
 from optlaws.kept import kept_property
 from optlaws.numerics.candidates import candidates
-from optlaws.synthesis.families.family import Family, Jet, LinearFamily
+from optlaws.numerics.chebyshev import FEWEST, MOST, from_values, nodes
+from optlaws.synthesis.families.family import Family, LinearFamily, NonlinearFamily
+from optlaws.synthesis.families.peaks import peaks
 
 Array = NDArray[np.float64]
 
 _LEAST_ROOT = 1e-12
 _PLACES_PER_DEGREE = 2
+#: of the greatest value: what is left of the last coefficients of a formula along a law that is resolved
+_RESOLVED = 1e-13
+#: roundings of a formula's slope in a row
+_IN_A_ROW, _UNIT = 16, 2.0**-53
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,14 +81,17 @@ def _slope(formula: Formula, at: Mapping[str, Array]) -> Array:
     return np.where(np.isnan(values), 0.0, values)
 
 
-def bent(bend: Array, rows: Array) -> Array:
-    """Second derivatives by the variables, of those by the names (names, names, places) and the names' rows."""
-    turned = np.einsum("ijp,jpn->ipn", bend, rows)
-    return np.asarray(np.tensordot(rows, turned, axes=((0, 1), (0, 1))))
+def between(bend: Array, rows: Array) -> Array:
+    """Second derivatives by the variables, for each law the sum over places and names of bend[i, j] rows[i] rows[j].
+
+    Those by the names are (names, names, laws, places), the names' rows (names, laws or 1, places, variables).
+    """
+    turned = np.einsum("ijmp,jmpn->impn", bend, rows)
+    return np.asarray((rows.swapaxes(2, 3) @ turned).sum(axis=0))
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class OfFormula(Family):
+class OfFormula(NonlinearFamily):
     """What families of formulas that are not affine have in common: a formula of derivatives of the law and of k."""
 
     formula: Formula
@@ -99,10 +110,6 @@ class OfFormula(Family):
     @abstractmethod
     def tangent_row(self, u: float, sign: float, point: tuple[float, ...]) -> Array | None:
         """The affine function of the variables that touches f there, the constant last; None where f may be below."""
-
-    @abstractmethod
-    def same_rows(self, other: OfFormula) -> bool:
-        """Whether f is the same function of the variables and the place."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -144,8 +151,8 @@ class CurvedFamily(OfFormula):
         return replace(self, parts=parts, slack=self.slack * units)
 
     def columns(self, u: Array) -> Array:
-        """The parts' columns with two derivatives by u, shape (parts, 3, places, variables + 1)."""
-        return np.stack([part.columns(u) for _, part in self.parts])
+        """The parts' columns with two derivatives by u, shape (parts, 3, *places, variables + 1)."""
+        return np.stack([part.columns(u.reshape(-1)).reshape(3, *u.shape, -1) for _, part in self.parts])
 
     def _at(self, values: Array, u: Array) -> dict[str, Array]:
         return {**dict(zip(self.names, values, strict=True)), "k": self.k(u)}
@@ -165,29 +172,108 @@ class CurvedFamily(OfFormula):
         row[-1] += sign * float(self.slopes.value(at)[0] - gradient @ values[:, 0])
         return np.asarray(row)
 
-    def jet(self, x: Array, u: Array, s: Array) -> Jet:
-        """Residuals with their derivatives, by the chain rule."""
-        columns = self.columns(u)
-        moved = columns @ np.append(x, 1.0)
-        at = self._at(moved[:, 0], u)
-        value, gradient, bend = self.slopes.value(at), self.slopes.gradient(at), self.slopes.hessian(at)
-        way = np.concatenate([moved[:, 1], np.full((1, len(u)), -0.5)])
-        turning = np.einsum("ijp,jp->ip", bend, way)
-        slope = (gradient * way).sum(axis=0)
-        curvature = (turning * way).sum(axis=0) + (gradient[:-1] * moved[:, 2]).sum(axis=0)
-        rows = columns[:, :, :, :-1]
-        by_x = np.einsum("ip,ipn->pn", gradient[:-1], rows[:, 0])
-        slope_by_x = np.einsum("ip,ipn->pn", turning[:-1], rows[:, 0]) + np.einsum(
-            "ip,ipn->pn", gradient[:-1], rows[:, 1]
-        )
-        signs = s[:, None]
-        return Jet(s * value - self.room(x), s * slope, s * curvature, signs * by_x - self.slack, signs * slope_by_x)
+    @property
+    def continuable(self) -> bool:
+        """Whether it is smooth over the whole interval."""
+        return self.edges == (1.0, -1.0)
 
-    def hessian(self, x: Array, u: Array, weights: Array) -> Array | None:
-        """The second derivatives of the weighted sum of the formula."""
-        columns = self.columns(u)[:, 0]
-        bend = self.slopes.hessian(self._at(columns @ np.append(x, 1.0), u))[:-1, :-1]
-        return bent(bend * weights, columns[:, :, :-1])
+    @property
+    def proving(self) -> bool:
+        """Whether it is convex with every sign that counts."""
+        return set(self.signs) <= set(self.tangents)
+
+    def planes(self, u: Array, point: Array) -> tuple[Array, Array, Array]:
+        """Planes that touch the formula and its derivative by the place, by the chain rule."""
+        columns, (values, turned, bends), names, gradient, bend = self._expansion(u, point)
+        rows, slopes = columns[:, 0], columns[:, 1]
+        way = np.concatenate([turned, np.full((1, *u.shape), -0.5)])
+        turning = np.einsum("ijmp,jmp->imp", bend, way)
+        own = gradient[:-1]
+        value = np.einsum("imp,impn->mpn", own, rows)
+        value[:, :, -1] += self.slopes.value(names) - (own * values).sum(axis=0)
+        slope = np.einsum("imp,impn->mpn", turning[:-1], rows) + np.einsum("imp,impn->mpn", own, slopes)
+        slope[:, :, -1] += gradient[-1] * -0.5 - (turning[:-1] * values).sum(axis=0)
+        curvature = (turning * way).sum(axis=0) + (own * bends).sum(axis=0)
+        return value, slope, curvature
+
+    def _expansion(self, u: Array, point: Array) -> tuple[Array, Array, dict[str, Array], Array, Array]:
+        """The parts' columns, what these are in each law, the names, and the formula's slopes and second derivatives.
+
+        The last is kept: what Newton's method asks one after the other is of the same places.
+        """
+        key = (u.tobytes(), point.tobytes())
+        if key not in self._last:
+            columns = self.columns(u)
+            moved = (columns @ point[:, :, None])[..., 0].swapaxes(0, 1)
+            names = self._at(moved[0], u)
+            self._last.clear()
+            self._last[key] = (columns, moved, names, self.slopes.gradient(names), self.slopes.hessian(names))
+        return self._last[key]
+
+    @kept_property
+    def _last(self) -> dict[tuple[bytes, bytes], tuple[Array, Array, dict[str, Array], Array, Array]]:
+        return {}
+
+    def hessians(self, u: Array, point: Array, weights: Array) -> Array:
+        """The second derivatives of the weighted formula, between each two parts' rows."""
+        columns, *_, bend = self._expansion(u, point)
+        return between(bend[:-1, :-1] * weights, columns[:, 0, ..., :-1])
+
+    def rounding_errors(self, weights: Array, u: Array, point: Array) -> Array:
+        """What rounding hides of the parts' rows, by the slopes of the formula at each place."""
+        columns, _, _, gradient, _ = self._expansion(u, point)
+        shares = np.abs(gradient[:-1]) * weights
+        own = np.array([part.rounding for _, part in self.parts])
+        sizes = _IN_A_ROW * _UNIT * np.abs(columns[:, 0]) + own[:, None, None]
+        return np.asarray(np.einsum("imp,impn->mn", shares, sizes))
+
+    def greatest(self, point: Array) -> Array:
+        """The greatest of the formula, with the signs that count, on its part of the interval in each law."""
+        if self._squares is not None:
+            # its kinks are where it vanishes: its square has none
+            return np.asarray(np.sqrt(np.maximum(self._peaks(self._squares, point), 0.0)))
+        return self._peaks(self.formula, point)
+
+    @kept_property
+    def _squares(self) -> Formula | None:
+        """The square of a norm; None of what is none."""
+        formula = self.formula
+        norm = isinstance(formula, Call) and formula.function == "norm" and self.signs == (1.0,)
+        return total([Power(part, Number(2.0)) for part in formula.parts]) if norm else None
+
+    def _peaks(self, formula: Formula, point: Array) -> Array:
+        series = self._series(formula, point)
+        if series is None:
+            return np.full(len(point), np.inf)
+        size = peaks(series)
+        if len(self.signs) == 2:
+            return size
+        signed = self.signs[0] * series
+        signed[:, 0] += size
+        return np.asarray(peaks(signed) - size)
+
+    def _series(self, formula: Formula, point: Array) -> Array | None:
+        """The series of a formula along each law; None where too few points resolve it."""
+        degrees = {name: len(part.series) - 1 for name, part in self.parts}
+        known = degree(formula, {**degrees, "k": 1})
+        if known is not None:
+            return self._interpolated(formula, point, known + 1)
+        count = FEWEST
+        while count <= MOST:
+            series = self._interpolated(formula, point, count)
+            tail = np.abs(series[:, -max(2, count // 10) :]).max(axis=1)
+            if (tail <= _RESOLVED * np.abs(series).max(axis=1)).all():
+                return series
+            count = 2 * count - 1
+        return None
+
+    def _interpolated(self, formula: Formula, point: Array, count: int) -> Array:
+        low, high = self.domain
+        u = low + (high - low) * (nodes(count) + 1.0) / 2.0
+        values = np.array([point @ part.columns(u)[0].T for _, part in self.parts])
+        places = np.broadcast_to(u, values.shape[1:])
+        heights = Motion(formula).values(self._at(values, places))
+        return from_values(np.broadcast_to(heights, places.shape).T).T
 
     def value(self, x: Array, u: Array) -> Array:
         """f at the points u."""
@@ -206,7 +292,7 @@ class CurvedFamily(OfFormula):
         low, high = self.domain
         return [(max(a, low), min(b, high)) for b, a in pairwise(self.edges) if a < high and b > low]
 
-    def same_rows(self, other: OfFormula) -> bool:
+    def same_rows(self, other: Family) -> bool:
         """Whether another family has the same formula of the same series."""
         if not isinstance(other, CurvedFamily) or (self.formula, self.names) != (other.formula, other.names):
             return False
@@ -276,10 +362,15 @@ class IntegralFamily(OfFormula):
         """The family of variables in other units; its own unit stays."""
         return replace(self, columns=self.columns * np.append(units, 1.0), slack=self.slack * units)
 
-    def _at(self, values: Array) -> dict[str, Array]:
-        return {**dict(zip(self.names, values, strict=True)), "k": self.places}
+    @property
+    def proving(self) -> bool:
+        """Whether it is convex."""
+        return self.convex
 
-    def same_rows(self, other: OfFormula) -> bool:
+    def _at(self, values: Array) -> dict[str, Array]:
+        return {**dict(zip(self.names, values, strict=True)), "k": np.broadcast_to(self.places, values.shape[1:])}
+
+    def same_rows(self, other: Family) -> bool:
         """Whether another family has the same formula of the same rows at the same nodes."""
         if not isinstance(other, IntegralFamily) or (self.formula, self.names) != (other.formula, other.names):
             return False
@@ -311,31 +402,50 @@ class IntegralFamily(OfFormula):
         size = np.sqrt(np.maximum(total, _LEAST_ROOT**2))
         return size, 0.5 / size
 
-    def _sum(self, x: Array) -> tuple[Array, Array, dict[str, Array]]:
-        at = self._at(self.columns @ np.append(x, 1.0))
-        gradient = self.slopes.gradient(at) * self.weights
-        return np.asarray(self.weights @ self.slopes.value(at)), np.einsum("ip,ipn->n", gradient, self.columns)[:-1], at
+    def _names(self, point: Array) -> dict[str, Array]:
+        return self._at((self.columns @ point.T).swapaxes(1, 2))
 
-    def jet(self, x: Array, u: Array, s: Array) -> Jet:
-        """The residual with its gradient."""
-        total, by_x, _ = self._sum(x)
-        value, share = self.outer(total)
-        nothing = np.zeros(len(u))
-        gradient = s[:, None] * (share * by_x) - self.slack
-        return Jet(s * value - self.room(x), nothing, nothing, gradient, np.zeros((len(u), len(x))))
+    def _planes(self, names: dict[str, Array]) -> tuple[Array, Array, Array]:
+        """What f is in each law, its slope by the sum over the nodes, and the sum's rows with 1 last."""
+        weighted = self.slopes.gradient(names) * self.weights
+        value, share = self.outer(self.slopes.value(names) @ self.weights)
+        return value, share, np.asarray((weighted @ self.columns).sum(axis=0))
 
-    def hessian(self, x: Array, u: Array, weights: Array) -> Array | None:  # noqa: ARG002 - it has no place
+    def planes(self, u: Array, point: Array) -> tuple[Array, Array, Array]:
+        """The plane that touches f in each law."""
+        value, share, rows = self._planes(self._names(point))
+        plane = share[:, None] * rows
+        plane[:, -1] += value - (plane * point).sum(axis=1)
+        planes = plane[:, None, :].repeat(u.shape[1], axis=1)
+        return planes, np.zeros(planes.shape), np.zeros(u.shape)
+
+    def hessians(self, u: Array, point: Array, weights: Array) -> Array:  # noqa: ARG002 - it has no place
         """The second derivatives of f, times the sum of weights."""
-        total, by_x, at = self._sum(x)
-        moved = bent(self.slopes.hessian(at) * self.weights, self.columns[:, :, :-1])
+        names = self._names(point)
+        moved = between(self.slopes.hessian(names) * self.weights, self.columns[:, None, :, :-1])
         if self.root:
-            size, share = self.outer(total)
-            moved = share * moved - np.outer(by_x, by_x) / (4.0 * size**3)
-        return np.asarray(moved * float(weights.sum()))
+            value, share, rows = self._planes(names)
+            own = rows[:, :-1]
+            across = own[:, :, None] * own[:, None, :]
+            moved = share[:, None, None] * moved - across / (4.0 * value**3)[:, None, None]
+        return np.asarray(moved * weights.sum(axis=1)[:, None, None])
+
+    def rounding_errors(self, weights: Array, u: Array, point: Array) -> Array:  # noqa: ARG002 - it has no place
+        """What rounding hides of the names' rows, by the slopes of the formula at each node."""
+        names = self._names(point)
+        sizes = np.abs(self.slopes.gradient(names)) * self.weights
+        rows = np.einsum("imp,ipn->mn", sizes, np.abs(self.columns))
+        share = self.outer(self.slopes.value(names) @ self.weights)[1]
+        blur = (_IN_A_ROW + len(self.places)) * _UNIT
+        return np.asarray((blur * share * weights.sum(axis=1))[:, None] * rows)
+
+    def greatest(self, point: Array) -> Array:
+        """The integral in each law."""
+        return self.outer(self.slopes.value(self._names(point)) @ self.weights)[0]
 
     def value(self, x: Array, u: Array) -> Array:
         """f."""
-        return np.full(len(u), self.outer(self._sum(x)[0])[0])
+        return np.full(len(u), self.greatest(np.append(x, 1.0)[None])[0])
 
     def stationary(self, x: Array) -> Array:  # noqa: ARG002
         """No places: an integral has none."""

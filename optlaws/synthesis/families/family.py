@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 from numpy.polynomial import chebyshev
@@ -14,12 +14,18 @@ from numpy.typing import NDArray
 from optlaws.kept import kept_property
 from optlaws.numerics.chebyshev import product, real_parts_of_roots
 from optlaws.numerics.gegenbauer import even_gegenbauer_jet
+from optlaws.synthesis.families.peaks import peaks, products
 
 Array = NDArray[np.float64]
 
+#: of a row: what rounding may hide of it, as a share of the sum of its parts' sizes
+ROUNDING = 4 * 2.0**-53
+#: of fewer polynomials' values cosines are quicker than the recurrence
+_SMALL = 4096
 _END = 1e-9
 _AT_END = 1e-8  # a stationary point that rounding has moved off an end by symmetry is that end
-_NO_NORM = 1e-12  # at standstill and in uniform motion the norm has no slope
+#: at standstill and in uniform motion the norm has no slope
+_NO_NORM = 1e-12
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,13 +67,22 @@ class Family(ABC):
     held: bool = False
     unit: float = 1.0
 
+    @property
+    def continuable(self) -> bool:
+        """Whether many laws at once are continued along their numbers with these rows."""
+        return False
+
     @abstractmethod
     def jet(self, x: Array, u: Array, s: Array) -> Jet:
-        """Residuals s f - slack . x - bound with their derivatives."""
+        """Residuals s f - slack . x - bound of one law with their derivatives."""
 
     @abstractmethod
     def hessian(self, x: Array, u: Array, weights: Array) -> Array | None:
-        """Second derivative by x of the sum of weights times f; None where it is zero."""
+        """Second derivative by x of the sum of weights times f in one law; None where it is zero."""
+
+    def same_rows(self, other: Family) -> bool:
+        """Whether f is the same function of the variables and the place, of families of one kind."""
+        return self is other
 
     @abstractmethod
     def value(self, x: Array, u: Array) -> Array:
@@ -127,9 +142,64 @@ class Family(ABC):
         return np.tile(u, len(self.signs)), signs, signs * np.tile(value, len(self.signs)) - room
 
 
+class BatchFamily(Family):
+    """A family that is evaluated for a batch of laws; one law is a batch of one.
+
+    The places of the laws are rows of `u`, (laws, places), their variables and 1 rows of `point`.
+    """
+
+    @property
+    def continuable(self) -> bool:
+        """True, unless the function has kinks over the place."""
+        return True
+
+    @property
+    def proving(self) -> bool:
+        """Whether no law is beyond the planes, so that multipliers prove bounds."""
+        return True
+
+    @abstractmethod
+    def planes(self, u: Array, point: Array) -> tuple[Array, Array, Array]:
+        """Planes that touch f and its derivative by the place, (laws, places, variables + 1); its second derivative.
+
+        Of a family that is affine in the law they are the rows themselves.
+        """
+
+    @abstractmethod
+    def rounding_errors(self, weights: Array, u: Array, point: Array) -> Array:
+        """What rounding may hide of each entry of the sum of weights times planes, (laws, variables + 1)."""
+
+
+class NonlinearFamily(BatchFamily):
+    """A batch family that is not affine in the law; of one law it says what it does of a batch of one."""
+
+    @abstractmethod
+    def hessians(self, u: Array, point: Array, weights: Array) -> Array:
+        """Second derivatives by the variables of the sum of weights times f."""
+
+    @abstractmethod
+    def greatest(self, point: Array) -> Array:
+        """The greatest of f, with the signs that count, in each law over the whole domain."""
+
+    def jet(self, x: Array, u: Array, s: Array) -> Jet:
+        """Residuals of one law with their derivatives."""
+        point = np.append(x, 1.0)
+        planes, slopes, bend = self.planes(u[None], point[None])
+        signs = s[:, None]
+        rows, turned = signs * planes[0], signs * slopes[0]
+        return Jet(rows @ point - self.room(x), turned @ point, s * bend[0], rows[:, :-1] - self.slack, turned[:, :-1])
+
+    def hessian(self, x: Array, u: Array, weights: Array) -> Array | None:
+        """Second derivative by x of the sum of weights times f in one law."""
+        return np.asarray(self.hessians(u[None], np.append(x, 1.0)[None], weights[None])[0])
+
+
 @dataclass(frozen=True, eq=False, kw_only=True)
-class LinearFamily(Family):
+class LinearFamily(BatchFamily):
     """f is affine in x: a Chebyshev series in u for each variable, and one that belongs to none as the last column."""
+
+    #: whether the columns are the series alone
+    plain: ClassVar[bool] = True
 
     series: Array
 
@@ -162,9 +232,46 @@ class LinearFamily(Family):
         value, slope, curvature = columns @ np.append(x, 1.0)
         return Jet(value - self.bound, slope, curvature, columns[0, :, :-1], columns[1, :, :-1])
 
+    @kept_property
+    def _parts(self) -> tuple[tuple[NDArray[np.intp], Array], ...]:
+        """For f and its first two derivatives: which polynomials they are made of, and with what coefficients."""
+        parts = []
+        series = self.series
+        for _ in range(3):
+            kept = np.flatnonzero(series.any(axis=1))
+            parts.append((kept, np.ascontiguousarray(series[kept])))
+            series = np.asarray(chebyshev.chebder(series), dtype=np.float64)
+        return tuple(parts)
+
+    def planes(self, u: Array, point: Array) -> tuple[Array, Array, Array]:
+        """The rows themselves, whatever the law."""
+        if not self.plain:
+            columns = self.columns(u.reshape(-1)).reshape(3, *u.shape, -1)
+            return columns[0], columns[1], np.einsum("mpi,mi->mp", columns[2], point)
+        polynomials = _polynomials(u.reshape(-1), len(self.series))
+        value, slope = ((polynomials[kept].T @ series).reshape(*u.shape, -1) for kept, series in self._parts[:2])
+        kept, series = self._parts[2]
+        bend = np.einsum("nmp,mn->mp", polynomials[kept].reshape(len(kept), *u.shape), point @ series.T)
+        return value, slope, bend
+
     def hessian(self, x: Array, u: Array, weights: Array) -> Array | None:  # noqa: ARG002
         """None, for f is affine."""
         return None
+
+    @kept_property
+    def rounding(self) -> Array:
+        """What rounding may hide of each entry of a row."""
+        return np.asarray(ROUNDING * np.abs(self.series).sum(axis=0))
+
+    def rounding_errors(self, weights: Array, u: Array, point: Array) -> Array:  # noqa: ARG002 - the same everywhere
+        """What rounding may hide of rows, whatever the place."""
+        return np.asarray(weights.sum(axis=1)[:, None] * self.rounding)
+
+    def same_rows(self, other: Family) -> bool:
+        """Whether another family has the same series."""
+        return isinstance(other, LinearFamily) and (
+            self.series is other.series or np.array_equal(self.series, other.series)
+        )
 
     def in_units(self, units: Array, unit: float) -> Self:
         """The series' columns and the right side in other units."""
@@ -197,6 +304,8 @@ class EvenFamily(LinearFamily):
 @dataclass(frozen=True, eq=False, kw_only=True)
 class RootFamily(LinearFamily):
     """f is an affine series divided by sqrt(1-u), that is by sqrt(2k): b <= sqrt(2 D k) follows from b b' <= D."""
+
+    plain = False
 
     def columns(self, u: Array) -> Array:
         """f's columns with two derivatives by u; zero at k = 0, where the series has a zero."""
@@ -243,6 +352,8 @@ class RatioFamily(EvenFamily):
     Their values grow so much toward k = 0 that a series would lose the digits of the others.
     """
 
+    plain = False
+
     index: float = 0.5
     scale: Array = field(default_factory=lambda: np.ones(1))
 
@@ -266,7 +377,7 @@ class RatioFamily(EvenFamily):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class ProductFamily(Family):
+class ProductFamily(NonlinearFamily):
     """f = g h, g and h affine in x: the power d = b c, which is not convex in x."""
 
     first: LinearFamily
@@ -283,27 +394,43 @@ class ProductFamily(Family):
         square = unit * unit
         return replace(self, first=first, second=second, slack=self.slack * units / square, bound=self.bound / square)
 
-    def jet(self, x: Array, u: Array, s: Array) -> Jet:
-        """Residuals with their derivatives, by the product rule."""
-        g, h = self.first.columns(u), self.second.columns(u)
-        point = np.append(x, 1.0)
-        (g0, g1, g2), (h0, h1, h2) = g @ point, h @ point
-        g, h = g[:, :, :-1], h[:, :, :-1]
-        gradient = g0[:, None] * h[0] + h0[:, None] * g[0]
-        slope_gradient = g1[:, None] * h[0] + h0[:, None] * g[1] + g0[:, None] * h[1] + h1[:, None] * g[0]
-        return Jet(
-            s * g0 * h0 - self.room(x),
-            s * (g1 * h0 + g0 * h1),
-            s * (g2 * h0 + 2.0 * g1 * h1 + g0 * h2),
-            s[:, None] * gradient - self.slack,
-            s[:, None] * slope_gradient,
-        )
+    @property
+    def proving(self) -> bool:
+        """False: a plane that touches a power proves nothing."""
+        return False
 
-    def hessian(self, x: Array, u: Array, weights: Array) -> Array | None:  # noqa: ARG002
-        """The sum of weights times g's row by h's and h's by g's."""
-        g, h = self.first.columns(u)[0, :, :-1], self.second.columns(u)[0, :, :-1]
-        half: Array = (g * weights[:, None]).T @ h
-        return half + half.T
+    def planes(self, u: Array, point: Array) -> tuple[Array, Array, Array]:
+        """Planes by the product rule."""
+        g, h = self._columns(u)
+        (g0, g1, g2), (h0, h1, h2) = g @ point[:, :, None], h @ point[:, :, None]
+        value = h0 * g[0] + g0 * h[0]
+        value[:, :, -1:] -= g0 * h0
+        slope = h0 * g[1] + h1 * g[0] + g0 * h[1] + g1 * h[0]
+        slope[:, :, -1:] -= g1 * h0 + g0 * h1
+        return value, slope, (g2 * h0 + 2.0 * g1 * h1 + g0 * h2)[:, :, 0]
+
+    def _columns(self, u: Array) -> list[Array]:
+        """The columns of both factors with two derivatives by the place."""
+        return [factor.columns(u.reshape(-1)).reshape(3, *u.shape, -1) for factor in (self.first, self.second)]
+
+    def hessians(self, u: Array, point: Array, weights: Array) -> Array:  # noqa: ARG002
+        """The sum of weights times the rows of one factor by those of the other."""
+        g, h = (columns[0, :, :, :-1] for columns in self._columns(u))
+        half = np.matmul((g * weights[:, :, None]).transpose(0, 2, 1), h)
+        return np.asarray(half + half.transpose(0, 2, 1))
+
+    def rounding_errors(self, weights: Array, u: Array, point: Array) -> Array:
+        """The rounding that the rows of both factors hide."""
+        return np.asarray(sum(factor.rounding_errors(weights, u, point) for factor in (self.first, self.second)))
+
+    def greatest(self, point: Array) -> Array:
+        """The greatest magnitude of f in each law over the whole interval."""
+        return peaks(products(*(point @ factor.series.T for factor in (self.first, self.second))))
+
+    def same_rows(self, other: Family) -> bool:
+        """Whether another family has the same factors."""
+        same = isinstance(other, ProductFamily) and self.first.same_rows(other.first)
+        return same and self.second.same_rows(other.second)
 
     def value(self, x: Array, u: Array) -> Array:
         """G h at the points u, each evaluated by itself."""
@@ -321,7 +448,7 @@ class ProductFamily(Family):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class NormFamily(Family):
+class NormFamily(NonlinearFamily):
     """f is the Euclidean norm of an affine map of x: the RMS of c or j. It has no place: u is 1."""
 
     matrix: Array
@@ -332,21 +459,36 @@ class NormFamily(Family):
         matrix = self.matrix * np.append(units, 1.0) / unit
         return replace(self, matrix=matrix, slack=self.slack * units / unit, bound=self.bound / unit)
 
-    def jet(self, x: Array, u: Array, s: Array) -> Jet:
-        """The residual with its gradient."""
-        image = self.matrix @ np.append(x, 1.0)
-        norm = max(float(np.linalg.norm(image)), _NO_NORM)
-        zero, flat = np.zeros(len(u)), np.zeros((len(u), len(x)))
-        gradient = s[:, None] * (image @ self.matrix[:, :-1] / norm) - self.slack
-        return Jet(s * norm - self.room(x), zero, zero, gradient, flat)
+    def planes(self, u: Array, point: Array) -> tuple[Array, Array, Array]:
+        """What the direction of each law shows of the norm; no law's norm is less."""
+        planes = self._shown(point)[1][:, None, :].repeat(u.shape[1], axis=1)
+        return planes, np.zeros(planes.shape), np.zeros(u.shape)
 
-    def hessian(self, x: Array, u: Array, weights: Array) -> Array | None:  # noqa: ARG002
+    def _shown(self, point: Array) -> tuple[Array, Array]:
+        """The norm of each law, and the plane that touches it there."""
+        image = point @ self.matrix.T
+        size = np.maximum(np.sqrt((image * image).sum(axis=1)), _NO_NORM)
+        return size, (image / size[:, None]) @ self.matrix
+
+    def hessians(self, u: Array, point: Array, weights: Array) -> Array:  # noqa: ARG002 - it has no place
         """The second derivatives of the norm, times the sum of weights."""
-        image = self.matrix @ np.append(x, 1.0)
-        norm = max(float(np.linalg.norm(image)), _NO_NORM)
-        direction = image @ self.matrix[:, :-1] / norm
-        curved: Array = self.matrix[:, :-1].T @ self.matrix[:, :-1] - np.outer(direction, direction)
-        return curved * (float(weights.sum()) / norm)
+        size, shown = self._shown(point)
+        rows, matrix = shown[:, :-1], self.matrix[:, :-1]
+        bent = matrix.T @ matrix - rows[:, :, None] * rows[:, None, :]
+        return np.asarray(bent * (weights.sum(axis=1) / size)[:, None, None])
+
+    def rounding_errors(self, weights: Array, u: Array, point: Array) -> Array:  # noqa: ARG002 - it has no place
+        """The rounding hidden in a unit vector times the matrix."""
+        own = len(self.matrix) * ROUNDING * np.abs(self.matrix).sum(axis=0)
+        return np.asarray(weights.sum(axis=1)[:, None] * own)
+
+    def greatest(self, point: Array) -> Array:
+        """The norm of each law."""
+        return self._shown(point)[0]
+
+    def same_rows(self, other: Family) -> bool:
+        """Whether another family has the same matrix."""
+        return isinstance(other, NormFamily) and np.array_equal(self.matrix, other.matrix)
 
     def value(self, x: Array, u: Array) -> Array:
         """The norm."""
@@ -404,11 +546,6 @@ class Program:
         return len(self.objective)
 
     @property
-    def scale(self) -> float:
-        """What residuals are compared with: 1, as laws have stroke and duration 1."""
-        return 1.0
-
-    @property
     def curved(self) -> bool:
         """Whether a family is not affine in x."""
         return not all(isinstance(family, LinearFamily) for family in self.families)
@@ -421,3 +558,16 @@ class Program:
         """Largest residual over every family and every u."""
         binding = [family for family in self.families if not family.held]
         return max((float(family.extremes(x)[2].max()) for family in binding), default=0.0)
+
+
+def _polynomials(u: Array, count: int) -> Array:
+    """Chebyshev polynomials at many places, shape (count, places)."""
+    if u.size * count < _SMALL:
+        return np.asarray(np.cos(np.arange(count)[:, None] * np.arccos(np.minimum(np.maximum(u, -1.0), 1.0))))
+    polynomials = np.empty((max(count, 2), len(u)))
+    polynomials[0], polynomials[1] = 1.0, np.clip(u, -1.0, 1.0)
+    twice = 2.0 * polynomials[1]
+    for n in range(2, count):
+        np.multiply(twice, polynomials[n - 1], out=polynomials[n])
+        polynomials[n] -= polynomials[n - 2]
+    return polynomials[:count]

@@ -21,7 +21,7 @@ from optlaws.formulas.tree import Formula
 from optlaws.kept import kept_property
 from optlaws.numerics.candidates import cut_at_all, cut_at_roots
 from optlaws.numerics.chebyshev import gauss
-from optlaws.synthesis.families.curved import IntegralFamily, Slopes, bent
+from optlaws.synthesis.families.curved import IntegralFamily, Slopes, between
 from optlaws.synthesis.families.family import Jet
 
 Array = NDArray[np.float64]
@@ -90,6 +90,11 @@ class KinkedIntegralFamily(IntegralFamily):
     def in_units(self, units: Array, unit: float) -> Self:
         """The family of variables in other units; its own unit stays."""
         return replace(super().in_units(units, unit), units=self.units * np.append(units, 1.0), _known={})
+
+    @property
+    def continuable(self) -> bool:
+        """False: kinks move with each law."""
+        return False
 
     def columns_at(self, k: Array, turn: int = 0) -> Array:
         """The names' columns at places, or those of their slopes by k."""
@@ -172,7 +177,8 @@ class KinkedIntegralFamily(IntegralFamily):
         matrix = self._moved(own, np.append(x, 1.0))
         for i, stretch in enumerate(own.stretches):
             names, columns, share = own.of(i)
-            matrix += bent(_slopes(stretch.formula, self.names).hessian(names) * share, columns[..., :-1])
+            bend = _slopes(stretch.formula, self.names).hessian(names) * share
+            matrix += between(bend[:, :, None], columns[:, None, :, :-1])[0]
         if self.root:
             size, slope = self.outer(np.array(own.total))
             matrix = slope * matrix - np.outer(own.slope[:-1], own.slope[:-1]) / (4.0 * size**3)

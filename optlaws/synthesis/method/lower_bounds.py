@@ -26,9 +26,8 @@ from optlaws.synthesis.families.family import Family, NormFamily, Program
 from optlaws.synthesis.families.names import at_least
 from optlaws.synthesis.method.aligned import aligned
 from optlaws.synthesis.method.exchange import solve
-from optlaws.synthesis.method.middle import asked_in_the_middle
 from optlaws.synthesis.method.on_points.grids import first_points
-from optlaws.synthesis.method.on_points.highs import vertex_on_points
+from optlaws.synthesis.method.on_points.linear import vertex_on_points
 from optlaws.synthesis.method.ways.contacts import polished
 from optlaws.synthesis.problem.constants import B, Functional, RootMeanSquare
 from optlaws.synthesis.problem.expression import leaves
@@ -45,6 +44,7 @@ _FOLLOWED = 4
 _ROUNDS = 2
 _ROOM = 1e3
 _CROWD = 2  # contacts for each variable, of which one determines it
+_MIDDLE = 0.5
 
 
 def raised(model: Model, optimum: ActiveSet) -> list[ActiveSet]:
@@ -69,6 +69,29 @@ def raised(model: Model, optimum: ActiveSet) -> list[ActiveSet]:
     if middle is not None:
         led = [*raised(*middle), *led]
     return led or list(islice(between(model, optimum, constant, low), 1 if alone else None))
+
+
+def asked_in_the_middle(model: Model, plain: ActiveSet, constant: Functional) -> tuple[Model, ActiveSet] | None:
+    """The problem with its peak velocity at k = 1/2, with its optimum; None where it is not B that is bounded.
+
+    There it is convex, and one of the candidates.
+
+    The optimum without the lower bound is where a problem that is not convex begins.
+    """
+    problem = model.problem
+    if constant != B or problem.boundary is not None or problem.inflexion is not None:
+        return None
+    placed = model_of(replace(problem, inflexion=_MIDDLE))
+    optimum = solve(placed.program, start=None if problem.convex else _begun(model, placed, plain)).optimum
+    return None if optimum is None else (placed, optimum)
+
+
+def _begun(model: Model, placed: Model, plain: ActiveSet) -> Array:
+    start = np.full(placed.program.size, B.value(model.law(plain.x)))
+    start[: model.space.terms] = model.coordinates(plain.x)
+    for name, place in model.places.items():
+        start[placed.places[name]] = plain.x[place]
+    return start
 
 
 def raised_at(model: Model, optimum: ActiveSet, constant: Functional, low: float, k: float) -> list[ActiveSet]:

@@ -42,13 +42,12 @@ def newton(program: Program, start: ActiveSet, *, deficient: bool = False) -> Ac
             return None
         before, state = state, _moved(state, step)
         scale = max(1.0, float(np.abs(state.x).max()))
-        size = float(np.abs(step[: program.size]).max()) / scale
+        steps, defects = np.abs(step), np.abs(defect)
+        size = float(steps[: program.size].max()) / scale
         # x may stand still where the conditions do not hold: in a deficient system, or where the optimum is flat
-        off = max(
-            float(np.abs(defect[: program.size]).max()), float(np.abs(defect[program.size :]).max(initial=0.0)) / scale
-        )
+        off = max(float(defects[: program.size].max()), float(defects[program.size :].max(initial=0.0)) / scale)
         if off < _FULFILLED and (size < _CONVERGED or (size < _STALLED and size > previous / 4)):
-            wandering = float(np.abs(step).max()) > _STILL
+            wandering = float(steps.max()) > _STILL
             if not wandering or off < _STALLED:
                 return before if wandering else state
         if np.any(np.abs(state.u) > _FAR):
@@ -66,25 +65,25 @@ def _conditions(program: Program, state: ActiveSet) -> tuple[Array, Array]:
     m = int(free.sum())
     last = n + m + p
     system = np.zeros((last + len(program.right),) * 2)
-    for i, family in enumerate(program.families):
-        own = state.family == i
-        if own.any():
-            u, s = state.u[own], state.s[own]
-            jet = family.jet(state.x, u, s)
-            value[own], slope[own], curvature[own] = jet.value, jet.slope, jet.curvature
-            rows[own], slopes[own] = jet.gradient, jet.slope_gradient
-            bent = family.hessian(state.x, u, state.multipliers[own] * s)
-            if bent is not None:
-                system[:n, :n] += bent
+    for i in sorted(set(state.family.tolist())):
+        own, family = state.family == i, program.families[i]
+        u, s = state.u[own], state.s[own]
+        jet = family.jet(state.x, u, s)
+        value[own], slope[own], curvature[own] = jet.value, jet.slope, jet.curvature
+        rows[own], slopes[own] = jet.gradient, jet.slope_gradient
+        bent = family.hessian(state.x, u, state.multipliers[own] * s)
+        if bent is not None:
+            system[:n, :n] += bent
 
-    system[:n, n : n + m] = (slopes[free] * state.multipliers[free, None]).T
+    turning, moved = slopes[free], np.arange(n, n + m)
+    system[:n, n : n + m] = (turning * state.multipliers[free, None]).T
     system[:n, n + m : last] = rows.T
     system[:n, last:] = program.equalities.T
     system[last:, :n] = program.equalities
-    system[n : n + m, :n] = slopes[free]
-    system[n : n + m, n : n + m] = np.diag(curvature[free])
+    system[n : n + m, :n] = turning
+    system[moved, moved] = curvature[free]
     system[n + m : last, :n] = rows
-    system[n + m + np.flatnonzero(free), n + np.arange(m)] = slope[free]
+    system[n + m + np.flatnonzero(free), moved] = slope[free]
 
     defect = np.empty(len(system))
     defect[:n] = program.objective + rows.T @ state.multipliers + program.equalities.T @ state.equality_multipliers

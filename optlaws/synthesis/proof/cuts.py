@@ -15,9 +15,8 @@ from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.curved import IntegralFamily
 from optlaws.synthesis.families.family import Family, LinearFamily, Points
 from optlaws.synthesis.families.kinked import KinkedIntegralFamily
-from optlaws.synthesis.method.on_points.flat import Table
 from optlaws.synthesis.method.on_points.grids import first_points, with_extrema
-from optlaws.synthesis.method.on_points.highs import vertex_on_points
+from optlaws.synthesis.method.on_points.linear import Table, vertex_on_points
 from optlaws.synthesis.program.writer import Model
 from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.proof.nodes import Contact

@@ -15,7 +15,7 @@ from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.method.equations import contradiction
 from optlaws.synthesis.method.exchange import Outcome, solve
 from optlaws.synthesis.method.on_points.grids import first_points, with_extrema
-from optlaws.synthesis.method.on_points.highs import vertex_on_points
+from optlaws.synthesis.method.on_points.linear import vertex_on_points
 from optlaws.synthesis.method.ways.identified import as_answered
 from optlaws.synthesis.method.ways.way import Way, in_rounds
 from optlaws.synthesis.problem.constants import C

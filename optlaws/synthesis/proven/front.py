@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from math import isnan
-from typing import Any
+from typing import Any, TypeVar, overload
 
 import msgspec
 import numpy as np
@@ -22,14 +22,44 @@ from optlaws.synthesis.program.evaluation import worth
 from optlaws.synthesis.proof.certificate import OBJECTIVE, Certificate
 from optlaws.synthesis.proof.data import StatedContact, contact_of, problem_of, stated
 from optlaws.synthesis.proof.nodes import Contact
-from optlaws.synthesis.proven.interval_gaps import interval_gaps
-from optlaws.synthesis.proven.lazily import Lazily
-from optlaws.synthesis.proven.line import lower_line
-from optlaws.synthesis.proven.running import RunningNumber
+from optlaws.synthesis.proven.running import RunningNumber, gap_bounds, lower_line
 from optlaws.synthesis.solution import measure
 
 Array = NDArray[np.float64]
 Many = NDArray[Any] | Sequence[float] | float
+T = TypeVar("T")
+
+
+class LazySequence(Sequence[T]):
+    """Items that are made when they are first asked for, and kept; equal to others with equal items."""
+
+    def __init__(self, count: int, make: Callable[[int], T]) -> None:
+        self._count, self._make = count, make
+        self._made: dict[int, T] = {}
+
+    def __len__(self) -> int:
+        return self._count
+
+    @overload
+    def __getitem__(self, place: int) -> T: ...
+    @overload
+    def __getitem__(self, place: slice) -> tuple[T, ...]: ...
+    def __getitem__(self, place: int | slice) -> T | tuple[T, ...]:
+        if isinstance(place, slice):
+            return tuple(self[i] for i in range(*place.indices(self._count)))
+        i = range(self._count)[place]
+        if i not in self._made:
+            self._made[i] = self._make(i)
+        return self._made[i]
+
+    def __eq__(self, other: object) -> bool:
+        return tuple(self) == tuple(other) if isinstance(other, Sequence) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(tuple(self))
+
+    def __reduce__(self) -> tuple[type[tuple[T, ...]], tuple[tuple[T, ...]]]:
+        return tuple, (tuple(self),)
 
 
 @dataclass(frozen=True)
@@ -152,7 +182,7 @@ class ProvenFront:
             raise InputError("a proven front needs at least two certified laws, at ascending values")
         if not len(self.values) == len(self.laws) == len(self.certificates):
             raise InputError("a proven front needs a law and a certificate for each value")
-        made_here = isinstance(self.certificates, Lazily)
+        made_here = isinstance(self.certificates, LazySequence)
         for value, certificate in () if made_here else zip(self.values, self.certificates, strict=True):
             if certificate.program != OBJECTIVE or certificate.problem != self.number.at(value):
                 raise InputError(f"the certificate at {self.number.name} = {value!r} is not of the problem there")
@@ -162,8 +192,8 @@ class ProvenFront:
         cls,
         number: RunningNumber,
         values: Array,
-        laws: Lazily[MotionLaw],
-        certificates: Lazily[Certificate],
+        laws: LazySequence[MotionLaw],
+        certificates: LazySequence[Certificate],
         sides: Array,
     ) -> ProvenFront:
         """A front whose laws are made when they are asked for, with what is known at each already."""
@@ -206,9 +236,7 @@ class ProvenFront:
     @kept_property
     def gaps(self) -> Array:
         """Between each two certified laws the greatest gap of any value, relative as of a `Solution`."""
-        return interval_gaps(
-            np.array(self.values), self.sides, self.problem.objective.scale, concave=self.number.concave
-        )
+        return gap_bounds(np.array(self.values), self.sides, self.problem.objective.scale, concave=self.number.concave)
 
     @property
     def gap(self) -> float:

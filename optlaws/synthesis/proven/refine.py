@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import fields, replace
+from dataclasses import replace
 from math import inf
 
 import numpy as np
@@ -13,22 +13,22 @@ from numpy.typing import NDArray
 from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
 from optlaws.numbers import positive, real
-from optlaws.synthesis.arrays.problems import ProblemArray
+from optlaws.synthesis.arrays.dual_bounds import bounds_below, rounding_charge, sharp_sums
+from optlaws.synthesis.families.family import LinearFamily
 from optlaws.synthesis.pareto import least_value, where_it_pays
 from optlaws.synthesis.problem.fields import CONSTANTS
 from optlaws.synthesis.problem.named_constants import apart
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.evaluation import worth
-from optlaws.synthesis.proven.front import ProvenFront, weighted_value
-from optlaws.synthesis.proven.interval_gaps import interval_gaps
-from optlaws.synthesis.proven.lazily import Lazily
-from optlaws.synthesis.proven.line import lower_line
-from optlaws.synthesis.proven.line_array import lower_lines
-from optlaws.synthesis.proven.running import RunningNumber
+from optlaws.synthesis.program.writer import Model, model_of
+from optlaws.synthesis.proof.sublevel_bounds import greatest_values
+from optlaws.synthesis.proven.front import LazySequence, ProvenFront, weighted_value
+from optlaws.synthesis.proven.running import RunningNumber, gap_bounds, lower_line
 from optlaws.synthesis.solution import Solution, Status, measure
 from optlaws.synthesis.solution_array import SolutionArray
 from optlaws.synthesis.solve import synthesize
-from optlaws.synthesis.solved_line import SolvedLine
+from optlaws.synthesis.solve_array import SolvedLine
+from optlaws.synthesis.solved_parts import Part
 
 Array = NDArray[np.float64]
 
@@ -112,7 +112,7 @@ class _Refined:
 
     def __init__(self, number: RunningNumber, ends: tuple[float, float]) -> None:
         self.number, self.ends = number, ends
-        self.line = SolvedLine(self._problems, *ends)
+        self.line = SolvedLine(number.problem, number.name, number.at, *ends)
         self.values = np.array(ends)
         self.laws: list[_Law] = [_at_end(number, end) for end in ends]
         self.known = np.array([self._known(value, law) for value, law in zip(ends, self.laws, strict=True)])
@@ -123,15 +123,15 @@ class _Refined:
         while (parts > 1).any():
             self._insert(parts, gap)
             self._check(gap)
-            gaps = interval_gaps(self.values, self.known, self._scale, concave=self.number.concave)
+            gaps = gap_bounds(self.values, self.known, self._scale, concave=self.number.concave)
             pieces = np.clip(np.ceil(np.sqrt(np.maximum(gaps, gap) / (_AIM * gap))), 2, _MOST_PIECES)
             parts = np.where(gaps <= gap, 1, pieces).astype(int)
         count, solution = len(self.laws), self._solution
         return ProvenFront.of_known(
             self.number,
             self.values,
-            Lazily(count, lambda i: solution(i).law),
-            Lazily(count, lambda i: solution(i).certificate),
+            LazySequence(count, lambda i: solution(i).law),
+            LazySequence(count, lambda i: solution(i).certificate),
             self.known,
         )
 
@@ -173,12 +173,6 @@ class _Refined:
             laws[i] = self._alone(float(values[i]), laws[i])
             known[i] = self._known(float(values[i]), laws[i])
         return laws, known
-
-    def _problems(self, values: Array) -> ProblemArray:
-        if self.number.name != "B":
-            return ProblemArray.of([self.number.at(value) for value in values.tolist()])
-        entries = {field.name: getattr(self.number.problem, field.name) for field in fields(Problem)}
-        return ProblemArray(**{**entries, "B": values})
 
     def _alone(self, value: float, law: _Law) -> Solution:
         """The solution at a value, solved again without a neighbour that may have led it astray."""
@@ -271,3 +265,47 @@ def _least_known(number: RunningNumber) -> str:
         return f"; the least {number.name} of these problems is {least_value(number.problem, number.name):.9g}"
     except OptlawsError:
         return ""
+
+
+def lower_lines(part: Part, values: Array, number: RunningNumber, ends: tuple[float, float]) -> Array | None:
+    """Value and slope of what the certificates of a part prove between the ends; None where a row is not linear.
+
+    Parameters
+    ----------
+    part, values
+        Laws that were found together, and the B of each.
+    number, ends
+        B, and between which values.
+    """
+    families = part.model.program.families
+    if number.name != "B" or not all(isinstance(family, LinearFamily) for family in families):
+        return None
+    model = model_of(number.at(ends[1]))
+    both = np.concatenate([np.maximum(part.found.multiplier, 0.0), part.found.equations], axis=1)
+    every = _rows(part, model, values - ends[1])
+    # nowhere between the ends is a right side greater
+    sizes, contacts = np.abs(every), part.found.u.shape[1]
+    sizes[:, contacts:, -1] = np.maximum(sizes[:, contacts:, -1], np.abs(model.program.right))
+    cost = np.broadcast_to(model.program.objective, (len(both), model.program.size))
+    slope, blur, plain, hidden = sharp_sums(model, cost, both, every, sizes)
+    rise = -part.found.equations[:, 0]
+    claim = max(float((plain + rise * (end - values)).max()) for end in ends)
+    below = bounds_below(model, greatest_values(model, max(model.unit * claim, 0.0)))
+    lost = rounding_charge(model, below, slope, blur)
+    return model.unit * np.column_stack([plain - hidden - lost, rise])
+
+
+def _rows(part: Part, model: Model, further: Array) -> Array:
+    """The rows of the contacts and of the equations, with the opposites of their right sides; of no contact 0."""
+    laws, contacts, size = part.found, part.found.u.shape[1], part.model.program.size
+    rows = np.zeros((len(further), contacts + len(model.program.right), size + 1))
+    for i, family in enumerate(part.model.program.families):
+        law, place = np.nonzero(laws.family == i)
+        if len(law) and isinstance(family, LinearFamily):
+            u = np.clip(laws.u[law, place], *family.domain)
+            rows[law, place, :-1], right = family.rows(u, laws.sign[law, place])
+            rows[law, place, -1] = -right
+    rows[:, contacts:, :-1], rows[:, contacts:, -1] = model.program.equalities, -model.program.right
+    # of the equations the first alone has B on its right side, and there B itself
+    rows[:, contacts, -1] -= further
+    return rows

@@ -8,10 +8,9 @@ from optlaws import BoundaryConditions, Chebyshev, Problem, at_most, synthesize
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Points, Program
 from optlaws.synthesis.method import exchange
-from optlaws.synthesis.method.on_points.flat import sharpened
 from optlaws.synthesis.method.on_points.grids import first_points
-from optlaws.synthesis.method.on_points.highs import vertex_on_points
 from optlaws.synthesis.method.on_points.ipopt import Answer
+from optlaws.synthesis.method.on_points.linear import sharpened, vertex_on_points
 from optlaws.synthesis.method.ways import identified
 from optlaws.synthesis.program.writer import model_of
 from optlaws.verification.exact.bound import prove

@@ -63,17 +63,15 @@ def optimum_on_points(program: Program, points: list[Points]) -> Answer | None:
         Where its families are held.
     """
     import clarabel
-    from scipy import sparse
 
     blocks = [_block(family, held) for family, held in zip(program.families, points, strict=True)]
     scale = 1.0 / _length(program.equalities)
     matrix = np.vstack([program.equalities * scale[:, None], *(block.rows for block in blocks)])
     right = np.concatenate([program.right * scale, *(block.right for block in blocks)])
     cones = [clarabel.ZeroConeT(len(scale)), *(cone for block in blocks for cone in block.cones)]
-    nothing = sparse.csc_matrix((program.size, program.size))
-    solver = clarabel.DefaultSolver(nothing, program.objective, sparse.csc_matrix(matrix), right, cones, _settings())
-    optimum = solver.solve()
-    if str(optimum.status) not in _USABLE:
+    straight = np.zeros((program.size, program.size))
+    optimum = conic_optimum(straight, program.objective, matrix, right, cones, tolerance=_TOLERANCE)
+    if optimum is None:
         return None
     ends = np.cumsum([len(scale), *(len(block.right) for block in blocks)])[:-1]
     equations, *duals = np.split(np.asarray(optimum.z), ends)
@@ -83,13 +81,19 @@ def optimum_on_points(program: Program, points: list[Points]) -> Answer | None:
     return Answer(x, [*weights, equations * scale], success=True, status=status, iterations=optimum.iterations)
 
 
-def _settings() -> Any:  # noqa: ANN401 - Clarabel's, imported late
+def conic_optimum(
+    curvature: Array, cost: Array, rows: Array, right: Array, cones: list[Any], *, tolerance: float
+) -> Any:  # noqa: ANN401 - Clarabel's, imported late
+    """The least x . curvature . x / 2 + cost . x with right - rows . x in cones, by Clarabel; None if it fails."""
     import clarabel
+    from scipy import sparse
 
     settings = clarabel.DefaultSettings()
     settings.verbose = False
-    settings.tol_gap_abs = settings.tol_gap_rel = settings.tol_feas = _TOLERANCE
-    return settings
+    settings.tol_gap_abs = settings.tol_gap_rel = settings.tol_feas = tolerance
+    sparse_curvature, sparse_rows = sparse.csc_matrix(np.triu(curvature)), sparse.csc_matrix(rows)
+    optimum = clarabel.DefaultSolver(sparse_curvature, cost, sparse_rows, right, cones, settings).solve()
+    return optimum if str(optimum.status) in _USABLE else None
 
 
 def _block(family: Family, points: Points) -> _Block:

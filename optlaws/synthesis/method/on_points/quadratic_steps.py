@@ -8,13 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.synthesis.families.curved import IntegralFamily
 from optlaws.synthesis.families.family import LinearFamily, Points, Program
+from optlaws.synthesis.method.on_points.conic import conic_optimum
 from optlaws.synthesis.method.on_points.ipopt import Answer
 
 Array = NDArray[np.float64]
@@ -34,7 +34,6 @@ _NOTHING = 1e-13
 #: what a residual costs beside the multipliers
 _DEARER, _LEAST_PRICE = 2.0, 10.0
 _TOLERANCE = 1e-13
-_USABLE = ("Solved", "AlmostSolved")
 _SHORT = 1e-13
 #: how many tangents are kept
 _TANGENTS = 60
@@ -209,7 +208,6 @@ class _Descent:
     def _step(self, x: Array, rows: _Rows, residual: Array, bend: Array, damping: float) -> _Step | None:
         """The step of least cost, with one variable more: by how much every row may be exceeded."""
         import clarabel
-        from scipy import sparse
 
         program, size = self.program, self.program.size
         gradient, count = rows.gradient, len(residual)
@@ -230,11 +228,8 @@ class _Descent:
         curvature[:size, :size] = bend + damping * np.eye(size)
         cones = [clarabel.ZeroConeT(len(program.right)), clarabel.NonnegativeConeT(int(kept.sum()) + 1)]
         cost = np.append(program.objective, self.price)
-        solver = clarabel.DefaultSolver(
-            sparse.csc_matrix(np.triu(curvature)), cost, sparse.csc_matrix(matrix), right, cones, _settings()
-        )
-        optimum = solver.solve()
-        if str(optimum.status) not in _USABLE:
+        optimum = conic_optimum(curvature, cost, matrix, right, cones, tolerance=_TOLERANCE)
+        if optimum is None:
             return None
         duals = np.asarray(optimum.z)
         weights = np.zeros(len(residual))
@@ -244,12 +239,3 @@ class _Descent:
         weights = weights[:count]
         x = np.asarray(optimum.x)
         return _Step(x[:-1], weights, duals[: len(program.right)], max(float(x[-1]), 0.0))
-
-
-def _settings() -> Any:  # noqa: ANN401 - Clarabel's, imported late
-    import clarabel
-
-    settings = clarabel.DefaultSettings()
-    settings.verbose = False
-    settings.tol_gap_abs = settings.tol_gap_rel = settings.tol_feas = _TOLERANCE
-    return settings

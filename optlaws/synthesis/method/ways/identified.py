@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Family, Points, ProductFamily, Program
 from optlaws.synthesis.method.newton import newton
-from optlaws.synthesis.method.on_points.flat import sharpened
 from optlaws.synthesis.method.on_points.ipopt import Answer
+from optlaws.synthesis.method.on_points.linear import sharpened
 from optlaws.synthesis.method.tolerances import SAME_HEIGHT, SAME_PLACE, WEIGHTLESS, WEIGHTLESS_AT_VERTEX
 from optlaws.synthesis.method.ways.contacts import completed, polished
 

@@ -16,10 +16,9 @@ from numpy.typing import NDArray
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Points, Program
 from optlaws.synthesis.method.on_points.conic import conic, optimum_on_points
-from optlaws.synthesis.method.on_points.flat import Table
 from optlaws.synthesis.method.on_points.grids import with_extrema
-from optlaws.synthesis.method.on_points.highs import by_family, vertex_on_points
 from optlaws.synthesis.method.on_points.ipopt import Answer
+from optlaws.synthesis.method.on_points.linear import Table, by_family, vertex_on_points
 from optlaws.synthesis.method.tolerances import EXCESS
 from optlaws.synthesis.method.ways.identified import of_vertex, optimum_near
 from optlaws.synthesis.method.ways.way import Way

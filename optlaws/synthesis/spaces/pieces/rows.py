@@ -76,6 +76,8 @@ class PieceSeries:
 class PieceFamily(LinearFamily):
     """A linear family of piecewise polynomials; contacts at breaks are kinks and stay where they are."""
 
+    plain = False
+
     pieces: PieceSeries
     jumps: bool = False
 
@@ -83,6 +85,11 @@ class PieceFamily(LinearFamily):
         """The columns on every piece and the right side in other units."""
         pieces = PieceSeries(self.pieces.breaks, self.pieces.series * np.append(units, 1.0) / unit)
         return replace(self, pieces=pieces, slack=self.slack * units / unit, bound=self.bound / unit)
+
+    @property
+    def continuable(self) -> bool:
+        """False: contacts at kinks are neither held at an end nor free."""
+        return False
 
     @kept_property
     def corners(self) -> Array:

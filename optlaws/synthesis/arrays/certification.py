@@ -9,12 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
-from optlaws.synthesis.arrays.columns import Columns, CurvedTangents
-from optlaws.synthesis.arrays.judging.cells import Cells, excess, excess_at
-from optlaws.synthesis.arrays.judging.dual_bounds import lower_bounds, sharp_bounds
-from optlaws.synthesis.arrays.newton_steps import States, best_nearby
+from optlaws.synthesis.arrays.cells import Cells, excess, excess_at
+from optlaws.synthesis.arrays.dual_bounds import lower_bounds, sharp_bounds
+from optlaws.synthesis.arrays.newton_steps import States, Structure, batch_families, best_nearby, product, with_one
 from optlaws.synthesis.arrays.programs import Numbers, Path
-from optlaws.synthesis.arrays.rows import Structure, columns_of, product, with_one
+from optlaws.synthesis.families.family import BatchFamily, LinearFamily, NonlinearFamily
 from optlaws.synthesis.program.writer import Model
 
 Array = NDArray[np.float64]
@@ -129,40 +128,31 @@ def judged(path: Path, structure: Structure, numbers: Numbers, states: States) -
 
 @dataclass(frozen=True, eq=False)
 class Checks:
-    """What shows whether laws keep the rows of families, whatever the laws.
+    """What shows whether laws keep the rows of families, whatever the laws."""
 
-    Attributes
-    ----------
-    columns
-        Of the families.
-    """
-
-    columns: Sequence[Columns | CurvedTangents]
+    families: Sequence[BatchFamily]
 
     @kept_property
     def proving(self) -> bool:
         """Whether multipliers prove bounds."""
-        return all(column.proving for column in self.columns)
+        return all(family.proving for family in self.families)
 
     @kept_property
-    def _affine(self) -> list[tuple[int, Columns]]:
-        return [(i, column) for i, column in enumerate(self.columns) if isinstance(column, Columns)]
-
-    @kept_property
-    def _wide(self) -> list[int]:
+    def _wide(self) -> dict[int, LinearFamily]:
         """The affine families that hold on an interval."""
-        return [i for i, cell in self._affine if cell.family.domain[0] < cell.family.domain[1]]
+        affine = {i: family for i, family in enumerate(self.families) if isinstance(family, LinearFamily)}
+        return {i: family for i, family in affine.items() if family.domain[0] < family.domain[1]}
 
     @kept_property
     def _cells(self) -> Cells:
-        return Cells(tuple(cell for i, cell in self._affine if i in self._wide))
+        return Cells(tuple(self._wide.values()))
 
     @kept_property
     def reach(self) -> Array:
         """How far from a contact of each family its tangent is relied on: nowhere, but where cells are looked at."""
-        shortfalls = np.zeros(len(self.columns))
+        shortfalls = np.zeros(len(self.families))
         if self._wide:
-            shortfalls[self._wide] = self._cells.reach
+            shortfalls[list(self._wide)] = self._cells.reach
         return shortfalls
 
     def excess(self, point: Array, room: Array, touching: Sequence[Array]) -> Array:
@@ -177,26 +167,29 @@ class Checks:
         """
         shortfalls = np.zeros(len(point))
         if self._wide:
-            shortfalls = excess(self._cells, point, room[:, self._wide], [touching[i] for i in self._wide])
-        for i, column in enumerate(self.columns):
-            if isinstance(column, CurvedTangents):
-                over = np.maximum(column.greatest(point) - room[:, i], 0.0) / np.maximum(1.0, np.abs(room[:, i]))
+            shortfalls = excess(self._cells, point, room[:, list(self._wide)], [touching[i] for i in self._wide])
+        for i, family in enumerate(self.families):
+            if isinstance(family, NonlinearFamily):
+                over = np.maximum(family.greatest(point) - room[:, i], 0.0) / np.maximum(1.0, np.abs(room[:, i]))
                 shortfalls = np.maximum(shortfalls, over)
-            elif i not in self._wide:
-                shortfalls = np.maximum(shortfalls, excess_at(column.family, point, room[:, i]))
+            elif isinstance(family, LinearFamily) and i not in self._wide:
+                shortfalls = np.maximum(shortfalls, excess_at(family, point, room[:, i]))
         return shortfalls
 
 
 def checks_of(model: Model) -> Checks:
-    """What checks laws of a program, kept with its columns."""
-    columns = columns_of(model)
-    key = id(columns)
-    if key not in _KEPT or _KEPT[key].columns is not columns:
+    """What checks laws of a program, kept for programs of the same rows."""
+    families = batch_families(model)
+    key = tuple(
+        (type(family), id(family.series), family.domain, family.signs) if isinstance(family, LinearFamily) else family
+        for family in families
+    )
+    if key not in _KEPT:
         if len(_KEPT) >= _MOST:
             _KEPT.clear()
-        _KEPT[key] = Checks(columns)
+        _KEPT[key] = Checks(families)
     return _KEPT[key]
 
 
-_KEPT: dict[int, Checks] = {}
+_KEPT: dict[tuple[object, ...], Checks] = {}
 _MOST = 64

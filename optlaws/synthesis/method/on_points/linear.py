@@ -1,4 +1,7 @@
-"""Optima of linear programs on points, sharpened: no contact need be an extremum, none need be alone.
+"""Linear programs on finitely many points: vertices by the simplex method, and optima sharpened.
+
+A vertex has as many binding rows as variables, and its multipliers balance exactly: where the optimum is flat, or
+where multipliers of very different size meet, an interior point hides what a vertex shows.
 
 Where an optimum is flat (a jerk that is constant, constraints that contradict each other along an interval) there is
 no exact active set for Newton's method. IPOPT's answer then shows by its multipliers which rows bind; to make those
@@ -6,6 +9,8 @@ rows hold exactly, and the multipliers balance exactly, are two linear problems,
 """
 
 from __future__ import annotations
+
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,6 +29,10 @@ _GAP = 1e-9
 _RANK = 1e-12
 _HELD = 1e-11
 _BALANCED = 1e-12
+# where a way ends without an answer, the next is asked: a presolve or a tolerance may be what stops it
+_WAYS = (("highs-ds", True, 1e-10), ("highs-ds", False, 1e-10), ("highs-ds", False, 1e-9), ("highs-ipm", True, 1e-10))
+_OPTIMAL, _INFEASIBLE = 0, 2
+_MAGNIFIED = 2.0**14
 
 
 def sharpened(program: Program, points: list[Points], answer: Answer) -> ActiveSet | None:
@@ -128,3 +137,59 @@ class Table:
 
     def _defect(self, rows: Array, multipliers: Array, equations: Array) -> Array:
         return np.asarray(self.objective + rows.T @ multipliers + self.equations.T @ equations)
+
+
+def vertex_on_points(program: Program, points: list[Points], near: Array | None = None) -> Answer | None:
+    """An optimal vertex of the program with its families held at the points only; None where none is found.
+
+    Parameters
+    ----------
+    program
+        A program whose families are all linear.
+    points
+        Where they are held.
+    near
+        Variables near the vertex, of which then the difference is sought, magnified: what the solver tolerates in a
+        row becomes so much smaller.
+    """
+    from scipy.optimize import linprog
+
+    solve: Any = linprog
+    table = Table(program, points)
+    right, equation_right = table.right, table.equation_right
+    if near is not None:
+        right = _MAGNIFIED * -table.residuals(near)
+        equation_right = _MAGNIFIED * (equation_right - table.equations @ near)
+    equations = {"A_eq": table.equations, "b_eq": equation_right} if len(program.right) else {}
+    for method, presolve, tolerance in _WAYS:
+        optimum = solve(
+            program.objective,
+            A_ub=table.rows,
+            b_ub=right,
+            bounds=(None, None),
+            method=method,
+            options={
+                "presolve": presolve,
+                "primal_feasibility_tolerance": tolerance,
+                "dual_feasibility_tolerance": tolerance,
+            },
+            **equations,
+        )
+        if optimum.status == _OPTIMAL:
+            x = np.asarray(optimum.x) if near is None else near + np.asarray(optimum.x) / _MAGNIFIED
+            return _answer(table, points, x, optimum)
+        if optimum.status == _INFEASIBLE:
+            return None
+    return None
+
+
+def by_family(values: Array, points: list[Points]) -> list[Array]:
+    """Values of all rows, those of each family apart."""
+    return np.split(values, np.cumsum([len(held.u) for held in points])[:-1])
+
+
+def _answer(table: Table, points: list[Points], x: Array, optimum: Any) -> Answer:  # noqa: ANN401 - scipy's OptimizeResult
+    weights = np.maximum(-optimum.ineqlin.marginals, 0.0) / table.length
+    equations = -np.asarray(optimum.eqlin.marginals, dtype=np.float64) / table.equation_length
+    status = str(optimum.message)
+    return Answer(x, [*by_family(weights, points), equations], success=True, status=status, iterations=0)

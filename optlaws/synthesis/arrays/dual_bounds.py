@@ -8,10 +8,8 @@ from math import ceil, inf, log
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.synthesis.arrays.judging.sums import sums_of_rows
-from optlaws.synthesis.arrays.newton_steps import States
+from optlaws.synthesis.arrays.newton_steps import States, Structure, weighted
 from optlaws.synthesis.arrays.programs import Numbers, Path
-from optlaws.synthesis.arrays.rows import Structure, weighted
 from optlaws.synthesis.families.family import LinearFamily
 from optlaws.synthesis.program.writer import Model
 from optlaws.synthesis.proof.sublevel_bounds import greatest_values, least_values, moments
@@ -19,12 +17,13 @@ from optlaws.synthesis.proof.sublevel_bounds import greatest_values, least_value
 Array = NDArray[np.float64]
 
 _UNIT = 2.0**-53
+_SPLIT = 2.0**27 + 1.0
 #: roundings in a row before it is weighted, as certificates count them, and what sums are off by beyond
 _IN_A_ROW, _SQUARES = 9, 2.0**-20
 #: claims are taken from a geometric row, upward: what is known of laws below them is known of all before
 _CLAIMS, _ABOVE = 1.01, 1.0 + 2.0**-40
 
-_Below = tuple[dict[str, float], dict[str, float], list[tuple[Array, Array]]]
+Below = tuple[dict[str, float], dict[str, float], list[tuple[Array, Array]]]
 
 
 def lower_bounds(path: Path, structure: Structure, numbers: Numbers, states: States, value: Array) -> Array:
@@ -48,31 +47,51 @@ def lower_bounds(path: Path, structure: Structure, numbers: Numbers, states: Sta
     count = _UNIT * (_IN_A_ROW + structure.count + len(program.equalities) + 2)
     sizes = np.abs(equations)
     blur = weighted(weights, np.abs(rows)) + sizes @ np.abs(program.equalities) + np.abs(cost)
-    unseen = structure.hidden(states.x, states.u, weights)
+    unseen = structure.rounding_errors(states.x, states.u, weights)
     blur = count * blur + unseen[:, :-1]
     hidden = (weights * np.abs(right)).sum(axis=1) + (sizes * np.abs(numbers.right)).sum(axis=1)
     hidden = count * hidden + unseen[:, -1]
     claim = path.model.unit * float(plain.max(initial=0.0))
-    return np.asarray(path.model.unit * (plain - hidden - _charge(path, slope, blur, claim)))
+    return np.asarray(
+        path.model.unit * (plain - hidden - rounding_charge(path.model, _below(path, claim), slope, blur))
+    )
 
 
 def sharp_bounds(path: Path, structure: Structure, numbers: Numbers, states: States) -> Array:
     """The same of programs of affine rows, whose sums are rounded once: less is lost where multipliers are great."""
-    program, places = path.model.program, list(path.model.places.values())
-    weights = np.maximum(states.weights, 0.0)
+    program = path.model.program
     rows = _with_right_sides(structure, numbers, states)
     sides = np.broadcast_to(program.equalities, (len(rows), *program.equalities.shape))
     every = np.concatenate([rows, np.concatenate([sides, -numbers.right[:, :, None]], axis=2)], axis=1)
-    both = np.concatenate([weights, states.equations], axis=1)
-    total = sums_of_rows(np.concatenate([numbers.cost, np.zeros((len(rows), 1))], axis=1), both, every)
-    hidden = _UNIT * (_IN_A_ROW + _SQUARES) * weighted(np.abs(both), np.abs(every))
+    both = np.concatenate([np.maximum(states.weights, 0.0), states.equations], axis=1)
+    slope, blur, value, hidden = sharp_sums(path.model, numbers.cost, both, every, np.abs(every))
+    plain = value - hidden
+    claim = path.model.unit * float(plain.max(initial=0.0))
+    return np.asarray(path.model.unit * (plain - rounding_charge(path.model, _below(path, claim), slope, blur)))
+
+
+def sharp_sums(
+    model: Model, cost: Array, multipliers: Array, rows: Array, sizes: Array
+) -> tuple[Array, Array, Array, Array]:
+    """The cost and the weighted rows of many laws as a slope and a value, each with what rounding hides of it.
+
+    Parameters
+    ----------
+    model, cost
+        The program, and what is minimised in each law.
+    multipliers, rows
+        Of all rows, with the opposites of their right sides last, and of the equations.
+    sizes
+        How great the rows' entries may be.
+    """
+    places = list(model.places.values())
+    total = sums_of_rows(np.concatenate([cost, np.zeros((len(cost), 1))], axis=1), multipliers, rows)
+    hidden = _UNIT * (_IN_A_ROW + _SQUARES) * weighted(np.abs(multipliers), sizes)
     # the entries of the variables are exact, and so is a sum that is zero
     slope, blur = total[:, :-1], hidden[:, :-1]
     blur[:, places] = 0.0
     slope[:, places] = np.where(slope[:, places] == 0.0, 0.0, np.nextafter(slope[:, places], -inf))
-    plain = total[:, -1] - hidden[:, -1]
-    claim = path.model.unit * float(plain.max(initial=0.0))
-    return np.asarray(path.model.unit * (plain - _charge(path, slope, blur, claim)))
+    return slope, blur, total[:, -1], hidden[:, -1]
 
 
 def _with_right_sides(structure: Structure, numbers: Numbers, states: States) -> Array:
@@ -89,24 +108,29 @@ def _with_right_sides(structure: Structure, numbers: Numbers, states: States) ->
     return rows
 
 
-def _charge(path: Path, slope: Array, blur: Array, claim: float) -> Array:
-    """Most that the slope can be worth in laws up to the claim, as a certificate charges it, for each law."""
-    greatest, least, sizes = _below(path, claim)
-    terms, beyond = path.model.space.terms, np.zeros(len(slope))
-    for name, place in path.model.places.items():
-        own = slope[:, place]
-        down = np.maximum(blur[:, place] - own, 0.0) * greatest.get(name, inf)
-        low = least.get(name, 0.0)
-        up = np.maximum(own + blur[:, place], 0.0) * max(-low, 0.0) if low < 0.0 else 0.0
-        beyond += down + up
+def rounding_charge(model: Model, below: Below, slope: Array, blur: Array) -> Array:
+    """Most that each slope, wherever it is within its blur, can be worth in laws of which a priori bounds are known."""
+    greatest, least, sizes = below
+    terms, beyond = model.space.terms, np.zeros(len(slope))
+    for name, place in model.places.items():
+        own, low = slope[:, place], least.get(name, 0.0)
+        beyond += np.maximum(blur[:, place] - own, 0.0) * greatest.get(name, inf)
+        beyond += np.maximum(own + blur[:, place], 0.0) * -low if low < 0.0 else 0.0
     reaches = [
         (np.abs(slope[:, :terms] @ extension.T) + blur[:, :terms] @ np.abs(extension).T) @ most
         for most, extension in sizes
     ]
-    return beyond + (np.min(reaches, axis=0) if reaches else inf)
+    return np.asarray(beyond + (np.min(reaches, axis=0) if reaches else inf))
 
 
-def _below(path: Path, claim: float) -> _Below:
+def bounds_below(model: Model, greatest: dict[str, float]) -> Below:
+    """A priori bounds of the variables, above and below, and of the coordinates, where constants are known above."""
+    scales = model.in_scales
+    least = least_values(model.problem, model.space)
+    return scales(greatest), scales(least), moments(model, greatest)
+
+
+def _below(path: Path, claim: float) -> Below:
     """What is known of laws of the path below the claim, or one that is a little above it."""
     step = ceil(log(claim) / log(_CLAIMS)) if claim > 0.0 else None
     if step not in path.kept:
@@ -115,8 +139,45 @@ def _below(path: Path, claim: float) -> _Below:
             model: Model = replace(path.model, problem=problem)
             for name, value in greatest_values(model, 0.0 if step is None else _CLAIMS**step * _ABOVE).items():
                 greatest[name] = max(greatest.get(name, 0.0), value)
-        least = least_values(path.model.problem, path.model.space)
-        scales = path.model.in_scales
-        path.kept[step] = (scales(greatest), scales(least), moments(path.model, greatest))
-    below: _Below = path.kept[step]
+        path.kept[step] = bounds_below(path.model, greatest)
+    below: Below = path.kept[step]
     return below
+
+
+def sums_of_rows(start: Array, weights: Array, rows: Array) -> Array:
+    """What a start and the weighted rows of each law add up to, rounded once but for the square of what that is off.
+
+    Parameters
+    ----------
+    start
+        To which they are added, shape (laws, numbers) or one for all.
+    weights, rows
+        Shapes (laws, rows) and (laws, rows, numbers), or rows that are those of all laws.
+
+    Examples
+    --------
+    >>> sums_of_rows(np.array([1.0]), np.array([[1e17, -1e17]]), np.array([[1.0], [1.0]])).tolist()
+    [[1.0]]
+    """
+    total = np.broadcast_to(start, (len(weights), rows.shape[-1])).copy()
+    rest = np.zeros_like(total)
+    for i, weight in enumerate(weights.T):
+        product, beside = _product(weight[:, None], rows[..., i, :])
+        further = total + product
+        moved = further - total
+        rest += beside + ((total - (further - moved)) + (product - moved))
+        total = further
+    return np.asarray(total + rest)
+
+
+def _product(first: Array, second: Array) -> tuple[Array, Array]:
+    """A product, and what rounding took from it (Dekker 1971)."""
+    product = first * second
+    (a, b), (c, d) = _halves(first), _halves(second)
+    return product, b * d - (((product - a * c) - b * c) - a * d)
+
+
+def _halves(values: Array) -> tuple[Array, Array]:
+    scaled = _SPLIT * values
+    high = scaled - (scaled - values)
+    return high, values - high

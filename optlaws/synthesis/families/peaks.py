@@ -39,7 +39,7 @@ def peaks(series: Array) -> Array:
 
 def power_peaks(velocity: Array, acceleration: Array) -> Array:
     """Greatest magnitude of the product of two series, for each of many laws."""
-    return peaks(product(velocity, acceleration))
+    return peaks(products(velocity, acceleration))
 
 
 def of_polynomials(laws: Sequence[PolynomialLaw], name: str) -> Array:
@@ -55,14 +55,17 @@ def of_polynomials(laws: Sequence[PolynomialLaw], name: str) -> Array:
     c = np.array([[*law.acceleration, *[0.0] * (count - len(law.acceleration))] for law in laws]).reshape(-1, count)
     b = chebyshev.chebint(c, lbnd=-1.0, scl=0.5, axis=1)
     b[:, 0] += [law.b0 for law in laws]
+    return constant_of_series(name, b, c, 2.0 * chebyshev.chebder(c, axis=1))
+
+
+def constant_of_series(name: str, b: Array, c: Array, j: Array) -> Array:
+    """B, C, D, J or rms_c of many laws whose velocities, accelerations and jerks are series."""
     if name == "D":
         return power_peaks(b, c)
-    if name == "rms_c":
-        return root_mean_squares(c)
-    return peaks({"B": b, "C": c, "J": 2.0 * chebyshev.chebder(c, axis=1)}[name])
+    return root_mean_squares(c) if name == "rms_c" else peaks({"B": b, "C": c, "J": j}[name])
 
 
-def product(first: Array, second: Array) -> Array:
+def products(first: Array, second: Array) -> Array:
     """Products of Chebyshev series, law by law."""
     count = first.shape[1] + second.shape[1]
     values = [factor @ chebyshev.chebvander(nodes(count), factor.shape[1] - 1).T for factor in (first, second)]

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.polynomial import chebyshev
 
-from optlaws.synthesis.arrays.constants import peaks
+from optlaws.synthesis.families.peaks import peaks
 
 
 @pytest.mark.parametrize("count", [4, 12, 40])

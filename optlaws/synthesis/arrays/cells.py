@@ -18,7 +18,6 @@ from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
-from optlaws.synthesis.arrays.columns import Columns
 from optlaws.synthesis.families.family import LinearFamily
 
 Array = NDArray[np.float64]
@@ -49,17 +48,17 @@ class Cells:
     Families whose rows hold with both signs come first; the others are turned so that they hold upward.
     """
 
-    columns: tuple[Columns, ...]
+    families: tuple[LinearFamily, ...]
 
     @kept_property
     def order(self) -> list[int]:
         """The families in the order of their cells."""
-        return sorted(range(len(self.columns)), key=lambda i: len(self.columns[i].family.signs) == 1)
+        return sorted(range(len(self.families)), key=lambda i: len(self.families[i].signs) == 1)
 
     @kept_property
     def edges(self) -> list[Array]:
         """The ends of each family's cells, ascending; in the order of the cells."""
-        return [_edges(self.columns[i].family) for i in self.order]
+        return [_edges(self.families[i]) for i in self.order]
 
     @kept_property
     def blocks(self) -> list[slice]:
@@ -75,7 +74,7 @@ class Cells:
     @kept_property
     def twofold(self) -> int:
         """How many cells are of families whose rows hold with both signs."""
-        return sum(len(self.columns[i].family.signs) == 2 for i in self.family.tolist())
+        return sum(len(self.families[i].signs) == 2 for i in self.family.tolist())
 
     @kept_property
     def begins(self) -> Flags:
@@ -87,14 +86,14 @@ class Cells:
     @kept_property
     def reach(self) -> Array:
         """How far from a contact of each family its tangent is relied on."""
-        least = np.empty(len(self.columns))
+        least = np.empty(len(self.families))
         least[self.order] = [(_JOINED + 1) * float(np.diff(edges).max()) for edges in self.edges]
         return least
 
     @kept_property
     def series(self) -> Array:
         """Coefficients of the columns on each cell, shape (coefficients, cells, variables + 1)."""
-        parts = [_upward(self.columns[i].family, edges) for i, edges in zip(self.order, self.edges, strict=True)]
+        parts = [_upward(self.families[i], edges) for i, edges in zip(self.order, self.edges, strict=True)]
         count = max(map(len, parts))
         return np.concatenate([np.pad(part, ((0, count - len(part)), (0, 0), (0, 0))) for part in parts], axis=1)
 

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from optlaws import Chebyshev, Problem, ProblemArray, synthesize, synthesize_array
-from optlaws.synthesis.arrays.formula_columns import formula_tangents
 from optlaws.synthesis.arrays.programs import between
 from optlaws.synthesis.families.curved import OfFormula
 from optlaws.synthesis.program.writer import model_of
@@ -35,15 +34,13 @@ def test_many_laws_of_a_formula_are_those_of_each_alone(text: str) -> None:
 def test_planes_touch_and_second_derivatives_are_differences_of_slopes(text: str) -> None:
     program = model_of(Problem(B=1.8, order=4, basis=Chebyshev(5), minimise=text)).program
     [family] = [one for one in program.families if isinstance(one, OfFormula)][:1]
-    found = formula_tangents(family)
-    assert found is not None
+    assert family.continuable
     numbers = np.random.default_rng(1)
     x = numbers.normal(size=(3, program.size)) * 0.3
     u = np.tile(np.mean(family.domain) + np.array([0.0, 0.1]), (3, 1))
-    value, slope, bend = found.at(u, np.column_stack([x, np.ones(3)]))
+    value, slope, bend = family.planes(u, np.column_stack([x, np.ones(3)]))
     weights = np.array([[1.0, 0.5]] * 3)
-    hessian = found.hessian(u, np.column_stack([x, np.ones(3)]), weights)
-    assert hessian is not None
+    hessian = family.hessians(u, np.column_stack([x, np.ones(3)]), weights)
     for law in range(3):
         jet = family.jet(x[law], u[law], np.ones(2))
         room = family.room(x[law])

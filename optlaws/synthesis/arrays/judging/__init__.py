@@ -1,1 +1,0 @@
-"""Whether many laws keep their rows everywhere, and what their multipliers prove."""
