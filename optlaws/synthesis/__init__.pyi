@@ -41,9 +41,9 @@ from optlaws.synthesis.solution import Solution as Solution
 from optlaws.synthesis.solution import Status as Status
 from optlaws.synthesis.solution_array import SolutionArray as SolutionArray
 from optlaws.synthesis.solve import synthesize as synthesize
-from optlaws.synthesis.solve_array import synthesize_array as synthesize_array
-from optlaws.synthesis.solve_array import synthesize_chunks as synthesize_chunks
 from optlaws.synthesis.solve_many import sweep as sweep
+from optlaws.synthesis.solve_many import synthesize_array as synthesize_array
+from optlaws.synthesis.solve_many import synthesize_chunks as synthesize_chunks
 from optlaws.synthesis.solve_many import synthesize_many as synthesize_many
 from optlaws.synthesis.spaces.bases import Basis as Basis
 from optlaws.synthesis.spaces.bases import Bernstein as Bernstein

@@ -14,8 +14,8 @@ from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.method import starts
 from optlaws.synthesis.method.exchange import Outcome, solve
-from optlaws.synthesis.method.lower_bounds import raised, raised_at
-from optlaws.synthesis.method.narrow import narrowed, on_equations
+from optlaws.synthesis.method.lower_bounds import active_lower_bounds, active_lower_bounds_at
+from optlaws.synthesis.method.without_interior import fallbacks_without_interior, on_equations
 from optlaws.synthesis.problem.constants import Peak
 from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.problem.problem import Problem
@@ -56,7 +56,7 @@ class Attempt:
 
 
 @dataclass(eq=False)
-class Search:
+class LawSearch:
     """What is known of the best law of a problem so far.
 
     Attributes
@@ -154,7 +154,7 @@ class Search:
         short = {} if plain.law is None else shortfalls(self.problem, plain.law)
         if not short or plain.law is None:
             return plain
-        best = None if optimum is None else self._best_of(plain, raised(self.model, optimum))
+        best = None if optimum is None else self._best_of(plain, active_lower_bounds(self.model, optimum))
         if best is not None:
             return best
         constant, low = next(iter(short.items()))
@@ -176,7 +176,9 @@ class Search:
         step, side = _FIRST_MOVE, 1.0
         for _ in range(_MOVES):
             k = self._place(best, constant) + side * step
-            states = raised_at(self.model, plain.outcome.optimum, constant, low, k) if 0.0 < k < 1.0 else []
+            states = (
+                active_lower_bounds_at(self.model, plain.outcome.optimum, constant, low, k) if 0.0 < k < 1.0 else []
+            )
             moved = self._best_of(plain, states)
             if moved is not None and moved.objective < best.objective * (1.0 - GAP):
                 best, step = moved, 2.0 * step
@@ -200,7 +202,7 @@ class Search:
                     return best
                 if ended.better_at is None:
                     break
-                states = raised_at(self.model, plain.outcome.optimum, constant, low, ended.better_at)
+                states = active_lower_bounds_at(self.model, plain.outcome.optimum, constant, low, ended.better_at)
                 better = self._best_of(plain, states)
                 if better is None or better.objective >= best.objective * (1.0 - GAP):
                     break
@@ -242,14 +244,14 @@ class Search:
         )
 
 
-def closest(search: Search) -> Solution | None:
+def best_available(search: LawSearch) -> Solution | None:
     """The answer of the problem itself or, where that is none, unproven or too good, that of a way around it."""
     solution, problem = search.answer(), search.problem
     if solution is None:
         unfolded = from_symmetric(search) if problem.mirrored else None
-        return unfolded or (with_hardly_any_room(search) if problem.convex else None)
+        return unfolded or (solved_without_interior(search) if problem.convex else None)
     if problem.convex and _beyond_proof(solution):
-        return with_hardly_any_room(search) or solution
+        return solved_without_interior(search) or solution
     if problem.mirrored and solution.status is Status.INACCURATE:
         unfolded = from_symmetric(search)
         # a law that breaks a bound by the little that is allowed may seem nearer its bound
@@ -258,14 +260,14 @@ def closest(search: Search) -> Solution | None:
     return solution
 
 
-def from_symmetric(search: Search) -> Solution | None:
+def from_symmetric(search: LawSearch) -> Solution | None:
     """The best symmetric law, which is one of the problem's, with what its contacts prove of all laws.
 
     Among unsymmetric laws the optimum may be flat, so that no active set shows there.
     """
     model, half = search.model, model_of(replace(search.problem, symmetric=True))
     try:
-        symmetric = closest(Search(half))
+        symmetric = best_available(LawSearch(half))
     except SolverFailure:
         return None
     if symmetric is None:
@@ -278,18 +280,18 @@ def from_symmetric(search: Search) -> Solution | None:
     if best is None:
         return None
     plain = _measured(_Laws(model), outcome)
-    return Search(model, attempts=[plain], began=search.began).certified(plain, best)
+    return LawSearch(model, attempts=[plain], began=search.began).certified(plain, best)
 
 
-def with_hardly_any_room(search: Search) -> Solution | None:
+def solved_without_interior(search: LawSearch) -> Solution | None:
     """The best of the laws that keep bounds which leave hardly any room, and what is proven of them."""
     best: Solution | None = None
-    for optimum, coordinates in narrowed(search.model):
+    for optimum, coordinates in fallbacks_without_interior(search.model):
         x = np.concatenate([coordinates, optimum.x[len(coordinates) :]])
         moved = _kept(search.model, Outcome(optimum.at(x), 0, 0, "with bounds loosened"))
         if moved is not None:
             plain = replace(moved, outcome=replace(moved.outcome, optimum=optimum))
-            solution = Search(search.model, began=search.began).certified(plain, moved)
+            solution = LawSearch(search.model, began=search.began).certified(plain, moved)
             if best is None or _beyond_proof(best) or (not _beyond_proof(solution) and solution.gap < best.gap):
                 best = solution
     return best

@@ -19,7 +19,7 @@ from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.problem.plain_entries import plain_entries
 from optlaws.synthesis.search import status_of
 from optlaws.synthesis.solution import Solution, Status, measure
-from optlaws.synthesis.solved_parts import Part, constant_of, stored_laws
+from optlaws.synthesis.solved_parts import SolvedPart, constant_of, stored_laws
 from optlaws.synthesis.stored_solutions import (
     FAILED,
     INFEASIBLE,
@@ -70,7 +70,7 @@ class SolutionArray:
     """
 
     problems: ProblemArray
-    parts: tuple[Part, ...]
+    parts: tuple[SolvedPart, ...]
     others: Mapping[int, Solution | OptlawsError] = field(repr=False)
     seconds: float = 0.0
 
@@ -314,7 +314,7 @@ class SolutionArray:
         True
         """
         stored = read_solutions(data)
-        parts = tuple(Part(places, model, laws) for places, model, laws in stored.parts)
+        parts = tuple(SolvedPart(places, model, laws) for places, model, laws in stored.parts)
         made = cls(stored.problems, parts, stored.others, stored.seconds)
         for place, status in enumerate(stored.statuses):
             possible = statuses_of(made.result(place))
@@ -361,13 +361,13 @@ class SolutionArray:
     def _row_of(self) -> NDArray[np.intp]:
         return self._placed(lambda _, part: np.arange(len(part.places)))
 
-    def _placed(self, values: Callable[[int, Part], NDArray[np.intp]]) -> NDArray[np.intp]:
+    def _placed(self, values: Callable[[int, SolvedPart], NDArray[np.intp]]) -> NDArray[np.intp]:
         numbers = np.full(self.size, -1, dtype=np.intp)
         for i, part in enumerate(self.parts):
             numbers[part.places] = values(i, part)
         return numbers
 
-    def _gathered(self, of_part: Callable[[Part], Array], of_solution: Callable[[Solution], float]) -> Array:
+    def _gathered(self, of_part: Callable[[SolvedPart], Array], of_solution: Callable[[Solution], float]) -> Array:
         values = np.full(self.size, np.nan)
         for part in self.parts:
             values[part.places] = of_part(part)
@@ -376,7 +376,7 @@ class SolutionArray:
                 values[place] = of_solution(result)
         return _frozen(values.reshape(self.shape))
 
-    def _rows(self, of_part: Callable[[Part], Array], of_solution: Callable[[Solution], Array]) -> Array:
+    def _rows(self, of_part: Callable[[SolvedPart], Array], of_solution: Callable[[Solution], Array]) -> Array:
         rows = [(part.places, of_part(part)) for part in self.parts]
         rows += [
             (np.array([i]), of_solution(result)[None])
@@ -397,7 +397,7 @@ class SolutionArray:
         for i, part in enumerate(self.parts):
             mine = np.flatnonzero(self._part_of[flat] == i)
             if len(mine):
-                parts.append(Part(mine, part.model, part.found.taken(self._row_of[flat[mine]]).frozen()))
+                parts.append(SolvedPart(mine, part.model, part.found.taken(self._row_of[flat[mine]]).frozen()))
         others = {i: self.others[place] for i, place in enumerate(flat.tolist()) if place in self.others}
         share = self.seconds * len(flat) / max(self.size, 1)
         return SolutionArray(self.problems.taken(places), tuple(parts), others, share)

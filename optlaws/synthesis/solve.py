@@ -12,7 +12,7 @@ from optlaws.synthesis.problem.fields import differ_in_numbers
 from optlaws.synthesis.problem.mixtures import warn_of_mixture
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, model_of
-from optlaws.synthesis.search import Search, closest
+from optlaws.synthesis.search import LawSearch, best_available
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.spaces.of_basis import space_of
 
@@ -58,8 +58,8 @@ def synthesize(problem: Problem, *, start: Solution | None = None, bound: str = 
     _check_types(problem, start, bound)
     warn_of_mixture(problem.objective, problem.order)
     model = model_of(problem)
-    search = Search(model, tight=bound == TIGHT, warm=_warm(model, start))
-    solution = closest(search)
+    search = LawSearch(model, tight=bound == TIGHT, warm=_warm(model, start))
+    solution = best_available(search)
     if solution is not None:
         return solution
     error = search.error()

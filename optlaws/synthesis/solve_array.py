@@ -19,22 +19,22 @@ from numpy.typing import NDArray
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError
 from optlaws.kept import kept_property
 from optlaws.shown.steps import Steps
-from optlaws.synthesis.arrays.along import laws_along, laws_on, segments_of
-from optlaws.synthesis.arrays.found import Found
-from optlaws.synthesis.arrays.lines import Line, along_velocities, form_of, least_count, lines_of
-from optlaws.synthesis.arrays.powers import unrivalled, with_quick_bounds
+from optlaws.synthesis.arrays.continuation import StructureSegment
+from optlaws.synthesis.arrays.continued_laws import laws_along, laws_on, segments_of
+from optlaws.synthesis.arrays.lines import ProblemLine, along_velocities, form_of, least_count, lines_of
+from optlaws.synthesis.arrays.powers import on_global_branch, with_quick_bounds
 from optlaws.synthesis.arrays.problems import ProblemArray
 from optlaws.synthesis.arrays.programs import Path, between
-from optlaws.synthesis.arrays.walk import Segment
+from optlaws.synthesis.arrays.solved_batch import SolvedBatch
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import model_of
 from optlaws.synthesis.proof.no_law import proof_of_no_law
-from optlaws.synthesis.search import Search
+from optlaws.synthesis.search import LawSearch
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.solution_array import SolutionArray
 from optlaws.synthesis.solve import TIGHT, synthesize
-from optlaws.synthesis.solved_parts import Part
+from optlaws.synthesis.solved_parts import SolvedPart
 
 Array = NDArray[np.float64]
 
@@ -42,7 +42,7 @@ Array = NDArray[np.float64]
 def solved(problems: ProblemArray, *, bound: str = "quick") -> SolutionArray:
     """What `synthesize_array` returns, of checked arguments."""
     began = perf_counter()
-    parts: list[Part] = []
+    parts: list[SolvedPart] = []
     others: dict[int, Solution | OptlawsError] = {}
     done = 0
     with Steps("laws", problems.size) as steps:
@@ -50,7 +50,7 @@ def solved(problems: ProblemArray, *, bound: str = "quick") -> SolutionArray:
             laws = _along(problems, line, bound)
             rows = np.flatnonzero(laws.solved)
             if len(rows):
-                parts.append(Part(line.places[rows], line.path.model, laws.taken(rows).frozen()))
+                parts.append(SolvedPart(line.places[rows], line.path.model, laws.taken(rows).frozen()))
                 for beyond in (line.places[: rows[0]][::-1], line.places[rows[-1] + 1 :]):
                     others.update(_beyond(problems, beyond, bound))
             done += len(line.places)
@@ -60,7 +60,7 @@ def solved(problems: ProblemArray, *, bound: str = "quick") -> SolutionArray:
 
 def completed(
     problems: ProblemArray,
-    parts: Sequence[Part],
+    parts: Sequence[SolvedPart],
     others: Mapping[int, Solution | OptlawsError],
     began: float,
     *,
@@ -72,14 +72,14 @@ def completed(
     return SolutionArray(problems, tuple(parts), {**others, **rest}, perf_counter() - began)
 
 
-def _along(problems: ProblemArray, line: Line, bound: str) -> Found:
+def _along(problems: ProblemArray, line: ProblemLine, bound: str) -> SolvedBatch:
     """The laws of a line, as far as they are proven; of least power, those that no other branch is better than."""
     if line.path.model.problem.convex:
         return laws_along(line.path, line.t)
     if bound == TIGHT:
-        return Found.none(len(line.t), 0, 0, 0)
+        return SolvedBatch.none(len(line.t), 0, 0, 0)
     laws = laws_along(line.path, line.t)
-    sought = unrivalled(laws, line.places, lambda place: Search(model_of(problems.problem(place))).least())
+    sought = on_global_branch(laws, line.places, lambda place: LawSearch(model_of(problems.problem(place))).least())
     laws = laws.only(sought)
     limits = [known_limit(problems.problem(place)) for place in line.places.tolist()]
     return with_quick_bounds(line.path, line.t, laws, np.array([-inf if limit is None else limit for limit in limits]))
@@ -117,7 +117,7 @@ def _infeasible(problem: Problem, ended: InfeasibleProblem) -> InfeasibleProblem
     )
 
 
-def _lines(problems: ProblemArray) -> Iterator[Line]:
+def _lines(problems: ProblemArray) -> Iterator[ProblemLine]:
     velocities = problems.velocities
     if velocities is not None:
         places = np.flatnonzero(~np.isnan(velocities))
@@ -212,7 +212,7 @@ class SolvedLine:
         order = order[(t[order] >= 0.0) & (t[order] <= 1.0)]
         laws = laws_on(self._path, self._segments, t[order])
         rows = np.flatnonzero(laws.solved)
-        parts = [Part(order[rows], self._path.model, laws.taken(rows).frozen())] if len(rows) else []
+        parts = [SolvedPart(order[rows], self._path.model, laws.taken(rows).frozen())] if len(rows) else []
         return completed(problems, parts, {}, began)
 
     @kept_property
@@ -226,7 +226,7 @@ class SolvedLine:
         return between(first, last) if _one_form(first, last) else None
 
     @kept_property
-    def _segments(self) -> list[Segment]:
+    def _segments(self) -> list[StructureSegment]:
         return [] if self._path is None else segments_of(self._path, 0.0, 1.0)
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.laws import MotionLaw
-from optlaws.synthesis.arrays.found import NO_CONTACT, Found
+from optlaws.synthesis.arrays.solved_batch import NO_CONTACT, SolvedBatch
 from optlaws.synthesis.families.peaks import constant_of_series
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.problem.fields import CONSTANTS
@@ -30,12 +30,12 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
-class Part:
+class SolvedPart:
     """Problems of one kind that were solved together: which, their program but for numbers, and their optima."""
 
     places: NDArray[np.intp]
     model: Model
-    found: Found
+    found: SolvedBatch
 
     @property
     def coordinates(self) -> Array:

@@ -19,8 +19,8 @@ from numpy.typing import NDArray
 from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
 from optlaws.laws import MotionLaw, smoothstep
-from optlaws.synthesis.arrays.found import FOLLOWING, NO_CONTACT, Found
 from optlaws.synthesis.arrays.problems import ProblemArray
+from optlaws.synthesis.arrays.solved_batch import FOLLOWING, NO_CONTACT, SolvedBatch
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Program
 from optlaws.synthesis.limits.of_problem import known_limit
@@ -47,7 +47,7 @@ Kind = TypeVar("Kind")
 
 
 class StatedOptima(msgspec.Struct, forbid_unknown_fields=True):
-    """What `Found.to_dict` writes; objectives and excesses, which older files have, are recomputed."""
+    """What `SolvedBatch.to_dict` writes; objectives and excesses, which older files have, are recomputed."""
 
     x: list[list[float]]
     family: list[list[int]]
@@ -134,14 +134,14 @@ class StatedSolutions(msgspec.Struct, forbid_unknown_fields=True):
 
 
 @dataclass(frozen=True, eq=False)
-class Stored:
+class StoredSolutions:
     """What was stored: the problems, the optima found together by place and program, and all that was found alone.
 
     `statuses` has the status that each row states.
     """
 
     problems: ProblemArray
-    parts: list[tuple[NDArray[np.intp], Model, Found]]
+    parts: list[tuple[NDArray[np.intp], Model, SolvedBatch]]
     others: dict[int, Solution | OptlawsError]
     seconds: float
     statuses: list[str]
@@ -174,7 +174,7 @@ def plain_alone(solution: Solution) -> Plain:
     }
 
 
-def read_solutions(data: object) -> Stored:
+def read_solutions(data: object) -> StoredSolutions:
     """Read what `SolutionArray.to_dict` wrote, and check all that is taken from it.
 
     Raises
@@ -202,7 +202,7 @@ class _Reading:
     entries: StatedSolutions
     shape: tuple[int, ...]
 
-    def stored(self) -> Stored:
+    def stored(self) -> StoredSolutions:
         """All of it, checked."""
         entries = self.entries
         rows = [_row(row, f"solutions[{place}]") for place, row in enumerate(entries.solutions)]
@@ -217,7 +217,7 @@ class _Reading:
                 f"solutions[{place}]",
                 lambda place=place: self._alone(place, rows[place], problems),  # type: ignore[misc]
             )
-        return Stored(problems, parts, others, entries.seconds, [row.status for row in rows])
+        return StoredSolutions(problems, parts, others, entries.seconds, [row.status for row in rows])
 
     def _problems(self) -> ProblemArray:
         entries, shape = self.entries, self.shape
@@ -266,12 +266,12 @@ def _row(data: Plain, name: str) -> StatedSolution | StatedError:
 
 def _part(
     part: StatedPart, problems: ProblemArray, rows: list[StatedSolution | StatedError]
-) -> tuple[NDArray[np.intp], Model, Found]:
+) -> tuple[NDArray[np.intp], Model, SolvedBatch]:
     model, found = model_of(problem_of(part.problem)), part.found
-    optima = {field.name: getattr(found, field.name) for field in fields(Found) if field.name not in FOLLOWING}
+    optima = {field.name: getattr(found, field.name) for field in fields(SolvedBatch) if field.name not in FOLLOWING}
     own = [rows[place] for place in part.places]
     objective = [getattr(row, "objective", np.nan) for row in own]
-    laws = Found.from_dict({**optima, "objective": objective, "excess": [np.nan] * len(own)}).frozen()
+    laws = SolvedBatch.from_dict({**optima, "objective": objective, "excess": [np.nan] * len(own)}).frozen()
     _check_optima(laws, len(part.places), model.program)
     for i, place in enumerate(part.places):
         row = own[i]
@@ -287,7 +287,7 @@ def _part(
     return np.array(part.places, dtype=np.intp), model, laws
 
 
-def _check_optima(laws: Found, count: int, program: Program) -> None:
+def _check_optima(laws: SolvedBatch, count: int, program: Program) -> None:
     """Refuse arrays that are no optima of a program."""
     shapes = {(getattr(laws, name).ndim, len(getattr(laws, name))) for name in ("objective", "bound")}
     contacts = {getattr(laws, name).shape for name in ("family", "u", "sign", "free", "multiplier")}
@@ -306,7 +306,7 @@ def _check_optima(laws: Found, count: int, program: Program) -> None:
         raise InputError("a part of an array of solutions has numbers that are not finite, or rows of no program")
 
 
-def _check_row(row: StatedSolution, problem: Problem, model: Model, laws: Found, i: int) -> None:
+def _check_row(row: StatedSolution, problem: Problem, model: Model, laws: SolvedBatch, i: int) -> None:
     """Refuse a row whose law, whose numbers or whose proof are not those of the arrays."""
     law = model.law(laws.x[i])
     if not _same(as_json(law.to_dict()), row.law):
@@ -319,7 +319,7 @@ def _check_row(row: StatedSolution, problem: Problem, model: Model, laws: Found,
         _check_contacts(Certificate.from_dict(row.certificate), model.program, laws, i)
 
 
-def _check_contacts(proof: Certificate, program: Program, laws: Found, i: int) -> None:
+def _check_contacts(proof: Certificate, program: Program, laws: SolvedBatch, i: int) -> None:
     """Refuse contacts and multipliers of the arrays that are not those of the row's certificate."""
     own = [int(j) for family in range(len(program.families)) for j in np.flatnonzero(laws.family[i] == family)]
     kinds = [program.families[laws.family[i, j]] for j in own]

@@ -9,7 +9,7 @@ from itertools import pairwise
 
 from optlaws.synthesis.limits.rounding import rounded_up
 from optlaws.synthesis.proven.front import FrontPoint, ProvenFront
-from optlaws.synthesis.proven.running import RunningNumber
+from optlaws.synthesis.proven.swept_parameter import SweptParameter
 from optlaws.synthesis.solution import NOTHING
 from optlaws.verification.conditions import Excess, excesses
 from optlaws.verification.enclosing.balls import enclosed
@@ -76,7 +76,7 @@ def _along(front: ProvenFront, point: FrontPoint, claim: float) -> Along:
     return Along(number.at(other), Fraction(other) - Fraction(point.value), number.at(high), claim)
 
 
-def _laws(number: RunningNumber, known: list[_Known]) -> Iterator[Claim]:
+def _laws(number: SweptParameter, known: list[_Known]) -> Iterator[Claim]:
     wrong = [point for point in known if point.broken]
     if wrong:
         first = wrong[0]
@@ -87,7 +87,7 @@ def _laws(number: RunningNumber, known: list[_Known]) -> Iterator[Claim]:
     yield Claim("laws", proven=True, detail=f"{len(known)} keep every condition, off by at most {max(worst, 0.0):.1e}")
 
 
-def _certificates(number: RunningNumber, known: list[_Known]) -> Iterator[Claim]:
+def _certificates(number: SweptParameter, known: list[_Known]) -> Iterator[Claim]:
     wrong = [point for point in known if point.proof.value is None or point.proof.negative or point.proof.unknown]
     changed = max(point.proof.correction for point in known)
     detail = (
@@ -101,13 +101,13 @@ def _certificates(number: RunningNumber, known: list[_Known]) -> Iterator[Claim]
     yield Claim("certificates", not wrong and changed <= _CORRECTION, detail)
 
 
-def _gap(known: list[_Known], number: RunningNumber) -> float | None:
+def _gap(known: list[_Known], number: SweptParameter) -> float | None:
     """The greatest gap of any value, relative as of a solution, rounded up."""
     gaps = [_between(point, other, number) for point, other in pairwise(known)]
     return None if None in gaps else rounded_up(max(gap for gap in gaps if gap is not None))
 
 
-def _between(point: _Known, other: _Known, number: RunningNumber) -> Fraction | None:
+def _between(point: _Known, other: _Known, number: SweptParameter) -> Fraction | None:
     """The greatest difference of a chord and two lines, each an affine function: at the ends or where they cross."""
     if point.proof.value is None or other.proof.value is None:
         return None

@@ -79,8 +79,11 @@ def watched(points: int, degree: int, workers: int) -> Stopwatch:
 
 
 PARTS = {
-    "IPOPT": ("optlaws.synthesis.method.ways.interior_points.solve_on_points",),
-    "Newton": ("optlaws.synthesis.method.ways.contacts.newton", "optlaws.synthesis.method.ways.identified.newton"),
+    "IPOPT": ("optlaws.synthesis.method.strategies.interior_points.solve_on_points",),
+    "Newton": (
+        "optlaws.synthesis.method.strategies.contacts.newton",
+        "optlaws.synthesis.method.strategies.identified.newton",
+    ),
     "proof": ("optlaws.synthesis.search.certify", "optlaws.synthesis.search.lower_bound"),
     "synthesis": ("optlaws.studies.chunk.synthesize", "optlaws.studies.chunk.solved"),
     "constants": ("optlaws.studies.chunk._of_solution", "optlaws.studies.chunk._of_solutions"),

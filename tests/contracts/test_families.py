@@ -13,9 +13,9 @@ from optlaws import BoundaryConditions, BSplines, Chebyshev, Pieces
 from optlaws.balancing.loaders.constants import B_loader, C_loader, D_loader
 from optlaws.mechanisms.spectrum.robust import residual
 from optlaws.synthesis.families.cone import ConeFamily
-from optlaws.synthesis.families.curved import OfFormula
+from optlaws.synthesis.families.curved import FormulaFamily
 from optlaws.synthesis.families.energy import EnergyFamily
-from optlaws.synthesis.families.family import Family, ProductFamily
+from optlaws.synthesis.families.family import ConstraintFamily, ProductFamily
 from optlaws.synthesis.families.kinked import KinkedIntegralFamily
 from optlaws.synthesis.problem.named_constants import named
 from optlaws.synthesis.spaces.bases import Basis
@@ -52,12 +52,12 @@ def random_cone(seed: int) -> ConeFamily:
     return ConeFamily("cone", np.eye(5)[4], 0.5, series=series)
 
 
-def vibration(laws: LawSpace) -> Family:
+def vibration(laws: LawSpace) -> ConstraintFamily:
     """The rows of a residual vibration."""
     return residual(nu=(11, 14), damping=0.02).families(laws, slack(laws), BOUND)[0]
 
 
-def of_text(text: str, laws: LawSpace, room: Array) -> Family:
+def of_text(text: str, laws: LawSpace, room: Array) -> ConstraintFamily:
     """The first rows of a constant of a formula."""
     return named(text).families(laws, room, BOUND)[0]
 
@@ -70,7 +70,7 @@ SPACES = {
     "pieces": space(PIECES),
     "symmetric pieces": space(PIECES, symmetric=True),
 }
-MAKERS: dict[str, Callable[[LawSpace, Array], Family]] = {
+MAKERS: dict[str, Callable[[LawSpace, Array], ConstraintFamily]] = {
     "B": lambda laws, room: laws.derivative(1, "B", room, BOUND),
     "j upward": lambda laws, room: laws.derivative(3, "J", room, BOUND, (1.0,)),
     "cam": lambda laws, room: laws.combination(1, (1.0, 0.1, 0.02), "cam", room, BOUND),
@@ -99,9 +99,9 @@ ELSEWHERE = {"to rest": lambda where: "symmetric" not in where}
 ELSEWHERE |= {name: lambda where: where == "symmetric polynomials" for name in MAKERS if name.endswith("loader")}
 
 
-def examples() -> dict[str, Family]:
+def examples() -> dict[str, ConstraintFamily]:
     """A family of every kind, of whole laws and of halves, with jumps and without."""
-    found: dict[str, Family] = {f"a random cone, {seed}": random_cone(seed) for seed in range(8)}
+    found: dict[str, ConstraintFamily] = {f"a random cone, {seed}": random_cone(seed) for seed in range(8)}
     for where, laws in SPACES.items():
         asked = [what for what in MAKERS if what not in ELSEWHERE or ELSEWHERE[what](where)]
         found |= {f"{what} of {where}": MAKERS[what](laws, slack(laws)) for what in asked}
@@ -113,7 +113,7 @@ LAWS = {family: SPACES[where] for name, family in EXAMPLES.items() if (where := 
 KINDS = sorted({type(family).__name__ for family in EXAMPLES.values()})
 
 
-def every_family(test: Callable[[Family], None]) -> Callable[[str], None]:
+def every_family(test: Callable[[ConstraintFamily], None]) -> Callable[[str], None]:
     """A test for each kind, which holds all its examples to it."""
 
     @pytest.mark.parametrize("kind", KINDS)
@@ -129,7 +129,7 @@ def every_family(test: Callable[[Family], None]) -> Callable[[str], None]:
     return of_kind
 
 
-def point(family: Family, seed: int = 0) -> Array:
+def point(family: ConstraintFamily, seed: int = 0) -> Array:
     """Random variables, the coordinates such that the law keeps its end conditions."""
     random = np.random.default_rng(seed).normal(size=len(family.slack))
     if family in LAWS:
@@ -151,12 +151,12 @@ def coordinates(laws: LawSpace, x: Array) -> Array:
     return found
 
 
-def grid(family: Family, count: int = 4001) -> Array:
+def grid(family: ConstraintFamily, count: int = 4001) -> Array:
     """The domain."""
     return np.linspace(*family.domain, count)
 
 
-def corners(family: Family) -> Array:
+def corners(family: ConstraintFamily) -> Array:
     """Points at which nothing is smooth: the ends and the pinned ones."""
     _, low = family.domain
     nodes = family.nodes()
@@ -164,7 +164,7 @@ def corners(family: Family) -> Array:
     return np.concatenate([[-1.0, 1.0, low], pinned])
 
 
-def inside(family: Family, count: int = 4, reach: float = 2e-3) -> Array:
+def inside(family: ConstraintFamily, count: int = 4, reach: float = 2e-3) -> Array:
     """Random points of the domain about which the family is smooth."""
     low, high = family.domain
     if low == high:
@@ -183,11 +183,11 @@ def slope(values: list[Array]) -> Array:
 
 
 def test_every_kind_is_here() -> None:
-    assert {type(family) for family in EXAMPLES.values()} == kinds(Family)
+    assert {type(family) for family in EXAMPLES.values()} == kinds(ConstraintFamily)
 
 
 @every_family
-def test_derivatives_by_the_place_are_those_of_differences(family: Family) -> None:
+def test_derivatives_by_the_place_are_those_of_differences(family: ConstraintFamily) -> None:
     x, u = point(family), inside(family)
     if family.domain[0] == family.domain[1]:
         assert not family.jet(x, u, np.ones(len(u))).slope.any()
@@ -202,14 +202,14 @@ def test_derivatives_by_the_place_are_those_of_differences(family: Family) -> No
 
 @pytest.mark.sample(3)
 @every_family
-def test_derivatives_by_the_variables_are_those_of_differences(family: Family) -> None:
+def test_derivatives_by_the_variables_are_those_of_differences(family: ConstraintFamily) -> None:
     x, u = point(family), inside(family)
     if isinstance(family, KinkedIntegralFamily):
         # at rest c = b at both ends: a kink there comes and goes with coordinates that do not keep the ends
         x = x + 0.1 * np.random.default_rng(1).normal(size=len(x))
     signs = np.resize(family.signs, len(u))
     jet, hessian = family.jet(x, u, signs), family.hessian(x, u, WEIGHTS * signs)
-    assert jet.value == pytest.approx(signs * family.value(x, u) - family.room(x), rel=1e-11, abs=1e-11)
+    assert jet.value == pytest.approx(signs * family.value(x, u) - family.right_side(x), rel=1e-11, abs=1e-11)
     curved = np.zeros((len(x), len(x))) if hessian is None else hessian
     for i, direction in enumerate(np.eye(len(x))):
         around = [family.jet(x + h * direction, u, signs) for h in STEPS]
@@ -221,7 +221,7 @@ def test_derivatives_by_the_variables_are_those_of_differences(family: Family) -
 
 @pytest.mark.sample(2)
 @every_family
-def test_no_point_of_a_grid_is_above_the_extrema(family: Family) -> None:
+def test_no_point_of_a_grid_is_above_the_extrema(family: ConstraintFamily) -> None:
     for seed in range(3):
         x, u = point(family, seed), grid(family)
         places, signs, residuals = family.extremes(x)
@@ -229,7 +229,7 @@ def test_no_point_of_a_grid_is_above_the_extrema(family: Family) -> None:
         assert places.min() == family.domain[0]
         assert places.max() == family.domain[1]
         assert residuals == pytest.approx(family.jet(x, places, signs).value, rel=1e-9, abs=1e-9)
-        value, room = family.value(x, u), family.room(x)
+        value, room = family.value(x, u), family.right_side(x)
         for s in family.signs:
             sampled, greatest = float((s * value).max()), float(residuals[signs == s].max()) + room
             assert sampled <= greatest + 1e-10 * (1.0 + abs(greatest))
@@ -237,7 +237,7 @@ def test_no_point_of_a_grid_is_above_the_extrema(family: Family) -> None:
 
 
 @every_family
-def test_extrema_are_ends_places_without_slope_or_pinned(family: Family) -> None:
+def test_extrema_are_ends_places_without_slope_or_pinned(family: ConstraintFamily) -> None:
     low, high = family.domain
     x = point(family)
     places, signs, residuals = family.extremes(x)
@@ -253,7 +253,7 @@ def test_extrema_are_ends_places_without_slope_or_pinned(family: Family) -> None
 
 
 @every_family
-def test_contacts_at_breaks_stay_where_they_are_and_no_others(family: Family) -> None:
+def test_contacts_at_breaks_stay_where_they_are_and_no_others(family: ConstraintFamily) -> None:
     name = next(name for name, one in EXAMPLES.items() if one is family)
     low, high = family.domain
     if low < high:
@@ -267,7 +267,7 @@ def test_contacts_at_breaks_stay_where_they_are_and_no_others(family: Family) ->
 
 
 @every_family
-def test_places_are_numbers_k_and_back(family: Family) -> None:
+def test_places_are_numbers_k_and_back(family: ConstraintFamily) -> None:
     u = grid(family, 41)
     k = family.k(u)
     assert ((k >= 0.0) & (k <= 1.0)).all()
@@ -277,13 +277,13 @@ def test_places_are_numbers_k_and_back(family: Family) -> None:
 
 
 @every_family
-def test_other_units_change_nothing(family: Family) -> None:
+def test_other_units_change_nothing(family: ConstraintFamily) -> None:
     x, u, unit = point(family), inside(family), 2.5
     units = np.random.default_rng(8).uniform(0.2, 5.0, len(x))
     other = family.in_units(units, unit)
-    own = EnergyFamily | OfFormula
+    own = EnergyFamily | FormulaFamily
     divisor = unit * unit if isinstance(family, ProductFamily) else 1.0 if isinstance(family, own) else unit
-    assert other.room(x / units) * divisor == pytest.approx(family.room(x), rel=1e-12)
+    assert other.right_side(x / units) * divisor == pytest.approx(family.right_side(x), rel=1e-12)
     assert other.value(x / units, u) * divisor == pytest.approx(family.value(x, u), rel=1e-10)
     greatest = other.extremes(x / units)[2].max() * divisor
     assert greatest == pytest.approx(family.extremes(x)[2].max(), rel=1e-10, abs=1e-11)

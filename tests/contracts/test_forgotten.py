@@ -35,7 +35,7 @@ PROTOCOLS = [kind for kind in every_class() if left_to_heirs(kind)]
 
 
 def test_there_are_protocols() -> None:
-    assert {"Functional", "Family", "LawSpace", "Basis", "MotionLaw", "Segment"} <= {
+    assert {"Functional", "ConstraintFamily", "LawSpace", "Basis", "MotionLaw", "Segment"} <= {
         kind.__name__ for kind in PROTOCOLS
     }
 

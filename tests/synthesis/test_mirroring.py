@@ -10,7 +10,7 @@ import pytest
 
 from optlaws import BSplines, Chebyshev, Pieces, Problem, at_least, at_most, between, synthesize
 from optlaws.synthesis.program.writer import model_of
-from optlaws.synthesis.search import Search, from_symmetric
+from optlaws.synthesis.search import LawSearch, from_symmetric
 from optlaws.verification import verify
 
 KINDS: list[dict[str, Any]] = [
@@ -30,7 +30,7 @@ KINDS: list[dict[str, Any]] = [
 @pytest.mark.parametrize("kind", KINDS, ids=str)
 def test_the_unfolded_optimum_is_proven_for_all_laws(kind: dict[str, Any]) -> None:
     problem = Problem(**{"order": 3, "basis": Chebyshev(9), **kind}, symmetric=False)
-    unfolded = from_symmetric(Search(model_of(problem)))
+    unfolded = from_symmetric(LawSearch(model_of(problem)))
     assert unfolded is not None
     assert unfolded.problem == unfolded.certificate.problem == problem
     assert unfolded.status == "optimal"
@@ -43,7 +43,7 @@ def test_the_unfolded_optimum_is_proven_for_all_laws(kind: dict[str, Any]) -> No
 def test_what_the_symmetric_problem_does_not_prove_is_not_claimed(asked: dict[str, Any]) -> None:
     # a peak velocity bounded from below may be elsewhere in a better law
     problem = Problem(order=3, **asked, symmetric=False)
-    unfolded = from_symmetric(Search(model_of(problem)))
+    unfolded = from_symmetric(LawSearch(model_of(problem)))
     assert unfolded is not None
     assert unfolded.status == "local"
     assert unfolded.lower_bound < unfolded.objective

@@ -10,8 +10,8 @@ import pytest
 
 from optlaws import Chebyshev, Problem, Solution, Status, smoothstep, synthesize
 from optlaws.synthesis.families.family import LinearFamily, Points, Program
-from optlaws.synthesis.method.on_points import ipopt
-from optlaws.synthesis.method.ways import interior_points
+from optlaws.synthesis.method.discretised import ipopt
+from optlaws.synthesis.method.strategies import interior_points
 from tests.synthesis.independent import acceleration_of, check_solution, extremes, velocity_of, z_of
 
 SHAPES = [

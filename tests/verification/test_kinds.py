@@ -20,7 +20,7 @@ from optlaws import (
     synthesize,
 )
 from optlaws.synthesis import Window, at_least, at_most, between
-from optlaws.synthesis.families.family import Family
+from optlaws.synthesis.families.family import ConstraintFamily
 from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.verification import exact_bound, verify
 from tests.sampling import examples
@@ -77,7 +77,7 @@ class Heating(Functional):
         """By the two RMS."""
         return float(np.hypot(law.rms(2), self.friction * law.rms(1)))
 
-    def families(self, space: LawSpace, slack: NDArray[np.float64], bound: float) -> tuple[Family, ...]:
+    def families(self, space: LawSpace, slack: NDArray[np.float64], bound: float) -> tuple[ConstraintFamily, ...]:
         """A norm of the coordinates."""
         inertia, drag = (space.norm(nu, self.name, slack, bound) for nu in (2, 1))
         return (replace(inertia, matrix=np.vstack([inertia.matrix, self.friction * drag.matrix])),)

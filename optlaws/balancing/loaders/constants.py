@@ -20,7 +20,7 @@ from optlaws.laws import MotionLaw
 from optlaws.numerics.chebyshev import product
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.energy import Energy, EnergyFamily
-from optlaws.synthesis.families.family import EvenFamily, Family, LinearFamily
+from optlaws.synthesis.families.family import ConstraintFamily, EvenFamily, LinearFamily
 from optlaws.synthesis.problem.constants import PLAIN, Asked, C, Functional
 from optlaws.synthesis.problem.expression import Expression, Term
 from optlaws.synthesis.problem.grammar import parse
@@ -81,7 +81,7 @@ class LoaderPeak(Functional):
             return Fraction(self.reference)
         return Fraction(LIMITS[self.of](problem.B)) * (1 - _ROUNDING)
 
-    def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
+    def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConstraintFamily, ...]:
         """The rows |peak of the loader| <= slack . x + bound, on the first half."""
         if not isinstance(space, PolynomialSpace) or not space.symmetric or not space.at_rest or space.order < _AT_REST:
             raise InputError(
@@ -102,7 +102,9 @@ class LoaderPeak(Functional):
         both = (product_of.first, product_of.second)
         return (EnergyFamily(self.name, slack, bound, signs, space.domain, factors=both, energy=shared, degree=2),)
 
-    def convex_families(self, space: LawSpace, slack: Array, bound: float, problem: Asked) -> tuple[Family, ...]:
+    def convex_families(
+        self, space: LawSpace, slack: Array, bound: float, problem: Asked
+    ) -> tuple[ConstraintFamily, ...]:
         """B of the loader itself, which is convex at one B of the law; of the others what no law is below."""
         if self.of == "B" and isinstance(problem.B, float):
             families = self.families(space, slack, bound)

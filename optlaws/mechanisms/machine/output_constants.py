@@ -26,7 +26,7 @@ from optlaws.mechanisms.machine.texts import check_repeats, check_rest, output_e
 from optlaws.numbers import power_of_two
 from optlaws.numerics.tolerances import NEGLIGIBLE_TERM, SHORTEST_STRETCH, VALUE_ROUNDING
 from optlaws.suggest import unknown_key
-from optlaws.synthesis.families.family import Family, LinearFamily, NormFamily
+from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily
 from optlaws.synthesis.functionals.sizes import Reach, by_norm, reach_of
 from optlaws.synthesis.problem.constants import MAKERS, Functional
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
@@ -256,7 +256,7 @@ class OutputPeak(OutputConstant):
         low, high = curve.extrema(0, None if self.cycle is not None else (self.within[0], curve.interval[1]))
         return max(high.value if sign > 0.0 else -low.value for sign in self.signs)
 
-    def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
+    def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConstraintFamily, ...]:
         """The output's series, on pieces where it has many."""
         rows = self._kept(space, lambda: self._rows(space))
         breaks, series = 1.0 - 2.0 * rows[:, 0, 0] / self.duration, rows[:, 1:]
@@ -326,7 +326,7 @@ class OutputRms(OutputConstant):
         """The root of the mean square over the whole time."""
         return self.curve(law).rms(0)
 
-    def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
+    def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConstraintFamily, ...]:
         """A norm of the coordinates."""
         unit = self.unit(space)
         wide = space.widened(self._matrix(space), len(slack)) / unit

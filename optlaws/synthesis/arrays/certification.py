@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from optlaws.kept import kept_property
 from optlaws.synthesis.arrays.cells import Cells, excess, excess_at
 from optlaws.synthesis.arrays.dual_bounds import lower_bounds, sharp_bounds
-from optlaws.synthesis.arrays.newton_steps import States, Structure, batch_families, best_nearby, product, with_one
+from optlaws.synthesis.arrays.newton_steps import States, Structure, batch_families, locally_optimal, product, with_one
 from optlaws.synthesis.arrays.programs import Numbers, Path
 from optlaws.synthesis.families.family import BatchFamily, LinearFamily, NonlinearFamily
 from optlaws.synthesis.program.writer import Model
@@ -27,7 +27,7 @@ _PULL = 1e-12
 
 
 @dataclass(frozen=True, eq=False)
-class Judgement:
+class Certification:
     """Objectives, lower bounds and what is broken of many laws.
 
     Attributes
@@ -90,9 +90,9 @@ class Judgement:
 _SMALL, _WIDE = 1e-6, 1e-7
 
 
-def judged(path: Path, structure: Structure, numbers: Numbers, states: States) -> Judgement:
+def certification_of(path: Path, structure: Structure, numbers: Numbers, states: States) -> Certification:
     """What states of one structure are worth; NaN and infinities are no laws."""
-    program, kept = path.model.program, checks_of(path.model)
+    program, kept = path.model.program, row_checks_of(path.model)
     value, slope, _ = structure.jets(states.x, states.u)
     value[:, :, :-1] -= structure.slack
     point = with_one(states.x)
@@ -110,8 +110,8 @@ def judged(path: Path, structure: Structure, numbers: Numbers, states: States) -
     touching = [states.u[:, own] for own in structure.of_families]
     greatest = np.abs(states.weights).max(axis=1, initial=0.0)
     pull = -(states.weights / np.where(greatest == 0.0, 1.0, greatest)[:, None]).min(axis=1, initial=np.inf)
-    judgement = Judgement(
-        best=np.ones(len(states), dtype=np.bool_) if kept.proving else best_nearby(structure, states),
+    certification = Certification(
+        best=np.ones(len(states), dtype=np.bool_) if kept.proving else locally_optimal(structure, states),
         objective=path.model.unit * (states.x * numbers.cost).sum(axis=1),
         bound=lower_bounds(path, structure, numbers, states, value),
         excess=np.maximum(worst, kept.excess(point, room, touching)),
@@ -120,14 +120,14 @@ def judged(path: Path, structure: Structure, numbers: Numbers, states: States) -
         affine=not program.curved,
         scale=path.model.unit,
     )
-    blurred = judgement.blurred
+    blurred = certification.blurred
     if len(blurred):
-        judgement.bound[blurred] = sharp_bounds(path, structure, numbers.taken(blurred), states.taken(blurred))
-    return judgement
+        certification.bound[blurred] = sharp_bounds(path, structure, numbers.taken(blurred), states.taken(blurred))
+    return certification
 
 
 @dataclass(frozen=True, eq=False)
-class Checks:
+class RowChecks:
     """What shows whether laws keep the rows of families, whatever the laws."""
 
     families: Sequence[BatchFamily]
@@ -177,7 +177,7 @@ class Checks:
         return shortfalls
 
 
-def checks_of(model: Model) -> Checks:
+def row_checks_of(model: Model) -> RowChecks:
     """What checks laws of a program, kept for programs of the same rows."""
     families = batch_families(model)
     key = tuple(
@@ -187,9 +187,9 @@ def checks_of(model: Model) -> Checks:
     if key not in _KEPT:
         if len(_KEPT) >= _MOST:
             _KEPT.clear()
-        _KEPT[key] = Checks(families)
+        _KEPT[key] = RowChecks(families)
     return _KEPT[key]
 
 
-_KEPT: dict[tuple[object, ...], Checks] = {}
+_KEPT: dict[tuple[object, ...], RowChecks] = {}
 _MOST = 64

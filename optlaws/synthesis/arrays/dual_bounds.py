@@ -23,7 +23,7 @@ _IN_A_ROW, _SQUARES = 9, 2.0**-20
 #: claims are taken from a geometric row, upward: what is known of laws below them is known of all before
 _CLAIMS, _ABOVE = 1.01, 1.0 + 2.0**-40
 
-Below = tuple[dict[str, float], dict[str, float], list[tuple[Array, Array]]]
+AprioriBounds = tuple[dict[str, float], dict[str, float], list[tuple[Array, Array]]]
 
 
 def lower_bounds(path: Path, structure: Structure, numbers: Numbers, states: States, value: Array) -> Array:
@@ -108,7 +108,7 @@ def _with_right_sides(structure: Structure, numbers: Numbers, states: States) ->
     return rows
 
 
-def rounding_charge(model: Model, below: Below, slope: Array, blur: Array) -> Array:
+def rounding_charge(model: Model, below: AprioriBounds, slope: Array, blur: Array) -> Array:
     """Most that each slope, wherever it is within its blur, can be worth in laws of which a priori bounds are known."""
     greatest, least, sizes = below
     terms, beyond = model.space.terms, np.zeros(len(slope))
@@ -123,14 +123,14 @@ def rounding_charge(model: Model, below: Below, slope: Array, blur: Array) -> Ar
     return np.asarray(beyond + (np.min(reaches, axis=0) if reaches else inf))
 
 
-def bounds_below(model: Model, greatest: dict[str, float]) -> Below:
+def bounds_below(model: Model, greatest: dict[str, float]) -> AprioriBounds:
     """A priori bounds of the variables, above and below, and of the coordinates, where constants are known above."""
     scales = model.in_scales
     least = least_values(model.problem, model.space)
     return scales(greatest), scales(least), moments(model, greatest)
 
 
-def _below(path: Path, claim: float) -> Below:
+def _below(path: Path, claim: float) -> AprioriBounds:
     """What is known of laws of the path below the claim, or one that is a little above it."""
     step = ceil(log(claim) / log(_CLAIMS)) if claim > 0.0 else None
     if step not in path.kept:
@@ -140,7 +140,7 @@ def _below(path: Path, claim: float) -> Below:
             for name, value in greatest_values(model, 0.0 if step is None else _CLAIMS**step * _ABOVE).items():
                 greatest[name] = max(greatest.get(name, 0.0), value)
         path.kept[step] = bounds_below(path.model, greatest)
-    below: Below = path.kept[step]
+    below: AprioriBounds = path.kept[step]
     return below
 
 

@@ -29,7 +29,7 @@ _JERK = 3
 
 
 @dataclass(frozen=True, eq=False)
-class Line:
+class ProblemLine:
     """Problems on a straight line: which, in ascending order of t, and the path through the first and the last."""
 
     places: NDArray[np.intp]
@@ -45,7 +45,9 @@ class Form:
     numbers: tuple[float, ...]
 
 
-def along_velocities(template: Problem, last: Problem, velocities: Array, places: NDArray[np.intp]) -> Line | None:
+def along_velocities(
+    template: Problem, last: Problem, velocities: Array, places: NDArray[np.intp]
+) -> ProblemLine | None:
     """The line of problems that differ in B alone; the first and the last problem are given."""
     if form_of(template).key is None:
         return None
@@ -54,7 +56,7 @@ def along_velocities(template: Problem, last: Problem, velocities: Array, places
     least, greatest = float(velocities[order[0]]), float(velocities[order[-1]])
     if path is None or not least < greatest:
         return None
-    return Line(places[order], (velocities[order] - least) / (greatest - least), path)
+    return ProblemLine(places[order], (velocities[order] - least) / (greatest - least), path)
 
 
 def least_count(problem: Problem) -> int:
@@ -66,7 +68,7 @@ def least_count(problem: Problem) -> int:
     return _LEAST_OF_JERK if any(getattr(term, "nu", 0) >= _JERK for term in problem.constants) else _LEAST
 
 
-def lines_of(problems: Sequence[Problem], places: NDArray[np.intp]) -> Iterator[Line]:
+def lines_of(problems: Sequence[Problem], places: NDArray[np.intp]) -> Iterator[ProblemLine]:
     """Lines through enough of the problems, whose places are beside them; each is on one line at most."""
     kinds: dict[Hashable, list[int]] = {}
     forms = [form_of(problem) for problem in problems]
@@ -87,10 +89,10 @@ def lines_of(problems: Sequence[Problem], places: NDArray[np.intp]) -> Iterator[
                 _line([problems[own[i]] for i in rows.tolist()], numbers[rows, along]) if len(rows) >= least else None
             )
             if line is not None:
-                yield Line(places[np.array(own)[rows[line.places]]], line.t, line.path)
+                yield ProblemLine(places[np.array(own)[rows[line.places]]], line.t, line.path)
 
 
-def _line(problems: list[Problem], values: Array) -> Line | None:
+def _line(problems: list[Problem], values: Array) -> ProblemLine | None:
     order = np.argsort(values, kind="stable")
     first, last = values[order[0]], values[order[-1]]
     if not first < last:
@@ -100,7 +102,7 @@ def _line(problems: list[Problem], values: Array) -> Line | None:
     middle = len(order) // 2
     if path is None or not _on(path, float(t[middle]), problems[order[middle]]):
         return None
-    return Line(order.astype(np.intp), t, path)
+    return ProblemLine(order.astype(np.intp), t, path)
 
 
 def _on(path: Path, t: float, problem: Problem) -> bool:

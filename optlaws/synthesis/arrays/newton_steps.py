@@ -264,7 +264,7 @@ def _system(structure: Structure, states: States, jets: _Jets, pull: Array) -> A
     return system
 
 
-def best_nearby(structure: Structure, states: States) -> NDArray[np.bool_]:
+def locally_optimal(structure: Structure, states: States) -> NDArray[np.bool_]:
     """Where no law beside a state that meets the optimality conditions is better, of second order.
 
     Along what the rows leave free the objective bends upward if and only if the conditions' matrix has as many

@@ -12,10 +12,10 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.synthesis.arrays.along import laws_along
-from optlaws.synthesis.arrays.found import Found
+from optlaws.synthesis.arrays.continued_laws import laws_along
 from optlaws.synthesis.arrays.newton_steps import with_one
 from optlaws.synthesis.arrays.programs import Path, between
+from optlaws.synthesis.arrays.solved_batch import SolvedBatch
 from optlaws.synthesis.families.peaks import power_peaks
 from optlaws.synthesis.problem.constants import D
 from optlaws.synthesis.problem.problem import Problem
@@ -50,7 +50,9 @@ def least_power(problem: Problem) -> bool:
     )
 
 
-def unrivalled(laws: Found, places: NDArray[np.intp], sought: Callable[[int], float | None]) -> NDArray[np.bool_]:
+def on_global_branch(
+    laws: SolvedBatch, places: NDArray[np.intp], sought: Callable[[int], float | None]
+) -> NDArray[np.bool_]:
     """Which laws of a path lie between two for which a search from all starts found no other.
 
     Parameters
@@ -80,7 +82,7 @@ def _looked_at(known: NDArray[np.intp]) -> NDArray[np.intp]:
     return np.unique(known[np.round(np.linspace(0, len(known) - 1, count)).astype(np.intp)])
 
 
-def with_quick_bounds(path: Path, t: Array, laws: Found, limits: Array) -> Found:
+def with_quick_bounds(path: Path, t: Array, laws: SolvedBatch, limits: Array) -> SolvedBatch:
     """The laws with what is proven of each: the limit, or the least D of the relaxed program where that may be more.
 
     Parameters
@@ -109,7 +111,7 @@ def _weights(path: Path, t: Array) -> Array:
     return np.asarray(path.model.unit * path.numbers(t).cost[:, path.model.places[D.name]])
 
 
-def _powers(path: Path, laws: Found) -> Array:
+def _powers(path: Path, laws: SolvedBatch) -> Array:
     """The peak power of each law, recomputed over the whole interval."""
     space = path.model.space
     if not isinstance(space, PolynomialSpace):
@@ -121,7 +123,7 @@ def _powers(path: Path, laws: Found) -> Array:
     return powers
 
 
-def _needed_roots(path: Path, laws: Found) -> Array:
+def _needed_roots(path: Path, laws: SolvedBatch) -> Array:
     """The least r with |b| <= r sqrt(2k) and r sqrt(2(1-k)) everywhere, nearly, of each law."""
     k = np.arange(1, _PLACES) / _PLACES
     columns = path.model.space.columns(1, 1.0 - 2.0 * k)

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.synthesis.families.cone import ConeFamily
-from optlaws.synthesis.families.family import Family, Program
+from optlaws.synthesis.families.family import ConstraintFamily, Program
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, model_of
 
@@ -127,7 +127,7 @@ def in_units_of(first: Program, other: Program) -> Program:
     return replace(other, families=families) if families != other.families else other
 
 
-def _measured(first: Family, other: Family) -> Family:
+def _measured(first: ConstraintFamily, other: ConstraintFamily) -> ConstraintFamily:
     if (
         not isinstance(first, ConeFamily)
         or not isinstance(other, ConeFamily)
@@ -143,7 +143,7 @@ def _measured(first: Family, other: Family) -> Family:
     return replace(other, series=first.series, slack=share * other.slack, bound=share * other.bound)
 
 
-def _alike(first: Family, other: Family) -> bool:
+def _alike(first: ConstraintFamily, other: ConstraintFamily) -> bool:
     """Whether two families have the same rows, which many laws are continued by."""
     if type(first) is not type(other) or not first.continuable:
         return False

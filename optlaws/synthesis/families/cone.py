@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
 from optlaws.numerics.chebyshev import basis_values, product, real_parts_of_roots
-from optlaws.synthesis.families.family import ROUNDING, Family, NonlinearFamily
+from optlaws.synthesis.families.family import ROUNDING, ConstraintFamily, NonlinearFamily
 from optlaws.synthesis.families.peaks import peaks, products
 
 Array = NDArray[np.float64]
@@ -110,7 +110,7 @@ class ConeFamily(NonlinearFamily):
         real, imaginary = (point @ part.T for part in (self.series.real, self.series.imag))
         return np.asarray(np.sqrt(peaks(products(real, real) + products(imaginary, imaginary))))
 
-    def same_rows(self, other: Family) -> bool:
+    def same_rows(self, other: ConstraintFamily) -> bool:
         """Whether another family has the same series."""
         return isinstance(other, ConeFamily) and np.array_equal(self.series, other.series)
 

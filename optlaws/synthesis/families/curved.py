@@ -19,7 +19,7 @@ from optlaws.formulas.tree import Call, Formula, Number, Power, total
 from optlaws.kept import kept_property
 from optlaws.numerics.candidates import candidates
 from optlaws.numerics.chebyshev import FEWEST, MOST, from_values, nodes
-from optlaws.synthesis.families.family import Family, LinearFamily, NonlinearFamily
+from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NonlinearFamily
 from optlaws.synthesis.families.peaks import peaks
 
 Array = NDArray[np.float64]
@@ -91,7 +91,7 @@ def between(bend: Array, rows: Array) -> Array:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class OfFormula(NonlinearFamily):
+class FormulaFamily(NonlinearFamily):
     """What families of formulas that are not affine have in common: a formula of derivatives of the law and of k."""
 
     formula: Formula
@@ -113,7 +113,7 @@ class OfFormula(NonlinearFamily):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class CurvedFamily(OfFormula):
+class CurvedFamily(FormulaFamily):
     """f is a smooth formula of derivatives of the law and of k.
 
     Attributes
@@ -292,7 +292,7 @@ class CurvedFamily(OfFormula):
         low, high = self.domain
         return [(max(a, low), min(b, high)) for b, a in pairwise(self.edges) if a < high and b > low]
 
-    def same_rows(self, other: Family) -> bool:
+    def same_rows(self, other: ConstraintFamily) -> bool:
         """Whether another family has the same formula of the same series."""
         if not isinstance(other, CurvedFamily) or (self.formula, self.names) != (other.formula, other.names):
             return False
@@ -318,7 +318,7 @@ class CurvedFamily(OfFormula):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class IntegralFamily(OfFormula):
+class IntegralFamily(FormulaFamily):
     """f is the sum over nodes of weights times a smooth formula, or the root of that. It has no place: u is 1.
 
     Attributes
@@ -370,7 +370,7 @@ class IntegralFamily(OfFormula):
     def _at(self, values: Array) -> dict[str, Array]:
         return {**dict(zip(self.names, values, strict=True)), "k": np.broadcast_to(self.places, values.shape[1:])}
 
-    def same_rows(self, other: Family) -> bool:
+    def same_rows(self, other: ConstraintFamily) -> bool:
         """Whether another family has the same formula of the same rows at the same nodes."""
         if not isinstance(other, IntegralFamily) or (self.formula, self.names) != (other.formula, other.names):
             return False

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.numerics.chebyshev import product, real_parts_of_roots
-from optlaws.synthesis.families.family import Family, Jet, LinearFamily
+from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, RowJet
 
 Array = NDArray[np.float64]
 
@@ -170,7 +170,7 @@ def _floor(below: Taylor, above: Taylor) -> Array:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class EnergyFamily(Family):
+class EnergyFamily(ConstraintFamily):
     """f = scale Y^degree times the factors, divided by sqrt(below above) where `divided`.
 
     Attributes
@@ -226,11 +226,11 @@ class EnergyFamily(Family):
         places: Array = 0.5 * (high + low) + 0.5 * (high - low) * chebyshev.chebpts2(count)[::-1]
         return places
 
-    def jet(self, x: Array, u: Array, s: Array) -> Jet:
+    def jet(self, x: Array, u: Array, s: Array) -> RowJet:
         """Residuals with their derivatives."""
         peak = self._taylor(x, u)
-        return Jet(
-            s * peak.value - self.room(x),
+        return RowJet(
+            s * peak.value - self.right_side(x),
             s * peak.gradient[:, 0],
             s * peak.curvature[:, 0, 0],
             s[:, None] * peak.gradient[:, 1:] - self.slack,

@@ -29,7 +29,7 @@ _NO_NORM = 1e-12
 
 
 @dataclass(frozen=True, eq=False)
-class Jet:
+class RowJet:
     """Residuals of a family at points, their derivatives by the place u, and their gradients by the variables."""
 
     value: Array
@@ -40,7 +40,7 @@ class Jet:
 
 
 @dataclass(frozen=True, eq=False)
-class Family(ABC):
+class ConstraintFamily(ABC):
     """The constraint s f(u; x) <= slack . x + bound for every u of the domain and every sign s.
 
     Attributes
@@ -73,14 +73,14 @@ class Family(ABC):
         return False
 
     @abstractmethod
-    def jet(self, x: Array, u: Array, s: Array) -> Jet:
+    def jet(self, x: Array, u: Array, s: Array) -> RowJet:
         """Residuals s f - slack . x - bound of one law with their derivatives."""
 
     @abstractmethod
     def hessian(self, x: Array, u: Array, weights: Array) -> Array | None:
         """Second derivative by x of the sum of weights times f in one law; None where it is zero."""
 
-    def same_rows(self, other: Family) -> bool:
+    def same_rows(self, other: ConstraintFamily) -> bool:
         """Whether f is the same function of the variables and the place, of families of one kind."""
         return self is other
 
@@ -124,7 +124,7 @@ class Family(ABC):
         """The place that belongs to k."""
         return 1.0 - 2.0 * k
 
-    def room(self, x: Array) -> float:
+    def right_side(self, x: Array) -> float:
         """The right side."""
         return float(self.slack @ x) + self.bound
 
@@ -137,12 +137,12 @@ class Family(ABC):
             inner = self.stationary(x)
             inner = np.sort(inner[(inner > low + _AT_END) & (inner < high - _AT_END)])
             u = np.concatenate([[low], inner, [high]])
-        value, room = self.value(x, u), self.room(x)
+        value, room = self.value(x, u), self.right_side(x)
         signs = np.repeat(self.signs, len(u))
         return np.tile(u, len(self.signs)), signs, signs * np.tile(value, len(self.signs)) - room
 
 
-class BatchFamily(Family):
+class BatchFamily(ConstraintFamily):
     """A family that is evaluated for a batch of laws; one law is a batch of one.
 
     The places of the laws are rows of `u`, (laws, places), their variables and 1 rows of `point`.
@@ -181,13 +181,15 @@ class NonlinearFamily(BatchFamily):
     def greatest(self, point: Array) -> Array:
         """The greatest of f, with the signs that count, in each law over the whole domain."""
 
-    def jet(self, x: Array, u: Array, s: Array) -> Jet:
+    def jet(self, x: Array, u: Array, s: Array) -> RowJet:
         """Residuals of one law with their derivatives."""
         point = np.append(x, 1.0)
         planes, slopes, bend = self.planes(u[None], point[None])
         signs = s[:, None]
         rows, turned = signs * planes[0], signs * slopes[0]
-        return Jet(rows @ point - self.room(x), turned @ point, s * bend[0], rows[:, :-1] - self.slack, turned[:, :-1])
+        return RowJet(
+            rows @ point - self.right_side(x), turned @ point, s * bend[0], rows[:, :-1] - self.slack, turned[:, :-1]
+        )
 
     def hessian(self, x: Array, u: Array, weights: Array) -> Array | None:
         """Second derivative by x of the sum of weights times f in one law."""
@@ -225,12 +227,12 @@ class LinearFamily(BatchFamily):
         columns = self.columns(u)[0] * s[:, None]
         return columns[:, :-1] - self.slack, self.bound - columns[:, -1]
 
-    def jet(self, x: Array, u: Array, s: Array) -> Jet:
+    def jet(self, x: Array, u: Array, s: Array) -> RowJet:
         """Residuals with their derivatives."""
         columns = self.columns(u) * s[:, None]
         columns[0, :, :-1] -= self.slack
         value, slope, curvature = columns @ np.append(x, 1.0)
-        return Jet(value - self.bound, slope, curvature, columns[0, :, :-1], columns[1, :, :-1])
+        return RowJet(value - self.bound, slope, curvature, columns[0, :, :-1], columns[1, :, :-1])
 
     @kept_property
     def _parts(self) -> tuple[tuple[NDArray[np.intp], Array], ...]:
@@ -267,7 +269,7 @@ class LinearFamily(BatchFamily):
         """What rounding may hide of rows, whatever the place."""
         return np.asarray(weights.sum(axis=1)[:, None] * self.rounding)
 
-    def same_rows(self, other: Family) -> bool:
+    def same_rows(self, other: ConstraintFamily) -> bool:
         """Whether another family has the same series."""
         return isinstance(other, LinearFamily) and (
             self.series is other.series or np.array_equal(self.series, other.series)
@@ -427,7 +429,7 @@ class ProductFamily(NonlinearFamily):
         """The greatest magnitude of f in each law over the whole interval."""
         return peaks(products(*(point @ factor.series.T for factor in (self.first, self.second))))
 
-    def same_rows(self, other: Family) -> bool:
+    def same_rows(self, other: ConstraintFamily) -> bool:
         """Whether another family has the same factors."""
         same = isinstance(other, ProductFamily) and self.first.same_rows(other.first)
         return same and self.second.same_rows(other.second)
@@ -486,7 +488,7 @@ class NormFamily(NonlinearFamily):
         """The norm of each law."""
         return self._shown(point)[0]
 
-    def same_rows(self, other: Family) -> bool:
+    def same_rows(self, other: ConstraintFamily) -> bool:
         """Whether another family has the same matrix."""
         return isinstance(other, NormFamily) and np.array_equal(self.matrix, other.matrix)
 
@@ -523,7 +525,7 @@ class Program:
         What the objective has been divided by, and each equation; None where no equation was.
     """
 
-    families: tuple[Family, ...]
+    families: tuple[ConstraintFamily, ...]
     equalities: Array
     right: Array
     objective: Array
@@ -550,7 +552,7 @@ class Program:
         """Whether a family is not affine in x."""
         return not all(isinstance(family, LinearFamily) for family in self.families)
 
-    def worth(self, x: Array) -> float:
+    def objective_at(self, x: Array) -> float:
         """The objective at x."""
         return float(self.objective @ x)
 

@@ -22,13 +22,13 @@ from optlaws.kept import kept_property
 from optlaws.numerics.candidates import cut_at_all, cut_at_roots
 from optlaws.numerics.chebyshev import gauss
 from optlaws.synthesis.families.curved import IntegralFamily, Slopes, between
-from optlaws.synthesis.families.family import Jet
+from optlaws.synthesis.families.family import RowJet
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
-class Stretch:
+class SmoothStretch:
     """Between which k the formula is which smooth one."""
 
     low: float
@@ -43,7 +43,7 @@ class KinkSplit:
     `places`, `columns` and `weights` are those of Gauss's rule, and belong to the stretches one after the other.
     """
 
-    stretches: list[Stretch]
+    stretches: list[SmoothStretch]
     total: float
     slope: Array
     columns: Array
@@ -128,13 +128,13 @@ class KinkedIntegralFamily(IntegralFamily):
             slope += np.einsum("ip,ipn->n", slopes.gradient(names) * weights, own)
         return replace(split, total=total)
 
-    def _stretches(self, point: Array) -> list[Stretch]:
+    def _stretches(self, point: Array) -> list[SmoothStretch]:
         plain, bent = self._switches
         edges = cut_at_all((partial(self._value, switch, point) for switch in plain), list(self.edges))
         for switch in bent:
             value = partial(self._value, switch, point)
             edges = cut_at_roots(_same(value), edges)
-        stretches: list[Stretch] = []
+        stretches: list[SmoothStretch] = []
         middles = (np.array(edges[1:]) + np.array(edges[:-1])) / 2.0
         names = self._names(point, middles, self.columns_at(middles))
         for i, (low, high) in enumerate(pairwise(edges)):
@@ -142,7 +142,7 @@ class KinkedIntegralFamily(IntegralFamily):
             if stretches and stretches[-1].formula == formula and low not in self.edges:
                 stretches[-1] = replace(stretches[-1], high=high)
             else:
-                stretches.append(Stretch(low, high, formula))
+                stretches.append(SmoothStretch(low, high, formula))
         return stretches
 
     def _value(self, formula: Formula, point: Array, k: Array) -> Array:
@@ -163,13 +163,13 @@ class KinkedIntegralFamily(IntegralFamily):
         row[-1] += value - row @ np.append(point, 1.0)
         return row
 
-    def jet(self, x: Array, u: Array, s: Array) -> Jet:
+    def jet(self, x: Array, u: Array, s: Array) -> RowJet:
         """The residual with its gradient."""
         own = self.split(x)
         value, share = self.outer(np.array(own.total))
         nothing = np.zeros(len(u))
         gradient = s[:, None] * (share * own.slope[:-1]) - self.slack
-        return Jet(s * value - self.room(x), nothing, nothing, gradient, np.zeros((len(u), len(x))))
+        return RowJet(s * value - self.right_side(x), nothing, nothing, gradient, np.zeros((len(u), len(x))))
 
     def hessian(self, x: Array, u: Array, weights: Array) -> Array | None:  # noqa: ARG002 - it has no place
         """The second derivatives of f, times the sum of weights."""

@@ -20,7 +20,7 @@ from optlaws.formulas.vocabulary import ORDERS
 from optlaws.numerics.chebyshev import gauss
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.curved import CurvedFamily, IntegralFamily
-from optlaws.synthesis.families.family import Family
+from optlaws.synthesis.families.family import ConstraintFamily
 from optlaws.synthesis.families.kinked import KinkedIntegralFamily
 from optlaws.synthesis.functionals.affine_rows import Side, edges_of, rows
 
@@ -67,7 +67,7 @@ def split(motion: Motion, sign: float, name: str) -> list[Branch] | None:
     ]
 
 
-def branch_rows(space: LawSpace, branch: Branch, slack: Array, bound: float) -> Family:
+def branch_rows(space: LawSpace, branch: Branch, slack: Array, bound: float) -> ConstraintFamily:
     """Rows of one branch on a part of the space's part of the interval."""
     motion = branch.motion
     if motion.affine is not None:

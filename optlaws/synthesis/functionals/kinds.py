@@ -20,7 +20,7 @@ from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.numbers import power_of_two
 from optlaws.synthesis.families import names
-from optlaws.synthesis.families.family import Family, LinearFamily, NormFamily
+from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily
 from optlaws.synthesis.functionals.affine_rows import columns, gauss, rows, sampled, sides
 from optlaws.synthesis.functionals.along_law import (
     extremes_along,
@@ -122,7 +122,9 @@ class OfFormula(Functional):
         """An order, a factor and an offset; None where the constant does not bound the law."""
         return None
 
-    def convex_families(self, space: LawSpace, slack: Array, bound: float, problem: Asked) -> tuple[Family, ...]:
+    def convex_families(
+        self, space: LawSpace, slack: Array, bound: float, problem: Asked
+    ) -> tuple[ConstraintFamily, ...]:
         """The rows themselves where they are convex; else convex ones beneath, and what the constant is at least."""
         if self.convex:
             return self.families(space, slack, bound)
@@ -140,7 +142,7 @@ class OfFormula(Functional):
         slack: Array,  # noqa: ARG002
         bound: float,  # noqa: ARG002
         boxes: Boxes,  # noqa: ARG002
-    ) -> tuple[Family, ...]:
+    ) -> tuple[ConstraintFamily, ...]:
         """Convex rows that hold where the constant is at most slack . x + bound."""
         return ()
 
@@ -148,7 +150,7 @@ class OfFormula(Functional):
     def value(self, law: MotionLaw) -> float:
         """The constant of a law, recomputed over the whole part."""
 
-    def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
+    def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConstraintFamily, ...]:
         """Rows that hold if and only if the constant is at most slack . x + bound.
 
         Raises
@@ -161,7 +163,7 @@ class OfFormula(Functional):
         return self._families(space, slack, bound)
 
     @abstractmethod
-    def _families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
+    def _families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConstraintFamily, ...]:
         """The rows themselves."""
 
 
@@ -219,14 +221,14 @@ class FormulaPeak(OfFormula):
                 branches_found += split(side.motion, sign, side.name) or []
         return branches_found
 
-    def _families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
+    def _families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConstraintFamily, ...]:
         """One family; two where symmetric laws count on half the interval but the formula is not symmetric."""
         if self.affine:
             rows_by_side = sides(self.motion, self.name, self.signs, symmetric=space.symmetric)
             return tuple(rows(space, side, slack, bound) for side in rows_by_side)
         return tuple(branch_rows(space, branch, slack, bound) for branch in self.branches(symmetric=space.symmetric))
 
-    def _envelopes(self, space: LawSpace, slack: Array, bound: float, boxes: Boxes) -> tuple[Family, ...]:
+    def _envelopes(self, space: LawSpace, slack: Array, bound: float, boxes: Boxes) -> tuple[ConstraintFamily, ...]:
         beneath = self.beneath(boxes, symmetric=space.symmetric)
         return tuple(branch_rows(space, branch, slack, bound) for branch in beneath)
 
@@ -266,7 +268,7 @@ class FormulaRms(OfFormula):
         """The root of the mean square, by Gauss's rule, exact where the formula is a polynomial of k."""
         return float(np.sqrt(mean_square_along(self.motion, law) / self.length))
 
-    def _families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
+    def _families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConstraintFamily, ...]:
         """A norm of the coordinates, or the root of an integral."""
         if not self.affine:
             root = float(np.sqrt(self.length))
@@ -315,7 +317,7 @@ class FormulaIntegral(OfFormula):
         """Of a convex formula."""
         return _by_integral(space, self.motion) if self.convex and not self.affine else None
 
-    def _families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
+    def _families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConstraintFamily, ...]:
         """One row."""
         return (integral_rows(space, self.motion, self.name, slack, bound, root=False, convex=self.convex),)
 
@@ -337,7 +339,7 @@ class FormulaValue(OfFormula):
         [motion] = self.parts(symmetric=symmetric)
         return split(motion, 1.0, self.name) or []
 
-    def _families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
+    def _families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConstraintFamily, ...]:
         """One row, or one for each branch."""
         return tuple(branch_rows(space, branch, slack, bound) for branch in self.branches(symmetric=space.symmetric))
 

@@ -14,15 +14,15 @@ from numpy.typing import NDArray
 
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Program
+from optlaws.synthesis.method.discretised.grids import first_points
 from optlaws.synthesis.method.equations import contradiction, independent
-from optlaws.synthesis.method.guesses import lifted, sizes_only, vanishing
-from optlaws.synthesis.method.on_points.grids import first_points
+from optlaws.synthesis.method.guesses import initial_guess, sizes_only, vanishing
+from optlaws.synthesis.method.strategies.contacts import polished
+from optlaws.synthesis.method.strategies.interior_points import ByInteriorPoints
+from optlaws.synthesis.method.strategies.quadratics import ByQuadratics, bends_both_ways
+from optlaws.synthesis.method.strategies.strategy import cutting_plane_loop
+from optlaws.synthesis.method.strategies.vertices import ByVertices, many_pieces
 from optlaws.synthesis.method.units import units_of
-from optlaws.synthesis.method.ways.contacts import polished
-from optlaws.synthesis.method.ways.interior_points import ByInteriorPoints
-from optlaws.synthesis.method.ways.quadratics import ByQuadratics, bends_both_ways
-from optlaws.synthesis.method.ways.vertices import ByVertices, many_pieces
-from optlaws.synthesis.method.ways.way import in_rounds
 
 Array = NDArray[np.float64]
 
@@ -97,20 +97,20 @@ def _solved(program: Program, start: Array | None, holds: Callable[[Array], bool
         nothing_left = vanishing(program)
         if nothing_left is not None:
             return Outcome(nothing_left, 0, 0, "nothing left")
-        start = lifted(program, points)
+        start = initial_guess(program, points)
         guess = sizes_only(program, start)
         optimum = polished(program, guess, holds) if guess is not None else None
         if optimum is not None:
             return Outcome(optimum, 0, 0, "least squares")
     if many_pieces(program):
-        optimum, count = in_rounds(ByVertices(program, holds), points)
+        optimum, count = cutting_plane_loop(ByVertices(program, holds), points)
         if optimum is not None:
             return Outcome(optimum, 0, count, "vertices")
     if bends_both_ways(program):
-        stepwise = ByQuadratics(program, lifted(program, points) if start is None else start, holds)
-        optimum, count = in_rounds(stepwise, points)
+        stepwise = ByQuadratics(program, initial_guess(program, points) if start is None else start, holds)
+        optimum, count = cutting_plane_loop(stepwise, points)
         if optimum is not None:
             return Outcome(optimum, stepwise.iterations, count, "quadratic programs")
     way = ByInteriorPoints(program, start, holds, rounds)
-    optimum, _ = in_rounds(way, points)
+    optimum, _ = cutting_plane_loop(way, points)
     return Outcome(optimum, way.iterations, way.count, way.status)

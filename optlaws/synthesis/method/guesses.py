@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.curved import IntegralFamily
-from optlaws.synthesis.families.family import Family, NormFamily, Points, Program
+from optlaws.synthesis.families.family import ConstraintFamily, NormFamily, Points, Program
 from optlaws.synthesis.method.tolerances import EXCESS, VANISHED
 
 Array = NDArray[np.float64]
@@ -39,7 +39,7 @@ def vanishing(program: Program) -> ActiveSet | None:
     return ActiveSet(x, places, nothing, nothing, places.astype(np.bool_), nothing, equations)
 
 
-def lifted(program: Program, points: list[Points]) -> Array:
+def initial_guess(program: Program, points: list[Points]) -> Array:
     """The base law with room for its own constants: from below them curved programs are hard to enter."""
     x = np.zeros(program.size)
     for family, held in zip(program.families, points, strict=True):
@@ -64,11 +64,11 @@ def sizes_only(program: Program, x: Array) -> ActiveSet | None:
     return ActiveSet(x, numbers, ones, ones, free, ones, np.zeros(len(program.right)))
 
 
-def _is_size(family: Family) -> bool:
+def _is_size(family: ConstraintFamily) -> bool:
     return isinstance(family, NormFamily) or (isinstance(family, IntegralFamily) and family.convex)
 
 
-def _least(program: Program, sizes: list[Family]) -> Array:
+def _least(program: Program, sizes: list[ConstraintFamily]) -> Array:
     """Coordinates that make the sum of integrals and of squares of norms least under the equations, to second order."""
     if not sizes:
         return np.zeros(program.size)
@@ -80,7 +80,7 @@ def _least(program: Program, sizes: list[Family]) -> Array:
     return np.asarray(np.linalg.lstsq(system, right, rcond=None)[0][: program.size], dtype=np.float64)
 
 
-def _second_order(family: Family, size: int) -> tuple[Array, Array]:
+def _second_order(family: ConstraintFamily, size: int) -> tuple[Array, Array]:
     """Second derivatives and slope, at the base law, of an integral or of half the square of a norm."""
     if isinstance(family, NormFamily):
         free, base = family.matrix[:, :-1], family.matrix[:, -1]

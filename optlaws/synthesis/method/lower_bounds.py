@@ -22,13 +22,13 @@ from numpy.typing import NDArray
 from optlaws.errors import InputError
 from optlaws.numerics.bisection import bisect
 from optlaws.synthesis.families.active_set import ActiveSet
-from optlaws.synthesis.families.family import Family, NormFamily, Program
+from optlaws.synthesis.families.family import ConstraintFamily, NormFamily, Program
 from optlaws.synthesis.families.names import at_least
-from optlaws.synthesis.method.aligned import aligned
+from optlaws.synthesis.method.discretised.grids import first_points
+from optlaws.synthesis.method.discretised.linear import vertex_on_points
 from optlaws.synthesis.method.exchange import solve
-from optlaws.synthesis.method.on_points.grids import first_points
-from optlaws.synthesis.method.on_points.linear import vertex_on_points
-from optlaws.synthesis.method.ways.contacts import polished
+from optlaws.synthesis.method.norm_lower_bounds import along_directions
+from optlaws.synthesis.method.strategies.contacts import polished
 from optlaws.synthesis.problem.constants import B, Functional, RootMeanSquare
 from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.problem.problem import Problem
@@ -47,7 +47,7 @@ _CROWD = 2  # contacts for each variable, of which one determines it
 _MIDDLE = 0.5
 
 
-def raised(model: Model, optimum: ActiveSet) -> list[ActiveSet]:
+def active_lower_bounds(model: Model, optimum: ActiveSet) -> list[ActiveSet]:
     """Candidates in which every constant is at or above its lower bound, from the optimum without these bounds.
 
     Raises
@@ -63,15 +63,20 @@ def raised(model: Model, optimum: ActiveSet) -> list[ActiveSet]:
     # where nothing else is minimised, every law with the constant at its lower bound is best, and no contact shows one
     alone = all(leaf == constant for _, leaf in leaves(problem.objective))
     ways = [] if alone else _held_up(model, optimum, constant, low)
-    ways.sort(key=lambda way: way[0].program.worth(way[1].x))
-    led = [state for way in ways[:_FOLLOWED] if reaches(way[0].law(way[1].x), constant, low) for state in raised(*way)]
-    middle = asked_in_the_middle(model, optimum, constant)
+    ways.sort(key=lambda way: way[0].program.objective_at(way[1].x))
+    led = [
+        state
+        for way in ways[:_FOLLOWED]
+        if reaches(way[0].law(way[1].x), constant, low)
+        for state in active_lower_bounds(*way)
+    ]
+    middle = placed_in_the_middle(model, optimum, constant)
     if middle is not None:
-        led = [*raised(*middle), *led]
+        led = [*active_lower_bounds(*middle), *led]
     return led or list(islice(between(model, optimum, constant, low), 1 if alone else None))
 
 
-def asked_in_the_middle(model: Model, plain: ActiveSet, constant: Functional) -> tuple[Model, ActiveSet] | None:
+def placed_in_the_middle(model: Model, plain: ActiveSet, constant: Functional) -> tuple[Model, ActiveSet] | None:
     """The problem with its peak velocity at k = 1/2, with its optimum; None where it is not B that is bounded.
 
     There it is convex, and one of the candidates.
@@ -94,11 +99,17 @@ def _begun(model: Model, placed: Model, plain: ActiveSet) -> Array:
     return start
 
 
-def raised_at(model: Model, optimum: ActiveSet, constant: Functional, low: float, k: float) -> list[ActiveSet]:
+def active_lower_bounds_at(
+    model: Model, optimum: ActiveSet, constant: Functional, low: float, k: float
+) -> list[ActiveSet]:
     """Candidates in which the peak is asked at k, and let go to where it is best nearby."""
     family, low = family_of(model, constant, low)
     ways = _asked(model.program, family, optimum, (constant.name, low), family.u(np.array([k])))
-    return [candidate for program, state in ways for candidate in raised(replace(model, program=program), state)]
+    return [
+        candidate
+        for program, state in ways
+        for candidate in active_lower_bounds(replace(model, program=program), state)
+    ]
 
 
 def _held_up(model: Model, plain: ActiveSet, constant: Functional, low: float) -> list[tuple[Model, ActiveSet]]:
@@ -113,13 +124,15 @@ def _held_up(model: Model, plain: ActiveSet, constant: Functional, low: float) -
         led.append(_continued(model.program, held, start, (float(height[j]), low)))
     ways = [_rested(model.program, family, optimum, low) for optimum in led if optimum is not None]
     if not ways and isinstance(family, NormFamily):
-        ways = aligned(model.program, family, plain, low)
+        ways = along_directions(model.program, family, plain, low)
     elif not ways:
         ways = _asked(model.program, family, plain, (constant.name, low), places(model.problem, family))
     return [(replace(model, program=program), state) for program, state in ways]
 
 
-def _continued(program: Program, held: Family, state: ActiveSet, heights: tuple[float, float]) -> ActiveSet | None:
+def _continued(
+    program: Program, held: ConstraintFamily, state: ActiveSet, heights: tuple[float, float]
+) -> ActiveSet | None:
     height, low = heights
     done, step = 0.0, _FIRST_STEP
     while done < 1.0:
@@ -137,7 +150,7 @@ def _continued(program: Program, held: Family, state: ActiveSet, heights: tuple[
 
 
 def _asked(
-    program: Program, family: Family, plain: ActiveSet, asked: tuple[str, float], where: Array
+    program: Program, family: ConstraintFamily, plain: ActiveSet, asked: tuple[str, float], where: Array
 ) -> list[tuple[Program, ActiveSet]]:
     """Optima of the programs in which the peak is asked at one place, let go from there."""
     name, low = asked
@@ -156,7 +169,7 @@ def _asked(
             if way is not None:
                 ways.append(way)
             elif state is not None:
-                stuck.append((at_u.worth(state.x), row))
+                stuck.append((at_u.objective_at(state.x), row))
     return ways if program.curved else ways + _stayed(program, ways, stuck)
 
 
@@ -166,10 +179,10 @@ def _shows_contacts(program: Program, state: ActiveSet) -> bool:
 
 
 def _stayed(
-    program: Program, ways: list[tuple[Program, ActiveSet]], stuck: list[tuple[float, Family]]
+    program: Program, ways: list[tuple[Program, ActiveSet]], stuck: list[tuple[float, ConstraintFamily]]
 ) -> list[tuple[Program, ActiveSet]]:
     """Optima with the peak where it was asked, of a linear program, as long as they may be better than the ways."""
-    best = min((program.worth(state.x) for _, state in ways), default=inf)
+    best = min((program.objective_at(state.x) for _, state in ways), default=inf)
     stayed = []
     for worth, row in sorted(stuck, key=lambda placed: placed[0]):
         if worth >= best:
@@ -178,11 +191,13 @@ def _stayed(
         state = solve(there, rounds=1).optimum
         if state is not None:
             stayed.append((there, state))
-            best = min(best, there.worth(state.x))
+            best = min(best, there.objective_at(state.x))
     return stayed
 
 
-def _let_go(program: Program, family: Family, state: ActiveSet, low: float) -> tuple[Program, ActiveSet] | None:
+def _let_go(
+    program: Program, family: ConstraintFamily, state: ActiveSet, low: float
+) -> tuple[Program, ActiveSet] | None:
     """With the peak at the best place nearby; None where Newton's method does not find it, or where none is asked."""
     last = state.family == len(program.families)
     if last.sum() != 1 or not _shows_contacts(program, state):
@@ -192,7 +207,7 @@ def _let_go(program: Program, family: Family, state: ActiveSet, low: float) -> t
     return None if moved is None else _rested(program, family, moved, low)
 
 
-def _rested(program: Program, family: Family, state: ActiveSet, low: float) -> tuple[Program, ActiveSet]:
+def _rested(program: Program, family: ConstraintFamily, state: ActiveSet, low: float) -> tuple[Program, ActiveSet]:
     """A state in which the peak is held up, as one of the program in which it is asked where it is."""
     last = state.family == len(program.families)
     row = _row(family, float(state.u[last][0]), float(state.s[last][0]), low)
@@ -209,16 +224,16 @@ def _turned(state: ActiveSet, last: NDArray[np.bool_], *, free: bool) -> ActiveS
     )
 
 
-def _row(family: Family, u: float, s: float, low: float) -> Family:
+def _row(family: ConstraintFamily, u: float, s: float, low: float) -> ConstraintFamily:
     """The one row s f(u) >= low."""
     return replace(family, signs=(-s,), bound=-low, domain=(u, u))
 
 
-def _with(program: Program, family: Family) -> Program:
+def _with(program: Program, family: ConstraintFamily) -> Program:
     return replace(program, families=(*program.families, family))
 
 
-def _inside(family: Family, u: float) -> bool:
+def _inside(family: ConstraintFamily, u: float) -> bool:
     return bool(family.movable(np.array([u]))[0])
 
 
@@ -228,7 +243,7 @@ _PLACED_ROUNDS = 4
 _SMOOTH = {"C": "rms_c", "C_plus": "rms_c", "C_minus": "rms_c", "J": "rms_j", "D": "rms_c", "B": "rms_c"}
 
 
-def family_of(model: Model, constant: Functional, low: float) -> tuple[Family, float]:
+def family_of(model: Model, constant: Functional, low: float) -> tuple[ConstraintFamily, float]:
     """The rows of a constant that is to be held up, near 1, and its lower bound in their units.
 
     Raises
@@ -243,7 +258,7 @@ def family_of(model: Model, constant: Functional, low: float) -> tuple[Family, f
     return replace(family, name=at_least(constant.name), bound=0.0), family.bound
 
 
-def places(problem: Problem, family: Family) -> Array:
+def places(problem: Problem, family: ConstraintFamily) -> Array:
     """Some places of a family's domain, ends included; those of one half where the mirror image of a law is as good."""
     low, high = family.domain
     if problem.mirrored:
@@ -264,7 +279,9 @@ def between(model: Model, plain: ActiveSet, constant: Functional, low: float) ->
     laws: Iterator[ActiveSet]
     if isinstance(family, NormFamily):
         begin = solve(other.program).optimum
-        laws = iter(()) if begin is None else (state for _, state in aligned(other.program, family, begin, least))
+        laws = (
+            iter(()) if begin is None else (state for _, state in along_directions(other.program, family, begin, least))
+        )
     else:
         laws = _at_places(model.problem, other, family, least)
     for beyond in laws:
@@ -274,7 +291,7 @@ def between(model: Model, plain: ActiveSet, constant: Functional, low: float) ->
             yield replace(plain, x=x)
 
 
-def _at_places(problem: Problem, other: Model, family: Family, low: float) -> Iterator[ActiveSet]:
+def _at_places(problem: Problem, other: Model, family: ConstraintFamily, low: float) -> Iterator[ActiveSet]:
     """Smooth laws with the peak at one place after the other."""
     for u in places(problem, family).tolist():
         for s in family.signs:

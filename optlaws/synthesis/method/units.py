@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.synthesis.families.active_set import ActiveSet
-from optlaws.synthesis.families.curved import OfFormula
+from optlaws.synthesis.families.curved import FormulaFamily
 from optlaws.synthesis.families.energy import EnergyFamily
-from optlaws.synthesis.families.family import Family, ProductFamily, Program
+from optlaws.synthesis.families.family import ConstraintFamily, ProductFamily, Program
 
 Array = NDArray[np.float64]
 
@@ -23,7 +23,7 @@ _GREAT = 100.0
 
 
 @dataclass(frozen=True, eq=False)
-class Units:
+class ProgramUnits:
     """A program in other units, and the way there and back.
 
     Attributes
@@ -63,7 +63,7 @@ class Units:
         )
 
 
-def units_of(program: Program) -> Units | None:
+def units_of(program: Program) -> ProgramUnits | None:
     """The units that a program's numbers ask for; None where they are near 1.
 
     Its equations and the constants that it bounds from below tell how great its laws are.
@@ -86,10 +86,10 @@ def units_of(program: Program) -> Units | None:
         program.right / size,
         cost / objective,
     )
-    return Units(scaled, variables, rows, size, objective)
+    return ProgramUnits(scaled, variables, rows, size, objective)
 
 
-def _row_unit(family: Family, size: float) -> float:
-    if isinstance(family, EnergyFamily | OfFormula):
+def _row_unit(family: ConstraintFamily, size: float) -> float:
+    if isinstance(family, EnergyFamily | FormulaFamily):
         return 1.0
     return size**2 if isinstance(family, ProductFamily) else size

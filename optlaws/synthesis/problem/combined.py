@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.numbers import power_of_two
-from optlaws.synthesis.families.family import Family
+from optlaws.synthesis.families.family import ConstraintFamily
 from optlaws.synthesis.families.names import mirrored
 from optlaws.synthesis.problem.constants import Functional, Power
 
@@ -62,7 +62,7 @@ class CombinedPeak(Combined):
         """By how much its parts exceed the lowest derivative in smooth laws, where each next one is some times it."""
         return power_of_two(sum(abs(float(weight)) * _STEEPER**i for i, weight in enumerate(self.weights)))
 
-    def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
+    def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConstraintFamily, ...]:
         """One family; two where symmetric laws count on half the interval but the combination is not symmetric."""
         self.check(space)
         return tuple(
@@ -89,7 +89,7 @@ class CombinedPeak(Combined):
 class CombinedPower(Combined, Power):
     """Peak of the product of a combination of b, c, ... and its derivative: not convex in the law."""
 
-    def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
+    def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConstraintFamily, ...]:
         """The product's family; one for each half where symmetric laws have a combination that is not."""
         self.check(space)
         sides = [(self.name, self.weights)]

@@ -21,7 +21,7 @@ from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, smoothstep
 from optlaws.lazy import Registry
 from optlaws.numbers import power_of_two
-from optlaws.synthesis.families.family import Family
+from optlaws.synthesis.families.family import ConstraintFamily
 from optlaws.synthesis.problem.expression import Term
 
 if TYPE_CHECKING:
@@ -174,7 +174,7 @@ class Functional(Term, ABC):
         slack: Array,
         bound: float,
         problem: Asked,  # noqa: ARG002 - a constant that is not convex may need it
-    ) -> tuple[Family, ...]:
+    ) -> tuple[ConstraintFamily, ...]:
         """Convex rows that hold if the constant is at most slack . x + bound, for a bound of all laws."""
         return self.families(space, slack, bound)
 
@@ -183,7 +183,7 @@ class Functional(Term, ABC):
         """The constant of a law, over the whole interval."""
 
     @abstractmethod
-    def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
+    def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConstraintFamily, ...]:
         """Rows that hold if and only if the constant is at most slack . x + bound."""
 
     def __repr__(self) -> str:
@@ -228,7 +228,7 @@ class Peak(_InUnitsOfLaws):
         lowest, highest = law.extrema(self.nu)
         return highest.value if self.signs[0] > 0 else -lowest.value
 
-    def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
+    def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConstraintFamily, ...]:
         """The derivative's own family."""
         # over the whole interval one sign of a derivative that is odd about k = 1/2 is both over the half
         signs = (1.0, -1.0) if space.symmetric and self.nu % 2 == 0 else self.signs
@@ -270,7 +270,7 @@ class Power(_InUnitsOfLaws):
         """The peak, b and c evaluated separately."""
         return law.power_peak().value
 
-    def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
+    def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConstraintFamily, ...]:
         """The product's family."""
         return (space.power(self.name, slack, bound),)
 
@@ -296,7 +296,7 @@ class RootMeanSquare(_InUnitsOfLaws):
         """The root of the mean square, by Gauss-Legendre quadrature exact for the law's degree."""
         return law.rms(self.nu)
 
-    def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
+    def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConstraintFamily, ...]:
         """A norm of the coordinates."""
         return (space.norm(self.nu, self.name, slack, bound),)
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from optlaws.formulas.of_motion import Motion
 from optlaws.laws import MotionLaw
 from optlaws.synthesis.families import names
-from optlaws.synthesis.families.family import Family, LinearFamily, Program
+from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, Program
 from optlaws.synthesis.families.names import RowName, VariableName
 from optlaws.synthesis.functionals.affine_rows import columns as formula_columns
 from optlaws.synthesis.functionals.curved_rows import branch_rows, split
@@ -192,7 +192,7 @@ class _Writer:
         self.cost = np.zeros(self.size)
         self.tangent = 0.0
         self.cost_unit = 1.0
-        self.families: list[Family] = []
+        self.families: list[ConstraintFamily] = []
         self.equalities: list[Array] = []
         self.right: list[float] = []
         self.equation_names: list[str] = []
@@ -317,7 +317,7 @@ class _Writer:
         else:
             self.families += self._rows(constant, self.spare, limits.high)
 
-    def _rows(self, constant: Functional, slack: Array, bound: float) -> tuple[Family, ...]:
+    def _rows(self, constant: Functional, slack: Array, bound: float) -> tuple[ConstraintFamily, ...]:
         constant.check_problem(self.problem)
         scale = self.scale(constant)
         check_rows(constant, self.space)

@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.curved import IntegralFamily
-from optlaws.synthesis.families.family import Family, LinearFamily, Points
+from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, Points
 from optlaws.synthesis.families.kinked import KinkedIntegralFamily
-from optlaws.synthesis.method.on_points.grids import first_points, with_extrema
-from optlaws.synthesis.method.on_points.linear import Table, vertex_on_points
+from optlaws.synthesis.method.discretised.grids import first_points, with_extrema
+from optlaws.synthesis.method.discretised.linear import LinearTable, vertex_on_points
 from optlaws.synthesis.program.writer import Model
 from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.proof.nodes import Contact
@@ -83,7 +83,7 @@ class _Tangents:
             vertex = vertex_on_points(program, points)
             if vertex is None:
                 return best
-            table, ends = Table(program, points), np.cumsum([len(held.u) for held in points])
+            table, ends = LinearTable(program, points), np.cumsum([len(held.u) for held in points])
             weights = np.concatenate(vertex.multipliers[:-1]) * table.length
             binding = weights > 0.0
             balanced = table.balanced(binding, weights, vertex.multipliers[-1])
@@ -100,7 +100,7 @@ class _Tangents:
             self.points = with_extrema(straight, self.points, vertex.x)
         return best
 
-    def _families(self) -> tuple[tuple[Family, ...], list[Points]]:
+    def _families(self) -> tuple[tuple[ConstraintFamily, ...], list[Points]]:
         """The straight families, a row for each tangent, and a box that is none of the certificate's."""
         once, families, points = np.ones(1), [*self.straight], [*self.points]
         size = self.model.program.size

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.curved import OfFormula
 from optlaws.synthesis.families.energy import EnergyFamily
-from optlaws.synthesis.families.family import Family, LinearFamily, NormFamily, Program
+from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily, Program
 from optlaws.synthesis.program.writer import Model
 from optlaws.synthesis.proof.nodes import Contact, Leaf
 from optlaws.synthesis.proof.sublevel_bounds import greatest_values, least_values, moments
@@ -57,7 +57,7 @@ def row_of(program: Program, contact: Contact) -> tuple[Array, float]:
     return np.zeros(program.size), 0.0
 
 
-def _tangent(program: Program, family: Family, contact: Contact, u: Array) -> Array | None:
+def _tangent(program: Program, family: ConstraintFamily, contact: Contact, u: Array) -> Array | None:
     """A row that a family which is not linear is nowhere below, by the contact's direction; None where it is none."""
     if isinstance(family, NormFamily) and len(contact.direction) == len(family.matrix):
         return _at_most_one(contact.direction) @ family.matrix

@@ -12,12 +12,12 @@ from optlaws.synthesis.families import names
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.family import LinearFamily, Points
 from optlaws.synthesis.families.names import RowName
+from optlaws.synthesis.method.discretised.grids import first_points, with_extrema
+from optlaws.synthesis.method.discretised.linear import vertex_on_points
 from optlaws.synthesis.method.equations import contradiction
 from optlaws.synthesis.method.exchange import Outcome, solve
-from optlaws.synthesis.method.on_points.grids import first_points, with_extrema
-from optlaws.synthesis.method.on_points.linear import vertex_on_points
-from optlaws.synthesis.method.ways.identified import as_answered
-from optlaws.synthesis.method.ways.way import Way, in_rounds
+from optlaws.synthesis.method.strategies.identified import as_answered
+from optlaws.synthesis.method.strategies.strategy import Strategy, cutting_plane_loop
 from optlaws.synthesis.problem.constants import C
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, extreme_velocity, least_violation, model_of
@@ -107,7 +107,7 @@ def _falls_for_ever(problem: Problem) -> bool:
     row = np.append(-program.objective, 0.0)[None, :]
     ground = LinearFamily("objective at least", np.zeros(program.size), depth, (1.0,), (1.0, 1.0), series=row)
     deepest = solve(replace(program, families=(*program.families, ground))).optimum
-    return deepest is not None and program.worth(deepest.x) < -0.99 * depth
+    return deepest is not None and program.objective_at(deepest.x) < -0.99 * depth
 
 
 def _contradiction(proof: Certificate) -> str:
@@ -162,11 +162,11 @@ def _at_vertices(elastic: Model) -> Certificate | None:
         inner.joined(Points(np.tile(family.domain, len(family.signs)), np.repeat(family.signs, 2)))
         for family, inner in zip(program.families, first_points(program), strict=True)
     ]
-    return in_rounds(_Contradicting(elastic), points)[0]
+    return cutting_plane_loop(_Contradicting(elastic), points)[0]
 
 
 @dataclass(frozen=True)
-class _Contradicting(Way[list[Points], Certificate]):
+class _Contradicting(Strategy[list[Points], Certificate]):
     """Vertices of the least violation, whose rows may contradict each other before they are all that bind."""
 
     elastic: Model

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.cone import ConeFamily
-from optlaws.synthesis.families.curved import OfFormula
+from optlaws.synthesis.families.curved import FormulaFamily
 from optlaws.synthesis.families.energy import EnergyFamily
 from optlaws.synthesis.families.family import NormFamily
 from optlaws.synthesis.families.names import RowName, VariableName, velocity_at_peak
@@ -135,7 +135,7 @@ def certificate(model: Model, optimum: ActiveSet, program: str, tangent: float =
         for j, k in zip(own, family.k(optimum.u[own]), strict=True):
             if isinstance(family, ConeFamily):
                 direction = family.direction(optimum.x, float(optimum.u[j]))
-            if isinstance(family, OfFormula):
+            if isinstance(family, FormulaFamily):
                 direction = family.touching(optimum.x, float(optimum.u[j]))
             if isinstance(family, EnergyFamily):
                 direction = tuple(model.coordinates(optimum.x).tolist())

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from optlaws.laws import MotionLaw
 from optlaws.numerics.chebyshev import nodes
 from optlaws.synthesis.families.active_set import ActiveSet
-from optlaws.synthesis.families.family import Family, Program
+from optlaws.synthesis.families.family import ConstraintFamily, Program
 from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.problem.constants import Peak
 from optlaws.synthesis.program.writer import Model
@@ -65,7 +65,7 @@ def _unfolded_point(model: Model, half: Model, x: Array) -> Array:
     return point
 
 
-def _both(family: Family, half: Family, contact: Contact, sign: float) -> list[Contact]:
+def _both(family: ConstraintFamily, half: ConstraintFamily, contact: Contact, sign: float) -> list[Contact]:
     target, u, s, multiplier = contact
     if family.domain[0] == family.domain[1]:
         return [(target, family.domain[0], s, multiplier)]

@@ -22,7 +22,7 @@ from optlaws.synthesis.program.evaluation import worth
 from optlaws.synthesis.proof.certificate import OBJECTIVE, Certificate
 from optlaws.synthesis.proof.data import StatedContact, contact_of, problem_of, stated
 from optlaws.synthesis.proof.nodes import Contact
-from optlaws.synthesis.proven.running import RunningNumber, gap_bounds, lower_line
+from optlaws.synthesis.proven.swept_parameter import SweptParameter, gap_bounds, lower_line
 from optlaws.synthesis.solution import measure
 
 Array = NDArray[np.float64]
@@ -171,7 +171,7 @@ class ProvenFront:
     (5.65, True)
     """
 
-    number: RunningNumber
+    number: SweptParameter
     values: tuple[float, ...]
     laws: Sequence[MotionLaw] = field(repr=False)
     certificates: Sequence[Certificate] = field(repr=False)
@@ -190,7 +190,7 @@ class ProvenFront:
     @classmethod
     def of_known(
         cls,
-        number: RunningNumber,
+        number: SweptParameter,
         values: Array,
         laws: LazySequence[MotionLaw],
         certificates: LazySequence[Certificate],
@@ -382,7 +382,7 @@ def front_of(stated_front: StatedFront) -> ProvenFront:
     InputError
         If it is none.
     """
-    number = RunningNumber(problem_of(stated_front.problem), stated_front.runs)
+    number = SweptParameter(problem_of(stated_front.problem), stated_front.runs)
     proofs = [
         Certificate.of_leaf(number.at(point.at), tuple(map(contact_of, point.contacts)), point.equations)
         for point in stated_front.points
@@ -396,7 +396,7 @@ def front_of(stated_front: StatedFront) -> ProvenFront:
     return front
 
 
-def weighted_value(number: RunningNumber, law: MotionLaw) -> float:
+def weighted_value(number: SweptParameter, law: MotionLaw) -> float:
     """What the term whose weight runs is of a law, before it is weighted."""
     return worth(replace(number.problem, minimise=number.weighted), law).objective
 

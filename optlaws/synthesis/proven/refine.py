@@ -23,12 +23,12 @@ from optlaws.synthesis.program.evaluation import worth
 from optlaws.synthesis.program.writer import Model, model_of
 from optlaws.synthesis.proof.sublevel_bounds import greatest_values
 from optlaws.synthesis.proven.front import LazySequence, ProvenFront, weighted_value
-from optlaws.synthesis.proven.running import RunningNumber, gap_bounds, lower_line
+from optlaws.synthesis.proven.swept_parameter import SweptParameter, gap_bounds, lower_line
 from optlaws.synthesis.solution import Solution, Status, measure
 from optlaws.synthesis.solution_array import SolutionArray
 from optlaws.synthesis.solve import synthesize
 from optlaws.synthesis.solve_array import SolvedLine
-from optlaws.synthesis.solved_parts import Part
+from optlaws.synthesis.solved_parts import SolvedPart
 
 Array = NDArray[np.float64]
 
@@ -110,7 +110,7 @@ def proven_front(
 class _Refined:
     """The certified laws found so far, and what is known above and below at each."""
 
-    def __init__(self, number: RunningNumber, ends: tuple[float, float]) -> None:
+    def __init__(self, number: SweptParameter, ends: tuple[float, float]) -> None:
         self.number, self.ends = number, ends
         self.line = SolvedLine(number.problem, number.name, number.at, *ends)
         self.values = np.array(ends)
@@ -224,13 +224,13 @@ class _Refined:
         )
 
 
-def _number(problem: object, over: str | Sequence[str]) -> RunningNumber:
+def _number(problem: object, over: str | Sequence[str]) -> SweptParameter:
     if not isinstance(problem, Problem):
         raise InputError(f"proven_front takes a Problem, got {type(problem).__name__}")
     listed = apart(over) if isinstance(over, str) else list(over)
     if len(listed) not in {1, 2} or not all(isinstance(name, str) for name in listed):
         raise InputError(f"over must name what runs and what is minimised, such as ('B', 'C'), got {shortened(over)}")
-    return RunningNumber(problem if len(listed) == 1 else replace(problem, minimise=listed[1]), listed[0])
+    return SweptParameter(problem if len(listed) == 1 else replace(problem, minimise=listed[1]), listed[0])
 
 
 def _checked(between: tuple[float, float]) -> tuple[float, float]:
@@ -240,14 +240,14 @@ def _checked(between: tuple[float, float]) -> tuple[float, float]:
     return float(between[0]), float(between[1])
 
 
-def _where_it_pays(number: RunningNumber) -> tuple[float, float]:
+def _where_it_pays(number: SweptParameter) -> tuple[float, float]:
     terms = number.problem.objective.terms
     if number.concave or len(terms) > 1 or number.name not in CONSTANTS:
         raise InputError(f"give between: where {number.name} pays is known for B, C or J and one constant alone")
     return where_it_pays(number.problem, (number.name, repr(terms[0][1])))
 
 
-def _at_end(number: RunningNumber, value: float) -> Solution:
+def _at_end(number: SweptParameter, value: float) -> Solution:
     problem = number.at(value)
     try:
         return synthesize(problem)
@@ -260,14 +260,14 @@ def _at_end(number: RunningNumber, value: float) -> Solution:
         ) from error
 
 
-def _least_known(number: RunningNumber) -> str:
+def _least_known(number: SweptParameter) -> str:
     try:
         return f"; the least {number.name} of these problems is {least_value(number.problem, number.name):.9g}"
     except OptlawsError:
         return ""
 
 
-def lower_lines(part: Part, values: Array, number: RunningNumber, ends: tuple[float, float]) -> Array | None:
+def lower_lines(part: SolvedPart, values: Array, number: SweptParameter, ends: tuple[float, float]) -> Array | None:
     """Value and slope of what the certificates of a part prove between the ends; None where a row is not linear.
 
     Parameters
@@ -295,7 +295,7 @@ def lower_lines(part: Part, values: Array, number: RunningNumber, ends: tuple[fl
     return model.unit * np.column_stack([plain - hidden - lost, rise])
 
 
-def _rows(part: Part, model: Model, further: Array) -> Array:
+def _rows(part: SolvedPart, model: Model, further: Array) -> Array:
     """The rows of the contacts and of the equations, with the opposites of their right sides; of no contact 0."""
     laws, contacts, size = part.found, part.found.u.shape[1], part.model.program.size
     rows = np.zeros((len(further), contacts + len(model.program.right), size + 1))

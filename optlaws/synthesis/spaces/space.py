@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.laws import MotionLaw
-from optlaws.synthesis.families.family import Family, LinearFamily, NormFamily, ProductFamily
+from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily, ProductFamily
 from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 
@@ -137,17 +137,17 @@ class LawSpace(ABC):
         """The derivative of order nu at k: free functions, then the base law."""
 
     @abstractmethod
-    def below(self, slack: Array, peak: float = 0.5) -> Family:
+    def below(self, slack: Array, peak: float = 0.5) -> ConstraintFamily:
         """Rows b <= b(peak) of laws with c(peak) = 0; symmetric ones have their peak at 1/2."""
 
     @abstractmethod
-    def forward(self, slack: Array) -> Family:
+    def forward(self, slack: Array) -> ConstraintFamily:
         """Rows b >= 0."""
 
     @abstractmethod
     def from_rest(
         self, name: str, slack: Array, *, backward: bool = False, weights: tuple[float, ...] = (1.0,)
-    ) -> Family:
+    ) -> ConstraintFamily:
         """Rows |b| / sqrt(2k) <= slack . x for k up to 1/2; |b| / sqrt(2 - 2k) for the other half where `backward`."""
 
     @abstractmethod

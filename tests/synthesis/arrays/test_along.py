@@ -22,10 +22,10 @@ from optlaws import (
     synthesize,
     synthesize_array,
 )
-from optlaws.synthesis.arrays.along import laws_along, laws_on
+from optlaws.synthesis.arrays.continuation import ParametricContinuation, StructureSegment, _event
+from optlaws.synthesis.arrays.continued_laws import laws_along, laws_on
 from optlaws.synthesis.arrays.newton_steps import converged
 from optlaws.synthesis.arrays.programs import Path, between
-from optlaws.synthesis.arrays.walk import Segment, Walk, _event
 from optlaws.synthesis.solution_array import SolutionArray
 from optlaws.verification import verify
 from tests.bench.plain import Rows, highs
@@ -41,8 +41,8 @@ def path_of(degree: int) -> Path:
     return path
 
 
-def walked(path: Path) -> list[Segment]:
-    return Walk(path, 0.0, 1.0).whole(np.array([0.0]))
+def walked(path: Path) -> list[StructureSegment]:
+    return ParametricContinuation(path, 0.0, 1.0).whole(np.array([0.0]))
 
 
 def check(laws: SolutionArray, places: np.ndarray[Any, Any]) -> None:
@@ -83,13 +83,13 @@ def test_states_that_are_nearly_one_do_not_spoil_what_is_interpolated() -> None:
     np.testing.assert_allclose(segment.interpolated(asked).packed, exact.packed, rtol=1e-5, atol=1e-5)
 
 
-def shortened(path: Path, segment: Segment, begin: float, end: float) -> Segment:
+def shortened(path: Path, segment: StructureSegment, begin: float, end: float) -> StructureSegment:
     """A segment of which less is known."""
     ends = np.array([begin, end])
     states, done = converged(segment.structure, path.numbers(ends), segment.interpolated(ends))
     assert done.all()
     kept = (segment.t > begin) & (segment.t < end)
-    found = Segment(segment.structure, segment.t[kept], segment.rows[kept])
+    found = StructureSegment(segment.structure, segment.t[kept], segment.rows[kept])
     found.joined(ends, states.packed)
     return found
 

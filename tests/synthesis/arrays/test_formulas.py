@@ -5,7 +5,7 @@ import pytest
 
 from optlaws import Chebyshev, Problem, ProblemArray, synthesize, synthesize_array
 from optlaws.synthesis.arrays.programs import between
-from optlaws.synthesis.families.curved import OfFormula
+from optlaws.synthesis.families.curved import FormulaFamily
 from optlaws.synthesis.program.writer import model_of
 from tests.sampling import sampled
 
@@ -33,7 +33,7 @@ def test_many_laws_of_a_formula_are_those_of_each_alone(text: str) -> None:
 @pytest.mark.parametrize("text", KINDS)
 def test_planes_touch_and_second_derivatives_are_differences_of_slopes(text: str) -> None:
     program = model_of(Problem(B=1.8, order=4, basis=Chebyshev(5), minimise=text)).program
-    [family] = [one for one in program.families if isinstance(one, OfFormula)][:1]
+    [family] = [one for one in program.families if isinstance(one, FormulaFamily)][:1]
     assert family.continuable
     numbers = np.random.default_rng(1)
     x = numbers.normal(size=(3, program.size)) * 0.3
@@ -43,7 +43,7 @@ def test_planes_touch_and_second_derivatives_are_differences_of_slopes(text: str
     hessian = family.hessians(u, np.column_stack([x, np.ones(3)]), weights)
     for law in range(3):
         jet = family.jet(x[law], u[law], np.ones(2))
-        room = family.room(x[law])
+        room = family.right_side(x[law])
         point = np.append(x[law], 1.0)
         assert value[law] @ point - room == pytest.approx(jet.value, rel=1e-9, abs=1e-9)
         assert value[law][:, :-1] - family.slack == pytest.approx(jet.gradient, rel=1e-9, abs=1e-9)

@@ -1,4 +1,4 @@
-"""Laws of least power solved together: locally best as each is alone, with the same bound, and unrivalled."""
+"""Laws of least power solved together: locally best as each is alone, with the same bound, and on_global_branch."""
 
 from dataclasses import replace
 from typing import Any
@@ -8,13 +8,13 @@ import pytest
 
 from optlaws import Chebyshev, Problem, ProblemArray, Solution, at_most, each, synthesize, synthesize_array
 from optlaws.synthesis import solve_array
-from optlaws.synthesis.arrays.along import laws_along
-from optlaws.synthesis.arrays.found import Found
-from optlaws.synthesis.arrays.newton_steps import States, best_nearby
-from optlaws.synthesis.arrays.powers import least_power, unrivalled
+from optlaws.synthesis.arrays.continuation import ParametricContinuation
+from optlaws.synthesis.arrays.continued_laws import laws_along
+from optlaws.synthesis.arrays.newton_steps import States, locally_optimal
+from optlaws.synthesis.arrays.powers import least_power, on_global_branch
 from optlaws.synthesis.arrays.programs import Path, between
-from optlaws.synthesis.arrays.walk import Walk
-from optlaws.synthesis.search import Search
+from optlaws.synthesis.arrays.solved_batch import SolvedBatch
+from optlaws.synthesis.search import LawSearch
 from optlaws.synthesis.solution_array import SolutionArray
 from optlaws.verification import verify
 
@@ -88,7 +88,7 @@ def path_of(degree: int) -> Path:
 
 def test_laws_of_least_power_where_their_structure_changes() -> None:
     path = path_of(9)
-    edges = np.array([segment.end for segment in Walk(path, 0.0, 1.0).whole(np.array([0.5]))[:-1]])
+    edges = np.array([segment.end for segment in ParametricContinuation(path, 0.0, 1.0).whole(np.array([0.5]))[:-1]])
     assert len(edges) == 4
     beside = np.concatenate([edges + away for away in (-1e-6, 0.0, 1e-6)])
     t = np.sort(np.concatenate([np.linspace(0.0, 1.0, 40), beside]))
@@ -100,40 +100,40 @@ def test_laws_of_least_power_where_their_structure_changes() -> None:
 
 
 def test_where_another_branch_is_better_laws_are_sought_alone(monkeypatch: pytest.MonkeyPatch) -> None:
-    class Rival(Search):
+    class Rival(LawSearch):
         def least(self) -> float | None:
             own = super().least()
             return own if own is None or ENDS[0] != self.problem.B else 0.99 * own
 
-    monkeypatch.setattr(solve_array, "Search", Rival)
+    monkeypatch.setattr(solve_array, "LawSearch", Rival)
     laws = synthesize_array(ProblemArray(B=np.linspace(*ENDS, 24), order=3, basis=Chebyshev(3), minimise="D"))
     assert sorted(laws.others) == list(range(6))
     assert (laws.status == "local").all()
 
 
 def test_laws_between_two_that_agree_are_kept_and_no_others() -> None:
-    changed = replace(Found.none(25, 0, 0, 0), objective=np.ones(25))
+    changed = replace(SolvedBatch.none(25, 0, 0, 0), objective=np.ones(25))
     for answers, kept in (
         ({}, range(25)),
         ({12: 0.9}, [*range(7), *range(18, 25)]),
         ({0: None}, range(6, 25)),
         ({0: 0.9, 24: 1.1}, range(6, 19)),
     ):
-        sought = unrivalled(changed, np.arange(25), lambda place, answers=answers: answers.get(place, 1.0))  # type: ignore[misc]
+        sought = on_global_branch(changed, np.arange(25), lambda place, answers=answers: answers.get(place, 1.0))  # type: ignore[misc]
         assert np.flatnonzero(sought).tolist() == list(kept)
 
 
 def test_a_law_that_is_no_minimum_is_seen() -> None:
     path = path_of(5)
-    segments = Walk(path, 0.0, 1.0).whole(np.array([0.5]))
+    segments = ParametricContinuation(path, 0.0, 1.0).whole(np.array([0.5]))
     assert {len(path.model.program.right) + one.structure.count for one in segments} == {3, 4}
     for segment in segments:
         states = States.unpacked(segment.rows, segment.structure)
-        assert best_nearby(segment.structure, states).all()
+        assert locally_optimal(segment.structure, states).all()
         # with as many rows as variables nothing is left free
         vertex = segment.structure.count == 3
         turned = replace(states, weights=-states.weights)
-        assert best_nearby(segment.structure, turned).tolist() == [vertex] * len(states)
+        assert locally_optimal(segment.structure, turned).tolist() == [vertex] * len(states)
 
 
 def test_without_laws_and_with_tight_bounds_each_is_solved_alone() -> None:

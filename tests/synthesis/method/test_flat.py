@@ -8,10 +8,10 @@ from optlaws import BoundaryConditions, Chebyshev, Problem, at_most, synthesize
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Points, Program
 from optlaws.synthesis.method import exchange
-from optlaws.synthesis.method.on_points.grids import first_points
-from optlaws.synthesis.method.on_points.ipopt import Answer
-from optlaws.synthesis.method.on_points.linear import sharpened, vertex_on_points
-from optlaws.synthesis.method.ways import identified
+from optlaws.synthesis.method.discretised.grids import first_points
+from optlaws.synthesis.method.discretised.ipopt import Answer
+from optlaws.synthesis.method.discretised.linear import sharpened, vertex_on_points
+from optlaws.synthesis.method.strategies import identified
 from optlaws.synthesis.program.writer import model_of
 from optlaws.verification.exact.bound import prove
 from tests.synthesis.judge import judge

@@ -42,8 +42,8 @@ from optlaws import (
 )
 from optlaws.synthesis import basis, search
 from optlaws.synthesis.families.family import Points, Program
-from optlaws.synthesis.method.on_points import ipopt
-from optlaws.synthesis.method.ways import interior_points, vertices
+from optlaws.synthesis.method.discretised import ipopt
+from optlaws.synthesis.method.strategies import interior_points, vertices
 from optlaws.synthesis.proof import make
 
 GOOD: dict[str, Any] = {"B": 1.859, "order": 4}

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from optlaws import Functional, InputError, Problem, synthesize
 from optlaws.laws import MotionLaw
 from optlaws.synthesis import PolynomialBasis
-from optlaws.synthesis.families.family import Family
+from optlaws.synthesis.families.family import ConstraintFamily
 from optlaws.synthesis.spaces.bases import Basis
 from optlaws.synthesis.spaces.space import LawSpace
 
@@ -26,7 +26,7 @@ class Leap(Functional):
     def value(self, law: MotionLaw) -> float:
         return self.factor * law.peak(4).value
 
-    def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
+    def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConstraintFamily, ...]:
         return (space.derivative(self.of_rows, self.name, slack, bound),)
 
     def curbs(self) -> tuple[tuple[int, float], ...]:

@@ -81,4 +81,4 @@ def _leaf(rows: PeakRows, part: _Part) -> tuple[Leaf, ActiveSet | None, float]:
     optimum = None if rows.excluded(part.places, Leaf()) else solve(model.program, part.warm).optimum
     if optimum is None:
         return Leaf(), None, base
-    return certificate(model, optimum, OBJECTIVE).leaf, optimum, base - model.program.worth(optimum.x)
+    return certificate(model, optimum, OBJECTIVE).leaf, optimum, base - model.program.objective_at(optimum.x)

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
-from optlaws.synthesis.families.family import Family
+from optlaws.synthesis.families.family import ConstraintFamily
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import model_of
 from optlaws.synthesis.proof.duality import row_of
@@ -102,7 +102,7 @@ class BoxRows(ABC):
         """Least and greatest velocity at the places k of all those laws."""
 
     @abstractmethod
-    def is_curved(self, family: Family) -> bool:
+    def is_curved(self, family: ConstraintFamily) -> bool:
         """Whether a family's rows depend on the box."""
 
     @abstractmethod

@@ -20,7 +20,7 @@ from optlaws.formulas.vocabulary import ORDERS
 from optlaws.kept import kept_property
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.curved import CurvedFamily, IntegralFamily
-from optlaws.synthesis.families.family import Family
+from optlaws.synthesis.families.family import ConstraintFamily
 from optlaws.synthesis.functionals.curved_rows import squared
 from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaRms
 from optlaws.synthesis.problem.constants import Functional
@@ -63,7 +63,7 @@ def applies(problem: Problem) -> bool:
     return all(low) and bool(np.isfinite(sides[:, 1]).all()) and "B" in _greatest(model, 1.0)
 
 
-def _summed(family: Family) -> bool:
+def _summed(family: ConstraintFamily) -> bool:
     return isinstance(family, IntegralFamily)
 
 
@@ -71,7 +71,7 @@ def _own_names(model: Model) -> list[str]:
     return sorted(model.places, key=model.places.__getitem__)
 
 
-def _bent(family: Family) -> bool:
+def _bent(family: ConstraintFamily) -> bool:
     """Whether some sign of a family's rows bounds no convex set."""
     return isinstance(family, CurvedFamily) and any(sign not in family.tangents for sign in family.signs)
 
@@ -248,7 +248,7 @@ class FormulaRows(BoxRows):
         beneath = self.integrals[contact.constraint]
         return beneath.row(box, np.array(contact.direction), self._limits, self._room(beneath.family))
 
-    def is_curved(self, family: Family) -> bool:
+    def is_curved(self, family: ConstraintFamily) -> bool:
         """Whether it is of a formula."""
         return isinstance(family, CurvedFamily)
 

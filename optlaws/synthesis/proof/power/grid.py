@@ -11,7 +11,7 @@ import numpy as np
 from numpy.polynomial.chebyshev import chebpts2
 from numpy.typing import NDArray
 
-from optlaws.synthesis.families.family import Family, LinearFamily, NormFamily
+from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily
 from optlaws.synthesis.proof.nodes import Contact, Leaf, Tightening
 from optlaws.synthesis.proof.power.box import Box, BoxRows, Places
 
@@ -85,13 +85,13 @@ class Grid:
             if isinstance(family, NormFamily) or family.domain[0] == family.domain[1]:
                 continue
             u, _, residual = family.extremes(x)
-            near = family.k(u[residual > -_NEAR * max(self.rows.units[family.name], abs(family.room(x)))])
+            near = family.k(u[residual > -_NEAR * max(self.rows.units[family.name], abs(family.right_side(x)))])
             seen = self._seen.setdefault(family.name, [])
             new = [k for k in near.tolist() if not seen or min(abs(k - place) for place in seen) > spacing]
             if new:
                 self._join(family, np.array(new))
 
-    def _join(self, family: Family, k: Array) -> None:
+    def _join(self, family: ConstraintFamily, k: Array) -> None:
         self._seen.setdefault(family.name, []).extend(k.tolist())
         if self.rows.is_curved(family):
             self._curve(k)

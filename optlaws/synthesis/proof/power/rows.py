@@ -13,7 +13,7 @@ from math import inf, isfinite, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.synthesis.families.family import Family, ProductFamily
+from optlaws.synthesis.families.family import ConstraintFamily, ProductFamily
 from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.problem.constants import D, Peak
 from optlaws.synthesis.problem.expression import leaves
@@ -70,7 +70,7 @@ class PowerRows(BoxRows):
         alone = [leaf for _, leaf in leaves(self.problem.objective)] == [D]
         return [] if self.place is None or alone else [self.place]
 
-    def is_curved(self, family: Family) -> bool:
+    def is_curved(self, family: ConstraintFamily) -> bool:
         """Whether it is the power."""
         return isinstance(family, ProductFamily)
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
 from optlaws.synthesis.families.energy import Energy, EnergyFamily
-from optlaws.synthesis.families.family import Family
+from optlaws.synthesis.families.family import ConstraintFamily
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.problem.problem import Problem
@@ -86,7 +86,7 @@ class EnergyRows(BoxRows):
     def _single(self) -> bool:
         return len(list(leaves(self.problem.objective))) == 1
 
-    def is_curved(self, family: Family) -> bool:
+    def is_curved(self, family: ConstraintFamily) -> bool:
         """Whether it is a peak of the body."""
         return isinstance(family, EnergyFamily) and family.name in self.peaks
 
@@ -251,7 +251,7 @@ class EnergyRows(BoxRows):
             row[-1] -= self._greatest(name)
         return row
 
-    def _columns(self, family: Family, k: Array) -> Array:
+    def _columns(self, family: ConstraintFamily, k: Array) -> Array:
         columns: Array = family.columns(2.0 * (1.0 - 2.0 * k) ** 2 - 1.0)[0]  # type: ignore[attr-defined]
         return columns
 

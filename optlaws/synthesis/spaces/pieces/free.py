@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
 from optlaws.numerics.chebyshev import from_values, nodes
-from optlaws.synthesis.families.family import Family
+from optlaws.synthesis.families.family import ConstraintFamily
 from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 from optlaws.synthesis.spaces.pieces.forward import above_rest
@@ -101,7 +101,7 @@ class PieceSpace(PiecewiseSpace):
             value = np.asarray(chebyshev.chebval(-1.0, whole))
         return PieceSeries(pieces.breaks, np.stack(integrals))
 
-    def forward(self, slack: Array) -> Family:
+    def forward(self, slack: Array) -> ConstraintFamily:
         """Rows b >= 0, from rest to rest divided by what they vanish like at the ends."""
         order = self.boundary.order
         whole = len(self.k) == 2 and not self.symmetric

@@ -9,7 +9,7 @@ from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
-from optlaws.synthesis.families.family import Family, NormFamily
+from optlaws.synthesis.families.family import ConstraintFamily, NormFamily
 from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.spaces.pieces.below_peak import below_peak
 from optlaws.synthesis.spaces.pieces.from_rest import PieceMirroredFamily, PieceRootFamily, mirrored
@@ -118,7 +118,7 @@ class PiecewiseSpace(LawSpace):
         """The derivative of order nu at k: free functions, then the base law."""
         return np.asarray(self.pieces(nu).values(np.array([1.0 - 2.0 * k]))[0])
 
-    def below(self, slack: Array, peak: float = 0.5) -> Family:
+    def below(self, slack: Array, peak: float = 0.5) -> ConstraintFamily:
         """Rows b <= b(peak), divided by what they vanish like there: undivided they would be ill posed."""
         series = below_peak(self.pieces(2), self.pieces(3), 1.0 - 2.0 * peak, smooth=self.continuity > 1)
         pieces = self._wide(series, len(slack))
@@ -126,13 +126,13 @@ class PiecewiseSpace(LawSpace):
             RowName.BELOW_PEAK, slack, domain=self.domain, series=np.zeros((1, 1)), pieces=pieces, jumps=True
         )
 
-    def forward(self, slack: Array) -> Family:
+    def forward(self, slack: Array) -> ConstraintFamily:
         """Rows b >= 0."""
         return self.derivative(1, RowName.FORWARD, slack, signs=(-1.0,))
 
     def from_rest(
         self, name: str, slack: Array, *, backward: bool = False, weights: tuple[float, ...] = (1.0,)
-    ) -> Family:
+    ) -> ConstraintFamily:
         """Rows |b| / sqrt(2k) <= slack . x for k up to 1/2; |b| / sqrt(2 - 2k) for the other half where `backward`."""
         pieces, signs, half = self._wide(self.combined(1, weights), len(slack)), (1.0, -1.0), (0.0, 1.0)
         if backward:

@@ -19,7 +19,7 @@ from optlaws.kept import kept_property
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
 from optlaws.numerics.chebyshev import from_values, nodes
-from optlaws.synthesis.families.family import Family
+from optlaws.synthesis.families.family import ConstraintFamily
 from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions, construct
 from optlaws.synthesis.spaces.pieces.rows import PieceFamily, PieceSeries
@@ -99,7 +99,7 @@ class SplineSpace(PiecewiseSpace):
         unit = (-4.0) ** (self.order - 1) * float(self.base.b(0.5))
         return np.column_stack([free / unit, np.ones(len(k))])
 
-    def forward(self, slack: Array) -> Family:
+    def forward(self, slack: Array) -> ConstraintFamily:
         """Rows b >= 0, from rest to rest as b / (k(1-k))^(l-1) >= 0 (in units of the base law's)."""
         if not self.at_rest:
             return super().forward(slack)

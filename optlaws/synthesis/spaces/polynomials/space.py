@@ -18,8 +18,8 @@ from optlaws.laws import PolynomialLaw
 from optlaws.numerics.chebyshev import from_values, nodes
 from optlaws.numerics.gegenbauer import gegenbauer
 from optlaws.synthesis.families.family import (
+    ConstraintFamily,
     EvenFamily,
-    Family,
     LinearFamily,
     MirroredFamily,
     NormFamily,
@@ -224,7 +224,7 @@ class PolynomialSpace(LawSpace):
         """b / (k(1-k))^(l-1) of the base law S_l."""
         return 4.0 ** (self.order - 1) * float(self.base.b(0.5))
 
-    def below(self, slack: Array, peak: float = 0.5) -> Family:
+    def below(self, slack: Array, peak: float = 0.5) -> ConstraintFamily:
         """Rows b <= b(peak) of laws with c(peak) = 0, divided by (2k - 2 peak)²: else they were ill posed."""
         if self.symmetric:
             return EvenFamily(RowName.BELOW_PEAK, slack, series=self.widened(-_chord(self.series(1)[::2]), len(slack)))
@@ -236,7 +236,7 @@ class PolynomialSpace(LawSpace):
         values = chord(lambda u: np.asarray(chebyshev.chebval(u, j).T), self._u, centre, len(self.series(1)) - 1)
         return from_values(values)[: max(len(self.series(1)) - 2, 1)]
 
-    def forward(self, slack: Array) -> Family:
+    def forward(self, slack: Array) -> ConstraintFamily:
         """Rows b >= 0, from rest to rest as b / (k(1-k))^(l-1) >= 0 (in units of the base law's)."""
         if not self.at_rest:
             return self.derivative(1, RowName.FORWARD, slack, signs=(-1.0,))
@@ -250,7 +250,7 @@ class PolynomialSpace(LawSpace):
 
     def from_rest(
         self, name: str, slack: Array, *, backward: bool = False, weights: tuple[float, ...] = (1.0,)
-    ) -> Family:
+    ) -> ConstraintFamily:
         """Rows |b| / sqrt(2k) <= slack . x for k up to 1/2; |b| / sqrt(2 - 2k) for the other half where `backward`."""
         series, signs, half = self.widened(self.combined(1, weights), len(slack)), (1.0, -1.0), (0.0, 1.0)
         if not backward:

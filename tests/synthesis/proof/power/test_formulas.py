@@ -76,7 +76,7 @@ def test_no_law_in_a_box_is_below_a_plane(problem: Problem) -> None:
             law = space.law(x[: space.terms])
             within = (np.abs(law.b(k)) <= rows.greatest["B"]) & (np.abs(law.c(k)) <= rows.greatest.get("C", np.inf))
             within &= planes.any(axis=1)
-            truth = sign * np.asarray(family.value(x, family.u(k))) - family.room(x)
+            truth = sign * np.asarray(family.value(x, family.u(k))) - family.right_side(x)
             assert ((planes @ np.append(values, 1.0))[within] <= truth[within] + 1e-9 * np.abs(truth).max()).all()
             compared += int(within.sum())
     assert compared > 100

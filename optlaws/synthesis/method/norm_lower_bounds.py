@@ -29,7 +29,9 @@ _SETTLED = 1e-10
 _FLAT = 1e-9
 
 
-def aligned(program: Program, family: NormFamily, plain: ActiveSet, low: float) -> list[tuple[Program, ActiveSet]]:
+def along_directions(
+    program: Program, family: NormFamily, plain: ActiveSet, low: float
+) -> list[tuple[Program, ActiveSet]]:
     """Optima with the norm at `low` or above along a direction, the best first, with the programs that ask it there.
 
     Parameters
@@ -43,9 +45,9 @@ def aligned(program: Program, family: NormFamily, plain: ActiveSet, low: float) 
     """
     tried = (_along(program, family, plain, direction, low) for direction in _directions(family, plain))
     begun = list(islice((way for way in tried if way is not None), _BEGUN))
-    begun.sort(key=lambda way: way[0].worth(way[1].x))
+    begun.sort(key=lambda way: way[0].objective_at(way[1].x))
     ways = [_turned(program, family, way, low) for way in begun[:_FOLLOWED]]
-    return sorted(ways, key=lambda way: way[0].worth(way[1].x))
+    return sorted(ways, key=lambda way: way[0].objective_at(way[1].x))
 
 
 def _directions(family: NormFamily, plain: ActiveSet) -> Iterator[Array]:
@@ -63,13 +65,13 @@ def _turned(
     program: Program, family: NormFamily, way: tuple[Program, ActiveSet], low: float
 ) -> tuple[Program, ActiveSet]:
     for _ in range(_TURNS):
-        before = way[0].worth(way[1].x)
+        before = way[0].objective_at(way[1].x)
         image = _image(family, way[1].x)
         better = _along(program, family, way[1], image / np.linalg.norm(image), low)
-        if better is None or better[0].worth(better[1].x) > before:
+        if better is None or better[0].objective_at(better[1].x) > before:
             break
         way = better
-        if before - way[0].worth(way[1].x) < _SETTLED * abs(before):
+        if before - way[0].objective_at(way[1].x) < _SETTLED * abs(before):
             break
     return way
 

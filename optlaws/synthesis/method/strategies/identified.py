@@ -8,12 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.synthesis.families.active_set import ActiveSet
-from optlaws.synthesis.families.family import Family, Points, ProductFamily, Program
+from optlaws.synthesis.families.family import ConstraintFamily, Points, ProductFamily, Program
+from optlaws.synthesis.method.discretised.ipopt import Answer
+from optlaws.synthesis.method.discretised.linear import sharpened
 from optlaws.synthesis.method.newton import newton
-from optlaws.synthesis.method.on_points.ipopt import Answer
-from optlaws.synthesis.method.on_points.linear import sharpened
+from optlaws.synthesis.method.strategies.contacts import completed, polished
 from optlaws.synthesis.method.tolerances import SAME_HEIGHT, SAME_PLACE, WEIGHTLESS, WEIGHTLESS_AT_VERTEX
-from optlaws.synthesis.method.ways.contacts import completed, polished
 
 Array = NDArray[np.float64]
 
@@ -88,7 +88,7 @@ def _identified(program: Program, points: list[Points], answer: Answer) -> Activ
     )
 
 
-def _merge(family: Family, u: Array, s: Array, gathered: Array) -> None:
+def _merge(family: ConstraintFamily, u: Array, s: Array, gathered: Array) -> None:
     """Give an end what belongs to an extremum that IPOPT's tolerance alone sets apart from it."""
     for end in np.flatnonzero(np.isin(u, family.domain)):
         same = (s == s[end]) & (np.abs(u - u[end]) < SAME_PLACE)

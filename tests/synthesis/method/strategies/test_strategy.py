@@ -4,11 +4,11 @@ from dataclasses import dataclass, field
 
 import pytest
 
-from optlaws.synthesis.method.ways.way import Way, in_rounds
+from optlaws.synthesis.method.strategies.strategy import Strategy, cutting_plane_loop
 
 
 @dataclass
-class Counting(Way[int, str]):
+class Counting(Strategy[int, str]):
     """Counts upward until it has a result or gives up."""
 
     rounds: int
@@ -34,5 +34,5 @@ class Counting(Way[int, str]):
     ],
 )
 def test_each_round_holds_what_the_last_one_led_to(way: Counting, result: str | None, count: int) -> None:
-    assert in_rounds(way, 0) == (result, count)
+    assert cutting_plane_loop(way, 0) == (result, count)
     assert way.seen == list(range(count))

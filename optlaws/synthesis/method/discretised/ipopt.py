@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from optlaws.locks import casadi_lock
 from optlaws.synthesis.families.family import LinearFamily, Points, Program
-from optlaws.synthesis.method.on_points.expressions import CONES, Shape, order_of, shape_and_numbers
+from optlaws.synthesis.method.discretised.expressions import CONES, RowShape, order_of, shape_and_numbers
 from optlaws.synthesis.method.tolerances import EMPTY_ROW
 
 Array = NDArray[np.float64]
@@ -47,7 +47,7 @@ class _Shapes:
 
     size: int
     linear: int
-    curved: tuple[Shape, ...] = ()
+    curved: tuple[RowShape, ...] = ()
 
     @property
     def rows(self) -> int:
@@ -55,8 +55,8 @@ class _Shapes:
         return self.linear + sum(shape.count for shape in self.curved)
 
 
-_Shape = tuple[_Shapes, bool, bool]
-_solvers: dict[_Shape, Any] = {}
+_SolverKey = tuple[_Shapes, bool, bool]
+_solvers: dict[_SolverKey, Any] = {}
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,7 +129,7 @@ def solve_on_points(
     )
 
 
-def _split(weights: Array, points: list[Points], order: list[int], shapes: list[Shape]) -> list[Array]:
+def _split(weights: Array, points: list[Points], order: list[int], shapes: list[RowShape]) -> list[Array]:
     """The multipliers of each family, which stand in an order."""
     parts = np.split(weights, np.cumsum([len(points[i].u) for i in order])[:-1])
     shares = [1.0] * (len(order) - len(shapes)) + [shape.kind.share for shape in shapes]
@@ -147,7 +147,7 @@ class _Result:
     iterations: int
 
 
-def _solved(shape: _Shape, **numbers: Array) -> _Result:
+def _solved(shape: _SolverKey, **numbers: Array) -> _Result:
     with casadi_lock:
         solver = _solver(shape)
         result = solver(**numbers)
@@ -166,7 +166,7 @@ def _solved(shape: _Shape, **numbers: Array) -> _Result:
     return answer
 
 
-def _solver(shape: _Shape) -> Any:  # noqa: ANN401 - a casadi Function, imported late
+def _solver(shape: _SolverKey) -> Any:  # noqa: ANN401 - a casadi Function, imported late
     """The solver of a shape; those used last are kept, as many as their rows allow. The lock must be held."""
     shapes, careful, fine = shape
     solver = _solvers.pop(shape, None)

@@ -33,7 +33,7 @@ _ROOM = 1e-11
 _NO_EQUATIONS = 1e-12
 
 
-def narrowed(model: Model) -> Iterator[tuple[ActiveSet, Array]]:
+def fallbacks_without_interior(model: Model) -> Iterator[tuple[ActiveSet, Array]]:
     """Optima with the bounds loosened less and less, whose contacts prove, each with a law that keeps the bounds.
 
     None where the constraints contradict each other, or where they are not convex.

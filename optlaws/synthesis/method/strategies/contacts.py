@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Program
 from optlaws.synthesis.method.newton import newton
+from optlaws.synthesis.method.strategies.strategy import Strategy, cutting_plane_loop
 from optlaws.synthesis.method.tolerances import EXCESS, PULLING, SAME_PLACE
-from optlaws.synthesis.method.ways.way import Way, in_rounds
 
 Array = NDArray[np.float64]
 
@@ -20,7 +20,7 @@ _CORRECTIONS = 8
 
 
 @dataclass(frozen=True, eq=False)
-class ByContacts(Way[ActiveSet, ActiveSet]):
+class ByContacts(Strategy[ActiveSet, ActiveSet]):
     """Newton's method on a guess of the contacts.
 
     Attributes
@@ -50,7 +50,7 @@ class ByContacts(Way[ActiveSet, ActiveSet]):
 
 def polished(program: Program, guess: ActiveSet, holds: Callable[[Array], bool] | None) -> ActiveSet | None:
     """The optimum that a guess of its contacts leads to; None where Newton's method does not find it."""
-    return in_rounds(ByContacts(program, holds), guess)[0]
+    return cutting_plane_loop(ByContacts(program, holds), guess)[0]
 
 
 def settled(program: Program, state: ActiveSet) -> ActiveSet:
@@ -88,7 +88,7 @@ def completed(program: Program, state: ActiveSet) -> ActiveSet:
         if family.held:
             continue
         u, s, residual = family.extremes(state.x)
-        for j in np.flatnonzero(residual > EXCESS * max(1.0, abs(family.room(state.x)))):
+        for j in np.flatnonzero(residual > EXCESS * max(1.0, abs(family.right_side(state.x)))):
             alike = (better.family == i) & (better.s == s[j])
             if np.any(alike & (np.abs(better.u - u[j]) < SAME_PLACE)):
                 continue

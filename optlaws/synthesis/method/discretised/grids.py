@@ -7,7 +7,7 @@ from numpy.polynomial.chebyshev import chebpts2
 from numpy.typing import NDArray
 
 from optlaws.numerics.chebyshev import nodes
-from optlaws.synthesis.families.family import EvenFamily, Family, Points, Program
+from optlaws.synthesis.families.family import ConstraintFamily, EvenFamily, Points, Program
 from optlaws.synthesis.method.tolerances import NEARLY_BINDING
 
 Array = NDArray[np.float64]
@@ -20,7 +20,7 @@ def first_points(program: Program) -> list[Points]:
     return [_points(family, program.size, share) for family in program.families]
 
 
-def _points(family: Family, size: int, even_share: float) -> Points:
+def _points(family: ConstraintFamily, size: int, even_share: float) -> Points:
     """As many points as make IPOPT quick and the contacts plain; the rarer sign of a magnitude gets half as many."""
     low, high = family.domain
     if low == high:
@@ -51,11 +51,11 @@ def with_extrema(program: Program, points: list[Points], x: Array) -> list[Point
     return [_joined(family, held, x) for family, held in zip(program.families, points, strict=True)]
 
 
-def _joined(family: Family, points: Points, x: Array) -> Points:
+def _joined(family: ConstraintFamily, points: Points, x: Array) -> Points:
     if family.domain[0] == family.domain[1]:
         return points
     u, s, residual = family.extremes(x)
-    near = residual > -NEARLY_BINDING * max(1.0, abs(family.room(x)))
+    near = residual > -NEARLY_BINDING * max(1.0, abs(family.right_side(x)))
     for sign in family.signs:
         near &= (s != sign) | ~np.isin(u, points.u[points.s == sign])
     return points.joined(Points(u[near], s[near]))

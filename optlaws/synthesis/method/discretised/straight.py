@@ -187,7 +187,7 @@ class _Blocks:
         total = family.split(x).total
         value, share = family.outer(np.array(total))
         row = share * (weights @ whole.slope) - family.slack
-        right = family.room(x) - float(value) + float(share) * (total - float(weights @ whole.value))
+        right = family.right_side(x) - float(value) + float(share) * (total - float(weights @ whole.value))
         self._sums.append((row, {begins[i]: share * weights * own for i, own in whole.own.items()}, right))
 
     def joined(self) -> tuple[Any, Array]:

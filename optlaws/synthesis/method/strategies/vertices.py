@@ -15,13 +15,13 @@ from numpy.typing import NDArray
 
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Points, Program
-from optlaws.synthesis.method.on_points.conic import conic, optimum_on_points
-from optlaws.synthesis.method.on_points.grids import with_extrema
-from optlaws.synthesis.method.on_points.ipopt import Answer
-from optlaws.synthesis.method.on_points.linear import Table, by_family, vertex_on_points
+from optlaws.synthesis.method.discretised.conic import conic, optimum_on_points
+from optlaws.synthesis.method.discretised.grids import with_extrema
+from optlaws.synthesis.method.discretised.ipopt import Answer
+from optlaws.synthesis.method.discretised.linear import LinearTable, by_family, vertex_on_points
+from optlaws.synthesis.method.strategies.identified import of_vertex, optimum_near
+from optlaws.synthesis.method.strategies.strategy import Strategy
 from optlaws.synthesis.method.tolerances import EXCESS
-from optlaws.synthesis.method.ways.identified import of_vertex, optimum_near
-from optlaws.synthesis.method.ways.way import Way
 from optlaws.synthesis.spaces.pieces.rows import PieceFamily
 
 Array = NDArray[np.float64]
@@ -45,7 +45,7 @@ def many_pieces(program: Program) -> bool:
 
 
 @dataclass(eq=False)
-class ByVertices(Way[list[Points], ActiveSet]):
+class ByVertices(Strategy[list[Points], ActiveSet]):
     """The optimum on the points, exact, round by round.
 
     Attributes
@@ -115,7 +115,7 @@ class ByVertices(Way[list[Points], ActiveSet]):
 def _excess(program: Program, x: Array) -> float:
     """The greatest residual over all places, in the units of each family's right side."""
     sizes = (
-        float(family.extremes(x)[2].max()) / max(1.0, abs(family.room(x)))
+        float(family.extremes(x)[2].max()) / max(1.0, abs(family.right_side(x)))
         for family in program.families
         if not family.held
     )
@@ -127,7 +127,7 @@ def _exact(program: Program, points: list[Points], vertex: Answer, excess: float
 
     The solver's tolerance is one of rows of length 1: in a jounce it is far from what the law needs.
     """
-    table = Table(program, points)
+    table = LinearTable(program, points)
     weights = np.concatenate(vertex.multipliers[:-1]) * table.length
     binding = weights > 0.0
     x = table.held(binding, vertex.x)

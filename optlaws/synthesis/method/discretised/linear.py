@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import LinearFamily, Points, Program
-from optlaws.synthesis.method.on_points.ipopt import Answer
+from optlaws.synthesis.method.discretised.ipopt import Answer
 
 Array = NDArray[np.float64]
 
@@ -45,7 +45,7 @@ def sharpened(program: Program, points: list[Points], answer: Answer) -> ActiveS
     points, answer
         Where its families were held, and IPOPT's answer to that.
     """
-    table = Table(program, points)
+    table = LinearTable(program, points)
     weights = np.concatenate(answer.multipliers[:-1]) * table.length
     ease = weights / max(1.0, float(weights.max(initial=0.0)))
     room = -table.residuals(answer.x)
@@ -61,7 +61,7 @@ def sharpened(program: Program, points: list[Points], answer: Answer) -> ActiveS
             multipliers, equations = balance
             kept = np.flatnonzero(binding)
             gap = float(np.abs(multipliers * table.residuals(x)[kept]).sum())
-            if gap > _GAP * max(1.0, abs(program.worth(x))):
+            if gap > _GAP * max(1.0, abs(program.objective_at(x))):
                 return None
             return ActiveSet(
                 x=x,
@@ -75,7 +75,7 @@ def sharpened(program: Program, points: list[Points], answer: Answer) -> ActiveS
     return None
 
 
-class Table:
+class LinearTable:
     """All rows of a linear program on points, and its equations, scaled to length 1.
 
     Attributes
@@ -155,7 +155,7 @@ def vertex_on_points(program: Program, points: list[Points], near: Array | None 
     from scipy.optimize import linprog
 
     solve: Any = linprog
-    table = Table(program, points)
+    table = LinearTable(program, points)
     right, equation_right = table.right, table.equation_right
     if near is not None:
         right = _MAGNIFIED * -table.residuals(near)
@@ -188,7 +188,7 @@ def by_family(values: Array, points: list[Points]) -> list[Array]:
     return np.split(values, np.cumsum([len(held.u) for held in points])[:-1])
 
 
-def _answer(table: Table, points: list[Points], x: Array, optimum: Any) -> Answer:  # noqa: ANN401 - scipy's OptimizeResult
+def _answer(table: LinearTable, points: list[Points], x: Array, optimum: Any) -> Answer:  # noqa: ANN401 - scipy's OptimizeResult
     weights = np.maximum(-optimum.ineqlin.marginals, 0.0) / table.length
     equations = -np.asarray(optimum.eqlin.marginals, dtype=np.float64) / table.equation_length
     status = str(optimum.message)

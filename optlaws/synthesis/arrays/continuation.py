@@ -13,12 +13,12 @@ from math import isnan, prod
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.synthesis.arrays.certification import judged
+from optlaws.synthesis.arrays.certification import certification_of
 from optlaws.synthesis.arrays.newton_steps import States, Structure, clipped, converged, structure_of
 from optlaws.synthesis.arrays.programs import Path
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.method.exchange import solve
-from optlaws.synthesis.method.ways.contacts import polished
+from optlaws.synthesis.method.strategies.contacts import polished
 
 Array = NDArray[np.float64]
 
@@ -50,7 +50,7 @@ _BEYOND = (4e-8, 1e-6, 1e-4, 1e-3)
 
 
 @dataclass(eq=False)
-class Segment:
+class StructureSegment:
     """A stretch of the path on which the laws have one structure, with states of some of them by ascending t.
 
     `pieces` are stretches of it, by their ends: t and states of nodes, where the polynomial through these is near to
@@ -119,7 +119,7 @@ class Segment:
 
 
 @dataclass(eq=False)
-class Walk:
+class ParametricContinuation:
     """Where a path was walked so far.
 
     Attributes
@@ -133,14 +133,14 @@ class Walk:
     path: Path
     least: float
     greatest: float
-    segments: list[Segment] = field(default_factory=list)
+    segments: list[StructureSegment] = field(default_factory=list)
 
     @property
     def reach(self) -> float:
         """How far it is from end to end."""
         return self.greatest - self.least
 
-    def whole(self, starts: Array) -> list[Segment]:
+    def whole(self, starts: Array) -> list[StructureSegment]:
         """All segments from one end to the other, by ascending t, as far as they were found."""
         for t in starts.tolist():
             optimum = solve(self.path.program(t)).optimum
@@ -152,7 +152,7 @@ class Walk:
         self.segments.sort(key=lambda segment: segment.begin)
         return self.segments
 
-    def _begun(self, t: float, optimum: ActiveSet) -> Segment | None:
+    def _begun(self, t: float, optimum: ActiveSet) -> StructureSegment | None:
         """A segment that begins with one law; None where that is not proven optimal."""
         merged = optimum.merged(_SAME)
         for candidate in (optimum,) if merged is optimum else (optimum, merged):
@@ -165,10 +165,10 @@ class Walk:
             )
             rows, sound, _ = self._solved(structure, np.array([t]), States(*(part[None] for part in own)))
             if sound[0]:
-                return Segment(structure, np.array([t]), rows)
+                return StructureSegment(structure, np.array([t]), rows)
         return None
 
-    def _onward(self, first: Segment, goal: float) -> None:
+    def _onward(self, first: StructureSegment, goal: float) -> None:
         """Walk from a segment to one end of the path."""
         segment, way = first, np.sign(goal - first.begin)
         if first not in self.segments:
@@ -186,7 +186,7 @@ class Walk:
             segment = following
             self.segments.append(segment)
 
-    def _after(self, segment: Segment, beyond: float, goal: float) -> Segment | None:
+    def _after(self, segment: StructureSegment, beyond: float, goal: float) -> StructureSegment | None:
         """The segment on the other side of an event; None where no law is found there."""
         way = np.sign(goal - beyond) or 1.0
         edge = segment.end if way > 0.0 else segment.begin
@@ -203,14 +203,14 @@ class Walk:
         return None if optimum is None else self._begun(t, optimum)
 
     @staticmethod
-    def _active_set(segment: Segment, t: float) -> ActiveSet:
+    def _active_set(segment: StructureSegment, t: float) -> ActiveSet:
         structure = segment.structure
         own = States.unpacked(segment.rows[segment.t == t], structure)
         return ActiveSet(
             own.x[0], structure.family, own.u[0], structure.sign, structure.free, own.weights[0], own.equations[0]
         )
 
-    def _stretched(self, segment: Segment, goal: float) -> float | None:
+    def _stretched(self, segment: StructureSegment, goal: float) -> float | None:
         """Walk a segment toward an end of the path as far as it holds; a t just beyond, or None."""
         good, way = (segment.end, 1.0) if goal >= segment.end else (segment.begin, -1.0)
         # laws of an affine structure are known at any distance
@@ -245,7 +245,7 @@ class Walk:
                     return None
         return bad if abs(bad - good) <= near else good + way * near
 
-    def _met(self, segment: Segment, t: float) -> bool:
+    def _met(self, segment: StructureSegment, t: float) -> bool:
         """Whether a law of the segment is found at a t to which it has come near; it is then known."""
         rows, sound, _ = self._solved(segment.structure, np.array([t]), segment.guessed(np.array([t])))
         if sound[0]:
@@ -260,7 +260,7 @@ class Walk:
         sound, worst = np.zeros(len(t), dtype=np.bool_), np.full(len(t), np.nan)
         if done.any():
             own = clipped(structure, states.taken(done))
-            verdicts = judged(self.path, structure, numbers.taken(done), own)
+            verdicts = certification_of(self.path, structure, numbers.taken(done), own)
             inside = np.abs(own.u - states.u[done]).max(axis=1, initial=0.0)
             sound[done] = verdicts.sound & (inside <= _OUTSIDE)
             worst[done] = np.maximum(verdicts.broken, inside)
@@ -309,6 +309,6 @@ def _event(broken: list[tuple[float, float]]) -> float | None:
     return float(np.dot(t[:count], shares))
 
 
-def gaps(segments: list[Segment]) -> list[tuple[float, float]]:
+def gaps(segments: list[StructureSegment]) -> list[tuple[float, float]]:
     """Stretches between segments in which no law is known."""
     return [(segment.end, other.begin) for segment, other in pairwise(segments) if other.begin > segment.end]

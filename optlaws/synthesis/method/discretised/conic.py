@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.synthesis.families.cone import ConeFamily
-from optlaws.synthesis.families.family import Family, LinearFamily, NormFamily, Points, Program
-from optlaws.synthesis.method.on_points.ipopt import Answer
+from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily, Points, Program
+from optlaws.synthesis.method.discretised.ipopt import Answer
 from optlaws.synthesis.method.tolerances import EMPTY_ROW
 
 Array = NDArray[np.float64]
@@ -96,7 +96,7 @@ def conic_optimum(
     return optimum if str(optimum.status) in _USABLE else None
 
 
-def _block(family: Family, points: Points) -> _Block:
+def _block(family: ConstraintFamily, points: Points) -> _Block:
     if isinstance(family, LinearFamily):
         rows, right = family.rows(points.u, points.s)
         scale = 1.0 / _length(rows)

@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from optlaws.synthesis.families.curved import IntegralFamily
 from optlaws.synthesis.families.family import LinearFamily, Points, Program
-from optlaws.synthesis.method.on_points.conic import conic_optimum
-from optlaws.synthesis.method.on_points.ipopt import Answer
+from optlaws.synthesis.method.discretised.conic import conic_optimum
+from optlaws.synthesis.method.discretised.ipopt import Answer
 
 Array = NDArray[np.float64]
 
@@ -150,7 +150,7 @@ class _Descent:
         None where it promises nothing.
         """
         before = self._merit(x, rows)
-        promised = before - self.program.worth(x + step.x) - self.price * step.left
+        promised = before - self.program.objective_at(x + step.x) - self.price * step.left
         there, onward = self._rows(x + step.x)
         best, gained = (there, onward), before - self._merit(there, onward)
         if gained < _SHORT_OF * promised:
@@ -166,7 +166,7 @@ class _Descent:
         return best, gained / promised
 
     def _merit(self, x: Array, rows: _Rows) -> float:
-        return self.program.worth(x) + self.price * max(float(rows.residual.max(initial=0.0)), 0.0)
+        return self.program.objective_at(x) + self.price * max(float(rows.residual.max(initial=0.0)), 0.0)
 
     def _rows(self, x: Array) -> tuple[Array, _Rows]:
         """The rows, and the variables with those that are only raised as small as the rows let them be."""

@@ -37,7 +37,7 @@ WEIGHT = "weight of "
 
 
 @dataclass(frozen=True)
-class RunningNumber:
+class SweptParameter:
     """A peak velocity, an upper bound of a constant or a weight of the objective, in a problem that is convex in it.
 
     B and bounds stand on the right side of rows, so that the least objective is convex in them: laws between two laws
@@ -59,7 +59,7 @@ class RunningNumber:
 
     Examples
     --------
-    >>> number = RunningNumber(Problem(order=4), "rms_c")
+    >>> number = SweptParameter(Problem(order=4), "rms_c")
     >>> number.at(3.7)
     Problem(B=None, order=4, basis=Chebyshev(degree=9), minimise='C', bounds={'rms_c': at_most(3.7)})
     """
@@ -156,14 +156,16 @@ def _check_convex(problem: Problem) -> None:
         )
 
 
-class Line(NamedTuple):
+class LowerLine(NamedTuple):
     """An affine function of the running number: its value where the certificate was made, and its slope."""
 
     value: float
     slope: float
 
 
-def lower_line(certificate: Certificate, at: float, number: RunningNumber, ends: Ends, claim: float = -inf) -> Line:
+def lower_line(
+    certificate: Certificate, at: float, number: SweptParameter, ends: Ends, claim: float = -inf
+) -> LowerLine:
     """An affine function that is nowhere above the least objective between two ends of the running number.
 
     Of a weight it is a bound at the certificate's own problem, with slope 0. What rounding hides is charged as much as
@@ -187,10 +189,10 @@ def lower_line(certificate: Certificate, at: float, number: RunningNumber, ends:
     most = max(claim, *(value + slope * (end - at) for end in ends))
     hidden = max(rounding_error_bound(moved, total, most) for moved, _ in there)
     lost = model.unit * (hidden + float(np.abs(weights) @ rounding))
-    return Line(value - lost if isfinite(lost) else -inf, slope)
+    return LowerLine(value - lost if isfinite(lost) else -inf, slope)
 
 
-def _rates(number: RunningNumber, ends: Ends, *rows: list[tuple[float, Array, float]]) -> tuple[Array, Array]:
+def _rates(number: SweptParameter, ends: Ends, *rows: list[tuple[float, Array, float]]) -> tuple[Array, Array]:
     """How fast each row's right side runs, and what rounding does to it between the ends."""
     first, last = rows
     if number.concave:

@@ -14,15 +14,15 @@ from numpy.typing import NDArray
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.energy import EnergyFamily
-from optlaws.synthesis.families.family import Family, LinearFamily, NormFamily, Points, Program
+from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily, Points, Program
 from optlaws.synthesis.families.kinked import KinkedIntegralFamily
-from optlaws.synthesis.method.on_points.conic import conic, optimum_on_points
-from optlaws.synthesis.method.on_points.grids import with_extrema
-from optlaws.synthesis.method.on_points.ipopt import Answer, solve_on_points
+from optlaws.synthesis.method.discretised.conic import conic, optimum_on_points
+from optlaws.synthesis.method.discretised.grids import with_extrema
+from optlaws.synthesis.method.discretised.ipopt import Answer, solve_on_points
+from optlaws.synthesis.method.strategies.identified import as_answered, optimum_near
+from optlaws.synthesis.method.strategies.strategy import Strategy, cutting_plane_loop
+from optlaws.synthesis.method.strategies.vertices import ByVertices
 from optlaws.synthesis.method.tolerances import EXCESS, LOST
-from optlaws.synthesis.method.ways.identified import as_answered, optimum_near
-from optlaws.synthesis.method.ways.vertices import ByVertices
-from optlaws.synthesis.method.ways.way import Way, in_rounds
 
 Array = NDArray[np.float64]
 
@@ -33,7 +33,7 @@ _LARGE = 24
 
 
 @dataclass(eq=False)
-class ByInteriorPoints(Way[list[Points], ActiveSet]):
+class ByInteriorPoints(Strategy[list[Points], ActiveSet]):
     """IPOPT's optimum on the points, round by round.
 
     Attributes
@@ -117,14 +117,14 @@ class ByInteriorPoints(Way[list[Points], ActiveSet]):
         return (not self.program.curved or conic(self.program)) and (large or lost or self.count == self.rounds)
 
     def _by_vertices(self, points: list[Points]) -> ActiveSet | None:
-        optimum, count = in_rounds(ByVertices(self.program, self.holds), points)
+        optimum, count = cutting_plane_loop(ByVertices(self.program, self.holds), points)
         if optimum is not None:
             self.count += count
             self.status = "vertices"
         return optimum
 
 
-def _only(program: Program, *kinds: type[Family]) -> bool:
+def _only(program: Program, *kinds: type[ConstraintFamily]) -> bool:
     """Whether every family is one of these kinds."""
     return all(isinstance(family, kinds) for family in program.families)
 

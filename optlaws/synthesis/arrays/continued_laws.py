@@ -13,12 +13,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.synthesis.arrays.certification import Judgement, judged
+from optlaws.synthesis.arrays.certification import Certification, certification_of
+from optlaws.synthesis.arrays.continuation import ParametricContinuation, StructureSegment
 from optlaws.synthesis.arrays.dual_bounds import lower_bounds
-from optlaws.synthesis.arrays.found import Found
 from optlaws.synthesis.arrays.newton_steps import States, Structure, clipped, converged, step
 from optlaws.synthesis.arrays.programs import Numbers, Path
-from optlaws.synthesis.arrays.walk import Segment, Walk
+from optlaws.synthesis.arrays.solved_batch import SolvedBatch
 
 Array = NDArray[np.float64]
 
@@ -41,7 +41,7 @@ _ROUGH = 1e-7
 _BESIDE = 2e-3
 
 
-def laws_along(path: Path, t: Array) -> Found:
+def laws_along(path: Path, t: Array) -> SolvedBatch:
     """The optima at ascending t, as far as they are proven here.
 
     Examples
@@ -55,16 +55,16 @@ def laws_along(path: Path, t: Array) -> Found:
     return laws_on(path, segments_of(path, float(t[0]), float(t[-1])), t)
 
 
-def segments_of(path: Path, least: float, greatest: float) -> list[Segment]:
+def segments_of(path: Path, least: float, greatest: float) -> list[StructureSegment]:
     """The structures between two t, by ascending t, as far as they were found."""
-    return Walk(path, least, greatest).whole(least + _STARTS * (greatest - least))
+    return ParametricContinuation(path, least, greatest).whole(least + _STARTS * (greatest - least))
 
 
-def laws_on(path: Path, segments: list[Segment], t: Array) -> Found:
+def laws_on(path: Path, segments: list[StructureSegment], t: Array) -> SolvedBatch:
     """The optima at ascending t on segments that are known."""
     most = max((segment.structure.count for segment in segments), default=0)
     program = path.model.program
-    laws = Found.none(len(t), program.size, most, len(program.right))
+    laws = SolvedBatch.none(len(t), program.size, most, len(program.right))
     for segment in segments:
         places = np.flatnonzero((t >= segment.begin) & (t <= segment.end))
         if len(places):
@@ -82,7 +82,7 @@ def laws_on(path: Path, segments: list[Segment], t: Array) -> Found:
     return laws
 
 
-def _fill(laws: Found, path: Path, segment: Segment, places: NDArray[np.intp], t: Array) -> None:
+def _fill(laws: SolvedBatch, path: Path, segment: StructureSegment, places: NDArray[np.intp], t: Array) -> None:
     if segment.structure.affine and path.one_cost and segment.begin < segment.end:
         _affine(laws, path, segment, places, t)
         return
@@ -90,12 +90,14 @@ def _fill(laws: Found, path: Path, segment: Segment, places: NDArray[np.intp], t
         _enter(laws, path, segment, places[own], (t[own], guess))
 
 
-def _enter(target: Found, path: Path, segment: Segment, places: NDArray[np.intp], near: tuple[Array, States]) -> None:
+def _enter(
+    target: SolvedBatch, path: Path, segment: StructureSegment, places: NDArray[np.intp], near: tuple[Array, States]
+) -> None:
     """Enter laws at some t, with states near to theirs, as far as they are proven."""
     (t, guess), size = near, _chunk(segment.structure)
     for i in range(0, len(t), size):
         own = slice(i, i + size)
-        laws = _Laws(target, path, segment.structure, places[own], path.numbers(t[own]))
+        laws = _LawsOfStructure(target, path, segment.structure, places[own], path.numbers(t[own]))
         laws.solve(guess.taken(own))
 
 
@@ -107,10 +109,10 @@ def _chunk(structure: Structure) -> int:
 
 
 @dataclass(frozen=True, eq=False)
-class _Laws:
+class _LawsOfStructure:
     """Laws of one structure: where they are entered, and the numbers of their programs."""
 
-    found: Found
+    found: SolvedBatch
     path: Path
     structure: Structure
     places: NDArray[np.intp]
@@ -125,29 +127,29 @@ class _Laws:
             rows = states.packed
             rows[rough] = better.packed
             states = States.unpacked(rows, self.structure)
-        left = self.entered(states, np.flatnonzero(np.isfinite(sizes)), lambda judgement: judgement.sharp)
+        left = self.entered(states, np.flatnonzero(np.isfinite(sizes)), lambda certification: certification.sharp)
         if len(left):
             rest = replace(self, places=self.places[left], numbers=self.numbers.taken(left))
             states, done = converged(self.structure, rest.numbers, guess.taken(left))
-            rest.entered(states, np.flatnonzero(done), lambda judgement: judgement.sound)
+            rest.entered(states, np.flatnonzero(done), lambda certification: certification.sound)
 
     def entered(
-        self, states: States, known: NDArray[np.intp], proven: Callable[[Judgement], NDArray[np.bool_]]
+        self, states: States, known: NDArray[np.intp], proven: Callable[[Certification], NDArray[np.bool_]]
     ) -> NDArray[np.intp]:
         """Enter those of the known states that are proven optimal; which are left."""
         left = np.ones(len(states), dtype=np.bool_)
         if len(known):
             own = clipped(self.structure, states.taken(known))
-            judgement = judged(self.path, self.structure, self.numbers.taken(known), own)
-            sound = proven(judgement)
-            values = (judgement.objective[sound], judgement.bound[sound], judgement.excess[sound])
+            certification = certification_of(self.path, self.structure, self.numbers.taken(known), own)
+            sound = proven(certification)
+            values = (certification.objective[sound], certification.bound[sound], certification.excess[sound])
             _put(self.found, self.structure, self.places[known[sound]], own.taken(sound), values)
             left[known[sound]] = False
         return np.flatnonzero(left)
 
 
 def _guesses(
-    path: Path, segment: Segment, t: Array, ends: tuple[float, float], depth: int = 0
+    path: Path, segment: StructureSegment, t: Array, ends: tuple[float, float], depth: int = 0
 ) -> Iterator[tuple[NDArray[np.intp], States]]:
     """Which of some t, with states near to theirs: interpolated on pieces of a segment as short as they need to be."""
     begin, end = ends
@@ -169,7 +171,7 @@ def _guesses(
     yield from _guesses(path, segment, t, (middle, end), depth + 1)
 
 
-def _piece(path: Path, segment: Segment, ends: tuple[float, float]) -> tuple[Array, Array] | None:
+def _piece(path: Path, segment: StructureSegment, ends: tuple[float, float]) -> tuple[Array, Array] | None:
     """Nodes and their states, if the polynomial through these is near to all states between; else they are joined."""
     middle, half = sum(ends) / 2.0, (ends[1] - ends[0]) / 2.0
     nodes = middle + half * np.cos(np.arange(_NODES) * np.pi / (_NODES - 1))[::-1]
@@ -191,12 +193,12 @@ def _settled(rows: Array) -> bool:
     return bool((np.abs(highest) <= _TAIL * np.maximum(1.0, np.abs(rows).max(axis=0))).all())
 
 
-def _affine(laws: Found, path: Path, segment: Segment, places: NDArray[np.intp], t: Array) -> None:
+def _affine(laws: SolvedBatch, path: Path, segment: StructureSegment, places: NDArray[np.intp], t: Array) -> None:
     """Enter laws between the ends of a segment along which they are affine."""
     structure = segment.structure
     ends = States.unpacked(segment.rows[[0, -1]], structure)
     numbers = path.numbers(np.array([segment.begin, segment.end]))
-    excess = float(judged(path, structure, numbers, ends).excess.max())
+    excess = float(certification_of(path, structure, numbers, ends).excess.max())
     share = ((t - segment.begin) / (segment.end - segment.begin))[:, None]
     first = ends.taken(slice(0, 1))
     x = ends.x[0] + share * (ends.x[1] - ends.x[0])
@@ -212,7 +214,11 @@ def _affine(laws: Found, path: Path, segment: Segment, places: NDArray[np.intp],
 
 
 def _put(
-    laws: Found, structure: Structure, places: NDArray[np.intp], states: States, proven: tuple[Array, Array, Array]
+    laws: SolvedBatch,
+    structure: Structure,
+    places: NDArray[np.intp],
+    states: States,
+    proven: tuple[Array, Array, Array],
 ) -> None:
     count = structure.count
     laws.x[places] = states.x

@@ -12,12 +12,12 @@ from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.curved import IntegralFamily
 from optlaws.synthesis.families.family import Points, Program
 from optlaws.synthesis.families.kinked import KinkedIntegralFamily
-from optlaws.synthesis.method.on_points.grids import with_extrema
-from optlaws.synthesis.method.on_points.quadratic_steps import stepwise_on_points
-from optlaws.synthesis.method.on_points.straight import is_straight, straight_step
+from optlaws.synthesis.method.discretised.grids import with_extrema
+from optlaws.synthesis.method.discretised.quadratic_steps import stepwise_on_points
+from optlaws.synthesis.method.discretised.straight import is_straight, straight_step
+from optlaws.synthesis.method.strategies.identified import as_answered, optimum_near
+from optlaws.synthesis.method.strategies.strategy import Strategy
 from optlaws.synthesis.method.tolerances import EXCESS
-from optlaws.synthesis.method.ways.identified import as_answered, optimum_near
-from optlaws.synthesis.method.ways.way import Way
 
 Array = NDArray[np.float64]
 
@@ -36,7 +36,7 @@ def bends_both_ways(program: Program) -> bool:
 
 
 @dataclass(eq=False)
-class ByQuadratics(Way[list[Points], ActiveSet]):
+class ByQuadratics(Strategy[list[Points], ActiveSet]):
     """The optimum on the points by quadratic programs, round by round.
 
     Attributes

@@ -20,7 +20,7 @@ FOLLOWING = ("objective", "excess")
 
 
 @dataclass(frozen=True, eq=False)
-class Found:
+class SolvedBatch:
     """Optima of programs that differ in numbers alone, one a row; NaN in the rows of programs that were not solved.
 
     Attributes
@@ -82,9 +82,9 @@ class Found:
             equality_multipliers=self.equations[place].copy(),
         )
 
-    def taken(self, places: NDArray[np.intp]) -> Found:
+    def taken(self, places: NDArray[np.intp]) -> SolvedBatch:
         """Some of the rows."""
-        return Found(**{field.name: getattr(self, field.name)[places] for field in fields(self)})
+        return SolvedBatch(**{field.name: getattr(self, field.name)[places] for field in fields(self)})
 
     def only(self, kept: NDArray[np.bool_]) -> Self:
         """The same without the objectives of the others, so that they count as not solved."""

@@ -9,7 +9,7 @@ Held = TypeVar("Held")
 Result_co = TypeVar("Result_co", covariant=True)
 
 
-class Way(ABC, Generic[Held, Result_co]):
+class Strategy(ABC, Generic[Held, Result_co]):
     """A way of answering a round.
 
     Attributes
@@ -25,7 +25,7 @@ class Way(ABC, Generic[Held, Result_co]):
         """The result, or what the next round holds; neither where this way leads nowhere."""
 
 
-def in_rounds(way: Way[Held, Result_co], held: Held) -> tuple[Result_co | None, int]:
+def cutting_plane_loop(way: Strategy[Held, Result_co], held: Held) -> tuple[Result_co | None, int]:
     """What a way leads to, None where it leads nowhere or its rounds do not do, and the number of rounds."""
     onward: Held | None = held
     count, result = 0, None

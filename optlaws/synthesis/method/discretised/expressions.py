@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 from optlaws.formulas.arithmetic import casadi_arithmetic, evaluate
 from optlaws.formulas.branches import rounded
 from optlaws.synthesis.families.cone import ConeFamily
-from optlaws.synthesis.families.curved import IntegralFamily, OfFormula
+from optlaws.synthesis.families.curved import FormulaFamily, IntegralFamily
 from optlaws.synthesis.families.energy import LEAST_ROOT, EnergyFamily
-from optlaws.synthesis.families.family import Family, NormFamily, Points, ProductFamily
+from optlaws.synthesis.families.family import ConstraintFamily, NormFamily, Points, ProductFamily
 from optlaws.synthesis.families.kinked import KinkedIntegralFamily
 
 Array = NDArray[np.float64]
@@ -117,7 +117,7 @@ def _formula(point: Any, symbols: list[Any], detail: Any) -> Any:  # noqa: ANN40
 
 
 @dataclass(frozen=True)
-class Kind:
+class RowKind:
     """The rows of one kind of family.
 
     Attributes
@@ -136,7 +136,7 @@ class Kind:
         What multipliers of these rows are times to be those of the family's own.
     """
 
-    family: type[Family]
+    family: type[ConstraintFamily]
     numbers: Callable[[Any, Points], list[Array]]
     values: Callable[[Any, list[Any], Any], Any]
     detail: Callable[[Any], Hashable] = lambda _: None
@@ -145,27 +145,27 @@ class Kind:
 
 
 #: in the order of their rows; a cone's row as IPOPT sees it is twice as steep as the magnitude itself
-CONES = Kind(ConeFamily, _cone_numbers, _cone, bounded=False, share=2.0)
+CONES = RowKind(ConeFamily, _cone_numbers, _cone, bounded=False, share=2.0)
 KINDS = (
-    Kind(ProductFamily, _product_numbers, _product),
+    RowKind(ProductFamily, _product_numbers, _product),
     CONES,
-    Kind(NormFamily, _norm_numbers, _norm),
-    Kind(EnergyFamily, _energy_numbers, _energy, _energy_detail),
-    Kind(OfFormula, _formula_numbers, _formula, _formula_detail),
+    RowKind(NormFamily, _norm_numbers, _norm),
+    RowKind(EnergyFamily, _energy_numbers, _energy, _energy_detail),
+    RowKind(FormulaFamily, _formula_numbers, _formula, _formula_detail),
 )
 
 
-def order_of(family: Family) -> int:
+def order_of(family: ConstraintFamily) -> int:
     """Where the rows of a family stand among those of all kinds; 0 for affine ones."""
     return next((i for i, kind in enumerate(KINDS, 1) if isinstance(family, kind.family)), 0)
 
 
 @dataclass(frozen=True)
-class Shape:
+class RowShape:
     """What the rows of a family are but for their numbers: how many, their kind, the matrices' sizes, and more."""
 
     count: int
-    kind: Kind
+    kind: RowKind
     sizes: tuple[tuple[int, ...], ...]
     detail: Hashable
 
@@ -183,9 +183,9 @@ class Shape:
         return self.kind.values(ca.vertcat(x, 1), numbers, self.detail) - ca.repmat(slack @ x, self.count, 1)
 
 
-def shape_and_numbers(family: Family, points: Points) -> tuple[Shape, list[Array]]:
+def shape_and_numbers(family: ConstraintFamily, points: Points) -> tuple[RowShape, list[Array]]:
     """The shape of the rows of a family that is not affine, and their numbers."""
     kind = KINDS[order_of(family) - 1]
     numbers = kind.numbers(family, points)
     sizes = tuple(matrix.shape for matrix in numbers)
-    return Shape(len(points.u), kind, sizes, kind.detail(family)), numbers
+    return RowShape(len(points.u), kind, sizes, kind.detail(family)), numbers
