@@ -1,1 +1,1 @@
-"""Many problems that differ in numbers alone, solved together: states, rows, cells and bounds as stacks of arrays."""
+"""Parametric continuation: many problems that differ in numbers alone are solved and certified together, as arrays."""

@@ -1,4 +1,4 @@
-"""Whether states are laws that keep every row everywhere, and what they prove: each law judged by itself."""
+"""Certification of many laws at once: whether each keeps every row everywhere, and what its multipliers prove."""
 
 from __future__ import annotations
 

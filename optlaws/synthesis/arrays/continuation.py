@@ -169,7 +169,7 @@ class ParametricContinuation:
         return None
 
     def _onward(self, first: StructureSegment, goal: float) -> None:
-        """Walk from a segment to one end of the path."""
+        """Continuation from a segment to one end of the path."""
         segment, way = first, np.sign(goal - first.begin)
         if first not in self.segments:
             self.segments.append(first)
@@ -211,7 +211,7 @@ class ParametricContinuation:
         )
 
     def _stretched(self, segment: StructureSegment, goal: float) -> float | None:
-        """Walk a segment toward an end of the path as far as it holds; a t just beyond, or None."""
+        """Continuation of a segment toward an end of the path as far as it holds; a t just beyond, or None."""
         good, way = (segment.end, 1.0) if goal >= segment.end else (segment.begin, -1.0)
         # laws of an affine structure are known at any distance
         bad, stride = goal, self.reach if segment.structure.affine and self.path.one_cost else _FIRST * self.reach

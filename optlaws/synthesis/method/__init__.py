@@ -1,1 +1,1 @@
-"""How a program is solved: few points by IPOPT, then Newton on the exact contacts."""
+"""How one semi-infinite program is solved: on few points, then by Newton's method on the exact active set."""

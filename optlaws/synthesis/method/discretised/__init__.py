@@ -1,1 +1,1 @@
-"""A program on finitely many points, and its solvers."""
+"""Subproblems: a program discretised on finitely many points, and the solvers of these."""

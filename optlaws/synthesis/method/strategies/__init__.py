@@ -1,1 +1,1 @@
-"""Ways of answering the rounds in which a program is solved: Newton on contacts, vertices, IPOPT on points."""
+"""Strategies of the cutting-plane loop: Newton's method on contacts, vertices, interior points, quadratic programs."""

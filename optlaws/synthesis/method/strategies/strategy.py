@@ -1,4 +1,4 @@
-"""Rounds of solving: what is held is answered, and what the answer breaks is held in the next round."""
+"""The cutting-plane loop: a subproblem is solved, and the constraints that its answer violates join the next one."""
 
 from __future__ import annotations
 
@@ -10,26 +10,26 @@ Result_co = TypeVar("Result_co", covariant=True)
 
 
 class Strategy(ABC, Generic[Held, Result_co]):
-    """A way of answering a round.
+    """How the subproblem of a round is solved.
 
     Attributes
     ----------
     rounds
-        How many it is given.
+        The most rounds that it is given.
     """
 
     rounds: int
 
     @abstractmethod
     def answered(self, held: Held) -> tuple[Result_co | None, Held | None]:
-        """The result, or what the next round holds; neither where this way leads nowhere."""
+        """The result, or the subproblem of the next round; neither where the strategy fails."""
 
 
-def cutting_plane_loop(way: Strategy[Held, Result_co], held: Held) -> tuple[Result_co | None, int]:
-    """What a way leads to, None where it leads nowhere or its rounds do not do, and the number of rounds."""
+def cutting_plane_loop(strategy: Strategy[Held, Result_co], held: Held) -> tuple[Result_co | None, int]:
+    """The result of a strategy, None where it fails or its rounds do not suffice, and the number of rounds."""
     onward: Held | None = held
     count, result = 0, None
-    while onward is not None and count < way.rounds:
+    while onward is not None and count < strategy.rounds:
         count += 1
-        result, onward = way.answered(onward)
+        result, onward = strategy.answered(onward)
     return result, count
