@@ -402,7 +402,7 @@ class IntegralFamily(FormulaFamily):
         size = np.sqrt(np.maximum(total, _LEAST_ROOT**2))
         return size, 0.5 / size
 
-    def _names(self, point: Array) -> dict[str, Array]:
+    def _at_nodes(self, point: Array) -> dict[str, Array]:
         return self._at((self.columns @ point.T).swapaxes(1, 2))
 
     def _planes(self, names: dict[str, Array]) -> tuple[Array, Array, Array]:
@@ -413,7 +413,7 @@ class IntegralFamily(FormulaFamily):
 
     def planes(self, u: Array, point: Array) -> tuple[Array, Array, Array]:
         """The plane that touches f in each law."""
-        value, share, rows = self._planes(self._names(point))
+        value, share, rows = self._planes(self._at_nodes(point))
         plane = share[:, None] * rows
         plane[:, -1] += value - (plane * point).sum(axis=1)
         planes = plane[:, None, :].repeat(u.shape[1], axis=1)
@@ -421,7 +421,7 @@ class IntegralFamily(FormulaFamily):
 
     def hessians(self, u: Array, point: Array, weights: Array) -> Array:  # noqa: ARG002 - it has no place
         """The second derivatives of f, times the sum of weights."""
-        names = self._names(point)
+        names = self._at_nodes(point)
         moved = between(self.slopes.hessian(names) * self.weights, self.columns[:, None, :, :-1])
         if self.root:
             value, share, rows = self._planes(names)
@@ -432,7 +432,7 @@ class IntegralFamily(FormulaFamily):
 
     def rounding_errors(self, weights: Array, u: Array, point: Array) -> Array:  # noqa: ARG002 - it has no place
         """What rounding hides of the names' rows, by the slopes of the formula at each node."""
-        names = self._names(point)
+        names = self._at_nodes(point)
         sizes = np.abs(self.slopes.gradient(names)) * self.weights
         rows = np.einsum("imp,ipn->mn", sizes, np.abs(self.columns))
         share = self.outer(self.slopes.value(names) @ self.weights)[1]
@@ -441,7 +441,7 @@ class IntegralFamily(FormulaFamily):
 
     def greatest(self, point: Array) -> Array:
         """The integral in each law."""
-        return self.outer(self.slopes.value(self._names(point)) @ self.weights)[0]
+        return self.outer(self.slopes.value(self._at_nodes(point)) @ self.weights)[0]
 
     def value(self, x: Array, u: Array) -> Array:
         """f."""

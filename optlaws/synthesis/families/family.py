@@ -431,8 +431,9 @@ class ProductFamily(NonlinearFamily):
 
     def same_rows(self, other: ConstraintFamily) -> bool:
         """Whether another family has the same factors."""
-        same = isinstance(other, ProductFamily) and self.first.same_rows(other.first)
-        return same and self.second.same_rows(other.second)
+        if not isinstance(other, ProductFamily):
+            return False
+        return self.first.same_rows(other.first) and self.second.same_rows(other.second)
 
     def value(self, x: Array, u: Array) -> Array:
         """G h at the points u, each evaluated by itself."""

@@ -136,7 +136,7 @@ class RowKind:
         What multipliers of these rows are times to be those of the family's own.
     """
 
-    family: type[ConstraintFamily]
+    family: type[Any]
     numbers: Callable[[Any, Points], list[Array]]
     values: Callable[[Any, list[Any], Any], Any]
     detail: Callable[[Any], Hashable] = lambda _: None
