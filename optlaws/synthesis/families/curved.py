@@ -197,22 +197,14 @@ class CurvedFamily(FormulaFamily):
         return value, slope, curvature
 
     def _expansion(self, u: Array, point: Array) -> tuple[Array, Array, dict[str, Array], Array, Array]:
-        """The parts' columns, what these are in each law, the names, and the formula's slopes and second derivatives.
+        """The parts' columns, what these are in each law, the names, and the formula's first and second derivatives."""
+        return self.once(lambda: self._expanded(u, point), u, point)
 
-        The last is kept: what Newton's method asks one after the other is of the same places.
-        """
-        key = (u.tobytes(), point.tobytes())
-        if key not in self._last:
-            columns = self.columns(u)
-            moved = (columns @ point[:, :, None])[..., 0].swapaxes(0, 1)
-            names = self._at(moved[0], u)
-            self._last.clear()
-            self._last[key] = (columns, moved, names, self.slopes.gradient(names), self.slopes.hessian(names))
-        return self._last[key]
-
-    @kept_property
-    def _last(self) -> dict[tuple[bytes, bytes], tuple[Array, Array, dict[str, Array], Array, Array]]:
-        return {}
+    def _expanded(self, u: Array, point: Array) -> tuple[Array, Array, dict[str, Array], Array, Array]:
+        columns = self.columns(u)
+        moved = (columns @ point[:, :, None])[..., 0].swapaxes(0, 1)
+        names = self._at(moved[0], u)
+        return columns, moved, names, self.slopes.gradient(names), self.slopes.hessian(names)
 
     def hessians(self, u: Array, point: Array, weights: Array) -> Array:
         """The second derivatives of the weighted formula, between each two parts' rows."""

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass, field, replace
-from typing import ClassVar, Self
+from typing import Any, ClassVar, Self, TypeVar
 
 import numpy as np
 from numpy.polynomial import chebyshev
@@ -17,6 +17,7 @@ from optlaws.numerics.gegenbauer import even_gegenbauer_jet
 from optlaws.synthesis.families.peaks import peaks, products
 
 Array = NDArray[np.float64]
+Made = TypeVar("Made")
 
 #: of a row: what rounding may hide of it, as a share of the sum of its parts' sizes
 ROUNDING = 4 * 2.0**-53
@@ -172,6 +173,20 @@ class BatchFamily(ConstraintFamily):
 
 class NonlinearFamily(BatchFamily):
     """A batch family that is not affine in the law; of one law it says what it does of a batch of one."""
+
+    @kept_property
+    def _last(self) -> dict[Hashable, Any]:
+        return {}
+
+    def once(self, make: Callable[[], Made], *arrays: Array) -> Made:
+        """What is made of arrays; the last is kept, for slopes and second derivatives are asked one after the other."""
+        key = tuple((array.shape, array.tobytes()) for array in arrays)
+        known: Made | None = self._last.get(key)
+        if known is None:
+            known = make()
+            self._last.clear()
+            self._last[key] = known
+        return known
 
     @abstractmethod
     def hessians(self, u: Array, point: Array, weights: Array) -> Array:
@@ -413,7 +428,8 @@ class ProductFamily(NonlinearFamily):
 
     def _columns(self, u: Array) -> list[Array]:
         """The columns of both factors with two derivatives by the place."""
-        return [factor.columns(u.reshape(-1)).reshape(3, *u.shape, -1) for factor in (self.first, self.second)]
+        factors, places = (self.first, self.second), u.reshape(-1)
+        return self.once(lambda: [factor.columns(places).reshape(3, *u.shape, -1) for factor in factors], u)
 
     def hessians(self, u: Array, point: Array, weights: Array) -> Array:  # noqa: ARG002
         """The sum of weights times the rows of one factor by those of the other."""
@@ -464,18 +480,21 @@ class NormFamily(NonlinearFamily):
 
     def planes(self, u: Array, point: Array) -> tuple[Array, Array, Array]:
         """What the direction of each law shows of the norm; no law's norm is less."""
-        planes = self._shown(point)[1][:, None, :].repeat(u.shape[1], axis=1)
+        planes = self._touching(point)[1][:, None, :].repeat(u.shape[1], axis=1)
         return planes, np.zeros(planes.shape), np.zeros(u.shape)
 
-    def _shown(self, point: Array) -> tuple[Array, Array]:
+    def _touching(self, point: Array) -> tuple[Array, Array]:
         """The norm of each law, and the plane that touches it there."""
+        return self.once(lambda: self._shown(point), point)
+
+    def _shown(self, point: Array) -> tuple[Array, Array]:
         image = point @ self.matrix.T
         size = np.maximum(np.sqrt((image * image).sum(axis=1)), _NO_NORM)
         return size, (image / size[:, None]) @ self.matrix
 
     def hessians(self, u: Array, point: Array, weights: Array) -> Array:  # noqa: ARG002 - it has no place
         """The second derivatives of the norm, times the sum of weights."""
-        size, shown = self._shown(point)
+        size, shown = self._touching(point)
         rows, matrix = shown[:, :-1], self.matrix[:, :-1]
         bent = matrix.T @ matrix - rows[:, :, None] * rows[:, None, :]
         return np.asarray(bent * (weights.sum(axis=1) / size)[:, None, None])
@@ -487,7 +506,7 @@ class NormFamily(NonlinearFamily):
 
     def greatest(self, point: Array) -> Array:
         """The norm of each law."""
-        return self._shown(point)[0]
+        return self._touching(point)[0]
 
     def same_rows(self, other: ConstraintFamily) -> bool:
         """Whether another family has the same matrix."""

@@ -7,7 +7,7 @@ between them, and what a kink moves by adds to its second derivatives.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import lru_cache, partial
 from itertools import pairwise
 from typing import Self
@@ -77,19 +77,14 @@ class KinkedIntegralFamily(IntegralFamily):
     units: Array
     edges: tuple[float, ...]
     length: int
-    _known: dict[bytes, KinkSplit] = field(default_factory=dict, repr=False)
 
     @kept_property
     def _switches(self) -> tuple[list[Formula], list[Formula]]:
         return knots(self.formula, self.names)
 
-    def scaled_down(self, by: float) -> Self:
-        """The same row, divided by a power of 2."""
-        return replace(super().scaled_down(by), _known={})
-
     def in_units(self, units: Array, unit: float) -> Self:
         """The family of variables in other units; its own unit stays."""
-        return replace(super().in_units(units, unit), units=self.units * np.append(units, 1.0), _known={})
+        return replace(super().in_units(units, unit), units=self.units * np.append(units, 1.0))
 
     @property
     def continuable(self) -> bool:
@@ -105,11 +100,7 @@ class KinkedIntegralFamily(IntegralFamily):
 
     def split(self, x: Array) -> KinkSplit:
         """The stretches of a law, and the integral over them."""
-        key = x.tobytes()
-        if key not in self._known:
-            self._known.clear()
-            self._known[key] = self._split(np.append(x, 1.0))
-        return self._known[key]
+        return self.once(lambda: self._split(np.append(x, 1.0)), x)
 
     def _split(self, point: Array) -> KinkSplit:
         stretches = self._stretches(point)
