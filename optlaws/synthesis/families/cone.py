@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
 from optlaws.numerics.chebyshev import basis_values, product, real_parts_of_roots
-from optlaws.synthesis.families.family import ROUNDING, ConstraintFamily, NonlinearFamily
+from optlaws.synthesis.families.family import ROUNDING, ConstraintFamily, NonlinearFamily, RowJet
 from optlaws.synthesis.families.peaks import peaks, products
 
 Array = NDArray[np.float64]
@@ -89,6 +89,13 @@ class ConeFamily(NonlinearFamily):
         turning = (p1.conj()[:, :, None] * f0 + p0.conj()[:, :, None] * f1).real / size[:, :, None]
         bend = (np.abs(p1) ** 2 + (p0.conj() * p2).real) / size - slope**2 / size
         return value, turning - value * (slope / size)[:, :, None], bend
+
+    def jet(self, x: Array, u: Array, s: Array) -> RowJet:
+        """Residuals of one law with their derivatives; of a small amplitude rounding in its planes would be great."""
+        _, (p0, p1, _) = self._jets(u[None], np.append(x, 1.0)[None])
+        size = np.abs(p0[0])
+        slope = (p0[0].conj() * p1[0]).real / np.maximum(size, _NOTHING)
+        return replace(super().jet(x, u, s), value=s * size - self.right_side(x), slope=s * slope)
 
     def hessians(self, u: Array, point: Array, weights: Array) -> Array:
         """Second derivatives of the weighted magnitudes: what turns p counts, what lengthens it does not."""
