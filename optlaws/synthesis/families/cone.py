@@ -77,7 +77,10 @@ class ConeFamily(NonlinearFamily):
 
     def _jets(self, u: Array, point: Array) -> tuple[Complex, Complex]:
         """The columns with two derivatives by the place, and what they are in each law."""
-        columns = self.once(lambda: self.columns(u.reshape(-1)).reshape(3, *u.shape, -1), u)
+        return self.once(lambda: self._moved(self.columns(u.reshape(-1)).reshape(3, *u.shape, -1), point), u, point)
+
+    @staticmethod
+    def _moved(columns: Complex, point: Array) -> tuple[Complex, Complex]:
         return columns, (columns @ point[:, :, None])[..., 0]
 
     def planes(self, u: Array, point: Array) -> tuple[Array, Array, Array]:

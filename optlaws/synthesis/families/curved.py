@@ -19,7 +19,7 @@ from optlaws.formulas.tree import Call, Formula, Number, Power, total
 from optlaws.kept import kept_property
 from optlaws.numerics.candidates import candidates
 from optlaws.numerics.chebyshev import FEWEST, MOST, from_values, nodes
-from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NonlinearFamily
+from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NonlinearFamily, RowJet
 from optlaws.synthesis.families.peaks import peaks
 
 Array = NDArray[np.float64]
@@ -195,6 +195,13 @@ class CurvedFamily(FormulaFamily):
         slope[:, :, -1] += gradient[-1] * -0.5 - (turning[:-1] * values).sum(axis=0)
         curvature = (turning * way).sum(axis=0) + (own * bends).sum(axis=0)
         return value, slope, curvature
+
+    def jet(self, x: Array, u: Array, s: Array) -> RowJet:
+        """Residuals of one law with their derivatives; where it is bent rounding in its planes would be great."""
+        _, (_, turned, _), names, gradient, _ = self._expansion(u[None], np.append(x, 1.0)[None])
+        slope = (gradient[:-1] * turned).sum(axis=0)[0] - 0.5 * gradient[-1, 0]
+        value = s * self.slopes.value(names)[0] - self.right_side(x)
+        return replace(super().jet(x, u, s), value=value, slope=s * slope)
 
     def _expansion(self, u: Array, point: Array) -> tuple[Array, Array, dict[str, Array], Array, Array]:
         """The parts' columns, what these are in each law, the names, and the formula's first and second derivatives."""
