@@ -80,7 +80,7 @@ def test_solve_writes_the_whole_solution(capsys: Capture, tmp_path: Path) -> Non
     assert called(capsys, *SOLVE, "--json", "--output", target)[0] == 0
     whole = json.loads(target.read_text("utf-8"))
     assert {*KEYS, "problem", "certificate", "versions"} <= whole.keys()
-    assert Problem.from_dict(whole["problem"]) == Problem(B=1.641, order=4, basis=optlaws.Powers(3))
+    assert Problem.from_dict(whole["problem"]) == Problem(B=1.641, order=4, basis=optlaws.Chebyshev(3))
     assert optlaws.Certificate.from_dict(whole["certificate"]).bound == whole["lower_bound"]
 
 
@@ -115,7 +115,7 @@ def test_solve_refuses_bad_input_in_plain_words(capsys: Capture, arguments: list
 def test_an_infeasible_problem_ends_with_3(capsys: Capture, json_: list[str]) -> None:
     text = refused(capsys, "solve", "--peak-velocity", 1.53, "--order", 4, "--degree", 1, *json_, code=3)
     assert text.startswith("optlaws: infeasible: ")
-    assert "problem: Problem(B=1.53, order=4, basis=Powers(degree=1)" in text
+    assert "problem: Problem(B=1.53, order=4, basis=Chebyshev(degree=1)" in text
 
 
 def test_a_solver_that_fails_ends_with_4(capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.synthesis.families.cone import ConeFamily
-from optlaws.synthesis.families.curved import OfFormula
+from optlaws.synthesis.families.curved import FormulaFamily
 from optlaws.synthesis.families.energy import EnergyFamily
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily, Program
 from optlaws.synthesis.program.writer import Model
@@ -63,7 +63,7 @@ def _tangent(program: Program, family: ConstraintFamily, contact: Contact, u: Ar
         return _at_most_one(contact.direction) @ family.matrix
     if isinstance(family, ConeFamily) and len(contact.direction) == 2:
         return family.tangent(float(u[0]), _at_most_one(contact.direction))
-    if isinstance(family, OfFormula):
+    if isinstance(family, FormulaFamily):
         return family.tangent_row(float(u[0]), contact.sign, contact.direction)
     if isinstance(family, EnergyFamily) and family.convex and len(contact.direction) <= program.size:
         return family.minorant(_on_equations(program, np.array(contact.direction)))

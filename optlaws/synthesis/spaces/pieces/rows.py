@@ -119,11 +119,6 @@ class PieceFamily(LinearFamily):
         basis = chebyshev.chebvander(local, self.pieces.series.shape[1] - 1)
         return np.stack([series.sums(basis[:, : series.series.shape[1]], piece) for series in self._derivatives])
 
-    def rows(self, u: Array, s: Array) -> tuple[Array, Array]:
-        """A and h of the rows A x <= h at the points u with signs s."""
-        columns = self.pieces.values(u) * s[:, None]
-        return columns[:, :-1] - self.slack, self.bound - columns[:, -1]
-
     def value(self, x: Array, u: Array) -> Array:
         """f at the points u."""
         value: Array = self.pieces.values(u) @ np.append(x, 1.0)
