@@ -170,7 +170,7 @@ def test_least_prime_circles_of_mechanism(
     segments: list[Dwell | Move], follower: TranslatingRoller | TranslatingFlat, limits: dict[str, str], theirs: float
 ) -> None:
     """Of the package mechanism 1.1.10 (gabemorris12/mechanism, b68554a): found on a grid, and so a little too small."""
-    least = least_base_circle(Cycle(segments, speed="60 rpm"), follower, **limits)
+    least = least_base_circle(Cycle(segments, speed="60 rpm"), follower, **limits)  # type: ignore[arg-type]
     assert least.proven
     assert 0 <= least.radius / 0.0254 - theirs < 1e-4
 

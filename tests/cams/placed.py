@@ -41,7 +41,7 @@ def cycle_of(stroke: str, law: str = "cycloidal") -> Cycle:
 def cam_of(kind: str, turning: str = "counterclockwise", law: str = "cycloidal") -> DiscCam:
     """A cam of each kind that is free of undercut."""
     follower, stroke, radius = FOLLOWERS[kind]
-    return DiscCam(cycle_of(stroke, law), radius, follower, turning=turning)
+    return DiscCam(cycle_of(stroke, law), radius, follower, turning=turning)  # type: ignore[arg-type]
 
 
 def length(value: object) -> float:

@@ -58,7 +58,7 @@ def test_digits_of_x_and_y_count_more(cam: DiscCam) -> None:
 def test_a_dxf_gives_the_motion_back_to_its_digits(cam: DiscCam, tmp_path: Path) -> None:
     for degree, near in ((3, 2e-3), (5, 5e-4)):
         asked = {"tolerance": "0.01 um", "degree": degree}
-        curve = readers.dxf_spline(write_outline(cam.profile, tmp_path / f"{degree}.dxf", "dxf spline", **asked))
+        curve = readers.dxf_spline(write_outline(cam.profile, tmp_path / f"{degree}.dxf", "dxf spline", **asked))  # type: ignore[arg-type]
         made = run_against(cam, Spline(degree, curve.t, 1e-3 * curve.c, 0.0))
         assert made.deviation < 1.2e-8
         assert made.leap == 0.0

@@ -20,7 +20,7 @@ ANGLES = np.linspace(0.0, 2.0 * np.pi, 401)[:-1] + 0.002
 
 
 def barrel(turning: str = "counterclockwise", roller: str = "8 mm", stroke: str = "40 mm") -> BarrelCam:
-    return BarrelCam(cycle_of(stroke), "60 mm", "12 mm", roller, turning=turning)
+    return BarrelCam(cycle_of(stroke), "60 mm", "12 mm", roller, turning=turning)  # type: ignore[arg-type]
 
 
 def distances(points: Array, cam: BarrelCam, angles: Array) -> Array:
@@ -37,7 +37,7 @@ def distances(points: Array, cam: BarrelCam, angles: Array) -> Array:
 def test_a_roller_touches_the_flank_and_never_cuts_it(turning: str, side: str) -> None:
     cam = barrel(turning)
     for radius in (0.048, 0.053, 0.06):
-        flank = cam.flank(side, radius)
+        flank = cam.flank(side, radius)  # type: ignore[arg-type]
         found = distances(flank(ANGLES), cam, ANGLES)
         assert np.allclose(np.diag(found), 0.008, atol=1e-15)
         assert found.min() >= 0.008 - 1e-15
@@ -113,6 +113,6 @@ def test_grooves_that_cannot_be_are_refused_with_a_remedy() -> None:
     with pytest.raises(InputError, match="within the groove"):
         barrel().flank("upper", 0.07)
     with pytest.raises(InputError, match="side"):
-        barrel().flank("left")
+        barrel().flank("left")  # type: ignore[arg-type]
     with pytest.raises(InputError, match="take an oscillating follower"):
         BarrelCam(CamMotion.of_law("cycloidal", "40 deg", "90 deg"), "60 mm", "12 mm", "8 mm")

@@ -137,7 +137,7 @@ def test_curvature_under_a_roller_is_imposed_and_bounded(monkeypatch: pytest.Mon
     if case == "short":
         monkeypatch.setattr(curved_limits, "_PARTS", 8)
     cycle, base, follower, limits = BENT[case]
-    best = best_cam(cycle, base, follower, **limits)
+    best = best_cam(cycle, base, follower, **limits)  # type: ignore[arg-type]
     wanted = 1e-3 * float(limits["radius_of_curvature"].split()[0])
     assert best.cam.extremes.least_convex_radius.low == pytest.approx(wanted, rel=1e-7)
     if "pressure_angle" in limits:

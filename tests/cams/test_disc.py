@@ -128,7 +128,7 @@ def test_profile_and_cutter_path_are_parallel_curves() -> None:
 )
 def test_what_cannot_be_built_is_refused(follower: CamFollower, stroke: str, radius: object, told: str) -> None:
     with pytest.raises(InputError, match=told):
-        DiscCam(cycle_of(stroke), radius, follower)
+        DiscCam(cycle_of(stroke), radius, follower)  # type: ignore[arg-type]
 
 
 def test_wrong_motions_and_words_are_refused() -> None:
@@ -136,7 +136,7 @@ def test_wrong_motions_and_words_are_refused() -> None:
     wrong: Any = "roller"
     kinked = PiecewiseLaw([0, 0.5, 1], [PolynomialSegment((), b0) for b0 in (0.5, 1.5)])
     with pytest.raises(InputError, match="unknown turning"):
-        DiscCam(cycle_of("20 mm"), "80 mm", roller, turning="anticlockwise")
+        DiscCam(cycle_of("20 mm"), "80 mm", roller, turning="anticlockwise")  # type: ignore[arg-type]
     with pytest.raises(InputError, match="TranslatingRoller, TranslatingFlat"):
         DiscCam(cycle_of("20 mm"), "80 mm", wrong)
     with pytest.raises(InputError, match=r"CamMotion\.of_law"):
@@ -144,7 +144,7 @@ def test_wrong_motions_and_words_are_refused() -> None:
     with pytest.raises(InputError, match="velocity leaps at 40 deg"):
         DiscCam(CamMotion.of_law(kinked, "20 mm", "80 deg"), "80 mm", roller)
     with pytest.raises(InputError, match="direction"):
-        CamMotion.of_law("cycloidal", "20 mm", "90 deg", "down")
+        CamMotion.of_law("cycloidal", "20 mm", "90 deg", "down")  # type: ignore[arg-type]
     with pytest.raises(InputError, match="take a Cycle for the whole of it"):
         DiscCam(CamMotion.of_law("cycloidal", "20 mm", "90 deg"), "80 mm", roller).profile(3.0)
 

@@ -163,11 +163,11 @@ def random_cam(rng: np.random.Generator) -> DiscCam | None:
             follower = OscillatingRoller(
                 f"{roller:.9f} mm", f"{rng.uniform(0.6, 1.3) * distance:.9f} mm", f"{distance:.9f} mm"
             )
-            return DiscCam(Cycle(segments, period="1 s"), f"{base:.9f} mm", follower, turning=turning)
+            return DiscCam(Cycle(segments, period="1 s"), f"{base:.9f} mm", follower, turning=turning)  # type: ignore[arg-type]
         if rng.integers(3) == 0:
-            return DiscCam(Cycle(segments, period="1 s"), f"{base:.9f} mm", TranslatingFlat(), turning=turning)
+            return DiscCam(Cycle(segments, period="1 s"), f"{base:.9f} mm", TranslatingFlat(), turning=turning)  # type: ignore[arg-type]
         sliding = TranslatingRoller(f"{roller:.9f} mm", f"{rng.uniform(-0.5, 0.5) * base:.9f} mm")
-        return DiscCam(Cycle(segments, period="1 s"), f"{base:.9f} mm", sliding, turning=turning)
+        return DiscCam(Cycle(segments, period="1 s"), f"{base:.9f} mm", sliding, turning=turning)  # type: ignore[arg-type]
     except InputError:
         return None
 

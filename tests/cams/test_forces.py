@@ -191,7 +191,7 @@ def test_an_arm_is_dragged_as_the_surfaces_slide(turning: str) -> None:
     """Where the face is touched beyond the line from the pivot to the shaft, the cam drags it the other way."""
     moves = [Rise("20 deg", "60 deg", law="cycloidal"), Return(None, "60 deg", law="cycloidal"), Dwell()]
     motion = Cycle(moves, period="1 s")
-    cam = DiscCam(motion, "40 mm", OscillatingFlat("200 mm", face_offset="-100 mm"), turning=turning)
+    cam = DiscCam(motion, "40 mm", OscillatingFlat("200 mm", face_offset="-100 mm"), turning=turning)  # type: ignore[arg-type]
     forces_of_cam = CamForces(cam, drive=TABLES | {"preload": "90 N m"}, friction={"contact": 0.1})
     side, s = TURNINGS[turning], np.asarray(cam.displacement(ANGLES))
     touched = (cam.profile(ANGLES) @ np.array([1.0, 1j])) * np.exp(1j * side * ANGLES)

@@ -46,4 +46,4 @@ def test_what_cannot_be_is_said() -> None:
     with pytest.raises(InputError, match="tolerance"):
         smoothstep(3).pieces("1 m", "1 s", tolerance=0.0)
     with pytest.raises(InputError, match="stroke"):
-        smoothstep(3).pieces(35.0, "1 s")
+        smoothstep(3).pieces(35.0, "1 s")  # type: ignore[arg-type]

@@ -38,7 +38,7 @@ def drawn(rng: np.random.Generator) -> tuple[Motion, str, dict[str, int]]:
 
 
 def breaks_the_bound(motion: Motion, to: str, asked: dict[str, int]) -> bool:
-    made = export_motion(motion, to, **asked)
+    made = export_motion(motion, to, **asked)  # type: ignore[arg-type]
     x = np.array(made.run.breaks)
     places = np.clip(x, motion.start, motion.stop)
     first, last = motion.ends(1)

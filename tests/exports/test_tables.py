@@ -211,7 +211,7 @@ def test_what_a_target_cannot_hold_is_said_with_a_remedy(
     to: object, asked: dict[str, object], words: list[str]
 ) -> None:
     with pytest.raises(InputError) as caught:
-        export_motion(one_shot(), to, **asked)
+        export_motion(one_shot(), to, **asked)  # type: ignore[arg-type]
     assert all(word in str(caught.value) for word in words)
 
 

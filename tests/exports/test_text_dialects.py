@@ -39,7 +39,7 @@ def test_numbers_come_back(
     stroke = -stroke if negative else stroke
     motion = motion_of_law(smoothstep(3), stroke=f"{stroke!r} mm", master=f"{master!r} deg")
     asked = {"digits": digits} if digits is not None else {}
-    made = export_motion(motion, to, points=points, decimal=sign, **asked)
+    made = export_motion(motion, to, points=points, decimal=sign, **asked)  # type: ignore[arg-type]
     x, y = READERS[to](made.text, sign)
     np.testing.assert_array_equal(x, made.run.breaks)
     expected = [row[0] for row in made.run.coefficients]

@@ -85,7 +85,7 @@ def test_breaks_are_those_of_joints_and_laws() -> None:
 )
 def test_what_is_missing_or_wrong_is_named(said: dict[str, object], words: list[str]) -> None:
     with pytest.raises(InputError) as caught:
-        motion_of_law(smoothstep(3), **said)
+        motion_of_law(smoothstep(3), **said)  # type: ignore[arg-type]
     assert all(word in str(caught.value) for word in words)
 
 

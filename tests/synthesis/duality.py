@@ -211,7 +211,7 @@ def _right_side(found: Sum, certificate: Certificate, contact: Contact, m: Fract
             found.slack(repr(inner), m * Fraction(weight))
         found.slack(text, -m)
     elif name == "tangent":
-        t = Fraction(certificate.tangent)
+        t = Fraction(certificate.tangent)  # type: ignore[arg-type]
         found.slack("root of D", 2 * t * m)
         found.constant -= m * t * t
         if "D" in leaves:

@@ -84,10 +84,12 @@ def greatest_values(certificate: Certificate, rows: ExactRows, claim: float) -> 
         greatest[VariableName.POWER_ROOT] = rounded_up(upper(ball(greatest[rows.power.name]).sqrt()))
     start = rows.space.bounds.start_velocity
     if "B" in rows.names and not isfinite(greatest.get("B", inf)) and start is not None:
-        # b is b(0) and the integral of c
-        mean = min(greatest.get(name, inf) for name in ("C", "rms_c"))
-        if isfinite(mean):
-            greatest["B"] = rounded_up(upper(abs(ball(start)) + ball(mean)))
+        # b is b(0) and the integral of c, which is nowhere further from its mean than the integral of |j|
+        known, change = means(problem, rows, greatest), rows.space.bounds.velocity_change
+        swings = [known[2]] if 2 in known else []
+        swings += [known[3] + abs(ball(change))] if 3 in known and change is not None else []
+        if swings:
+            greatest["B"] = rounded_up(upper(abs(ball(start)) + ball(min(map(upper, swings)))))
     return greatest
 
 

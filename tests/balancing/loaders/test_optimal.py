@@ -33,7 +33,8 @@ from optlaws.balancing.loaders.limits import loader_acceleration_limit, loader_p
 from optlaws.balancing.loaders.loader import loader
 from optlaws.synthesis.families.energy import EnergyFamily
 from optlaws.synthesis.program.writer import model_of, relaxed
-from optlaws.synthesis.proof.certificate import Contact, row_of
+from optlaws.synthesis.proof.duality import row_of
+from optlaws.synthesis.proof.nodes import Contact
 
 CODES = ("K", "Co", "3-4-5 polynomial", "0510", "0307(1,5)", "0317(1,5)", "KC00", "KC05", "0040", "0000")
 MODEL = model_of(Problem(B=1.7, order=3, minimise="B_loader", monotone=True))

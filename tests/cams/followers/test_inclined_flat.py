@@ -44,13 +44,13 @@ def cycle_of(stroke: float) -> Cycle:
 
 
 def cam_of(inclination: float, turning: str = "counterclockwise", stroke: float = 12.0) -> DiscCam:
-    return DiscCam(cycle_of(stroke), "70 mm", InclinedFlat(f"{inclination!r} deg"), turning=turning)
+    return DiscCam(cycle_of(stroke), "70 mm", InclinedFlat(f"{inclination!r} deg"), turning=turning)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("turning", TURNINGS)
 def test_without_inclination_it_is_the_square_face(turning: str) -> None:
     cam = cam_of(0.0, turning)
-    square = DiscCam(cam.motion, "70 mm", TranslatingFlat(), turning=turning)
+    square = DiscCam(cam.motion, "70 mm", TranslatingFlat(), turning=turning)  # type: ignore[arg-type]
     for nu in range(4):
         assert np.abs(cam.profile(ANGLES, nu) - square.profile(ANGLES, nu)).max() < 1e-12
     assert np.abs(cam.pressure_angle(ANGLES)).max() == 0.0
@@ -69,7 +69,7 @@ def test_without_inclination_it_is_the_square_face(turning: str) -> None:
 @pytest.mark.parametrize("inclination", [-35.0, 10.0])
 def test_its_cam_is_that_of_a_square_face_with_a_shorter_stroke(inclination: float, turning: str) -> None:
     cosine, cam = cos(radians(inclination)), cam_of(inclination, turning)
-    square = DiscCam(cycle_of(12.0 * cosine), "70 mm", TranslatingFlat(), turning=turning)
+    square = DiscCam(cycle_of(12.0 * cosine), "70 mm", TranslatingFlat(), turning=turning)  # type: ignore[arg-type]
     turned = points(square.profile(ANGLES)) * np.exp(1j * radians(inclination))
     assert np.abs(points(cam.profile(ANGLES)) - turned).max() < 1e-15
     assert cam.pressure_angle(ANGLES) == pytest.approx(TURNINGS[turning] * radians(inclination), abs=1e-15)

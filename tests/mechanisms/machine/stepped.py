@@ -183,9 +183,9 @@ def residual_value(constant: ModeResidual, pieces: Sequence[Chebyshev]) -> float
         grid.append(float(sizes.max()))
         # in an optimum several are as high as one another
         for best in np.flatnonzero(sizes >= 0.9 * sizes.max()):
-            around = (float(places[max(best - 1, 0)]), float(places[min(best + 1, 20)]))
+            around = (float(places[max(best - 1, 0)]), float(places[min(best + 1, 20)]))  # type: ignore[call-overload]
             options = {"xatol": 1e-9}
-            finer = minimize_scalar(
+            finer = minimize_scalar(  # type: ignore[call-overload]
                 lambda s, along=along: -along(float(s)), bounds=around, method="bounded", options=options
             )
             grid.append(-float(finer.fun))

@@ -1,0 +1,86 @@
+"""Problems whose optimum leaves nothing, leaves no freedom, or does not exist: each has a proof or says which it is."""
+
+import numpy as np
+import pytest
+
+from optlaws import (
+    BoundaryConditions,
+    BSplines,
+    Chebyshev,
+    Pieces,
+    Powers,
+    Problem,
+    SolverFailure,
+    at_least,
+    at_most,
+    synthesize,
+)
+from optlaws.verification import verify
+
+PIECES = Pieces(breaks=(0.0, 0.065, 0.2015, 0.4675, 0.5, 0.5325, 0.7985, 0.935, 1.0), degree=5, continuity=3)
+HALVES = Pieces(breaks=(0.0, 0.5, 1.0), degree=4, continuity=3)
+UNEVEN = BSplines(breaks=(0.0, 0.282, 0.307, 0.463, 1.0), degree=3, continuity=2)
+
+CASES = {
+    # a root mean square that is 0 has no direction of its own
+    "norm at its apex": (
+        Problem(order=1, basis=PIECES, minimise="0.24*C_plus + 0.96*rms_jounce", monotone=True, symmetric=False),
+        -0.48,
+    ),
+    "amplitude that vanishes": (
+        Problem(order=5, basis=Chebyshev(7), minimise="residual(nu=27.8)", symmetric=False),
+        0.0,
+    ),
+    "value that vanishes": (
+        Problem(order=1, basis=Chebyshev(12), minimise="value(abs(c), at=0.3)", symmetric=False),
+        0.0,
+    ),
+    "one law alone": (Problem(order=3, basis=HALVES, minimise="peak(0.006*(1 + k)*c)", J=at_most(69.0)), None),
+    "B at least, beside J": (
+        Problem(
+            B=at_least(1.59375), order=3, basis=HALVES, minimise="integral(c^2) + J", symmetric=False, inflexion=0.5
+        ),
+        None,
+    ),
+    "breaks on one side": (
+        Problem(
+            B=2.183117744230822,
+            order=4,
+            basis=UNEVEN,
+            minimise="value(abs(c), at=0.3)",
+            monotone=True,
+            symmetric=False,
+            bounds={"peak(b*c)": at_most(11.8)},
+        ),
+        None,
+    ),
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_a_degenerate_optimum_is_proven(name: str) -> None:
+    problem, least = CASES[name]
+    solution = synthesize(problem)
+    assert solution.status.value in ({"optimal"} if problem.convex else {"optimal", "local"})
+    assert solution.lower_bound <= solution.objective + 1e-12
+    if least is not None:
+        assert solution.objective == pytest.approx(least, abs=1e-9)
+    if problem.convex and problem.order > 1:
+        assert verify(solution.to_dict()).proven
+
+
+@pytest.mark.parametrize("unit", [1e-11, 1.0, 1e6])
+@pytest.mark.parametrize("basis", [Powers(1), Chebyshev(5), HALVES])
+def test_an_objective_without_a_least_value_is_told_apart(unit: float, basis: Powers | Chebyshev | Pieces) -> None:
+    ends = BoundaryConditions(start=(0.25, -0.514), end=(0.25, -0.392))
+    problem = Problem(
+        order=2, basis=basis, minimise=f"value({unit!r}*(c^2 + b), at=0.3)", symmetric=False, boundary=ends
+    )
+    with pytest.raises(SolverFailure, match="has no least value"):
+        synthesize(problem)
+
+
+def test_one_law_is_measured_where_no_freedom_is_left() -> None:
+    solution = synthesize(CASES["one law alone"][0])
+    k = np.linspace(0.0, 1.0, 4001)
+    assert solution.objective == pytest.approx(np.abs(0.006 * (1.0 + k) * solution.law.c(k)).max(), rel=1e-4)
