@@ -75,7 +75,7 @@ nitpick_ignore = [
     ("py:class", "optlaws.cams.followers.follower.Place"),
     ("py:class", "optlaws.cycles.specification.drive.CycleDrive"),
     ("py:class", "optlaws.motion.piece.Piece"),
-    ("py:class", "optlaws.formulas.of_motion.Motion"),
+    ("py:class", "optlaws.formulas.of_motion.MotionFormula"),
     ("py:class", "optlaws.mechanisms.machine.dynamics.DriveStretch"),
     ("py:class", "optlaws.mechanisms.machine.dynamics.Dynamics"),
     ("py:class", "optlaws.mechanisms.machine.dynamics.Panel"),

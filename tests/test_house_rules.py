@@ -13,43 +13,6 @@ MOST_ARGUMENTS = 8
 #: rooms whose functions take no more; what belongs together is one value, or the entries of a `TypedDict`
 FEW_ARGUMENTS = ("cams", "cycles", "exports", "jobs", "laws", "motion", "plots")
 
-#: names that several classes have still
-SEVERAL_CLASSES = frozenset(
-    [
-        "Asked",
-        "Bounds",
-        "Box",
-        "Cell",
-        "Drive",
-        "Edge",
-        "Entry",
-        "Extreme",
-        "Interval",
-        "Jet",
-        "Line",
-        "Model",
-        "Motion",
-        "OfFormula",
-        "OutputConstant",
-        "OutputPeak",
-        "OutputRms",
-        "Part",
-        "Peak",
-        "Power",
-        "Row",
-        "Search",
-        "Segment",
-        "StateSpace",
-        "Stretch",
-        "Sum",
-        "Table",
-        "Top",
-        "Units",
-        "_Laws",
-        "_Part",
-    ]
-)
-
 
 def nodes(folder: Path) -> Iterator[tuple[Path, ast.AST]]:
     """Every node of the syntax trees below a folder, with its file."""
@@ -78,7 +41,7 @@ def test_a_function_takes_few_arguments(room: str) -> None:
 
 def test_a_name_of_a_class_means_one_class() -> None:
     names = Counter(node.name for _, node in nodes(ROOT / "optlaws") if isinstance(node, ast.ClassDef))
-    assert {name for name, count in names.items() if count > 1} <= SEVERAL_CLASSES
+    assert {name for name, count in names.items() if count > 1} == set()
 
 
 MODULE = ROOT / "optlaws" / "numerics" / "tolerances.py"

@@ -17,7 +17,7 @@ from optlaws.cams.curves.extremes import (
     FREE,
     UNDECIDED,
     UNDERCUT,
-    Extreme,
+    EnclosedExtreme,
     angle_of_tangent,
     enclosed_extremes,
     first_least,
@@ -161,24 +161,24 @@ class BarrelCam:
         return values if np.ndim(values) else float(values)
 
     @kept_property
-    def pressure_angles(self) -> tuple[Extreme, Extreme]:
+    def pressure_angles(self) -> tuple[EnclosedExtreme, EnclosedExtreme]:
         """The least and the greatest pressure angle, at the bottom of the groove, where it is greatest; enclosed."""
         least, greatest = enclosed_extremes(self.displacement, lambda s: s.slope() * (1.0 / self.radii[1]), 1)
         return angle_of_tangent(least), angle_of_tangent(greatest)
 
     @kept_property
-    def margin(self) -> Extreme:
+    def margin(self) -> EnclosedExtreme:
         """The least of v - R r |s''|/v² - R² s'²/v³ at the bottom of the groove, v² = r² + s'², in m; enclosed.
 
         By so much a flank goes on with every radian; where it is not above 0, the flank has a cusp.
         """
         return self._rest(steep=False)
 
-    def _rest(self, *, steep: bool) -> Extreme:
+    def _rest(self, *, steep: bool) -> EnclosedExtreme:
         """The least of it, or of v - R |s''|/v - R² s'²/v³ at the bottom, which is no more than it is at any depth."""
         radius, roller = self.radii[1], self.roller
 
-        def rest(sign: float) -> Extreme:
+        def rest(sign: float) -> EnclosedExtreme:
             def speed(s: Jet) -> Jet:
                 slope, bend = s.slope(), s.slope().slope()
                 square = slope * slope + radius * radius

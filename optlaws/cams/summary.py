@@ -10,7 +10,7 @@ from optlaws.cycles.cycle import Cycle
 from optlaws.shown.summary import Row, Summary
 
 if TYPE_CHECKING:
-    from optlaws.cams.curves.extremes import Extreme
+    from optlaws.cams.curves.extremes import EnclosedExtreme
     from optlaws.cams.disc import DiscCam
     from optlaws.numerics.enclosures.branch_and_bound import Extremes
 
@@ -28,7 +28,7 @@ class Labelled(NamedTuple, Generic[T]):
     factor: float
 
 
-def geometry(cam: DiscCam) -> list[Labelled[Extreme]]:
+def geometry(cam: DiscCam) -> list[Labelled[EnclosedExtreme]]:
     """Extreme pressure angles, where there are any but 0, and least radii of curvature."""
     extremes = cam.extremes
     angles = {

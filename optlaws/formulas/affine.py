@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from optlaws.formulas.quadratic import quadratic
 from optlaws.formulas.slopes import constant
-from optlaws.formulas.tree import Call, Formula, Name, Negative, Number, Power, Product, Sum, Table
+from optlaws.formulas.tree import Call, Exponentiation, Formula, Name, Negative, Number, Product, Sum, Table
 
 
 @dataclass(frozen=True)
@@ -59,7 +59,7 @@ def degree(formula: Formula, names: Mapping[str, int]) -> int | None:
         return 0
     if isinstance(formula, Name):
         return names[formula.name]
-    if isinstance(formula, Power):
+    if isinstance(formula, Exponentiation):
         base, exponent = degree(formula.base, names), constant(formula.exponent)
         whole = exponent is not None and exponent >= 0.0 and exponent % 1.0 == 0.0
         return int(exponent) * base if whole and exponent is not None and base is not None else None

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.formulas.tree import Call, Formula, Name, Negative, Number, Power, Product, Reciprocal, Sum, Table
+from optlaws.formulas.tree import Call, Exponentiation, Formula, Name, Negative, Number, Product, Reciprocal, Sum, Table
 from optlaws.numerics.tolerances import NORM_OFFSET
 
 Array = NDArray[np.float64]
@@ -70,7 +70,7 @@ def evaluate(formula: Formula, names: Mapping[str, Any], arithmetic: Arithmetic)
         return reduce(lambda product, other: product * other, parts)
     if isinstance(formula, Reciprocal):
         return arithmetic.number(1.0) / parts[0]
-    if isinstance(formula, Power):
+    if isinstance(formula, Exponentiation):
         return arithmetic.power(*parts)
     if isinstance(formula, Table):
         if arithmetic.table is None:

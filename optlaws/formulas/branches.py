@@ -12,10 +12,10 @@ from optlaws.formulas.arithmetic import NUMPY, evaluate, pieces
 from optlaws.formulas.slopes import added, multiplied, opposite
 from optlaws.formulas.tree import (
     Call,
+    Exponentiation,
     Formula,
     Negative,
     Number,
-    Power,
     Product,
     Reciprocal,
     Sum,
@@ -140,7 +140,7 @@ def together(formula: Formula) -> Formula:
     """
     parts = [together(part) for part in formula.parts]
     if isinstance(formula, Table):
-        return Power(parts[0], Number(max((3.0 if formula.smooth else 1.0) - formula.order, 0.0)))
+        return Exponentiation(parts[0], Number(max((3.0 if formula.smooth else 1.0) - formula.order, 0.0)))
     if smooth_itself(formula):
         return rebuilt(formula, parts) if parts else formula
     return added(parts)
@@ -148,7 +148,7 @@ def together(formula: Formula) -> Formula:
 
 def _in_powers(coefficients: Sequence[float], of: Formula) -> Formula:
     """The polynomial with these coefficients, ascending."""
-    powers = [Number(1.0), of, *(Power(of, Number(float(m))) for m in range(2, len(coefficients)))]
+    powers = [Number(1.0), of, *(Exponentiation(of, Number(float(m))) for m in range(2, len(coefficients)))]
     return added([multiplied([number(value), power]) for value, power in zip(coefficients, powers, strict=False)])
 
 
@@ -176,7 +176,7 @@ def rounded(formula: Formula, radius: float) -> Formula:
 
 
 def _hyperbola(of: Formula, radius: float) -> Formula:
-    return Call("sqrt", (added([Power(of, Number(2.0)), Number(radius**2)]),))
+    return Call("sqrt", (added([Exponentiation(of, Number(2.0)), Number(radius**2)]),))
 
 
 class _Branches:
@@ -193,7 +193,7 @@ class _Branches:
             return self._sum(formula, greatest=greatest)
         if isinstance(formula, Product):
             return self._product(formula, greatest=greatest)
-        if isinstance(formula, Power):
+        if isinstance(formula, Exponentiation):
             return self._power(formula)
         if isinstance(formula, Table):
             return self._table(formula, greatest=greatest)
@@ -218,12 +218,12 @@ class _Branches:
         inner = self.of(moving[0], greatest=greatest == (sign > 0)) if sign else None
         return _each(inner, lambda branch: multiplied([*others, branch]))
 
-    def _power(self, formula: Power) -> list[Formula] | None:
+    def _power(self, formula: Exponentiation) -> list[Formula] | None:
         """An even power of a magnitude is smooth."""
         exponent = formula.exponent
         even = isinstance(exponent, Number) and exponent.value % 2.0 == 0.0
         if even and isinstance(formula.base, Call) and formula.base.function == "abs":
-            return [Power(formula.base.arguments[0], exponent)]
+            return [Exponentiation(formula.base.arguments[0], exponent)]
         return None
 
     def _table(self, formula: Table, *, greatest: bool) -> list[Formula] | None:

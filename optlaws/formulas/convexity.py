@@ -19,7 +19,7 @@ from optlaws.formulas.arithmetic import pieces
 from optlaws.formulas.intervals import Endpoints, enclosed
 from optlaws.formulas.quadratic import semidefinite
 from optlaws.formulas.slopes import constant
-from optlaws.formulas.tree import Call, Formula, Negative, Power, Product, Reciprocal, Sum, Table
+from optlaws.formulas.tree import Call, Exponentiation, Formula, Negative, Product, Reciprocal, Sum, Table
 
 _PARTS = 256
 
@@ -114,7 +114,7 @@ class Judge:
             return self._product(formula)
         if isinstance(formula, Reciprocal):
             return self._power(formula, formula.of, -1.0)
-        if isinstance(formula, Power):
+        if isinstance(formula, Exponentiation):
             return self._of_power(formula)
         if isinstance(formula, Table):
             return self._table(formula)
@@ -156,7 +156,7 @@ class Judge:
         kind = verdict.curvature if sign > 0 else verdict.curvature.opposite
         return Verdict(kind, f"{formula} is {moving[0]} times what does not change its sign; {verdict.why}", formula)
 
-    def _of_power(self, formula: Power) -> Verdict:
+    def _of_power(self, formula: Exponentiation) -> Verdict:
         exponent = constant(formula.exponent)
         if exponent is not None:
             return self._power(formula, formula.base, exponent)

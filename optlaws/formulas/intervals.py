@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from optlaws.formulas.arithmetic import pieces
 from optlaws.formulas.slopes import constant
-from optlaws.formulas.tree import Call, Formula, Name, Negative, Number, Power, Product, Reciprocal, Sum, Table
+from optlaws.formulas.tree import Call, Exponentiation, Formula, Name, Negative, Number, Product, Reciprocal, Sum, Table
 from optlaws.numerics.tolerances import OPERATIONS_ROUNDING
 
 Array = NDArray[np.float64]
@@ -86,7 +86,7 @@ def enclosed(formula: Formula, names: Mapping[str, Endpoints]) -> Endpoints:
         return reduce(lambda product, other: product * other, parts)
     if isinstance(formula, Reciprocal):
         return _reciprocal(parts[0])
-    if isinstance(formula, Power):
+    if isinstance(formula, Exponentiation):
         return _power(parts[0], parts[1], constant(formula.exponent)).outward()
     if isinstance(formula, Table):
         return _table(formula, parts[0]).outward()

@@ -20,11 +20,11 @@ from optlaws.formulas.reading import read, refused
 from optlaws.formulas.slopes import added, constant, opposite, scaled
 from optlaws.formulas.tree import (
     Call,
+    Exponentiation,
     Formula,
     Name,
     Negative,
     Number,
-    Power,
     Product,
     Reciprocal,
     Sum,
@@ -51,7 +51,7 @@ _MIRRORED: dict[str, Formula] = {
 
 
 @dataclass(frozen=True)
-class Motion:
+class MotionFormula:
     """A formula of a motion, over a part of the interval of k.
 
     Attributes
@@ -107,11 +107,11 @@ class Motion:
         judge = Judge(frozenset(ORDERS), self.start, self.stop)
         return branches(self.formula if sign > 0.0 else Negative(self.formula), ORDERS, judge.sign)
 
-    def mirrored(self) -> Motion:
+    def mirrored(self) -> MotionFormula:
         """The formula for a symmetric law on the other side: a(1-k) = 1 - a(k), b and j even, c odd about 1/2."""
-        return Motion(substituted(self.formula, _MIRRORED), 1.0 - self.stop, 1.0 - self.start)
+        return MotionFormula(substituted(self.formula, _MIRRORED), 1.0 - self.stop, 1.0 - self.start)
 
-    def halves(self) -> tuple[Motion, ...]:
+    def halves(self) -> tuple[MotionFormula, ...]:
         """The formulas on k <= 1/2 alone that mean the same for a symmetric law."""
         if self.stop <= 0.5:
             return (self,)
@@ -161,7 +161,7 @@ class Motion:
             sizes = _magnitude(self.formula, {**_REACHED, "k": k}, {**moved, "k": k})
         return power_of_two(float(np.max(sizes, where=np.isfinite(sizes), initial=0.0)))
 
-    def scaled(self, factor: float) -> Motion:
+    def scaled(self, factor: float) -> MotionFormula:
         """A factor above 0 times the formula."""
         return replace(self, formula=scaled(self.formula, factor))
 
@@ -191,7 +191,7 @@ class Motion:
         for part in parts:
             if not part.names():
                 continue
-            series = interpolated(partial(_along, Motion(part)), str(part))
+            series = interpolated(partial(_along, MotionFormula(part)), str(part))
             places += ((1.0 + real_parts_of_roots(series)) / 2.0).tolist()
         return places
 
@@ -217,7 +217,7 @@ def _magnitude(formula: Formula, names: Mapping[str, Any], values: Mapping[str, 
         return np.asarray(prod(parts))
     if isinstance(formula, Reciprocal):
         return 1.0 / parts[0]
-    if isinstance(formula, Power):
+    if isinstance(formula, Exponentiation):
         return np.asarray(parts[0] ** evaluate(formula.exponent, values, NUMPY))
     if isinstance(formula, Call) and formula.function in {"abs", "norm"}:
         return np.asarray(reduce(np.maximum, parts))
@@ -226,12 +226,12 @@ def _magnitude(formula: Formula, names: Mapping[str, Any], values: Mapping[str, 
     return there if np.any(there) or not parts else np.asarray(reduce(np.maximum, parts))
 
 
-def _along(motion: Motion, x: Array) -> Array:
+def _along(motion: MotionFormula, x: Array) -> Array:
     """Values at k = (1 + x)/2."""
     return np.broadcast_to(motion.values({"k": (1.0 + x) / 2.0}), np.shape(x))
 
 
-def of_text(text: str, start: float = 0.0, stop: float = 1.0) -> Motion:
+def of_text(text: str, start: float = 0.0, stop: float = 1.0) -> MotionFormula:
     """The formula of a text, over a part of the interval.
 
     Raises
@@ -247,10 +247,10 @@ def of_text(text: str, start: float = 0.0, stop: float = 1.0) -> Motion:
       d + 1/(k - 0.5)
            ^
     """
-    return checked(Motion(read(text, VOCABULARY), start, stop), text)
+    return checked(MotionFormula(read(text, VOCABULARY), start, stop), text)
 
 
-def checked(motion: Motion, text: str) -> Motion:
+def checked(motion: MotionFormula, text: str) -> MotionFormula:
     """The formula with d written as b c, if it has a value for every k.
 
     Raises
@@ -268,16 +268,16 @@ def checked(motion: Motion, text: str) -> Motion:
     still = [part for part in motion.formula.walk() if not part.names() & {*ORDERS, "d"}]
     for part in still:
         if isinstance(part, Call) and part.function == "tan":
-            beneath = Motion(Call("cos", part.arguments)).values({"k": k})
+            beneath = MotionFormula(Call("cos", part.arguments)).values({"k": k})
             if (np.diff(np.sign(beneath)) != 0.0).any():
                 raise refused(f"{part} has no finite value within k = {motion.start:g}..{motion.stop:g}", text, part)
         if isinstance(part, Reciprocal):
-            below = Motion(part.of).values({"k": k})
+            below = MotionFormula(part.of).values({"k": k})
             if (below == 0.0).any() or np.min(below) < 0.0 < np.max(below):
                 where = f" within k = {motion.start:g}..{motion.stop:g}" if "k" in part.names() else ""
                 raise refused(f"{part.of} is 0{where}, and it is divided by", text, part)
     for part in still:
-        values = np.broadcast_to(Motion(part).values({"k": k}), k.shape)
+        values = np.broadcast_to(MotionFormula(part).values({"k": k}), k.shape)
         if not np.isfinite(values).all():
             raise refused(f"{part} has no finite value at k = {k[~np.isfinite(values)][0]:.4g}", text, part)
     return replace(motion, formula=substituted(motion.formula, {"d": _POWER}))

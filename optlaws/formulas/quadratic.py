@@ -9,7 +9,7 @@ import numpy as np
 
 from optlaws.formulas.intervals import Endpoints, enclosed
 from optlaws.formulas.slopes import added, constant, multiplied, opposite
-from optlaws.formulas.tree import Formula, Name, Negative, Number, Power, Product, Sum
+from optlaws.formulas.tree import Exponentiation, Formula, Name, Negative, Number, Product, Sum
 from optlaws.numerics.tolerances import OPERATIONS_ROUNDING
 
 #: factors of products of names: none, one or two of them, sorted
@@ -37,7 +37,7 @@ def quadratic(formula: Formula, names: Collection[str], most: int = _MOST) -> Te
         return _sum([quadratic(term, names, most) for term in formula.terms])
     if isinstance(formula, Product):
         return _product(formula, names, most)
-    if isinstance(formula, Power) and most > 1:
+    if isinstance(formula, Exponentiation) and most > 1:
         exponent = constant(formula.exponent)
         if exponent is None or not 0.0 <= exponent <= most or exponent % 1.0:
             return None

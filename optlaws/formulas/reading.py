@@ -18,7 +18,18 @@ from itertools import pairwise
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.formulas.scanner import FormulaError, Scanner
-from optlaws.formulas.tree import Call, Formula, Name, Negative, Number, Power, Reciprocal, Table, product, total
+from optlaws.formulas.tree import (
+    Call,
+    Exponentiation,
+    Formula,
+    Name,
+    Negative,
+    Number,
+    Reciprocal,
+    Table,
+    product,
+    total,
+)
 from optlaws.numbers import MAGNITUDE_LIMIT
 from optlaws.suggest import unknown_key
 
@@ -122,7 +133,7 @@ class _Parser:
         base = self._atom(depth)
         if not self._raises():
             return base
-        return Power(base, self._signed(depth + 1), place=place)
+        return Exponentiation(base, self._signed(depth + 1), place=place)
 
     def _raises(self) -> bool:
         """Take the sign of a power, ^ or **, if it comes next."""

@@ -11,11 +11,11 @@ from optlaws.errors import InputError
 from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.formulas.tree import (
     Call,
+    Exponentiation,
     Formula,
     Name,
     Negative,
     Number,
-    Power,
     Product,
     Reciprocal,
     Sum,
@@ -53,9 +53,9 @@ def derivative(formula: Formula, name: str) -> Formula:
     if isinstance(formula, Product):
         return _of_product(formula, name)
     if isinstance(formula, Reciprocal):
-        square = Reciprocal(Power(formula.of, Number(2.0)))
+        square = Reciprocal(Exponentiation(formula.of, Number(2.0)))
         return opposite(multiplied([derivative(formula.of, name), square]))
-    if isinstance(formula, Power):
+    if isinstance(formula, Exponentiation):
         return _of_power(formula, name)
     if isinstance(formula, Table):
         return multiplied([_of_table(formula), derivative(formula.of, name)])
@@ -71,15 +71,15 @@ def _of_product(formula: Product, name: str) -> Formula:
     return added(terms)
 
 
-def _of_power(formula: Power, name: str) -> Formula:
+def _of_power(formula: Exponentiation, name: str) -> Formula:
     base, exponent = formula.base, formula.exponent
     slope = derivative(base, name)
     known = constant(exponent)
     if known is not None:
-        lower = base if known == 2.0 else Power(base, number(known - 1.0))
+        lower = base if known == 2.0 else Exponentiation(base, number(known - 1.0))
         return multiplied([number(known), lower if known != 1.0 else _ONE, slope])
     if name not in exponent.names():
-        return multiplied([exponent, Power(base, added([exponent, opposite(_ONE)])), slope])
+        return multiplied([exponent, Exponentiation(base, added([exponent, opposite(_ONE)])), slope])
     turned = added(
         [
             multiplied([derivative(exponent, name), Call("log", (base,))]),
@@ -92,9 +92,9 @@ def _of_power(formula: Power, name: str) -> Formula:
 _SLOPES: dict[str, Callable[[Formula], Formula]] = {
     "sin": lambda of: Call("cos", (of,)),
     "cos": lambda of: opposite(Call("sin", (of,))),
-    "tan": lambda of: added([_ONE, Power(Call("tan", (of,)), Number(2.0))]),
-    "atan": lambda of: Reciprocal(added([_ONE, Power(of, Number(2.0))])),
-    "tanh": lambda of: added([_ONE, opposite(Power(Call("tanh", (of,)), Number(2.0)))]),
+    "tan": lambda of: added([_ONE, Exponentiation(Call("tan", (of,)), Number(2.0))]),
+    "atan": lambda of: Reciprocal(added([_ONE, Exponentiation(of, Number(2.0))])),
+    "tanh": lambda of: added([_ONE, opposite(Exponentiation(Call("tanh", (of,)), Number(2.0)))]),
     "exp": lambda of: Call("exp", (of,)),
     "log": Reciprocal,
     "sqrt": lambda of: Reciprocal(multiplied([Number(2.0), Call("sqrt", (of,))])),

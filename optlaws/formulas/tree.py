@@ -143,7 +143,7 @@ class Product(Formula):
 
 
 @dataclass(frozen=True, repr=False)
-class Power(Formula):
+class Exponentiation(Formula):
     """A base with an exponent."""
 
     base: Formula
@@ -272,6 +272,6 @@ def rebuilt(formula: Formula, parts: list[Formula]) -> Formula:
         return product(parts, formula.place)
     if isinstance(formula, OfOnePart):
         return replace(formula, of=parts[0])
-    if isinstance(formula, Power):
+    if isinstance(formula, Exponentiation):
         return replace(formula, base=parts[0], exponent=parts[1])
     return replace(formula, arguments=tuple(parts)) if isinstance(formula, Call) else formula

@@ -16,7 +16,7 @@ from optlaws.synthesis.method import starts
 from optlaws.synthesis.method.exchange import Outcome, solve
 from optlaws.synthesis.method.lower_bounds import active_lower_bounds, active_lower_bounds_at
 from optlaws.synthesis.method.without_interior import fallbacks_without_interior, on_equations
-from optlaws.synthesis.problem.constants import Peak
+from optlaws.synthesis.problem.constants import PeakConstant
 from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.evaluation import Worth, shortfalls, worth
@@ -171,7 +171,7 @@ class LawSearch:
             next(iter(shortfalls(self.problem, plain.law).items())) if plain.law is not None else (None, 0.0)
         )
         alone = all(leaf == constant for _, leaf in leaves(self.problem.objective))
-        if alone or not isinstance(constant, Peak) or plain.outcome.optimum is None:
+        if alone or not isinstance(constant, PeakConstant) or plain.outcome.optimum is None:
             return best
         step, side = _FIRST_MOVE, 1.0
         for _ in range(_MOVES):
@@ -187,7 +187,7 @@ class LawSearch:
         return best
 
     @staticmethod
-    def _place(attempt: Attempt, peak: Peak) -> float:
+    def _place(attempt: Attempt, peak: PeakConstant) -> float:
         return 0.5 if attempt.law is None else attempt.law.peak(peak.nu).k
 
     def _placed(self, plain: Attempt, best: Attempt) -> Attempt:

@@ -12,7 +12,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
 
-from optlaws.cams.curves.extremes import FREE, UNDERCUT, Extreme, enclosed_extremes
+from optlaws.cams.curves.extremes import FREE, UNDERCUT, EnclosedExtreme, enclosed_extremes
 from optlaws.cams.curves.motion_by_angle import CamMotion
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.oscillating_roller import OscillatingRoller
@@ -212,7 +212,7 @@ def test_no_undercut_is_missed_in_a_thousand_random_cams() -> None:
 
 
 def test_an_extreme_with_the_other_sign_is_turned_over() -> None:
-    assert -Extreme(-2.0, -1.0, 0.3) == Extreme(1.0, 2.0, 0.3)
+    assert -EnclosedExtreme(-2.0, -1.0, 0.3) == EnclosedExtreme(1.0, 2.0, 0.3)
 
 
 def test_a_part_of_the_turn_is_proven_locally_alone() -> None:

@@ -23,7 +23,15 @@ from optlaws.mechanisms.machine.output_constants import OutputConstant
 from optlaws.mechanisms.machine.residual_boxes import ModeResidual
 from optlaws.mechanisms.spectrum.robust import Residual
 from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaPeak, FormulaRms, FormulaValue, OfFormula
-from optlaws.synthesis.problem.constants import ALIASES, FUNCTIONALS, MAKERS, PLAIN, Peak, Power, RootMeanSquare
+from optlaws.synthesis.problem.constants import (
+    ALIASES,
+    FUNCTIONALS,
+    MAKERS,
+    PLAIN,
+    PeakConstant,
+    PowerConstant,
+    RootMeanSquare,
+)
 from optlaws.synthesis.problem.named_constants import expression, is_named, named
 from optlaws.synthesis.spaces.of_basis import space_of
 from optlaws.synthesis.spaces.space import LawSpace
@@ -151,7 +159,7 @@ def sampled(constant: Functional, law: MotionLaw) -> tuple[float, float]:
     if isinstance(constant, OutputConstant | ModeResidual):
         return Judged(law).value(constant), 1e-8  # stepped by matrix exponentials: a grid of its own
     values = signal(constant, law)
-    signs = constant.signs if isinstance(constant, Peak | CamPeak) else (1.0, -1.0)
+    signs = constant.signs if isinstance(constant, PeakConstant | CamPeak) else (1.0, -1.0)
     greatest = max(float((sign * values).max()) for sign in signs)
     # between the points a smooth function is above them by an eighth of the second difference, at a break by a step
     return greatest, float(np.abs(np.diff(values, 1 if "breaks" in law.to_dict() else 2)).max())
@@ -164,9 +172,9 @@ def signal(constant: Functional, law: MotionLaw) -> Array:
     if isinstance(constant, CamPower):
         b, c = (combination(law, nu, constant.frequency, constant.damping, GRID) for nu in (1, 2))
         return b * c
-    if isinstance(constant, Peak):
+    if isinstance(constant, PeakConstant):
         return np.asarray(law(GRID, constant.nu))
-    assert type(constant) is Power
+    assert type(constant) is PowerConstant
     return np.asarray(law.b(GRID) * law.c(GRID))
 
 
@@ -286,7 +294,7 @@ def test_no_law_is_below_its_least_value_or_beyond_its_curbs(name: str) -> None:
             law = point(where, seed, quiet(name))[1]
             value, least = constant.value(law), constant.least(ORDER)
             assert isnan(least) or value >= least
-            size = sqrt(value) if isinstance(constant, Power) else value
+            size = sqrt(value) if isinstance(constant, PowerConstant) else value
             for nu, factor in constant.curbs():
                 assert np.abs(law(GRID, nu)).mean() <= factor * size * (1.0 + 1e-3)
             assert value >= constant.floor(SPACES[where].boundary)

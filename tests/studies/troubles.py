@@ -7,13 +7,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from optlaws import FUNCTIONALS, MotionLaw
-from optlaws.synthesis.problem.constants import Peak
+from optlaws.synthesis.problem.constants import PeakConstant
 
 TROUBLED_B = 1.7
 
 
 @dataclass(frozen=True, repr=False)
-class Troublesome(Peak):
+class Troublesome(PeakConstant):
     """C, but that a law with B = 1.7 is in for it."""
 
     trouble: Callable[[], object] = int

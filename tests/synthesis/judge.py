@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
 
 from optlaws import Expression, Functional, MotionLaw, Problem, Range, Solution, Window, peak
-from optlaws.formulas.of_motion import Motion
+from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.tree import Table
 from optlaws.mechanisms.cam.constants import CamPeak, CamPower
 from optlaws.mechanisms.machine.output_constants import OutputConstant
@@ -224,7 +224,7 @@ class Judged:
         assert isinstance(constant, FormulaPeak)
         return max(self._highest(signal, sign, edges) for sign in constant.signs)
 
-    def _breaks(self, motion: Motion) -> list[float]:
+    def _breaks(self, motion: MotionFormula) -> list[float]:
         """Of the law, and of the tables, by their places."""
         own = [piece.domain[0] for piece in self.derivatives[2].pieces]
         return own + [x for part in motion.formula.walk() if isinstance(part, Table) for x in part.places]

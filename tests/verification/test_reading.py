@@ -176,10 +176,10 @@ def test_own_constants_are_refused_even_if_they_look_like_known_ones() -> None:
     from dataclasses import dataclass
 
     from optlaws import synthesize
-    from optlaws.synthesis.problem.constants import Peak
+    from optlaws.synthesis.problem.constants import PeakConstant
 
     @dataclass(frozen=True, repr=False)
-    class Half(Peak):
+    class Half(PeakConstant):
         """A peak of which half is told."""
 
         def value(self, law: Any) -> float:  # noqa: ANN401

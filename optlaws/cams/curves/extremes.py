@@ -21,12 +21,12 @@ FREE, UNDERCUT, UNDECIDED = "free", "undercut", "undecided"
 
 
 @dataclass(frozen=True)
-class Extreme:
+class EnclosedExtreme:
     """An extreme value, between `low` and `high`, and an angle in rad at which it is reached to within these.
 
     Examples
     --------
-    >>> Extreme(0.999999, 1.000001, 0.5).value
+    >>> EnclosedExtreme(0.999999, 1.000001, 0.5).value
     1.0
     """
 
@@ -39,13 +39,13 @@ class Extreme:
         """The middle of the enclosure."""
         return 0.5 * (self.low + self.high)
 
-    def __neg__(self) -> Extreme:
-        return Extreme(-self.high, -self.low, self.angle)
+    def __neg__(self) -> EnclosedExtreme:
+        return EnclosedExtreme(-self.high, -self.low, self.angle)
 
 
 def enclosed_extremes(
     motion: CamMotion, function: Function, lost: int, tolerance: float = CAM_EXTREMES
-) -> tuple[Extreme, Extreme]:
+) -> tuple[EnclosedExtreme, EnclosedExtreme]:
     """The least and the greatest value of a function of a motion.
 
     Parameters
@@ -75,20 +75,22 @@ def enclosed_extremes(
     known = extremes(
         lambda angle, order: function(motion.jet(angle, order + lost)), motion.breaks, share=tolerance, parts=_PARTS
     )
-    return Extreme(known.low, known.least, known.least_at), Extreme(known.most, known.high, known.most_at)
+    return EnclosedExtreme(known.low, known.least, known.least_at), EnclosedExtreme(
+        known.most, known.high, known.most_at
+    )
 
 
-def first_least(*known: Extreme) -> Extreme:
+def first_least(*known: EnclosedExtreme) -> EnclosedExtreme:
     """The least of several extremes, and the first angle of those that are as low as one another.
 
     Examples
     --------
-    >>> first_least(Extreme(1.0, 1.0, 5.3), Extreme(1.0 + 1e-15, 1.0 + 1e-15, 0.2))
-    Extreme(low=1.0, high=1.0, angle=0.2)
+    >>> first_least(EnclosedExtreme(1.0, 1.0, 5.3), EnclosedExtreme(1.0 + 1e-15, 1.0 + 1e-15, 0.2))
+    EnclosedExtreme(low=1.0, high=1.0, angle=0.2)
     """
     low, high = min(extreme.low for extreme in known), min(extreme.high for extreme in known)
     alike = high + EQUAL_EXTREMES * max(abs(low), abs(high))
-    return Extreme(low, high, min(extreme.angle for extreme in known if extreme.high <= alike))
+    return EnclosedExtreme(low, high, min(extreme.angle for extreme in known if extreme.high <= alike))
 
 
 @dataclass(frozen=True)
@@ -109,10 +111,10 @@ class Undercut:
 
     status: str
     simple: bool
-    margin: Extreme
+    margin: EnclosedExtreme
 
     @classmethod
-    def of(cls, margin: Extreme, *, simple: bool) -> Undercut:
+    def of(cls, margin: EnclosedExtreme, *, simple: bool) -> Undercut:
         """What the least radius of curvature proves; `simple` counts where there is no undercut."""
         status = FREE if margin.low > 0.0 else UNDERCUT if margin.high < 0.0 else UNDECIDED
         return cls(status, simple and status == FREE, margin)
@@ -152,30 +154,30 @@ class CamExtremes:
         What is proven of undercut.
     """
 
-    pressure_angles: tuple[Extreme, Extreme]
-    least_convex_radius: Extreme
-    least_concave_radius: Extreme | None
+    pressure_angles: tuple[EnclosedExtreme, EnclosedExtreme]
+    least_convex_radius: EnclosedExtreme
+    least_concave_radius: EnclosedExtreme | None
     undercut: Undercut
 
     @property
-    def greatest_pressure_angle(self) -> Extreme:
+    def greatest_pressure_angle(self) -> EnclosedExtreme:
         """The greatest magnitude of the pressure angle."""
         least, greatest = self.pressure_angles
         return greatest if greatest.value >= -least.value else -least
 
 
-def angle_of_tangent(tangent: Extreme) -> Extreme:
+def angle_of_tangent(tangent: EnclosedExtreme) -> EnclosedExtreme:
     """The enclosed angle of an enclosed tangent, rad.
 
     Examples
     --------
-    >>> round(angle_of_tangent(Extreme(1.0, 1.0, 0.0)).value, 9)
+    >>> round(angle_of_tangent(EnclosedExtreme(1.0, 1.0, 0.0)).value, 9)
     0.785398163
     """
     return widened(atan(tangent.low), atan(tangent.high), tangent.angle, 1.0)
 
 
-def widened(low: float, high: float, angle: float, size: float) -> Extreme:
+def widened(low: float, high: float, angle: float, size: float) -> EnclosedExtreme:
     """An enclosure, a little wider for the roundings of a few operations on numbers up to a size."""
     slack = 8.0 * ROUNDOFF * abs(size)
-    return Extreme(nextafter(low - slack, -inf), nextafter(high + slack, inf), angle)
+    return EnclosedExtreme(nextafter(low - slack, -inf), nextafter(high + slack, inf), angle)

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optlaws.cams.curves.extremes import CamExtremes, Extreme, angle_of_tangent, enclosed_extremes
+from optlaws.cams.curves.extremes import CamExtremes, EnclosedExtreme, angle_of_tangent, enclosed_extremes
 from optlaws.cams.curves.motion_by_angle import CamMotion
 from optlaws.errors import InputError
 from optlaws.motion.piece import Piece
@@ -211,20 +211,20 @@ class FollowerContact(ABC):
         """The normal away from the cam where it is that of a face; None where it is that of the curve."""
         return None
 
-    def pressure_angles(self, motion: CamMotion) -> tuple[Extreme, Extreme]:
+    def pressure_angles(self, motion: CamMotion) -> tuple[EnclosedExtreme, EnclosedExtreme]:
         """The least and the greatest pressure angle of a cam, rad."""
         low, high = enclosed_extremes(motion, self.pressure, 1)
         return angle_of_tangent(low), angle_of_tangent(high)
 
     @abstractmethod
-    def least_convex_radius(self, motion: CamMotion) -> Extreme:
+    def least_convex_radius(self, motion: CamMotion) -> EnclosedExtreme:
         """The least radius of curvature of the profile where it bulges, m."""
 
     @abstractmethod
     def extremes(self, motion: CamMotion) -> CamExtremes:
         """Enclosed extremes over the whole motion."""
 
-    def pitch_curvatures(self, motion: CamMotion) -> tuple[Extreme, Extreme]:  # noqa: ARG002 - of rollers
+    def pitch_curvatures(self, motion: CamMotion) -> tuple[EnclosedExtreme, EnclosedExtreme]:  # noqa: ARG002 - of rollers
         """The least and the greatest curvature of the pitch curve, 1/m.
 
         Raises

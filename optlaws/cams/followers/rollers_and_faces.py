@@ -8,7 +8,7 @@ from math import inf, pi, sin, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.cams.curves.extremes import CamExtremes, Extreme, Undercut, enclosed_extremes, widened
+from optlaws.cams.curves.extremes import CamExtremes, EnclosedExtreme, Undercut, enclosed_extremes, widened
 from optlaws.cams.curves.motion_by_angle import CamMotion
 from optlaws.cams.followers.contact import ContactState, CurvatureTerms, FollowerContact, bearing, shifted
 from optlaws.numerics.enclosures.interval import Interval
@@ -69,11 +69,11 @@ class RollerContact(FollowerContact):
         excess: Interval = self.curvature(s).terms[0] - 1.0 / (limit + self.roller)
         return excess
 
-    def pitch_curvatures(self, motion: CamMotion) -> tuple[Extreme, Extreme]:
+    def pitch_curvatures(self, motion: CamMotion) -> tuple[EnclosedExtreme, EnclosedExtreme]:
         """The least and the greatest curvature of the pitch curve, 1/m."""
         return enclosed_extremes(motion, self.curvature, 2)
 
-    def least_convex_radius(self, motion: CamMotion) -> Extreme:
+    def least_convex_radius(self, motion: CamMotion) -> EnclosedExtreme:
         """The least radius of curvature of the profile where it bulges, m."""
         return self._inside(self.pitch_curvatures(motion)[1])
 
@@ -90,7 +90,7 @@ class RollerContact(FollowerContact):
         simple = motion.closed and convex.low > 0.0 and self._is_star(motion)
         return CamExtremes(pressure, convex, concave, Undercut.of(convex, simple=simple))
 
-    def _inside(self, curvature: Extreme) -> Extreme:
+    def _inside(self, curvature: EnclosedExtreme) -> EnclosedExtreme:
         """The radius of curvature of the profile where the pitch curve bulges most."""
         low, high = 1.0 / curvature.high, 1.0 / curvature.low
         return widened(low - self.roller, high - self.roller, curvature.angle, high)
@@ -184,7 +184,7 @@ class FaceContact(FollowerContact):
         excess: Interval = -self.radius(s).terms[0] + limit
         return excess
 
-    def least_convex_radius(self, motion: CamMotion) -> Extreme:
+    def least_convex_radius(self, motion: CamMotion) -> EnclosedExtreme:
         """The least radius of curvature of the profile, m."""
         return enclosed_extremes(motion, self.radius, 2)[0]
 

@@ -13,7 +13,7 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.cams.curves.extremes import Extreme
+from optlaws.cams.curves.extremes import EnclosedExtreme
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.follower import follower_kinds
 from optlaws.cams.least_sizes import least_base_circle
@@ -158,7 +158,7 @@ def panel(name: str, unit: str, turns: Any, values: Array, peaks: list[dict[str,
     return {"name": name, "unit": unit, "at": turns, "values": drawn(values), "limits": [], "peaks": peaks}
 
 
-def _mark(extreme: Extreme, factor: float, signed_by: DiscCam | None = None) -> dict[str, Any]:
+def _mark(extreme: EnclosedExtreme, factor: float, signed_by: DiscCam | None = None) -> dict[str, Any]:
     value = extreme.value
     if signed_by is not None:
         value = float(np.copysign(value, signed_by.pressure_angle(extreme.angle)))
@@ -181,7 +181,7 @@ def _trust(cam: DiscCam) -> dict[str, Any]:
     return {"status": status, "word": word, "advice": f"{text[0].upper()}{text[1:]}.", "gap": "", "facts": facts}
 
 
-def _told(extreme: Extreme, factor: float, unit: str) -> str:
+def _told(extreme: EnclosedExtreme, factor: float, unit: str) -> str:
     return f"{digits(extreme.value * factor)} {unit} at {digits(degrees(extreme.angle), 5)} deg"
 
 

@@ -7,7 +7,7 @@ from math import degrees
 
 import numpy as np
 
-from optlaws.cams.curves.extremes import Extreme
+from optlaws.cams.curves.extremes import EnclosedExtreme
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.summary import geometry
 from optlaws.files import tables
@@ -44,25 +44,27 @@ def extreme_rows(cam: DiscCam, limits: Limits) -> list[list[tables.Cell]]:
     ]
 
 
-def extreme_row(name: str, extreme: Extreme, factor: float, unit: str, limit: float | None = None) -> list[tables.Cell]:
+def extreme_row(
+    name: str, extreme: EnclosedExtreme, factor: float, unit: str, limit: float | None = None
+) -> list[tables.Cell]:
     """The row of an extreme, in a unit of so many to the SI unit; without its angle where laws touch it as a limit.
 
     Examples
     --------
-    >>> extreme_row("radius", Extreme(0.01, 0.01, 0.0), 1e3, "mm")
+    >>> extreme_row("radius", EnclosedExtreme(0.01, 0.01, 0.0), 1e3, "mm")
     ['radius', 10.0, 10.0, 'mm', 0.0]
     """
     low, high = (plain(factor * value) for value in (extreme.low, extreme.high))
     return [name, low, high if np.isfinite(high) else None, unit, _angle(extreme, limit, degrees(extreme.angle))]
 
 
-def enclosure(extreme: Extreme, limit: float | None = None) -> dict[str, float | None]:
+def enclosure(extreme: EnclosedExtreme, limit: float | None = None) -> dict[str, float | None]:
     """The enclosure of an extreme for programs, in SI units."""
     high = extreme.high if np.isfinite(extreme.high) else None
     return {"low": extreme.low, "high": high, "angle": _angle(extreme, limit, extreme.angle)}
 
 
-def _angle(extreme: Extreme, limit: float | None, angle: float) -> float | None:
+def _angle(extreme: EnclosedExtreme, limit: float | None, angle: float) -> float | None:
     return None if Limits.reached(extreme.value, limit) else angle
 
 

@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 
 from optlaws.formulas.affine import degree
 from optlaws.formulas.arithmetic import NUMPY, evaluate
-from optlaws.formulas.of_motion import Motion
+from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.slopes import derivative, scaled
-from optlaws.formulas.tree import Call, Formula, Number, Power, total
+from optlaws.formulas.tree import Call, Exponentiation, Formula, Number, total
 from optlaws.kept import kept_property
 from optlaws.numerics.candidates import candidates
 from optlaws.numerics.chebyshev import FEWEST, MOST, from_values, nodes
@@ -238,7 +238,7 @@ class CurvedFamily(FormulaFamily):
         """The square of a norm; None of what is none."""
         formula = self.formula
         norm = isinstance(formula, Call) and formula.function == "norm" and self.signs == (1.0,)
-        return total([Power(part, Number(2.0)) for part in formula.parts]) if norm else None
+        return total([Exponentiation(part, Number(2.0)) for part in formula.parts]) if norm else None
 
     def _peaks(self, formula: Formula, point: Array) -> Array:
         series = self._series(formula, point)
@@ -271,7 +271,7 @@ class CurvedFamily(FormulaFamily):
         u = low + (high - low) * (nodes(count) + 1.0) / 2.0
         values = np.array([point @ part.columns(u)[0].T for _, part in self.parts])
         places = np.broadcast_to(u, values.shape[1:])
-        heights = Motion(formula).values(self._at(values, places))
+        heights = MotionFormula(formula).values(self._at(values, places))
         return from_values(np.broadcast_to(heights, places.shape).T).T
 
     def value(self, x: Array, u: Array) -> Array:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.formulas.affine import degree
-from optlaws.formulas.of_motion import Motion
+from optlaws.formulas.of_motion import MotionFormula
 from optlaws.numerics.chebyshev import from_values, interpolated, nodes
 from optlaws.numerics.chebyshev import gauss as gauss_rule
 from optlaws.synthesis.families.family import LinearFamily
@@ -33,11 +33,11 @@ class Side:
     """A formula on the part of the interval that a space's rows speak of, with the name and the signs of its rows."""
 
     name: str
-    motion: Motion
+    motion: MotionFormula
     signs: tuple[float, ...]
 
 
-def sides(motion: Motion, name: str, signs: tuple[float, ...], *, symmetric: bool) -> list[Side]:
+def sides(motion: MotionFormula, name: str, signs: tuple[float, ...], *, symmetric: bool) -> list[Side]:
     """What rows say of a formula: as it is, or of symmetric laws each half on the first one.
 
     Where the second half says the same as the first, or its opposite, one side says both.
@@ -62,7 +62,7 @@ def sides(motion: Motion, name: str, signs: tuple[float, ...], *, symmetric: boo
     return [Side(name, first, signs), Side(mirrored(name), other, turned)]
 
 
-def sampled(motion: Motion) -> Array:
+def sampled(motion: MotionFormula) -> Array:
     """Its values in motions at random."""
     numbers = np.random.default_rng(0)
     names = {name: numbers.normal(size=_PLACES) for name in "abcj"}
@@ -70,7 +70,7 @@ def sampled(motion: Motion) -> Array:
     return np.broadcast_to(motion.values({**names, "k": k}), (_PLACES,))
 
 
-def columns(space: LawSpace, motion: Motion, u: Array) -> Array:
+def columns(space: LawSpace, motion: MotionFormula, u: Array) -> Array:
     """An affine formula at places u = 1 - 2k: of the free functions, then of the base law with what is left."""
     k = (1.0 - u) / 2.0
     columns_there = np.zeros((len(u), space.terms + 1))
@@ -81,7 +81,7 @@ def columns(space: LawSpace, motion: Motion, u: Array) -> Array:
 
 
 def _at(factor: Formula, k: Array) -> Array:
-    return _spread(Motion(factor).values({"k": k}), k)
+    return _spread(MotionFormula(factor).values({"k": k}), k)
 
 
 def _spread(values: Array, like: Array) -> Array:
@@ -115,19 +115,19 @@ def _within(family: LinearFamily, domain: tuple[float, float]) -> LinearFamily:
     return replace(family, domain=(max(domain[0], family.domain[0]), min(domain[1], family.domain[1])))
 
 
-def edges_of(space: LawSpace, motion: Motion) -> tuple[float, ...]:
+def edges_of(space: LawSpace, motion: MotionFormula) -> tuple[float, ...]:
     """The u between which an affine formula is smooth in every law, descending."""
     return tuple(sorted({*space.edges, *(1.0 - 2.0 * k for k in motion.kinks)}, reverse=True))
 
 
-def count_of(space: LawSpace, motion: Motion, ends: tuple[float, float]) -> int:
+def count_of(space: LawSpace, motion: MotionFormula, ends: tuple[float, float]) -> int:
     """How many Chebyshev coefficients an affine formula needs between two u, for every law."""
 
     def length(factor: Formula) -> int:
         known = degree(factor, {"k": 1})
         if known is not None:
             return known
-        values = Motion(factor).values
+        values = MotionFormula(factor).values
         return len(interpolated(lambda x: _spread(values({"k": (1.0 - _between(ends, x)) / 2.0}), x), str(factor)))
 
     own = [length(factor) + space.degree_of(nu) for nu, factor in motion.weights.items()]
@@ -141,13 +141,13 @@ def _between(ends: tuple[float, float], x: Array) -> Array:
     return places
 
 
-def _series(space: LawSpace, motion: Motion, ends: tuple[float, float]) -> Array:
+def _series(space: LawSpace, motion: MotionFormula, ends: tuple[float, float]) -> Array:
     """Chebyshev series between two u, in what runs from -1 at the lesser to 1."""
     count = count_of(space, motion, ends)
     return from_values(columns(space, motion, _between(ends, nodes(count))))
 
 
-def gauss(space: LawSpace, motion: Motion) -> tuple[Array, Array]:
+def gauss(space: LawSpace, motion: MotionFormula) -> tuple[Array, Array]:
     """Places u in the formula's part and weights that add up to its length in k; exact for squares of the formula."""
     places, weights = [], []
     for ends, count in gauss_parts(space, motion):
@@ -157,7 +157,7 @@ def gauss(space: LawSpace, motion: Motion) -> tuple[Array, Array]:
     return np.concatenate(places), np.concatenate(weights)
 
 
-def gauss_parts(space: LawSpace, motion: Motion) -> list[tuple[tuple[float, float], int]]:
+def gauss_parts(space: LawSpace, motion: MotionFormula) -> list[tuple[tuple[float, float], int]]:
     """Between which u, descending, how many places of Gauss's rule are."""
     low, high = 1.0 - 2.0 * motion.stop, 1.0 - 2.0 * motion.start
     inner = [u for u in edges_of(space, motion) if low < u < high]

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.formulas.branches import knots
-from optlaws.formulas.of_motion import Motion
+from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.vocabulary import ORDERS
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, PolynomialLaw
@@ -30,7 +30,7 @@ _DEEPEST, _DENSE = 12, 32
 _NEGLIGIBLE, _SETTLED = 1e-14, 1e-6
 
 
-def extremes_along(motion: Motion, law: MotionLaw) -> tuple[Peak, Peak]:
+def extremes_along(motion: MotionFormula, law: MotionLaw) -> tuple[Peak, Peak]:
     """The least and the greatest value of a formula in a law, each with its place; infinite where it has no bound."""
     candidates = [_candidates(motion, law, ends) for ends in pairwise(_smooth_edges(motion, law))]
     if not candidates:
@@ -43,54 +43,54 @@ def extremes_along(motion: Motion, law: MotionLaw) -> tuple[Peak, Peak]:
     return extremes(k, values)
 
 
-def mean_square_along(motion: Motion, law: MotionLaw) -> float:
+def mean_square_along(motion: MotionFormula, law: MotionLaw) -> float:
     """The integral over the part of the square of a formula in a law."""
     return _Integral(motion, law, square=True).value
 
 
-def integral_along(motion: Motion, law: MotionLaw) -> float:
+def integral_along(motion: MotionFormula, law: MotionLaw) -> float:
     """The integral over the part of a formula in a law."""
     return _Integral(motion, law, square=False).value
 
 
-def value_along(motion: Motion, law: MotionLaw) -> float:
+def value_along(motion: MotionFormula, law: MotionLaw) -> float:
     """The formula's value in a law where its part begins."""
     return float(_values(motion, law, np.array([motion.start]))[0])
 
 
-def _values(motion: Motion, law: MotionLaw, k: Array) -> Array:
+def _values(motion: MotionFormula, law: MotionLaw, k: Array) -> Array:
     names = {name: law(k, ORDERS[name]) for name in motion.formula.names() if name in ORDERS}
     return np.broadcast_to(motion.values({**names, "k": k}), k.shape).astype(np.float64)
 
 
-def _edges(motion: Motion, law: MotionLaw) -> list[float]:
+def _edges(motion: MotionFormula, law: MotionLaw) -> list[float]:
     """The k between which the formula is smooth along the law."""
     breaks = law.breaks if isinstance(law, PiecewiseLaw) else ()
     inner = {k for k in (*breaks, *motion.breaks) if motion.start < k < motion.stop}
     return sorted({motion.start, motion.stop, *inner})
 
 
-def _smooth_edges(motion: Motion, law: MotionLaw) -> list[float]:
+def _smooth_edges(motion: MotionFormula, law: MotionLaw) -> list[float]:
     """These, the kinks that the law makes, and where it passes the knots of splines."""
     plain, bent = knots(motion.formula, ORDERS)
-    edges = cut_at_all((partial(_values, Motion(switch), law) for switch in plain), _edges(motion, law))
+    edges = cut_at_all((partial(_values, MotionFormula(switch), law) for switch in plain), _edges(motion, law))
     for switch in bent:
-        edges = cut_at_roots(partial(_inside, Motion(switch), law), edges)
+        edges = cut_at_roots(partial(_inside, MotionFormula(switch), law), edges)
     return edges
 
 
-def _inside(motion: Motion, law: MotionLaw, low: float, high: float) -> Callable[[Array], Array]:
+def _inside(motion: MotionFormula, law: MotionLaw, low: float, high: float) -> Callable[[Array], Array]:
     return lambda k: _on(motion, law, (low, high), k)[1]
 
 
-def _on(motion: Motion, law: MotionLaw, ends: tuple[float, float], k: Array) -> tuple[Array, Array]:
+def _on(motion: MotionFormula, law: MotionLaw, ends: tuple[float, float], k: Array) -> tuple[Array, Array]:
     """Places of a piece, its ends just within it, and the values there."""
     low, high = ends
     inside = np.clip(k, low + _BESIDE * (low > 0.0), high - _BESIDE * (high < 1.0))
     return inside, _values(motion, law, inside)
 
 
-def _count(motion: Motion, law: MotionLaw, ends: tuple[float, float]) -> int | None:
+def _count(motion: MotionFormula, law: MotionLaw, ends: tuple[float, float]) -> int | None:
     """How many coefficients the formula has on a piece; None where it is no polynomial."""
     longest = None
     if isinstance(law, PolynomialLaw):
@@ -104,7 +104,7 @@ def _count(motion: Motion, law: MotionLaw, ends: tuple[float, float]) -> int | N
     return None if degree is None or degree > _LARGEST else degree + 1
 
 
-def _candidates(motion: Motion, law: MotionLaw, ends: tuple[float, float]) -> tuple[Array, Array]:
+def _candidates(motion: MotionFormula, law: MotionLaw, ends: tuple[float, float]) -> tuple[Array, Array]:
     """Where the formula may be extreme on a piece, and its values there."""
     inner = candidates(lambda k: _on(motion, law, ends, k)[1], ends, _count(motion, law, ends))
     return _on(motion, law, ends, np.concatenate([np.array(ends), inner]))
@@ -113,7 +113,7 @@ def _candidates(motion: Motion, law: MotionLaw, ends: tuple[float, float]) -> tu
 class _Integral:
     """The integral of a formula along a law, by Gauss's rule: exact where the formula is a polynomial."""
 
-    def __init__(self, motion: Motion, law: MotionLaw, *, square: bool) -> None:
+    def __init__(self, motion: MotionFormula, law: MotionLaw, *, square: bool) -> None:
         self.motion, self.law, self.square = motion, law, square
         self.pieces = list(pairwise(_smooth_edges(motion, law)))
 

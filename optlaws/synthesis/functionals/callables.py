@@ -10,7 +10,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.formulas.reading import LONGEST
 from optlaws.formulas.slopes import added, multiplied, opposite
-from optlaws.formulas.tree import Call, Formula, Name, Number, Power, Reciprocal, number
+from optlaws.formulas.tree import Call, Exponentiation, Formula, Name, Number, Reciprocal, number
 from optlaws.formulas.vocabulary import VOCABULARY
 from optlaws.locks import casadi_lock
 
@@ -82,11 +82,11 @@ _OPERATIONS: dict[str, Callable[..., Formula]] = {
     "MUL": lambda x, y: multiplied([x, y]),
     "DIV": lambda x, y: multiplied([x, Reciprocal(y)]),
     "NEG": opposite,
-    "SQ": lambda x: Power(x, Number(2.0)),
+    "SQ": lambda x: Exponentiation(x, Number(2.0)),
     "TWICE": lambda x: multiplied([Number(2.0), x]),
     "INV": Reciprocal,
-    "POW": Power,
-    "CONSTPOW": Power,
+    "POW": Exponentiation,
+    "CONSTPOW": Exponentiation,
     "ASSIGN": lambda x: x,
     "FABS": lambda x: Call("abs", (x,)),
     "FMAX": lambda x, y: Call("max", (x, y)),

@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 
 from optlaws.formulas.branches import switches, together
 from optlaws.formulas.convexity import Judge
-from optlaws.formulas.of_motion import Motion
+from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.quadratic import quadratic
-from optlaws.formulas.tree import Call, Formula, Name, Negative, Number, Power, number, product, total
+from optlaws.formulas.tree import Call, Exponentiation, Formula, Name, Negative, Number, number, product, total
 from optlaws.formulas.vocabulary import ORDERS
 from optlaws.numerics.chebyshev import gauss
 from optlaws.synthesis.families import names
@@ -44,7 +44,7 @@ Boxes = Mapping[str, tuple[float, float]]
 class Branch:
     """A smooth formula that a sign of another is at least, with the signs with which its tangents bound it."""
 
-    motion: Motion
+    motion: MotionFormula
     sign: float
     name: str
 
@@ -55,7 +55,7 @@ class Branch:
         return kind.convex if self.sign > 0.0 else kind.concave
 
 
-def split(motion: Motion, sign: float, name: str) -> list[Branch] | None:
+def split(motion: MotionFormula, sign: float, name: str) -> list[Branch] | None:
     """The smooth formulas of which `sign` times the formula is the greatest; None where it is no such maximum."""
     formulas = motion.branches(sign)
     if formulas is None:
@@ -75,7 +75,7 @@ def branch_rows(space: LawSpace, branch: Branch, slack: Array, bound: float) -> 
     nothing = np.zeros(len(slack))
     parts = []
     for name in sorted(motion.formula.names() & ORDERS.keys()):
-        single = Side(name, Motion(Name(name), motion.start, motion.stop), (1.0,))
+        single = Side(name, MotionFormula(Name(name), motion.start, motion.stop), (1.0,))
         parts.append((name, rows(space, single, nothing, 0.0)))
     degrees = {name: space.degree_of(nu) for name, nu in ORDERS.items() if name in motion.formula.names()}
     return CurvedFamily(
@@ -93,7 +93,7 @@ def branch_rows(space: LawSpace, branch: Branch, slack: Array, bound: float) -> 
 
 
 def integral_rows(
-    space: LawSpace, motion: Motion, name: str, slack: Array, bound: float, *, root: bool, convex: bool
+    space: LawSpace, motion: MotionFormula, name: str, slack: Array, bound: float, *, root: bool, convex: bool
 ) -> IntegralFamily:
     """The row that the integral of a formula over its part, or its root, is at most slack . x + bound."""
     used = tuple(sorted(motion.formula.names() & ORDERS.keys()))
@@ -114,7 +114,7 @@ def integral_rows(
     return plain if not switches(motion.formula, ORDERS) else _kinked(space, motion, plain)
 
 
-def _kinked(space: LawSpace, motion: Motion, plain: IntegralFamily) -> KinkedIntegralFamily:
+def _kinked(space: LawSpace, motion: MotionFormula, plain: IntegralFamily) -> KinkedIntegralFamily:
     """The family of a formula with kinks in the law, by its smooth formulas between them."""
 
     def rows(turn: int, k: Array) -> Array:
@@ -129,7 +129,7 @@ def _kinked(space: LawSpace, motion: Motion, plain: IntegralFamily) -> KinkedInt
     return KinkedIntegralFamily(**own, rows=rows, units=np.ones(len(plain.slack) + 1), edges=edges, length=length)
 
 
-def integral_rule(space: LawSpace, motion: Motion) -> tuple[Array, Array]:
+def integral_rule(space: LawSpace, motion: MotionFormula) -> tuple[Array, Array]:
     """Gauss's places k over the formula's part and their weights; exact where the formula is a polynomial of k."""
     return _rule(rule_edges(space, motion), rule_length(space, motion))
 
@@ -140,14 +140,14 @@ def _rule(edges: list[float], count: int) -> tuple[Array, Array]:
     return (low + width * (1.0 + x) / 2.0).ravel(), (share * width / 2.0).ravel()
 
 
-def rule_length(space: LawSpace, motion: Motion) -> int:
+def rule_length(space: LawSpace, motion: MotionFormula) -> int:
     """How many places a piece needs."""
     degrees = {name: space.degree_of(nu) for name, nu in ORDERS.items() if name in motion.formula.names()}
     degree = motion.degree(degrees)
     return _SPARE + max(degrees.values(), default=0) if degree is None else degree // 2 + 1
 
 
-def rule_edges(space: LawSpace, motion: Motion) -> list[float]:
+def rule_edges(space: LawSpace, motion: MotionFormula) -> list[float]:
     """The k between which the rule has its places: the formula is smooth there along every law, over its part.
 
     Where it is no polynomial they are as near as the space's own law asks for, and nearer, for others are less smooth.
@@ -159,7 +159,7 @@ def rule_edges(space: LawSpace, motion: Motion) -> list[float]:
     return _cut(edges, int(cells))
 
 
-def _known_edges(space: LawSpace, motion: Motion) -> list[float]:
+def _known_edges(space: LawSpace, motion: MotionFormula) -> list[float]:
     """The k between which derivatives and factors are smooth along every law, over the formula's part."""
     edges = [(1.0 - u) / 2.0 for u in space.edges]
     both = {*edges, *(1.0 - k for k in edges)} if space.symmetric else set(edges)
@@ -167,7 +167,7 @@ def _known_edges(space: LawSpace, motion: Motion) -> list[float]:
     return sorted({motion.start, motion.stop, *inner})
 
 
-def _cells(space: LawSpace, motion: Motion, edges: list[float]) -> int:
+def _cells(space: LawSpace, motion: MotionFormula, edges: list[float]) -> int:
     """Into how many cells the parts between edges are cut: until twice as many say the same along some laws."""
     count, before, laws = rule_length(space, motion), np.full(_LAWS, np.nan), _some_laws(space)
     for power in range(_MOST_POWER + 1):
@@ -197,7 +197,7 @@ def _cut(edges: list[float], cells: int) -> list[float]:
     return [*inner, edges[-1]]
 
 
-def rule_cells(space: LawSpace, motion: Motion, count: int) -> Array:
+def rule_cells(space: LawSpace, motion: MotionFormula, count: int) -> Array:
     """The k between which the formula is smooth, as many cells between them as make up a count at least."""
     edges = rule_edges(space, motion)
     return np.array(_cut(edges, -(-count // (len(edges) - 1))))
@@ -221,7 +221,7 @@ def columns_of(space: LawSpace, nu: int, k: Array) -> Array:
     return columns_there
 
 
-def envelopes(motion: Motion, boxes: Boxes) -> list[Formula]:
+def envelopes(motion: MotionFormula, boxes: Boxes) -> list[Formula]:
     """Convex formulas that a quadratic one is nowhere below while derivatives are in their boxes (McCormick 1976).
 
     None where the formula is not quadratic, a factor changes its sign or a derivative in a product has no bounds.
@@ -271,7 +271,7 @@ def _plain(value: float) -> Formula:
     return number(value)
 
 
-def squared(motion: Motion) -> Motion:
+def squared(motion: MotionFormula) -> MotionFormula:
     """The square of a formula; of a norm what has no root in it.
 
     Examples
@@ -282,4 +282,4 @@ def squared(motion: Motion) -> Motion:
     """
     formula, two = motion.formula, Number(2.0)
     sizes = formula.arguments if isinstance(formula, Call) and formula.function in {"abs", "norm"} else (formula,)
-    return replace(motion, formula=total([Power(part, two) for part in sizes]))
+    return replace(motion, formula=total([Exponentiation(part, two) for part in sizes]))

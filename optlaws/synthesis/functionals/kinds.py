@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from optlaws.formulas.branches import smooth
 from optlaws.formulas.convexity import Judge
-from optlaws.formulas.of_motion import Motion
+from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.slopes import opposite
 from optlaws.formulas.tree import Negative
 from optlaws.formulas.vocabulary import ORDERS
@@ -64,7 +64,7 @@ class OfFormula(Functional):
         The formula, and over which part of the interval.
     """
 
-    motion: Motion
+    motion: MotionFormula
 
     @property
     def scale(self) -> float:
@@ -109,7 +109,7 @@ class OfFormula(Functional):
         """1 where the formula is nowhere below 0 whatever the law, -1 where nowhere above, 0 where neither is known."""
         return Judge(frozenset(ORDERS), self.motion.start, self.motion.stop).sign(self.motion.formula)
 
-    def parts(self, *, symmetric: bool) -> tuple[Motion, ...]:
+    def parts(self, *, symmetric: bool) -> tuple[MotionFormula, ...]:
         """The formula, or of symmetric laws what says the same on the first half."""
         return self.motion.halves() if symmetric else (self.motion,)
 
@@ -291,7 +291,7 @@ class FormulaRms(OfFormula):
             size = None if values is None else values.by_square()
         return None if size is None else (size[0], size[1] * float(np.sqrt(self.length)), size[2])
 
-    def _roots(self, space: LawSpace, motion: Motion) -> Array:
+    def _roots(self, space: LawSpace, motion: MotionFormula) -> Array:
         u, weights = gauss(space, motion)
         return np.sqrt(weights / self.length)[:, None] * columns(space, motion, u)
 
@@ -344,7 +344,7 @@ class FormulaValue(OfFormula):
         return tuple(branch_rows(space, branch, slack, bound) for branch in self.branches(symmetric=space.symmetric))
 
 
-def greatest_along(motion: Motion, sign: float, law: MotionLaw) -> float:
+def greatest_along(motion: MotionFormula, sign: float, law: MotionLaw) -> float:
     """The greatest value of a formula, times a sign, over its part of the interval."""
     if smooth(motion.formula, ORDERS):
         lowest, highest = extremes_along(motion, law)
@@ -353,12 +353,12 @@ def greatest_along(motion: Motion, sign: float, law: MotionLaw) -> float:
     return max(highest.value if sign > 0.0 else -lowest.value for sign, (lowest, highest) in ends)
 
 
-def _by_integral(space: LawSpace, motion: Motion) -> tuple[int, float, float] | None:
+def _by_integral(space: LawSpace, motion: MotionFormula) -> tuple[int, float, float] | None:
     """What bounds the laws in which the integral of a convex formula is small."""
     return straight_reach(space, motion) or _by_tangents(space, motion, root=False)
 
 
-def _by_tangents(space: LawSpace, motion: Motion, *, root: bool) -> tuple[int, float, float] | None:
+def _by_tangents(space: LawSpace, motion: MotionFormula, *, root: bool) -> tuple[int, float, float] | None:
     """What bounds the laws in which the integral of a convex formula, or its root, is small."""
     nothing = np.zeros(space.terms)
     unit = power_of_two(np.sqrt(motion.scale)) if root else motion.scale

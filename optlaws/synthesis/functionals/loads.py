@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from optlaws.formulas.reading import read
 from optlaws.formulas.slopes import added, derivative, multiplied
-from optlaws.formulas.tree import Name, Number, Power
+from optlaws.formulas.tree import Exponentiation, Name, Number
 
 
 def drive_torque(*, inertia: str = "1", friction: str = "0", load: str = "0") -> str:
@@ -35,6 +35,6 @@ def drive_torque(*, inertia: str = "1", friction: str = "0", load: str = "0") ->
     'spline1(a, 0:1, 0.3:1.1, 0.7:1.4, 1:1.3)*b^2'
     """
     mass, drag, force = (read(text, ("a", "k")) for text in (inertia, friction, load))
-    square = Power(Name("b"), Number(2.0))
+    square = Exponentiation(Name("b"), Number(2.0))
     turning = multiplied([Number(0.5), derivative(mass, "a"), square])
     return str(added([multiplied([mass, Name("c")]), turning, multiplied([drag, Name("b")]), force]))

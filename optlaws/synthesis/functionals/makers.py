@@ -10,7 +10,7 @@ from typing import Any
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.formulas.branches import smooth_itself
-from optlaws.formulas.of_motion import Motion, checked, of_text
+from optlaws.formulas.of_motion import MotionFormula, checked, of_text
 from optlaws.formulas.scanner import FormulaError
 from optlaws.formulas.tree import Formula, plain
 from optlaws.formulas.vocabulary import ORDERS
@@ -195,10 +195,10 @@ def functional(
     return _KINDS[kind](function, start=start, stop=stop)
 
 
-def _motion(formula: Any, start: float, stop: float) -> Motion:  # noqa: ANN401 - it is checked here
+def _motion(formula: Any, start: float, stop: float) -> MotionFormula:  # noqa: ANN401 - it is checked here
     """The formula that a text or a tree says, which must depend on the law."""
     if isinstance(formula, Formula):
-        motion, text = checked(Motion(formula, start, stop), str(formula)), str(formula)
+        motion, text = checked(MotionFormula(formula, start, stop), str(formula)), str(formula)
     elif isinstance(formula, str) or callable(formula):
         text = formula if isinstance(formula, str) else text_of(formula)
         motion = of_text(text, start, stop)
@@ -233,7 +233,7 @@ def _place(k: object, name: str) -> float:
     return float(number)
 
 
-def _name(kind: str, motion: Motion, others: list[str] | None = None) -> str:
+def _name(kind: str, motion: MotionFormula, others: list[str] | None = None) -> str:
     parts = [str(motion.formula), *(others or [])]
     parts += [f"start={plain(motion.start)}"] if motion.start != 0.0 else []
     parts += [f"stop={plain(motion.stop)}"] if motion.stop != 1.0 else []

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.formulas.of_motion import Motion
+from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.vocabulary import ORDERS
 from optlaws.numbers import power_of_two
 from optlaws.synthesis.functionals.affine_rows import columns, gauss
@@ -70,7 +70,7 @@ class Reach:
         return _ORDER, _ROUNDED * most, _ROUNDED * (self.offset + share * max(-sign * fixed, 0.0))
 
 
-def reach(space: LawSpace, parts: tuple[Motion, ...]) -> Reach | None:
+def reach(space: LawSpace, parts: tuple[MotionFormula, ...]) -> Reach | None:
     """How an affine formula's values bound the laws of a space; None where they do not, or hardly.
 
     The law's coordinates are a linear function of enough values of the formula, and so is its acceleration.
@@ -175,7 +175,7 @@ def _evenly(rows: Array, weights: Array) -> Array | None:
     return None if optimum.x is None else weights * (optimum.x[:-1] + optimum.x[-1])
 
 
-def known_values(motion: Motion, conditions: BoundaryConditions) -> list[tuple[float, float]]:
+def known_values(motion: MotionFormula, conditions: BoundaryConditions) -> list[tuple[float, float]]:
     """What the end conditions say a formula is at an end, or in the mean; each with a size that its rounding has.
 
     Examples
@@ -194,17 +194,17 @@ def known_values(motion: Motion, conditions: BoundaryConditions) -> list[tuple[f
     return values if mean is None else [*values, (mean, _mean_size(motion, conditions))]
 
 
-def mean_value(motion: Motion, conditions: BoundaryConditions) -> float | None:
+def mean_value(motion: MotionFormula, conditions: BoundaryConditions) -> float | None:
     """The mean over the whole interval of a formula whose factors are numbers; None where it is not known."""
     terms = _mean_terms(motion, conditions)
     return None if terms is None else sum(terms)
 
 
-def _mean_size(motion: Motion, conditions: BoundaryConditions) -> float:
+def _mean_size(motion: MotionFormula, conditions: BoundaryConditions) -> float:
     return sum(map(abs, _mean_terms(motion, conditions) or []))
 
 
-def _mean_terms(motion: Motion, conditions: BoundaryConditions) -> list[float] | None:
+def _mean_terms(motion: MotionFormula, conditions: BoundaryConditions) -> list[float] | None:
     plain = motion.constant_weights()
     known = range(1, len(conditions.start) + 1)
     whole = motion.affine is not None and (motion.start, motion.stop) == (0.0, 1.0)

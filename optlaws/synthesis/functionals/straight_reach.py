@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.formulas.of_motion import Motion
+from optlaws.formulas.of_motion import MotionFormula
 from optlaws.numerics.chebyshev import gauss
 from optlaws.synthesis.functionals.curved_rows import columns_of, rule_cells
 from optlaws.synthesis.functionals.sizes import kept_directions
@@ -29,7 +29,7 @@ _POSITIVE, _BALANCED = 1e-7, 1e-9
 _LARGEST = 1e13
 
 
-def straight_reach(space: LawSpace, motion: Motion) -> tuple[int, float, float] | None:
+def straight_reach(space: LawSpace, motion: MotionFormula) -> tuple[int, float, float] | None:
     """An order of derivative, a factor and an offset: its mean magnitude is at most the factor times f plus the offset.
 
     None where the formula is not made of straight ones, or they do not show that the law is bounded.
@@ -42,7 +42,7 @@ def straight_reach(space: LawSpace, motion: Motion) -> tuple[int, float, float] 
         The formula, over the part of the interval over which it is integrated.
     """
     formulas = motion.branches(1.0)
-    straight = [] if formulas is None else [Motion(formula, motion.start, motion.stop) for formula in formulas]
+    straight = [] if formulas is None else [MotionFormula(formula, motion.start, motion.stop) for formula in formulas]
     if not straight or any(branch.affine is None for branch in straight):
         return None
     fixed, free = kept_directions(space)
@@ -60,7 +60,7 @@ def straight_reach(space: LawSpace, motion: Motion) -> tuple[int, float, float] 
     return (_ORDER, _ROUNDED * factor, _ROUNDED * (beside + offset)) if factor + beside < _LARGEST else None
 
 
-def _rows(space: LawSpace, motion: Motion, straight: list[Motion], count: int) -> Array:
+def _rows(space: LawSpace, motion: MotionFormula, straight: list[MotionFormula], count: int) -> Array:
     """Integrals of the straight formulas over cells, shape (cells, formulas, coordinates + 1)."""
     edges = rule_cells(space, motion, _CELLS * (count + 2))
     x, share = gauss(space.degree_of(0) // 2 + _CELLS)
@@ -71,8 +71,8 @@ def _rows(space: LawSpace, motion: Motion, straight: list[Motion], count: int) -
         own = np.zeros((len(straight), space.terms + 1))
         for i, branch in enumerate(straight):
             for nu, factor in branch.weights.items():
-                own[i] += (weights * Motion(factor).values({"k": k})) @ several[nu]
-            own[i, -1] += weights @ np.broadcast_to(Motion(branch.rest).values({"k": k}), k.shape)
+                own[i] += (weights * MotionFormula(factor).values({"k": k})) @ several[nu]
+            own[i, -1] += weights @ np.broadcast_to(MotionFormula(branch.rest).values({"k": k}), k.shape)
         rows.append(own)
     return np.array(rows)
 

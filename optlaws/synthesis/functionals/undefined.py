@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
-from optlaws.formulas.of_motion import Motion
+from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.reading import read
 from optlaws.formulas.scanner import FormulaError
 from optlaws.formulas.slopes import constant
-from optlaws.formulas.tree import Call, Formula, Power, Reciprocal
+from optlaws.formulas.tree import Call, Exponentiation, Formula, Reciprocal
 from optlaws.formulas.vocabulary import ORDERS
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 
@@ -25,7 +25,7 @@ _MOTIONS, _STILL = 4096, 0.2
 _SIZES = {"a": 1.0, "b": 2.0, "c": 8.0, "j": 60.0}
 
 
-def check_ends(motion: Motion, conditions: BoundaryConditions) -> None:
+def check_ends(motion: MotionFormula, conditions: BoundaryConditions) -> None:
     """See that a formula has a value where the end conditions say what the law is.
 
     Raises
@@ -47,7 +47,7 @@ def check_ends(motion: Motion, conditions: BoundaryConditions) -> None:
         known = {name: end[nu] for name, nu in ORDERS.items() if nu < len(end)}
         asked = motion.formula.walk() if motion.start <= k <= motion.stop else ()
         parts = [part for part in asked if part.names() <= {*known, "k"} and part.names() & ORDERS.keys()]
-        wrong = [part for part in parts if not np.isfinite(Motion(part).values({**known, "k": k}))]
+        wrong = [part for part in parts if not np.isfinite(MotionFormula(part).values({**known, "k": k}))]
         if wrong:
             values = " and ".join(f"{name} = {known[name]:g}" for name in sorted(wrong[0].names() & ORDERS.keys()))
             raise _no_value(
@@ -65,7 +65,7 @@ def _no_value(formula: Formula, part: Formula, what: str) -> FormulaError:
     return FormulaError(what, text, next(places, 0))
 
 
-def check_passed(motion: Motion, conditions: BoundaryConditions, *, smooth: bool) -> None:
+def check_passed(motion: MotionFormula, conditions: BoundaryConditions, *, smooth: bool) -> None:
     """See that a formula has a value wherever every law comes by, if laws rise by 1 from rest to rest.
 
     They pass all a from 0 to 1, all b from 0 to their mean 1, and all c from -1 to 1 where c does not jump.
@@ -98,7 +98,7 @@ def check_passed(motion: Motion, conditions: BoundaryConditions, *, smooth: bool
             )
 
 
-def pitfalls(motion: Motion) -> Iterator[str]:
+def pitfalls(motion: MotionFormula) -> Iterator[str]:
     """Parts of a formula that some motions bring where they have no value or no slope, in words.
 
     Examples
@@ -116,7 +116,7 @@ def pitfalls(motion: Motion) -> Iterator[str]:
                 yield f"{part} has no value where {part.of} = 0"
             continue
         inner = None
-        if isinstance(part, Power) and not float(constant(part.exponent) or 0.5).is_integer():
+        if isinstance(part, Exponentiation) and not float(constant(part.exponent) or 0.5).is_integer():
             inner = part.base
         elif isinstance(part, Call) and part.function in {"sqrt", "log"}:
             inner = part.arguments[0]
@@ -124,24 +124,24 @@ def pitfalls(motion: Motion) -> Iterator[str]:
             yield f"{part} has no slope or no value where {inner} <= 0"
 
 
-def _between(formula: Formula, motion: Motion) -> tuple[float, float]:
+def _between(formula: Formula, motion: MotionFormula) -> tuple[float, float]:
     """The least and the greatest of a formula's values in some motions, most of them gentle, some without any."""
     numbers = np.random.default_rng(0)
     names = {name: size * numbers.normal(size=_MOTIONS) for name, size in _SIZES.items()}
     for values in names.values():
         values[numbers.random(_MOTIONS) < _STILL] = 0.0
     k = motion.start + (motion.stop - motion.start) * numbers.random(_MOTIONS)
-    values = np.broadcast_to(Motion(formula).values({**names, "k": k}), (_MOTIONS,))
+    values = np.broadcast_to(MotionFormula(formula).values({**names, "k": k}), (_MOTIONS,))
     known = values[np.isfinite(values)]
     return (float(known.min()), float(known.max())) if len(known) else (np.inf, -np.inf)
 
 
 def _nowhere(part: Formula, names: Mapping[str, Array]) -> NDArray[np.bool_]:
     """At which of ascending values a part has none, or none before the next."""
-    nowhere = ~np.isfinite(Motion(part).values(names))
+    nowhere = ~np.isfinite(MotionFormula(part).values(names))
     divisor = _divisor(part)
     if divisor is not None:
-        below = Motion(divisor).values(names)
+        below = MotionFormula(divisor).values(names)
         nowhere |= np.append(below[:-1] * below[1:] < 0.0, [False])
     return nowhere
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.synthesis.method.exchange import solve
-from optlaws.synthesis.problem.constants import Power
+from optlaws.synthesis.problem.constants import PowerConstant
 from optlaws.synthesis.program.writer import Model, model_of
 from optlaws.synthesis.spaces.polynomials.space import PolynomialSpace
 
@@ -66,7 +66,7 @@ def _completed(model: Model, coordinates: Array) -> Array:
     own = {
         constant.name: constant
         for constant in model.problem.constants
-        if not (constant.convex or isinstance(constant, Power))
+        if not (constant.convex or isinstance(constant, PowerConstant))
     }
     for name, place in model.places.items():
         value = own[name].value(law) if name in own else inf

@@ -15,7 +15,7 @@ from optlaws.laws import MotionLaw
 from optlaws.numbers import power_of_two
 from optlaws.synthesis.families.family import ConstraintFamily
 from optlaws.synthesis.families.names import mirrored
-from optlaws.synthesis.problem.constants import Functional, Power
+from optlaws.synthesis.problem.constants import Functional, PowerConstant
 
 if TYPE_CHECKING:
     from optlaws.synthesis.spaces.space import LawSpace
@@ -86,7 +86,7 @@ class CombinedPeak(Combined):
 
 
 @dataclass(frozen=True, repr=False)
-class CombinedPower(Combined, Power):
+class CombinedPower(Combined, PowerConstant):
     """Peak of the product of a combination of b, c, ... and its derivative: not convex in the law."""
 
     def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConstraintFamily, ...]:

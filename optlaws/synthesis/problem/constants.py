@@ -208,7 +208,7 @@ class _InUnitsOfLaws(Functional):
 
 
 @dataclass(frozen=True, repr=False)
-class Peak(_InUnitsOfLaws):
+class PeakConstant(_InUnitsOfLaws):
     """Peak of a derivative: magnitude, or one sign only.
 
     Examples
@@ -236,7 +236,7 @@ class Peak(_InUnitsOfLaws):
 
 
 @dataclass(frozen=True, repr=False)
-class PeakJerk(Peak):
+class PeakJerk(PeakConstant):
     """Peak of the jerk, which costs more where the acceleration must begin and end with 0.
 
     Examples
@@ -254,7 +254,7 @@ class PeakJerk(Peak):
 
 
 @dataclass(frozen=True, repr=False)
-class Power(_InUnitsOfLaws):
+class PowerConstant(_InUnitsOfLaws):
     """Peak D of the kinetic power d = b c: not convex in the law.
 
     Examples
@@ -301,13 +301,13 @@ class RootMeanSquare(_InUnitsOfLaws):
         return (space.norm(self.nu, self.name, slack, bound),)
 
 
-B = Peak("B", 1.0, convex=True, nu=1)
-C = Peak("C", 4.0, convex=True, nu=2)
-C_plus = Peak("C_plus", 2.0, convex=True, nu=2, signs=(1.0,))
-C_minus = Peak("C_minus", 2.0, convex=True, nu=2, signs=(-1.0,))
-D = Power("D", 2.25, convex=False)
+B = PeakConstant("B", 1.0, convex=True, nu=1)
+C = PeakConstant("C", 4.0, convex=True, nu=2)
+C_plus = PeakConstant("C_plus", 2.0, convex=True, nu=2, signs=(1.0,))
+C_minus = PeakConstant("C_minus", 2.0, convex=True, nu=2, signs=(-1.0,))
+D = PowerConstant("D", 2.25, convex=False)
 J = PeakJerk("J", 12.0, convex=True, nu=3)
-jounce = Peak("jounce", np.nan, convex=True, nu=4)
+jounce = PeakConstant("jounce", np.nan, convex=True, nu=4)
 rms_c = RootMeanSquare("rms_c", 12.0**0.5, convex=True, nu=2)
 rms_j = RootMeanSquare("rms_j", np.nan, convex=True, nu=3)
 rms_jounce = RootMeanSquare("rms_jounce", np.nan, convex=True, nu=4)

@@ -10,7 +10,7 @@ from typing import Any
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
-from optlaws.formulas.of_motion import Motion, of_text
+from optlaws.formulas.of_motion import MotionFormula, of_text
 from optlaws.formulas.scanner import FormulaError
 from optlaws.kept import kept_property
 from optlaws.numbers import bounded, finite, real
@@ -101,7 +101,7 @@ class Window:
         return f"Window({', '.join([repr(self.quantity), *shown])})"
 
     @kept_property
-    def motion(self) -> Motion | None:
+    def motion(self) -> MotionFormula | None:
         """The formula over its part of the interval; None for a, b, c and j alone."""
         return None if self.quantity in QUANTITIES else of_text(self.quantity, self.start, self.stop)
 

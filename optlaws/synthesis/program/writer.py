@@ -10,7 +10,7 @@ from math import isfinite, nextafter
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.formulas.of_motion import Motion
+from optlaws.formulas.of_motion import MotionFormula
 from optlaws.laws import MotionLaw
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, Program
@@ -18,7 +18,7 @@ from optlaws.synthesis.families.names import RowName, VariableName
 from optlaws.synthesis.functionals.affine_rows import columns as formula_columns
 from optlaws.synthesis.functionals.curved_rows import branch_rows, split
 from optlaws.synthesis.problem.combined import facing, floats
-from optlaws.synthesis.problem.constants import B, Functional, Power
+from optlaws.synthesis.problem.constants import B, Functional, PowerConstant
 from optlaws.synthesis.problem.expression import Expression, Maximum, Term, leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
@@ -132,9 +132,9 @@ def _objective_names(problem: Problem) -> list[str]:
     return [repr(term) for term in (*(leaf for _, leaf in leaves(problem.objective)), *maxima(problem.objective))]
 
 
-def relaxed_power(problem: Problem) -> Power | None:
+def relaxed_power(problem: Problem) -> PowerConstant | None:
     """The power that the relaxed program bounds; of several the first by name, the others are left out."""
-    powers = (constant for constant in problem.constants if isinstance(constant, Power))
+    powers = (constant for constant in problem.constants if isinstance(constant, PowerConstant))
     return min(powers, key=lambda power: power.name, default=None)
 
 
@@ -216,7 +216,7 @@ class _Writer:
         self.cost_unit = self.scale(expression)
         self.cost = self.sum(expression) / self.cost_unit
         for leaf in dict.fromkeys(leaf for _, leaf in leaves(expression)):
-            if isinstance(leaf, Power) and VariableName.POWER_ROOT in self.places:
+            if isinstance(leaf, PowerConstant) and VariableName.POWER_ROOT in self.places:
                 self._power(leaf, self.unit(leaf.name), 0.0)
             elif isinstance(leaf, Functional):
                 self.families += self._rows(leaf, self.unit(repr(leaf)), 0.0)
@@ -312,7 +312,7 @@ class _Writer:
             return
         if name in self.places:
             self.row(names.at_most(name), self.unit(name, unit), limits.high, unit)
-        elif isinstance(constant, Power) and VariableName.POWER_ROOT in self.places:
+        elif isinstance(constant, PowerConstant) and VariableName.POWER_ROOT in self.places:
             self._power(constant, np.zeros(self.size), limits.high)
         else:
             self.families += self._rows(constant, self.spare, limits.high)
@@ -327,7 +327,7 @@ class _Writer:
             families = constant.families(self.space, scale * slack, bound)
         return families if constant.normalised else tuple(family.scaled_down(scale) for family in families)
 
-    def _formula_window(self, window: Window, motion: Motion, halves: tuple[str, str]) -> None:
+    def _formula_window(self, window: Window, motion: MotionFormula, halves: tuple[str, str]) -> None:
         parts, unit = motion.halves() if self.problem.symmetric else (motion,), self.scale(window)
         for part, name in zip(parts, halves, strict=False):
             if window.value:
@@ -355,7 +355,7 @@ class _Writer:
                 family = self.space.derivative(window.order, side, self.spare, bound, (sign,))
                 self.families.append(replace(family, domain=ends))
 
-    def _power(self, power: Power, slack: Array, bound: float) -> None:
+    def _power(self, power: PowerConstant, slack: Array, bound: float) -> None:
         """Rows b <= r sqrt(2k), b >= -r sqrt(2k) from either end, and 2 t r - t² <= D."""
         if self.problem.order == 1 or power != self.power:
             if power != self.power and slack.any():

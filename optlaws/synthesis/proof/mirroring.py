@@ -10,7 +10,7 @@ from optlaws.numerics.chebyshev import nodes
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import ConstraintFamily, Program
 from optlaws.synthesis.families.names import RowName
-from optlaws.synthesis.problem.constants import Peak
+from optlaws.synthesis.problem.constants import PeakConstant
 from optlaws.synthesis.program.writer import Model
 
 Array = NDArray[np.float64]
@@ -32,7 +32,7 @@ def unfolded(model: Model, half: Model, optimum: ActiveSet) -> ActiveSet:
         The program of the same problem with symmetric laws, and its optimum.
     """
     names = {family.name: i for i, family in enumerate(model.program.families)}
-    odd = {peak.name for peak in model.problem.constants if isinstance(peak, Peak) and peak.nu % 2 == 0}
+    odd = {peak.name for peak in model.problem.constants if isinstance(peak, PeakConstant) and peak.nu % 2 == 0}
     contacts: list[Contact] = []
     for i, family in enumerate(half.program.families):
         if family.name in names:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.synthesis.families.names import VariableName
-from optlaws.synthesis.problem.constants import Functional, Peak, Power
+from optlaws.synthesis.problem.constants import Functional, PeakConstant, PowerConstant
 from optlaws.synthesis.problem.expression import Expression, Maximum, Term, leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, maxima, relaxed_power
@@ -111,7 +111,7 @@ def _at_least(term: Term, change: float, ends: BoundaryConditions) -> float:
     if isinstance(term, Maximum):
         sums = (sum(weight * _at_least(inner, change, ends) for weight, inner in part.terms) for part in term.parts)
         return max(sums)
-    if not isinstance(term, Peak) or len(term.signs) != 1:
+    if not isinstance(term, PeakConstant) or len(term.signs) != 1:
         return term.floor(ends) if isinstance(term, Functional) else 0.0
     return term.signs[0] * change if term.nu == _ACCELERATION else -inf
 
@@ -131,7 +131,7 @@ def means(problem: Problem, space: LawSpace, greatest: Mapping[str, float]) -> l
     for constant in problem.constants:
         size = greatest.get(constant.name, inf)
         # a peak of one side may be below 0: then nothing is above
-        root = size**0.5 if isinstance(constant, Power) else max(size, 0.0)
+        root = size**0.5 if isinstance(constant, PowerConstant) else max(size, 0.0)
         known += [(nu, factor * root + offset) for nu, factor, offset in constant.sizes(space)]
     least: dict[int, float] = {}
     for nu, mean in known:

@@ -8,9 +8,9 @@ from fractions import Fraction
 
 from optlaws.formulas.affine import affine
 from optlaws.formulas.arithmetic import Arithmetic, evaluate
-from optlaws.formulas.of_motion import Motion
+from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.slopes import added, multiplied, opposite
-from optlaws.formulas.tree import Call, Formula, Number, Power, Table, number, product, rebuilt
+from optlaws.formulas.tree import Call, Exponentiation, Formula, Number, Table, number, product, rebuilt
 from optlaws.verification.enclosing.ball_formulas import exact_pieces
 
 _KINKED = frozenset({"abs", "max", "min"})
@@ -25,7 +25,7 @@ def _whole_power(base: Fraction, exponent: Fraction) -> Fraction:
 _RATIONALS = Arithmetic(number=Fraction, functions={}, power=_whole_power)
 
 
-def kinks(motion: Motion) -> list[Fraction]:
+def kinks(motion: MotionFormula) -> list[Fraction]:
     """The k at which what depends on k alone may have a kink; those of straight lines exactly, others nearly.
 
     Examples
@@ -39,7 +39,7 @@ def kinks(motion: Motion) -> list[Fraction]:
         for difference in _vanishing(part) if part.names() <= {"k"} else ():
             root = _root(difference)
             if root is None:
-                inexact += list(map(Fraction, Motion(Call("abs", (difference,))).kinks))
+                inexact += list(map(Fraction, MotionFormula(Call("abs", (difference,))).kinks))
             else:
                 exact.append(root)
     return sorted({k for k in (*exact, *inexact) if 0 < k < 1})
@@ -142,7 +142,7 @@ def _differentiated(row: list[float], off: Formula, order: int) -> Formula:
     for power, value in enumerate(row):
         factors = [Number(float(i)) for i in range(power - order + 1, power + 1)]
         if power >= order:
-            lower = [Power(off, Number(float(power - order)))] if power > order else []
+            lower = [Exponentiation(off, Number(float(power - order)))] if power > order else []
             # a product that is not worked out: its floats are rounded nowhere
             terms.append(product([*factors, number(value), *lower]))
     return added(terms)

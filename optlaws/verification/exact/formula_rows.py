@@ -14,7 +14,7 @@ from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
 from optlaws.formulas.arithmetic import evaluate
-from optlaws.formulas.of_motion import Motion
+from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.slopes import derivative
 from optlaws.formulas.tree import Formula
 from optlaws.formulas.vocabulary import ORDERS
@@ -32,12 +32,12 @@ from optlaws.verification.exact.space import ExactSpace
 Array = NDArray[np.float64]
 
 
-def formula_columns(space: ExactSpace, motion: Motion, k: Fraction) -> list[arb]:
+def formula_columns(space: ExactSpace, motion: MotionFormula, k: Fraction) -> list[arb]:
     """An affine formula at k: of the free functions, then of the base law with what is left."""
     return _columns(space, motion, ball(k), space.piece(k))
 
 
-def _columns(space: ExactSpace, motion: Motion, k: arb, piece: int) -> list[arb]:
+def _columns(space: ExactSpace, motion: MotionFormula, k: arb, piece: int) -> list[arb]:
     columns = [arb(0)] * (space.terms + 1)
     for nu, factor in motion.weights.items():
         weight, values = evaluate(factor, {"k": k}, BALLS), space.on_piece(nu, piece, 2 * k - 1)
@@ -66,7 +66,7 @@ def tangent_columns(space: ExactSpace, branch: Branch, point: Sequence[float], k
     return [branch.sign * value for value in columns]
 
 
-def tangent_integral(space: ExactSpace, motion: Motion, point: Sequence[float], *, root: bool) -> list[arb]:
+def tangent_integral(space: ExactSpace, motion: MotionFormula, point: Sequence[float], *, root: bool) -> list[arb]:
     """An affine function that touches the integral of a convex formula, or its root, nearly; nowhere above it.
 
     The derivatives at the places of the product's rule say near which law. With `root` the formula is the square of one
@@ -95,7 +95,7 @@ def tangent_integral(space: ExactSpace, motion: Motion, point: Sequence[float], 
     return row
 
 
-def straight_integral(space: ExactSpace, motion: Motion, point: Sequence[float]) -> list[arb]:
+def straight_integral(space: ExactSpace, motion: MotionFormula, point: Sequence[float]) -> list[arb]:
     """An affine function that the integral of a greatest of straight formulas is nowhere below.
 
     On every stretch it is the integral of that one which is the greatest there in a law, whose variables the point
@@ -166,7 +166,7 @@ class _Tangent:
         return [*slopes, value - sum(slopes, arb(0)), value]
 
 
-def norm_columns(space: ExactSpace, parts: Sequence[Motion], direction: Sequence[float]) -> list[arb]:
+def norm_columns(space: ExactSpace, parts: Sequence[MotionFormula], direction: Sequence[float]) -> list[arb]:
     """An affine function that the root of the integrals of squares of affine formulas is nowhere below.
 
     It is the integral of the formulas times a function whose square integrates to 1: piece by piece the polynomial
@@ -192,7 +192,9 @@ def norm_columns(space: ExactSpace, parts: Sequence[Motion], direction: Sequence
     return [value / size.sqrt() for value in columns_there]
 
 
-def _weighted(space: ExactSpace, motion: Motion, factor: fmpq_poly, ends: tuple[Fraction, Fraction]) -> list[arb]:
+def _weighted(
+    space: ExactSpace, motion: MotionFormula, factor: fmpq_poly, ends: tuple[Fraction, Fraction]
+) -> list[arb]:
     """The integral over a part of an affine formula times a factor, for each function."""
     several = [polynomials_between(space, nu, ends) for nu in motion.weights]
     columns = [[*(factor * entry for entry in column), fmpq_poly([0])] for column in zip(*several, strict=True)]
@@ -224,7 +226,7 @@ def fitted(values: Array, degree: int) -> fmpq_poly:
 
 
 def _within(
-    space: ExactSpace, motion: Motion, edges: Sequence[Fraction]
+    space: ExactSpace, motion: MotionFormula, edges: Sequence[Fraction]
 ) -> Iterator[tuple[tuple[Fraction, Fraction], int]]:
     """The parts between edges cut where laws have breaks and what depends on k alone has kinks, with which part."""
     breaks = {*space.breaks, *(1 - k for k in space.breaks)} if space.problem.symmetric else set(space.breaks)

@@ -11,7 +11,7 @@ from flint import arb, arb_series, fmpq, fmpq_poly
 
 from optlaws.formulas.affine import degree
 from optlaws.formulas.arithmetic import evaluate
-from optlaws.formulas.of_motion import Motion
+from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.tree import Call, Formula, Table
 from optlaws.formulas.vocabulary import ORDERS
 from optlaws.synthesis.functionals.curved_rows import squared
@@ -26,7 +26,7 @@ from optlaws.verification.enclosing.pieces import Extremes, PolynomialPiece, bet
 _BITS = 80
 
 
-def extremes_of(motion: Motion, pieces: Sequence[PolynomialPiece]) -> Extremes:
+def extremes_of(motion: MotionFormula, pieces: Sequence[PolynomialPiece]) -> Extremes:
     """Balls that hold the least and the greatest value of a formula on its part of the interval."""
     if motion.start == motion.stop:
         value = value_of(motion, pieces)
@@ -38,7 +38,7 @@ def extremes_of(motion: Motion, pieces: Sequence[PolynomialPiece]) -> Extremes:
     return least_and_greatest([value for part in _parts(motion, pieces) for value in part.extremes()])
 
 
-def integral_of(motion: Motion, pieces: Sequence[PolynomialPiece]) -> arb:
+def integral_of(motion: MotionFormula, pieces: Sequence[PolynomialPiece]) -> arb:
     """A ball that holds the integral of a formula over its part: exact where it is a polynomial of k along the law."""
     total = arb(0)
     for part in _parts(motion, pieces):
@@ -51,7 +51,7 @@ def integral_of(motion: Motion, pieces: Sequence[PolynomialPiece]) -> arb:
     return total
 
 
-def value_of(motion: Motion, pieces: Sequence[PolynomialPiece]) -> arb:
+def value_of(motion: MotionFormula, pieces: Sequence[PolynomialPiece]) -> arb:
     """A ball that holds the formula's value where its part begins."""
     k = Fraction(motion.start)
     piece = [started for started in pieces if started.start <= k][-1]
@@ -100,7 +100,7 @@ def _bent(formula: Formula) -> bool:
     return calls or any(isinstance(part, Table) and not part.names() <= {"k"} for part in formula.walk())
 
 
-def _parts(motion: Motion, pieces: Sequence[PolynomialPiece]) -> Iterator[_FormulaPart]:
+def _parts(motion: MotionFormula, pieces: Sequence[PolynomialPiece]) -> Iterator[_FormulaPart]:
     """The pieces of the law within the formula's part, cut where what depends on k alone has kinks."""
     places = kinks(motion)
     for piece in pieces:

@@ -7,7 +7,7 @@ from fractions import Fraction
 from optlaws.errors import InputError
 from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaPeak, FormulaRms, FormulaValue
 from optlaws.synthesis.problem.combined import CombinedPeak, CombinedPower
-from optlaws.synthesis.problem.constants import Peak, PeakJerk, Power, RootMeanSquare
+from optlaws.synthesis.problem.constants import PeakConstant, PeakJerk, PowerConstant, RootMeanSquare
 from optlaws.synthesis.problem.expression import Term
 from optlaws.synthesis.problem.named_constants import is_named
 from optlaws.verification.machines.mode_residuals import ModeConstant
@@ -17,7 +17,7 @@ from optlaws.verification.machines.residuals import ResidualConstant
 OfFormula = FormulaIntegral | FormulaPeak | FormulaRms | FormulaValue
 _OF_FORMULAS = {FormulaIntegral, FormulaPeak, FormulaRms, FormulaValue}
 OfMachine = ResidualConstant | ModeConstant | KnownOutput
-Known = Peak | Power | RootMeanSquare | CombinedPeak | OfMachine | OfFormula
+Known = PeakConstant | PowerConstant | RootMeanSquare | CombinedPeak | OfMachine | OfFormula
 
 _OF_CAMS = tuple(f"{name}_cam(" for name in ("B", "C", "C_plus", "C_minus", "D", "J"))
 _TOLD = (*_OF_CAMS, "residual(", "mode_residual(", "output_peak(", "output_rms(")
@@ -37,9 +37,9 @@ def known(term: Term) -> Known:
     >>> known(C).nu
     2
     """
-    if type(term) in {Peak, PeakJerk, RootMeanSquare} and isinstance(term, Peak | RootMeanSquare):
+    if type(term) in {PeakConstant, PeakJerk, RootMeanSquare} and isinstance(term, PeakConstant | RootMeanSquare):
         return term
-    if type(term) is Power and tuple(term.weights) == (Fraction(1),):
+    if type(term) is PowerConstant and tuple(term.weights) == (Fraction(1),):
         return term
     if isinstance(term, CombinedPeak | CombinedPower | OfMachine) and repr(term).startswith(_TOLD) and is_named(term):
         return term

@@ -9,7 +9,7 @@ from itertools import pairwise
 from flint import arb, ctx, fmpq
 
 from optlaws.errors import InputError
-from optlaws.formulas.of_motion import Motion
+from optlaws.formulas.of_motion import MotionFormula
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, PolynomialLaw
 from optlaws.laws.segments.constant_power import PowerSegment
@@ -19,7 +19,7 @@ from optlaws.laws.segments.sine import HarmonicSegment, SineSegment
 from optlaws.synthesis.functionals.curved_rows import split, squared
 from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaPeak, FormulaRms
 from optlaws.synthesis.problem.combined import CombinedPeak, CombinedPower
-from optlaws.synthesis.problem.constants import Peak, Power, RootMeanSquare
+from optlaws.synthesis.problem.constants import PeakConstant, PowerConstant, RootMeanSquare
 from optlaws.synthesis.problem.expression import Expression, Maximum, Term
 from optlaws.verification.enclosing.ball_pieces import PowerPiece, SinePiece
 from optlaws.verification.enclosing.balls import ball, enclosed, rational
@@ -223,7 +223,7 @@ class ExactLaw:
             signs = constant.counted if isinstance(constant, FormulaPeak) else (1.0,)
             return reduce(arb.max, [self.greatest_of(motion, sign) for sign in signs])
 
-    def greatest_of(self, motion: Motion, sign: float) -> arb:
+    def greatest_of(self, motion: MotionFormula, sign: float) -> arb:
         """A ball that holds the greatest value of a formula, times a sign, over its part.
 
         Raises
@@ -268,12 +268,12 @@ class ExactLaw:
             return self.of_machine(constant)
         return self._of_derivative(constant)
 
-    def _of_derivative(self, constant: Peak | Power | RootMeanSquare) -> arb:
-        if isinstance(constant, Power):
+    def _of_derivative(self, constant: PeakConstant | PowerConstant | RootMeanSquare) -> arb:
+        if isinstance(constant, PowerConstant):
             return self.power()
         return self.rms(constant.nu) if isinstance(constant, RootMeanSquare) else self._signed_peak(constant)
 
-    def _signed_peak(self, constant: Peak) -> arb:
+    def _signed_peak(self, constant: PeakConstant) -> arb:
         if len(constant.signs) == 2 or self._impulses(constant.nu):
             return self.peak(constant.nu)
         least, greatest = self.extremes(constant.nu)

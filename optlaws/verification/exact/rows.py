@@ -14,7 +14,7 @@ from flint import arb
 
 from optlaws.errors import InputError
 from optlaws.formulas.branches import switches
-from optlaws.formulas.of_motion import Motion
+from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.vocabulary import ORDERS
 from optlaws.kept import kept_property
 from optlaws.synthesis.families import names
@@ -23,7 +23,7 @@ from optlaws.synthesis.functionals.affine_rows import sides as formula_sides
 from optlaws.synthesis.functionals.curved_rows import Branch, split, squared
 from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaPeak, FormulaRms, boxes_of
 from optlaws.synthesis.problem.combined import Combined, CombinedPeak, facing
-from optlaws.synthesis.problem.constants import B, Functional, Peak, Power, RootMeanSquare
+from optlaws.synthesis.problem.constants import B, Functional, PeakConstant, PowerConstant, RootMeanSquare
 from optlaws.synthesis.problem.expression import Expression, Maximum, leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
@@ -161,7 +161,7 @@ class ExactRows:
             self._of_formula(constant, limit)
         elif isinstance(constant, RootMeanSquare):
             self._add(constant.name, lambda contact, _: self._norm(constant.nu, contact, limit))
-        elif isinstance(constant, Peak):
+        elif isinstance(constant, PeakConstant):
             # one sign of a derivative that is odd about 1/2 is, over the whole interval, both signs over the half
             signs = (1.0, -1.0) if self.problem.symmetric and constant.nu % 2 == 0 else constant.signs
             self._everywhere(constant.name, partial(self.space.values, constant.nu), signs, limit)
@@ -226,7 +226,7 @@ class ExactRows:
 
         self._add(name, make)
 
-    def _part(self, name: str, motion: Motion, signs: tuple[float, ...], limit: UpperLimit) -> None:
+    def _part(self, name: str, motion: MotionFormula, signs: tuple[float, ...], limit: UpperLimit) -> None:
         """Rows of an affine formula on its part of the interval."""
         start, stop = Fraction(motion.start), Fraction(motion.stop)
 
@@ -245,7 +245,7 @@ class ExactRows:
         row = UpperLimit(constants, high).row([arb(0)] * (self.space.terms + 1))
         self._add(name, lambda _, __: row)
 
-    def _power(self, power: Power, limit: UpperLimit) -> None:
+    def _power(self, power: PowerConstant, limit: UpperLimit) -> None:
         """b² <= 2 D k wherever b(0) = 0, b² <= 2 D (1-k) wherever b(1) = 0; 2 t r - t² <= D for r the root of D.
 
         For the power of a combination b is the combination; where it is not symmetric though the law is, the rows of
@@ -385,7 +385,7 @@ class ExactRows:
         pairs = zip(self.space.values(1, k), self.space.values(1, Fraction(1, 2)), strict=True)
         return BallRow([velocity * contact.sign - middle for velocity, middle in pairs])
 
-    def _formula_window(self, window: Window, motion: Motion, halves: tuple[str, str]) -> None:
+    def _formula_window(self, window: Window, motion: MotionFormula, halves: tuple[str, str]) -> None:
         separate = motion.halves() if self.problem.symmetric else (motion,)
         for part, name in zip(separate, halves, strict=False):
             if window.value:
@@ -431,7 +431,7 @@ def parts(window: Window, *, symmetric: bool) -> Iterator[WindowPart]:
     yield WindowPart(window.order, low, high, 1 - stop, 1 - max(start, half))
 
 
-def _is_bounded(power: Power, problem: Problem) -> bool:
+def _is_bounded(power: PowerConstant, problem: Problem) -> bool:
     """Whether it is bounded from above, by the objective or by a number: only then do rows have its root."""
     high = (constant for constant, wanted in problem.bounded if isfinite(wanted.high))
     return any(constant == power for constant in (*(leaf for _, leaf in leaves(problem.objective)), *high))

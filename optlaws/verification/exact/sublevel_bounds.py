@@ -10,7 +10,7 @@ from flint import arb
 
 from optlaws.synthesis.families.names import VariableName
 from optlaws.synthesis.limits.rounding import rounded_up
-from optlaws.synthesis.problem.constants import Functional, Peak, Power
+from optlaws.synthesis.problem.constants import Functional, PeakConstant, PowerConstant
 from optlaws.synthesis.problem.expression import Expression, Maximum, leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
@@ -29,7 +29,7 @@ def never_negative(problem: Problem) -> bool:
     leaves_found = [leaf for _, leaf in leaves(problem.objective)]
     if any(isinstance(leaf, Functional) and floor(leaf, problem.conditions) < 0 for leaf in leaves_found):
         return False
-    one_sided = any(isinstance(leaf, Peak) and len(leaf.signs) == 1 for leaf in leaves_found)
+    one_sided = any(isinstance(leaf, PeakConstant) and len(leaf.signs) == 1 for leaf in leaves_found)
     return not one_sided or (problem.boundary is None and problem.order > 1)
 
 
@@ -43,7 +43,7 @@ def least_values(problem: Problem, rows: ExactRows) -> dict[str, Fraction | floa
     mean = None if change is None else Fraction(int(change.p), int(change.q))
     one_sided = not never_negative(problem)
     for _, leaf in leaves(problem.objective):
-        if isinstance(leaf, Peak) and len(leaf.signs) == 1 and one_sided:
+        if isinstance(leaf, PeakConstant) and len(leaf.signs) == 1 and one_sided:
             least[repr(leaf)] = -inf if mean is None or leaf.nu != 2 else mean * Fraction(leaf.signs[0])
         elif isinstance(leaf, Functional):
             value = floor(leaf, problem.conditions)
@@ -125,7 +125,7 @@ def means(problem: Problem, rows: ExactRows, greatest: dict[str, float]) -> dict
 
 def _sizes(problem: Problem, constant: Functional, name: str) -> Iterator[tuple[int, arb, arb]]:
     """Orders, factors and offsets: the mean of |a^(order)| is at most factor times the constant plus the offset."""
-    if name == VariableName.POWER_ROOT or not isinstance(constant, Power | KnownOutput):
+    if name == VariableName.POWER_ROOT or not isinstance(constant, PowerConstant | KnownOutput):
         space = space_of(problem.basis, problem.conditions, symmetric=problem.symmetric)
         # both are rounded
         for nu, factor, offset in constant.sizes(space):

@@ -11,7 +11,7 @@ from scipy.integrate import fixed_quad
 from scipy.optimize import brentq
 
 from optlaws import Chebyshev, MotionLaw, Problem, drive_torque, integral, rms, smoothstep, synthesize, via
-from optlaws.formulas.of_motion import Motion, of_text
+from optlaws.formulas.of_motion import MotionFormula, of_text
 
 Array = NDArray[np.float64]
 
@@ -24,7 +24,7 @@ def there_and_back(degree: int) -> MotionLaw:
     return synthesize(Problem(order=3, basis=Chebyshev(degree), symmetric=False, windows=(high, low))).law
 
 
-def by_quadrature(motion: Motion, law: MotionLaw, places: list[float], *, square: bool) -> float:
+def by_quadrature(motion: MotionFormula, law: MotionLaw, places: list[float], *, square: bool) -> float:
     """The integral, cut wherever the law passes a place or the formula changes its sign, which scipy finds."""
 
     def formula(k: Array) -> Array:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from optlaws.formulas.affine import affine
 from optlaws.formulas.branches import branch_at, switches
-from optlaws.formulas.of_motion import Motion
+from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.slopes import opposite
 from optlaws.formulas.tree import Call, Formula, Name, Negative, Product, Sum
 from optlaws.numerics.chebyshev import gauss
@@ -74,7 +74,7 @@ class _Epigraph:
             kinked = [factor for factor in formula.factors if switches(factor, self.names)]
             others = [factor for factor in formula.factors if factor is not kinked[0]]
             if not any(other.names() & set(self.names) for other in others):
-                weight = np.prod([Motion(other).values({"k": self.at["k"]}) for other in others], axis=0)
+                weight = np.prod([MotionFormula(other).values({"k": self.at["k"]}) for other in others], axis=0)
                 if (weight >= 0.0).all() or (weight <= 0.0).all():
                     return self._of(kinked[0], sign if (weight >= 0.0).all() else -sign).times(weight)
         if isinstance(formula, Call) and (formula.function, sign) in {("abs", 1), ("max", 1), ("min", -1)}:

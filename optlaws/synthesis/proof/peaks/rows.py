@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.synthesis.families.family import LinearFamily
-from optlaws.synthesis.problem.constants import FUNCTIONALS, Peak
+from optlaws.synthesis.problem.constants import FUNCTIONALS, PeakConstant
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, model_of
 from optlaws.synthesis.proof.duality import lines_of, sum_of_rows
@@ -32,10 +32,10 @@ _UPWARD, _AMPLE = 1.0 + 2.0**-50, 1.0 + 2.0**-20
 _ROUNDING = 1e-12
 
 
-def peak_of(problem: Problem, name: str) -> Peak | None:
+def peak_of(problem: Problem, name: str) -> PeakConstant | None:
     """The peak of that name, where a lower bound of it can be proven: for polynomial laws of convex problems."""
     constant, asked = FUNCTIONALS.get(name), problem.range(name)
-    if not isinstance(constant, Peak) or asked is None or asked.low <= 0.0:
+    if not isinstance(constant, PeakConstant) or asked is None or asked.low <= 0.0:
         return None
     return constant if problem.convex and isinstance(problem.basis, PolynomialBasis) else None
 
@@ -67,7 +67,7 @@ class PeakRows:
         Laws with an objective below it are spoken of.
     """
 
-    def __init__(self, problem: Problem, peak: Peak, claim: float) -> None:
+    def __init__(self, problem: Problem, peak: PeakConstant, claim: float) -> None:
         self.problem, self.peak, self.claim = problem, peak, claim
         asked = problem.range(peak.name)
         self.low = inf if asked is None else asked.low

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.method.exchange import solve
-from optlaws.synthesis.problem.constants import Peak
+from optlaws.synthesis.problem.constants import PeakConstant
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import OBJECTIVE, Certificate
 from optlaws.synthesis.proof.make import certificate
@@ -38,7 +38,7 @@ class _Part:
         return [_Part(places, warm, margin) for places in self.places.parts(self.places.k)]
 
 
-def search(problem: Problem, peak: Peak, claim: float) -> PlaceSearch:
+def search(problem: Problem, peak: PeakConstant, claim: float) -> PlaceSearch:
     """Split the places until no law below the claim can have the peak in any part."""
     rows = PeakRows(problem, peak, claim)
     tree: list[Node] = []

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.formulas.intervals import Endpoints, enclosed
-from optlaws.formulas.of_motion import Motion
+from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.slopes import derivative
 from optlaws.formulas.tree import Formula
 from optlaws.formulas.vocabulary import ORDERS
@@ -93,7 +93,7 @@ class ConvexUnderestimator:
         Its formula, over its part of the interval.
     """
 
-    def __init__(self, rows: BoxRows, family: IntegralFamily, motion: Motion) -> None:
+    def __init__(self, rows: BoxRows, family: IntegralFamily, motion: MotionFormula) -> None:
         self.rows, self.family, self.motion = rows, family, motion
         self.columns = np.stack([rows.mapped(column) for column in family.columns])
         self._blur = _RULE if motion.degree(dict.fromkeys(ORDERS, 1)) is None else _ROUNDED

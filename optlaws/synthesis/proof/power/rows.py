@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from optlaws.synthesis.families.family import ConstraintFamily, ProductFamily
 from optlaws.synthesis.families.names import RowName
-from optlaws.synthesis.problem.constants import D, Peak
+from optlaws.synthesis.problem.constants import D, PeakConstant
 from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, model_of
@@ -34,7 +34,7 @@ def applies(problem: Problem) -> bool:
     """Whether the power of the problem's laws can be bounded by boxes: polynomials whose end velocities are given."""
     model = model_of(problem)
     # a peak of one sign may be below 0 where the velocity changes from end to end, and boxes begin at 0
-    one_sided = any(isinstance(leaf, Peak) and len(leaf.signs) == 1 for _, leaf in leaves(problem.objective))
+    one_sided = any(isinstance(leaf, PeakConstant) and len(leaf.signs) == 1 for _, leaf in leaves(problem.objective))
     if one_sided and problem.boundary is not None:
         return False
     known = isinstance(model.space, PolynomialSpace) and model.space.order > 1
