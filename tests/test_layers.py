@@ -103,7 +103,6 @@ SEVERAL = {
     "sublevel_bounds",
     "summary",
     "table",
-    "tolerances",
     "tables",
 }
 #: what finds a law or a proof: no part of what checks a proof again

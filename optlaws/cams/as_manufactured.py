@@ -26,6 +26,7 @@ from optlaws.numbers import Quantity, whole
 from optlaws.numerics.enclosures.branch_and_bound import Function, extremes
 from optlaws.numerics.enclosures.interval import Interval
 from optlaws.numerics.enclosures.taylor import Jet
+from optlaws.numerics.tolerances import DEVIATIONS, MANUFACTURED_LEAP, MANUFACTURED_PEAKS
 from optlaws.suggest import unknown_key
 
 Array = NDArray[np.float64]
@@ -105,9 +106,7 @@ class Following:
 
 CURVES = ("profile", "pitch")
 ManufacturedFormat = Literal["csv", "csv polar", "dxf spline", "svg", "dxf arcs", "g-code arcs"]
-_SHARE, _NEAR = 1e-3, 1e-6  # how near deviations and peaks are enclosed
 _CELLS = 128
-_LEAP = 1e-6
 _SHIFTS = (0.0, 0.5 * pi, pi, 1.5 * pi)
 _MOST_WAVES = 100_000
 _UNREACHED = (
@@ -183,7 +182,7 @@ def run_against(cam: DiscCam, curve: Outline, outside: float = 0.0, *, leaps: bo
         return displacement - cam.displacement.along(angle)
 
     _check_hollows(following, edges)
-    deviation = _bound(off, edges, _SHARE)
+    deviation = _bound(off, edges, DEVIATIONS)
     acceleration = _peak(following, edges, 2)
     leap = _leap(following, edges, acceleration)
     jerk = inf if leap and leaps else _peak(following, edges, 3)
@@ -199,7 +198,7 @@ def _check_hollows(following: Following, edges: Array) -> None:
 
 
 def _peak(following: Following, edges: Array, nu: int) -> float:
-    return _bound(lambda places, order: following.derivative(places, nu, order)[1], edges, _NEAR)
+    return _bound(lambda places, order: following.derivative(places, nu, order)[1], edges, MANUFACTURED_PEAKS)
 
 
 def _bound(function: Function, edges: Array, share: float) -> float:
@@ -215,7 +214,7 @@ def _leap(following: Following, edges: Array, size: float) -> float:
     beside = 1e-9 * np.diff(edges)
     before, after = (following.at(places, 2)[1] for places in (edges[1:] - beside, edges[:-1] + beside))
     leap = float(np.abs(np.roll(after, -1) - before).max())
-    return leap if leap > _LEAP * size else 0.0
+    return leap if leap > MANUFACTURED_LEAP * size else 0.0
 
 
 def _meant(cam: DiscCam, nu: int) -> float:

@@ -28,6 +28,7 @@ from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import TURN
 from optlaws.numbers import Quantity
+from optlaws.numerics.tolerances import CAM_FEASIBILITY, CAM_GAIN
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.expression import maximum
 from optlaws.synthesis.problem.problem import Problem
@@ -58,8 +59,7 @@ class SolvedPiece(NamedTuple):
 
 Solved: TypeAlias = list[SolvedPiece]
 
-_ROUNDS, _GAIN = 8, 1e-4
-_ROUNDING = 1e-7  # by how much limits of the cam may be broken by the law's rounding, relative
+_ROUNDS = 8
 
 
 @dataclass(frozen=True)
@@ -269,7 +269,7 @@ def _solved(cycle: Cycle, cam: DiscCam, limits: dict[str, float], *, below: bool
         for _ in range(_ROUNDS if below and not cam.contact.linear else 0):
             guide, last = replace(piece, law=best.law), best.objective
             best = _best(guide, solution.problem, cam.contact, limits, cycle.duration, below=True)
-            if best.objective > last * (1.0 - _GAIN):
+            if best.objective > last * (1.0 - CAM_GAIN):
                 break
         solved.append(SolvedPiece(replace(piece, law=best.law), best))
     return solved
@@ -348,11 +348,11 @@ def _are_met(cam: DiscCam, limits: dict[str, float]) -> bool:
 def _check_met(cam: DiscCam, limits: dict[str, float]) -> None:
     """Refuse laws that break a limit which is not convex in them."""
     extremes = cam.extremes
-    if PRESSURE in limits and tan(extremes.greatest_pressure_angle.low) > limits[PRESSURE] * (1.0 + _ROUNDING):
+    if PRESSURE in limits and tan(extremes.greatest_pressure_angle.low) > limits[PRESSURE] * (1.0 + CAM_FEASIBILITY):
         raise SolverFailure(
             f"the best laws have a pressure angle of {np.degrees(extremes.greatest_pressure_angle.value):.6g} deg"
         )
-    if CURVATURE in limits and extremes.least_convex_radius.high < limits[CURVATURE] * (1.0 - _ROUNDING):
+    if CURVATURE in limits and extremes.least_convex_radius.high < limits[CURVATURE] * (1.0 - CAM_FEASIBILITY):
         raise SolverFailure(
             f"the best laws under the other limits have a radius of curvature of "
             f"{shown(extremes.least_convex_radius.value)}, and what a dwell or a given law has no other "

@@ -24,6 +24,7 @@ from optlaws.numerics.enclosures.branch_and_bound import Extremes, Function, ext
 from optlaws.numerics.enclosures.integral import integral
 from optlaws.numerics.enclosures.interval import Interval, highest, middle
 from optlaws.numerics.enclosures.taylor import Jet
+from optlaws.numerics.tolerances import FORCE_EXTREMES, VALUE_ROUNDING
 from optlaws.suggest import unknown_key
 
 Array = NDArray[np.float64]
@@ -133,9 +134,7 @@ def _material(given: Any) -> tuple[float, float]:  # noqa: ANN401
     return modulus, poisson
 
 
-_SHARE = 1e-8
 _PARTS = 12
-_WAY = 1e-12  # of the stroke: what is less is rounding
 _FRICTION = ("contact", "guide", "overhang", "length")
 
 
@@ -216,7 +215,7 @@ class CamForces:
                 ends = np.array([[stretch.start], [stretch.stop]])
                 way = np.abs(self.cam.displacement(turns) - self.cam.displacement(ends))
                 # roots of the velocity beside an end that is at rest are rounding
-                places.append(turns[(way > _WAY * abs(stretch.stroke)).all(axis=0)])
+                places.append(turns[(way > VALUE_ROUNDING * abs(stretch.stroke)).all(axis=0)])
         return np.unique(np.concatenate(places))
 
     def follower_force(self, angle: Any) -> Any:  # noqa: ANN401 - a number for a number, an array for arrays
@@ -268,13 +267,13 @@ class CamForces:
     @kept_property
     def mean_torque(self) -> tuple[float, float]:
         """The interval of the mean torque, which is 0 over a turn without friction."""
-        low, high = integral(self._torque, self.edges, share=_SHARE)
+        low, high = integral(self._torque, self.edges, share=FORCE_EXTREMES)
         return low / self._angle, high / self._angle
 
     @kept_property
     def rms_torque(self) -> tuple[float, float]:
         """The interval of the root mean square of the torque."""
-        low, high = integral(lambda angle, order: _square(self._torque(angle, order)), self.edges, share=_SHARE)
+        low, high = integral(lambda angle, order: _square(self._torque(angle, order)), self.edges, share=FORCE_EXTREMES)
         return sqrt(max(low, 0.0) / self._angle), sqrt(max(high, 0.0) / self._angle)
 
     def to_dict(self) -> dict[str, Any]:
@@ -330,7 +329,7 @@ class CamForces:
         return values if np.ndim(values) else float(values)
 
     def _enclosed(self, function: Function) -> Extremes:
-        return extremes(function, self.edges, share=_SHARE, parts=_PARTS)
+        return extremes(function, self.edges, share=FORCE_EXTREMES, parts=_PARTS)
 
     def _follower_force(self, angle: Array | Interval, order: int) -> Jet:
         return self._taken(self.cam.displacement.jet(angle, order + 2), angle)

@@ -25,15 +25,13 @@ from optlaws.motion.quantities import quantity
 from optlaws.numbers import Quantity
 from optlaws.numerics.enclosures.interval import Interval, exact
 from optlaws.numerics.enclosures.taylor import Jet
-from optlaws.numerics.tolerances import ROUNDOFF
+from optlaws.numerics.tolerances import ROUNDOFF, SIZE_BRACKET, SIZE_MARGIN, SIZE_NUDGE, SMALLEST_BASE
 
 Kind = TypeVar("Kind", bound=FollowerContact)
 
-WIDTH = 1e-8  # of the bracket, relative
-_MARGIN = 1e-10  # by how much more than needed the radius grows at last
-_NUDGES, _NUDGE = 6, 1e-9
+_NUDGES = 6
 _STEPS, _LOOKS, _DEPTH = 60, 150, 60
-_LEAST, _LARGEST = 1e-6, 1e3  # of base circles that are looked at, times the greatest length of the mechanism
+_LARGEST = 1e3
 
 
 @dataclass(frozen=True)
@@ -115,16 +113,16 @@ def least_base_circle(
         if not broken:
             break
         witnesses += broken
-        radius = max(radius, *(sizes.least_meeting(witness, radius) for witness in broken)) * (1.0 + _MARGIN)
+        radius = max(radius, *(sizes.least_meeting(witness, radius) for witness in broken)) * (1.0 + SIZE_MARGIN)
     for _ in range(_NUDGES):  # to where it is not only not broken but proven to be kept
         if not sizes.witnesses(radius, proven=True):
             break
-        radius *= 1.0 + _NUDGE
+        radius *= 1.0 + SIZE_NUDGE
     else:
         raise InfeasibleProblem(f"no base circle was found that keeps {_in_words(limits)}: give wider limits")
     cam = DiscCam(motion, f"{radius!r} m", follower, turning=turning)
     last = witnesses[-1] if witnesses else Witness("mechanism", 0.0, 1.0, before=False)
-    below = radius * (1.0 - WIDTH)
+    below = radius * (1.0 - SIZE_BRACKET)
     proven = not witnesses or below <= start or sizes.breaks_between(start, below, witnesses[::-1])
     return LeastBaseCircle(radius, max(below, start), proven, last.limit, last.angle, cam)
 
@@ -229,7 +227,7 @@ class _Sizes:
     @property
     def least(self) -> float:
         """The least base circle with which there is such a mechanism, m."""
-        rising = self._scale * np.geomspace(_LEAST, _LARGEST, _LOOKS)
+        rising = self._scale * np.geomspace(SMALLEST_BASE, _LARGEST, _LOOKS)
         fit = next((i for i, radius in enumerate(rising) if self._fits(radius)), None)
         if fit is None:
             raise InfeasibleProblem("no base circle fits the follower: give it other sizes")
@@ -293,7 +291,7 @@ class _Sizes:
         last = radius
         if excess(radius) <= 0.0:
             return radius
-        for size in radius + self._scale * np.geomspace(_LEAST, _LARGEST, _LOOKS):
+        for size in radius + self._scale * np.geomspace(SMALLEST_BASE, _LARGEST, _LOOKS):
             if not self._fits(float(size)):
                 break
             if excess(float(size)) <= 0.0:

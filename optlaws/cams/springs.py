@@ -20,15 +20,13 @@ from optlaws.numbers import Quantity
 from optlaws.numerics.enclosures.branch_and_bound import Extremes, Function, extremes
 from optlaws.numerics.enclosures.interval import Interval
 from optlaws.numerics.enclosures.taylor import Jet
+from optlaws.numerics.tolerances import LIFTED, PROGRAM_SLACK, SPRING_EXTREMES
 
 Array = NDArray[np.float64]
 
 _FIRST = 97
 _STEPS = 40
 _PARTS = 12
-_NEAR = 1e-12
-_KEPT = 1e-7  # to what a linear program keeps its rows; what is missing then is added to the spring
-_RAISED = 1e-3  # of the stroke: so far up more stiffness is more force
 _UNITS = {"length": ("force", "stiffness"), "angle": ("torque", "torsional stiffness")}
 
 
@@ -204,7 +202,7 @@ def _exchange(task: _SpringTask, given: _KnownSpring) -> Spring:
     for _ in range(_STEPS):
         best = _program(task, angles, given)
         force, pushed = _extremes(task, best)
-        slack = _KEPT * max(pushed.peak, task.least)
+        slack = PROGRAM_SLACK * max(pushed.peak, task.least)
         if force.low >= task.least - slack and (given.objective != "greatest" or pushed.high <= best[2] + slack):
             break
         angles = np.append(angles, [force.least_at, pushed.most_at])
@@ -222,7 +220,7 @@ def _extremes(task: _SpringTask, spring: tuple[float, float, float]) -> tuple[Ex
         return force
 
     edges = task.forces.edges
-    least, greatest = (extremes(along(side), edges, share=_NEAR, parts=_PARTS) for side in (1.0, -1.0))
+    least, greatest = (extremes(along(side), edges, share=SPRING_EXTREMES, parts=_PARTS) for side in (1.0, -1.0))
     return least, greatest
 
 
@@ -264,7 +262,7 @@ def _strengthened(task: _SpringTask, given: _KnownSpring, best: tuple[float, flo
     missing = max(task.least - force.low, 0.0)
     if given.preload is None:
         preload += missing
-    elif (up := float(task.displacement(np.array(force.least_at)))) > _RAISED * task.forces.cam.displacement.range[1]:
+    elif (up := float(task.displacement(np.array(force.least_at)))) > LIFTED * task.forces.cam.displacement.range[1]:
         stiffness += missing / up
     least, pushed = _extremes(task, (preload, stiffness, greatest))
     return Spring(

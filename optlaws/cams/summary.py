@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
 
 from optlaws.cams.forces import CamForces
 from optlaws.cycles.cycle import Cycle
+from optlaws.numerics.tolerances import SMALLEST_ANGLE
 from optlaws.shown.summary import Row, Summary
 
 if TYPE_CHECKING:
@@ -15,8 +16,6 @@ if TYPE_CHECKING:
     from optlaws.numerics.enclosures.branch_and_bound import Extremes
 
 T = TypeVar("T")
-
-_NOTHING = 1e-100
 
 
 class Labelled(NamedTuple, Generic[T]):
@@ -36,7 +35,7 @@ def geometry(cam: DiscCam) -> list[Labelled[EnclosedExtreme]]:
         "pressure angle, least": extremes.pressure_angles[0],
         "pressure angle, greatest": extremes.pressure_angles[1],
     }
-    seen = extremes.greatest_pressure_angle.value > _NOTHING
+    seen = extremes.greatest_pressure_angle.value > SMALLEST_ANGLE
     radii = {"bulging": extremes.least_convex_radius, "hollow": extremes.least_concave_radius}
     return [
         *(Labelled(name, extreme, "deg", degrees(1.0)) for name, extreme in angles.items() if seen),

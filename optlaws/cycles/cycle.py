@@ -38,10 +38,9 @@ from optlaws.mechanisms.machine.over_time import RepeatedMotion
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import TURN, quantity, written
 from optlaws.numbers import MOST_DEGREE, Quantity, derivative, real_times, whole
+from optlaws.numerics.tolerances import CYCLE_OPTIMALITY
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.solution import Solution, Status
-
-_MET = 1e-7  # share within which a bound of the whole cycle is met
 
 
 @dataclass(frozen=True, repr=False)
@@ -156,7 +155,7 @@ class Cycle(ExportMixin, SerialisationMixin):
         ranks = (Status.OPTIMAL, Status.LOCAL, Status.INACCURATE)
         worst = max((solution.status for solution in self.solutions), key=ranks.index, default=Status.OPTIMAL)
         if self.solutions and worst == Status.OPTIMAL and self.lower_bound is not None:
-            return Status.OPTIMAL if self.objective <= self.lower_bound * (1.0 + _MET) else Status.LOCAL
+            return Status.OPTIMAL if self.objective <= self.lower_bound * (1.0 + CYCLE_OPTIMALITY) else Status.LOCAL
         return worst
 
     @kept_property

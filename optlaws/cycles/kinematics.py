@@ -13,11 +13,10 @@ from numpy.typing import NDArray
 from optlaws.cycles.specification.programme import Programme, TimedSegment
 from optlaws.cycles.specification.segments import Free, Move
 from optlaws.motion.piece import Piece, values_of_pieces
+from optlaws.numerics.tolerances import JUMP
 
 Array = NDArray[np.float64]
 Place = tuple[float, float]
-
-JOINED = 1e-9  # a leap below this share of the derivative's greatest value is rounding
 
 
 @dataclass(frozen=True)
@@ -57,7 +56,7 @@ def jumps_at_joints(
     joints = []
     for start in starts:
         sizes = [_jump(pieces, start, nu) for nu in (1, 2, 3)]
-        jumps = [0.0 if abs(size) <= JOINED * peak else size for size, peak in zip(sizes, peaks, strict=True)]
+        jumps = [0.0 if abs(size) <= JUMP * peak else size for size, peak in zip(sizes, peaks, strict=True)]
         joints.append({"time": start, "velocity": jumps[0], "acceleration": jumps[1], "jerk": jumps[2]})
     return tuple(joints)
 

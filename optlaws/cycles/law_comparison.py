@@ -17,10 +17,10 @@ from optlaws.mechanisms.spectrum.robust import residual
 from optlaws.motion.piece import factor
 from optlaws.motion.quantities import either, quantity
 from optlaws.numbers import Quantity, bounded, positive
+from optlaws.numerics.tolerances import AGREEMENT
 
 #: what is more than so many times as great is far above
 FAR = 1.5
-_NOTHING = 1e-9
 CONSTANTS = ("B", "C", "D", "J", "rms_c")
 _MACHINE = {1: "velocity, {}/s", 2: "acceleration, {}/s²", 3: "jerk, {}/s³"}
 _UNITS = {"length": "m", "angle": "rad"}
@@ -196,7 +196,7 @@ def costs(
 def _cost(what: str, value: float, other: float, name: str) -> str:
     if not isfinite(value):
         return f"{what}inf, without bound; that of {name} is {other:.4g}"
-    if other <= _NOTHING * value:
+    if other <= AGREEMENT * value:
         return f"{what}{value:.4g}; {name} has none"
     return f"{what}{value:.4g}, {value / other:.3g} times that of {name}"
 

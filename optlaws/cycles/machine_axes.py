@@ -8,7 +8,7 @@ from typing import Any, Unpack
 
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.serialisation import problem_file
-from optlaws.cycles.specification.programme import CLOSE, period_of
+from optlaws.cycles.specification.programme import period_of
 from optlaws.cycles.specification.segments import CycleSegment
 from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError
@@ -17,6 +17,7 @@ from optlaws.files.reading import JsonText
 from optlaws.kept import kept_property
 from optlaws.laws.exporting import AxesExportOptions
 from optlaws.numbers import Quantity
+from optlaws.numerics.tolerances import CLOSURE
 from optlaws.suggest import keywords_of, unknown_key
 from optlaws.synthesis.solution import Status
 
@@ -269,7 +270,7 @@ def _entries(given: Any) -> dict[str, Any]:  # noqa: ANN401 - it is checked here
 
 def _check_durations(cycles: Mapping[str, Cycle], duration: float) -> None:
     for name, cycle in cycles.items():
-        if abs(cycle.duration - duration) > CLOSE * duration:
+        if abs(cycle.duration - duration) > CLOSURE * duration:
             raise InputError(
                 f"axis {name}: its cycle takes {cycle.duration:.9g} s, the machine's {duration:.9g} s: give both the "
                 "same speed or period, or take cycle.at(speed)"

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
-from optlaws.cycles.specification.programme import CLOSE, Programme, TimedSegment
+from optlaws.cycles.specification.programme import Programme, TimedSegment
 from optlaws.cycles.specification.segments import ConstantVelocity, CycleSegment, Dwell, Move
 from optlaws.errors import InputError
 from optlaws.laws.making.transform import section
@@ -15,6 +15,7 @@ from optlaws.mechanisms.cam.polydyne import polydyne
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import TURN, positive_quantity
 from optlaws.numbers import Quantity
+from optlaws.numerics.tolerances import CLOSURE
 
 
 @dataclass(frozen=True)
@@ -78,7 +79,7 @@ def _moves(
         raise InputError(f"{stretch.where} ends where it begins: give it to a Cycle of its own at the other speed")
     first, last = (_break(law, piece, time) for time in times)
     ends = [first, last]
-    if abs(moved) <= CLOSE * abs(piece.stroke):
+    if abs(moved) <= CLOSURE * abs(piece.stroke):
         heights = [abs(float(law(place)) - float(law(law.breaks[first]))) for place in law.breaks[first : last + 1]]
         ends.insert(1, first + heights.index(max(heights)))
     moves, left = list[Move](), moved

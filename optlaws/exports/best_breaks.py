@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
-from optlaws.exports.fitting import HIGHER, Fitted, fitted
+from optlaws.exports.fitting import Fitted, fitted
 from optlaws.exports.polynomial_pieces import LawSection
 from optlaws.laws.law import MotionLaw
 from optlaws.mechanisms.checks import motion_law
@@ -18,15 +18,13 @@ from optlaws.motion.motion import Motion
 from optlaws.motion.piece import Piece
 from optlaws.motion.polynomials import PiecewiseMotion
 from optlaws.numbers import whole
+from optlaws.numerics.tolerances import ACCELERATION_HIGHER, AGREEMENT, POSITION_OFF
 
 Array = NDArray[np.float64]
 
-#: how far the position may be off, as a share of the law's displacement
-FAR = 1e-3
 MOST = 64
 _EVALUATIONS = 150
 _GRADINGS = (1.0, 0.7)
-_SYMMETRIC = 1e-9
 
 
 @dataclass(frozen=True)
@@ -138,11 +136,11 @@ class BreakSearch:
             tried.append(Tried(count, even, best))
             run = self.run(breaks)
             off = self.stretch.off(run, 0)
-            if abs(best - 1.0) <= HIGHER and off <= FAR:
+            if abs(best - 1.0) <= ACCELERATION_HIGHER and off <= POSITION_OFF:
                 return BestBreaks(tuple(breaks.tolist()), run, best, off, tuple(tried))
         raise InputError(
-            f"{most} pieces of degree {2 * self.orders - 1} do not bring C within {HIGHER:.1%} of the law's: take a "
-            "higher degree or more pieces"
+            f"{most} pieces of degree {2 * self.orders - 1} do not bring C within {ACCELERATION_HIGHER:.1%} of the "
+            "law's: take a higher degree or more pieces"
         )
 
     def run(self, breaks: Array) -> PiecewiseMotion:
@@ -157,9 +155,9 @@ class BreakSearch:
         even = self._placed(np.ones(count))
         tried: list[tuple[float, Array]] = [(self.ratio(even), even)]
         first = tried[0][0]
-        for grading in _GRADINGS if abs(first - 1.0) > HIGHER and count > 1 else ():
+        for grading in _GRADINGS if abs(first - 1.0) > ACCELERATION_HIGHER and count > 1 else ():
             self._descend(count, grading, tried)
-            if abs(tried[-1][0] - 1.0) <= HIGHER:
+            if abs(tried[-1][0] - 1.0) <= ACCELERATION_HIGHER:
                 break
         ratio, breaks = min(tried, key=lambda pair: abs(pair[0] - 1.0))
         return first, ratio, breaks
@@ -178,7 +176,7 @@ class BreakSearch:
             ratio = self.ratio(breaks)
             if abs(ratio - 1.0) < abs(tried[-1][0] - 1.0) or len(tried) == 1:
                 tried.append((ratio, breaks))
-            if abs(ratio - 1.0) <= HIGHER:
+            if abs(ratio - 1.0) <= ACCELERATION_HIGHER:
                 raise _Enough
             return abs(ratio - 1.0)
 
@@ -197,7 +195,7 @@ class BreakSearch:
     def _symmetric(self) -> bool:
         k = np.linspace(0.0, 1.0, 33)
         c = self.stretch.values(k, 2)
-        return bool(np.abs(c + c[::-1]).max() <= _SYMMETRIC * self.peak)
+        return bool(np.abs(c + c[::-1]).max() <= AGREEMENT * self.peak)
 
 
 def _refuse_leaps(law: MotionLaw, orders: int) -> None:

@@ -18,12 +18,13 @@ from optlaws.motion.motion import Motion
 from optlaws.motion.piece import Piece
 from optlaws.motion.polynomials import PiecewiseMotion, from_exact
 from optlaws.numerics import exact
+from optlaws.numerics.tolerances import ACCELERATION_HIGHER
 
 Array = NDArray[np.float64]
 Laid = Callable[[Piece], PiecewiseMotion]
 
 #: how far the run's peak of the acceleration may be above the motion's, and its acceleration off it, as shares
-HIGHER, OFF = 1e-3, 1e-2
+OFF = 1e-2
 _SHORT = 10
 
 
@@ -73,7 +74,7 @@ class _FittedSection:
         count = 1 if self.run is None else len(self.run.coefficients) + 1
         self.run = self.stretch.hermite(np.linspace(*self.stretch.ends, count + 1), orders)
         height = abs(self.piece.stroke) / self.piece.duration**2 * self.run.peak(2).value
-        self.rank = -max(height / ((1.0 + HIGHER) * peak), self.off(2) / (near * peak))
+        self.rank = -max(height / ((1.0 + ACCELERATION_HIGHER) * peak), self.off(2) / (near * peak))
 
     def off(self, nu: int) -> float:
         """How far its derivative of order nu is from the motion's."""

@@ -24,6 +24,7 @@ from optlaws.motion.piece import Piece
 from optlaws.motion.polynomials import PiecewiseMotion, from_exact
 from optlaws.numbers import finite, positive
 from optlaws.numerics import exact
+from optlaws.numerics.tolerances import PIECES_OF_MOTION, POSITION_ROUNDING
 
 Array = NDArray[np.float64]
 #: a stretch of a law: its first and its last k, and powers of k less the first
@@ -172,14 +173,12 @@ def _powers(segment: PolynomialSegment, length: Fraction, height: Fraction) -> l
     return [height, Fraction(segment.b0), *steps]
 
 
-TOLERANCE = 1e-9
 _ORDERS = 4  # derivatives at both ends, so that pieces have the degree 7
 _MOST = 4096
-_ROUNDING = 2.0**-50
 _LEAST = 16.0  # terms that sum up to so many strokes are no cause to halve pieces
 
 
-def pieces_of_motion(motion: Motion, tolerance: float = TOLERANCE) -> PiecewiseMotion:
+def pieces_of_motion(motion: Motion, tolerance: float = PIECES_OF_MOTION) -> PiecewiseMotion:
     """The polynomials of a motion between breaks, in units of its master and slave.
 
     Parameters
@@ -209,7 +208,7 @@ def pieces_of_motion(motion: Motion, tolerance: float = TOLERANCE) -> PiecewiseM
     return PiecewiseMotion([*breaks, motion.stop], [row for part in parts for row in part.coefficients])
 
 
-def pieces_of_law(law: MotionLaw, tolerance: float = TOLERANCE, **placement: Any) -> PiecewiseMotion:  # noqa: ANN401
+def pieces_of_law(law: MotionLaw, tolerance: float = PIECES_OF_MOTION, **placement: Any) -> PiecewiseMotion:  # noqa: ANN401
     """The polynomials of a law with its stroke, time and master, as `motion_of_law` takes them."""
     return pieces_of_motion(motion_of_law(law, **placement), tolerance)
 
@@ -218,7 +217,7 @@ def _of_piece(piece: Piece, tolerance: float) -> PiecewiseMotion:
     if piece.stroke == 0.0:
         return PiecewiseMotion([piece.start, piece.stop], [[piece.offset]])
     if is_polynomial(piece.law):
-        cancelled = max(tolerance / (_ROUNDING * abs(piece.stroke)), _LEAST)
+        cancelled = max(tolerance / (POSITION_ROUNDING * abs(piece.stroke)), _LEAST)
         return _at_its_place(polynomials_of_law(piece.law, piece.stroke, piece.duration, cancelled=cancelled), piece)
     stretches = [LawSection(piece.law, ends) for ends in pairwise(piece.law.breaks)]
     near = reduce(PiecewiseMotion.then, (_near(stretch, tolerance / abs(piece.stroke)) for stretch in stretches))

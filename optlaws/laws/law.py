@@ -16,12 +16,11 @@ from optlaws.laws.exporting import LawExport
 from optlaws.laws.storage import StoredLaw
 from optlaws.numbers import Quantity, derivative, times
 from optlaws.numerics.peaks import Peak
+from optlaws.numerics.tolerances import JUMP, JUMP_OF_LOWER
 
 Array = NDArray[np.float64]
 Jumps = tuple[tuple[float, float], ...]
 
-JUMP = 1e-9  # a difference at a break below this share of the derivative's size is rounding, not a jump
-UNSEEN = 1e-13  # and so is one below this share of the size of a lower derivative: uniform motion has c = 0 but for it
 HIGHEST = 9
 
 _NINE = np.linspace(0.0, 1.0, 9)
@@ -188,7 +187,7 @@ class MotionLaw(Curve, LawExport, StoredLaw):
             for k, before, after in zip(inner, left.tolist(), right.tolist(), strict=True)
             if before != after and not abs(after - before) <= rounding
         )
-        unseen = max((UNSEEN * self._size(lower) for lower in range(1, nu)), default=0.0) if leaps else 0.0
+        unseen = max((JUMP_OF_LOWER * self._size(lower) for lower in range(1, nu)), default=0.0) if leaps else 0.0
         return tuple((k, height) for k, height in leaps if not abs(height) <= unseen)
 
     def _size(self, nu: int) -> float:

@@ -8,12 +8,11 @@ from numpy.typing import NDArray
 from optlaws.files import tables
 from optlaws.laws.law import MotionLaw
 from optlaws.numbers import MOST_VALUES, whole
+from optlaws.numerics.tolerances import VALUE_ROUNDING
 
 LETTERS = ("a", "b", "c", "j", "d")
 #: lines unless others are asked
 SAMPLES = 201
-#: a value below this share of its peak is what rounding leaves of 0
-NOISE = 1e-12
 _DIGITS = 15
 
 
@@ -34,7 +33,8 @@ def values(law: MotionLaw, k: NDArray[np.float64]) -> list[NDArray[np.float64]]:
     """
     columns = [getattr(law, letter)(k) for letter in LETTERS]
     return [
-        np.where(np.abs(column) <= NOISE * size, 0.0, column) for column, size in zip(columns, sizes(law), strict=True)
+        np.where(np.abs(column) <= VALUE_ROUNDING * size, 0.0, column)
+        for column, size in zip(columns, sizes(law), strict=True)
     ]
 
 

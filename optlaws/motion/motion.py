@@ -14,16 +14,16 @@ from numpy.typing import NDArray
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
-from optlaws.motion.piece import STROKE, Piece, factor, values_of_pieces
+from optlaws.motion.piece import Piece, factor, values_of_pieces
 from optlaws.motion.quantities import Given, either, given_quantity, positive_quantity, quantity
 from optlaws.numbers import Quantity, derivative, real_times
+from optlaws.numerics.tolerances import CLOSURE, JUMP
 
 Array = NDArray[np.float64]
 Place = tuple[float, float]
 
 SLAVES = ("length", "angle")
 MASTERS = ("angle", "length")
-LEAP = 1e-9  # a leap below this share of the derivative's greatest value is rounding
 
 
 @dataclass(frozen=True)
@@ -160,7 +160,7 @@ class Motion:
         """The greatest leap of the derivative of order nu inside, and its x; what is rounding beside its peak is 0."""
         leaps = ((abs(after - before), x) for x, before, after in self.sides(nu))
         worst = max(leaps, default=(0.0, self.start), key=_value)
-        return worst if worst[0] > LEAP * self._size(nu) else (0.0, self.start)
+        return worst if worst[0] > JUMP * self._size(nu) else (0.0, self.start)
 
     def rms(self, nu: int) -> float:
         """Root mean square of the derivative of order nu over the motion."""
@@ -306,7 +306,7 @@ def _span(master: Quantity | None, seconds: float | None) -> Given:
 
 def _of_stroke_one(law: MotionLaw) -> MotionLaw:
     stroke = float(law.a(1.0)) - float(law.a(0.0))
-    if abs(stroke - 1.0) > STROKE:
+    if abs(stroke - 1.0) > CLOSURE:
         raise InputError(f"the law must have the stroke 1, which `stroke` multiplies, but it has {stroke:g}")
     return law
 

@@ -28,8 +28,7 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.catalogue.reading import is_file, read_law
-
-STROKE = 1e-9
+from optlaws.numerics.tolerances import CLOSURE, INSIDE_PIECE, SAME_TIME
 
 
 def named_law(given: Any, where: str) -> MotionLaw:  # noqa: ANN401 - it is checked here
@@ -50,7 +49,7 @@ def named_law(given: Any, where: str) -> MotionLaw:  # noqa: ANN401 - it is chec
     except InputError as error:
         raise InputError(f"{where}: law: {error}") from None
     stroke = float(law.a(1.0)) - float(law.a(0.0))
-    if abs(stroke - 1.0) > STROKE:
+    if abs(stroke - 1.0) > CLOSURE:
         raise InputError(f"{where}: its law must have the stroke 1, which `by` multiplies, but it has {stroke:g}")
     return law
 
@@ -68,8 +67,7 @@ def _read(given: Any) -> MotionLaw:  # noqa: ANN401
 
 Array = NDArray[np.float64]
 
-_LEAPS, _WITHIN = 2, 1e-13
-SAME = 1e-12  # share of a time within which it is another
+_LEAPS = 2
 
 
 def factor(stroke: float, duration: float, nu: int) -> float:
@@ -124,7 +122,8 @@ class Piece:
 
     def leap(self, time: float, nu: int) -> float:
         """The leap of the derivative of order nu at a time inside."""
-        near = (jump for k, jump in self.law.jumps(nu) if abs(self.start + k * self.duration - time) <= SAME * time)
+        places = ((self.start + k * self.duration, jump) for k, jump in self.law.jumps(nu))
+        near = (jump for place, jump in places if abs(place - time) <= SAME_TIME * time)
         return factor(self.stroke, self.duration, nu) * sum(near)
 
     def extremes(self, nu: int, first: float, last: float) -> tuple[tuple[float, float], tuple[float, float]]:
@@ -132,7 +131,7 @@ class Piece:
         low, high = (float(place) for place in self.places(np.array([first, last])))
         if nu >= _LEAPS:
             # what leaps where a segment ends has the value of the segment, not of its neighbour
-            low, high = low + _WITHIN * (low > 0.0), high - _WITHIN * (high < 1.0)
+            low, high = low + INSIDE_PIECE * (low > 0.0), high - INSIDE_PIECE * (high < 1.0)
         extremes = self.law.extrema(nu, within=(low, high))
         base = self._origin if nu == 0 else 0.0
         sized = [

@@ -18,14 +18,13 @@ from optlaws.kept import kept_property
 from optlaws.numbers import MAGNITUDE_LIMIT, derivative, listed, numbers, real_times
 from optlaws.numerics import bernstein
 from optlaws.numerics.difference import greatest_difference
+from optlaws.numerics.tolerances import POLISHING_REACH, SAME_TIME
 
 Array = NDArray[np.float64]
 #: a motion by its derivatives: of places and of the order nu of the derivative
 Derivatives = Callable[[Array, int], Array]
 
-_REACH = 1e-3
 _STEPS = 3
-_SAME = 1e-12
 
 
 class Extreme(NamedTuple):
@@ -311,7 +310,7 @@ class PiecewiseMotion:
         breaks_here, others = np.array(self.breaks), np.array([x for x in breaks if self.start < x < self.stop])
         after = np.searchsorted(breaks_here, others)
         apart = np.minimum(breaks_here[after] - others, others - breaks_here[after - 1])
-        return np.unique(np.concatenate([breaks_here, others[apart > _SAME * (self.stop - self.start)]]))
+        return np.unique(np.concatenate([breaks_here, others[apart > SAME_TIME * (self.stop - self.start)]]))
 
     def _cut(self, breaks: Array) -> Array:
         """Powers on finer pieces."""
@@ -341,7 +340,7 @@ class PiecewiseMotion:
         for _ in range(_STEPS):
             steepness, curvature = float(_horner(slope, s)), float(_horner(bend, s))
             step = steepness / curvature if curvature else 0.0
-            if abs(step) > _REACH * length or not 0.0 <= s - step <= length:
+            if abs(step) > POLISHING_REACH * length or not 0.0 <= s - step <= length:
                 break
             s -= step
         return s / length

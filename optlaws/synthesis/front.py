@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from optlaws.extras import needed
 from optlaws.kept import kept_property
 from optlaws.laws import PolynomialLaw
+from optlaws.numerics.tolerances import AGREEMENT
 from optlaws.synthesis.families.peaks import of_polynomials
 from optlaws.synthesis.problem.fields import CONSTANTS
 from optlaws.synthesis.problem.named_constants import named, title_of
@@ -23,8 +24,6 @@ _OF_POINTS = ("lower bound", "gap", "limit", "status")
 #: of fronts of B, C, D and J
 HEADINGS = (*CONSTANTS, *_OF_POINTS)
 
-#: of a constant: two values that differ by less are one
-SAME = 1e-9
 _SHOWN = 12
 #: from so many laws on constants are computed for all at once
 _MANY = 16
@@ -184,8 +183,8 @@ def _beaten(values: Array) -> NDArray[np.bool_]:
         some = values[begin : begin + _BLOCK]
         no_worse, better = np.ones((len(some), len(values)), np.bool_), np.zeros((len(some), len(values)), np.bool_)
         for own, others in zip(some.T, values.T, strict=True):
-            no_worse &= others <= (own * (1.0 + SAME))[:, None]
-            better |= others < (own * (1.0 - SAME))[:, None]
+            no_worse &= others <= (own * (1.0 + AGREEMENT))[:, None]
+            better |= others < (own * (1.0 - AGREEMENT))[:, None]
         kept[begin : begin + _BLOCK] = (no_worse & better).any(axis=1)
     return kept
 
@@ -194,9 +193,9 @@ def _known_already(rows: Sequence[Sequence[float]], kept: Sequence[int], place: 
     """Whether a row is one of those that are kept; the rows ascend in their first entry."""
     row = rows[place]
     for other in map(rows.__getitem__, reversed(kept)):
-        if abs(other[0] / row[0] - 1.0) > SAME:
+        if abs(other[0] / row[0] - 1.0) > AGREEMENT:
             return False
-        if all(abs(value / own - 1.0) <= SAME for value, own in zip(other, row, strict=True)):
+        if all(abs(value / own - 1.0) <= AGREEMENT for value, own in zip(other, row, strict=True)):
             return True
     return False
 

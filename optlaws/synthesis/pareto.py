@@ -13,8 +13,9 @@ from numpy.typing import NDArray
 from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.numbers import real, whole
+from optlaws.numerics.tolerances import AGREEMENT, NEARLY_NOTHING, NO_EXCHANGE
 from optlaws.shown.steps import Steps
-from optlaws.synthesis.front import IN_ARRAYS, SAME, Front, undominated, value_of, values_of
+from optlaws.synthesis.front import IN_ARRAYS, Front, undominated, value_of, values_of
 from optlaws.synthesis.method.exchange import solve
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.fields import CONSTANTS
@@ -33,10 +34,6 @@ _ABOVE = (1e-5, 1e-7, 1e-9)
 _BENT = 2.0
 #: from so many points on those of convex problems are put in many at a time, where they are a quarter as wanted as any
 _MANY, _SHARE, _EVEN = 100, 0.25, 4
-# of the value where it pays: a constant that can be less can be 0, to which no logarithm goes
-_NEARLY_NOTHING = 1e-4
-# a stretch of the first constant, relative, within which nothing is exchanged
-_NOTHING = 1e-6
 
 
 def pareto_front(
@@ -110,7 +107,7 @@ class _Curve:
         low, high = between if between is not None else (0.0, inf)
         best = synthesize(_with(self.problem, over[0], Range(1.0 if over[0] == "B" else 0.0, inf)))
         pays = value_of(best, over[0])
-        if low >= pays * (1.0 - SAME):
+        if low >= pays * (1.0 - AGREEMENT):
             raise InputError(
                 f"{over[1]} is least at {over[0]} = {pays:.7g}: nothing is exchanged above, got {shortened(between)}"
             )
@@ -125,7 +122,7 @@ class _Curve:
             while len(self.points) < count:
                 widths = [0.0 if self.points[i][0] in dead else width for i, width in enumerate(self._widths())]
                 i = int(np.argmax(widths))
-                if widths[i] < SAME:
+                if widths[i] < AGREEMENT:
                     break
                 (low, left), (high, right) = self.points[i : i + 2]
                 value = sqrt(low * high)
@@ -167,7 +164,7 @@ class _Curve:
                 # the others are looked at one by one
                 return
             widths = np.array(self._widths())
-            wanting = np.flatnonzero(widths >= max(_SHARE * widths.max(), SAME))
+            wanting = np.flatnonzero(widths >= max(_SHARE * widths.max(), AGREEMENT))
             places = wanting[np.argsort(-widths[wanting])][: count - len(self.points)]
             values = [sqrt(self.points[i][0] * self.points[i + 1][0]) for i in sorted(places.tolist())]
 
@@ -182,8 +179,8 @@ class _Curve:
             except InfeasibleProblem:
                 pass
         least = least_value(self.problem, self.over[0])
-        if least < _NEARLY_NOTHING * pays:
-            return _NEARLY_NOTHING * pays, synthesize(self._asked(_NEARLY_NOTHING * pays))
+        if least < NEARLY_NOTHING * pays:
+            return NEARLY_NOTHING * pays, synthesize(self._asked(NEARLY_NOTHING * pays))
         value = least * (1.0 + _ABOVE[0])
         solution = synthesize(self._asked(value))
         for above in _ABOVE[1:]:
@@ -196,7 +193,7 @@ class _Curve:
 
     def _last(self, best: Solution, pays: float, high: float) -> tuple[float, Solution]:
         """At the least value of the last constant, or at `high`; a problem of the same kind as the others."""
-        value = min(pays if self.over[0] == "B" else pays * (1.0 + SAME), high)
+        value = min(pays if self.over[0] == "B" else pays * (1.0 + AGREEMENT), high)
         try:
             return value, synthesize(self._asked(value))
         except (InfeasibleProblem, SolverFailure):
@@ -208,7 +205,7 @@ class _Curve:
         """How much each stretch wants a point: its length in normalised logarithms, more where the front turns."""
         logs = np.log([[value, solution.objective] for value, solution in self.points])
         span = np.abs(logs[-1] - logs[0])
-        if span[0] < _NOTHING:
+        if span[0] < NO_EXCHANGE:
             return [0.0] * (len(self.points) - 1)
         steps = np.diff(logs, axis=0) / np.where(span > 0.0, span, 1.0)
         lengths = np.hypot(*steps.T)

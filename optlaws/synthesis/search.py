@@ -10,6 +10,14 @@ from numpy.typing import NDArray
 
 from optlaws.errors import InfeasibleProblem, SolverFailure
 from optlaws.laws import MotionLaw
+from optlaws.numerics.tolerances import (
+    AGREEMENT,
+    BEYOND_PROOF,
+    FIRST_MOVE,
+    NO_OBJECTIVE,
+    OPTIMALITY_GAP,
+    UNDIVIDED_ROUNDING,
+)
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.method import starts
@@ -28,22 +36,14 @@ from optlaws.synthesis.proof.make import certify, lower_bound
 from optlaws.synthesis.proof.peaks import search as places
 from optlaws.synthesis.proof.peaks.rows import peak_of
 from optlaws.synthesis.proof.power.search import tightened
-from optlaws.synthesis.solution import NOTHING, Solution, Status, measure
+from optlaws.synthesis.solution import Solution, Status, measure
 
 Array = NDArray[np.float64]
 
-#: what a bound may leave of the objective and still be said to meet it
-GAP = 1e-8
 #: of the gap, what the search over the places of a peak leaves
 _LEFT = 0.9
-#: of an objective: two starts that differ by less led to the same law
-_SAME_OBJECTIVE = 1e-9
 #: how far the place of a peak is moved at first, and how often at most
-_FIRST_MOVE, _MOVES = 4e-3, 4
-# what passes without a look at the divided rows, in which a contact pinned to the middle may hide a larger excess
-_ROUNDING = 1e-13
-# an objective that is better than what is proven by more than this share belongs to a law that breaks a bound
-_BEYOND_PROOF = 1e-12
+_MOVES = 4
 
 
 @dataclass(eq=False)
@@ -134,7 +134,7 @@ class LawSearch:
 
         def explore(x: Array) -> bool:
             tried = attempt(self.model, None, x / scales)
-            if tried.law is not None and tried.objective < better[-1].objective * (1.0 - GAP):
+            if tried.law is not None and tried.objective < better[-1].objective * (1.0 - OPTIMALITY_GAP):
                 better.append(tried)
                 return True
             return False
@@ -173,14 +173,14 @@ class LawSearch:
         alone = all(leaf == constant for _, leaf in leaves(self.problem.objective))
         if alone or not isinstance(constant, PeakConstant) or plain.outcome.optimum is None:
             return best
-        step, side = _FIRST_MOVE, 1.0
+        step, side = FIRST_MOVE, 1.0
         for _ in range(_MOVES):
             k = self._place(best, constant) + side * step
             states = (
                 active_lower_bounds_at(self.model, plain.outcome.optimum, constant, low, k) if 0.0 < k < 1.0 else []
             )
             moved = self._best_of(plain, states)
-            if moved is not None and moved.objective < best.objective * (1.0 - GAP):
+            if moved is not None and moved.objective < best.objective * (1.0 - OPTIMALITY_GAP):
                 best, step = moved, 2.0 * step
             else:
                 side, step = -side, step if side > 0.0 else 0.25 * step
@@ -194,9 +194,9 @@ class LawSearch:
         """The best law from a search over the places of a peak that is bounded from below; keeps its proof."""
         short = {} if plain.law is None else shortfalls(self.problem, plain.law)
         for constant, low in short.items():
-            peak, nothing = peak_of(self.problem, constant.name), NOTHING * self.problem.objective.scale
+            peak, nothing = peak_of(self.problem, constant.name), NO_OBJECTIVE * self.problem.objective.scale
             while peak is not None and plain.outcome.optimum is not None and best.objective > nothing:
-                ended = places.search(self.problem, peak, best.objective * (1.0 - _LEFT * GAP))
+                ended = places.search(self.problem, peak, best.objective * (1.0 - _LEFT * OPTIMALITY_GAP))
                 self.peaks = ended.certificate
                 if self.peaks is not None:
                     return best
@@ -204,7 +204,7 @@ class LawSearch:
                     break
                 states = active_lower_bounds_at(self.model, plain.outcome.optimum, constant, low, ended.better_at)
                 better = self._best_of(plain, states)
-                if better is None or better.objective >= best.objective * (1.0 - GAP):
+                if better is None or better.objective >= best.objective * (1.0 - OPTIMALITY_GAP):
                     break
                 best = better
         return best
@@ -255,7 +255,7 @@ def best_available(search: LawSearch) -> Solution | None:
     if problem.mirrored and solution.status is Status.INACCURATE:
         unfolded = from_symmetric(search)
         # a law that breaks a bound by the little that is allowed may seem nearer its bound
-        kept = worth(problem, solution.law).excess <= _ROUNDING
+        kept = worth(problem, solution.law).excess <= UNDIVIDED_ROUNDING
         return solution if unfolded is None or (kept and unfolded.gap >= solution.gap) else unfolded
     return solution
 
@@ -318,7 +318,7 @@ def attempt(model: Model, warm: ActiveSet | None, point: Array | None) -> Attemp
 
     def holds(x: Array) -> bool:
         law, value = laws.at(x)
-        kept = value.excess <= _ROUNDING and value.objective <= float(claim @ x) * (1.0 + _ROUNDING)
+        kept = value.excess <= UNDIVIDED_ROUNDING and value.objective <= float(claim @ x) * (1.0 + UNDIVIDED_ROUNDING)
         # a constant that is minimised is a variable, which may have to be above the law's own
         return kept and not shortfalls(model.problem, law)
 
@@ -345,17 +345,17 @@ def _kept(model: Model, outcome: Outcome) -> Attempt | None:
 
 def _beyond_proof(solution: Solution) -> bool:
     """Whether the law is better than any law is, so that it breaks a bound by more than rounding."""
-    return solution.objective < solution.lower_bound - _BEYOND_PROOF * abs(solution.lower_bound)
+    return solution.objective < solution.lower_bound - BEYOND_PROOF * abs(solution.lower_bound)
 
 
 def _agree(first: Attempt, last: Attempt) -> bool:
     """Whether two starts led to the same objective."""
-    same = abs(first.objective - last.objective) <= _SAME_OBJECTIVE * abs(first.objective)
+    same = abs(first.objective - last.objective) <= AGREEMENT * abs(first.objective)
     return first.law is not None and last.law is not None and same
 
 
 def status_of(objective: float, bound: float, scale: float, *, proven: bool) -> Status:
     """`scale` is the objective's; `proven` says that the bound would meet the objective but for rounding."""
-    if abs(objective - bound) <= GAP * measure(objective, scale):
+    if abs(objective - bound) <= OPTIMALITY_GAP * measure(objective, scale):
         return Status.OPTIMAL
     return Status.INACCURATE if proven else Status.LOCAL

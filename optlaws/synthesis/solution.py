@@ -15,15 +15,13 @@ from optlaws.kept import kept_property
 from optlaws.laws import Constants, MotionLaw
 from optlaws.laws.exporting import LawExport
 from optlaws.numbers import bounded
+from optlaws.numerics.tolerances import NO_OBJECTIVE
 from optlaws.shown.summary import Row, Summary
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.spaces.bases import PolynomialBasis, Powers
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
-
-#: of an objective's scale: one that is zero but for rounding, such as the jounce of a cubic, is measured by that
-NOTHING = 1e-6
 
 
 @overload
@@ -39,8 +37,8 @@ def measure(objective: float | NDArray[np.float64], scale: float | NDArray[np.fl
     (5.0, 1.0, [5e-12, 1e-12])
     """
     if isinstance(objective, float):
-        return objective if objective > NOTHING * float(scale) else float(scale)
-    return np.where(objective > NOTHING * scale, objective, scale)
+        return objective if objective > NO_OBJECTIVE * float(scale) else float(scale)
+    return np.where(objective > NO_OBJECTIVE * scale, objective, scale)
 
 
 class Status(StrEnum):

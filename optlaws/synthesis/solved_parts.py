@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.laws import MotionLaw
+from optlaws.numerics.tolerances import OPTIMALITY_GAP
 from optlaws.synthesis.arrays.solved_batch import NO_CONTACT, SolvedBatch
 from optlaws.synthesis.families.peaks import constant_of_series
 from optlaws.synthesis.limits.of_problem import known_limit
@@ -19,7 +20,7 @@ from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model
 from optlaws.synthesis.proof.certificate import OBJECTIVE, Certificate
 from optlaws.synthesis.proof.make import certificate, certify
-from optlaws.synthesis.search import GAP, status_of
+from optlaws.synthesis.search import status_of
 from optlaws.synthesis.solution import Solution, Status, measure, partly_known
 from optlaws.synthesis.spaces.bases import PolynomialBasis
 from optlaws.synthesis.spaces.polynomials.space import PolynomialSpace
@@ -48,7 +49,7 @@ class SolvedPart:
         optimal = np.full(len(self.places), Status.OPTIMAL.value)
         if self.model.problem.convex:
             return optimal
-        off = np.abs(self.found.objective - self.found.bound) > GAP * measure(
+        off = np.abs(self.found.objective - self.found.bound) > OPTIMALITY_GAP * measure(
             self.found.objective, self.model.problem.objective.scale
         )
         return np.where(off, Status.LOCAL.value, optimal)

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
 from optlaws.laws import MotionLaw, smoothstep
+from optlaws.numerics.tolerances import STORED_COEFFICIENT, STORED_VALUE
 from optlaws.synthesis.arrays.problems import ProblemArray
 from optlaws.synthesis.arrays.solved_batch import FOLLOWING, NO_CONTACT, SolvedBatch
 from optlaws.synthesis.families.active_set import ActiveSet
@@ -39,8 +40,6 @@ from optlaws.synthesis.spaces.splines import PiecewiseBasis
 #: what stands for the status of a problem without a law
 INFEASIBLE, FAILED, INVALID = "infeasible", "failed", "invalid"
 
-#: of a number, what another machine may round otherwise: of a value or a bound, and of a law's coefficients
-_VALUE, _COEFFICIENT = 1e-9, 1e-11
 
 Plain = dict[str, Any]
 Kind = TypeVar("Kind")
@@ -340,10 +339,10 @@ def _check_numbers(row: StatedSolution, problem: Problem, law: MotionLaw) -> Non
     value, size = worth(problem, law), _size(problem)
     if not value.sound or shortfalls(problem, law):
         raise InputError("its law does not keep the constraints of its problem")
-    if not abs(row.objective - value.objective) <= _VALUE * max(abs(value.objective), size):
+    if not abs(row.objective - value.objective) <= STORED_VALUE * max(abs(value.objective), size):
         raise InputError(f"the objective is {row.objective!r}, but that of its law {value.objective!r}")
     bound, proven = _bound(row), max(_proven(row, problem), default=-inf)
-    if not (bound == -inf or bound <= proven + _VALUE * max(abs(proven), size)):
+    if not (bound == -inf or bound <= proven + STORED_VALUE * max(abs(proven), size)):
         raise InputError(f"the lower bound is {bound!r}, but what is proven beside it {proven!r}")
 
 
@@ -388,7 +387,7 @@ def _check_z(series: list[float], problem: Problem, law: MotionLaw) -> None:
         )
         a = a0 + k**order * (a1 + (k - 1.0) ** order * _z(basis, np.array(series), k))
         off = np.abs(a - np.array([float(law(place)) for place in k.tolist()]))
-        wrong = not off.max() <= _VALUE
+        wrong = not off.max() <= STORED_VALUE
     if wrong:
         raise InputError("the coefficients of Z in the arrays do not make its law")
 
@@ -457,12 +456,12 @@ def _same(first: Any, second: Any) -> bool:  # noqa: ANN401 - JSON
     if isinstance(first, dict) and isinstance(second, dict):
         return first.keys() == second.keys() and all(_same(first[name], second[name]) for name in first)
     if isinstance(first, list) and isinstance(second, list) and first and all(map(_is_number, [*first, *second])):
-        allowed = _COEFFICIENT * max(map(abs, first))
+        allowed = STORED_COEFFICIENT * max(map(abs, first))
         return len(first) == len(second) and all(abs(a - b) <= allowed for a, b in zip(first, second, strict=True))
     if isinstance(first, list) and isinstance(second, list):
         return len(first) == len(second) and all(map(_same, first, second))
     if _is_number(first) and _is_number(second):
-        return bool(abs(first - second) <= _COEFFICIENT * max(abs(first), 1.0))
+        return bool(abs(first - second) <= STORED_COEFFICIENT * max(abs(first), 1.0))
     return bool(first == second)
 
 

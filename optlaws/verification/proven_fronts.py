@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
 
+from optlaws.numerics.tolerances import NO_OBJECTIVE
 from optlaws.synthesis.limits.rounding import rounded_up
 from optlaws.synthesis.proven.front import FrontPoint, ProvenFront
 from optlaws.synthesis.proven.swept_parameter import SweptParameter
-from optlaws.synthesis.solution import NOTHING
 from optlaws.verification.conditions import Excess, excesses
 from optlaws.verification.enclosing.balls import enclosed
 from optlaws.verification.exact.bound import Along, Proof, prove_along
@@ -129,4 +129,4 @@ def _between(point: _Known, other: _Known, number: SweptParameter) -> Fraction |
     gaps = [min(first + (last - first) * s, second + (end - second) * s) for s in shares if 0 <= s <= 1]
     least = min(point.top, other.top)
     scale = Fraction(number.problem.objective.scale)
-    return max(gaps) / (least if least > Fraction(NOTHING) * scale else scale)
+    return max(gaps) / (least if least > Fraction(NO_OBJECTIVE) * scale else scale)

@@ -14,13 +14,9 @@ from optlaws.numbers import derivative, finite, real_times, whole
 from optlaws.numerics import chebyshev
 from optlaws.numerics.enclosures.interval import Interval
 from optlaws.numerics.enclosures.taylor import Jet, Pair
-from optlaws.numerics.tolerances import ROUNDOFF
+from optlaws.numerics.tolerances import CONTROL_POINT_BLUR
 
 Array = NDArray[np.float64]
-
-_BLUR = (
-    128.0 * ROUNDOFF
-)  # of the greatest control point: values are means of these, and the polynomials go through them
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,7 +54,7 @@ class PiecewiseCurve:
             0.5 * (places[1:] + places[:-1]) + np.multiply.outer(t, 0.5 * np.diff(places))
         )
         powers = np.einsum("kt,tnd->knd", np.linalg.inv(np.vander(t, increasing=True)), values)
-        return cls(places, powers, _BLUR * float(np.abs(controls).max()))
+        return cls(places, powers, CONTROL_POINT_BLUR * float(np.abs(controls).max()))
 
     def jets(self, places: Array | Interval, order: int) -> list[Jet]:
         """The Taylor terms of each coordinate; intervals must lie between two knots."""

@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 from optlaws.cams.cutting.outline import Outline, curvature, divided, greatest_deviation, speed
 from optlaws.numerics.enclosures.interval import Interval, middle
 from optlaws.numerics.enclosures.taylor import Jet
+from optlaws.numerics.tolerances import DEVIATIONS, RADIUS_ROUNDING
 
 Array = NDArray[np.float64]
 
 GROWTH = 1.06
 FEWEST = 3
-_NEAR = 1e-3  # how near deviations are enclosed
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,7 +65,7 @@ def _deviation(outline: Outline, angles: Array, tolerance: float) -> float:
         distance: Jet = (x - ends[which, 0]) * normals[which, 0] + (y - ends[which, 1]) * normals[which, 1]
         return distance
 
-    return greatest_deviation(off, angles, tolerance, share=_NEAR)
+    return greatest_deviation(off, angles, tolerance, share=DEVIATIONS)
 
 
 STRAIGHT = 1e3  # radius in metres from which an arc is a line
@@ -73,7 +73,6 @@ _STEPS = 5
 _CUBED = 192.0  # a pair of arcs over the length s is s³ dκ/ds / 192 off, or nearly
 _ARC_NEAR = 1e-2  # how near deviations are enclosed
 _SMALL = 0.9
-_ROUNDING = 1e-12  # metres; what arcs of a circle are off by themselves
 
 
 @dataclass(frozen=True, eq=False)
@@ -133,7 +132,7 @@ def arcs(outline: Outline, tolerance: float) -> Arcs:
             factor *= GROWTH
             continue
         chain = _chain(outline, angles, tolerance)
-        if chain.deviation <= tolerance + _ROUNDING:
+        if chain.deviation <= tolerance + RADIUS_ROUNDING:
             return chain
         factor *= max(GROWTH, float(np.cbrt(chain.deviation / tolerance)))
 
@@ -212,7 +211,7 @@ def _arc_deviation(outline: Outline, places: Array, chain: Arcs, tolerance: floa
         distance: Jet = y - (x * x + y * y) * (0.5 * bends[i])
         return distance
 
-    most = greatest_deviation(off, places, tolerance + _ROUNDING, share=_ARC_NEAR)
+    most = greatest_deviation(off, places, tolerance + RADIUS_ROUNDING, share=_ARC_NEAR)
     # e = d + bend d²/2 for the distance d to the right: |d| <= |e| / (1 - |bend e|) where bend e is small
     share = float(np.abs(bends).max()) * most
     return most / (1.0 - share) if share < _SMALL else np.inf

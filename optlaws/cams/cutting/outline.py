@@ -14,14 +14,13 @@ from optlaws.errors import InputError
 from optlaws.numerics.enclosures.branch_and_bound import extremes
 from optlaws.numerics.enclosures.interval import Interval
 from optlaws.numerics.enclosures.taylor import Jet, Pair
+from optlaws.numerics.tolerances import OUTLINE_SHARE, SMALLEST_SPEED
 
 Array = NDArray[np.float64]
 Density = Callable[[Array], Array]
 
 MOST_PARTS = 200_000
 _SAMPLES = 1025
-_NEARLY_NONE = 1e-9
-_LEAST_SHARE = 1e-3  # no stretch is left without places, however straight it is
 
 
 class Outline(Protocol):
@@ -87,7 +86,7 @@ def _accumulated(density: Density, start: float, stop: float) -> tuple[Array, Ar
     """Places on a stretch, and the density integrated up to them."""
     places = np.linspace(start, stop, _SAMPLES)
     values = density(0.5 * (places[1:] + places[:-1]))
-    values = values + _LEAST_SHARE * max(float(values.max()), _NEARLY_NONE)
+    values = values + OUTLINE_SHARE * max(float(values.max()), SMALLEST_SPEED)
     return places, np.append(0.0, np.cumsum(values)) * (stop - start) / (_SAMPLES - 1)
 
 

@@ -14,6 +14,7 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.numerics.enclosures.interval import Interval
 from optlaws.numerics.enclosures.taylor import Jet, Pair
+from optlaws.numerics.tolerances import BEFORE_BREAK
 
 Array = NDArray[np.float64]
 
@@ -21,7 +22,6 @@ DEGREES = (3, 5)
 _FIRST = 48
 _GROWTH = 1.25
 _NEAR = 0.1  # how near the square of the deviation is enclosed
-_BEFORE = 1e-9  # of a piece: at a break an outline has the derivatives of what follows
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,7 +132,7 @@ def _clamped(outline: Outline, angles: Array, degree: int) -> tuple[Array, Array
     else:
         ends = (
             _derivatives(outline, angles[0]),
-            _derivatives(outline, angles[-1] - _BEFORE * (angles[-1] - angles[-2])),
+            _derivatives(outline, angles[-1] - BEFORE_BREAK * (angles[-1] - angles[-2])),
         )
     spline = make_interp_spline(angles, points, k=degree, bc_type=ends)  # type: ignore[arg-type] # stubs know no pairs
     return np.asarray(spline.t), np.asarray(spline.c)

@@ -13,8 +13,7 @@ from optlaws.cams.curves.motion_by_angle import CamMotion
 from optlaws.cams.followers.contact import ContactState, CurvatureTerms, FollowerContact, bearing, shifted
 from optlaws.numerics.enclosures.interval import Interval
 from optlaws.numerics.enclosures.taylor import Jet, Pair, Term
-
-_COARSE = 1e-3
+from optlaws.numerics.tolerances import NO_CROSSING
 
 
 class RollerContact(FollowerContact):
@@ -108,7 +107,7 @@ class RollerContact(FollowerContact):
             return (y * (x.slope() + y * turning) - x * (y.slope() - x * turning)) / self._speed(s) * turning
 
         # the distance of the tangent from the centre; that of the profile's is less by the roller's radius
-        return enclosed_extremes(motion, support, 1, _COARSE)[0].low > self.roller
+        return enclosed_extremes(motion, support, 1, NO_CROSSING)[0].low > self.roller
 
     def _speed(self, s: Jet) -> Jet:
         along, across = self.components(s)

@@ -24,16 +24,13 @@ from optlaws.cycles.specification.segments import ConstantVelocity, Dwell, Free,
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.laws import MotionLaw
 from optlaws.motion.piece import factor, named_law
+from optlaws.numerics.tolerances import AGREEMENT, DURATION_STEP, SAME_TIME, SHORTEST_MOVE
 from optlaws.synthesis.problem.ranges import Range
 from optlaws.synthesis.solve import synthesize
 
 _REST = State(0.0, 0.0)
-_STEP = 1e-4  # share of a duration for the slope of a mean square whose shape changes with it
-_SAME = 1e-12  # share of the time that is left within which durations are the same
-_NEAR = 1e-9  # the same for the shortest duration that keeps limits, each of which takes a proof that there is no law
 _ROUNDS = 30
 _TOO_FAST = "no durations of the free moves keep the limits: slow the cycle down or widen limits"
-_SHORT = 1e-6  # share of the period below which no move is tried
 
 
 @dataclass(frozen=True)
@@ -158,11 +155,11 @@ def _slopes(shares: Sequence[Share], nu: int) -> list[Callable[[float], float]]:
     def slope(share: Share) -> Callable[[float], float]:
         def fall(duration: float) -> float:
             here = share.cost(duration)
-            step = _STEP * duration
+            step = DURATION_STEP * duration
             before, after = share.cost(duration - step), share.cost(duration + step)
             power = 2 * nu - 1
-            stays = abs(after * (1.0 + _STEP) ** power - here) <= 1e-10 * here
-            if stays and abs(before * (1.0 - _STEP) ** power - here) <= 1e-10 * here:
+            stays = abs(after * (1.0 + DURATION_STEP) ** power - here) <= 1e-10 * here
+            if stays and abs(before * (1.0 - DURATION_STEP) ** power - here) <= 1e-10 * here:
                 return power * here / duration
             return inf if before == inf else (before - after) / (2.0 * step)
 
@@ -176,7 +173,8 @@ def _levelled(
 ) -> list[float]:
     """Durations at which what falls with each is equal, within their bounds, with the given sum."""
     bounds = [
-        (max(part.stretch.least, part.quickest, _SHORT * period), min(part.stretch.most, left)) for part in shares
+        (max(part.stretch.least, part.quickest, SHORTEST_MOVE * period), min(part.stretch.most, left))
+        for part in shares
     ]
     if sum(low for low, _ in bounds) >= left or any(low > high for low, high in bounds):
         raise InfeasibleProblem(_TOO_FAST)
@@ -204,7 +202,7 @@ def _by_powers(
             steps = np.where(moved, np.log(times) - before[0], 1.0)
             powers = np.where(moved, np.clip(-(values - before[1]) / steps, 0.3, 60.0), powers)
         nearer = _shared(np.log(times), values, powers, low, high, left=left)
-        if np.abs(nearer - times).max() <= _SAME * left:
+        if np.abs(nearer - times).max() <= SAME_TIME * left:
             return [float(time) for time in nearer]
         before, times = (np.log(times), values), nearer
     return None
@@ -225,9 +223,9 @@ def _shared(
         return np.clip(np.exp(np.clip(logs + (values - height) / powers, -300.0, 300.0)), low, high)
 
     first, last = float(values.min()) - 1.0, float(values.max()) + 1.0
-    while at(first).sum() < left * (1.0 - _SAME) and first > -1e4:
+    while at(first).sum() < left * (1.0 - SAME_TIME) and first > -1e4:
         first -= 10.0
-    while at(last).sum() > left * (1.0 + _SAME) and last < 1e4:
+    while at(last).sum() > left * (1.0 + SAME_TIME) and last < 1e4:
         last += 10.0
     for _ in range(200):
         middle = 0.5 * (first + last)
@@ -273,7 +271,7 @@ def _inverse(fall: Callable[[float], float], height: float, low: float, high: fl
 
 def _shortest(fall: Callable[[float], float], low: float, high: float) -> float:
     """The shortest duration that keeps the limits; `high` where none does."""
-    while high - low > _NEAR * high:
+    while high - low > AGREEMENT * high:
         middle = 0.5 * (low + high)
         low, high = (middle, high) if fall(middle) == inf else (low, middle)
     return high

@@ -16,10 +16,10 @@ from optlaws.cycles.specification.programme import TimedSegment, is_optimal
 from optlaws.errors import InfeasibleProblem, SolverFailure
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import in_small_units
+from optlaws.numerics.tolerances import AGREEMENT
 from optlaws.synthesis.solution import Solution
 
 _VELOCITY, _ACCELERATION_KNOWN = 1, 3
-_SAME = 1e-9  # share within which peaks are the same
 
 Solved = tuple[tuple[Piece, Solution], ...]
 
@@ -60,7 +60,7 @@ def check_limits_at_joints(layout: Layout, objective: CycleObjective, axis: str,
             limits = limits_of_stretch(edge.stretch, objective, axis)
             needed = edge.demand(objective, FORCE)
             most = limits.get(FORCE, needed)
-            if needed > most * (1.0 + _SAME):
+            if needed > most * (1.0 + AGREEMENT):
                 taken, allowed = (in_units(FORCE, force, axis) for force in (needed, most))
                 raise InfeasibleProblem(
                     f"{edge.stretch.where}: at its {edge.name}, at {in_small_units(edge.position, axis)} and "
@@ -100,7 +100,7 @@ def ties_broken(
     known = [(peak_of(piece, nu, objective.drive), piece.start) for piece in layout.pieces]
     known += [(edge.demand(objective, nu), edge.time) for span in layout.spans for edge in _edges(span)]
     greatest, time = max(known, key=itemgetter(0), default=(0.0, 0.0))
-    if max(peak_of(piece, nu, objective.drive) for piece, _ in laws) > greatest * (1.0 + _SAME):
+    if max(peak_of(piece, nu, objective.drive) for piece, _ in laws) > greatest * (1.0 + AGREEMENT):
         return laws, ()
     calm = replace(
         objective, minimise="acceleration", limits={**objective.limits, nu: min(greatest, _limit(objective, nu))}

@@ -29,15 +29,13 @@ from optlaws.cycles.specification.joints import LawSpan, Layout
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.kept import kept_property
 from optlaws.motion.piece import Piece, factor
+from optlaws.numerics.tolerances import FEASIBILITY, LEAST_PEAK_SLACK, PEAK_BRACKET
 from optlaws.synthesis.functionals.makers import integral
 from optlaws.synthesis.solution import Solution
 
 _ROUNDS = 8
 _FARTHEST = 30.0  # logarithm of what a limit may be worth
 _NONE = 1.0  # by how much a limit counts as missed where there is no law
-_ROOM = 1e-6  # share of a least peak that is given to problems that are not convex
-_KEPT = 1e-10  # share of a limit by which a law may miss it
-_SHARP = 1e-11  # share within which the peak is found at which the limit is met
 #: shares of a peak below which it is tried whether none is possible
 _BELOW = (2e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2)
 
@@ -96,7 +94,7 @@ class _SharedForceLimit:
             return self._alone()
         laws = tuple(solve(span, self.objective, self.axis) for span in self.layout.spans)
         bound = bound_of(self.layout, laws, self.objective, self.period)
-        if self._squares(laws) <= self.left * (1.0 + _KEPT):
+        if self._squares(laws) <= self.left * (1.0 + FEASIBILITY):
             return Best(laws, (), bound)
         least = tuple(self._least(span, inf) for span in self.layout.spans)
         if self._least_squares(least) > self.left:
@@ -128,7 +126,7 @@ class _SharedForceLimit:
             piece, solution = self._within(span, allowed)
             bound = min(bound, bound_of(self.layout, ((piece, solution),), self.objective, self.period) or 0.0)
             over = (self._squares(((piece, solution),)) - self.left) / span.duration
-            if over <= _KEPT * self.left / span.duration:
+            if over <= FEASIBILITY * self.left / span.duration:
                 return Best(((piece, solution),), (), bound)
             allowed -= over
         raise SolverFailure(f"{span.where}: no law was found whose rms force with dry friction keeps its limit")
@@ -179,12 +177,12 @@ class _SharedForceLimit:
             return log(self._squares(tried[peak]) / self.left)
 
         convex = all(solution.problem.convex for _, solution in laws)
-        low = self._greatest(laws) * (1.0 + (_BELOW[0] if convex else _ROOM))
+        low = self._greatest(laws) * (1.0 + (_BELOW[0] if convex else LEAST_PEAK_SLACK))
         high = self._greatest(least)
         if over(low) > 0.0:
-            brentq(over, low, high, xtol=_SHARP * high, rtol=_SHARP)
+            brentq(over, low, high, xtol=PEAK_BRACKET * high, rtol=PEAK_BRACKET)
             tried.setdefault(high, tuple(least))
-        least_peak = min(peak for peak, laws in tried.items() if self._squares(laws) <= self.left * (1.0 + _KEPT))
+        least_peak = min(peak for peak, laws in tried.items() if self._squares(laws) <= self.left * (1.0 + FEASIBILITY))
         return Best(tried[least_peak], (), max(bound, self._impossible(least_peak, bound)))
 
     def _impossible(self, peak: float, bound: float) -> float:
@@ -230,8 +228,8 @@ class _SharedForceLimit:
                     "limits: the rms force cannot be met as near as it is possible: allow a little more"
                 )
             high += 4.0
-        brentq(over, low, high, xtol=_SHARP, rtol=_SHARP)
-        least = min(worth for worth, laws in tried.items() if self._squares(laws) <= self.left * (1.0 + _KEPT))
+        brentq(over, low, high, xtol=PEAK_BRACKET, rtol=PEAK_BRACKET)
+        least = min(worth for worth, laws in tried.items() if self._squares(laws) <= self.left * (1.0 + FEASIBILITY))
         pieces = [*self.layout.pieces, *(piece for piece, _ in tried[least])]
         attained = sqrt(sum(piece.duration * piece.mean_square(nu) for piece in pieces) / self.period)
         # the laws may miss the limit by a rounding, the bound is of those that keep it: it is no better than they are

@@ -38,6 +38,7 @@ from optlaws.cycles.specification.programme import is_optimal
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.motion.piece import Piece, factor
 from optlaws.motion.quantities import in_small_units
+from optlaws.numerics.tolerances import AGREEMENT
 from optlaws.synthesis.problem.constants import FUNCTIONALS, Functional
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
@@ -49,7 +50,6 @@ from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 
 _DRIVEN = (FORCE, POWER)
 _PEAKS = {1: "B", 2: "C", 3: "J"}
-_MET = 1e-9  # share within which limits do not hinder
 _ROUGH = 15  # degree of Z where points on the way or velocities bend the law
 
 
@@ -89,7 +89,7 @@ def _unhindered(problem: Problem, span: LawSpan, objective: CycleObjective, stro
         best = least if limited == free else synthesize(limited)
     except (InfeasibleProblem, SolverFailure):
         return None
-    return best if best.objective <= least.objective * (1.0 + _MET) else None
+    return best if best.objective <= least.objective * (1.0 + AGREEMENT) else None
 
 
 def _with_more_pieces(problem: Problem, basis: Pieces, span: LawSpan) -> Solution | None:

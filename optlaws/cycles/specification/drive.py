@@ -14,6 +14,7 @@ from optlaws.errors import InputError
 from optlaws.laws.storage import PlainNumbers
 from optlaws.motion.piece import Piece, factor
 from optlaws.motion.quantities import quantity, table
+from optlaws.numerics.tolerances import VALUE_ROUNDING
 from optlaws.suggest import unknown_key
 
 Array = NDArray[np.float64]
@@ -115,7 +116,6 @@ def read_drive(entries: Mapping[str, Any], axis: str) -> CycleDrive:
 
 _EVEN = 400  # stretches of a piece in which extremes and zeros are looked for, before they are polished
 _GAUSS = 12
-_ROUNDING = 1e-12
 
 
 @dataclass(frozen=True)
@@ -161,7 +161,7 @@ def effort(drive: CycleDrive, pieces: Sequence[Piece], period: float) -> Effort:
         square += square_of_force(drive, piece)
         work += _integral(piece, powers)
     mean = work / period
-    return Effort(force, float(np.sqrt(square / period)), power, mean if abs(mean) > _ROUNDING * power else 0.0)
+    return Effort(force, float(np.sqrt(square / period)), power, mean if abs(mean) > VALUE_ROUNDING * power else 0.0)
 
 
 def peak_of(piece: Piece, nu: int, drive: CycleDrive | None) -> float:

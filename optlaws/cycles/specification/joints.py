@@ -7,13 +7,14 @@ from dataclasses import dataclass, replace
 from itertools import accumulate
 from typing import NamedTuple
 
-from optlaws.cycles.specification.programme import AXES, CLOSE, Programme, TimedSegment, is_optimal, time_of
+from optlaws.cycles.specification.programme import AXES, Programme, TimedSegment, is_optimal, time_of
 from optlaws.cycles.specification.segments import ConstantVelocity, Dwell, Free, Move
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws import smoothstep
 from optlaws.motion.piece import Piece, named_law
 from optlaws.motion.quantities import quantity
+from optlaws.numerics.tolerances import CLOSURE
 
 UNIFORM = smoothstep(1)
 
@@ -156,7 +157,7 @@ def _known(programme: Programme, pieces: dict[int, Piece], i: int, side: int) ->
 
 def _check_velocities(programme: Programme, before: int, after: int, ended: State, begun: State) -> None:
     size = max((abs(stretch.displacement) for stretch in programme.stretches), default=0.0) / programme.period
-    if abs(ended.velocity - begun.velocity) <= CLOSE * max(size, abs(ended.velocity), abs(begun.velocity)):
+    if abs(ended.velocity - begun.velocity) <= CLOSURE * max(size, abs(ended.velocity), abs(begun.velocity)):
         return
     first, second = programme.stretches[before], programme.stretches[after]
     unit = "mm/s" if programme.axis == "length" else "deg/s"
@@ -199,7 +200,7 @@ def _whole(
 def _forward(offsets: Sequence[float]) -> float:
     """How far a cycle, or a span of it, goes on: positions are sums, which come back but for rounding."""
     moved = offsets[-1] - offsets[0]
-    return moved if abs(moved) > CLOSE * max(abs(offset - offsets[0]) for offset in offsets) else 0.0
+    return moved if abs(moved) > CLOSURE * max(abs(offset - offsets[0]) for offset in offsets) else 0.0
 
 
 def _spans(

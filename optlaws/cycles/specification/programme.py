@@ -20,8 +20,7 @@ from optlaws.cycles.specification.segments import (
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.motion.quantities import TURN, either, in_small_units, positive_quantity, quantity
-
-CLOSE = 1e-9
+from optlaws.numerics.tolerances import CLOSURE
 
 #: dimensions of the derivatives of a position, for slides and for tables
 AXES = {
@@ -140,7 +139,7 @@ def _durations(segments: Sequence[CycleSegment], period: float) -> list[tuple[fl
     ]
     low, high = (sum(side) for side in zip(*bounds, strict=True))
     free = [i for i, (least, most) in enumerate(bounds) if least != most]
-    if low > period * (1.0 + CLOSE) or high < period * (1.0 - CLOSE):
+    if low > period * (1.0 + CLOSURE) or high < period * (1.0 - CLOSURE):
         total = low if low > period else high
         share = 360.0 * total / period
         raise InputError(
@@ -150,7 +149,7 @@ def _durations(segments: Sequence[CycleSegment], period: float) -> list[tuple[fl
         )
     if len(free) == 1:
         left = period - (low - bounds[free[0]][0])
-        if left <= CLOSE * period:
+        if left <= CLOSURE * period:
             raise InputError(f"segment {free[0] + 1} ({segments[free[0]].label}): nothing is left for it")
         bounds[free[0]] = (left, left)
     for i in free if len(free) > 1 else ():
@@ -203,7 +202,7 @@ def _displacement(segment: CycleSegment, axis: str, where: str, *, here: float, 
 
 def _check_closed(moved: float, forward: float, stretches: Sequence[TimedSegment], axis: str) -> None:
     size = max((abs(stretch.displacement) for stretch in stretches), default=0.0)
-    if abs(moved - forward) <= CLOSE * max(size, abs(forward)):
+    if abs(moved - forward) <= CLOSURE * max(size, abs(forward)):
         return
     shown, due = (in_small_units(angle, axis) for angle in (moved, forward))
     raise InputError(

@@ -23,7 +23,7 @@ from optlaws.numerics.enclosures.branch_and_bound import Extremes
 Array = NDArray[np.float64]
 
 _STEPS = 360
-_MICRO = 1e-6
+_PER_MEGAPASCAL = 1e6
 _NOTHING = 1e-7
 _FORCE = {"length": "N", "angle": "N m"}
 _STIFFNESS = {"length": "N/m", "angle": "N m/rad"}
@@ -86,7 +86,7 @@ def _facts(forces: CamForces) -> list[str]:
         f"{turned}, root mean square {digits(forces.rms_torque[1], 6)} N m",
     ]
     if forces.width is not None:
-        told.append(f"Hertz's pressure up to {digits(forces.pressure.most * _MICRO, 6)} MPa")
+        told.append(f"Hertz's pressure up to {digits(forces.pressure.most / _PER_MEGAPASCAL, 6)} MPa")
     return told
 
 

@@ -12,12 +12,12 @@ from optlaws.exports.identifiers import iec_name
 from optlaws.exports.text import real
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion
+from optlaws.numerics.tolerances import WHOLE_NUMBER
 
 DEGREE = 6
 MOST = 64
 LARGEST = 2**31 - 1
 CLOSES = 0.1  # warning 37111 of the drive begins there
-_WHOLE = 1e-6
 _LETTERS = "abcdefg"
 
 
@@ -60,7 +60,7 @@ def _write(motion: Motion, request: Request) -> Written:
 
 def _period(value: float, of: str, unit: str, least: int) -> int:
     whole = round(value)
-    if abs(value - whole) > _WHOLE * max(1.0, abs(value)) or not least <= whole <= LARGEST:
+    if abs(value - whole) > WHOLE_NUMBER * max(1.0, abs(value)) or not least <= whole <= LARGEST:
         remedies = {"master": "master='360 deg'", "slave": "another unit or stroke, or counts=..."}
         raise InputError(
             f"B&R takes whole-number periods (DINT), and that of the {of} is {value:.9g} {unit}: choose {remedies[of]}"

@@ -25,6 +25,7 @@ from optlaws.exports.text import plain, plain_column, table_heading
 from optlaws.files.writing import MARK
 from optlaws.motion.motion import Motion
 from optlaws.motion.quantities import quantity
+from optlaws.numerics.tolerances import DECADIC_STEP
 
 MODELS = {
     "linear": "straight lines",
@@ -35,7 +36,7 @@ MODELS = {
     "septic": "Hermite of degree 7",
 }
 ORDERS = {"c1": 2, "quintic": 3, "septic": 4}
-ISG_STEP, ISG_LINES, ISG_LEAST = 1e-4, 360, 0.1
+ISG_LINES, ISG_LEAST = 360, 0.1
 TECHNOSOFT_POINTS, TECHNOSOFT_STEPS = 8192, 128
 
 
@@ -134,12 +135,12 @@ def _isg(motion: Motion, request: Request) -> Written:
     most = min(ISG_LINES, 1 + int(np.floor(motion.length * x_size / ISG_LEAST * (1 + 1e-12))))
 
     def make(count: int) -> PointTable:
-        return _integers(motion, count, ISG_STEP / x_size, ISG_STEP / y_size)
+        return _integers(motion, count, DECADIC_STEP / x_size, DECADIC_STEP / y_size)
 
     table = chosen(motion, request, make, least=2, most=most)
     name = "".join(letter if letter.isalnum() else "_" for letter in request.name)
-    rows = _whole(table, ISG_STEP / x_size, ISG_STEP / y_size)
-    if min(after[0] - before[0] for before, after in pairwise(rows)) < round(ISG_LEAST / ISG_STEP):
+    rows = _whole(table, DECADIC_STEP / x_size, DECADIC_STEP / y_size)
+    if min(after[0] - before[0] for before, after in pairwise(rows)) < round(ISG_LEAST / DECADIC_STEP):
         raise InputError(f"ISG wants points at least {ISG_LEAST} deg apart: take fewer points")
     head = [
         f"Tablename = {name} # {table_heading(motion, 'cam')[0]}; {MARK}",

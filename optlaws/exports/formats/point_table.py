@@ -14,10 +14,10 @@ from optlaws.exports.spacing import places
 from optlaws.kept import kept_property
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion
+from optlaws.numerics.tolerances import TABLE_ROUNDING
 
 Array = NDArray[np.float64]
 
-NOISE = 2.0**-46
 DEGREES = {1: "linear", 2: "cubic Hermite", 3: "quintic Hermite", 4: "Hermite of degree 7"}
 
 
@@ -180,7 +180,7 @@ def table_by_interpolation(motion: Motion, count: int, number_format: NumberForm
 
 def _without_rounding(values: Array) -> Array:
     """The values with 0 where rounding, beside the greatest of their row, has missed it."""
-    return np.where(np.abs(values) <= NOISE * np.abs(values).max(axis=1, keepdims=True), 0.0, values)
+    return np.where(np.abs(values) <= TABLE_ROUNDING * np.abs(values).max(axis=1, keepdims=True), 0.0, values)
 
 
 def rounding_bound(motion: Motion, x: Array, y: Array, slopes: Array) -> float:

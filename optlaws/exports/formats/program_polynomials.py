@@ -16,13 +16,12 @@ from optlaws.exports.text import Labels, program_heading, real, rounded_up, safe
 from optlaws.files.writing import MARK
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion
+from optlaws.numerics.tolerances import POLYNOMIAL_ROUNDING, SOURCE_CODE_OFF
 
 #: of source code: the degree of polynomials for laws that are none, and of laws whose own polynomials are taken
 SOURCE_DEGREE, OWN_DEGREE = 9, 40
 SOURCE_PIECES = 1000
 SOURCE_MODEL = f"the law's own polynomials to degree {OWN_DEGREE}, else of degree {SOURCE_DEGREE}"
-_SOURCE_OFF = 1e-6
-_ROUNDING = 1e-9
 
 
 def polynomials_for(
@@ -61,7 +60,7 @@ def polynomials_for(
 def source_polynomials(motion: Motion, request: Request) -> tuple[Fitted, tuple[str, ...]]:
     """The polynomials of source code, the law's own cut where their powers would lose digits, else near ones."""
     fit = None if request.points else exactly(motion, OWN_DEGREE)
-    fit = fit or polynomials_for(motion, request, SOURCE_DEGREE, SOURCE_PIECES, near=_SOURCE_OFF)
+    fit = fit or polynomials_for(motion, request, SOURCE_DEGREE, SOURCE_PIECES, near=SOURCE_CODE_OFF)
     return fit, (fit.in_words(motion.units.slave),)
 
 
@@ -132,7 +131,7 @@ def rounding(run: PiecewiseMotion, nu: int) -> float:
     """The greatest leap of the derivative of order nu that is no more than rounding."""
     size = max(abs(extreme.value) for extreme in run.extremes(nu))
     # positions are rounded, and what is left of that in a derivative grows as pieces get shorter
-    return float(max(_ROUNDING * size, 2.0**-44 * run.peak(0).value / float(run.lengths.min()) ** nu))
+    return float(max(POLYNOMIAL_ROUNDING * size, 2.0**-44 * run.peak(0).value / float(run.lengths.min()) ** nu))
 
 
 def leaping(run: PiecewiseMotion, nu: int) -> float | None:

@@ -19,8 +19,8 @@ from optlaws.laws.polynomial import smoothstep
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import Segment
 from optlaws.laws.segments.sine import HarmonicSegment, SineSegment
+from optlaws.numerics.tolerances import JUMP
 
-SMOOTH = 1e-9  # a derivative at an end below this share of its size is zero
 BUILDERS = ("smoothstep", "sines", "cosines", "scca", "trapezoid", "code")
 
 
@@ -180,7 +180,7 @@ def continuity_with_rest(law: MotionLaw) -> int:
     start, end = law.boundary_values(HIGHEST + 1)
     for nu in range(1, inside + 1):
         size = float(np.abs(law(np.linspace(0.0, 1.0, 65), nu)).max())
-        if max(abs(start[nu]), abs(end[nu])) > SMOOTH * size:
+        if max(abs(start[nu]), abs(end[nu])) > JUMP * size:
             return nu - 1
     return inside
 

@@ -17,6 +17,7 @@ from optlaws.laws.law import MotionLaw
 from optlaws.laws.making.through_points import MOST_THROUGH, law_of_table, law_through
 from optlaws.laws.savin import FAMILIES, SavinFamily
 from optlaws.numbers import not_negative
+from optlaws.numerics.tolerances import EXACT_DIGITS
 
 _LARGEST = 20_000_000
 _MOST_POINTS = 100_000
@@ -27,8 +28,6 @@ _BESIDE = re.compile(r"\s+(?:#|//)")
 _NUMBER = re.compile(r"([+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?)\s*([^\W\d_][^\d\s]{0,9}|[°%\"'′″])?")
 #: a heading up to its unit
 _HEADING = re.compile(r"[^\s,;(\[]*")
-#: a table whose last digit is less of the stroke is taken as exact
-_EXACT = 1e-8
 #: and one of which it is more says nothing of velocities
 _COARSEST = 0.01
 #: columns of tables that optlaws writes
@@ -89,7 +88,7 @@ def law_of_points(file: Path, tolerance: float | None = None, columns: Sequence[
     try:
         if tolerance is not None:
             return law_through(k, a, not_negative(tolerance, "tolerance"))
-        exact = unit <= _EXACT * stroke and len(k) <= MOST_THROUGH
+        exact = unit <= EXACT_DIGITS * stroke and len(k) <= MOST_THROUGH
         return law_of_table(k, a, 0.0 if exact else unit, lines=[line.number for line in table.lines])
     except InputError as error:
         raise InputError(f"{file}: {error}") from None

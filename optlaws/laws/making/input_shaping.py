@@ -16,12 +16,12 @@ from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
 from optlaws.numbers import frequency, not_negative
 from optlaws.numerics import chebyshev
+from optlaws.numerics.tolerances import AGREEMENT
 
 Array = NDArray[np.float64]
 Shaper = Literal["ZV", "ZVD"]
 
 _LEAST_TIME = 0.05
-_SAME = 1e-9
 
 
 def shaped_law(law: MotionLaw, nu: float, damping: float = 0.0, shaper: Shaper = "ZV") -> PiecewiseLaw:
@@ -68,7 +68,7 @@ def shaped_law(law: MotionLaw, nu: float, damping: float = 0.0, shaper: Shaper =
     inner = np.array(law.breaks if isinstance(law, PiecewiseLaw) else (0.0, 1.0))
     places = np.unique(np.concatenate([start + duration * inner for start, _ in impulses]).round(15))
     places[0], places[-1] = 0.0, 1.0
-    breaks = places[np.append(np.diff(places) > _SAME, True)]
+    breaks = places[np.append(np.diff(places) > AGREEMENT, True)]
     segments = [_segment(law, impulses, duration, float(low), float(high)) for low, high in pairwise(breaks)]
     return PiecewiseLaw(breaks, segments, float(law.a(0.0)))
 

@@ -19,15 +19,11 @@ from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import Segment
 from optlaws.numbers import finite, fractions
 from optlaws.numerics import chebyshev, exact
+from optlaws.numerics.tolerances import JUMP, MULTIPLIER_CLOSE, MULTIPLIER_MET, MULTIPLIER_STEP, VALUE_ROUNDING
 
 Array = NDArray[np.float64]
 Multiplier = Sequence[Any] | NDArray[Any] | Callable[[float], float]
 
-ROUNDING = 1e-12  # of the largest value: an odd part or a negative value below it is rounding
-STILL = 1e-9  # of C: a change of velocity below it is rounding
-MET = 1e-10  # of a wanted constant: it is met
-_CLOSE = 1e-14
-_DIFFERENCE = 1e-5
 _ROUNDS, _HALVINGS = 30, 12
 
 
@@ -122,7 +118,7 @@ def multiplier_for(
 
     coefficients = _searched(missing, len(targets))
     even = _combined(powers, coefficients)
-    if _most(missing(coefficients)) > MET:
+    if _most(missing(coefficients)) > MULTIPLIER_MET:
         nearest = _in_words(targets, _values(_product(law, even), targets))
         raise InputError(
             f"no y of {len(powers)} even powers was found that gives {_in_words(targets, values)}; "
@@ -178,7 +174,7 @@ def _searched(missing: Callable[[Array], Array], count: int) -> Array:
         start = np.zeros(count)
         start[0] = first
         answers.append(_newton(missing, start))
-        if _most(missing(answers[-1])) <= MET:
+        if _most(missing(answers[-1])) <= MULTIPLIER_MET:
             break
     return min(answers, key=lambda weights: _most(missing(weights)))
 
@@ -187,11 +183,11 @@ def _newton(missing: Callable[[Array], Array], weights: Array) -> Array:
     """Newton's method by differences, each step halved until less is missing; peaks that change places bend its way."""
     misses = missing(weights)
     for _ in range(_ROUNDS):
-        if _most(misses) <= _CLOSE:
+        if _most(misses) <= MULTIPLIER_CLOSE:
             break
-        moves = _DIFFERENCE * np.eye(len(weights))
+        moves = MULTIPLIER_STEP * np.eye(len(weights))
         slopes = np.column_stack([(missing(weights + move) - missing(weights - move)) / 2.0 for move in moves])
-        step = np.linalg.lstsq(slopes / _DIFFERENCE, misses, rcond=None)[0]
+        step = np.linalg.lstsq(slopes / MULTIPLIER_STEP, misses, rcond=None)[0]
         shares = (0.5**n for n in range(_HALVINGS))
         better = next((s for s in shares if np.linalg.norm(missing(weights - s * step)) < np.linalg.norm(misses)), None)
         if better is None:
@@ -220,7 +216,7 @@ def _even(y: Multiplier) -> list[Fraction]:
     if size == 0:
         raise InputError("y must not be zero everywhere")
     odd = sum(map(abs, given[1::2]), start=Fraction(0))
-    if odd > ROUNDING * size:
+    if odd > VALUE_ROUNDING * size:
         raise InputError(
             f"y must be even about k = 1/2, but y(k) and y(1 - k) differ by up to {2.0 * float(odd):.3g}; "
             "write it in powers of k (1 - k)"
@@ -230,7 +226,7 @@ def _even(y: Multiplier) -> list[Fraction]:
 
 def _check_nowhere_negative(even: Sequence[Fraction]) -> None:
     low, _ = PolynomialLaw.from_chebyshev(even).extrema(0)
-    if low.value < -ROUNDING * float(max(map(abs, even))):
+    if low.value < -VALUE_ROUNDING * float(max(map(abs, even))):
         raise InputError(f"y must be nowhere negative, but is {low.value:.6g} at k = {low.k:.6g}")
 
 
@@ -255,7 +251,7 @@ def _of_pieces(law: PiecewiseLaw, y: Array) -> PiecewiseLaw:
         product = segment.times(length, _restricted(y, start, end))
         joined = product.scaled(length, 1.0, velocity - product.velocity(length))
         # a rest at infinite acceleration that rounding missed is a rest
-        segments.append(joined.at_rest(length, ROUNDING))
+        segments.append(joined.at_rest(length, VALUE_ROUNDING))
         velocity = segments[-1].velocity(length, last=True)
     _check_still(velocity, law)
     swing = PiecewiseLaw(law.breaks, segments)
@@ -272,7 +268,7 @@ def _restricted(y: Array, start: float, end: float) -> Array:
 
 
 def _check_still(change: float, law: MotionLaw) -> None:
-    if abs(change) > STILL * law.peak(2).value:
+    if abs(change) > JUMP * law.peak(2).value:
         raise InputError(
             f"c y would change the velocity by {change:.6g} in all; the method needs a law whose acceleration is odd "
             f"about k = 1/2, got {shortened(law)}"

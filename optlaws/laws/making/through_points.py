@@ -17,6 +17,7 @@ from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
 from optlaws.numbers import not_negative, numbers
 from optlaws.numerics import chebyshev
+from optlaws.numerics.tolerances import THROUGH_POINTS
 
 Array = NDArray[np.float64]
 
@@ -211,8 +212,6 @@ Many = NDArray[Any] | Sequence[Any]
 #: points through which a law may go; within a tolerance there may be more
 MOST_THROUGH = 1_000
 _MOST_PIECES = 400
-#: a law that is asked through its points misses none by more, in shares of the stroke
-_MISSED = 1e-7
 #: a law follows the noise if its peak acceleration is so many times that of a law that need not
 _FOLLOWS_NOISE = 1.1
 #: points that scatter about splines so many times as much as their differences do are off for the joints of the law
@@ -349,7 +348,7 @@ def _through(places: Array, heights: Array, *, rest: bool) -> PiecewiseLaw:
             f"a law goes through at most {MOST_THROUGH} points: give a tolerance, got {len(places)} points"
         )
     law = _joined_at(places, heights, rest=rest)
-    if np.abs(law.a(places) - heights).max() > _MISSED:
+    if np.abs(law.a(places) - heights).max() > THROUGH_POINTS:
         raise InputError("the steps of k differ too much for a law through all points: give a tolerance")
     return law
 

@@ -13,10 +13,9 @@ from optlaws.laws.segments.segment import PolynomialSegment, Segment
 from optlaws.laws.segments.sine import SineSegment
 from optlaws.numbers import finite
 from optlaws.numerics.exact import chebyshev_from_powers
+from optlaws.numerics.tolerances import SHORTEST_STRETCH
 
 Piece = tuple[float, Segment]
-
-SHORTEST = 1e-12  # a shorter stretch is none: its ends would be one number, or nearly
 
 
 def from_half(pieces: Sequence[Piece]) -> PiecewiseLaw:
@@ -38,14 +37,14 @@ def from_half(pieces: Sequence[Piece]) -> PiecewiseLaw:
     >>> from_half([(0.5, PolynomialSegment((1.0,)))])
     PiecewiseLaw(segments=2, B=2, C=4, D=8, J=inf)
     """
-    lasting = [piece for piece in pieces if abs(piece[0]) > SHORTEST]
+    lasting = [piece for piece in pieces if abs(piece[0]) > SHORTEST_STRETCH]
     places = list(accumulate((length for length, _ in lasting), initial=0.0))
-    if not lasting or min(length for length, _ in lasting) < 0.0 or places[-1] > 0.5 + SHORTEST:
+    if not lasting or min(length for length, _ in lasting) < 0.0 or places[-1] > 0.5 + SHORTEST_STRETCH:
         lengths = ", ".join(f"{length:.6g}" for length, _ in pieces)
         raise InputError(
             f"lengths of a half cycle must be at least 0, not all 0, and at most 1/2 in all, got {lengths}"
         )
-    if places[-1] > 0.5 - SHORTEST:
+    if places[-1] > 0.5 - SHORTEST_STRETCH:
         places[-1] = 0.5
     rise = _joined([(b - a, segment) for a, b, (_, segment) in zip(places, places[1:], lasting, strict=False)])
     top = rise[-1][1].velocity(rise[-1][0], last=True)
@@ -94,14 +93,14 @@ def scca(a: float, b: float, c: float) -> PiecewiseLaw:
     Peak(value=1.275258, k=0.25)
     """
     shares = finite(a, "a"), finite(b, "b"), finite(c, "c")
-    if min(shares) < 0.0 or not 0.0 < sum(shares) <= 1.0 + SHORTEST:
+    if min(shares) < 0.0 or not 0.0 < sum(shares) <= 1.0 + SHORTEST_STRETCH:
         raise InputError(f"shares a, b, c must be at least 0, not all 0, and at most 1 in all, got {a}, {b}, {c}")
     sine, constant, cosine = shares
     pieces: list[tuple[float, Segment]] = []
-    if sine > SHORTEST:
+    if sine > SHORTEST_STRETCH:
         pieces.append((0.5 * sine, SineSegment(1.0, pi / sine)))
     pieces.append((0.5 * constant, PolynomialSegment((1.0,))))
-    if cosine > SHORTEST:
+    if cosine > SHORTEST_STRETCH:
         pieces.append((0.5 * cosine, SineSegment(1.0, pi / cosine, 0.5 * pi)))
     return from_half(pieces)
 

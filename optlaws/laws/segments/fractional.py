@@ -11,11 +11,9 @@ from numpy.typing import NDArray
 from optlaws.errors import InputError
 from optlaws.laws.segments.segment import Segment
 from optlaws.numerics import real_powers
-from optlaws.numerics.tolerances import SAME_EXPONENT
+from optlaws.numerics.tolerances import SAME_EXPONENT, SMALLEST_RATIO
 
 Array = NDArray[np.float64]
-
-SMALLEST = 1e-30  # of the other end: below it a power of v that is not 0 may overflow
 
 
 @dataclass(frozen=True)
@@ -56,7 +54,7 @@ class FractionalSegment(Segment, kind="fractional"):
         low, high = sorted((self.first, self.last))
         if self.exponent <= -1.0 or low < 0.0 or low == high:
             raise InputError(f"a fractional segment needs exponent > -1 and first, last >= 0 and different, got {self}")
-        if 0.0 < low < SMALLEST * high:
+        if 0.0 < low < SMALLEST_RATIO * high:
             raise InputError(f"first and last of a fractional segment must be 0 or of sizes that compare, got {self}")
 
     def derivative(self, u: Array, length: float, nu: int) -> Array:  # noqa: D102

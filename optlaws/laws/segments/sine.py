@@ -15,11 +15,9 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws.segments.segment import Segment, Wave, Waves
 from optlaws.numerics.panels import of_waves
+from optlaws.numerics.tolerances import SLOWEST_FREQUENCY
 
 Array = NDArray[np.float64]
-
-#: below it the sides of a swing are no numbers of double precision
-_SLOWEST = 1e-150
 
 
 class SwingingSegment(Segment):
@@ -78,7 +76,7 @@ class SineSegment(SwingingSegment, kind="sine"):
 
     def __post_init__(self) -> None:
         self._check()
-        if self.frequency < _SLOWEST or len(self.powers) > 3:
+        if self.frequency < SLOWEST_FREQUENCY or len(self.powers) > 3:
             raise InputError(f"a sine segment needs frequency > 0 and at most three powers, got {self}")
 
     def derivative(self, u: Array, length: float, nu: int) -> Array:  # noqa: D102

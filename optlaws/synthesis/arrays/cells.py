@@ -18,6 +18,7 @@ from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
+from optlaws.numerics.tolerances import CELL_MARGIN, TANGENT_FALL
 from optlaws.synthesis.families.family import LinearFamily
 
 Array = NDArray[np.float64]
@@ -28,8 +29,6 @@ _DENSITY = 4.0
 _LEAST_CELLS = 8
 #: terms of a cell's series that are weighed one by one
 _WEIGHED = 5
-#: of a right side, or 1: a residual nearer to 0 is left to tangents
-_MARGIN = 1e-12
 #: terms of a cell's series with which it is looked into; the others are charged
 _LOOKED_AT = 14
 _JOINED = 4
@@ -37,8 +36,6 @@ _JOINED = 4
 _GATHERED = 256
 _HALVINGS = 12
 _STEPS = 8
-#: of the greatest term: by more a tangent at the lowest place may not fall
-_FALLS = 1e-13
 
 
 @dataclass(frozen=True, eq=False)
@@ -204,7 +201,7 @@ class _Residuals:
 
     @property
     def _limit(self) -> Array:
-        return np.asarray(self.room - _MARGIN * np.maximum(1.0, np.abs(self.room)))
+        return np.asarray(self.room - CELL_MARGIN * np.maximum(1.0, np.abs(self.room)))
 
     def _reached(self, most: Array) -> Flags:
         """On which cells the room is not known to be kept."""
@@ -310,7 +307,7 @@ def _by_tangent(rows: Array) -> Array:
     value, first, _ = (jets * np.cos(order * np.arccos(at))).sum(axis=1)
     # from the place itself to the end toward which the tangent falls
     fall = np.abs(first) * np.where(first > 0.0, 1.0 + at, 1.0 - at)
-    return np.where(fall <= _FALLS * np.abs(rows).max(axis=1), value - fall, np.nan)
+    return np.where(fall <= TANGENT_FALL * np.abs(rows).max(axis=1), value - fall, np.nan)
 
 
 @lru_cache(maxsize=16)

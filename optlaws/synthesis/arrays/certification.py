@@ -9,6 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
+from optlaws.numerics.tolerances import (
+    CERTIFIED_EXCESS,
+    CERTIFIED_PULL,
+    FIRST_CERTIFIED_GAP,
+    GREAT_MULTIPLIERS,
+    SMALL_OBJECTIVE,
+    WIDE_GAP,
+)
 from optlaws.synthesis.arrays.cells import Cells, excess, excess_at
 from optlaws.synthesis.arrays.dual_bounds import lower_bounds, sharp_bounds
 from optlaws.synthesis.arrays.newton_steps import States, Structure, batch_families, locally_optimal, product, with_one
@@ -17,13 +25,6 @@ from optlaws.synthesis.families.family import BatchFamily, LinearFamily, Nonline
 from optlaws.synthesis.program.writer import Model
 
 Array = NDArray[np.float64]
-
-#: of a right side, or 1: by so much a row may be broken
-_EXCESS = 1e-11
-#: of the objective, and what rounding may leave of it where multipliers are great: it is then reckoned more sharply
-_GAP, _ROUNDED = 9e-11, 1e-9
-#: of the greatest multiplier: by so much one may be below 0, for which the bound counts it as 0
-_PULL = 1e-12
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,28 +67,30 @@ class Certification:
     @property
     def sound(self) -> NDArray[np.bool_]:
         """Which are laws, and proven optimal, or locally so where the problem is not convex."""
-        meets = self.gap <= (_ROUNDED if self.affine else _GAP)
-        return np.asarray(meets & (self.excess <= _EXCESS) & (self.pull <= _PULL) & self.best)
+        meets = self.gap <= (GREAT_MULTIPLIERS if self.affine else FIRST_CERTIFIED_GAP)
+        return np.asarray(meets & (self.excess <= CERTIFIED_EXCESS) & (self.pull <= CERTIFIED_PULL) & self.best)
 
     @property
     def sharp(self) -> NDArray[np.bool_]:
         """Which are proven so nearly that Newton's method has nothing left to do."""
-        return np.asarray(self.sound & (self.gap <= _GAP))
+        return np.asarray(self.sound & (self.gap <= FIRST_CERTIFIED_GAP))
 
     @property
     def gap(self) -> Array:
         """Between objective and bound, as a share of the objective."""
-        unit = np.where(np.abs(self.objective) > _SMALL * self.scale, np.abs(self.objective), self.scale)
+        unit = np.where(np.abs(self.objective) > SMALL_OBJECTIVE * self.scale, np.abs(self.objective), self.scale)
         return np.asarray(np.abs(self.objective - self.bound) / unit)
 
     @property
     def blurred(self) -> NDArray[np.intp]:
         """Laws that nothing but rounding may keep from being proven optimal."""
-        wide = (self.gap > _GAP) & (self.gap < _WIDE) & (self.excess <= _EXCESS) & (self.pull <= _PULL)
+        wide = (
+            (self.gap > FIRST_CERTIFIED_GAP)
+            & (self.gap < WIDE_GAP)
+            & (self.excess <= CERTIFIED_EXCESS)
+            & (self.pull <= CERTIFIED_PULL)
+        )
         return np.flatnonzero(wide & self.affine)
-
-
-_SMALL, _WIDE = 1e-6, 1e-7
 
 
 def certification_of(path: Path, structure: Structure, numbers: Numbers, states: States) -> Certification:

@@ -13,6 +13,15 @@ from math import isnan, prod
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.numerics.tolerances import (
+    ASTRAY,
+    AT_END,
+    BETWEEN_SEGMENTS,
+    EVENT_WIDTH,
+    LOST_EVENT_WIDTH,
+    SAME_STATE,
+    VALUE_ROUNDING,
+)
 from optlaws.synthesis.arrays.certification import certification_of
 from optlaws.synthesis.arrays.newton_steps import States, Structure, clipped, converged, structure_of
 from optlaws.synthesis.arrays.programs import Path
@@ -28,24 +37,13 @@ _STRIDES = np.array([0.25, 0.5, 1.0, 2.0, 4.0, 8.0])
 _CLOSER = np.array([1e-1, 1e-2, 1e-4, 1e-6])
 #: laws beyond an event that tell where it is
 _KNOWN = 3
-#: so near to an event no more than this can be broken: where more is, Newton's method went astray
-_ASTRAY = 1e-3
-#: of the path: an event is known to lie in no wider a stretch; laws in it are tried with the segments on both sides
-_SHARP = 5e-8
-#: the same where Newton's method ends, and nothing tells where the event is
-_FAINT = 1e-5
 _ROUNDS = 24
-#: of the path: a longer stretch between two segments is walked from its other end too
-_BETWEEN = 9e-8
 _NEAR = 4
 #: states that are nearer to each other than this share of the way to where one is guessed are as one
 _APART = 0.2
 _MOST = 400
-#: of a segment: states that are nearer to each other are one of those between which others are interpolated
-_AS_ONE = 1e-5
 #: contacts that are nearer to each other may be two of one
 _SAME = 0.02
-_AT_END = 1e-8
 _BEYOND = (4e-8, 1e-6, 1e-4, 1e-3)
 
 
@@ -100,7 +98,7 @@ class StructureSegment:
 
     def interpolated(self, t: Array) -> States:
         """States between those that are known, by the polynomial through the nearest on both sides."""
-        kept = np.flatnonzero(np.diff(self.t, prepend=-np.inf) > _AS_ONE * (self.end - self.begin))
+        kept = np.flatnonzero(np.diff(self.t, prepend=-np.inf) > SAME_STATE * (self.end - self.begin))
         near = min(_NEAR, len(kept))
         begin = np.clip(np.searchsorted(self.t[kept], t) - near // 2, 0, len(kept) - near)
         chosen = kept[begin[:, None] + np.arange(near)]
@@ -181,7 +179,7 @@ class ParametricContinuation:
             if following is None:
                 return
             edge = segment.end if way > 0.0 else segment.begin
-            if abs(following.begin - edge) > _BETWEEN * self.reach:
+            if abs(following.begin - edge) > BETWEEN_SEGMENTS * self.reach:
                 self._stretched(following, edge)
             segment = following
             self.segments.append(segment)
@@ -216,7 +214,7 @@ class ParametricContinuation:
         # laws of an affine structure are known at any distance
         bad, stride = goal, self.reach if segment.structure.affine and self.path.one_cost else _FIRST * self.reach
         broken: list[tuple[float, float]] = []
-        near = _SHARP * self.reach
+        near = EVENT_WIDTH * self.reach
         for _ in range(_ROUNDS):
             t = _probes(good, bad, way * stride, broken)
             rows, sound, worst = self._solved(segment.structure, t, segment.guessed(t))
@@ -235,9 +233,9 @@ class ParametricContinuation:
             if known:
                 broken = sorted([*broken, *known], key=lambda pair: abs(pair[0] - good))[:_KNOWN]
                 bad = broken[0][0]
-            near = (_SHARP if broken else _FAINT) * self.reach
+            near = (EVENT_WIDTH if broken else LOST_EVENT_WIDTH) * self.reach
             if min(abs(bad - good), stride) <= near:
-                if not broken or broken[0][1] <= _ASTRAY or not self._met(segment, bad):
+                if not broken or broken[0][1] <= ASTRAY or not self._met(segment, bad):
                     break
                 good, bad, broken = bad, goal, []
                 stride = _FIRST * self.reach
@@ -262,19 +260,16 @@ class ParametricContinuation:
             own = clipped(structure, states.taken(done))
             verdicts = certification_of(self.path, structure, numbers.taken(done), own)
             inside = np.abs(own.u - states.u[done]).max(axis=1, initial=0.0)
-            sound[done] = verdicts.sound & (inside <= _OUTSIDE)
+            sound[done] = verdicts.sound & (inside <= VALUE_ROUNDING)
             worst[done] = np.maximum(verdicts.broken, inside)
         return rows, sound, worst
-
-
-_OUTSIDE = 1e-12
 
 
 def _on_ends(structure: Structure, u: Array) -> Array:
     """The places with those that may not move on the ends of their domains, off which rounding may have put them."""
     ends = structure.domains
     nearest = np.where(np.abs(u - ends[:, 0]) < np.abs(u - ends[:, 1]), ends[:, 0], ends[:, 1])
-    return np.where(~structure.free & (np.abs(u - nearest) < _AT_END), nearest, u)
+    return np.where(~structure.free & (np.abs(u - nearest) < AT_END), nearest, u)
 
 
 def _probes(good: float, bad: float, stride: float, broken: list[tuple[float, float]]) -> Array:

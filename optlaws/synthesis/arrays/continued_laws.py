@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.numerics.tolerances import AGREEMENT, BEYOND_SEGMENT, CERTIFIED_GAP, INTERPOLATION_TAIL, ROUGH_STEP
 from optlaws.synthesis.arrays.certification import Certification, certification_of
 from optlaws.synthesis.arrays.continuation import ParametricContinuation, StructureSegment
 from optlaws.synthesis.arrays.dual_bounds import lower_bounds
@@ -26,19 +27,10 @@ _NODES = 16
 _DEEPEST = 12
 #: no more laws than these are worth nodes of their own
 _FEW = 20
-#: of the size of what is interpolated: one step of Newton's method makes the square of it
-_TAIL = 1e-7
 #: laws at a time, and bytes of their matrices
 _CHUNKS = (128, 1024)
 _AT_HAND = 2**21
 _STARTS = np.array([0.5, 0.25, 0.75, 0.0, 1.0])
-#: of the objective
-_GAP = 1e-10
-_EXACT = 1e-9
-#: a step of more than this share is followed by another
-_ROUGH = 1e-7
-#: of the path: how far beyond the ends of a segment its laws are tried, where no segment is known
-_BESIDE = 2e-3
 
 
 def laws_along(path: Path, t: Array) -> SolvedBatch:
@@ -69,7 +61,7 @@ def laws_on(path: Path, segments: list[StructureSegment], t: Array) -> SolvedBat
         places = np.flatnonzero((t >= segment.begin) & (t <= segment.end))
         if len(places):
             _fill(laws, path, segment, places, t[places])
-    beside = _BESIDE * (segments[-1].end - segments[0].begin) if segments else 0.0
+    beside = BEYOND_SEGMENT * (segments[-1].end - segments[0].begin) if segments else 0.0
     for segment in segments:
         # what lies between two segments is tried with both
         places = np.flatnonzero((t >= segment.begin - beside) & (t <= segment.end + beside) & ~laws.solved)
@@ -121,7 +113,7 @@ class _LawsOfStructure:
     def solve(self, guess: States) -> None:
         """Enter the laws that one step of Newton's method from a guess leads to, or several, as far as proven."""
         states, sizes = step(self.structure, self.numbers, guess)
-        rough = np.flatnonzero(np.isfinite(sizes) & (sizes > _ROUGH))
+        rough = np.flatnonzero(np.isfinite(sizes) & (sizes > ROUGH_STEP))
         if len(rough):
             better, sizes[rough] = step(self.structure, self.numbers.taken(rough), states.taken(rough))
             rows = states.packed
@@ -190,7 +182,7 @@ def _settled(rows: Array) -> bool:
     weights = np.ones(_NODES)
     weights[[0, -1]] = 0.5
     highest = np.cos(np.outer(np.arange(_NODES - 4, _NODES), angle)) * weights @ rows * (2.0 / (_NODES - 1))
-    return bool((np.abs(highest) <= _TAIL * np.maximum(1.0, np.abs(rows).max(axis=0))).all())
+    return bool((np.abs(highest) <= INTERPOLATION_TAIL * np.maximum(1.0, np.abs(rows).max(axis=0))).all())
 
 
 def _affine(laws: SolvedBatch, path: Path, segment: StructureSegment, places: NDArray[np.intp], t: Array) -> None:
@@ -207,7 +199,7 @@ def _affine(laws: SolvedBatch, path: Path, segment: StructureSegment, places: ND
     own = path.numbers(t)
     bound = lower_bounds(path, structure, own, first, value)
     objective = path.model.unit * (x @ own.cost[0])
-    sound = np.abs(objective - bound) <= _GAP * np.maximum(np.abs(objective), _EXACT * path.model.unit)
+    sound = np.abs(objective - bound) <= CERTIFIED_GAP * np.maximum(np.abs(objective), AGREEMENT * path.model.unit)
     end_parts = (np.broadcast_to(part, (len(t), part.shape[1])) for part in (first.u, first.weights, first.equations))
     states = States(x, *end_parts).taken(sound)
     _put(laws, structure, places[sound], states, (objective[sound], bound[sound], np.full(int(sound.sum()), excess)))

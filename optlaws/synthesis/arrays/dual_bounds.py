@@ -8,6 +8,7 @@ from math import ceil, inf, log
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.numerics.tolerances import ROUNDOFF, SQUARED_SUMS
 from optlaws.synthesis.arrays.newton_steps import States, Structure, weighted
 from optlaws.synthesis.arrays.programs import Numbers, Path
 from optlaws.synthesis.families.family import LinearFamily
@@ -16,10 +17,9 @@ from optlaws.synthesis.proof.sublevel_bounds import greatest_values, least_value
 
 Array = NDArray[np.float64]
 
-_UNIT = 2.0**-53
 _SPLIT = 2.0**27 + 1.0
 #: roundings in a row before it is weighted, as certificates count them, and what sums are off by beyond
-_IN_A_ROW, _SQUARES = 9, 2.0**-20
+_IN_A_ROW = 9
 #: claims are taken from a geometric row, upward: what is known of laws below them is known of all before
 _CLAIMS, _ABOVE = 1.01, 1.0 + 2.0**-40
 
@@ -44,7 +44,7 @@ def lower_bounds(path: Path, structure: Structure, numbers: Numbers, states: Sta
     slope = cost + weighted(weights, rows) + equations @ program.equalities
     right = value[:, :, -1] - numbers.bounds[:, structure.family]
     plain = (weights * right).sum(axis=1) - (equations * numbers.right).sum(axis=1)
-    count = _UNIT * (_IN_A_ROW + structure.count + len(program.equalities) + 2)
+    count = ROUNDOFF * (_IN_A_ROW + structure.count + len(program.equalities) + 2)
     sizes = np.abs(equations)
     blur = weighted(weights, np.abs(rows)) + sizes @ np.abs(program.equalities) + np.abs(cost)
     unseen = structure.rounding_errors(states.x, states.u, weights)
@@ -86,7 +86,7 @@ def sharp_sums(
     """
     places = list(model.places.values())
     total = sums_of_rows(np.concatenate([cost, np.zeros((len(cost), 1))], axis=1), multipliers, rows)
-    hidden = _UNIT * (_IN_A_ROW + _SQUARES) * weighted(np.abs(multipliers), sizes)
+    hidden = ROUNDOFF * (_IN_A_ROW + SQUARED_SUMS) * weighted(np.abs(multipliers), sizes)
     # the entries of the variables are exact, and so is a sum that is zero
     slope, blur = total[:, :-1], hidden[:, :-1]
     blur[:, places] = 0.0

@@ -9,6 +9,7 @@ from math import isfinite
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.numerics.tolerances import OFF_LINE
 from optlaws.synthesis.arrays.powers import least_power
 from optlaws.synthesis.arrays.programs import Path, between, in_units_of, numbers_of
 from optlaws.synthesis.problem.constants import RootMeanSquare
@@ -21,8 +22,6 @@ from optlaws.synthesis.spaces.bases import PolynomialBasis
 
 Array = NDArray[np.float64]
 
-#: of the size of a program's numbers: by so much they may be off a line
-_OFF = 1e-12
 #: laws on a line, at least: of jerk structures change often, of root mean squares hardly
 _LEAST, _LEAST_OF_JERK, _LEAST_OF_SMOOTH, _LEAST_OF_POWER = 48, 128, 24, 24
 _JERK = 3
@@ -110,7 +109,7 @@ def _on(path: Path, t: float, problem: Problem) -> bool:
     numbers, own = path.numbers(np.array([t])), numbers_of(in_units_of(path.model.program, model_of(problem).program))
     return all(
         getattr(numbers, name).shape == getattr(own, name).shape
-        and np.allclose(getattr(numbers, name), getattr(own, name), rtol=_OFF, atol=_OFF)
+        and np.allclose(getattr(numbers, name), getattr(own, name), rtol=OFF_LINE, atol=OFF_LINE)
         for name in ("right", "bounds", "cost")
     )
 

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
+from optlaws.numerics.tolerances import AGREEMENT
 from optlaws.synthesis.arrays.programs import Numbers
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import BatchFamily, NonlinearFamily
@@ -22,8 +23,6 @@ Array = NDArray[np.float64]
 
 #: what is given up: a step that is greater than the next ones could mend
 _SIZES = (1e3, 1e3, 10.0, 1.0, 0.3, 0.05, 1e-3, 1e-4)
-#: convergence is quadratic: what is left after a step of this share is rounding
-_CONVERGED = 1e-9
 _FAR = 1.05
 
 
@@ -290,8 +289,8 @@ def converged(structure: Structure, numbers: Numbers, states: States) -> tuple[S
             break
         further, sizes = step(structure, numbers.taken(places), States.unpacked(rows[places], structure))
         rows[places] = further.packed
-        going[places] = (sizes <= most) & (sizes > _CONVERGED)
-        done[places] = sizes <= _CONVERGED
+        going[places] = (sizes <= most) & (sizes > AGREEMENT)
+        done[places] = sizes <= AGREEMENT
     return States.unpacked(rows, structure), done
 
 

@@ -12,6 +12,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.numerics.tolerances import AGREEMENT, TANGENT_SETTLED
 from optlaws.synthesis.arrays.continued_laws import laws_along
 from optlaws.synthesis.arrays.newton_steps import with_one
 from optlaws.synthesis.arrays.programs import Path, between
@@ -26,10 +27,6 @@ Array = NDArray[np.float64]
 
 #: laws sought from all starts: at least and at most on a path, and of how many one
 _LEAST, _MOST, _EACH = 5, 13, 12
-#: of an objective: two laws that differ by less are one
-_SAME = 1e-9
-#: of a bound: what its certificate may lose, whose tangent is settled to a millionth
-_SETTLED = 1e-11
 _PLACES = 256
 
 
@@ -67,7 +64,7 @@ def on_global_branch(
     before: int | None = None
     for row in _looked_at(known).tolist():
         best = sought(int(places[row]))
-        same = best is not None and abs(best / laws.objective[row] - 1.0) <= _SAME
+        same = best is not None and abs(best / laws.objective[row] - 1.0) <= AGREEMENT
         if same:
             kept[row if before is None else before : row + 1] = True
         before = row if same else None
@@ -98,7 +95,7 @@ def with_quick_bounds(path: Path, t: Array, laws: SolvedBatch, limits: Array) ->
     low = np.flatnonzero(laws.solved & ~(weight * _needed_roots(path, laws) ** 2 < limits))
     if len(low):
         roots = _least_roots(path, t[low])
-        proven = weight[low] * roots**2 * (1.0 - _SETTLED)
+        proven = weight[low] * roots**2 * (1.0 - TANGENT_SETTLED)
         bound[low] = np.maximum(bound[low], proven)
         # where the relaxed program has no proof
         bound[low[np.isnan(roots)]] = np.nan

@@ -10,15 +10,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.numerics.tolerances import UNITS_ROUNDING
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.family import ConstraintFamily, Program
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, model_of
 
 Array = NDArray[np.float64]
-
-#: of the greatest number of a family: by so much two may differ that are one in different units
-_ROUNDED = 1e-14
 
 
 @dataclass(frozen=True, eq=False)
@@ -138,7 +136,7 @@ def _measured(first: ConstraintFamily, other: ConstraintFamily) -> ConstraintFam
     if size == own or not own:
         return other
     share = size / own
-    if np.abs(first.series - share * other.series).max() > _ROUNDED * size:
+    if np.abs(first.series - share * other.series).max() > UNITS_ROUNDING * size:
         return other
     return replace(other, series=first.series, slack=share * other.slack, bound=share * other.bound)
 

@@ -11,14 +11,12 @@ from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
 from optlaws.numerics.chebyshev import basis_values, product, real_parts_of_roots
-from optlaws.synthesis.families.family import ROUNDING, ConstraintFamily, NonlinearFamily, RowJet
+from optlaws.numerics.tolerances import CONE_NODES, EPSILON, ROW_ROUNDING, TINY
+from optlaws.synthesis.families.family import ConstraintFamily, NonlinearFamily, RowJet
 from optlaws.synthesis.families.peaks import peaks, products
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
-
-_NOTHING = 1e-300  # where the amplitude vanishes it has no slope
-_NEGLIGIBLE = 2.0**-52
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -49,7 +47,7 @@ class ConeFamily(NonlinearFamily):
         if self.domain[0] == self.domain[1]:
             return None
         sizes = np.abs(self.series).max(axis=1)
-        count = max(int((sizes > _NODES * sizes.max()).sum()), 3)
+        count = max(int((sizes > CONE_NODES * sizes.max()).sum()), 3)
         return np.asarray(chebyshev.chebpts2(count)[::-1])
 
     @kept_property
@@ -72,7 +70,7 @@ class ConeFamily(NonlinearFamily):
     def direction(self, x: Array, u: float) -> tuple[float, float]:
         """The unit vector of p at u."""
         p = complex(self.columns(np.array([u]))[0, 0] @ np.append(x, 1.0))
-        size = max(abs(p), _NOTHING)
+        size = max(abs(p), TINY)
         return p.real / size, p.imag / size
 
     def _jets(self, u: Array, point: Array) -> tuple[Complex, Complex]:
@@ -86,7 +84,7 @@ class ConeFamily(NonlinearFamily):
     def planes(self, u: Array, point: Array) -> tuple[Array, Array, Array]:
         """What the direction of each law shows of the magnitude; no law's is less."""
         (f0, f1, _), (p0, p1, p2) = self._jets(u, point)
-        size = np.maximum(np.abs(p0), _NOTHING)
+        size = np.maximum(np.abs(p0), TINY)
         slope = (p0.conj() * p1).real / size
         value = (p0.conj()[:, :, None] * f0).real / size[:, :, None]
         turning = (p1.conj()[:, :, None] * f0 + p0.conj()[:, :, None] * f1).real / size[:, :, None]
@@ -97,19 +95,19 @@ class ConeFamily(NonlinearFamily):
         """Residuals of one law with their derivatives; of a small amplitude rounding in its planes would be great."""
         _, (p0, p1, _) = self._jets(u[None], np.append(x, 1.0)[None])
         size = np.abs(p0[0])
-        slope = (p0[0].conj() * p1[0]).real / np.maximum(size, _NOTHING)
+        slope = (p0[0].conj() * p1[0]).real / np.maximum(size, TINY)
         return replace(super().jet(x, u, s), value=s * size - self.right_side(x), slope=s * slope)
 
     def hessians(self, u: Array, point: Array, weights: Array) -> Array:
         """Second derivatives of the weighted magnitudes: what turns p counts, what lengthens it does not."""
         (columns, *_), (p, *_) = self._jets(u, point)
-        size = np.maximum(np.abs(p), _NOTHING)
+        size = np.maximum(np.abs(p), TINY)
         across = (p.conj()[:, :, None] * columns[:, :, :-1]).imag / size[:, :, None]
         return np.asarray(np.matmul((across * (weights / size)[:, :, None]).transpose(0, 2, 1), across))
 
     def rounding_errors(self, weights: Array, u: Array, point: Array) -> Array:  # noqa: ARG002 - the same everywhere
         """The rounding hidden in a unit vector times the two parts of the columns."""
-        own = ROUNDING * (np.abs(self.series.real) + np.abs(self.series.imag)).sum(axis=0)
+        own = ROW_ROUNDING * (np.abs(self.series.real) + np.abs(self.series.imag)).sum(axis=0)
         return np.asarray(weights.sum(axis=1)[:, None] * own)
 
     def greatest(self, point: Array) -> Array:
@@ -134,9 +132,6 @@ class ConeFamily(NonlinearFamily):
         return stationary_places(self.series @ np.append(x, 1.0))
 
 
-_NODES = 1e-6
-
-
 def stationary_places(series: Complex) -> Array:
     """Points among which every stationary point in [-1, 1] of the magnitude of a complex series is.
 
@@ -146,7 +141,7 @@ def stationary_places(series: Complex) -> Array:
     [0.0]
     """
     sizes = np.abs(series)
-    kept = np.flatnonzero(sizes > _NEGLIGIBLE * sizes.max(initial=0.0))
+    kept = np.flatnonzero(sizes > EPSILON * sizes.max(initial=0.0))
     if not len(kept):
         return np.empty(0)
     short = series[: kept[-1] + 1]

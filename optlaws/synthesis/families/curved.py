@@ -19,17 +19,15 @@ from optlaws.formulas.tree import Call, Exponentiation, Formula, Number, total
 from optlaws.kept import kept_property
 from optlaws.numerics.candidates import candidates
 from optlaws.numerics.chebyshev import FEWEST, MOST, from_values, nodes
+from optlaws.numerics.tolerances import FORMULA_RESOLVED, LEAST_ENERGY, ROUNDOFF
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NonlinearFamily, RowJet
 from optlaws.synthesis.families.peaks import peaks
 
 Array = NDArray[np.float64]
 
-_LEAST_ROOT = 1e-12
 _PLACES_PER_DEGREE = 2
-#: of the greatest value: what is left of the last coefficients of a formula along a law that is resolved
-_RESOLVED = 1e-13
 #: roundings of a formula's slope in a row
-_IN_A_ROW, _UNIT = 16, 2.0**-53
+_IN_A_ROW = 16
 
 
 @dataclass(frozen=True, eq=False)
@@ -223,7 +221,7 @@ class CurvedFamily(FormulaFamily):
         columns, _, _, gradient, _ = self._expansion(u, point)
         shares = np.abs(gradient[:-1]) * weights
         own = np.array([part.rounding for _, part in self.parts])
-        sizes = _IN_A_ROW * _UNIT * np.abs(columns[:, 0]) + own[:, None, None]
+        sizes = _IN_A_ROW * ROUNDOFF * np.abs(columns[:, 0]) + own[:, None, None]
         return np.asarray(np.einsum("imp,impn->mn", shares, sizes))
 
     def greatest(self, point: Array) -> Array:
@@ -261,7 +259,7 @@ class CurvedFamily(FormulaFamily):
         while count <= MOST:
             series = self._interpolated(formula, point, count)
             tail = np.abs(series[:, -max(2, count // 10) :]).max(axis=1)
-            if (tail <= _RESOLVED * np.abs(series).max(axis=1)).all():
+            if (tail <= FORMULA_RESOLVED * np.abs(series).max(axis=1)).all():
                 return series
             count = 2 * count - 1
         return None
@@ -398,7 +396,7 @@ class IntegralFamily(FormulaFamily):
         """What f is where the sum over the nodes is this, and its derivative by the sum."""
         if not self.root:
             return total, np.ones_like(total)
-        size = np.sqrt(np.maximum(total, _LEAST_ROOT**2))
+        size = np.sqrt(np.maximum(total, LEAST_ENERGY**2))
         return size, 0.5 / size
 
     def _at_nodes(self, point: Array) -> dict[str, Array]:
@@ -435,7 +433,7 @@ class IntegralFamily(FormulaFamily):
         sizes = np.abs(self.slopes.gradient(names)) * self.weights
         rows = np.einsum("imp,ipn->mn", sizes, np.abs(self.columns))
         share = self.outer(self.slopes.value(names) @ self.weights)[1]
-        blur = (_IN_A_ROW + len(self.places)) * _UNIT
+        blur = (_IN_A_ROW + len(self.places)) * ROUNDOFF
         return np.asarray((blur * share * weights.sum(axis=1))[:, None] * rows)
 
     def greatest(self, point: Array) -> Array:

@@ -17,19 +17,16 @@ from numpy.typing import NDArray
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.numerics.chebyshev import product, real_parts_of_roots
+from optlaws.numerics.tolerances import ENERGY_ROUNDING, LEAST_ENERGY, RULES_AGREE
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, RowJet
 
 Array = NDArray[np.float64]
 
 _SPARE = 48
-_ROUNDING = 1e-13
 #: sizes of the rules that must agree on a tangent
 _NODES = (160, 224)
-_AGREE = 1e-13
 _SHARES = (1.0, 0.8, 0.6, 0.4, 0.2, 0.0)
 _LEAST_SHARE = 0.02
-#: of B²: keeps roots real on the way to a law with b <= B
-LEAST_ROOT = 1e-12
 
 
 @dataclass(frozen=True, eq=False)
@@ -159,13 +156,13 @@ def affine(columns: Array, x: Array) -> Taylor:
 
 
 def _agree(first: Array, other: Array) -> bool:
-    return float(np.abs(first - other).max()) <= _AGREE * float(np.abs(first).max())
+    return float(np.abs(first - other).max()) <= RULES_AGREE * float(np.abs(first).max())
 
 
 def _floor(below: Taylor, above: Taylor) -> Array:
     """The least product that counts, in units of B² where the product is about that."""
     scale = np.maximum(above.value**2, np.abs(below.value) * np.abs(above.value))
-    least: Array = LEAST_ROOT * np.maximum(scale, np.finfo(float).tiny)
+    least: Array = LEAST_ENERGY * np.maximum(scale, np.finfo(float).tiny)
     return least
 
 
@@ -271,7 +268,7 @@ class EnergyFamily(ConstraintFamily):
         peak, middle = float(own @ point), float(above @ point)
         row = (0.5 * self.scale / middle) * (own - (peak / middle) * above)
         # in laws of the same B its own row is a number
-        row[-1] += 0.5 * self.scale * peak / middle * (1.0 - _ROUNDING)
+        row[-1] += 0.5 * self.scale * peak / middle * (1.0 - ENERGY_ROUNDING)
         return np.asarray(row, dtype=np.float64)
 
     def _taylor(self, x: Array, u: Array) -> Taylor:

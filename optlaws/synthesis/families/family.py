@@ -14,19 +14,14 @@ from numpy.typing import NDArray
 from optlaws.kept import kept_property
 from optlaws.numerics.chebyshev import product, real_parts_of_roots
 from optlaws.numerics.gegenbauer import even_gegenbauer_jet
+from optlaws.numerics.tolerances import AT_END, END_OF_U, NO_NORM, ROW_ROUNDING
 from optlaws.synthesis.families.peaks import peaks, products
 
 Array = NDArray[np.float64]
 Made = TypeVar("Made")
 
-#: of a row: what rounding may hide of it, as a share of the sum of its parts' sizes
-ROUNDING = 4 * 2.0**-53
 #: of fewer polynomials' values cosines are quicker than the recurrence
 _SMALL = 4096
-_END = 1e-9
-_AT_END = 1e-8  # a stationary point that rounding has moved off an end by symmetry is that end
-#: at standstill and in uniform motion the norm has no slope
-_NO_NORM = 1e-12
 
 
 @dataclass(frozen=True, eq=False)
@@ -136,7 +131,7 @@ class ConstraintFamily(ABC):
             u = np.array([low])
         else:
             inner = self.stationary(x)
-            inner = np.sort(inner[(inner > low + _AT_END) & (inner < high - _AT_END)])
+            inner = np.sort(inner[(inner > low + AT_END) & (inner < high - AT_END)])
             u = np.concatenate([[low], inner, [high]])
         value, room = self.value(x, u), self.right_side(x)
         signs = np.repeat(self.signs, len(u))
@@ -278,7 +273,7 @@ class LinearFamily(BatchFamily):
     @kept_property
     def rounding(self) -> Array:
         """What rounding may hide of each entry of a row."""
-        return np.asarray(ROUNDING * np.abs(self.series).sum(axis=0))
+        return np.asarray(ROW_ROUNDING * np.abs(self.series).sum(axis=0))
 
     def rounding_errors(self, weights: Array, u: Array, point: Array) -> Array:  # noqa: ARG002 - the same everywhere
         """What rounding may hide of rows, whatever the place."""
@@ -327,7 +322,7 @@ class RootFamily(LinearFamily):
     def columns(self, u: Array) -> Array:
         """f's columns with two derivatives by u; zero at k = 0, where the series has a zero."""
         g0, g1, g2 = super().columns(u)
-        near = 1.0 - u < _END
+        near = 1.0 - u < END_OF_U
         left = np.where(near, 1.0, 1.0 - u)[:, None]
         root = np.sqrt(left)
         jets = np.stack([g0, g1 + g0 / (2.0 * left), g2 + g1 / left + 3.0 * g0 / (4.0 * left**2)])
@@ -489,7 +484,7 @@ class NormFamily(NonlinearFamily):
 
     def _shown(self, point: Array) -> tuple[Array, Array]:
         image = point @ self.matrix.T
-        size = np.maximum(np.sqrt((image * image).sum(axis=1)), _NO_NORM)
+        size = np.maximum(np.sqrt((image * image).sum(axis=1)), NO_NORM)
         return size, (image / size[:, None]) @ self.matrix
 
     def hessians(self, u: Array, point: Array, weights: Array) -> Array:  # noqa: ARG002 - it has no place
@@ -501,7 +496,7 @@ class NormFamily(NonlinearFamily):
 
     def rounding_errors(self, weights: Array, u: Array, point: Array) -> Array:  # noqa: ARG002 - it has no place
         """The rounding hidden in a unit vector times the matrix."""
-        own = len(self.matrix) * ROUNDING * np.abs(self.matrix).sum(axis=0)
+        own = len(self.matrix) * ROW_ROUNDING * np.abs(self.matrix).sum(axis=0)
         return np.asarray(weights.sum(axis=1)[:, None] * own)
 
     def greatest(self, point: Array) -> Array:

@@ -11,14 +11,13 @@ from numpy.typing import NDArray
 
 from optlaws.laws import PolynomialLaw
 from optlaws.numerics.chebyshev import from_values, nodes
+from optlaws.numerics.tolerances import ANGLE_SETTLED
 
 Array = NDArray[np.float64]
 
 #: points for each degree of the series: between them a peak rises by a share of less than 1/26 (Bernstein)
 _DENSITY = 6
 _STEPS = 16
-#: of an angle: a peak is off by the square of it
-_SETTLED = 1e-8
 _CHUNK = 1024
 
 
@@ -117,7 +116,7 @@ def _polished(series: Array, angle: Array, apart: float) -> Array:
         further = angle - np.divide(slope, bend, out=np.full_like(slope, np.inf), where=bend != 0.0)
         kept = (low <= further) & (further <= high) & (value * bend < 0.0)
         further = np.where(kept, further, (low + high) / 2.0)
-        left = np.abs(further - angle) > _SETTLED
+        left = np.abs(further - angle) > ANGLE_SETTLED
         angle, low, high, going = further[left], low[left], high[left], going[left]
         if not len(going):
             break

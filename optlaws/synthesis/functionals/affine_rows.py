@@ -13,6 +13,7 @@ from optlaws.formulas.affine import degree
 from optlaws.formulas.of_motion import MotionFormula
 from optlaws.numerics.chebyshev import from_values, interpolated, nodes
 from optlaws.numerics.chebyshev import gauss as gauss_rule
+from optlaws.numerics.tolerances import VALUE_ROUNDING
 from optlaws.synthesis.families.family import LinearFamily
 from optlaws.synthesis.families.names import mirrored
 from optlaws.synthesis.spaces.pieces.rows import PieceFamily, PieceSeries
@@ -24,7 +25,6 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 _WHOLE = (1.0, -1.0)
-_SAME = 1e-12
 _PLACES = 7
 
 
@@ -50,7 +50,7 @@ def sides(motion: MotionFormula, name: str, signs: tuple[float, ...], *, symmetr
     [other] = second
     if (first.start, first.stop) == (other.start, other.stop):
         here, there = sampled(first), sampled(other)
-        size = _SAME * float(np.abs(here).max())
+        size = VALUE_ROUNDING * float(np.abs(here).max())
         with np.errstate(invalid="ignore"):
             even, odd = (float(np.abs(part).max()) <= size for part in (here - there, here + there))
         if even:

@@ -19,15 +19,13 @@ from optlaws.laws.segments.segment import PolynomialSegment
 from optlaws.numerics.candidates import candidates, cut_at_all, cut_at_roots, series_between
 from optlaws.numerics.chebyshev import gauss, value
 from optlaws.numerics.peaks import Peak, extremes
+from optlaws.numerics.tolerances import BESIDE_BREAK, INTEGRAL_SETTLED, PIECE_SETTLED
 
 Array = NDArray[np.float64]
 
-_BESIDE = 2.0**-50
 _LARGEST = 400
 #: how often a piece that is not smooth is cut in two, and how many places of Gauss's rule the last ones have
 _DEEPEST, _DENSE = 12, 32
-#: what twice as many places may change: of the whole, where no cut is needed, and of the last pieces
-_NEGLIGIBLE, _SETTLED = 1e-14, 1e-6
 
 
 def extremes_along(motion: MotionFormula, law: MotionLaw) -> tuple[Peak, Peak]:
@@ -86,7 +84,7 @@ def _inside(motion: MotionFormula, law: MotionLaw, low: float, high: float) -> C
 def _on(motion: MotionFormula, law: MotionLaw, ends: tuple[float, float], k: Array) -> tuple[Array, Array]:
     """Places of a piece, its ends just within it, and the values there."""
     low, high = ends
-    inside = np.clip(k, low + _BESIDE * (low > 0.0), high - _BESIDE * (high < 1.0))
+    inside = np.clip(k, low + BESIDE_BREAK * (low > 0.0), high - BESIDE_BREAK * (high < 1.0))
     return inside, _values(motion, law, inside)
 
 
@@ -140,10 +138,10 @@ class _Integral:
         """Over a piece that is not smooth: a kink that a law comes near and turns is known to some digits alone."""
         rough, fine = (self._by_rule(ends, count) for count in (_DENSE, 2 * _DENSE))
         off = abs(fine - rough)
-        if off <= _NEGLIGIBLE * self.size:
+        if off <= INTEGRAL_SETTLED * self.size:
             return fine
         if depth == _DEEPEST:
-            return fine if off <= _SETTLED * abs(fine) else float("inf")
+            return fine if off <= PIECE_SETTLED * abs(fine) else float("inf")
         middle = (ends[0] + ends[1]) / 2.0
         return sum(self._in_parts(half, depth + 1) for half in ((ends[0], middle), (middle, ends[1])))
 

@@ -18,6 +18,7 @@ from optlaws.formulas.quadratic import quadratic
 from optlaws.formulas.tree import Call, Exponentiation, Formula, Name, Negative, Number, number, product, total
 from optlaws.formulas.vocabulary import ORDERS
 from optlaws.numerics.chebyshev import gauss
+from optlaws.numerics.tolerances import RULES_AGREE
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.curved import CurvedFamily, IntegralFamily
 from optlaws.synthesis.families.family import ConstraintFamily
@@ -31,7 +32,7 @@ Array = NDArray[np.float64]
 
 _SPARE = 40
 # what two rules in a row may differ by, relative, and how often parts are cut in two
-_AGREED, _MOST_POWER = 1e-13, 5
+_MOST_POWER = 5
 # along how many laws, and how much greater the acceleration of the others is
 _LAWS, _GREATER = 4, 2.0
 _MOST = 8
@@ -175,7 +176,7 @@ def _cells(space: LawSpace, motion: MotionFormula, edges: list[float]) -> int:
         names = {name: laws @ columns_at(space, name, k).T for name in ORDERS if name in motion.formula.names()}
         values = np.broadcast_to(motion.values({**names, "k": k}), (_LAWS, len(k)))
         columns_there = values @ weights
-        if (np.abs(columns_there - before) <= _AGREED * (np.abs(values) @ weights)).all():
+        if (np.abs(columns_there - before) <= RULES_AGREE * (np.abs(values) @ weights)).all():
             return max(1 << power - 1, 1)
         before = columns_there
     return 1 << _MOST_POWER

@@ -19,6 +19,7 @@ from optlaws.formulas.vocabulary import ORDERS
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.numbers import power_of_two
+from optlaws.numerics.tolerances import VALUE_ROUNDING
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily
 from optlaws.synthesis.functionals.affine_rows import columns, gauss, rows, sampled, sides
@@ -51,7 +52,6 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 _BOTH = (1.0, -1.0)
-_ROUNDED = 1e-12
 
 
 @dataclass(frozen=True, repr=False)
@@ -88,7 +88,7 @@ class OfFormula(Functional):
         if (mirrored.start, mirrored.stop) != (self.motion.start, self.motion.stop):
             return False
         here, there = sampled(self.motion), sampled(mirrored)
-        size = _ROUNDED * float(np.abs(here).max())
+        size = VALUE_ROUNDING * float(np.abs(here).max())
         with np.errstate(invalid="ignore"):
             apart = [float(np.abs(here - sign * there).max()) for sign in (1.0, -1.0)[: 1 + self.of_magnitude]]
         # where it has no value nothing is known of it
@@ -187,7 +187,7 @@ class FormulaPeak(OfFormula):
         """A peak of one sign may be below 0; what the end conditions say of the formula it is not below."""
         known = known_values(self.motion, conditions)
         least = 0.0 if len(self.signs) == 2 or self.sign == self.signs[0] else -inf
-        return max([least, *(sign * value - _ROUNDED * size for value, size in known for sign in self.signs)])
+        return max([least, *(sign * value - VALUE_ROUNDING * size for value, size in known for sign in self.signs)])
 
     def value(self, law: MotionLaw) -> float:
         """The peak over the whole part."""

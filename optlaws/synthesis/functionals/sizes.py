@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.vocabulary import ORDERS
 from optlaws.numbers import power_of_two
+from optlaws.numerics.tolerances import INVERSE_AGREES, POSITIVE_WEIGHTS, SIZE_RANK, TINY
 from optlaws.synthesis.functionals.affine_rows import columns, gauss
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 
@@ -20,11 +21,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 _ROUNDED = 1.0 + 1e-6
-_INVERSE = 1e-6
 _ORDER = 2
-_POSITIVE = 1e-4
-_TINY = 1e-300
-_RANK = 1e-12
 _MOST_GAIN = 1e6
 _ROOM = 1.01
 #: beyond this a bound says nothing
@@ -94,7 +91,7 @@ def _reach_of(space: LawSpace, values: Array, weights: Array) -> Reach | None:
     fixed, free = kept_directions(space)
     rows, right = values[:, :-1] @ free, -(values[:, :-1] @ fixed + values[:, -1])
     inverse = np.linalg.pinv(rows)
-    if np.abs(inverse @ rows - np.eye(free.shape[1])).max(initial=0.0) * space.terms > _INVERSE:
+    if np.abs(inverse @ rows - np.eye(free.shape[1])).max(initial=0.0) * space.terms > INVERSE_AGREES:
         return None
     rule = space.quadrature(_ORDER)
     moved = rule.values[:, :-1] @ free @ inverse
@@ -135,17 +132,17 @@ def kept_directions(space: LawSpace) -> tuple[Array, Array]:
         np.array([equation.right for equation in equations]),
     )
     _, sizes, directions = np.linalg.svd(matrix)
-    rank = int((sizes > _RANK * sizes.max()).sum())
+    rank = int((sizes > SIZE_RANK * sizes.max()).sum())
     return np.linalg.lstsq(matrix, right, rcond=None)[0], directions[rank:].T
 
 
 def _turning(rows: Array, right: Array, weights: Array) -> tuple[Array, float] | None:
     """Weights above 0 of the places whose sum with f is the same in every law, near to the rule's own if such are."""
     turning = _balanced(rows, weights, weights)
-    if (turning <= _POSITIVE * weights).any():
+    if (turning <= POSITIVE_WEIGHTS * weights).any():
         even = _evenly(rows, weights)
         turning = turning if even is None else _balanced(rows, weights, even)
-    if (turning <= _POSITIVE * weights).any():
+    if (turning <= POSITIVE_WEIGHTS * weights).any():
         return None
     return turning, -float(turning @ right)
 
@@ -168,7 +165,7 @@ def _evenly(rows: Array, weights: Array) -> Array | None:
     # the rule's own times the least share, and what there is more
     moved = (weights[:, None] * rows).T
     matrix = np.vstack([np.column_stack([moved, moved.sum(axis=1)]), np.append(weights, weights.sum())])
-    matrix[:-1] /= np.maximum(np.abs(matrix[:-1]).max(axis=1, keepdims=True), _TINY)
+    matrix[:-1] /= np.maximum(np.abs(matrix[:-1]).max(axis=1, keepdims=True), TINY)
     right, cost = np.zeros(len(matrix)), np.zeros(matrix.shape[1])
     right[-1], cost[-1] = weights.sum(), -1.0
     optimum = linprog(cost, A_eq=matrix, b_eq=right, method="highs")

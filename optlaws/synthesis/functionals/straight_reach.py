@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from optlaws.formulas.of_motion import MotionFormula
 from optlaws.numerics.chebyshev import gauss
+from optlaws.numerics.tolerances import BALANCED, POSITIVE_LEVEL
 from optlaws.synthesis.functionals.curved_rows import columns_of, rule_cells
 from optlaws.synthesis.functionals.sizes import kept_directions
 
@@ -25,7 +26,6 @@ Array = NDArray[np.float64]
 _ORDER = 2
 _ROUNDED = 1.0 + 1e-6
 _CELLS = 6
-_POSITIVE, _BALANCED = 1e-7, 1e-9
 _LARGEST = 1e13
 
 
@@ -89,14 +89,14 @@ def _reaches(slopes: Array, heights: Array) -> tuple[float, float] | None:
     # the shares are at least the last variable, which is as great as may be
     shifted = np.column_stack([matrix, matrix.sum(axis=1)])
     optimum = linprog(cost, A_eq=shifted, b_eq=right, method="highs")
-    if optimum.x is None or optimum.x[-1] < _POSITIVE:
+    if optimum.x is None or optimum.x[-1] < POSITIVE_LEVEL:
         return None
     inverse = np.linalg.pinv(matrix)
     level = optimum.x[:-1] + optimum.x[-1]
     level = level - inverse @ (matrix @ level - right)
     moved = inverse[:, :count]
     off = float(np.abs(matrix @ moved - np.eye(count + cells)[:, :count]).max(initial=0.0))
-    if off > _BALANCED or (level <= 0.0).any():
+    if off > BALANCED or (level <= 0.0).any():
         return None
     factor = beside = 0.0
     for column in moved.T:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.numerics.tolerances import BALANCED, FLAT_INTEGRAL, POSITIVE_SHARES, REACH_SETTLED
 from optlaws.synthesis.families.curved import IntegralFamily
 from optlaws.synthesis.functionals.sizes import kept_directions
 
@@ -21,13 +22,9 @@ Array = NDArray[np.float64]
 
 _ORDER = 2
 _ROUNDED = 1.0 + 1e-6
-_STEPS, _HALVINGS, _SETTLED = 30, 20, 1e-6
-_FLAT = 1e-13
+_STEPS, _HALVINGS = 30, 20
 #: how far from the least value tangents touch, by what would double it; nearer, they are more alike on all sides
 _NEARER = (1.0, 0.25, 0.0625, 0.015625)
-#: how near the weights of tangents that balance are to each other at least
-_POSITIVE = 1e-3
-_BALANCED = 1e-9
 
 
 def tangent_reach(space: LawSpace, plain: IntegralFamily, family: IntegralFamily) -> tuple[int, float, float] | None:
@@ -53,7 +50,7 @@ def tangent_reach(space: LawSpace, plain: IntegralFamily, family: IntegralFamily
     if not np.isfinite(bend).all() or not np.isfinite(lowest).all():
         return None
     sizes, turned = np.linalg.eigh(bend)
-    if sizes[0] <= _FLAT * sizes[-1]:
+    if sizes[0] <= FLAT_INTEGRAL * sizes[-1]:
         return None
     steps = free @ (turned / np.sqrt(sizes))
     far = float(np.sqrt(2.0 * abs(_value(plain, lowest)))) or 1.0
@@ -104,7 +101,7 @@ def _lowest(family: IntegralFamily, x: Array, free: Array) -> Array:
         else:
             return x
         x, before, value = x + step, value, there
-        if before - value <= _SETTLED * abs(value):
+        if before - value <= REACH_SETTLED * abs(value):
             return x
     return x
 
@@ -126,8 +123,8 @@ def _shares(slopes: Array) -> Array | None:
         return None
     inverse = np.linalg.pinv(slopes.T)
     level = np.ones(len(slopes)) - inverse @ slopes.sum(axis=0)
-    if level.min() < _POSITIVE:
+    if level.min() < POSITIVE_SHARES:
         return None
     shares = wanted @ inverse.T
     shares = shares + np.maximum((-shares / level).max(axis=1), 0.0)[:, None] * level
-    return shares if np.abs(shares @ slopes - wanted).max() <= _BALANCED else None
+    return shares if np.abs(shares @ slopes - wanted).max() <= BALANCED else None

@@ -5,14 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.synthesis.method.tolerances import EMPTY_ROW
+from optlaws.numerics.tolerances import DEPENDENT_ROWS, EMPTY_ROW, EQUATION_OFF, NO_MULTIPLIER
 
 Array = NDArray[np.float64]
-
-#: rows of length 1 that are nearer to depending on each other are taken to do so
-_RANK = 1e-11
-_OFF = 1e-9
-_WEIGHTLESS = 1e-12
 
 
 def contradiction(rows: Array, right: Array) -> Array | None:
@@ -33,19 +28,19 @@ def contradiction(rows: Array, right: Array) -> Array | None:
     """
     length = np.linalg.norm(rows, axis=1)
     empty = length < EMPTY_ROW
-    for i in np.flatnonzero(empty & (np.abs(right) > _OFF)):
+    for i in np.flatnonzero(empty & (np.abs(right) > EQUATION_OFF)):
         return _unit(len(right), int(i), -float(np.sign(right[i])))
     length[empty] = 1.0
     rows, right = np.where(empty[:, None], 0.0, rows / length[:, None]), right / length
     multipliers = _of_one_value(rows, right)
     if multipliers is None:
-        residual = right - rows @ np.linalg.lstsq(rows, right, rcond=_RANK)[0]
-        if np.abs(residual).max(initial=0.0) <= _OFF * max(1.0, float(np.abs(right).max(initial=0.0))):
+        residual = right - rows @ np.linalg.lstsq(rows, right, rcond=DEPENDENT_ROWS)[0]
+        if np.abs(residual).max(initial=0.0) <= EQUATION_OFF * max(1.0, float(np.abs(right).max(initial=0.0))):
             return None
         multipliers = -residual
     multipliers = multipliers / length
     multipliers = multipliers / np.abs(multipliers).max()
-    multipliers[np.abs(multipliers) < _WEIGHTLESS] = 0.0
+    multipliers[np.abs(multipliers) < NO_MULTIPLIER] = 0.0
     return np.asarray(multipliers, dtype=np.float64)
 
 
@@ -67,7 +62,7 @@ def independent(rows: Array) -> NDArray[np.bool_]:
         for _ in range(2):
             left = left - directions.T @ (directions @ left)
         new = float(np.linalg.norm(left))
-        if new > _RANK:
+        if new > DEPENDENT_ROWS:
             kept[i] = True
             directions = np.vstack([directions, left / new])
     return kept
@@ -80,7 +75,7 @@ def _of_one_value(rows: Array, right: Array) -> Array | None:
             for sign in (1.0, -1.0):
                 off = right[i] - sign * right[j]
                 same = np.abs(rows[i] - sign * rows[j]).max(initial=0.0) < EMPTY_ROW
-                if same and abs(off) > _OFF * max(1.0, abs(right[i])):
+                if same and abs(off) > EQUATION_OFF * max(1.0, abs(right[i])):
                     size = float(np.sign(off))
                     return _unit(len(right), j, size * sign) + _unit(len(right), i, -size)
     return None

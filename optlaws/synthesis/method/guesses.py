@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.numerics.tolerances import EXCESS, VANISHED
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.curved import IntegralFamily
 from optlaws.synthesis.families.family import ConstraintFamily, NormFamily, Points, Program
-from optlaws.synthesis.method.tolerances import EXCESS, VANISHED
 
 Array = NDArray[np.float64]
 

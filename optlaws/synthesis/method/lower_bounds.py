@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 
 from optlaws.errors import InputError
 from optlaws.numerics.bisection import bisect
+from optlaws.numerics.tolerances import LEAST_STEP
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import ConstraintFamily, NormFamily, Program
 from optlaws.synthesis.families.names import at_least
@@ -38,7 +39,6 @@ from optlaws.synthesis.program.writer import Model, model_of
 Array = NDArray[np.float64]
 
 _FIRST_STEP = 0.25
-_LEAST_STEP = 1e-3
 _WORTHY = 0.2
 _FOLLOWED = 4
 _ROUNDS = 2
@@ -141,7 +141,7 @@ def _continued(
         moved = polished(_with(program, replace(held, bound=bound)), state, lambda _: False)
         if moved is None:
             step /= 2.0
-            if step < _LEAST_STEP:
+            if step < LEAST_STEP:
                 return None
             continue
         state, done = moved, target

@@ -13,19 +13,15 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.numerics.tolerances import DEPENDENT_ROWS, NEWTON_CONVERGED, NEWTON_FULFILLED, NEWTON_STALLED, NEWTON_STILL
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Program
 
 Array = NDArray[np.float64]
 
 _STEPS = 14
-_CONVERGED = 1e-13
-_STALLED = 1e-10
 _FAR = 1.05
 _WILD = 1e6
-_RANK = 1e-11
-_FULFILLED = 1e-9
-_STILL = 1e-6
 
 
 def newton(program: Program, start: ActiveSet, *, deficient: bool = False) -> ActiveSet | None:
@@ -46,9 +42,9 @@ def newton(program: Program, start: ActiveSet, *, deficient: bool = False) -> Ac
         size = float(steps[: program.size].max()) / scale
         # x may stand still where the conditions do not hold: in a deficient system, or where the optimum is flat
         off = max(float(defects[: program.size].max()), float(defects[program.size :].max(initial=0.0)) / scale)
-        if off < _FULFILLED and (size < _CONVERGED or (size < _STALLED and size > previous / 4)):
-            wandering = float(steps.max()) > _STILL
-            if not wandering or off < _STALLED:
+        if off < NEWTON_FULFILLED and (size < NEWTON_CONVERGED or (size < NEWTON_STALLED and size > previous / 4)):
+            wandering = float(steps.max()) > NEWTON_STILL
+            if not wandering or off < NEWTON_STALLED:
                 return before if wandering else state
         if np.any(np.abs(state.u) > _FAR):
             return None
@@ -101,7 +97,7 @@ def _step(system: Array, defect: Array, *, deficient: bool) -> Array:
             if np.abs(step).max(initial=0.0) < _WILD:
                 return step
     # where the optimum is not unique the shortest step leads to one of them
-    return np.linalg.lstsq(system, -defect, rcond=_RANK)[0].astype(np.float64, copy=False)
+    return np.linalg.lstsq(system, -defect, rcond=DEPENDENT_ROWS)[0].astype(np.float64, copy=False)
 
 
 def _moved(state: ActiveSet, step: Array) -> ActiveSet:

@@ -14,6 +14,7 @@ from itertools import islice
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.numerics.tolerances import DIRECTION_SETTLED, FLAT_DIRECTION
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import LinearFamily, NormFamily, Program
 from optlaws.synthesis.method.exchange import solve
@@ -25,8 +26,6 @@ _BEGUN = 8
 _FOLLOWED = 2
 _TURNS = 20
 _ROUNDS = 4
-_SETTLED = 1e-10
-_FLAT = 1e-9
 
 
 def along_directions(
@@ -53,10 +52,10 @@ def along_directions(
 def _directions(family: NormFamily, plain: ActiveSet) -> Iterator[Array]:
     """Where the norm points without the bound, and where it grows soonest with the coordinates, either way."""
     image = _image(family, plain.x)
-    if np.linalg.norm(image) > _FLAT:
+    if np.linalg.norm(image) > FLAT_DIRECTION:
         yield image / np.linalg.norm(image)
     axes, sizes, _ = np.linalg.svd(family.matrix[:, :-1], full_matrices=False)
-    for axis in axes.T[: min(_DIRECTIONS, int((sizes > _FLAT * sizes[0]).sum()))]:
+    for axis in axes.T[: min(_DIRECTIONS, int((sizes > FLAT_DIRECTION * sizes[0]).sum()))]:
         yield axis
         yield -axis
 
@@ -71,7 +70,7 @@ def _turned(
         if better is None or better[0].objective_at(better[1].x) > before:
             break
         way = better
-        if before - way[0].objective_at(way[1].x) < _SETTLED * abs(before):
+        if before - way[0].objective_at(way[1].x) < DIRECTION_SETTLED * abs(before):
             break
     return way
 

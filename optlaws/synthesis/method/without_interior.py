@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.numerics.bisection import bisect
+from optlaws.numerics.tolerances import EQUATIONS_RANK, LEAST_INTERIOR
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import NormFamily, Program
 from optlaws.synthesis.method.exchange import solve
@@ -28,9 +29,6 @@ Array = NDArray[np.float64]
 _LOOSENED = (1e-8, 1e-10, 1e-12)
 _CLOSER = 0.1
 _HALVINGS = 50
-#: the most by which the law with most room may break a bound
-_ROOM = 1e-11
-_NO_EQUATIONS = 1e-12
 
 
 def fallbacks_without_interior(model: Model) -> Iterator[tuple[ActiveSet, Array]]:
@@ -51,7 +49,7 @@ def fallbacks_without_interior(model: Model) -> Iterator[tuple[ActiveSet, Array]
     if anchor is None:
         return
     roomy = model.coordinates(on_equations(elastic.program, anchor.x))
-    if excess(roomy) > _ROOM:
+    if excess(roomy) > LEAST_INTERIOR:
         return
     state: ActiveSet | None = None
     for share in _LOOSENED:
@@ -79,9 +77,9 @@ def _closer(program: Program, state: ActiveSet, roomy: Array) -> ActiveSet:
 def on_equations(program: Program, x: Array) -> Array:
     """The nearest x that keeps the equations to rounding; x itself if it does."""
     off = program.right - program.equalities @ x
-    if float(np.abs(off).max(initial=0.0)) <= _NO_EQUATIONS * max(1.0, float(np.abs(x).max(initial=0.0))):
+    if float(np.abs(off).max(initial=0.0)) <= EQUATIONS_RANK * max(1.0, float(np.abs(x).max(initial=0.0))):
         return x
-    return np.asarray(x + np.linalg.lstsq(program.equalities, off, rcond=_NO_EQUATIONS)[0])
+    return np.asarray(x + np.linalg.lstsq(program.equalities, off, rcond=EQUATIONS_RANK)[0])
 
 
 def _inward(near: Array, roomy: Array, excess: Callable[[Array], float]) -> Array:

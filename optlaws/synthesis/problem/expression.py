@@ -10,9 +10,10 @@ from typing import Any
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.numbers import MAGNITUDE_LIMIT, power_of_two, real
+from optlaws.numerics.tolerances import LEAST_WEIGHT
 
 #: weights beyond are part of an objective's scale
-_LEAST_WEIGHT, _GREATEST_WEIGHT = 1e-3, 1e3
+_GREATEST_WEIGHT = 1e3
 
 
 class Term:
@@ -100,7 +101,7 @@ class Expression:
         """
         unit = max(term.scale for _, term in self.terms)
         share = max(weight * (term.scale / unit) for weight, term in self.terms)
-        return unit if _LEAST_WEIGHT < share < _GREATEST_WEIGHT else unit * power_of_two(share)
+        return unit if LEAST_WEIGHT < share < _GREATEST_WEIGHT else unit * power_of_two(share)
 
     def weights(self) -> dict[str, float]:
         """Weights by the name of the term."""

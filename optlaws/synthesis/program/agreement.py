@@ -8,14 +8,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from optlaws.errors import InputError
+from optlaws.numerics.tolerances import ROWS_AGREE
 from optlaws.synthesis.problem.constants import Functional
 
 if TYPE_CHECKING:
     from optlaws.synthesis.spaces.space import LawSpace
 
 _LAWS = 3
-#: of the value: what rows and values computed in different ways may be apart
-_AGREED = 1e-5
 
 
 def check_rows(constant: Functional, space: LawSpace) -> None:
@@ -39,7 +38,7 @@ def _check(constant: Functional, space: LawSpace) -> None:
         rows = max(float(family.extremes(x)[2].max()) for family in families)
         value = constant.value(space.law(x))
         # what is the same for every law, such as the rounding of a peak of nothing, says nothing
-        if abs(rows - value) > _AGREED * max(abs(rows), abs(value)) and max(abs(rows), abs(value)) > _AGREED:
+        if abs(rows - value) > ROWS_AGREE * max(abs(rows), abs(value)) and max(abs(rows), abs(value)) > ROWS_AGREE:
             raise contradiction(constant, rows, value)
 
 

@@ -6,16 +6,12 @@ from dataclasses import dataclass
 from math import inf, isfinite
 
 from optlaws.laws import MotionLaw
+from optlaws.numerics.tolerances import BOUND_FEASIBILITY, BOUND_SHORT
 from optlaws.synthesis.functionals.kinds import greatest_along
 from optlaws.synthesis.problem.constants import B, Functional
 from optlaws.synthesis.problem.expression import Expression, Maximum
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.windows import Window
-
-#: of a bound: by so much a law may break a constraint and still keep it
-_ALLOWED = 1e-9
-#: of a lower bound: a constant that is short by more is too small
-_SHORT = 1e-9
 
 
 @dataclass(frozen=True)
@@ -28,7 +24,7 @@ class Worth:
     @property
     def sound(self) -> bool:
         """Whether the law keeps its constraints and its objective is a number."""
-        return self.excess <= _ALLOWED and isfinite(self.objective)
+        return self.excess <= BOUND_FEASIBILITY and isfinite(self.objective)
 
 
 def worth(problem: Problem, law: MotionLaw) -> Worth:
@@ -89,7 +85,7 @@ def shortfalls(problem: Problem, law: MotionLaw) -> dict[Functional, float]:
 
 def reaches(law: MotionLaw, constant: Functional, low: float) -> bool:
     """Whether a constant of a law is no less than its lower bound, but for rounding."""
-    return constant.value(law) >= low * (1.0 - _SHORT)
+    return constant.value(law) >= low * (1.0 - BOUND_SHORT)
 
 
 def _total(expression: Expression, law: MotionLaw, values: dict[str, float]) -> float:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from optlaws.formulas.of_motion import MotionFormula
 from optlaws.laws import MotionLaw
+from optlaws.numerics.tolerances import REST_VELOCITY
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, Program
 from optlaws.synthesis.families.names import RowName, VariableName
@@ -95,7 +96,6 @@ def model_of(problem: Problem, *, scaled: bool = True) -> Model:
     return replace(_model(problem, scaled=scaled), problem=problem)
 
 
-_REST = 1e-15
 _ABOVE_MEAN = nextafter(1.0, 2.0)
 _ANY = 2.0
 
@@ -368,7 +368,7 @@ class _Writer:
             self.families.append(self.space.from_rest(RowName.FROM_START, root, weights=weights))
         if self.space.symmetric and mirrored != power.weights:
             self.families.append(self.space.from_rest(RowName.FROM_END, root, weights=floats(mirrored)))
-        if not self.space.symmetric and abs(end_velocity) < _REST:
+        if not self.space.symmetric and abs(end_velocity) < REST_VELOCITY:
             self.families.append(self.space.from_rest(RowName.FROM_END, root, backward=True, weights=weights))
         self.row(RowName.TANGENT, 2.0 * self.tangent * root - slack, bound + self.tangent**2)
 

@@ -20,6 +20,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.numbers import bounded
+from optlaws.numerics.tolerances import NEIGHBOUR_DISTANCE, NEIGHBOUR_SHARE
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, least_violation, model_of, relaxed
 from optlaws.synthesis.proof import data as stored
@@ -33,8 +34,6 @@ from optlaws.synthesis.proof.power.rows_of_problem import rows_of
 Array = NDArray[np.float64]
 
 OBJECTIVE, RELAXED, VIOLATION = "objective", "relaxed", "violation"
-#: how far from a contact its neighbours are, and how much of its multiplier each takes
-_NEAR, _SHARE = 2.0**-12, 2.0**-14
 
 
 @dataclass(frozen=True)
@@ -281,6 +280,10 @@ def _contradiction(certificate: Certificate, model: Model) -> float:
 def _neighbourhood(contact: Contact) -> list[tuple[float, float]]:
     """A contact's place, and two beside it that take a little of its multiplier: where it is need not be exact."""
     k = contact.k
-    if contact.direction or not _NEAR < k < 1.0 - _NEAR:
+    if contact.direction or not NEIGHBOUR_DISTANCE < k < 1.0 - NEIGHBOUR_DISTANCE:
         return [(k, 1.0)]
-    return [(k, 1.0 - 2.0 * _SHARE), (k - _NEAR, _SHARE), (k + _NEAR, _SHARE)]
+    return [
+        (k, 1.0 - 2.0 * NEIGHBOUR_SHARE),
+        (k - NEIGHBOUR_DISTANCE, NEIGHBOUR_SHARE),
+        (k + NEIGHBOUR_DISTANCE, NEIGHBOUR_SHARE),
+    ]

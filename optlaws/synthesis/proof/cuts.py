@@ -11,6 +11,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.numerics.tolerances import CUTS_ENOUGH
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.curved import IntegralFamily
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, Points
@@ -29,8 +30,6 @@ _BESIDE = (1e-2, 1e-5, 1e-8)
 _SHARES = (1.0, 0.3, 1e-2, 1e-4, 1e-7)
 #: how far a vertex may be from the law, in the same
 _AROUND = 10.0
-#: of the objective: what may be left
-_ENOUGH = 2e-9
 _TANGENTS = 600
 
 
@@ -92,7 +91,7 @@ class _Tangents:
                 multipliers[binding], equations = balanced
             proof = self._stated(np.split(multipliers / table.length, ends[:-1]), points, equations)
             best = proof if best is None or proof.bound > best.bound else best
-            if best.bound >= objective - _ENOUGH * max(abs(objective), _ENOUGH) or len(self.rows) > _TANGENTS:
+            if best.bound >= objective - CUTS_ENOUGH * max(abs(objective), CUTS_ENOUGH) or len(self.rows) > _TANGENTS:
                 return best
             for share in _SHARES:
                 self._touch(self.x + share * (vertex.x - self.x))

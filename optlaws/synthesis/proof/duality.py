@@ -13,6 +13,7 @@ from math import fsum, inf
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.numerics.tolerances import WEIGHTED_ROUNDING
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.curved import FormulaFamily
 from optlaws.synthesis.families.energy import EnergyFamily
@@ -26,8 +27,6 @@ Array = NDArray[np.float64]
 Line = tuple[float, Array, float]
 
 _FACING = {"C_plus": "C_minus", "C_minus": "C_plus"}
-#: roundings in a row before it is weighted, and of the sum
-_UNIT = 9 * 2.0**-53
 _SPLIT = 2.0**27 + 1.0
 
 
@@ -121,7 +120,7 @@ def summed(model: Model, lines: list[Line]) -> RowSum:
     weights = np.array([weight for weight, _, _ in lines])
     rows = np.array([[*row, -right] for _, row, right in lines]).reshape(-1, model.program.size + 1)
     total = _weighted(weights, rows, np.append(model.program.objective, 0.0))
-    hidden = _UNIT * (np.abs(weights) @ np.abs(rows))
+    hidden = WEIGHTED_ROUNDING * (np.abs(weights) @ np.abs(rows))
     slope = total[:-1]
     variables = list(model.places.values())
     # the entries of the variables are exact, and so is a sum that is zero

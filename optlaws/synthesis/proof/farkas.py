@@ -11,10 +11,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.numerics.tolerances import FARKAS_FIRM, FARKAS_ROUNDING
+
 Array = NDArray[np.float64]
 
-_ROUNDING = 1e-14
-_FIRM = 1e-10
 #: in units of free functions with peak acceleration 1; of a greater law no double tells whether it keeps the rows
 _GREATEST = 1e12
 _ROUNDS = 3
@@ -47,13 +47,13 @@ def farkas_margin(rows: Array, right: Array, multipliers: Array, count: int) -> 
     values = np.linalg.svd(columns, compute_uv=False)
     corrected = multipliers.copy()
     for _ in range(_ROUNDS):
-        corrected = corrected - np.linalg.lstsq(columns, rows.T @ corrected, rcond=_FIRM)[0] * ease / length
+        corrected = corrected - np.linalg.lstsq(columns, rows.T @ corrected, rcond=FARKAS_FIRM)[0] * ease / length
     if (corrected[:count] < 0.0).any():
         corrected = multipliers
     rest = rows.T @ corrected
     value = -float(corrected @ right)
-    uncertain = float(np.linalg.norm(rest)) + _ROUNDING * float(np.abs(corrected) @ length)
-    firm = len(rows) >= rows.shape[1] and float(values[-1]) > _FIRM * float(values[0])
+    uncertain = float(np.linalg.norm(rest)) + FARKAS_ROUNDING * float(np.abs(corrected) @ length)
+    firm = len(rows) >= rows.shape[1] and float(values[-1]) > FARKAS_FIRM * float(values[0])
     if firm:
         moved = uncertain / float(values[-1]) * ease / length
         if (corrected[:count] >= moved[:count]).all():

@@ -8,6 +8,7 @@ from math import ceil, floor
 import numpy as np
 
 from optlaws.errors import InfeasibleProblem, SolverFailure
+from optlaws.numerics.tolerances import DEEP_LAW_EXCESS, INFEASIBLE_WEIGHTLESS
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.family import LinearFamily, Points
@@ -27,10 +28,8 @@ from optlaws.synthesis.proof.make import certificate, violation_certificate
 from optlaws.synthesis.proof.no_law import beyond_limit, convex_part, least_of
 from optlaws.synthesis.spaces.bases import Basis, PolynomialBasis
 
-_WEIGHTLESS = 1e-9
 _ROUNDS = 6
 _DEEP = 1e5  # beyond what laws of the field have
-_KEPT = 1e-3  # by how much a law so far down may miss a bound
 _PLAIN = 2  # so few equations contradict each other whatever freedom the law has
 _MORE_FREEDOM = {
     PolynomialBasis: "A higher degree of Z",
@@ -112,7 +111,7 @@ def _falls_for_ever(problem: Problem) -> bool:
     deepest = solve(held).optimum
     # so far down nothing shows which contacts are exact: a law that keeps all bounds is enough
     x = solve_on_points(held, first_points(held), None).x if deepest is None else deepest.x
-    return program.objective_at(x) < -0.99 * depth and program.violation(x) < _KEPT
+    return program.objective_at(x) < -0.99 * depth and program.violation(x) < DEEP_LAW_EXCESS
 
 
 def _contradiction(proof: Certificate) -> str:
@@ -204,7 +203,7 @@ def _equations(problem: Problem, proof: Certificate, elastic: Model) -> list[str
         if name == names.velocity_at_peak(problem.peak_at) and isinstance(problem.B, float)
         else name
         for name, weight in zip(elastic.equation_names, weights, strict=True)
-        if abs(weight) > _WEIGHTLESS
+        if abs(weight) > INFEASIBLE_WEIGHTLESS
     ]
 
 

@@ -8,6 +8,7 @@ from math import nextafter
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.numerics.tolerances import APEX, DIRECTIONS_BALANCED, DIRECTIONS_RANK, PROOF_ENOUGH, PROOF_WEIGHTLESS
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.curved import FormulaFamily
@@ -36,13 +37,6 @@ Array = NDArray[np.float64]
 _TANGENTS = 4
 _PLACES = 256
 _NEAR = 0.9
-#: of the sum of magnitudes: a norm that is less is 0 but for rounding
-_APEX = 1e-11
-_NOTHING = 1e-14
-#: what may be left of the balance of a sum of rows, and which directions of a change count
-_BALANCED, _RANK = 1e-13, 1e-10
-#: of the objective: a bound that leaves no more needs no other proof
-_ENOUGH = 5e-9
 _MORE = 2.0  # times as much as rounding lets go
 
 
@@ -87,7 +81,7 @@ def certify(model: Model, optimum: ActiveSet, objective: float, limit: float | N
 def _of_convex(model: Model, optimum: ActiveSet, objective: float) -> Certificate:
     """The certificate of the optimum of a convex problem."""
     proof = certificate(model, optimum, OBJECTIVE)
-    if objective - proof.bound <= _ENOUGH * max(abs(objective), _ENOUGH):
+    if objective - proof.bound <= PROOF_ENOUGH * max(abs(objective), PROOF_ENOUGH):
         return proof
     # constants that are nowhere below 0 bound their sum without a contact
     proof = max(proof, Certificate.of_leaf(model.problem), key=lambda known: known.bound)
@@ -151,7 +145,7 @@ def _direction(family: NormFamily, x: Array) -> tuple[float, ...]:
     """The unit vector along a norm's image; 0 where rounding alone is left of that, and every direction is as good."""
     image = family.matrix @ x
     length = float(np.linalg.norm(image))
-    known = length > _APEX * float(np.linalg.norm(np.abs(family.matrix) @ np.abs(x)))
+    known = length > APEX * float(np.linalg.norm(np.abs(family.matrix) @ np.abs(x)))
     return tuple((image / length if known else np.zeros_like(image)).tolist())
 
 
@@ -182,7 +176,7 @@ def _held(model: Model, proof: Certificate) -> Certificate:
 def violation_certificate(model: Model, optimum: ActiveSet) -> Certificate:
     """The certificate that no law exists, without multipliers that are mere rounding."""
     sizes = (optimum.multipliers, optimum.equality_multipliers)
-    least = _NOTHING * max((float(np.abs(size).max(initial=0.0)) for size in sizes), default=0.0)
+    least = PROOF_WEIGHTLESS * max((float(np.abs(size).max(initial=0.0)) for size in sizes), default=0.0)
     kept = [np.where(np.abs(size) < least, 0.0, size) for size in sizes]
     plain = replace(optimum, multipliers=kept[0], equality_multipliers=kept[1])
     return certificate(model, plain, VIOLATION)
@@ -207,10 +201,10 @@ def _balanced(model: Model, proof: Certificate) -> Certificate:
         return proof
     images = [_image(model, contact) for contact in proof.contacts]
     slope = _slope(model, proof)
-    if all(image is None for image in images) or np.abs(slope).max(initial=0.0) <= _BALANCED:
+    if all(image is None for image in images) or np.abs(slope).max(initial=0.0) <= DIRECTIONS_BALANCED:
         return proof
     pulls = [c.multiplier * image for c, image in zip(proof.contacts, images, strict=True) if image is not None]
-    change = np.linalg.lstsq(np.vstack(pulls).T, -slope, rcond=_RANK)[0]
+    change = np.linalg.lstsq(np.vstack(pulls).T, -slope, rcond=DIRECTIONS_RANK)[0]
     parts = iter(np.split(change, np.cumsum([len(pull) for pull in pulls])[:-1]))
     contacts = tuple(
         contact if image is None else _with_direction(contact, np.array(contact.direction) + next(parts))

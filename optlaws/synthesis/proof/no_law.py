@@ -8,14 +8,12 @@ from math import isfinite
 from typing import Any, NamedTuple
 
 from optlaws.errors import InputError
+from optlaws.numerics.tolerances import VALUE_ROUNDING
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.fields import CONSTANTS
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
-
-#: of a limit, which is computed in doubles
-_ROUNDING = 1e-12
 
 
 class Ground(NamedTuple):
@@ -118,7 +116,7 @@ def beyond_limit(problem: Problem) -> str:
     """
     for constant, asked in problem.bounded:
         least = known_limit(replace(problem, minimise=constant.expression()))
-        if least is not None and asked.high < least * (1.0 - _ROUNDING):
+        if least is not None and asked.high < least * (1.0 - VALUE_ROUNDING):
             return (
                 f"no law of any degree has {constant!r} <= {asked.high:g} with the other constraints: "
                 f"its limit is {least:.7g} (optlaws.limit). A higher bound of {constant!r} helps, or another B"

@@ -11,6 +11,7 @@ from math import inf, isfinite
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.numerics.tolerances import SUBLEVEL_RANK
 from optlaws.synthesis.families.names import VariableName
 from optlaws.synthesis.problem.constants import Functional, PeakConstant, PowerConstant
 from optlaws.synthesis.problem.expression import Expression, Maximum, Term, leaves
@@ -22,7 +23,6 @@ from optlaws.synthesis.spaces.space import LawSpace
 Array = NDArray[np.float64]
 
 _ACCELERATION = 2
-_UNIT = 1e-15
 
 
 def asked_or_claimed(model: Model, claim: float) -> dict[str, float]:
@@ -163,7 +163,7 @@ def _extension(space: LawSpace, nu: int) -> Array:
         functions, sizes, weights = np.linalg.svd(moments.T, full_matrices=False)
         # what has no such derivative would be told from it by rounding alone
         sizes = sizes[: max(len(moments.T) - space.vanishing(nu), 0)]
-        sizes = sizes[sizes > _UNIT * sizes.max(initial=0.0)]
+        sizes = sizes[sizes > SUBLEVEL_RANK * sizes.max(initial=0.0)]
         return np.asarray(weights[: len(sizes)].T @ (functions[:, : len(sizes)] / sizes).T, dtype=np.float64)
 
     return space.cached(("extension", nu), computed)

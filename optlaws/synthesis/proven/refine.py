@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
 from optlaws.numbers import positive, real
+from optlaws.numerics.tolerances import NARROWEST, PROVEN_GAP
 from optlaws.synthesis.arrays.dual_bounds import bounds_below, rounding_charge, sharp_sums
 from optlaws.synthesis.families.family import LinearFamily
 from optlaws.synthesis.pareto import least_value, where_it_pays
@@ -35,10 +36,8 @@ Array = NDArray[np.float64]
 _FIRST, _MOST_PIECES = 17, 8
 #: of the wanted gap, what is aimed at: widths are whole parts of others
 _AIM = 0.9
-#: of the range: laws nearer to each other than this are one
-_NARROWEST = 1e-12
 #: of the objective, and of the wanted gap: laws whose own gap is greater than both are looked at alone
-_PROVEN, _LEFT = 1e-10, 0.4
+_LEFT = 0.4
 _CHUNK = 4096
 
 #: by how much above its least value a number begins, where nearer to it too little is proven
@@ -150,7 +149,7 @@ class _Refined:
                 if count > 1
             ]
         )
-        laws, known = self._solved(new, max(_PROVEN, _LEFT * gap))
+        laws, known = self._solved(new, max(PROVEN_GAP, _LEFT * gap))
         together = np.concatenate([self.values, new])
         order = np.argsort(together)
         every = self.laws + laws
@@ -213,7 +212,7 @@ class _Refined:
         """Refuse a gap that certified laws have themselves: no law between them would mend it."""
         own = self.own_gaps
         worst = int(np.argmax(own))
-        narrow = np.diff(self.values).min() <= _NARROWEST * float(np.ptp(self.values))
+        narrow = np.diff(self.values).min() <= NARROWEST * float(np.ptp(self.values))
         if own[worst] <= gap and not narrow:
             return
         value = float(self.values[worst])

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
+from optlaws.numerics.tolerances import PRODUCT_ROUNDING
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.problem.constants import ALIASES, FUNCTIONALS, MAKERS, Functional
 from optlaws.synthesis.problem.expression import Expression, Term
@@ -30,8 +31,6 @@ from optlaws.synthesis.solution import measure
 Array = NDArray[np.float64]
 Ends = tuple[float, float]
 
-#: of a product, what rounding of it and of its factors can be
-_ROUNDED = 2.0**-50
 #: before the name of a term of the objective: its weight runs
 WEIGHT = "weight of "
 
@@ -201,7 +200,7 @@ def _rates(number: SweptParameter, ends: Ends, *rows: list[tuple[float, Array, f
         raise InputError(f"{number.name} changes more than right sides of rows, so that nothing is proven between")
     low, high = (np.array([right for _, _, right in some]) for some in rows)
     rates = (high - low) / (ends[1] - ends[0])
-    return rates, np.where(rates == 0.0, 0.0, _ROUNDED * np.maximum(np.abs(low), np.abs(high)))
+    return rates, np.where(rates == 0.0, 0.0, PRODUCT_ROUNDING * np.maximum(np.abs(low), np.abs(high)))
 
 
 def gap_bounds(t: Array, known: Array, scale: float | Array, *, concave: bool) -> Array:

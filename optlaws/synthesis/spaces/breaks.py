@@ -9,8 +9,7 @@ from numbers import Integral
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.numbers import MOST_DEGREE, MOST_PIECES, listed, numbers, whole
-
-_MIRROR = 1e-12
+from optlaws.numerics.tolerances import MIRROR
 
 
 def places(breaks: int | Sequence[float]) -> tuple[float, ...]:
@@ -43,7 +42,7 @@ def mirrored(breaks: Sequence[float]) -> bool:
     >>> mirrored((0.0, 0.3, 0.7, 1.0)), mirrored((0.0, 0.3, 1.0))
     (True, False)
     """
-    return all(abs(place + other - 1.0) <= _MIRROR for place, other in zip(breaks, reversed(breaks), strict=True))
+    return all(abs(place + other - 1.0) <= MIRROR for place, other in zip(breaks, reversed(breaks), strict=True))
 
 
 def order_of_continuity(continuity: int, degree: int) -> int:

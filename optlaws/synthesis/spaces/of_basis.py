@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
+from optlaws.numerics.tolerances import CONVERSION_AGREES
 from optlaws.synthesis.spaces.bases import Basis, Pieces, PolynomialBasis
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 from optlaws.synthesis.spaces.pieces.free import PieceSpace, piece_space
@@ -19,7 +20,7 @@ from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
 
 #: the greatest degree at which conversions are compared, where even powers lose no digits, and how near they come
-_CHECKED, _AGREED = 6, 1e-8
+_CHECKED = 6
 
 
 @singledispatch
@@ -63,7 +64,7 @@ def check_conversions(basis: PolynomialBasis) -> None:
         series = np.asarray(basis.series(tuple(coefficients.tolist())), dtype=np.float64)
         if coefficients.shape == back.shape and series.ndim == 1 and len(series) <= len(back):
             back[: len(series)] = series
-            if np.abs(back - given).max() <= _AGREED:
+            if np.abs(back - given).max() <= CONVERSION_AGREES:
                 continue
         raise InputError(
             f"{type(basis).__name__}.coefficients and .series contradict each other at degree {basis.degree}: the "

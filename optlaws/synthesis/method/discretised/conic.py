@@ -12,14 +12,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.numerics.tolerances import CONIC_SOLVER, EMPTY_ROW
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily, Points, Program
 from optlaws.synthesis.method.discretised.ipopt import Answer
-from optlaws.synthesis.method.tolerances import EMPTY_ROW
 
 Array = NDArray[np.float64]
 
-_TOLERANCE = 1e-12
 _USABLE = ("Solved", "AlmostSolved")
 
 
@@ -70,7 +69,7 @@ def optimum_on_points(program: Program, points: list[Points]) -> Answer | None:
     right = np.concatenate([program.right * scale, *(block.right for block in blocks)])
     cones = [clarabel.ZeroConeT(len(scale)), *(cone for block in blocks for cone in block.cones)]
     straight = np.zeros((program.size, program.size))
-    optimum = conic_optimum(straight, program.objective, matrix, right, cones, tolerance=_TOLERANCE)
+    optimum = conic_optimum(straight, program.objective, matrix, right, cones, tolerance=CONIC_SOLVER)
     if optimum is None:
         return None
     ends = np.cumsum([len(scale), *(len(block.right) for block in blocks)])[:-1]

@@ -14,19 +14,14 @@ from numpy.typing import NDArray
 
 from optlaws.formulas.arithmetic import casadi_arithmetic, evaluate
 from optlaws.formulas.branches import rounded
+from optlaws.numerics.tolerances import KINK_RADIUS, LEAST_ENERGY, LEAST_SUM, SMOOTH_NORM
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.curved import FormulaFamily, IntegralFamily
-from optlaws.synthesis.families.energy import LEAST_ROOT, EnergyFamily
+from optlaws.synthesis.families.energy import EnergyFamily
 from optlaws.synthesis.families.family import ConstraintFamily, NormFamily, Points, ProductFamily
 from optlaws.synthesis.families.kinked import KinkedIntegralFamily
 
 Array = NDArray[np.float64]
-
-#: keeps the norm's slope finite where it vanishes; Newton's method on the exact active set goes without it
-_SMOOTH = 1e-12
-_LEAST_SUM = 1e-24
-#: within which kinks are rounded: interior points need slopes that are continuous
-_RADIUS = 0.003
 
 
 def _product_numbers(family: ProductFamily, points: Points) -> list[Array]:
@@ -56,7 +51,7 @@ def _norm_numbers(family: NormFamily, _: Points) -> list[Array]:
 def _norm(point: Any, symbols: list[Any], _: Hashable) -> Any:  # noqa: ANN401
     import casadi as ca
 
-    return ca.sqrt(ca.sumsqr(symbols[0] @ point) + _SMOOTH)
+    return ca.sqrt(ca.sumsqr(symbols[0] @ point) + SMOOTH_NORM)
 
 
 def _energy_numbers(family: EnergyFamily, points: Points) -> list[Array]:
@@ -81,7 +76,7 @@ def _energy(point: Any, symbols: list[Any], detail: Any) -> Any:  # noqa: ANN401
 
     def root(first: Any, second: Any) -> Any:  # noqa: ANN401
         top = second @ point
-        return ca.sqrt(ca.fmax((first @ point) * top, LEAST_ROOT * top**2))
+        return ca.sqrt(ca.fmax((first @ point) * top, LEAST_ENERGY * top**2))
 
     Y = 0.5 / ca.sum1(root(below, above))
     product = Y**degree
@@ -101,7 +96,7 @@ def _formula_detail(family: Any) -> Hashable:  # noqa: ANN401
     """The formula, its names, whether it is summed over its places, and whether the root of that is meant."""
     if not isinstance(family, IntegralFamily):
         return family.formula, family.names, False, False
-    formula = rounded(family.formula, _RADIUS) if isinstance(family, KinkedIntegralFamily) else family.formula
+    formula = rounded(family.formula, KINK_RADIUS) if isinstance(family, KinkedIntegralFamily) else family.formula
     return formula, family.names, True, family.root
 
 
@@ -113,7 +108,7 @@ def _formula(point: Any, symbols: list[Any], detail: Any) -> Any:  # noqa: ANN40
     at = {name: column @ point for name, column in zip(names, columns, strict=True)}
     values = weights * evaluate(formula, {**at, "k": k}, casadi_arithmetic())
     total = ca.sum1(values) if summed else values
-    return ca.sqrt(total + _LEAST_SUM) if root else total
+    return ca.sqrt(total + LEAST_SUM) if root else total
 
 
 @dataclass(frozen=True)

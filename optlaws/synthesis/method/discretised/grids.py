@@ -7,8 +7,8 @@ from numpy.polynomial.chebyshev import chebpts2
 from numpy.typing import NDArray
 
 from optlaws.numerics.chebyshev import nodes
+from optlaws.numerics.tolerances import NEARLY_BINDING
 from optlaws.synthesis.families.family import ConstraintFamily, EvenFamily, Points, Program
-from optlaws.synthesis.method.tolerances import NEARLY_BINDING
 
 Array = NDArray[np.float64]
 

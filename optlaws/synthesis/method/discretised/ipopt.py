@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.locks import casadi_lock
+from optlaws.numerics.tolerances import EMPTY_ROW
 from optlaws.synthesis.families.family import LinearFamily, Points, Program
 from optlaws.synthesis.method.discretised.expressions import CONES, RowShape, order_of, shape_and_numbers
-from optlaws.synthesis.method.tolerances import EMPTY_ROW
 
 Array = NDArray[np.float64]
 

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.numerics.tolerances import FLAT_GAP, SIZE_RANK, VERTEX_BALANCED, VERTEX_HELD
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import LinearFamily, Points, Program
 from optlaws.synthesis.method.discretised.ipopt import Answer
@@ -25,10 +26,6 @@ Array = NDArray[np.float64]
 #: together, the better they say where x is: as few as their own number, hardly independent, miss by 1e-10 in between
 _FEWER = (1e-2, 1.0, 1e2, 1e4)
 _MORE = (1.0, 1e-2, 1e-4, 1e-6, 1e-8)
-_GAP = 1e-9
-_RANK = 1e-12
-_HELD = 1e-11
-_BALANCED = 1e-12
 # where a way ends without an answer, the next is asked: a presolve or a tolerance may be what stops it
 _WAYS = (("highs-ds", True, 1e-10), ("highs-ds", False, 1e-10), ("highs-ds", False, 1e-9), ("highs-ipm", True, 1e-10))
 _OPTIMAL, _INFEASIBLE = 0, 2
@@ -61,7 +58,7 @@ def sharpened(program: Program, points: list[Points], answer: Answer) -> ActiveS
             multipliers, equations = balance
             kept = np.flatnonzero(binding)
             gap = float(np.abs(multipliers * table.residuals(x)[kept]).sum())
-            if gap > _GAP * max(1.0, abs(program.objective_at(x))):
+            if gap > FLAT_GAP * max(1.0, abs(program.objective_at(x))):
                 return None
             return ActiveSet(
                 x=x,
@@ -91,14 +88,14 @@ class LinearTable:
     def __init__(self, program: Program, points: list[Points]) -> None:
         self.objective = program.objective
         self.equation_length = np.linalg.norm(program.equalities, axis=1)
-        self.equation_length[self.equation_length < _RANK] = 1.0
+        self.equation_length[self.equation_length < SIZE_RANK] = 1.0
         self.equations = program.equalities / self.equation_length[:, None]
         self.equation_right = program.right / self.equation_length
         families = [family for family in program.families if isinstance(family, LinearFamily)]
         parts = [family.rows(held.u, held.s) for family, held in zip(families, points, strict=True)]
         rows = np.vstack([np.empty((0, program.size)), *(part for part, _ in parts)])
         self.length = np.linalg.norm(rows, axis=1)
-        self.length[self.length < _RANK] = 1.0
+        self.length[self.length < SIZE_RANK] = 1.0
         self.rows = rows / self.length[:, None]
         self.right = np.concatenate([np.empty(0), *(right for _, right in parts)]) / self.length
         self.family = np.repeat(np.arange(len(families)), [len(held.u) for held in points])
@@ -114,9 +111,9 @@ class LinearTable:
         matrix = np.vstack([self.rows[binding], self.equations])
         right = np.concatenate([self.right[binding], self.equation_right])
         for _ in range(2):
-            x = x + np.linalg.lstsq(matrix, right - matrix @ x, rcond=_RANK)[0]
+            x = x + np.linalg.lstsq(matrix, right - matrix @ x, rcond=SIZE_RANK)[0]
         left = np.abs(matrix @ x - right).max(initial=0.0)
-        return x if left <= _HELD * max(1.0, float(np.abs(x).max())) else None
+        return x if left <= VERTEX_HELD * max(1.0, float(np.abs(x).max())) else None
 
     def balanced(self, binding: NDArray[np.bool_], weights: Array, equations: Array) -> tuple[Array, Array] | None:
         """Multipliers near the given ones that balance the objective exactly; None if there are none above 0.
@@ -129,10 +126,12 @@ class LinearTable:
         share = np.zeros(len(before) + len(scaled))
         for _ in range(2):
             changed = before * (1.0 + share[: len(before)])
-            share = share - np.linalg.lstsq(matrix, self._defect(own, changed, scaled + share[len(before) :]), _RANK)[0]
+            share = (
+                share - np.linalg.lstsq(matrix, self._defect(own, changed, scaled + share[len(before) :]), SIZE_RANK)[0]
+            )
         changed, scaled = before * (1.0 + share[: len(before)]), scaled + share[len(before) :]
         left = np.abs(self._defect(own, changed, scaled)).max()
-        sound = left <= _BALANCED * max(1.0, float(changed.max(initial=0.0)))
+        sound = left <= VERTEX_BALANCED * max(1.0, float(changed.max(initial=0.0)))
         return (changed, scaled / self.equation_length) if sound and not (changed < 0.0).any() else None
 
     def _defect(self, rows: Array, multipliers: Array, equations: Array) -> Array:

@@ -12,6 +12,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.numerics.tolerances import (
+    EMPTY_ROW,
+    QUADRATIC_SOLVER,
+    STEP_FEASIBILITY,
+    STEP_GAIN,
+    STEP_PAYS,
+    STEP_SETTLED,
+)
 from optlaws.synthesis.families.curved import IntegralFamily
 from optlaws.synthesis.families.family import LinearFamily, Points, Program
 from optlaws.synthesis.method.discretised.conic import conic_optimum
@@ -20,21 +28,15 @@ from optlaws.synthesis.method.discretised.ipopt import Answer
 Array = NDArray[np.float64]
 
 _STEPS = 80
-#: of the greatest variable: a step that is less ends the search
-_SETTLED = 1e-11
 #: of what a step promises: the share that it must keep, and that with which the damping falls
-_PAYS, _AS_PROMISED = 1e-4, 0.25
+_AS_PROMISED = 0.25
 _FIRST_DAMPING, _DAMPED, _EASED, _MOST_DAMPED = 1e-2, 8.0, 0.125, 1e12
 #: a step that keeps less of its promise is corrected
 _SHORT_OF = 0.5
 #: what a row may be exceeded by in a step, and the price at which it may be by more
-_KEPT, _MOST_DEAR = 1e-9, 1e7
-#: of the objective: a step that promises less is rounding
-_NOTHING = 1e-13
+_MOST_DEAR = 1e7
 #: what a residual costs beside the multipliers
 _DEARER, _LEAST_PRICE = 2.0, 10.0
-_TOLERANCE = 1e-13
-_SHORT = 1e-13
 #: how many tangents are kept
 _TANGENTS = 60
 
@@ -119,18 +121,18 @@ class _Descent:
             if step is None:
                 damping *= _DAMPED
                 continue
-            if step.left > _KEPT and self.price < _MOST_DEAR:
+            if step.left > STEP_FEASIBILITY and self.price < _MOST_DEAR:
                 # rows that could be kept are too cheap: what they cost is asked again
                 self.price *= _DAMPED
                 continue
             last, size = step, float(np.abs(step.x).max()) / max(1.0, float(np.abs(x).max()))
             self.price = max(self.price, min(_DEARER * float(step.rows.sum()), _DEARER * self.price))
             onward, ratio = self._tried(x, rows, step, bend, damping)
-            settled = ratio is None or size <= _SETTLED
+            settled = ratio is None or size <= STEP_SETTLED
             if ratio is None or settled:
                 multipliers = step.rows
                 break
-            if ratio < _PAYS:
+            if ratio < STEP_PAYS:
                 damping *= _DAMPED
                 continue
             multipliers = step.rows
@@ -161,7 +163,7 @@ class _Descent:
                 better = before - self._merit(*again)
                 if better > gained:
                     best, gained = again, better
-        if promised <= _NOTHING * max(1.0, abs(before)):
+        if promised <= STEP_GAIN * max(1.0, abs(before)):
             return best, None
         return best, gained / promised
 
@@ -216,7 +218,7 @@ class _Descent:
             gradient = np.vstack([gradient, slopes])
             residual = np.append(residual, slopes @ x + [beside for _, beside, _ in self.tangents])
         length = np.linalg.norm(gradient, axis=1)
-        kept = np.isfinite(residual) & (length > _SHORT)
+        kept = np.isfinite(residual) & (length > EMPTY_ROW)
         scale = 1.0 / length[kept]
         inner = np.column_stack([gradient[kept] * scale[:, None], -scale])
         spare = np.zeros((1, size + 1))
@@ -228,7 +230,7 @@ class _Descent:
         curvature[:size, :size] = bend + damping * np.eye(size)
         cones = [clarabel.ZeroConeT(len(program.right)), clarabel.NonnegativeConeT(int(kept.sum()) + 1)]
         cost = np.append(program.objective, self.price)
-        optimum = conic_optimum(curvature, cost, matrix, right, cones, tolerance=_TOLERANCE)
+        optimum = conic_optimum(curvature, cost, matrix, right, cones, tolerance=QUADRATIC_SOLVER)
         if optimum is None:
             return None
         duals = np.asarray(optimum.z)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.numerics.tolerances import EXCESS
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.curved import IntegralFamily
 from optlaws.synthesis.families.family import Points, Program
@@ -17,7 +18,6 @@ from optlaws.synthesis.method.discretised.quadratic_steps import stepwise_on_poi
 from optlaws.synthesis.method.discretised.straight import is_straight, straight_step
 from optlaws.synthesis.method.strategies.identified import as_answered, optimum_near
 from optlaws.synthesis.method.strategies.strategy import Strategy
-from optlaws.synthesis.method.tolerances import EXCESS
 
 Array = NDArray[np.float64]
 

@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.numerics.tolerances import EXCESS, VERTEX_FINE, VERTEX_NEAR
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Points, Program
 from optlaws.synthesis.method.discretised.conic import conic, optimum_on_points
@@ -21,7 +22,6 @@ from optlaws.synthesis.method.discretised.ipopt import Answer
 from optlaws.synthesis.method.discretised.linear import LinearTable, by_family, vertex_on_points
 from optlaws.synthesis.method.strategies.identified import of_vertex, optimum_near
 from optlaws.synthesis.method.strategies.strategy import Strategy
-from optlaws.synthesis.method.tolerances import EXCESS
 from optlaws.synthesis.spaces.pieces.rows import PieceFamily
 
 Array = NDArray[np.float64]
@@ -29,11 +29,9 @@ Array = NDArray[np.float64]
 _ROUNDS = 40
 _PIECES = 12
 #: the excess under which a vertex may show the optimum's contacts, and how many times less it must be at the next try
-_NEAR, _CLOSER = 1e-3, 30.0
+_CLOSER = 30.0
 #: beyond so many variables a try costs more than the vertices that are left: there is one
 _SMALL = 60
-#: the excess under which the next vertex is sought from this one, as the solver's tolerance then counts
-_FINE = 1e-6
 #: what a vertex may exceed that does not get better any more, in EXCESS
 _SLACK = 10.0
 
@@ -67,7 +65,7 @@ class ByVertices(Strategy[list[Points], ActiveSet]):
     rounds: int = _ROUNDS
     excess: float = np.inf
     least: float = np.inf
-    promising: float = _NEAR
+    promising: float = VERTEX_NEAR
     near: Array | None = None
 
     def answered(self, held: list[Points]) -> tuple[ActiveSet | None, list[Points] | None]:
@@ -83,7 +81,7 @@ class ByVertices(Strategy[list[Points], ActiveSet]):
         if self._ended(known=known):
             return of_vertex(held, vertex), None
         self.least = min(self.least, self.excess)
-        if self.excess <= _FINE:
+        if self.excess <= VERTEX_FINE:
             self.near = vertex.x
         return None, onward
 
@@ -95,7 +93,7 @@ class ByVertices(Strategy[list[Points], ActiveSet]):
             vertex = vertex_on_points(self.program, points, self.near)
         if vertex is not None:
             self.excess = _excess(self.program, vertex.x)
-            if self.excess <= _FINE and not self.program.curved:
+            if self.excess <= VERTEX_FINE and not self.program.curved:
                 vertex, self.excess = _exact(self.program, points, vertex, self.excess)
         return vertex
 

@@ -14,6 +14,7 @@ from math import factorial, inf
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.numerics.tolerances import VALUE_ROUNDING
 from optlaws.synthesis.families.family import LinearFamily
 from optlaws.synthesis.problem.constants import FUNCTIONALS, PeakConstant
 from optlaws.synthesis.problem.problem import Problem
@@ -28,8 +29,6 @@ Array = NDArray[np.float64]
 CLAIM = "claim"
 #: more than the rounding of the claim's own row, and of the curvature
 _UPWARD, _AMPLE = 1.0 + 2.0**-50, 1.0 + 2.0**-20
-#: of what is asked: more than the rounding of the sums can be
-_ROUNDING = 1e-12
 
 
 def peak_of(problem: Problem, name: str) -> PeakConstant | None:
@@ -95,7 +94,7 @@ class PeakRows:
     def excluded(self, here: PlaceRange, leaf: Leaf) -> bool:
         """Whether a leaf shows that no law below the claim has the peak within a range."""
         most = self.upper(here.k, here.sign, leaf) + self.remainder(here.k, here.reach)
-        return most < self.low * (1.0 - _ROUNDING)
+        return most < self.low * (1.0 - VALUE_ROUNDING)
 
     def at(self, k: float, sign: float) -> tuple[Model, float]:
         """The program that minimises -sign times the derivative at k, and the constant part of the derivative."""

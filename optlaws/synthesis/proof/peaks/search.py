@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from optlaws.numerics.tolerances import HARDLY, LEAST_REACH
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.method.exchange import solve
 from optlaws.synthesis.problem.constants import PeakConstant
@@ -14,8 +15,7 @@ from optlaws.synthesis.proof.nodes import Leaf, Node, PlaceRange, Split
 from optlaws.synthesis.proof.peaks.rows import PeakRows
 
 _PROGRAMS = 1500
-_LEAST_REACH = 1e-9
-_HOPELESS, _NEARLY, _HARDLY = 1.5, 4.0, 1e-9
+_HOPELESS, _NEARLY = 1.5, 4.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,7 +57,7 @@ def search(problem: Problem, peak: PeakConstant, claim: float) -> PlaceSearch:
             tree.append(leaf)
         elif optimum is not None and most > rows.low:
             return PlaceSearch(better_at=places.k)
-        elif left <= 0 or places.reach < _LEAST_REACH:
+        elif left <= 0 or places.reach < LEAST_REACH:
             return PlaceSearch()
         else:
             parts += part.halves(optimum, None if optimum is None else rows.low - most)
@@ -69,8 +69,8 @@ def search(problem: Problem, peak: PeakConstant, claim: float) -> PlaceSearch:
 def _too_wide(rows: PeakRows, part: _Part) -> bool:
     """Whether it is not worth a program to see that the part is to be cut."""
     remainder = rows.remainder(part.places.k, part.places.reach)
-    room = None if part.margin is None else max(part.margin, _HARDLY * rows.low)
-    return part.places.reach > _LEAST_REACH and (
+    room = None if part.margin is None else max(part.margin, HARDLY * rows.low)
+    return part.places.reach > LEAST_REACH and (
         remainder > _HOPELESS * rows.low or (room is not None and remainder > _NEARLY * room)
     )
 

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
+from optlaws.numerics.tolerances import ENERGY_ROUNDING
 from optlaws.synthesis.families.family import ConstraintFamily
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import model_of
@@ -23,8 +24,6 @@ from optlaws.synthesis.proof.nodes import Contact, Leaf, Node, Split, Tightening
 Array = NDArray[np.float64]
 
 _WORST = 1e10
-#: of the sum of all magnitudes: more than the rounding errors of the sums can be
-_ROUNDING = 1e-13
 
 
 @dataclass(frozen=True, eq=False)
@@ -247,4 +246,4 @@ class BoxRows(ABC):
         total = own + weights @ joined
         size = np.abs(own) + np.abs(weights) @ np.abs(joined)
         greatest = np.append(np.maximum(np.abs(box.low), np.abs(box.high)), 1.0)
-        return float(box.extent(total[None])[0][0]) - _ROUNDING * float(size @ greatest)
+        return float(box.extent(total[None])[0][0]) - ENERGY_ROUNDING * float(size @ greatest)

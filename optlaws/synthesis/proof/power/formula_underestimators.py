@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from optlaws.formulas.intervals import Endpoints, enclosed
 from optlaws.formulas.vocabulary import ORDERS
 from optlaws.kept import kept_property
+from optlaws.numerics.tolerances import BENEATH_ROUNDING, TINY
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.curved import CurvedFamily, IntegralFamily
 from optlaws.synthesis.families.family import ConstraintFamily
@@ -40,10 +41,7 @@ PEAKS = {"b": "B", "c": "C", "j": "J"}
 #: where a plane touches
 Way = tuple[int, ...] | None
 
-# of what a formula's value and slopes amount to: more than they are rounded by
-_ROUNDED = 2.0**-44
 _MOST_CORNERS = 8
-_NEAREST = 1e-300
 #: laws near which integrals have planes
 _LAST = 6
 
@@ -175,7 +173,7 @@ class FormulaRows(BoxRows):
         start = self.space.start_velocity
         for place, velocity in ((0.0, start), (1.0, start + self.space.velocity_change)):
             away = np.abs(k - place)
-            reach = np.where(away > 0.0, self.greatest.get("C", inf) * np.maximum(away, _NEAREST), 0.0)
+            reach = np.where(away > 0.0, self.greatest.get("C", inf) * np.maximum(away, TINY), 0.0)
             low, high = np.maximum(low, velocity - reach), np.minimum(high, velocity + reach)
         return low, high
 
@@ -303,7 +301,9 @@ class FormulaRows(BoxRows):
             value, gradient = family.slopes.value(values), family.slopes.gradient(values)[:-1]
             row = np.einsum("ip,ipn->pn", sign * gradient, parts)
             size = np.abs(value) + (np.abs(gradient) * np.maximum(np.abs(low), np.abs(high))).sum(axis=0)
-            row[:, -1] += sign * (value - (gradient * touch).sum(axis=0)) - plane.taken(low, high, k) - _ROUNDED * size
+            row[:, -1] += (
+                sign * (value - (gradient * touch).sum(axis=0)) - plane.taken(low, high, k) - BENEATH_ROUNDING * size
+            )
             row -= self._room(family)
         return np.where(np.isfinite(row).all(axis=1)[:, None], row, 0.0)
 

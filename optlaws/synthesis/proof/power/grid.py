@@ -11,6 +11,7 @@ import numpy as np
 from numpy.polynomial.chebyshev import chebpts2
 from numpy.typing import NDArray
 
+from optlaws.numerics.tolerances import GRID_EMPTY, GRID_LIGHT, GRID_NEAR
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily
 from optlaws.synthesis.proof.nodes import Contact, Leaf, Tightening
 from optlaws.synthesis.proof.power.box import Box, BoxRows, Places
@@ -18,9 +19,6 @@ from optlaws.synthesis.proof.power.box import Box, BoxRows, Places
 Array = NDArray[np.float64]
 
 _PLACES = 16
-_NEAR = 1e-3
-_EMPTY = 1e-9
-_LIGHT = 1e-13
 _INFEASIBLE = 2
 _TOLERANCES = {"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10}
 
@@ -85,7 +83,7 @@ class Grid:
             if isinstance(family, NormFamily) or family.domain[0] == family.domain[1]:
                 continue
             u, _, residual = family.extremes(x)
-            near = family.k(u[residual > -_NEAR * max(self.rows.units[family.name], abs(family.right_side(x)))])
+            near = family.k(u[residual > -GRID_NEAR * max(self.rows.units[family.name], abs(family.right_side(x)))])
             seen = self._seen.setdefault(family.name, [])
             new = [k for k in near.tolist() if not seen or min(abs(k - place) for place in seen) > spacing]
             if new:
@@ -144,12 +142,12 @@ class Grid:
         centre, half = (box.low + box.high) / 2.0, (box.high - box.low) / 2.0
         matrix, right = every[:, :-1] * half, -every[:, -1] - every[:, :-1] @ centre
         length = np.abs(matrix).sum(axis=1)
-        which = np.flatnonzero((length > right) & (length > _EMPTY * np.abs(every * rows.sizes).max(axis=1)))
+        which = np.flatnonzero((length > right) & (length > GRID_EMPTY * np.abs(every * rows.sizes).max(axis=1)))
         equations = rows.equations()
         equal, equal_right = equations[:, :-1] * half, -equations[:, -1] - equations[:, :-1] @ centre
         equal_length = np.abs(equal).sum(axis=1)
         kept = np.where(
-            equal_length > _EMPTY * np.minimum(1.0, np.abs(equations * rows.sizes).max(axis=1, initial=0.0)),
+            equal_length > GRID_EMPTY * np.minimum(1.0, np.abs(equations * rows.sizes).max(axis=1, initial=0.0)),
             equal_length,
             np.inf,
         )
@@ -192,7 +190,7 @@ class Grid:
 
     def _leaf(self, box: Box, linear: Linear, weights: tuple[Array, Array]) -> Leaf:
         multipliers = np.maximum(weights[0], 0.0) / linear.length
-        least = _LIGHT * float(multipliers.max(initial=0.0))
+        least = GRID_LIGHT * float(multipliers.max(initial=0.0))
         contacts = []
         objective = 0.0
         for i, weight in zip(linear.which.tolist(), multipliers.tolist(), strict=True):

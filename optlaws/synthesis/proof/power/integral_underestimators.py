@@ -23,6 +23,7 @@ from optlaws.formulas.tree import Formula
 from optlaws.formulas.vocabulary import ORDERS
 from optlaws.kept import kept_property
 from optlaws.numerics.chebyshev import gauss
+from optlaws.numerics.tolerances import BENEATH_ROUNDING, INTEGRAL_BLUR, RULE_ROUNDING, TINY
 from optlaws.synthesis.families.curved import IntegralFamily
 from optlaws.synthesis.functionals.curved_rows import columns_of, rule_cells
 
@@ -32,10 +33,6 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 _CELLS = 32
-# of what sums amount to: more than they, or a rule for what is no polynomial, are off by
-_ROUNDED, _RULE = 2.0**-44, 2.0**-36
-_BLUR = 1e-12
-_LEAST = 1e-300
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,14 +65,14 @@ class CurvatureBound:
         """Negative eigenvalues of a form, their signs turned, and magnitudes of their vectors, in units of the box."""
         scaled = self.half[:, None] * form * self.half
         sizes, turned = np.linalg.eigh(self.free.T @ scaled @ self.free)
-        blur = _BLUR * float(np.abs(scaled).sum())
+        blur = INTEGRAL_BLUR * float(np.abs(scaled).sum())
         return np.maximum(blur - sizes, 0.0), np.abs(self.free @ turned).T
 
     def taken(self, at: Array, form: Array) -> float:
         """What a form can take from the plane that touches at a law of the box; infinite where it is not known."""
         if not np.isfinite(form).all():
             return np.inf
-        off = np.where(self.half > 0.0, 1.0 + np.abs(at - self.middle) / np.maximum(self.half, _LEAST), 0.0)
+        off = np.where(self.half > 0.0, 1.0 + np.abs(at - self.middle) / np.maximum(self.half, TINY), 0.0)
         costs, ways = self.costs(form)
         return float(0.5 * costs @ (ways @ off) ** 2)
 
@@ -96,7 +93,7 @@ class ConvexUnderestimator:
     def __init__(self, rows: BoxRows, family: IntegralFamily, motion: MotionFormula) -> None:
         self.rows, self.family, self.motion = rows, family, motion
         self.columns = np.stack([rows.mapped(column) for column in family.columns])
-        self._blur = _RULE if motion.degree(dict.fromkeys(ORDERS, 1)) is None else _ROUNDED
+        self._blur = RULE_ROUNDING if motion.degree(dict.fromkeys(ORDERS, 1)) is None else BENEATH_ROUNDING
         edges = rule_cells(rows.space, motion, _CELLS)
         self._last: tuple[Box, CurvatureBound | None] | None = None
         self.middle, self.reach = (edges[:-1] + edges[1:]) / 2.0, np.diff(edges) / 2.0
@@ -140,7 +137,7 @@ class ConvexUnderestimator:
             limit = limits.get(name, np.inf)
             lows.append(np.minimum(np.maximum(value - wide, -limit), value - bent))
             highs.append(np.maximum(np.minimum(value + wide, limit), value + bent))
-        blur = _BLUR * (1.0 + np.maximum(np.abs(lows), np.abs(highs)))
+        blur = INTEGRAL_BLUR * (1.0 + np.maximum(np.abs(lows), np.abs(highs)))
         return np.array(lows) - blur, np.array(highs) + blur
 
     def least(self, box: Box, limits: Mapping[str, float]) -> float:
@@ -149,7 +146,7 @@ class ConvexUnderestimator:
         within = self._intervals(low, high)
         least = np.broadcast_to(enclosed(self.motion.formula, within).low, self.middle.shape)
         least_there = float(least @ (2.0 * self.reach))
-        return least_there - _BLUR * float(np.abs(least) @ self.reach)
+        return least_there - INTEGRAL_BLUR * float(np.abs(least) @ self.reach)
 
     def _intervals(self, low: Array, high: Array) -> dict[str, Endpoints]:
         """The ranges of the derivatives and of k on the cells."""
@@ -172,7 +169,7 @@ class ConvexUnderestimator:
     def _anywhere(self, low: Array, high: Array) -> Array:
         """A form over the velocities that second derivatives of the integral are nowhere below in the ranges."""
         within = self._intervals(low, high)
-        count, widths = len(self.family.names), np.maximum(high - low, _LEAST)
+        count, widths = len(self.family.names), np.maximum(high - low, TINY)
         bend = np.zeros((count, count, len(self.middle)))
         for i, j in combinations_with_replacement(range(count), 2):
             ends = enclosed(self.family.slopes.second[i][j], within)
@@ -210,7 +207,7 @@ class ConvexUnderestimator:
         moved = [np.asarray(column[:, :, :-1] @ law[:-1] + column[:, :, -1]) for column in columns]
         names = {**dict(zip(self.family.names, moved, strict=True)), "k": self._places}
         bend = np.reshape(self.family.slopes.hessian(names), (len(columns), len(columns), *weights.shape)).copy()
-        widths = np.maximum(off, _LEAST)
+        widths = np.maximum(off, TINY)
         for key, most in third.items():
             for i, j, m in set(permutations(key)):
                 # |x y| is at most the mean of what each takes in units of its width
@@ -251,7 +248,7 @@ class ConvexUnderestimator:
         if not len(of_laws):
             return np.eye(terms)
         _, sizes, ways = np.linalg.svd(of_laws)
-        rank = int((sizes > _BLUR * sizes.max(initial=0.0)).sum())
+        rank = int((sizes > INTEGRAL_BLUR * sizes.max(initial=0.0)).sum())
         return np.asarray(ways[rank:].T)
 
     def row(self, box: Box, at: Array, limits: Mapping[str, float], room: Array) -> Array:

@@ -13,6 +13,7 @@ from math import inf, isfinite, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.numerics.tolerances import AWAY_FROM_REST
 from optlaws.synthesis.families.family import ConstraintFamily, ProductFamily
 from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.problem.constants import D, PeakConstant
@@ -26,8 +27,6 @@ from optlaws.synthesis.spaces.polynomials.space import PolynomialSpace
 Array = NDArray[np.float64]
 
 POWER_ROWS = (RowName.POWER, RowName.POWER_FROM_LEAST)
-# a velocity nearer to zero bounds no acceleration worth the name
-_AWAY = 1e-6
 
 
 def applies(problem: Problem) -> bool:
@@ -129,9 +128,9 @@ class PowerRows(BoxRows):
         """
         k, velocity, acceleration = rows
         low, high = self.brackets(box, k, velocity)
-        forth = np.where(high < -_AWAY, -1.0, 1.0)
+        forth = np.where(high < -AWAY_FROM_REST, -1.0, 1.0)
         near, far = np.where(forth > 0.0, low, -high), np.where(forth > 0.0, high, -low)
-        away = (near > _AWAY) & (far >= near)
+        away = (near > AWAY_FROM_REST) & (far >= near)
         near, far = np.where(away, near, 1.0), np.where(away, far, 1.0)
         most = self.greatest["D"] if self.place is None else (box.low if least else box.high)[self.place]
         bounding = signs[:, None] * acceleration + (most / (near * far) * forth)[:, None] * velocity

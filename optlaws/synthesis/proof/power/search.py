@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
+from optlaws.numerics.tolerances import GIVEN_VARIABLE, NARROW_RANGE, TINY
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import model_of
 from optlaws.synthesis.proof.certificate import Certificate
@@ -26,13 +27,9 @@ _CLAIMS = ((2e-9, 1000), (1e-4, 300), (1e-2, 200), (1e-1, 100))
 #: up to so many coordinates; beyond, the programs grow and their number shrinks
 _COORDINATES = 11
 _CANDIDATES = 60
-_NARROW = 1e-3
 _STALLED = 0.8
 _SPACING = 1e-2
 _ROUNDS = 30
-_TINY = 1e-300
-# narrower, a variable is given
-_FLAT = 1e-9
 
 
 def tightened(problem: Problem, objective: float, x: Array, explore: Explore) -> Certificate | None:
@@ -90,8 +87,8 @@ class BoxSearch:
     def __post_init__(self) -> None:
         root = self.rows.root()
         self._tree: list[Node] = []
-        self._root_width = np.maximum(root.high - root.low, _TINY)
-        wide = [i for i in range(self.rows.terms) if self._root_width[i] > _FLAT]
+        self._root_width = np.maximum(root.high - root.low, TINY)
+        wide = [i for i in range(self.rows.terms) if self._root_width[i] > GIVEN_VARIABLE]
         # where the rows leave one law alone, one coordinate shows that it is not better
         self._variables = [*wide, *self.rows.branched] or [0]
 
@@ -126,7 +123,7 @@ class BoxSearch:
                         return None
                     box = moved
             after = (box.high - box.low)[self._variables]
-            ratio = np.maximum(after, _TINY) / np.maximum(before, _TINY)
+            ratio = np.maximum(after, TINY) / np.maximum(before, TINY)
             if self.left <= 0 or float(np.exp(np.log(ratio).mean())) > _STALLED:
                 break
         return box
@@ -161,6 +158,6 @@ def _points(problem: Problem, claim: float) -> list[float]:
     if rows is None:
         return []
     low, high = rows.brackets_at(k)
-    weighted = rows.rows(1, k)[:, : space.terms] / (high - low + _NARROW)[:, None]
+    weighted = rows.rows(1, k)[:, : space.terms] / (high - low + NARROW_RANGE)[:, None]
     chosen = qr(weighted.T, pivoting=True, mode="r")[1][: space.terms]
     return sorted(k[chosen].tolist())

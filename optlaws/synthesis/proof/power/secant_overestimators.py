@@ -7,10 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.numerics.tolerances import FLAT_SECANT, SECANT_SERIES
+
 Array = NDArray[np.float64]
 
-_FLAT = 1e-12
-_SERIES = 1e-3
 #: X² (1 - X) is nowhere above
 _MOST = 4.0 / 27.0
 _STEPS = 4
@@ -67,7 +67,7 @@ def secant_over_root(B: float, square: Array, low: Array, high: Array) -> Secant
     """
     ends = [_root(B, square, q) for q in (low, high)]
     width = high - low
-    flat = width <= _FLAT * np.maximum(high, _FLAT)
+    flat = width <= FLAT_SECANT * np.maximum(high, FLAT_SECANT)
     rise = np.where(np.isfinite(ends[1]), ends[1], 0.0) - np.where(np.isfinite(ends[0]), ends[0], 0.0)
     slope = np.where(flat, 0.0, rise / np.where(flat, 1.0, width))
     turn = _turn(B, square, slope)
@@ -91,7 +91,7 @@ def _turn(B: float, square: Array, slope: Array) -> Array:
         kappa = square * eta
         # with X = 1 - t² x it is X² (1 - X) = kappa, of which the greatest root has a closed form
         X = 1.0 / 3.0 + 2.0 / 3.0 * np.cos(np.arccos(np.clip(1.0 - 2.0 * kappa / _MOST, -1.0, 1.0)) / 3.0)
-        x = np.where(kappa < _SERIES, eta * (1.0 + 2.0 * kappa), (1.0 - X) / square)
+        x = np.where(kappa < SECANT_SERIES, eta * (1.0 + 2.0 * kappa), (1.0 - X) / square)
         for _ in range(_STEPS):
             rest = 1.0 - square * x
             x = x - (x * rest**2 - eta) / (rest * (1.0 - 3.0 * square * x))

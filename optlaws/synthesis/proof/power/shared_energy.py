@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
+from optlaws.numerics.tolerances import AWAY_FROM_REST, ENERGY_OUTWARD, MIDDLE
 from optlaws.synthesis.families.energy import Energy, EnergyFamily
 from optlaws.synthesis.families.family import ConstraintFamily
 from optlaws.synthesis.problem.constants import Functional
@@ -30,11 +31,6 @@ Array = NDArray[np.float64]
 TANGENT = "tangent of the energy"
 #: which planes bound the two products: from the greatest or the least of each first factor
 _PLANES = ("++", "+-", "-+", "--")
-#: of B: a velocity nearer to zero bounds no acceleration worth the name
-_AWAY = 1e-6
-_OUTWARD = 1e-12
-#: of t²: nearer to the middle B - b has no digits left
-_MIDDLE = 1e-6
 
 
 def applies(problem: Problem) -> bool:
@@ -119,7 +115,7 @@ class EnergyRows(BoxRows):
     @kept_property
     def _integral(self) -> tuple[float, float]:
         """Least and greatest I: from 1/B² + 1/(Y B)² < 1, and from how fast sqrt(B² - b²) can fall."""
-        most = 0.5 * self.B * sqrt(1.0 - 1.0 / self.B**2) * (1.0 + _OUTWARD)
+        most = 0.5 * self.B * sqrt(1.0 - 1.0 / self.B**2) * (1.0 + ENERGY_OUTWARD)
         least = 0.0
         for name, family in self.peaks.items():
             peak = self._greatest(name)
@@ -127,7 +123,7 @@ class EnergyRows(BoxRows):
                 least = max(least, self.B**2 / (4.0 * peak * most))
             else:
                 least = max(least, self.B**3 / (12.0 * peak * most**2))
-        return min(least, most) * (1.0 - _OUTWARD), most
+        return min(least, most) * (1.0 - ENERGY_OUTWARD), most
 
     def brackets_at(self, k: Array) -> tuple[Array, Array]:
         """Least and greatest velocity at the places k of all those laws."""
@@ -172,7 +168,7 @@ class EnergyRows(BoxRows):
         if isfinite(power):
             least = np.maximum(least, np.sqrt(np.maximum((low**2 - power * away).max(axis=1), 0.0)))
             most = np.minimum(most, np.sqrt((high**2 + power * away).min(axis=1)))
-        return least * (1.0 - _OUTWARD), np.minimum(most * (1.0 + _OUTWARD), self.B)
+        return least * (1.0 - ENERGY_OUTWARD), np.minimum(most * (1.0 + ENERGY_OUTWARD), self.B)
 
     def curved(self, box: Box, places: Places, name: str, signs: Array) -> Array:
         """Rows s p <= M I h/2 or s c <= 4 M I²/b by the planes that the name tells."""
@@ -180,7 +176,7 @@ class EnergyRows(BoxRows):
         family = self.peaks[peak]
         velocity, below, fall, acceleration = places.rows
         low, high = self.brackets(box, places.k, velocity)
-        good = (low > _AWAY * self.B) & (high >= low)
+        good = (low > AWAY_FROM_REST * self.B) & (high >= low)
         low, high = np.where(good, low, 0.5 * self.B), np.where(good, high, 0.5 * self.B)
         if family.divided:
             square = (1.0 - 2.0 * places.k) ** 2
@@ -222,10 +218,10 @@ class EnergyRows(BoxRows):
         """Least and greatest q in the box: an affine function of the law, and B - b = t² q; rounded outward."""
         least, most = box.extent(below)
         greatest = np.append(np.maximum(np.abs(box.low), np.abs(box.high)), 1.0)
-        blur = _OUTWARD * (np.abs(below) @ greatest)
-        wide = np.where(square > _MIDDLE, square, np.inf)
-        first = (self.B * (1.0 - _OUTWARD) - velocity[1]) / wide
-        last = np.where(square > _MIDDLE, (self.B * (1.0 + _OUTWARD) - velocity[0]) / wide, np.inf)
+        blur = ENERGY_OUTWARD * (np.abs(below) @ greatest)
+        wide = np.where(square > MIDDLE, square, np.inf)
+        first = (self.B * (1.0 - ENERGY_OUTWARD) - velocity[1]) / wide
+        last = np.where(square > MIDDLE, (self.B * (1.0 + ENERGY_OUTWARD) - velocity[0]) / wide, np.inf)
         low = np.maximum(np.maximum(least - blur, first), 0.0)
         return low, np.maximum(np.minimum(most + blur, last), low)
 

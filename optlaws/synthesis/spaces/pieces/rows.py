@@ -12,14 +12,13 @@ from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
 from optlaws.numerics.chebyshev import nodes, product, real_parts_of_roots
+from optlaws.numerics.tolerances import BESIDE_BREAK, FLAT_SLOPE
 from optlaws.synthesis.families.family import LinearFamily, ProductFamily
 
 Array = NDArray[np.float64]
 
-_FLAT = 1e-9
 _MOST, _LEAST = 6000, 8  # nodes of a family, and of a piece: its extrema join them
 _SHARING = 8  # points of a piece, in the mean, from which on no copy of its series is made for each
-_BESIDE = 2.0**-50  # far enough from a break that k tells the side too
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,7 +96,7 @@ class PieceFamily(LinearFamily):
         breaks = self.pieces.breaks
         if not self.jumps:
             return breaks
-        return np.concatenate([breaks[[0, -1]], breaks[1:-1] + _BESIDE, breaks[1:-1] - _BESIDE])
+        return np.concatenate([breaks[[0, -1]], breaks[1:-1] + BESIDE_BREAK, breaks[1:-1] - BESIDE_BREAK])
 
     def nodes(self) -> Array:
         """Corners, and inside each piece as many points as its degree, or fewer where they were too many."""
@@ -175,13 +174,14 @@ def _stationary(family: PieceFamily, factors: list[Array]) -> Array:
             series = product(factors[0][i], factors[1][i])
         slope = np.asarray(chebyshev.chebder(series), dtype=np.float64)
         slopes.append(np.asarray(chebyshev.chebval(np.array([1.0, -1.0]), slope)))
-        if np.abs(slope).max() > _FLAT * np.abs(series).max():
+        if np.abs(slope).max() > FLAT_SLOPE * np.abs(series).max():
             roots = real_parts_of_roots(slope)
             places.append(pieces.global_places(i, roots[np.abs(roots) < 1.0]))
     kept = np.ones(len(family.corners), dtype=np.bool_)
     if not family.jumps:
         # where the function goes on rising or falling, a corner is no extremum
         kept[1:-1] = [
-            before[1] * after[0] <= _FLAT * max(before[1] ** 2, after[0] ** 2) for before, after in pairwise(slopes)
+            before[1] * after[0] <= FLAT_SLOPE * max(before[1] ** 2, after[0] ** 2)
+            for before, after in pairwise(slopes)
         ]
     return np.concatenate([family.corners[kept], *places])

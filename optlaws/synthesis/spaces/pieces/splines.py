@@ -19,6 +19,7 @@ from optlaws.kept import kept_property
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
 from optlaws.numerics.chebyshev import from_values, nodes
+from optlaws.numerics.tolerances import EVEN_PART
 from optlaws.synthesis.families.family import ConstraintFamily
 from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions, construct
@@ -27,8 +28,6 @@ from optlaws.synthesis.spaces.pieces.space import PiecewiseSpace
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
 
 Array = NDArray[np.float64]
-
-_EVEN = 1e-9
 
 
 class SplineSpace(PiecewiseSpace):
@@ -139,7 +138,7 @@ def _odd(functions: Array) -> Array:
     """Which combinations of the functions are odd about 1/2; orthonormal columns."""
     mirrored = functions[:, ::-1] * (-1.0) ** np.arange(functions.shape[2])
     _, sizes, combinations = np.linalg.svd((functions + mirrored).reshape(len(functions), -1).T)
-    even = int((sizes > _EVEN * sizes.max()).sum())
+    even = int((sizes > EVEN_PART * sizes.max()).sum())
     return np.asarray(combinations[even:].T)
 
 
