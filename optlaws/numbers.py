@@ -18,6 +18,8 @@ from optlaws.errors import InputError
 if TYPE_CHECKING:
     import pint
 
+#: numbers of double precision, of any shape
+Array: TypeAlias = NDArray[np.float64]
 #: a number with its unit: a text such as "35 mm", or a quantity of pint, of any registry
 Quantity: TypeAlias = "str | pint.Quantity[Any]"
 

@@ -8,7 +8,6 @@ from math import inf, pi, tau
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.cams.cutting.arcs_and_chords import Arcs, arcs
 from optlaws.cams.cutting.file_options import Cutting
@@ -22,14 +21,12 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws.storage import PlainNumbers
 from optlaws.motion.quantities import positive_quantity, quantity
-from optlaws.numbers import Quantity, whole
+from optlaws.numbers import Array, Quantity, whole
 from optlaws.numerics.enclosures.branch_and_bound import Function, extremes
 from optlaws.numerics.enclosures.interval import Interval
 from optlaws.numerics.enclosures.taylor import Jet
 from optlaws.numerics.tolerances import DEVIATIONS, MANUFACTURED_LEAP, MANUFACTURED_PEAKS
 from optlaws.suggest import unknown_key
-
-Array = NDArray[np.float64]
 
 _SAMPLES = 721
 

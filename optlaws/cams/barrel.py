@@ -11,7 +11,6 @@ from math import nextafter
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.cams.curves.extremes import (
     FREE,
@@ -28,11 +27,10 @@ from optlaws.cams.followers.follower import positive, shown
 from optlaws.cycles.cycle import Cycle
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
-from optlaws.numbers import Quantity, derivative, real_times
+from optlaws.numbers import Array, Quantity, derivative, real_times
 from optlaws.numerics.enclosures.taylor import Jet, variable
 from optlaws.suggest import unknown_key
 
-Array = NDArray[np.float64]
 Triple = tuple[Jet, Jet, Jet]
 
 Side = Literal["upper", "lower"]

@@ -14,7 +14,6 @@ from math import sqrt, tan
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.cams.curved_limits import RollerCurvature, bound_under, curvature_of
 from optlaws.cams.curves.motion_by_angle import CamMotion, as_motion
@@ -35,8 +34,6 @@ from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.windows import Window
 from optlaws.synthesis.solution import Solution, Status
 from optlaws.synthesis.solve import synthesize
-
-Array = NDArray[np.float64]
 
 
 class SolvedPiece(NamedTuple):

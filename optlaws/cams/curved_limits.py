@@ -13,7 +13,6 @@ from itertools import combinations_with_replacement, pairwise
 from math import isfinite
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.cams.followers.contact import FollowerContact
 from optlaws.errors import InfeasibleProblem, OptlawsError
@@ -25,6 +24,7 @@ from optlaws.formulas.tree import Formula
 from optlaws.kept import kept_property
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import TURN
+from optlaws.numbers import Array
 from optlaws.numerics.enclosures.taylor import Jet
 from optlaws.numerics.tolerances import FORMULA_ROUNDING, PLANE_GAIN, PLANE_SLACK
 from optlaws.synthesis.functionals.makers import value
@@ -33,7 +33,6 @@ from optlaws.synthesis.problem.ranges import at_most
 from optlaws.synthesis.problem.windows import Window
 from optlaws.synthesis.solve import synthesize
 
-Array = NDArray[np.float64]
 Pair = tuple[float, float]
 
 _PARTS = 24

@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import Any, Literal, Unpack
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.cams.curves.extremes import CamExtremes
 from optlaws.cams.curves.motion_by_angle import CamMotion, as_motion
@@ -21,13 +20,11 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.motion.quantities import quantity
-from optlaws.numbers import Quantity, derivative, real_times
+from optlaws.numbers import Array, Quantity, derivative, real_times
 from optlaws.numerics.enclosures.interval import Interval
 from optlaws.numerics.enclosures.taylor import Pair, turned, variable
 from optlaws.shown.summary import Summary
 from optlaws.suggest import keywords_of, unknown_key
-
-Array = NDArray[np.float64]
 
 Turning = Literal["counterclockwise", "clockwise"]
 CutCurve = Literal["profile", "pitch", "cutter"]

@@ -8,7 +8,6 @@ from math import degrees, pi, sqrt
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.cams.curves.extremes import UNDERCUT
 from optlaws.cams.disc import DiscCam
@@ -19,15 +18,13 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.motion.quantities import TURN, positive_quantity, quantity
-from optlaws.numbers import Quantity, finite, real_times
+from optlaws.numbers import Array, Quantity, finite, real_times
 from optlaws.numerics.enclosures.branch_and_bound import Extremes, Function, extremes
 from optlaws.numerics.enclosures.integral import integral
 from optlaws.numerics.enclosures.interval import Interval, highest, middle
 from optlaws.numerics.enclosures.taylor import Jet
 from optlaws.numerics.tolerances import FORCE_EXTREMES, VALUE_ROUNDING
 from optlaws.suggest import unknown_key
-
-Array = NDArray[np.float64]
 
 #: Young's modulus and Poisson's ratio within the ranges of J. M. Gere, Mechanics of Materials, 5th edition, appendix H
 #: (steel 190 to 210 GPa and 0.27 to 0.30, cast iron 83 to 170 and 0.2 to 0.3, bronze 96 to 120 and 0.34, aluminium

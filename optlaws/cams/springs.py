@@ -8,7 +8,6 @@ from math import degrees
 from typing import Any, NoReturn
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.forces import CamForces
@@ -16,13 +15,11 @@ from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.laws.storage import PlainNumbers
 from optlaws.motion.quantities import quantity
-from optlaws.numbers import Quantity
+from optlaws.numbers import Array, Quantity
 from optlaws.numerics.enclosures.branch_and_bound import Extremes, Function, extremes
 from optlaws.numerics.enclosures.interval import Interval
 from optlaws.numerics.enclosures.taylor import Jet
 from optlaws.numerics.tolerances import LIFTED, PROGRAM_SLACK, SPRING_EXTREMES
-
-Array = NDArray[np.float64]
 
 _FIRST = 97
 _STEPS = 40

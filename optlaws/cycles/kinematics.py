@@ -8,14 +8,13 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.cycles.specification.programme import Programme, TimedSegment
 from optlaws.cycles.specification.segments import Free, Move
 from optlaws.motion.piece import Piece, values_of_pieces
+from optlaws.numbers import Array
 from optlaws.numerics.tolerances import JUMP
 
-Array = NDArray[np.float64]
 Place = tuple[float, float]
 
 

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.errors import InputError
 from optlaws.exports.fitting import Fitted, fitted
@@ -17,10 +16,8 @@ from optlaws.mechanisms.checks import motion_law
 from optlaws.motion.motion import Motion
 from optlaws.motion.piece import Piece
 from optlaws.motion.polynomials import PiecewiseMotion
-from optlaws.numbers import whole
+from optlaws.numbers import Array, whole
 from optlaws.numerics.tolerances import ACCELERATION_HIGHER, AGREEMENT, POSITION_OFF
-
-Array = NDArray[np.float64]
 
 MOST = 64
 _EVALUATIONS = 150

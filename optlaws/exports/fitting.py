@@ -10,7 +10,6 @@ from itertools import pairwise
 from math import ceil
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.errors import InputError
 from optlaws.exports.polynomial_pieces import LawSection, is_polynomial, stretches
@@ -20,7 +19,6 @@ from optlaws.motion.polynomials import PiecewiseMotion, from_exact
 from optlaws.numerics import exact
 from optlaws.numerics.tolerances import ACCELERATION_HIGHER
 
-Array = NDArray[np.float64]
 Laid = Callable[[Piece], PiecewiseMotion]
 
 #: how far the run's peak of the acceleration may be above the motion's, and its acceleration off it, as shares

@@ -7,11 +7,10 @@ from math import factorial
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.errors import InputError
+from optlaws.numbers import Array
 
-Array = NDArray[np.float64]
 Ends = Literal["clamped", "natural", "periodic"]
 
 

@@ -11,7 +11,6 @@ from math import inf
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.errors import InputError
 from optlaws.exports.interpolation import hermite_powers
@@ -22,11 +21,10 @@ from optlaws.laws.segments.segment import PolynomialSegment
 from optlaws.motion.motion import Motion, motion_of_law
 from optlaws.motion.piece import Piece
 from optlaws.motion.polynomials import PiecewiseMotion, from_exact
-from optlaws.numbers import finite, positive
+from optlaws.numbers import Array, finite, positive
 from optlaws.numerics import exact
 from optlaws.numerics.tolerances import PIECES_OF_MOTION, POSITION_ROUNDING
 
-Array = NDArray[np.float64]
 #: a stretch of a law: its first and its last k, and powers of k less the first
 Stretch = tuple[Fraction, Fraction, Sequence[Fraction]]
 

@@ -14,11 +14,9 @@ from optlaws.errors import InputError
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import Extreme, PiecewiseMotion
 from optlaws.motion.quantities import quantity
-from optlaws.numbers import MOST_VALUES, Quantity
+from optlaws.numbers import MOST_VALUES, Array, Quantity
 from optlaws.numerics import bernstein
 from optlaws.numerics.bisection import bisect_each
-
-Array = NDArray[np.float64]
 
 QUANTITIES = ("Position", "Velocity", "Acceleration", "Jerk")
 ORDERS = range(4)

@@ -9,15 +9,13 @@ from math import inf, isfinite
 from typing import NamedTuple, Protocol, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.errors import InputError
 from optlaws.exports.format import BEST, Request
 from optlaws.motion.motion import Motion
+from optlaws.numbers import Array
 from optlaws.numerics import bernstein
 from optlaws.numerics.tolerances import AS_GOOD, RUN_OFF
-
-Array = NDArray[np.float64]
 
 MOST_TRIED = 1001
 _RATIO = 1.12

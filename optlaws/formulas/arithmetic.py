@@ -9,12 +9,10 @@ from math import pi
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.formulas.tree import Call, Exponentiation, Formula, Name, Negative, Number, Product, Reciprocal, Sum, Table
+from optlaws.numbers import Array
 from optlaws.numerics.tolerances import NORM_OFFSET
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -13,14 +13,12 @@ from functools import reduce
 from math import pi
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.formulas.arithmetic import pieces
 from optlaws.formulas.slopes import constant
 from optlaws.formulas.tree import Call, Exponentiation, Formula, Name, Negative, Number, Product, Reciprocal, Sum, Table
+from optlaws.numbers import Array
 from optlaws.numerics.tolerances import OPERATIONS_ROUNDING
-
-Array = NDArray[np.float64]
 
 _PARTS = 256
 _MOST_ANGLE = 2.0**24

@@ -9,7 +9,6 @@ from math import prod
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.errors import InputError
 from optlaws.formulas.affine import Affine, affine, degree
@@ -33,10 +32,8 @@ from optlaws.formulas.tree import (
 )
 from optlaws.formulas.vocabulary import ORDERS, VOCABULARY
 from optlaws.kept import kept_property
-from optlaws.numbers import power_of_two
+from optlaws.numbers import Array, power_of_two
 from optlaws.numerics.chebyshev import interpolated, real_parts_of_roots
-
-Array = NDArray[np.float64]
 
 #: second derivatives of a product grow with the square of their number
 _FACTORS = 24

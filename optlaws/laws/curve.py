@@ -14,12 +14,11 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.extras import needed
 from optlaws.kept import kept_property
-from optlaws.numbers import MOST_VALUES, derivative, finite, whole
+from optlaws.numbers import MOST_VALUES, Array, derivative, finite, whole
 from optlaws.numerics import peaks
 from optlaws.numerics.bisection import crossings
 from optlaws.numerics.peaks import Peak
 
-Array = NDArray[np.float64]
 Many = NDArray[Any] | Sequence[Any]
 Sides = tuple[Array, Array]
 

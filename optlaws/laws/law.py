@@ -7,18 +7,16 @@ from math import inf
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
 from optlaws.laws.constants import Constants
 from optlaws.laws.curve import Curve, Sides
 from optlaws.laws.exporting import LawExport
 from optlaws.laws.storage import StoredLaw
-from optlaws.numbers import Quantity, derivative, times
+from optlaws.numbers import Array, Quantity, derivative, times
 from optlaws.numerics.peaks import Peak
 from optlaws.numerics.tolerances import JUMP, JUMP_OF_LOWER
 
-Array = NDArray[np.float64]
 Jumps = tuple[tuple[float, float], ...]
 
 HIGHEST = 9

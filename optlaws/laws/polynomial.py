@@ -14,11 +14,9 @@ from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
 from optlaws.laws.law import MotionLaw
-from optlaws.numbers import MAGNITUDE_LIMIT, MOST_ORDER, MOST_TERMS, fractions, whole
+from optlaws.numbers import MAGNITUDE_LIMIT, MOST_ORDER, MOST_TERMS, Array, fractions, whole
 from optlaws.numerics import chebyshev, exact
 from optlaws.numerics.peaks import polished
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, init=False, repr=False)

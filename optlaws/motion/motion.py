@@ -9,7 +9,6 @@ from math import inf
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
@@ -19,7 +18,6 @@ from optlaws.motion.quantities import Given, either, given_quantity, positive_qu
 from optlaws.numbers import Quantity, derivative, real_times
 from optlaws.numerics.tolerances import CLOSURE, JUMP
 
-Array = NDArray[np.float64]
 Place = tuple[float, float]
 
 SLAVES = ("length", "angle")

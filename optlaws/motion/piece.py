@@ -21,13 +21,13 @@ from functools import lru_cache
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.catalogue.reading import is_file, read_law
+from optlaws.numbers import Array
 from optlaws.numerics.tolerances import CLOSURE, INSIDE_PIECE, SAME_TIME
 
 
@@ -64,8 +64,6 @@ def _read(given: Any) -> MotionLaw:  # noqa: ANN401
         raise InputError(f"a law, a name of the catalogue, a JSON or CSV file or 'optimal', got {shortened(given)}")
     return read_law(given) if is_file(given) else _of_name(given)
 
-
-Array = NDArray[np.float64]
 
 _LEAPS = 2
 

@@ -10,17 +10,15 @@ from operator import ge
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
-from optlaws.numbers import MAGNITUDE_LIMIT, derivative, listed, numbers, real_times
+from optlaws.numbers import MAGNITUDE_LIMIT, Array, derivative, listed, numbers, real_times
 from optlaws.numerics import bernstein
 from optlaws.numerics.difference import greatest_difference
 from optlaws.numerics.tolerances import POLISHING_REACH, SAME_TIME
 
-Array = NDArray[np.float64]
 #: a motion by its derivatives: of places and of the order nu of the derivative
 Derivatives = Callable[[Array, int], Array]
 

@@ -7,12 +7,10 @@ from math import comb
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import nodes
 from optlaws.numerics.tolerances import OPERATIONS_ROUNDING, TIE, TOP_WIDTH
-
-Array = NDArray[np.float64]
 
 PARTS = 8
 _ROUNDS = 20

@@ -7,9 +7,8 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.numbers import Array
 from optlaws.numerics.tolerances import TOUCHING
-
-Array = NDArray[np.float64]
 
 
 def bisect(holds: Callable[[float], bool], inside: float, outside: float, halvings: int = 200) -> tuple[float, float]:

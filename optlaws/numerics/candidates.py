@@ -6,13 +6,11 @@ from collections.abc import Callable, Iterable, Iterator
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.errors import InputError
+from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import derivative, from_values, interpolated, nodes, real_parts_of_roots
 from optlaws.numerics.tolerances import QUOTIENT_BLUR, VALUE_ROUNDING
-
-Array = NDArray[np.float64]
 
 _DEEPEST = 12
 #: for parts so short that nothing is smooth on them

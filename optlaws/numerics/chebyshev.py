@@ -13,9 +13,9 @@ from numpy.polynomial.legendre import leggauss
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
+from optlaws.numbers import Array
 from optlaws.numerics.tolerances import EPSILON, SERIES_ROUNDING
 
-Array = NDArray[np.float64]
 Place = TypeVar("Place", float, Array)
 Values = TypeVar("Values", Array, NDArray[np.complex128])
 

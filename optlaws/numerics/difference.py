@@ -6,13 +6,12 @@ from collections.abc import Callable
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.errors import InputError
+from optlaws.numbers import Array
 from optlaws.numerics import bernstein, chebyshev
 from optlaws.numerics.tolerances import DIFFERENCE_ROUNDING, DIFFERENCE_SHARE
 
-Array = NDArray[np.float64]
 Function = Callable[[Array], Array]
 
 _NODES = 10

@@ -8,12 +8,11 @@ from itertools import pairwise
 from math import ceil
 
 import numpy as np
-from numpy.typing import NDArray
 
+from optlaws.numbers import Array
 from optlaws.numerics import chebyshev
 from optlaws.numerics.peaks import polished
 
-Array = NDArray[np.float64]
 Function = Callable[[Array], Array]
 #: whether a panel of this series and this length is short enough
 Short = Callable[[Array, float], bool]

@@ -7,12 +7,9 @@ from dataclasses import dataclass
 from math import inf
 
 import numpy as np
-from numpy.typing import NDArray
 
-from optlaws.numbers import bounded
+from optlaws.numbers import Array, bounded
 from optlaws.numerics.tolerances import POLISHED, POLISHING_REACH, TIE
-
-Array = NDArray[np.float64]
 
 POLISH_STEPS = 3
 

@@ -7,12 +7,11 @@ from functools import partial
 from math import inf, log
 
 import numpy as np
-from numpy.typing import NDArray
 
+from optlaws.numbers import Array
 from optlaws.numerics.bisection import bisect
 from optlaws.numerics.tolerances import SAME_EXPONENT
 
-Array = NDArray[np.float64]
 Sum = Mapping[float, float]  # exponent: coefficient
 
 

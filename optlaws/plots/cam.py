@@ -7,12 +7,12 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.contact import FollowerContact
 from optlaws.cams.forces import CamForces
 from optlaws.errors import InputError
+from optlaws.numbers import Array
 from optlaws.plots.style import BLUES, GREEN, GREY, WARM, new_figure, plot_style, titled
 
 if TYPE_CHECKING:
@@ -20,7 +20,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-Array = NDArray[np.float64]
 Values = Callable[[Array], Array]
 
 PANELS = ("displacement", "pressure angle", "curvature")

@@ -6,12 +6,11 @@ from math import inf
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.cycles.cycle import Cycle
 from optlaws.errors import InputError
 from optlaws.motion.quantities import TURN
-from optlaws.numbers import derivative
+from optlaws.numbers import Array, derivative
 from optlaws.plots.law import four
 from optlaws.plots.style import BLUES, GREEN, GREY, WARM, new_figure, plot_style, titled
 
@@ -24,7 +23,6 @@ if TYPE_CHECKING:
 
     from optlaws.cycles.cycle import Cycle
 
-Array = NDArray[np.float64]
 
 #: units of tables and pictures, and how many of them make one of SI
 UNITS = {

@@ -8,12 +8,12 @@ from math import inf, isfinite
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.cycles.law_comparison import Comparison
 from optlaws.errors import InputError
 from optlaws.laws.curve import Curve
 from optlaws.laws.law import MotionLaw
+from optlaws.numbers import Array
 from optlaws.plots.style import BLUES, BROWN, GREEN, GREY, VIOLET, WARM, new_figure, plot_style
 from optlaws.synthesis.limits.of_problem import limited_laws
 from optlaws.synthesis.problem.problem import Problem
@@ -24,7 +24,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 from optlaws.numerics.tolerances import LOOKS_EQUAL
 
-Array = NDArray[np.float64]
 Panels = Sequence["Axes"]
 
 QUANTITIES = ("displacement a", "velocity b", "acceleration c", "jerk j")

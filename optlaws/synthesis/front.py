@@ -12,13 +12,12 @@ from numpy.typing import NDArray
 from optlaws.extras import needed
 from optlaws.kept import kept_property
 from optlaws.laws import PolynomialLaw
+from optlaws.numbers import Array
 from optlaws.numerics.tolerances import AGREEMENT
 from optlaws.synthesis.families.peaks import of_polynomials
 from optlaws.synthesis.problem.fields import CONSTANTS
 from optlaws.synthesis.problem.named_constants import named, title_of
 from optlaws.synthesis.solution import Solution
-
-Array = NDArray[np.float64]
 
 _OF_POINTS = ("lower bound", "gap", "limit", "status")
 #: of fronts of B, C, D and J

@@ -8,11 +8,10 @@ from math import inf, log2, sqrt
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
-from optlaws.numbers import real, whole
+from optlaws.numbers import Array, real, whole
 from optlaws.numerics.tolerances import AGREEMENT, NEARLY_NOTHING, NO_EXCHANGE
 from optlaws.shown.steps import Steps
 from optlaws.synthesis.front import IN_ARRAYS, Front, undominated, value_of, values_of
@@ -26,8 +25,6 @@ from optlaws.synthesis.program.writer import extreme_velocity
 from optlaws.synthesis.solution import Solution, Status
 from optlaws.synthesis.solve import synthesize
 from optlaws.synthesis.solve_array import SolvedLine
-
-Array = NDArray[np.float64]
 
 # how far above its least value a constant is held while the next one is minimised: as near as the solver can go
 _ABOVE = (1e-5, 1e-7, 1e-9)

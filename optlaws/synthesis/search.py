@@ -6,10 +6,10 @@ from dataclasses import dataclass, field, replace
 from time import perf_counter
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.errors import InfeasibleProblem, SolverFailure
 from optlaws.laws import MotionLaw
+from optlaws.numbers import Array
 from optlaws.numerics.tolerances import (
     AGREEMENT,
     BEYOND_PROOF,
@@ -37,8 +37,6 @@ from optlaws.synthesis.proof.peaks import search as places
 from optlaws.synthesis.proof.peaks.rows import peak_of
 from optlaws.synthesis.proof.power.search import tightened
 from optlaws.synthesis.solution import Solution, Status, measure
-
-Array = NDArray[np.float64]
 
 #: of the gap, what the search over the places of a peak leaves
 _LEFT = 0.9

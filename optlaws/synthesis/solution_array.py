@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from optlaws.errors import InputError, OptlawsError
 from optlaws.extras import needed
 from optlaws.kept import kept_property
+from optlaws.numbers import Array
 from optlaws.shown.summary import Row, Summary
 from optlaws.synthesis.arrays.problems import ProblemArray
 from optlaws.synthesis.limits.of_problem import known_limit
@@ -34,7 +35,6 @@ if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
 
-Array = NDArray[np.float64]
 
 NUMBERS = ("objective", "lower_bound", "gap", "B", "C", "D", "J", "rms_c")
 

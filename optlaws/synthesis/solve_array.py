@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError
 from optlaws.kept import kept_property
+from optlaws.numbers import Array
 from optlaws.shown.steps import Steps
 from optlaws.synthesis.arrays.continuation import StructureSegment
 from optlaws.synthesis.arrays.continued_laws import laws_along, laws_on, segments_of
@@ -35,8 +36,6 @@ from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.solution_array import SolutionArray
 from optlaws.synthesis.solve import TIGHT, synthesize
 from optlaws.synthesis.solved_parts import SolvedPart
-
-Array = NDArray[np.float64]
 
 
 def solved(problems: ProblemArray, *, bound: str = "quick") -> SolutionArray:

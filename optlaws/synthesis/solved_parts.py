@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.laws import MotionLaw
+from optlaws.numbers import Array
 from optlaws.numerics.tolerances import OPTIMALITY_GAP
 from optlaws.synthesis.arrays.solved_batch import NO_CONTACT, SolvedBatch
 from optlaws.synthesis.families.peaks import constant_of_series
@@ -26,8 +27,6 @@ from optlaws.synthesis.spaces.bases import PolynomialBasis
 from optlaws.synthesis.spaces.polynomials.space import PolynomialSpace
 from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,12 +7,10 @@ from math import inf
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.laws import MotionLaw
 from optlaws.laws.segments.segment import Segment
-
-Array = NDArray[np.float64]
+from optlaws.numbers import Array
 
 
 @dataclass(frozen=True)

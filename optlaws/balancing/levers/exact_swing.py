@@ -6,13 +6,12 @@ from collections.abc import Callable
 from math import pi
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.balancing.levers.motion import LeverMotion
 from optlaws.errors import InputError, SolverFailure
+from optlaws.numbers import Array
 from optlaws.numerics.tolerances import SWING_INTEGRATED, SWING_RESOLVED, SWING_SETTLED
 
-Array = NDArray[np.float64]
 Function = Callable[[Array], Array]
 
 POINTS = (96, 256, 768)  # of the quadrature: more where fewer do not resolve the motion

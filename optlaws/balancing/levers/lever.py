@@ -7,7 +7,6 @@ from math import degrees, pi, sqrt
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.balancing.levers.exact_swing import swung, upper_extreme
 from optlaws.balancing.levers.limits import LEAST_TRANSMISSION, MOST_ROCKER_SWING, check
@@ -17,9 +16,7 @@ from optlaws.balancing.levers.sizing import Sizing, sized
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import PolynomialLaw
-from optlaws.numbers import finite
-
-Array = NDArray[np.float64]
+from optlaws.numbers import Array, finite
 
 
 @dataclass(frozen=True)

@@ -7,9 +7,8 @@ from math import acos, atan2, pi, sqrt
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from optlaws.numbers import Array
 
 _SAMPLES = 33  # enough to see a link that passes its dead point and comes back
 

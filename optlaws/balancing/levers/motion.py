@@ -16,11 +16,9 @@ from optlaws.kept import kept_property
 from optlaws.laws import PolynomialLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
-from optlaws.numbers import derivative, finite, numbers, positive
+from optlaws.numbers import Array, derivative, finite, numbers, positive
 from optlaws.numerics import chebyshev
 from optlaws.numerics.tolerances import EPSILON, OPERATIONS_ROUNDING
-
-Array = NDArray[np.float64]
 
 _SAMPLES = 129
 _STEPS = 50

@@ -6,14 +6,13 @@ from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.balancing.levers.lever import TorsionLever
 from optlaws.errors import InputError, OptlawsError
+from optlaws.numbers import Array
 from optlaws.numerics.bisection import bisect
 from optlaws.numerics.tolerances import LINKAGE_MET, SAME_LINKAGE
 
-Array = NDArray[np.float64]
 Quantity = Callable[[TorsionLever], float]
 Make = Callable[..., TorsionLever]
 

@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.polynomial import chebyshev
-from numpy.typing import NDArray
 
 from optlaws.balancing.loaders.limits import LIMITS
 from optlaws.balancing.loaders.loader import loader
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
+from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import product
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.energy import Energy, EnergyFamily
@@ -29,7 +29,6 @@ from optlaws.synthesis.spaces.polynomials.space import PolynomialSpace
 if TYPE_CHECKING:
     from optlaws.synthesis.spaces.space import LawSpace
 
-Array = NDArray[np.float64]
 
 _AT_REST, _MIDDLE = 2, 0.5
 #: of a limit: more than its rounding errors

@@ -7,7 +7,6 @@ from itertools import pairwise
 from typing import Any, Self
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.balancing.loaders.segment import LoaderSegment
 from optlaws.balancing.loaders.tops import tops
@@ -19,8 +18,7 @@ from optlaws.laws.curve import Sides
 from optlaws.laws.segments.constant_power import PowerSegment
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment, Segment
-
-Array = NDArray[np.float64]
+from optlaws.numbers import Array
 
 
 @dataclass(frozen=True, repr=False)

@@ -8,13 +8,12 @@ from itertools import pairwise
 from math import comb, factorial, inf, isfinite, log2, sqrt
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.errors import InputError
+from optlaws.numbers import Array
 from optlaws.numerics import chebyshev
 from optlaws.numerics.tolerances import CONVERGENCE_RADIUS, VALUE_ROUNDING
 
-Array = NDArray[np.float64]
 Derivative = Callable[[float, int], float]
 
 TERMS = 48

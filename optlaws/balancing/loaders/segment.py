@@ -6,14 +6,12 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.balancing.loaders.stretch import LoaderStretch, stretch
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.segments.segment import Segment
-
-Array = NDArray[np.float64]
+from optlaws.numbers import Array
 
 
 @dataclass(frozen=True)

@@ -7,16 +7,14 @@ from functools import lru_cache
 from math import comb, inf
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.balancing.loaders.near_top import VelocityDeficit, velocity_deficit
 from optlaws.errors import SolverFailure
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
+from optlaws.numbers import Array
 from optlaws.numerics import panels
 from optlaws.numerics.tolerances import LEAST_ROOT, PANEL_ROUNDING, SHORTEST_PANEL
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

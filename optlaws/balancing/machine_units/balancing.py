@@ -9,7 +9,6 @@ from math import sqrt
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.balancing.dwells.parts import PartSegment
 from optlaws.balancing.loaders.loader import Loader
@@ -21,14 +20,12 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import TURN, either
-from optlaws.numbers import finite, real_times
+from optlaws.numbers import Array, finite, real_times
 from optlaws.numerics.enclosures.branch_and_bound import Extremes, extremes
 from optlaws.numerics.enclosures.integral import integral
 from optlaws.numerics.enclosures.interval import Interval
 from optlaws.numerics.enclosures.taylor import Jet
 from optlaws.numerics.tolerances import AGREEMENT, BALANCING_EXTREMES
-
-Array = NDArray[np.float64]
 
 _PARTS = 12
 

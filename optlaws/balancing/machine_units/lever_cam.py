@@ -7,7 +7,6 @@ from math import pi
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.balancing.levers.lever import TorsionLever
 from optlaws.cycles.cycle import Cycle
@@ -17,14 +16,12 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import PolynomialLaw
 from optlaws.motion.quantities import TURN, quantity
-from optlaws.numbers import positive
+from optlaws.numbers import Array, positive
 from optlaws.numerics import chebyshev
 from optlaws.numerics.enclosures.branch_and_bound import Extremes, extremes
 from optlaws.numerics.enclosures.interval import Interval
 from optlaws.numerics.enclosures.taylor import Jet, variable
 from optlaws.numerics.tolerances import ROUNDOFF, TORQUE_EXTREMES
-
-Array = NDArray[np.float64]
 
 _EDGES = 9
 

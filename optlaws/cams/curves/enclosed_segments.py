@@ -11,17 +11,15 @@ from functools import lru_cache
 from math import factorial
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.laws.segments.constant_power import PowerSegment
 from optlaws.laws.segments.fractional import FractionalSegment
 from optlaws.laws.segments.segment import Segment, Waves
+from optlaws.numbers import Array
 from optlaws.numerics import chebyshev, real_powers
 from optlaws.numerics.enclosures.interval import Interval, between, exact
 from optlaws.numerics.enclosures.taylor import Jet
 from optlaws.numerics.tolerances import ROUNDOFF
-
-Array = NDArray[np.float64]
 
 _MORE = 4  # derivatives that Taylor's formula takes beyond those that are asked
 

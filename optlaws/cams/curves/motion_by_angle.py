@@ -9,7 +9,6 @@ from math import factorial
 from typing import Any, Literal, Self
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.cams.curves.enclosed_segments import enclosed_derivatives, enclosed_power
 from optlaws.cycles.cycle import Cycle
@@ -21,14 +20,12 @@ from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment, Segment
 from optlaws.motion.piece import Piece, factor, named_law
 from optlaws.motion.quantities import TURN, either, in_small_units, quantity
-from optlaws.numbers import Quantity, derivative, real_times
+from optlaws.numbers import Array, Quantity, derivative, real_times
 from optlaws.numerics import chebyshev
 from optlaws.numerics.enclosures.interval import Interval, exact, hull
 from optlaws.numerics.enclosures.taylor import Jet
 from optlaws.numerics.tolerances import CLOSURE, ROUNDOFF
 from optlaws.suggest import unknown_key
-
-Array = NDArray[np.float64]
 
 Direction = Literal["rise", "return"]
 DIRECTIONS: dict[Direction, float] = {"rise": 1.0, "return": -1.0}

@@ -8,15 +8,12 @@ from math import comb
 from typing import Any, Self
 
 import numpy as np
-from numpy.typing import NDArray
 
-from optlaws.numbers import derivative, finite, real_times, whole
+from optlaws.numbers import Array, derivative, finite, real_times, whole
 from optlaws.numerics import chebyshev
 from optlaws.numerics.enclosures.interval import Interval
 from optlaws.numerics.enclosures.taylor import Jet, Pair
 from optlaws.numerics.tolerances import CONTROL_POINT_BLUR
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

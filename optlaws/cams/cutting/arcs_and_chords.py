@@ -5,14 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.cams.cutting.outline import Outline, curvature, divided, greatest_deviation, speed
+from optlaws.numbers import Array
 from optlaws.numerics.enclosures.interval import Interval, middle
 from optlaws.numerics.enclosures.taylor import Jet
 from optlaws.numerics.tolerances import DEVIATIONS, RADIUS_ROUNDING
-
-Array = NDArray[np.float64]
 
 GROWTH = 1.06
 FEWEST = 3

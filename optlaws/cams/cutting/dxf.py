@@ -10,7 +10,6 @@ from math import atan2, degrees
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.cams.cutting.arcs_and_chords import arcs, polygon
 from optlaws.cams.cutting.file_options import Cutting
@@ -23,7 +22,6 @@ from optlaws.locks import process_lock
 if TYPE_CHECKING:
     from ezdxf.layouts.layout import Modelspace
 
-Array = NDArray[np.float64]
 
 LAYER, CENTRE = "PROFILE", "CENTRE"
 _MILLIMETRES = 4

@@ -7,15 +7,13 @@ from dataclasses import dataclass
 from math import tau
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.cams.curves.plane_curve import CurveAlongNormals, PiecewiseCurve, derivatives
 from optlaws.cams.cutting.arcs_and_chords import Arcs
 from optlaws.kept import kept_property
+from optlaws.numbers import Array
 from optlaws.numerics.enclosures.interval import Interval
 from optlaws.numerics.enclosures.taylor import Pair, turned, variable
-
-Array = NDArray[np.float64]
 
 
 class CurveByJets(ABC):

@@ -8,15 +8,14 @@ from math import ceil, tau
 from typing import Any, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.errors import InputError
+from optlaws.numbers import Array
 from optlaws.numerics.enclosures.branch_and_bound import extremes
 from optlaws.numerics.enclosures.interval import Interval
 from optlaws.numerics.enclosures.taylor import Jet, Pair
 from optlaws.numerics.tolerances import OUTLINE_SHARE, SMALLEST_SPEED
 
-Array = NDArray[np.float64]
 Density = Callable[[Array], Array]
 
 MOST_PARTS = 200_000

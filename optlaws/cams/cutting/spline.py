@@ -6,17 +6,15 @@ from dataclasses import dataclass
 from math import inf, sqrt, tau
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.cams.curves.plane_curve import PiecewiseCurve, derivatives
 from optlaws.cams.cutting.outline import MOST_PARTS, Outline, greatest_deviation, stretches
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
+from optlaws.numbers import Array
 from optlaws.numerics.enclosures.interval import Interval
 from optlaws.numerics.enclosures.taylor import Jet, Pair
 from optlaws.numerics.tolerances import BEFORE_BREAK
-
-Array = NDArray[np.float64]
 
 DEGREES = (3, 5)
 _FIRST = 48

@@ -13,9 +13,8 @@ from optlaws.cams.cutting.outline import Outline
 from optlaws.cams.cutting.spline import Spline, spline
 from optlaws.errors import InputError
 from optlaws.files.writing import MARK
+from optlaws.numbers import Array
 from optlaws.numerics.bisection import bisect_each
-
-Array = NDArray[np.float64]
 
 _SAMPLES = 7201
 

@@ -9,17 +9,14 @@ from math import acos, cos, degrees, hypot, pi, sqrt
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.cams.followers.contact import ContactState, CurvatureTerms, LinearLimit, Transmission, other_leg
 from optlaws.cams.followers.follower import CamFollower, Place, positive, roller_radius, shown
 from optlaws.cams.followers.rollers_and_faces import RollerContact, half_turn
 from optlaws.errors import InputError
 from optlaws.motion.piece import Piece
-from optlaws.numbers import Quantity
+from optlaws.numbers import Array, Quantity
 from optlaws.numerics.enclosures.taylor import Jet, Pair
-
-Array = NDArray[np.float64]
 
 _LINES, _PARTS, _LOOKS = 16, 24, 2001
 

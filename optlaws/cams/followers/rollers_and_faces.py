@@ -6,11 +6,11 @@ from abc import abstractmethod
 from math import inf, pi, sin, sqrt
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.cams.curves.extremes import CamExtremes, EnclosedExtreme, Undercut, enclosed_extremes, widened
 from optlaws.cams.curves.motion_by_angle import CamMotion
 from optlaws.cams.followers.contact import ContactState, CurvatureTerms, FollowerContact, bearing, shifted
+from optlaws.numbers import Array
 from optlaws.numerics.enclosures.interval import Interval
 from optlaws.numerics.enclosures.taylor import Jet, Pair, Term
 from optlaws.numerics.tolerances import NO_CROSSING
@@ -148,9 +148,6 @@ def half_turn(angle: float) -> bool:
     (True, False)
     """
     return 0.0 < angle < pi and sin(angle) > 0.0
-
-
-Array = NDArray[np.float64]
 
 
 class FaceContact(FollowerContact):

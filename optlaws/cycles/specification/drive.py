@@ -8,16 +8,14 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.errors import InputError
 from optlaws.laws.storage import PlainNumbers
 from optlaws.motion.piece import Piece, factor
 from optlaws.motion.quantities import quantity, table
+from optlaws.numbers import Array
 from optlaws.numerics.tolerances import VALUE_ROUNDING
 from optlaws.suggest import unknown_key
-
-Array = NDArray[np.float64]
 
 #: entries of a drive with their dimensions, for slides and for tables
 ENTRIES = {

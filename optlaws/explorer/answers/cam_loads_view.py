@@ -10,7 +10,6 @@ from typing import Any
 
 import msgspec
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.cams.forces import CamForces
 from optlaws.cams.summary import Labelled, named_forces
@@ -18,9 +17,8 @@ from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.explorer.answers.cam_view import AskedCam, cams_of, panel
 from optlaws.explorer.answers.law_view import digits, drawn
 from optlaws.jobs.cam.forces_and_files import Findings, ForcesEntries, forces_of
+from optlaws.numbers import Array
 from optlaws.numerics.enclosures.branch_and_bound import Extremes
-
-Array = NDArray[np.float64]
 
 _STEPS = 360
 _PER_MEGAPASCAL = 1e6

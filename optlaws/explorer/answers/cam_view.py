@@ -11,7 +11,6 @@ from typing import Any
 
 import msgspec
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.cams.curves.extremes import EnclosedExtreme
 from optlaws.cams.disc import DiscCam
@@ -22,6 +21,7 @@ from optlaws.explorer.answers.cycle_view import check_axis
 from optlaws.explorer.answers.law_view import digits, drawn, refusal
 from optlaws.jobs.cam import schema
 from optlaws.motion.quantities import quantity
+from optlaws.numbers import Array
 
 _MILLI = 1e3
 _TURN = 360.0
@@ -29,8 +29,6 @@ _STEPS = 360
 _WHERE = Path("the cam")
 _FAR = 4.0  # a radius of curvature beyond so many base circles is a straight edge
 _HEARD = {"free": ("no undercut", "optimal"), "undercut": ("undercut", "refused"), "undecided": ("undecided", "local")}
-
-Array = NDArray[np.float64]
 
 
 class AskedCam(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.errors import InputError
 from optlaws.exports.format import Written
@@ -14,9 +13,8 @@ from optlaws.exports.spacing import places
 from optlaws.kept import kept_property
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion
+from optlaws.numbers import Array
 from optlaws.numerics.tolerances import TABLE_ROUNDING
-
-Array = NDArray[np.float64]
 
 DEGREES = {1: "linear", 2: "cubic Hermite", 3: "quintic Hermite", 4: "Hermite of degree 7"}
 

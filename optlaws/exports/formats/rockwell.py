@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.errors import InputError
 from optlaws.exports.format import MOST_POINTS, Request, Written, file_format
@@ -17,8 +16,6 @@ from optlaws.exports.spacing import chosen
 from optlaws.exports.text import iec_comment, real, table_heading
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion
-
-Array = NDArray[np.float64]
 
 SEGMENT_TYPES = {"linear": 0, "cubic": 1}
 CALCULATED = 2  # Status of an element of CAM_PROFILE

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.cams.cutting.spline import spline
 from optlaws.cams.cutting.text_formats import beziers
 from optlaws.cams.disc import DiscCam
 from optlaws.files.writing import MARK
+from optlaws.numbers import Array
 from optlaws.plots.style import BLUES, GREY, WARM
-
-Array = NDArray[np.float64]
 
 _MILLI = 1e3
 _FRAMES = 241

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import msgspec
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.cams.barrel import SIDES, BarrelCam, SpaceCurve
 from optlaws.errors import InputError
@@ -18,13 +17,13 @@ from optlaws.files import tables, writing
 from optlaws.files.problem_file import Text, convert
 from optlaws.jobs.cam.extreme_rows import EXTREMES, enclosure, extreme_row, plain
 from optlaws.jobs.cycle_entries import AxisEntries, cycle_of
+from optlaws.numbers import Array
 from optlaws.plots.style import BLUES, GREY, WARM, new_figure, plot_style, save_pictures, titled
 from optlaws.results.page import Page
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-Array = NDArray[np.float64]
 
 _MILLI = 1e3
 _TURN = 360.0

@@ -7,18 +7,16 @@ from math import exp, pi, sqrt
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws.law import MotionLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
-from optlaws.numbers import frequency, not_negative
+from optlaws.numbers import Array, frequency, not_negative
 from optlaws.numerics import chebyshev
 from optlaws.numerics.tolerances import AGREEMENT
 
-Array = NDArray[np.float64]
 Shaper = Literal["ZV", "ZVD"]
 
 _LEAST_TIME = 0.05

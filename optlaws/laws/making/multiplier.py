@@ -17,11 +17,10 @@ from optlaws.laws.making.transform import as_polynomial
 from optlaws.laws.polynomial import PolynomialLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import Segment
-from optlaws.numbers import finite, fractions
+from optlaws.numbers import Array, finite, fractions
 from optlaws.numerics import chebyshev, exact
 from optlaws.numerics.tolerances import JUMP, MULTIPLIER_CLOSE, MULTIPLIER_MET, MULTIPLIER_STEP, VALUE_ROUNDING
 
-Array = NDArray[np.float64]
 Multiplier = Sequence[Any] | NDArray[Any] | Callable[[float], float]
 
 _ROUNDS, _HALVINGS = 30, 12

@@ -15,11 +15,9 @@ from numpy.typing import NDArray
 from optlaws.errors import InputError, NoisyTable
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
-from optlaws.numbers import not_negative, numbers
+from optlaws.numbers import Array, not_negative, numbers
 from optlaws.numerics import chebyshev
 from optlaws.numerics.tolerances import THROUGH_POINTS
-
-Array = NDArray[np.float64]
 
 #: displacement to snap run through
 DEGREE = 5

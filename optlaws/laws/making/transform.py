@@ -4,9 +4,6 @@ from __future__ import annotations
 
 from itertools import pairwise
 
-import numpy as np
-from numpy.typing import NDArray
-
 from optlaws.errors import InputError
 from optlaws.laws.law import MotionLaw
 from optlaws.laws.polynomial import PolynomialLaw
@@ -14,8 +11,6 @@ from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
 from optlaws.numbers import finite
 from optlaws.numerics import chebyshev
-
-Array = NDArray[np.float64]
 
 
 def with_end_velocity(law: MotionLaw, b0: float) -> MotionLaw:

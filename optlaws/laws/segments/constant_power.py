@@ -6,13 +6,11 @@ from dataclasses import dataclass
 from math import inf, log, prod
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.errors import InputError
 from optlaws.laws.segments.fractional import FractionalSegment
 from optlaws.laws.segments.segment import PolynomialSegment, Segment
-
-Array = NDArray[np.float64]
+from optlaws.numbers import Array
 
 
 @dataclass(frozen=True)

@@ -6,14 +6,12 @@ from dataclasses import dataclass, replace
 from math import inf
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.errors import InputError
 from optlaws.laws.segments.segment import Segment
+from optlaws.numbers import Array
 from optlaws.numerics import real_powers
 from optlaws.numerics.tolerances import SAME_EXPONENT, SMALLEST_RATIO
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

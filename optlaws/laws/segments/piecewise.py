@@ -16,9 +16,8 @@ from optlaws.kept import kept_property
 from optlaws.laws.curve import Sides
 from optlaws.laws.law import MotionLaw
 from optlaws.laws.segments.segment import Segment
-from optlaws.numbers import finite, numbers
+from optlaws.numbers import Array, finite, numbers
 
-Array = NDArray[np.float64]
 Many = NDArray[Any] | Sequence[Any]
 
 _END = np.ones(1)

@@ -9,7 +9,6 @@ from functools import lru_cache
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
@@ -17,11 +16,8 @@ from optlaws.files.reading import JsonText
 from optlaws.laws.polynomial import PolynomialLaw
 from optlaws.laws.storage import contents, known_fields
 from optlaws.lazy import Registry
-from optlaws.numbers import finite, numbers
+from optlaws.numbers import Array, finite, numbers
 from optlaws.numerics import chebyshev
-
-Array = NDArray[np.float64]
-
 
 _START, _END = np.zeros(1), np.ones(1)
 

@@ -9,15 +9,13 @@ from math import cos, remainder, tau
 
 import numpy as np
 from numpy.polynomial.polynomial import polyval
-from numpy.typing import NDArray
 
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws.segments.segment import Segment, Wave, Waves
+from optlaws.numbers import Array
 from optlaws.numerics.panels import of_waves
 from optlaws.numerics.tolerances import SLOWEST_FREQUENCY
-
-Array = NDArray[np.float64]
 
 
 class SwingingSegment(Segment):

@@ -5,19 +5,14 @@ from __future__ import annotations
 from fractions import Fraction
 from itertools import pairwise
 
-import numpy as np
-from numpy.typing import NDArray
-
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw, PolynomialLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.mechanisms.cam.smoothness import check_mass_law
 from optlaws.mechanisms.checks import motion_law
-from optlaws.numbers import not_negative, positive
+from optlaws.numbers import Array, not_negative, positive
 from optlaws.numerics import chebyshev
-
-Array = NDArray[np.float64]
 
 
 def polydyne(law: MotionLaw, nu: float, damping: float = 0.0) -> MotionLaw:

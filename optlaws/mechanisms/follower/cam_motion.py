@@ -5,14 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
 from optlaws.laws.segments.segment import Wave
 from optlaws.laws.segments.sine import SineSegment
+from optlaws.numbers import Array
 from optlaws.numerics import chebyshev
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

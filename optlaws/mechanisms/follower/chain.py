@@ -7,17 +7,16 @@ from dataclasses import dataclass
 from math import ceil, log2
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
 from optlaws.mechanisms.follower.cam_motion import Forcing
 from optlaws.mechanisms.follower.particular import RADIANS, ForcedStretch, stretches
 from optlaws.mechanisms.follower.vibration import Oscillator
+from optlaws.numbers import Array
 from optlaws.numerics import chebyshev
 from optlaws.numerics.panels import Panels, equal, resolved
 from optlaws.numerics.tolerances import MOTION_RESOLVED, STRETCH_RESOLVED
 
-Array = NDArray[np.float64]
 State = tuple[float, float]
 #: of a slope on a stretch by its number, at times since its start: the slope itself, or its derivative
 Slope = Callable[[int, Array, int], Array]

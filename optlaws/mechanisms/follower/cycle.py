@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
@@ -16,9 +15,8 @@ from optlaws.mechanisms.follower.chain import MassChain
 from optlaws.mechanisms.follower.law_motion import forcings
 from optlaws.mechanisms.follower.mass_motion import MassMotion
 from optlaws.mechanisms.follower.vibration import Oscillator
+from optlaws.numbers import Array
 from optlaws.numerics.tolerances import RESONANCE, SHORTEST_STRETCH
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, repr=False)

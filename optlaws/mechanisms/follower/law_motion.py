@@ -7,17 +7,15 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.laws import MotionLaw, PolynomialLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import Segment, Wave, Waves
 from optlaws.mechanisms.follower.cam_motion import Forcing
+from optlaws.numbers import Array
 from optlaws.numerics import chebyshev
 from optlaws.numerics.panels import Panels, resolved
 from optlaws.numerics.tolerances import VELOCITY_ABSORBED, VELOCITY_RESOLVED
-
-Array = NDArray[np.float64]
 
 COUNT = 41
 

@@ -5,14 +5,9 @@ from __future__ import annotations
 from abc import abstractmethod
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from optlaws.laws.curve import Curve, Sides
 from optlaws.mechanisms.follower.chain import MassChain
-from optlaws.numbers import real_times
-
-Array = NDArray[np.float64]
+from optlaws.numbers import Array, real_times
 
 
 class MassMotion(Curve):

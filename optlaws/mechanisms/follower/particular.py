@@ -14,13 +14,11 @@ from math import ceil
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.mechanisms.follower.cam_motion import Forcing, PolynomialMotion
 from optlaws.mechanisms.follower.vibration import Oscillator
+from optlaws.numbers import Array
 from optlaws.numerics import chebyshev
-
-Array = NDArray[np.float64]
 
 GROWTH = 100.0  # the closed form may be this much larger than the forcing: it costs two digits of sixteen
 RADIANS = 10.0  # length of the stretches where the integral equation is solved

@@ -7,7 +7,6 @@ from math import inf
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
@@ -18,9 +17,7 @@ from optlaws.mechanisms.follower.chain import MassChain
 from optlaws.mechanisms.follower.law_motion import forcings
 from optlaws.mechanisms.follower.mass_motion import MassMotion
 from optlaws.mechanisms.follower.vibration import Oscillator
-from optlaws.numbers import derivative
-
-Array = NDArray[np.float64]
+from optlaws.numbers import Array, derivative
 
 
 @dataclass(frozen=True, repr=False)

@@ -6,12 +6,10 @@ from dataclasses import dataclass
 from math import atan2, atanh, hypot, pi, sqrt
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
 from optlaws.laws import Peak
-
-Array = NDArray[np.float64]
+from optlaws.numbers import Array
 
 
 @dataclass(frozen=True)

@@ -7,17 +7,15 @@ from itertools import pairwise
 from math import ceil
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.follower.cam_motion import Forcing
 from optlaws.mechanisms.follower.law_motion import forcings
 from optlaws.mechanisms.machine.dynamics import DriveStretch
+from optlaws.numbers import Array
 from optlaws.numerics import chebyshev
 from optlaws.synthesis.spaces.pieces.rows import PieceFamily
 from optlaws.synthesis.spaces.space import LawSpace
-
-Array = NDArray[np.float64]
 
 _RADIANS = 10.0
 _COUNT = 41

@@ -16,10 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
+from optlaws.numbers import Array
 from optlaws.numerics import chebyshev
 from optlaws.numerics.tolerances import SAME_ROOT, SAME_TIME, VIBRATING
 
-Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 RADIANS = 10.0  # of the fastest vibration in a panel

@@ -7,15 +7,12 @@ from dataclasses import dataclass
 from typing import Any, ClassVar, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
-from optlaws.numbers import not_negative, positive
+from optlaws.numbers import Array, not_negative, positive
 from optlaws.suggest import unknown_key
-
-Array = NDArray[np.float64]
 
 GROUND = "ground"
 DRIVE_FORCE = "drive force"

@@ -13,10 +13,9 @@ from numpy.typing import NDArray
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.mechanisms.machine.state_space import StateSpace
-from optlaws.numbers import not_negative, numbers, positive
+from optlaws.numbers import Array, not_negative, numbers, positive
 from optlaws.numerics.tolerances import DEFECTIVE, SAME_ROOT
 
-Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 

@@ -11,7 +11,6 @@ from typing import ClassVar
 
 import numpy as np
 from numpy.polynomial import legendre
-from numpy.typing import NDArray
 
 from optlaws.errors import InputError, OptlawsError
 from optlaws.kept import kept_property
@@ -23,7 +22,7 @@ from optlaws.mechanisms.machine.output_curve import OutputCurve
 from optlaws.mechanisms.machine.over_time import MachineCycle, MachineResponse, RepeatedMotion, around, jumps, steady
 from optlaws.mechanisms.machine.state_space import StateSpace
 from optlaws.mechanisms.machine.texts import check_repeats, check_rest, output_entries, time_of, title_of
-from optlaws.numbers import power_of_two
+from optlaws.numbers import Array, power_of_two
 from optlaws.numerics.tolerances import NEGLIGIBLE_TERM, SHORTEST_STRETCH, VALUE_ROUNDING
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily
@@ -32,8 +31,6 @@ from optlaws.synthesis.problem.constants import MAKERS, Functional
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 from optlaws.synthesis.spaces.pieces.rows import PieceFamily, PieceSeries
 from optlaws.synthesis.spaces.space import LawSpace
-
-Array = NDArray[np.float64]
 
 _RADIANS = 40.0  # of the fastest vibration on one piece of the rows
 _MOST_GAIN = 1e6

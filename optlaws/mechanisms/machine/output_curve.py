@@ -6,17 +6,14 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws.curve import Curve, Sides
-from optlaws.numbers import real_times, whole
+from optlaws.numbers import Array, real_times, whole
 from optlaws.numerics import chebyshev
 from optlaws.numerics.tolerances import END_ROUNDING
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -20,9 +20,9 @@ from optlaws.mechanisms.machine import drives
 from optlaws.mechanisms.machine.dynamics import RADIANS, DriveStretch, Panel
 from optlaws.mechanisms.machine.output_curve import OutputCurve
 from optlaws.mechanisms.machine.state_space import StateSpace
+from optlaws.numbers import Array
 from optlaws.numerics.tolerances import EPSILON, RESONANCE, SHORTEST_STRETCH
 
-Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 

@@ -24,14 +24,13 @@ from optlaws.mechanisms.machine.state_space import StateSpace
 from optlaws.mechanisms.machine.texts import check_rest, machine_of, text_of, title_of
 from optlaws.mechanisms.spectrum.laplace import velocity_transform_of
 from optlaws.mechanisms.spectrum.robust import cached_columns, domain_of, greatest_modulus, velocity_transforms, widened
-from optlaws.numbers import not_negative, numbers, power_of_two
+from optlaws.numbers import Array, not_negative, numbers, power_of_two
 from optlaws.numerics import chebyshev
 from optlaws.numerics.tolerances import NEGLIGIBLE_TERM
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.problem.constants import MAKERS, Functional
 from optlaws.synthesis.spaces.space import LawSpace
 
-Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 _SPARE = 40

@@ -14,11 +14,10 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.mechanisms.machine.dynamics import Dynamics
-from optlaws.numbers import MAGNITUDE_LIMIT, positive, real_times
+from optlaws.numbers import MAGNITUDE_LIMIT, Array, positive, real_times
 from optlaws.numerics.tolerances import SETTLED, UNSTABLE
 from optlaws.suggest import unknown_key
 
-Array = NDArray[np.float64]
 Matrix = tuple[tuple[float, ...], ...]
 
 Rows = NDArray[Any] | Sequence[Sequence[float]]

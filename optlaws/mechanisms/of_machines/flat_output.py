@@ -7,16 +7,14 @@ a chain without dampers between its masses, the law is that polynomial of deriva
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw, PolynomialLaw
 from optlaws.mechanisms.checks import motion_law
 from optlaws.mechanisms.machine.state_space import StateSpace
+from optlaws.numbers import Array
 from optlaws.numerics import chebyshev
 from optlaws.numerics.tolerances import FEEDTHROUGH, FLAT_OUTPUT_JUMP
-
-Array = NDArray[np.float64]
 
 
 def flat_output(machine: StateSpace, output: str | None = None) -> tuple[float, ...]:

@@ -7,16 +7,13 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.errors import InputError
 from optlaws.extras import needed
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.checks import motion_law
 from optlaws.mechanisms.machine.machine import Machine
-from optlaws.numbers import not_negative, numbers
-
-Array = NDArray[np.float64]
+from optlaws.numbers import Array, not_negative, numbers
 
 
 @dataclass(frozen=True, eq=False)

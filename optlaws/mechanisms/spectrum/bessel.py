@@ -8,10 +8,10 @@ from math import ceil
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.numbers import Array
 from optlaws.numerics import chebyshev
 from optlaws.numerics.tolerances import TINY
 
-Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 

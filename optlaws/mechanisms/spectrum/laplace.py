@@ -14,8 +14,8 @@ from optlaws.mechanisms.checks import motion_law
 from optlaws.mechanisms.follower.cam_motion import Forcing
 from optlaws.mechanisms.follower.law_motion import forcings
 from optlaws.mechanisms.spectrum.bessel import legendre_from_chebyshev, moments
+from optlaws.numbers import Array
 
-Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 

@@ -16,10 +16,10 @@ from optlaws.laws import MotionLaw
 from optlaws.mechanisms.follower.cam_motion import Forcing
 from optlaws.mechanisms.follower.law_motion import forcings
 from optlaws.mechanisms.spectrum.bessel import legendre_from_chebyshev, moments
+from optlaws.numbers import Array
 from optlaws.numerics import chebyshev
 from optlaws.numerics.tolerances import BEYOND_CUBIC, LOAD_RESOLVED
 
-Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 RADIANS = 0.7

@@ -12,9 +12,8 @@ from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.spectrum.bessel import legendre_from_chebyshev, moments
 from optlaws.mechanisms.spectrum.laplace import velocity_transform
-from optlaws.numbers import frequency, not_negative, numbers, whole
+from optlaws.numbers import Array, frequency, not_negative, numbers, whole
 
-Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 

@@ -19,14 +19,13 @@ from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.cam.constants import check_order
 from optlaws.mechanisms.spectrum.residual import residual_phasor, roots
-from optlaws.numbers import not_negative, positive
+from optlaws.numbers import Array, not_negative, positive
 from optlaws.numerics.chebyshev import from_values, nodes
 from optlaws.numerics.peaks import Peak
 from optlaws.synthesis.families.cone import ConeFamily, stationary_places
 from optlaws.synthesis.problem.constants import MAKERS, Functional
 from optlaws.synthesis.spaces.space import LawSpace
 
-Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 _WIDEST = 1000.0

@@ -13,8 +13,7 @@ from optlaws.laws import MotionLaw
 from optlaws.mechanisms.checks import motion_law
 from optlaws.mechanisms.spectrum.mass_peaks import peak_accelerations
 from optlaws.mechanisms.spectrum.residual import residual_phasor, roots
-
-Array = NDArray[np.float64]
+from optlaws.numbers import Array
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import SolverFailure
+from optlaws.numbers import Array
 from optlaws.numerics.enclosures.interval import Interval, exact
 from optlaws.numerics.enclosures.taylor import Jet
 from optlaws.numerics.tolerances import (
@@ -30,7 +31,6 @@ from optlaws.numerics.tolerances import (
     TIE,
 )
 
-Array = NDArray[np.float64]
 #: of places, as intervals, and of an order: the Taylor terms of a function anywhere in each, up to that order
 Function: TypeAlias = Callable[[Interval, int], Jet]
 

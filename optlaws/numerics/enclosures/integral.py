@@ -5,14 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.errors import SolverFailure
+from optlaws.numbers import Array
 from optlaws.numerics.enclosures.branch_and_bound import Function
 from optlaws.numerics.enclosures.interval import Interval
 from optlaws.numerics.tolerances import ROUNDOFF, SMALLEST_SIZE
-
-Array = NDArray[np.float64]
 
 _ORDER = 6
 _BLUR = 4.0

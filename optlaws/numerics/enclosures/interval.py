@@ -7,11 +7,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from optlaws.numbers import Array
 from optlaws.numerics.tolerances import ROUNDOFF, TINY, WAVE_ROUNDING
-
-Array = NDArray[np.float64]
 
 _FEW = 2  # products whose sum is taken one by one
 

@@ -18,10 +18,10 @@ from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
+from optlaws.numbers import Array
 from optlaws.numerics.tolerances import CELL_MARGIN, TANGENT_FALL
 from optlaws.synthesis.families.family import LinearFamily
 
-Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 #: cells for each degree of a family's series over the whole interval

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
+from optlaws.numbers import Array
 from optlaws.numerics.tolerances import (
     CERTIFIED_EXCESS,
     CERTIFIED_PULL,
@@ -23,8 +24,6 @@ from optlaws.synthesis.arrays.newton_steps import States, Structure, batch_famil
 from optlaws.synthesis.arrays.programs import Numbers, Path
 from optlaws.synthesis.families.family import BatchFamily, LinearFamily, NonlinearFamily
 from optlaws.synthesis.program.writer import Model
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,6 +13,7 @@ from math import isnan, prod
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.numbers import Array
 from optlaws.numerics.tolerances import (
     ASTRAY,
     AT_END,
@@ -28,8 +29,6 @@ from optlaws.synthesis.arrays.programs import Path
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.method.exchange import solve
 from optlaws.synthesis.method.strategies.contacts import polished
-
-Array = NDArray[np.float64]
 
 #: of the path: the first stride
 _FIRST = 0.02

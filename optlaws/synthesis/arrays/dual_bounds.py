@@ -6,16 +6,14 @@ from dataclasses import replace
 from math import ceil, inf, log
 
 import numpy as np
-from numpy.typing import NDArray
 
+from optlaws.numbers import Array
 from optlaws.numerics.tolerances import ROUNDOFF, SQUARED_SUMS
 from optlaws.synthesis.arrays.newton_steps import States, Structure, weighted
 from optlaws.synthesis.arrays.programs import Numbers, Path
 from optlaws.synthesis.families.family import LinearFamily
 from optlaws.synthesis.program.writer import Model
 from optlaws.synthesis.proof.sublevel_bounds import greatest_values, least_values, moments
-
-Array = NDArray[np.float64]
 
 _SPLIT = 2.0**27 + 1.0
 #: roundings in a row before it is weighted, as certificates count them, and what sums are off by beyond

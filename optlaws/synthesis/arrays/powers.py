@@ -12,6 +12,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.numbers import Array
 from optlaws.numerics.tolerances import AGREEMENT, TANGENT_SETTLED
 from optlaws.synthesis.arrays.continued_laws import laws_along
 from optlaws.synthesis.arrays.newton_steps import with_one
@@ -22,8 +23,6 @@ from optlaws.synthesis.problem.constants import D
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import relaxed
 from optlaws.synthesis.spaces.polynomials.space import PolynomialSpace
-
-Array = NDArray[np.float64]
 
 #: laws sought from all starts: at least and at most on a path, and of how many one
 _LEAST, _MOST, _EACH = 5, 13, 12

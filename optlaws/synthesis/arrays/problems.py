@@ -12,10 +12,8 @@ from numpy.typing import NDArray
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
-from optlaws.numbers import MOST_VELOCITY
+from optlaws.numbers import MOST_VELOCITY, Array
 from optlaws.synthesis.problem.problem import Problem
-
-Array = NDArray[np.float64]
 
 #: what `Problem` takes for an entry, or arrays of it
 Entry = Any

@@ -9,9 +9,8 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.numbers import Array
 from optlaws.synthesis.families.active_set import ActiveSet
-
-Array = NDArray[np.float64]
 
 NO_CONTACT = -1
 

@@ -10,12 +10,12 @@ from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
+from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import basis_values, product, real_parts_of_roots
 from optlaws.numerics.tolerances import CONE_NODES, EPSILON, ROW_ROUNDING, TINY
 from optlaws.synthesis.families.family import ConstraintFamily, NonlinearFamily, RowJet
 from optlaws.synthesis.families.peaks import peaks, products
 
-Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 

@@ -17,13 +17,12 @@ from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.slopes import derivative, scaled
 from optlaws.formulas.tree import Call, Exponentiation, Formula, Number, total
 from optlaws.kept import kept_property
+from optlaws.numbers import Array
 from optlaws.numerics.candidates import candidates
 from optlaws.numerics.chebyshev import FEWEST, MOST, from_values, nodes
 from optlaws.numerics.tolerances import FORMULA_RESOLVED, LEAST_ENERGY, ROUNDOFF
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NonlinearFamily, RowJet
 from optlaws.synthesis.families.peaks import peaks
-
-Array = NDArray[np.float64]
 
 _PLACES_PER_DEGREE = 2
 #: roundings of a formula's slope in a row

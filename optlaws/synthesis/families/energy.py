@@ -12,15 +12,13 @@ from typing import Self
 
 import numpy as np
 from numpy.polynomial import chebyshev, legendre
-from numpy.typing import NDArray
 
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
+from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import product, real_parts_of_roots
 from optlaws.numerics.tolerances import ENERGY_ROUNDING, LEAST_ENERGY, RULES_AGREE
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, RowJet
-
-Array = NDArray[np.float64]
 
 _SPARE = 48
 #: sizes of the rules that must agree on a tangent

@@ -12,12 +12,12 @@ from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
+from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import product, real_parts_of_roots
 from optlaws.numerics.gegenbauer import even_gegenbauer_jet
 from optlaws.numerics.tolerances import AT_END, END_OF_U, NO_NORM, ROW_ROUNDING
 from optlaws.synthesis.families.peaks import peaks, products
 
-Array = NDArray[np.float64]
 Made = TypeVar("Made")
 
 #: of fewer polynomials' values cosines are quicker than the recurrence

@@ -13,18 +13,16 @@ from itertools import pairwise
 from typing import Self
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.formulas.branches import branch_at, knots
 from optlaws.formulas.tree import Formula
 from optlaws.kept import kept_property
+from optlaws.numbers import Array
 from optlaws.numerics.candidates import cut_at_all, cut_at_roots
 from optlaws.numerics.chebyshev import gauss
 from optlaws.synthesis.families.curved import IntegralFamily, Slopes, between
 from optlaws.synthesis.families.family import RowJet
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

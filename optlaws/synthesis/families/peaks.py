@@ -7,13 +7,11 @@ from functools import lru_cache
 
 import numpy as np
 from numpy.polynomial import chebyshev
-from numpy.typing import NDArray
 
 from optlaws.laws import PolynomialLaw
+from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import from_values, nodes
 from optlaws.numerics.tolerances import ANGLE_SETTLED
-
-Array = NDArray[np.float64]
 
 #: points for each degree of the series: between them a peak rises by a share of less than 1/26 (Bernstein)
 _DENSITY = 6

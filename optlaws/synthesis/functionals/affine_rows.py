@@ -7,10 +7,10 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.formulas.affine import degree
 from optlaws.formulas.of_motion import MotionFormula
+from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import from_values, interpolated, nodes
 from optlaws.numerics.chebyshev import gauss as gauss_rule
 from optlaws.numerics.tolerances import VALUE_ROUNDING
@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from optlaws.formulas.tree import Formula
     from optlaws.synthesis.spaces.space import LawSpace
 
-Array = NDArray[np.float64]
 
 _WHOLE = (1.0, -1.0)
 _PLACES = 7

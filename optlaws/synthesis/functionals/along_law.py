@@ -7,7 +7,6 @@ from functools import partial
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.formulas.branches import knots
 from optlaws.formulas.of_motion import MotionFormula
@@ -16,12 +15,11 @@ from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, PolynomialLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
+from optlaws.numbers import Array
 from optlaws.numerics.candidates import candidates, cut_at_all, cut_at_roots, series_between
 from optlaws.numerics.chebyshev import gauss, value
 from optlaws.numerics.peaks import Peak, extremes
 from optlaws.numerics.tolerances import BESIDE_BREAK, INTEGRAL_SETTLED, PIECE_SETTLED
-
-Array = NDArray[np.float64]
 
 _LARGEST = 400
 #: how often a piece that is not smooth is cut in two, and how many places of Gauss's rule the last ones have

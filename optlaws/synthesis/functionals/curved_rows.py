@@ -9,7 +9,6 @@ from itertools import product as every
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.formulas.branches import switches, together
 from optlaws.formulas.convexity import Judge
@@ -17,6 +16,7 @@ from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.quadratic import quadratic
 from optlaws.formulas.tree import Call, Exponentiation, Formula, Name, Negative, Number, number, product, total
 from optlaws.formulas.vocabulary import ORDERS
+from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import gauss
 from optlaws.numerics.tolerances import RULES_AGREE
 from optlaws.synthesis.families import names
@@ -28,7 +28,6 @@ from optlaws.synthesis.functionals.affine_rows import Side, edges_of, rows
 if TYPE_CHECKING:
     from optlaws.synthesis.spaces.space import LawSpace
 
-Array = NDArray[np.float64]
 
 _SPARE = 40
 # what two rules in a row may differ by, relative, and how often parts are cut in two

@@ -8,7 +8,6 @@ from math import inf, isfinite
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.formulas.branches import smooth
 from optlaws.formulas.convexity import Judge
@@ -18,7 +17,7 @@ from optlaws.formulas.tree import Negative
 from optlaws.formulas.vocabulary import ORDERS
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
-from optlaws.numbers import power_of_two
+from optlaws.numbers import Array, power_of_two
 from optlaws.numerics.tolerances import VALUE_ROUNDING
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily
@@ -49,7 +48,6 @@ if TYPE_CHECKING:
     from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
     from optlaws.synthesis.spaces.space import LawSpace
 
-Array = NDArray[np.float64]
 
 _BOTH = (1.0, -1.0)
 

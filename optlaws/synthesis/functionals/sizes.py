@@ -6,11 +6,10 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.vocabulary import ORDERS
-from optlaws.numbers import power_of_two
+from optlaws.numbers import Array, power_of_two
 from optlaws.numerics.tolerances import INVERSE_AGREES, POSITIVE_WEIGHTS, SIZE_RANK, TINY
 from optlaws.synthesis.functionals.affine_rows import columns, gauss
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
@@ -18,7 +17,6 @@ from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 if TYPE_CHECKING:
     from optlaws.synthesis.spaces.space import LawSpace
 
-Array = NDArray[np.float64]
 
 _ROUNDED = 1.0 + 1e-6
 _ORDER = 2

@@ -10,9 +10,9 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.formulas.of_motion import MotionFormula
+from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import gauss
 from optlaws.numerics.tolerances import BALANCED, POSITIVE_LEVEL
 from optlaws.synthesis.functionals.curved_rows import columns_of, rule_cells
@@ -21,7 +21,6 @@ from optlaws.synthesis.functionals.sizes import kept_directions
 if TYPE_CHECKING:
     from optlaws.synthesis.spaces.space import LawSpace
 
-Array = NDArray[np.float64]
 
 _ORDER = 2
 _ROUNDED = 1.0 + 1e-6

@@ -9,8 +9,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from optlaws.numbers import Array
 from optlaws.numerics.tolerances import BALANCED, FLAT_INTEGRAL, POSITIVE_SHARES, REACH_SETTLED
 from optlaws.synthesis.families.curved import IntegralFamily
 from optlaws.synthesis.functionals.sizes import kept_directions
@@ -18,7 +18,6 @@ from optlaws.synthesis.functionals.sizes import kept_directions
 if TYPE_CHECKING:
     from optlaws.synthesis.spaces.space import LawSpace
 
-Array = NDArray[np.float64]
 
 _ORDER = 2
 _ROUNDED = 1.0 + 1e-6

@@ -14,9 +14,8 @@ from optlaws.formulas.scanner import FormulaError
 from optlaws.formulas.slopes import constant
 from optlaws.formulas.tree import Call, Exponentiation, Formula, Reciprocal
 from optlaws.formulas.vocabulary import ORDERS
+from optlaws.numbers import Array
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
-
-Array = NDArray[np.float64]
 
 #: values of b or c, among them 0, 1/2 and 1
 _PASSED = 2049

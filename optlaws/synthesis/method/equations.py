@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.numbers import Array
 from optlaws.numerics.tolerances import DEPENDENT_ROWS, EMPTY_ROW, EQUATION_OFF, NO_MULTIPLIER
-
-Array = NDArray[np.float64]
 
 
 def contradiction(rows: Array, right: Array) -> Array | None:

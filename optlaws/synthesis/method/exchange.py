@@ -10,8 +10,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from optlaws.numbers import Array
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Program
 from optlaws.synthesis.method.discretised.grids import first_points
@@ -23,8 +23,6 @@ from optlaws.synthesis.method.strategies.quadratics import ByQuadratics, bends_b
 from optlaws.synthesis.method.strategies.strategy import cutting_plane_loop
 from optlaws.synthesis.method.strategies.vertices import ByVertices, many_pieces
 from optlaws.synthesis.method.units import units_of
-
-Array = NDArray[np.float64]
 
 _ROUNDS = 12
 

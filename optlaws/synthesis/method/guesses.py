@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from optlaws.numbers import Array
 from optlaws.numerics.tolerances import EXCESS, VANISHED
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.curved import IntegralFamily
 from optlaws.synthesis.families.family import ConstraintFamily, NormFamily, Points, Program
-
-Array = NDArray[np.float64]
 
 #: by how much the room of a start exceeds what its base law needs
 _AMPLE = 1.2

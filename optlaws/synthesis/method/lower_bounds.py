@@ -20,6 +20,7 @@ from numpy.polynomial.chebyshev import chebpts2
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
+from optlaws.numbers import Array
 from optlaws.numerics.bisection import bisect
 from optlaws.numerics.tolerances import LEAST_STEP
 from optlaws.synthesis.families.active_set import ActiveSet
@@ -35,8 +36,6 @@ from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.evaluation import reaches, shortfalls
 from optlaws.synthesis.program.writer import Model, model_of
-
-Array = NDArray[np.float64]
 
 _FIRST_STEP = 0.25
 _WORTHY = 0.2

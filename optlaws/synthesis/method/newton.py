@@ -11,13 +11,11 @@ from contextlib import suppress
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from optlaws.numbers import Array
 from optlaws.numerics.tolerances import DEPENDENT_ROWS, NEWTON_CONVERGED, NEWTON_FULFILLED, NEWTON_STALLED, NEWTON_STILL
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Program
-
-Array = NDArray[np.float64]
 
 _STEPS = 14
 _FAR = 1.05

@@ -12,14 +12,12 @@ from dataclasses import replace
 from itertools import islice
 
 import numpy as np
-from numpy.typing import NDArray
 
+from optlaws.numbers import Array
 from optlaws.numerics.tolerances import DIRECTION_SETTLED, FLAT_DIRECTION
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import LinearFamily, NormFamily, Program
 from optlaws.synthesis.method.exchange import solve
-
-Array = NDArray[np.float64]
 
 _DIRECTIONS = 12
 _BEGUN = 8

@@ -7,14 +7,12 @@ from dataclasses import replace
 from math import inf, isfinite
 
 import numpy as np
-from numpy.typing import NDArray
 
+from optlaws.numbers import Array
 from optlaws.synthesis.method.exchange import solve
 from optlaws.synthesis.problem.constants import PowerConstant
 from optlaws.synthesis.program.writer import Model, model_of
 from optlaws.synthesis.spaces.polynomials.space import PolynomialSpace
-
-Array = NDArray[np.float64]
 
 _SEED = 20010
 _RANDOM = 2

@@ -12,8 +12,8 @@ from dataclasses import replace
 from math import isfinite
 
 import numpy as np
-from numpy.typing import NDArray
 
+from optlaws.numbers import Array
 from optlaws.numerics.bisection import bisect
 from optlaws.numerics.tolerances import EQUATIONS_RANK, LEAST_INTERIOR
 from optlaws.synthesis.families.active_set import ActiveSet
@@ -22,8 +22,6 @@ from optlaws.synthesis.method.exchange import solve
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.evaluation import worth
 from optlaws.synthesis.program.writer import Model, least_violation, model_of
-
-Array = NDArray[np.float64]
 
 #: the shares by which bounds are loosened, one after the other; a norm's optimum moves with the square root
 _LOOSENED = (1e-8, 1e-10, 1e-12)

@@ -7,12 +7,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-import numpy as np
-from numpy.typing import NDArray
-
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
-from optlaws.numbers import power_of_two
+from optlaws.numbers import Array, power_of_two
 from optlaws.synthesis.families.family import ConstraintFamily
 from optlaws.synthesis.families.names import mirrored
 from optlaws.synthesis.problem.constants import Functional, PowerConstant
@@ -20,7 +17,6 @@ from optlaws.synthesis.problem.constants import Functional, PowerConstant
 if TYPE_CHECKING:
     from optlaws.synthesis.spaces.space import LawSpace
 
-Array = NDArray[np.float64]
 
 #: what a smooth law's derivative is times the one before, nearly
 _STEEPER = 6.0

@@ -14,13 +14,12 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, ClassVar, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.errors import OptlawsError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, smoothstep
 from optlaws.lazy import Registry
-from optlaws.numbers import power_of_two
+from optlaws.numbers import Array, power_of_two
 from optlaws.synthesis.families.family import ConstraintFamily
 from optlaws.synthesis.problem.expression import Term
 
@@ -28,7 +27,6 @@ if TYPE_CHECKING:
     from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
     from optlaws.synthesis.spaces.space import LawSpace
 
-Array = NDArray[np.float64]
 
 _SMOOTH = 4  # the order of the law that scales are taken from
 _NO_ACCELERATION = 3  # the order from which laws begin and end without acceleration

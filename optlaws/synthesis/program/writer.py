@@ -8,10 +8,10 @@ from functools import lru_cache
 from math import isfinite, nextafter
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.formulas.of_motion import MotionFormula
 from optlaws.laws import MotionLaw
+from optlaws.numbers import Array
 from optlaws.numerics.tolerances import REST_VELOCITY
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, Program
@@ -27,8 +27,6 @@ from optlaws.synthesis.problem.windows import Window
 from optlaws.synthesis.program.agreement import check_rows
 from optlaws.synthesis.spaces.of_basis import space_of
 from optlaws.synthesis.spaces.space import LawSpace
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,7 +14,6 @@ from math import inf, isfinite
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
@@ -30,8 +29,6 @@ from optlaws.synthesis.proof.nodes import Contact, Leaf, Node
 from optlaws.synthesis.proof.peaks.rows import PeakRows, peak_of, roots_of
 from optlaws.synthesis.proof.power.box import BoxRows
 from optlaws.synthesis.proof.power.rows_of_problem import rows_of
-
-Array = NDArray[np.float64]
 
 OBJECTIVE, RELAXED, VIOLATION = "objective", "relaxed", "violation"
 

@@ -9,8 +9,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from optlaws.numbers import Array
 from optlaws.numerics.tolerances import CUTS_ENOUGH
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.curved import IntegralFamily
@@ -21,8 +21,6 @@ from optlaws.synthesis.method.discretised.linear import LinearTable, vertex_on_p
 from optlaws.synthesis.program.writer import Model
 from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.proof.nodes import Contact
-
-Array = NDArray[np.float64]
 
 _ROUNDS = 24
 #: how far beside the law tangents touch at first, in times the greatest variable, and shares of the way to a vertex

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from math import fsum, inf
 
 import numpy as np
-from numpy.typing import NDArray
 
+from optlaws.numbers import Array
 from optlaws.numerics.tolerances import WEIGHTED_ROUNDING
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.curved import FormulaFamily
@@ -22,7 +22,6 @@ from optlaws.synthesis.program.writer import Model
 from optlaws.synthesis.proof.nodes import Contact, Leaf
 from optlaws.synthesis.proof.sublevel_bounds import greatest_values, least_values, moments
 
-Array = NDArray[np.float64]
 #: a multiplier, a row and its right side
 Line = tuple[float, Array, float]
 

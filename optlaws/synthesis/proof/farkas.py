@@ -9,11 +9,9 @@ is left is charged for laws as great as floating-point numbers can tell from gre
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from optlaws.numbers import Array
 from optlaws.numerics.tolerances import FARKAS_FIRM, FARKAS_ROUNDING
-
-Array = NDArray[np.float64]
 
 #: in units of free functions with peak acceleration 1; of a greater law no double tells whether it keeps the rows
 _GREATEST = 1e12

@@ -6,8 +6,8 @@ from dataclasses import replace
 from math import nextafter
 
 import numpy as np
-from numpy.typing import NDArray
 
+from optlaws.numbers import Array
 from optlaws.numerics.tolerances import APEX, DIRECTIONS_BALANCED, DIRECTIONS_RANK, PROOF_ENOUGH, PROOF_WEIGHTLESS
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.cone import ConeFamily
@@ -31,8 +31,6 @@ from optlaws.synthesis.proof.duality import row_of, summed
 from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.proof.sublevel_bounds import least_values
 from optlaws.synthesis.spaces.bases import PolynomialBasis
-
-Array = NDArray[np.float64]
 
 _TANGENTS = 4
 _PLACES = 256

@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.laws import MotionLaw
+from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import nodes
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import ConstraintFamily, Program
 from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.problem.constants import PeakConstant
 from optlaws.synthesis.program.writer import Model
-
-Array = NDArray[np.float64]
 
 Contact = tuple[int, float, float, float]
 

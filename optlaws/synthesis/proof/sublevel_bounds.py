@@ -9,8 +9,8 @@ from collections.abc import Mapping
 from math import inf, isfinite
 
 import numpy as np
-from numpy.typing import NDArray
 
+from optlaws.numbers import Array
 from optlaws.numerics.tolerances import SUBLEVEL_RANK
 from optlaws.synthesis.families.names import VariableName
 from optlaws.synthesis.problem.constants import Functional, PeakConstant, PowerConstant
@@ -19,8 +19,6 @@ from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, maxima, relaxed_power
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 from optlaws.synthesis.spaces.space import LawSpace
-
-Array = NDArray[np.float64]
 
 _ACCELERATION = 2
 

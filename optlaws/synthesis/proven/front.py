@@ -16,7 +16,7 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import Constants, MotionLaw
 from optlaws.laws.making.transform import law_between
-from optlaws.numbers import bounded, real
+from optlaws.numbers import Array, bounded, real
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.evaluation import worth
 from optlaws.synthesis.proof.certificate import OBJECTIVE, Certificate
@@ -25,7 +25,6 @@ from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.proven.swept_parameter import SweptParameter, gap_bounds, lower_line
 from optlaws.synthesis.solution import measure
 
-Array = NDArray[np.float64]
 Many = NDArray[Any] | Sequence[float] | float
 T = TypeVar("T")
 

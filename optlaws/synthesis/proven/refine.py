@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
-from optlaws.numbers import positive, real
+from optlaws.numbers import Array, positive, real
 from optlaws.numerics.tolerances import NARROWEST, PROVEN_GAP
 from optlaws.synthesis.arrays.dual_bounds import bounds_below, rounding_charge, sharp_sums
 from optlaws.synthesis.families.family import LinearFamily
@@ -30,8 +30,6 @@ from optlaws.synthesis.solution_array import SolutionArray
 from optlaws.synthesis.solve import synthesize
 from optlaws.synthesis.solve_array import SolvedLine
 from optlaws.synthesis.solved_parts import SolvedPart
-
-Array = NDArray[np.float64]
 
 _FIRST, _MOST_PIECES = 17, 8
 #: of the wanted gap, what is aimed at: widths are whole parts of others

@@ -12,10 +12,10 @@ from math import inf, isfinite
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
+from optlaws.numbers import Array
 from optlaws.numerics.tolerances import PRODUCT_ROUNDING
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.problem.constants import ALIASES, FUNCTIONALS, MAKERS, Functional
@@ -28,7 +28,6 @@ from optlaws.synthesis.proof.certificate import Certificate, weighted_rows
 from optlaws.synthesis.proof.duality import rounding_error_bound, summed
 from optlaws.synthesis.solution import measure
 
-Array = NDArray[np.float64]
 Ends = tuple[float, float]
 
 #: before the name of a term of the objective: its weight runs

@@ -10,12 +10,11 @@ from math import comb
 from typing import Any, ClassVar, cast
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.lazy import Registry
-from optlaws.numbers import MOST_DEGREE, MOST_PIECE_DEGREE, MOST_PIECES, fractions, numbers, positive, whole
+from optlaws.numbers import MOST_DEGREE, MOST_PIECE_DEGREE, MOST_PIECES, Array, fractions, numbers, positive, whole
 from optlaws.numerics.exact import (
     chebyshev_from_powers,
     exact_powers,
@@ -23,8 +22,6 @@ from optlaws.numerics.exact import (
     rounded,
 )
 from optlaws.synthesis.spaces.breaks import mirrored, order_of_continuity, places
-
-Array = NDArray[np.float64]
 
 
 class Basis(ABC):

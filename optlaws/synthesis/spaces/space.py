@@ -7,14 +7,13 @@ from collections.abc import Callable, Hashable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.laws import MotionLaw
+from optlaws.numbers import Array
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily, ProductFamily
 from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 
-Array = NDArray[np.float64]
 _KEPT = 32
 
 

@@ -11,17 +11,14 @@ from math import comb
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
-from optlaws.numbers import MOST_PIECE_DEGREE, fractions, whole
+from optlaws.numbers import MOST_PIECE_DEGREE, Array, fractions, whole
 from optlaws.numerics.exact import chebyshev_from_powers
 from optlaws.synthesis.spaces.bases import Basis
 from optlaws.synthesis.spaces.breaks import mirrored, order_of_continuity, places
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, init=False)

@@ -11,7 +11,6 @@ from operator import mul
 import numpy as np
 from flint import arb, arb_series, ctx, fmpq, fmpq_poly
 from numpy.polynomial import legendre
-from numpy.typing import NDArray
 
 from optlaws.formulas.arithmetic import evaluate
 from optlaws.formulas.of_motion import MotionFormula
@@ -19,6 +18,7 @@ from optlaws.formulas.slopes import derivative
 from optlaws.formulas.tree import Formula
 from optlaws.formulas.vocabulary import ORDERS
 from optlaws.kept import kept_property
+from optlaws.numbers import Array
 from optlaws.synthesis.families.kinked import KinkedIntegralFamily
 from optlaws.synthesis.functionals.affine_rows import gauss_parts
 from optlaws.synthesis.functionals.curved_rows import Branch, integral_rows, rule_edges, rule_length
@@ -28,8 +28,6 @@ from optlaws.verification.enclosing.balls import ball, rational
 from optlaws.verification.enclosing.integrals import integrals
 from optlaws.verification.enclosing.on_parts import kinks, on_part
 from optlaws.verification.exact.space import ExactSpace
-
-Array = NDArray[np.float64]
 
 
 def formula_columns(space: ExactSpace, motion: MotionFormula, k: Fraction) -> list[arb]:

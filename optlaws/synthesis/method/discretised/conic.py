@@ -10,14 +10,12 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from optlaws.numbers import Array
 from optlaws.numerics.tolerances import CONIC_SOLVER, EMPTY_ROW
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily, Points, Program
 from optlaws.synthesis.method.discretised.ipopt import Answer
-
-Array = NDArray[np.float64]
 
 _USABLE = ("Solved", "AlmostSolved")
 

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.polynomial.chebyshev import chebpts2
-from numpy.typing import NDArray
 
+from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import nodes
 from optlaws.numerics.tolerances import NEARLY_BINDING
 from optlaws.synthesis.families.family import ConstraintFamily, EvenFamily, Points, Program
-
-Array = NDArray[np.float64]
 
 
 def first_points(program: Program) -> list[Points]:

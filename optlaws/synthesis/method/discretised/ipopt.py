@@ -6,14 +6,12 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.locks import casadi_lock
+from optlaws.numbers import Array
 from optlaws.numerics.tolerances import EMPTY_ROW
 from optlaws.synthesis.families.family import LinearFamily, Points, Program
 from optlaws.synthesis.method.discretised.expressions import CONES, RowShape, order_of, shape_and_numbers
-
-Array = NDArray[np.float64]
 
 _QUIET = {"print_time": False, "show_eval_warnings": False, "ipopt.print_level": 0, "ipopt.sb": "yes"}
 # nobody asks how the optimum depends on the parameters, which are all the rows

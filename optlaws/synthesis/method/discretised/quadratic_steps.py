@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.numbers import Array
 from optlaws.numerics.tolerances import (
     EMPTY_ROW,
     QUADRATIC_SOLVER,
@@ -24,8 +25,6 @@ from optlaws.synthesis.families.curved import IntegralFamily
 from optlaws.synthesis.families.family import LinearFamily, Points, Program
 from optlaws.synthesis.method.discretised.conic import conic_optimum
 from optlaws.synthesis.method.discretised.ipopt import Answer
-
-Array = NDArray[np.float64]
 
 _STEPS = 80
 #: of what a step promises: the share that it must keep, and that with which the damping falls

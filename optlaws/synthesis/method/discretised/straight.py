@@ -18,12 +18,11 @@ from optlaws.formulas.branches import branch_at, switches
 from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.slopes import opposite
 from optlaws.formulas.tree import Call, Formula, Name, Negative, Product, Sum
+from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import gauss
 from optlaws.synthesis.families.curved import Slopes
 from optlaws.synthesis.families.family import LinearFamily, Points, Program
 from optlaws.synthesis.families.kinked import KinkedIntegralFamily
-
-Array = NDArray[np.float64]
 
 _CELL, _PER_VARIABLE, _FEWEST = 6, 10, 160
 _OPTIMAL = 0

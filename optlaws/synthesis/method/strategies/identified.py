@@ -7,6 +7,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.numbers import Array
 from optlaws.numerics.tolerances import SAME_HEIGHT, SAME_PLACE, WEIGHTLESS, WEIGHTLESS_AT_VERTEX
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import ConstraintFamily, Points, ProductFamily, Program
@@ -14,8 +15,6 @@ from optlaws.synthesis.method.discretised.ipopt import Answer
 from optlaws.synthesis.method.discretised.linear import sharpened
 from optlaws.synthesis.method.newton import newton
 from optlaws.synthesis.method.strategies.contacts import completed, polished
-
-Array = NDArray[np.float64]
 
 #: times the variables: contacts that are nearer to each other may be one that IPOPT's tolerance shows as two
 _OF_SPACING = 1.0

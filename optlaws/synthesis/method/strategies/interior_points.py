@@ -9,8 +9,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from optlaws.numbers import Array
 from optlaws.numerics.tolerances import EXCESS, LOST
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.cone import ConeFamily
@@ -23,8 +23,6 @@ from optlaws.synthesis.method.discretised.ipopt import Answer, solve_on_points
 from optlaws.synthesis.method.strategies.identified import as_answered, optimum_near
 from optlaws.synthesis.method.strategies.strategy import Strategy, cutting_plane_loop
 from optlaws.synthesis.method.strategies.vertices import ByVertices
-
-Array = NDArray[np.float64]
 
 _LINEAR_ROUNDS = 6
 _KINKED_ROUNDS = 3

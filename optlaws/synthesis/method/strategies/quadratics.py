@@ -6,8 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from optlaws.numbers import Array
 from optlaws.numerics.tolerances import EXCESS
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.curved import IntegralFamily
@@ -18,8 +18,6 @@ from optlaws.synthesis.method.discretised.quadratic_steps import stepwise_on_poi
 from optlaws.synthesis.method.discretised.straight import is_straight, straight_step
 from optlaws.synthesis.method.strategies.identified import as_answered, optimum_near
 from optlaws.synthesis.method.strategies.strategy import Strategy
-
-Array = NDArray[np.float64]
 
 #: how far a linear program may go, in times the greatest variable: beyond what laws of the field have
 _REACH = 1e4

@@ -11,8 +11,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from optlaws.numbers import Array
 from optlaws.numerics.tolerances import EXCESS, VERTEX_FINE, VERTEX_NEAR
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Points, Program
@@ -23,8 +23,6 @@ from optlaws.synthesis.method.discretised.linear import LinearTable, by_family, 
 from optlaws.synthesis.method.strategies.identified import of_vertex, optimum_near
 from optlaws.synthesis.method.strategies.strategy import Strategy
 from optlaws.synthesis.spaces.pieces.rows import PieceFamily
-
-Array = NDArray[np.float64]
 
 _ROUNDS = 40
 _PIECES = 12

@@ -12,7 +12,6 @@ from dataclasses import replace
 from math import factorial, inf
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.numerics.tolerances import VALUE_ROUNDING
 from optlaws.synthesis.families.family import LinearFamily
@@ -23,8 +22,6 @@ from optlaws.synthesis.proof.duality import lines_of, sum_of_rows
 from optlaws.synthesis.proof.nodes import Leaf, Node, PlaceRange, Split, Tightening
 from optlaws.synthesis.proof.sublevel_bounds import greatest_values, moments
 from optlaws.synthesis.spaces.bases import PolynomialBasis
-
-Array = NDArray[np.float64]
 
 CLAIM = "claim"
 #: more than the rounding of the claim's own row, and of the curvature

@@ -11,17 +11,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
+from optlaws.numbers import Array
 from optlaws.numerics.tolerances import ENERGY_ROUNDING
 from optlaws.synthesis.families.family import ConstraintFamily
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import model_of
 from optlaws.synthesis.proof.duality import row_of
 from optlaws.synthesis.proof.nodes import Contact, Leaf, Node, Split, Tightening
-
-Array = NDArray[np.float64]
 
 _WORST = 1e10
 

@@ -13,11 +13,11 @@ from itertools import combinations_with_replacement, product
 from math import inf, isfinite
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.formulas.intervals import Endpoints, enclosed
 from optlaws.formulas.vocabulary import ORDERS
 from optlaws.kept import kept_property
+from optlaws.numbers import Array
 from optlaws.numerics.tolerances import BENEATH_ROUNDING, TINY
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.curved import CurvedFamily, IntegralFamily
@@ -33,8 +33,6 @@ from optlaws.synthesis.proof.power.box import Box, BoxRows, Places
 from optlaws.synthesis.proof.power.integral_underestimators import ConvexUnderestimator
 from optlaws.synthesis.proof.sublevel_bounds import asked_or_claimed, means
 from optlaws.synthesis.spaces.polynomials.space import PolynomialSpace
-
-Array = NDArray[np.float64]
 
 #: constants whose bound is one of a derivative's magnitude everywhere
 PEAKS = {"b": "B", "c": "C", "j": "J"}

@@ -11,12 +11,11 @@ import numpy as np
 from numpy.polynomial.chebyshev import chebpts2
 from numpy.typing import NDArray
 
+from optlaws.numbers import Array
 from optlaws.numerics.tolerances import GRID_EMPTY, GRID_LIGHT, GRID_NEAR
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily
 from optlaws.synthesis.proof.nodes import Contact, Leaf, Tightening
 from optlaws.synthesis.proof.power.box import Box, BoxRows, Places
-
-Array = NDArray[np.float64]
 
 _PLACES = 16
 _INFEASIBLE = 2

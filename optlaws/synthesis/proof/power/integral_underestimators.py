@@ -14,7 +14,6 @@ from itertools import combinations_with_replacement, permutations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.formulas.intervals import Endpoints, enclosed
 from optlaws.formulas.of_motion import MotionFormula
@@ -22,6 +21,7 @@ from optlaws.formulas.slopes import derivative
 from optlaws.formulas.tree import Formula
 from optlaws.formulas.vocabulary import ORDERS
 from optlaws.kept import kept_property
+from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import gauss
 from optlaws.numerics.tolerances import BENEATH_ROUNDING, INTEGRAL_BLUR, RULE_ROUNDING, TINY
 from optlaws.synthesis.families.curved import IntegralFamily
@@ -30,7 +30,6 @@ from optlaws.synthesis.functionals.curved_rows import columns_of, rule_cells
 if TYPE_CHECKING:
     from optlaws.synthesis.proof.power.box import Box, BoxRows
 
-Array = NDArray[np.float64]
 
 _CELLS = 32
 

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from math import inf, isfinite, sqrt
 
 import numpy as np
-from numpy.typing import NDArray
 
+from optlaws.numbers import Array
 from optlaws.numerics.tolerances import AWAY_FROM_REST
 from optlaws.synthesis.families.family import ConstraintFamily, ProductFamily
 from optlaws.synthesis.families.names import RowName
@@ -23,8 +23,6 @@ from optlaws.synthesis.program.writer import Model, model_of
 from optlaws.synthesis.proof.power.box import Box, BoxRows, Places
 from optlaws.synthesis.proof.sublevel_bounds import asked_or_claimed
 from optlaws.synthesis.spaces.polynomials.space import PolynomialSpace
-
-Array = NDArray[np.float64]
 
 POWER_ROWS = (RowName.POWER, RowName.POWER_FROM_LEAST)
 

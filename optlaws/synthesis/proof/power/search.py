@@ -6,9 +6,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.errors import InputError
+from optlaws.numbers import Array
 from optlaws.numerics.tolerances import GIVEN_VARIABLE, NARROW_RANGE, TINY
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import model_of
@@ -18,7 +18,6 @@ from optlaws.synthesis.proof.power.box import Box, BoxRows
 from optlaws.synthesis.proof.power.grid import Grid
 from optlaws.synthesis.proof.power.rows_of_problem import rows_of
 
-Array = NDArray[np.float64]
 #: tells from the variables of some law whether its neighbourhood has a better one than the best known
 Explore = Callable[[Array], bool]
 

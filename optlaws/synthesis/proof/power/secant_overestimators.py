@@ -7,9 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.numbers import Array
 from optlaws.numerics.tolerances import FLAT_SECANT, SECANT_SERIES
-
-Array = NDArray[np.float64]
 
 #: X² (1 - X) is nowhere above
 _MOST = 4.0 / 27.0

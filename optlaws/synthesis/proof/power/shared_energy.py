@@ -11,9 +11,9 @@ from collections.abc import Sequence
 from math import inf, isfinite, sqrt
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
+from optlaws.numbers import Array
 from optlaws.numerics.tolerances import AWAY_FROM_REST, ENERGY_OUTWARD, MIDDLE
 from optlaws.synthesis.families.energy import Energy, EnergyFamily
 from optlaws.synthesis.families.family import ConstraintFamily
@@ -25,8 +25,6 @@ from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.proof.power.box import Box, BoxRows, Places
 from optlaws.synthesis.proof.power.secant_overestimators import secant_over_inverse, secant_over_root
 from optlaws.synthesis.proof.sublevel_bounds import asked_or_claimed
-
-Array = NDArray[np.float64]
 
 TANGENT = "tangent of the energy"
 #: which planes bound the two products: from the greatest or the least of each first factor

@@ -6,13 +6,11 @@ from collections.abc import Callable
 
 import numpy as np
 from numpy.polynomial import chebyshev
-from numpy.typing import NDArray
 
+from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import from_values, nodes
 from optlaws.synthesis.spaces.pieces.rows import PieceSeries
 from optlaws.synthesis.spaces.polynomials.below_peak import chord, kink
-
-Array = NDArray[np.float64]
 
 
 def below_peak(acceleration: PieceSeries, jerk: PieceSeries, centre: float, *, smooth: bool) -> PieceSeries:

@@ -6,12 +6,10 @@ from math import factorial
 
 import numpy as np
 from numpy.polynomial import chebyshev, legendre
-from numpy.typing import NDArray
 
+from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import from_values, nodes
 from optlaws.synthesis.spaces.pieces.rows import PieceSeries
-
-Array = NDArray[np.float64]
 
 
 def above_rest(velocity: PieceSeries, derivative: PieceSeries, order: int) -> PieceSeries:

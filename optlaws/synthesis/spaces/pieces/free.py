@@ -7,10 +7,10 @@ from itertools import pairwise
 
 import numpy as np
 from numpy.polynomial import chebyshev
-from numpy.typing import NDArray
 
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
+from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import from_values, nodes
 from optlaws.synthesis.families.family import ConstraintFamily
 from optlaws.synthesis.families.names import RowName
@@ -19,8 +19,6 @@ from optlaws.synthesis.spaces.pieces.forward import above_rest
 from optlaws.synthesis.spaces.pieces.rows import PieceFamily, PieceSeries
 from optlaws.synthesis.spaces.pieces.space import PiecewiseSpace
 from optlaws.synthesis.spaces.space import Equation
-
-Array = NDArray[np.float64]
 
 
 class PieceSpace(PiecewiseSpace):

@@ -6,13 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.polynomial import chebyshev
-from numpy.typing import NDArray
 
+from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import product, real_parts_of_roots
 from optlaws.synthesis.families.family import MirroredFamily, RootFamily
 from optlaws.synthesis.spaces.pieces.rows import PieceFamily, PieceSeries
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

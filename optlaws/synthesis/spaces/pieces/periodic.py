@@ -9,17 +9,14 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.errors import InputError
-from optlaws.numbers import MOST_PIECES, numbers, whole
+from optlaws.numbers import MOST_PIECES, Array, numbers, whole
 from optlaws.numerics.chebyshev import from_values, nodes
 from optlaws.synthesis.spaces.bases import Pieces
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 from optlaws.synthesis.spaces.pieces.free import PieceSpace
 from optlaws.synthesis.spaces.space import Equation
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, init=False)

@@ -6,17 +6,15 @@ from abc import abstractmethod
 
 import numpy as np
 from numpy.polynomial import legendre
-from numpy.typing import NDArray
 
 from optlaws.errors import InputError
+from optlaws.numbers import Array
 from optlaws.synthesis.families.family import ConstraintFamily, NormFamily
 from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.spaces.pieces.below_peak import below_peak
 from optlaws.synthesis.spaces.pieces.from_rest import PieceMirroredFamily, PieceRootFamily, mirrored
 from optlaws.synthesis.spaces.pieces.rows import PieceFamily, PieceProductFamily, PieceSeries
 from optlaws.synthesis.spaces.space import LawSpace, Quadrature
-
-Array = NDArray[np.float64]
 
 
 class PiecewiseSpace(LawSpace):

@@ -13,11 +13,11 @@ from math import comb, perm
 
 import numpy as np
 from numpy.polynomial import chebyshev
-from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
+from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import from_values, nodes
 from optlaws.numerics.tolerances import EVEN_PART
 from optlaws.synthesis.families.family import ConstraintFamily
@@ -26,8 +26,6 @@ from optlaws.synthesis.spaces.end_conditions import BoundaryConditions, construc
 from optlaws.synthesis.spaces.pieces.rows import PieceFamily, PieceSeries
 from optlaws.synthesis.spaces.pieces.space import PiecewiseSpace
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
-
-Array = NDArray[np.float64]
 
 
 class SplineSpace(PiecewiseSpace):

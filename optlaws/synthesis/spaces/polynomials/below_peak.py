@@ -6,9 +6,8 @@ from collections.abc import Callable
 
 import numpy as np
 from numpy.polynomial import legendre
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from optlaws.numbers import Array
 
 
 def chord(jerk: Callable[[Array], Array], u: Array, centre: float, degree: int) -> Array:

@@ -11,10 +11,10 @@ from functools import lru_cache
 
 import numpy as np
 from numpy.polynomial import chebyshev, legendre
-from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
 from optlaws.laws import PolynomialLaw
+from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import from_values, nodes
 from optlaws.numerics.gegenbauer import gegenbauer
 from optlaws.synthesis.families.family import (
@@ -31,8 +31,6 @@ from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions, construct
 from optlaws.synthesis.spaces.polynomials.below_peak import chord
 from optlaws.synthesis.spaces.space import LawSpace, Quadrature
-
-Array = NDArray[np.float64]
 
 
 class PolynomialSpace(LawSpace):
