@@ -11,9 +11,11 @@ from optlaws import (
     Powers,
     Problem,
     SolverFailure,
+    Window,
     at_least,
     at_most,
     synthesize,
+    via,
 )
 from optlaws.verification import verify
 
@@ -84,3 +86,28 @@ def test_one_law_is_measured_where_no_freedom_is_left() -> None:
     solution = synthesize(CASES["one law alone"][0])
     k = np.linspace(0.0, 1.0, 4001)
     assert solution.objective == pytest.approx(np.abs(0.006 * (1.0 + k) * solution.law.c(k)).max(), rel=1e-4)
+
+
+def test_an_objective_that_an_interior_point_runs_away_from_is_found() -> None:
+    tenths = BSplines(breaks=tuple(k / 10.0 for k in range(11)), degree=4, continuity=3)
+    solution = synthesize(Problem(order=5, basis=tenths, minimise="rms(norm(121000*c, 203000*b))"))
+    assert solution.status.value == "optimal"
+
+
+def test_the_middle_of_a_flat_optimum_is_taken_where_vertices_stick_out() -> None:
+    breaks = (0.0, 0.035, 0.1745, 0.2095, 0.4825, 0.5, 0.5175, 0.7905, 0.8255, 0.965, 1.0)
+    problem = Problem(
+        order=2,
+        basis=Pieces(breaks=breaks, degree=5, continuity=3),
+        minimise="C",
+        monotone=True,
+        symmetric=False,
+        windows=(
+            Window("c", high=-2.965, start=0.803),
+            Window("b", high=1.52786288, start=0.4, stop=0.474),
+            via("a", 0.4655, at=0.477),
+        ),
+    )
+    solution = synthesize(problem)
+    assert solution.status.value == "optimal"
+    assert solution.objective == pytest.approx(4.5329, rel=1e-2)

@@ -13,7 +13,7 @@ import numpy as np
 
 from optlaws.numbers import Array
 from optlaws.synthesis.families.active_set import ActiveSet
-from optlaws.synthesis.families.family import Program
+from optlaws.synthesis.families.family import LinearFamily, Program
 from optlaws.synthesis.method.discretised.grids import first_points
 from optlaws.synthesis.method.equations import contradiction, independent
 from optlaws.synthesis.method.guesses import initial_guess, sizes_only, vanishing
@@ -25,6 +25,8 @@ from optlaws.synthesis.method.strategies.vertices import ByVertices, many_pieces
 from optlaws.synthesis.method.units import units_of
 
 _ROUNDS = 12
+_DIVERGING = "Diverging_Iterates"
+DEPTH = 1e5  # beyond what laws of the field have
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,4 +113,17 @@ def _solved(program: Program, start: Array | None, holds: Callable[[Array], bool
             return Outcome(optimum, stepwise.iterations, count, "quadratic programs")
     way = ByInteriorPoints(program, start, holds, rounds)
     optimum, _ = cutting_plane_loop(way, points)
+    if optimum is None and way.status == _DIVERGING:
+        held = grounded(program)
+        way = ByInteriorPoints(held, start, None, rounds)
+        optimum, _ = cutting_plane_loop(way, first_points(held))
+        # the row that held the objective up is none of the program's
+        optimum = None if optimum is None or (optimum.family == len(program.families)).any() else optimum
     return Outcome(optimum, way.iterations, way.count, way.status)
+
+
+def grounded(program: Program) -> Program:
+    """The program with its objective held above what laws of the field have: without that IPOPT may run away."""
+    row = np.append(-program.objective, 0.0)[None, :]
+    ground = LinearFamily("objective at least", np.zeros(program.size), DEPTH, (1.0,), (1.0, 1.0), series=row)
+    return replace(program, families=(*program.families, ground))

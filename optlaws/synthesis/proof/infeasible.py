@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import ceil, floor
 
 import numpy as np
@@ -11,13 +11,13 @@ from optlaws.errors import InfeasibleProblem, SolverFailure
 from optlaws.numerics.tolerances import DEEP_LAW_EXCESS, INFEASIBLE_WEIGHTLESS
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.cone import ConeFamily
-from optlaws.synthesis.families.family import LinearFamily, Points
+from optlaws.synthesis.families.family import Points
 from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.method.discretised.grids import first_points, with_extrema
 from optlaws.synthesis.method.discretised.ipopt import solve_on_points
 from optlaws.synthesis.method.discretised.linear import vertex_on_points
 from optlaws.synthesis.method.equations import contradiction
-from optlaws.synthesis.method.exchange import Outcome, solve
+from optlaws.synthesis.method.exchange import DEPTH, Outcome, grounded, solve
 from optlaws.synthesis.method.strategies.identified import as_answered
 from optlaws.synthesis.method.strategies.strategy import Strategy, cutting_plane_loop
 from optlaws.synthesis.problem.constants import C
@@ -29,7 +29,6 @@ from optlaws.synthesis.proof.no_law import beyond_limit, convex_part, least_of
 from optlaws.synthesis.spaces.bases import Basis, PolynomialBasis
 
 _ROUNDS = 6
-_DEEP = 1e5  # beyond what laws of the field have
 _PLAIN = 2  # so few equations contradict each other whatever freedom the law has
 _MORE_FREEDOM = {
     PolynomialBasis: "A higher degree of Z",
@@ -96,7 +95,7 @@ def failure(problem: Problem, outcome: Outcome) -> InfeasibleProblem | SolverFai
 
 def _deep(problem: Problem) -> str:
     scale = problem.objective.scale
-    return f"{-_DEEP:.0f}" if scale == 1.0 else f"{-_DEEP * scale:g}"
+    return f"{-DEPTH:.0f}" if scale == 1.0 else f"{-DEPTH * scale:g}"
 
 
 def _falls_for_ever(problem: Problem) -> bool:
@@ -104,14 +103,11 @@ def _falls_for_ever(problem: Problem) -> bool:
     if not problem.convex:
         return False
     model = model_of(problem)
-    program, depth = model.program, _DEEP
-    row = np.append(-program.objective, 0.0)[None, :]
-    ground = LinearFamily("objective at least", np.zeros(program.size), depth, (1.0,), (1.0, 1.0), series=row)
-    held = replace(program, families=(*program.families, ground))
+    program, held = model.program, grounded(model.program)
     deepest = solve(held).optimum
     # so far down nothing shows which contacts are exact: a law that keeps all bounds is enough
     x = solve_on_points(held, first_points(held), None).x if deepest is None else deepest.x
-    return program.objective_at(x) < -0.99 * depth and program.violation(x) < DEEP_LAW_EXCESS
+    return program.objective_at(x) < -0.99 * DEPTH and program.violation(x) < DEEP_LAW_EXCESS
 
 
 def _contradiction(proof: Certificate) -> str:

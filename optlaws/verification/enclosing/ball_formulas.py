@@ -175,8 +175,8 @@ def series_of(formula: Formula, names: Mapping[str, arb_series]) -> arb_series:
 
     Examples
     --------
-    >>> from optlaws.formulas.tree import Name, Number, Power
-    >>> series = series_of(Power(Name("k"), Number(2.0)), {"k": arb_series([arb(3), arb(1)])})
+    >>> from optlaws.formulas.tree import Name, Number, Exponentiation
+    >>> series = series_of(Exponentiation(Name("k"), Number(2.0)), {"k": arb_series([arb(3), arb(1)])})
     >>> [float(series[i]) for i in range(3)]
     [9.0, 6.0, 1.0]
     """

@@ -283,7 +283,10 @@ def test_a_solver_that_fails_is_never_silent(monkeypatch: pytest.MonkeyPatch) ->
     asked = problem(B=1.7001)
     # where IPOPT fails the simplex method ends a linear program
     assert synthesize(asked).status == "optimal"
+    # and where that fails too, Clarabel
     monkeypatch.setattr(vertices, "vertex_on_points", lambda *_: None)
+    assert synthesize(asked).status == "optimal"
+    monkeypatch.setattr(vertices, "optimum_on_points", lambda *_: None)
     with pytest.raises(SolverFailure, match="no law was found") as caught:
         synthesize(asked)
     assert caught.value.problem == asked

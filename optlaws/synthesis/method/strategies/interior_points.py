@@ -116,6 +116,8 @@ class ByInteriorPoints(Strategy[list[Points], ActiveSet]):
 
     def _by_vertices(self, points: list[Points]) -> ActiveSet | None:
         optimum, count = cutting_plane_loop(ByVertices(self.program, self.holds), points)
+        if optimum is None and not self.program.curved:
+            optimum, count = cutting_plane_loop(ByVertices(self.program, self.holds, central=True), points)
         if optimum is not None:
             self.count += count
             self.status = "vertices"

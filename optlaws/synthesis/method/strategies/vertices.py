@@ -50,6 +50,9 @@ class ByVertices(Strategy[list[Points], ActiveSet]):
         A program that is linear or conic.
     holds
         May tell from x alone, and more quickly than the families do, whether every constraint holds.
+    central
+        Whether the middle of all optima on the points is taken, by Clarabel: where the optimum is flat, vertices of it
+        stick out between the points, here and there, however many there are.
     excess, least
         What the last vertex exceeds between the points, and the least of that before.
     promising
@@ -61,6 +64,7 @@ class ByVertices(Strategy[list[Points], ActiveSet]):
     program: Program
     holds: Callable[[Array], bool] | None = None
     rounds: int = _ROUNDS
+    central: bool = False
     excess: float = np.inf
     least: float = np.inf
     promising: float = VERTEX_NEAR
@@ -85,7 +89,7 @@ class ByVertices(Strategy[list[Points], ActiveSet]):
 
     def _vertex(self, points: list[Points]) -> Answer | None:
         """The vertex on the points, exact where it is near the optimum."""
-        if self.program.curved:
+        if self.program.curved or self.central:
             vertex = optimum_on_points(self.program, points)
         else:
             vertex = vertex_on_points(self.program, points, self.near)
@@ -104,7 +108,7 @@ class ByVertices(Strategy[list[Points], ActiveSet]):
 
     def _ended(self, *, known: bool) -> bool:
         """Whether the vertex is the optimum: it exceeds nothing, or it gets no better; `known` are all its extrema."""
-        last = known and (self.near is not None or self.program.curved)
+        last = known and (self.near is not None or self.program.curved or self.central)
         return self.excess <= EXCESS or last or self.least <= self.excess <= _SLACK * EXCESS
 
 
