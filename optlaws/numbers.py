@@ -289,7 +289,7 @@ def _fraction(value: Any, name: str) -> Fraction:  # noqa: ANN401
     return exact
 
 
-def times(k: Any) -> NDArray[np.float64]:  # noqa: ANN401
+def times(k: Any) -> Array:  # noqa: ANN401
     """Dimensionless times as floats, of any shape.
 
     Raises
@@ -311,7 +311,7 @@ def times(k: Any) -> NDArray[np.float64]:  # noqa: ANN401
     return given
 
 
-def real_times(k: Any) -> NDArray[np.float64]:  # noqa: ANN401
+def real_times(k: Any) -> Array:  # noqa: ANN401
     """Finite times of any shape.
 
     Raises
@@ -330,7 +330,7 @@ def real_times(k: Any) -> NDArray[np.float64]:  # noqa: ANN401
     return given
 
 
-def _array(values: Any) -> NDArray[np.float64] | None:  # noqa: ANN401
+def _array(values: Any) -> Array | None:  # noqa: ANN401
     """The values as floats; None where one is no real number."""
     try:
         given = np.asarray(values)

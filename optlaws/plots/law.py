@@ -14,6 +14,7 @@ from optlaws.errors import InputError
 from optlaws.laws.curve import Curve
 from optlaws.laws.law import MotionLaw
 from optlaws.numbers import Array
+from optlaws.numerics.tolerances import LOOKS_EQUAL
 from optlaws.plots.style import BLUES, BROWN, GREEN, GREY, VIOLET, WARM, new_figure, plot_style
 from optlaws.synthesis.limits.of_problem import limited_laws
 from optlaws.synthesis.problem.problem import Problem
@@ -22,7 +23,6 @@ from optlaws.synthesis.solution import Solution
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
-from optlaws.numerics.tolerances import LOOKS_EQUAL
 
 Panels = Sequence["Axes"]
 

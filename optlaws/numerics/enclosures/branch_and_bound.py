@@ -243,16 +243,19 @@ class _Search:
             raise SolverFailure(
                 "a function has no finite value where it is looked at: nothing is known of its extremes"
             )
-        least, most = self._lowest(TIE)
-        if polished:
-            # of extremes as good as one another the first, however near to each of them a sample happened to be
-            least, most = (
-                first if first[0] <= known[0] + EQUAL_EXTREMES * max(abs(self.least), abs(self.most)) else known
-                for first, known in zip(
-                    self._polished(self._lowest(NEAR_TIE)), self._polished((least, most)), strict=True
-                )
-            )
+        known = self._lowest(TIE)
+        least, most = self._first_of_equals(known) if polished else known
         return Extremes(*least, min(self.bottom, least[0]), -most[0], most[1], max(self.top, -most[0]))
+
+    def _first_of_equals(self, known: tuple[Valued, Valued]) -> tuple[Valued, Valued]:
+        """The extremes by Newton's steps; of those as good as one another the first, however near a sample came."""
+        early, late = self._lowest(NEAR_TIE), self._polished(known)
+        if early == known:
+            return late
+        allowed = EQUAL_EXTREMES * max(abs(self.least), abs(self.most))
+        pairs = zip(self._polished(early), late, strict=True)
+        least, most = (first if first[0] <= best[0] + allowed else best for first, best in pairs)
+        return least, most
 
     def _lowest(self, tie: float) -> tuple[Valued, Valued]:
         """The first of the least values, and of the greatest with the opposite sign, and where they are."""
