@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from optlaws.exports.fitting import Fitted
 from optlaws.exports.format import Request, Written, file_format
 from optlaws.exports.formats.program_polynomials import (
     Ends,
@@ -45,8 +46,7 @@ def _write_elements(motion: Motion, request: Request) -> Written:
         for end, row in zip(ends, fit.run.coefficients, strict=True)
     ]
     run = PiecewiseMotion(fit.run.breaks, [_quintic(end) for end in ends])
-    notes = (fit.in_words(motion.units.slave), f"{len(rows)} of the {SEGMENTS} segments of the TO")
-    text = _configuration(name, "LCamHdl_typeAdvancedElement", rows, motion, (run, notes))
+    text, notes = _configuration(name, "LCamHdl_typeAdvancedElement", rows, motion, (run, fit))
     return Written(text, run, "quintic polynomials by their ends", len(rows), "segments", notes=notes)
 
 
@@ -67,8 +67,7 @@ def _write_polynomials(motion: Motion, request: Request) -> Written:
         for end in ends
     ]
     run = PiecewiseMotion(fit.run.breaks, [_sixth(end) for end in ends])
-    notes = (fit.in_words(motion.units.slave), f"{len(rows)} of the {SEGMENTS} segments of the TO")
-    text = _configuration(name, "LCamHdl_typePolynomialElement", rows, motion, (run, notes))
+    text, notes = _configuration(name, "LCamHdl_typePolynomialElement", rows, motion, (run, fit))
     return Written(
         text, run, "polynomials of degree 6 by their ends and start jerk", len(rows), "segments", notes=notes
     )
@@ -125,26 +124,26 @@ def _write_points(motion: Motion, request: Request) -> Written:
         fields(leadingValue=x, followingValue=y, velocityRatio=v, accelerationRatio=a)
         for x, (y, v, a) in zip(run.breaks, values.T.tolist(), strict=True)
     ]
-    notes = (fit.in_words(motion.units.slave), f"{fit.count} of the {SEGMENTS} segments of the TO")
-    text = _configuration(name, "LCamHdl_typeBasicPoint", rows, motion, (run, notes))
+    text, notes = _configuration(name, "LCamHdl_typeBasicPoint", rows, motion, (run, fit))
     return Written(text, run, "quintic polynomials between points", len(rows), notes=notes)
 
 
 def _configuration(
-    name: str, kind: str, rows: Sequence[str], motion: Motion, run_and_notes: tuple[PiecewiseMotion, Sequence[str]]
-) -> str:
-    run, notes = run_and_notes
-    return "\n".join(
-        [
-            iec_heading(f"{name}: a cam for LCamHdl and a TO_Cam of the S7-1500T, {kind}", motion, run, notes)
-            + "USING Simatic.Ax.LCamHdl;",
-            f"CONFIGURATION {name}_configuration",
-            "    VAR_GLOBAL",
-            f"        {name} : ARRAY[1..{len(rows)}] OF {kind} := [",
-            ",\n".join(f"            ({row})" for row in rows),
-            "        ];",
-            "    END_VAR",
-            "END_CONFIGURATION",
-            "",
-        ]
-    )
+    name: str, kind: str, rows: Sequence[str], motion: Motion, run_and_fit: tuple[PiecewiseMotion, Fitted]
+) -> tuple[str, tuple[str, ...]]:
+    """The text of a configuration, and its notes."""
+    run, fit = run_and_fit
+    notes = (fit.in_words(motion.units.slave), f"{fit.count} of the {SEGMENTS} segments of the TO")
+    lines = [
+        iec_heading(f"{name}: a cam for LCamHdl and a TO_Cam of the S7-1500T, {kind}", motion, run, notes)
+        + "USING Simatic.Ax.LCamHdl;",
+        f"CONFIGURATION {name}_configuration",
+        "    VAR_GLOBAL",
+        f"        {name} : ARRAY[1..{len(rows)}] OF {kind} := [",
+        ",\n".join(f"            ({row})" for row in rows),
+        "        ];",
+        "    END_VAR",
+        "END_CONFIGURATION",
+        "",
+    ]
+    return "\n".join(lines), notes
