@@ -197,9 +197,8 @@ class Judge:
 
     def _call(self, formula: Call) -> Verdict:
         name, kinds = formula.function, [self.by_rules(argument).curvature for argument in formula.arguments]
-        rising = (
-            SMOOTH_FUNCTIONS[name].curvature if name in SMOOTH_FUNCTIONS and SMOOTH_FUNCTIONS[name].rising else None
-        )
+        function = SMOOTH_FUNCTIONS.get(name)
+        rising = function.curvature if function is not None and function.rising else None
         if name == "max" or rising == "convex":
             return _when(
                 all(kind.convex for kind in kinds), Curvature.CONVEX, formula, f"{name}, which rises, of parts"
