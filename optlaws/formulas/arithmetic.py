@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from optlaws.formulas.tree import Call, Exponentiation, Formula, Name, Negative, Number, Product, Reciprocal, Sum, Table
+from optlaws.formulas.vocabulary import SMOOTH_FUNCTIONS
 from optlaws.numbers import Array
 from optlaws.numerics.tolerances import NORM_OFFSET
 
@@ -152,14 +153,7 @@ def spline(places: tuple[float, ...], values: tuple[float, ...]) -> Array:
 NUMPY = Arithmetic(
     number=np.float64,
     functions={
-        "sin": np.sin,
-        "cos": np.cos,
-        "tan": np.tan,
-        "atan": np.arctan,
-        "tanh": np.tanh,
-        "exp": np.exp,
-        "log": np.log,
-        "sqrt": np.sqrt,
+        **{name: function.numpy for name, function in SMOOTH_FUNCTIONS.items()},
         "abs": np.abs,
         "max": np.maximum,
         "min": np.minimum,
@@ -183,7 +177,7 @@ def casadi_arithmetic() -> Arithmetic:
             value = ca.if_else(at >= x, row, value)
         return value
 
-    functions = {name: getattr(ca, name) for name in ("sin", "cos", "tan", "atan", "tanh", "exp", "log", "sqrt")}
+    functions = {name: getattr(ca, name) for name in SMOOTH_FUNCTIONS}
     several = {
         "abs": ca.fabs,
         "max": ca.fmax,
@@ -198,6 +192,6 @@ def mpmath_arithmetic() -> Arithmetic:
     """mpmath's numbers, at the precision at work."""
     import mpmath as mp  # type: ignore[import-untyped]
 
-    functions = {name: getattr(mp, name) for name in ("sin", "cos", "tan", "atan", "tanh", "exp", "log", "sqrt")}
+    functions = {name: getattr(mp, name) for name in SMOOTH_FUNCTIONS}
     several = {"abs": abs, "max": max, "min": min, "norm": mp.hypot}
     return Arithmetic(mp.mpf, functions | several, lambda base, exponent: base**exponent)

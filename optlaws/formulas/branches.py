@@ -23,9 +23,10 @@ from optlaws.formulas.tree import (
     number,
     rebuilt,
 )
+from optlaws.formulas.vocabulary import SMOOTH_FUNCTIONS
 
 _MOST = 16
-_RISING = frozenset({"exp", "log", "sqrt", "atan", "tanh"})
+_RISING = frozenset(name for name, function in SMOOTH_FUNCTIONS.items() if function.rising)
 
 #: whether a formula is nowhere below 0 (1) or above (-1), or neither is known (0)
 Sign = Callable[[Formula], int]

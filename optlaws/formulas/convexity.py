@@ -20,6 +20,7 @@ from optlaws.formulas.intervals import Endpoints, enclosed
 from optlaws.formulas.quadratic import semidefinite
 from optlaws.formulas.slopes import constant
 from optlaws.formulas.tree import Call, Exponentiation, Formula, Negative, Product, Reciprocal, Sum, Table
+from optlaws.formulas.vocabulary import SMOOTH_FUNCTIONS
 
 _PARTS = 256
 
@@ -196,11 +197,13 @@ class Judge:
 
     def _call(self, formula: Call) -> Verdict:
         name, kinds = formula.function, [self.by_rules(argument).curvature for argument in formula.arguments]
-        if name in {"max", "exp"}:
+        function = SMOOTH_FUNCTIONS.get(name)
+        rising = function.curvature if function is not None and function.rising else None
+        if name == "max" or rising == "convex":
             return _when(
                 all(kind.convex for kind in kinds), Curvature.CONVEX, formula, f"{name}, which rises, of parts"
             )
-        if name in {"min", "sqrt", "log"}:
+        if name == "min" or rising == "concave":
             return _when(
                 all(kind.concave for kind in kinds), Curvature.CONCAVE, formula, f"{name}, which rises, of parts"
             )

@@ -17,6 +17,7 @@ import numpy as np
 from optlaws.formulas.arithmetic import pieces
 from optlaws.formulas.slopes import constant
 from optlaws.formulas.tree import Call, Exponentiation, Formula, Name, Negative, Number, Product, Reciprocal, Sum, Table
+from optlaws.formulas.vocabulary import SMOOTH_FUNCTIONS
 from optlaws.numbers import Array
 from optlaws.numerics.tolerances import OPERATIONS_ROUNDING
 
@@ -155,8 +156,10 @@ def _call(function: str, parts: list[Endpoints]) -> Endpoints:
         return reduce(lambda total, other: total + other, squares).through(np.sqrt)
     if function == "abs":
         return Endpoints(np.maximum(np.maximum(first.low, -first.high), 0.0), np.maximum(-first.low, first.high))
-    if function in _RISING:
-        return first.through(_RISING[function])
+    known = SMOOTH_FUNCTIONS[function]
+    if known.rising:
+        # where it has no value it says nothing
+        return first.through(lambda x: known.numpy(np.maximum(x, 0.0) if known.from_zero else x))
     if function == "tan":
         # a pole lies where the half turns differ
         same = np.floor(first.low / pi + 0.5) == np.floor(first.high / pi + 0.5)
@@ -173,13 +176,3 @@ def _cosine(turn: Endpoints) -> Endpoints:
     bottom = np.floor((turn.high - pi) / (2 * pi)) * 2 * pi + pi >= turn.low
     large = np.maximum(np.abs(turn.low), np.abs(turn.high)) > _MOST_ANGLE
     return Endpoints(np.where(bottom | large, -1.0, np.minimum(*ends)), np.where(top | large, 1.0, np.maximum(*ends)))
-
-
-_RISING: dict[str, Callable[[Array], Array]] = {
-    "atan": np.arctan,
-    "tanh": np.tanh,
-    "exp": np.exp,
-    # where they have no value they say nothing
-    "log": lambda x: np.log(np.maximum(x, 0.0)),
-    "sqrt": lambda x: np.sqrt(np.maximum(x, 0.0)),
-}

@@ -30,12 +30,13 @@ from optlaws.formulas.tree import (
     product,
     total,
 )
+from optlaws.formulas.vocabulary import SMOOTH_FUNCTIONS
 from optlaws.numbers import MAGNITUDE_LIMIT
 from optlaws.suggest import unknown_key
 
 #: functions by name, with the fewest and the most parts that they take
 FUNCTIONS = {
-    **dict.fromkeys(("sin", "cos", "tan", "atan", "tanh", "exp", "log", "sqrt", "abs"), (1, 1)),
+    **dict.fromkeys((*SMOOTH_FUNCTIONS, "abs"), (1, 1)),
     **dict.fromkeys(("max", "min", "norm"), (2, 12)),
 }
 TABLES = ("spline", "spline1", "spline2", "table")

@@ -11,11 +11,10 @@ from optlaws.errors import InputError
 from optlaws.formulas.reading import LONGEST
 from optlaws.formulas.slopes import added, multiplied, opposite
 from optlaws.formulas.tree import Call, Exponentiation, Formula, Name, Number, Reciprocal, number
-from optlaws.formulas.vocabulary import VOCABULARY
+from optlaws.formulas.vocabulary import SMOOTH_FUNCTIONS, VOCABULARY
 from optlaws.locks import casadi_lock
 
 _MOST = 2000
-_FUNCTIONS = ("sin", "cos", "tan", "atan", "tanh", "exp", "log", "sqrt")
 
 
 def text_of(function: Callable[..., Any]) -> str:
@@ -50,7 +49,7 @@ def _read(function: Callable[..., Any], names: list[str]) -> str:
         raise InputError(f"a formula is one expression of at most {_MOST} operations")
     operations = {
         getattr(ca, f"OP_{operation}"): operation
-        for operation in (*map(str.upper, _FUNCTIONS), *_OPERATIONS, "CONST", "INPUT", "OUTPUT")
+        for operation in (*map(str.upper, SMOOTH_FUNCTIONS), *_OPERATIONS, "CONST", "INPUT", "OUTPUT")
     }
     work: dict[int, Formula] = {}
     for i in range(graph.n_instructions()):

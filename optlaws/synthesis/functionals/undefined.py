@@ -13,11 +13,12 @@ from optlaws.formulas.reading import read
 from optlaws.formulas.scanner import FormulaError
 from optlaws.formulas.slopes import constant
 from optlaws.formulas.tree import Call, Exponentiation, Formula, Reciprocal
-from optlaws.formulas.vocabulary import ORDERS
+from optlaws.formulas.vocabulary import ORDERS, SMOOTH_FUNCTIONS
 from optlaws.numbers import Array
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 
 #: values of b or c, among them 0, 1/2 and 1
+_FROM_ZERO = frozenset(name for name, function in SMOOTH_FUNCTIONS.items() if function.from_zero)
 _PASSED = 2049
 #: motions at random, of which sizes, and how often one of the names is 0
 _MOTIONS, _STILL = 4096, 0.2
@@ -117,7 +118,7 @@ def pitfalls(motion: MotionFormula) -> Iterator[str]:
         inner = None
         if isinstance(part, Exponentiation) and not float(constant(part.exponent) or 0.5).is_integer():
             inner = part.base
-        elif isinstance(part, Call) and part.function in {"sqrt", "log"}:
+        elif isinstance(part, Call) and part.function in _FROM_ZERO:
             inner = part.arguments[0]
         if inner is not None and _between(inner, motion)[0] <= 0.0:
             yield f"{part} has no slope or no value where {inner} <= 0"
