@@ -5,7 +5,7 @@ from __future__ import annotations
 import operator
 from collections.abc import Iterable
 from fractions import Fraction
-from math import frexp, inf, isfinite, ldexp
+from math import frexp, inf, isfinite, ldexp, radians
 from numbers import Rational, Real
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -339,3 +339,14 @@ def _array(values: Any) -> Array | None:  # noqa: ANN401
     if given.dtype.kind not in "fiu" and given.size:
         return None
     return given.astype(np.float64)
+
+
+def deg(angle: float) -> float:
+    """An angle given in degrees, in radians: the library computes in these.
+
+    Examples
+    --------
+    >>> deg(180)
+    3.141592653589793
+    """
+    return radians(angle)

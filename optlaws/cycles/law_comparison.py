@@ -12,7 +12,7 @@ from optlaws.extras import needed
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.catalogue.reading import read_law
-from optlaws.mechanisms.checks import motion_law
+from optlaws.laws.law import motion_law
 from optlaws.mechanisms.spectrum.robust import residual
 from optlaws.motion.piece import factor
 from optlaws.motion.quantities import either, quantity

@@ -8,7 +8,7 @@ from typing import Any
 
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
-from optlaws.mechanisms.checks import motion_law
+from optlaws.laws.law import motion_law
 from optlaws.mechanisms.follower.follower import Follower
 from optlaws.mechanisms.follower.response import Response
 from optlaws.motion.piece import factor

@@ -11,7 +11,7 @@ from optlaws.cycles.specification.segments import ConstantVelocity, CycleSegment
 from optlaws.errors import InputError
 from optlaws.laws.making.transform import section
 from optlaws.laws.segments.piecewise import PiecewiseLaw
-from optlaws.mechanisms.cam.polydyne import polydyne
+from optlaws.mechanisms.follower.polydyne import polydyne
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import TURN, positive_quantity
 from optlaws.numbers import Quantity

@@ -11,8 +11,7 @@ import numpy as np
 from optlaws.errors import InputError
 from optlaws.exports.fitting import Fitted, fitted
 from optlaws.exports.polynomial_pieces import LawSection
-from optlaws.laws.law import MotionLaw
-from optlaws.mechanisms.checks import motion_law
+from optlaws.laws.law import MotionLaw, motion_law
 from optlaws.motion.motion import Motion
 from optlaws.motion.piece import Piece
 from optlaws.motion.polynomials import PiecewiseMotion

@@ -15,7 +15,7 @@ from scipy.optimize import minimize_scalar
 from optlaws import Expression, Functional, MotionLaw, Problem, Range, Solution, Window, peak
 from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.tree import Table
-from optlaws.mechanisms.cam.constants import CamPeak, CamPower
+from optlaws.mechanisms.follower.cam_constants import CamPeak, CamPower
 from optlaws.mechanisms.machine.output_constants import OutputConstant
 from optlaws.mechanisms.machine.residual_boxes import ModeResidual
 from optlaws.mechanisms.spectrum.robust import Residual

@@ -9,7 +9,7 @@ from math import ceil, log2
 import numpy as np
 
 from optlaws.kept import kept_property
-from optlaws.mechanisms.follower.cam_motion import Forcing
+from optlaws.mechanisms.follower.forcing import Forcing
 from optlaws.mechanisms.follower.particular import RADIANS, ForcedStretch, stretches
 from optlaws.mechanisms.follower.vibration import Oscillator
 from optlaws.numbers import Array

@@ -15,7 +15,7 @@ from typing import Protocol
 
 import numpy as np
 
-from optlaws.mechanisms.follower.cam_motion import Forcing, PolynomialMotion
+from optlaws.mechanisms.follower.forcing import Forcing, PolynomialMotion
 from optlaws.mechanisms.follower.vibration import Oscillator
 from optlaws.numbers import Array
 from optlaws.numerics import chebyshev
@@ -88,7 +88,7 @@ def stretches(forcing: Forcing, oscillator: Oscillator) -> list[ForcedStretch]:
     Examples
     --------
     >>> from optlaws.laws import smoothstep
-    >>> from optlaws.mechanisms.follower.law_motion import forcings
+    >>> from optlaws.mechanisms.follower.forcing import forcings
     >>> (rise,) = forcings(smoothstep(20))
     >>> len(stretches(rise, Oscillator(60.0, 0.0))), len(stretches(rise, Oscillator(15.0, 0.0)))
     (1, 2)

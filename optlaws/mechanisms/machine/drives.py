@@ -9,8 +9,7 @@ from math import ceil
 import numpy as np
 
 from optlaws.laws import MotionLaw
-from optlaws.mechanisms.follower.cam_motion import Forcing
-from optlaws.mechanisms.follower.law_motion import forcings
+from optlaws.mechanisms.follower.forcing import Forcing, forcings
 from optlaws.mechanisms.machine.dynamics import DriveStretch
 from optlaws.numbers import Array
 from optlaws.numerics import chebyshev

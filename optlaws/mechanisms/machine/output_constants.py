@@ -15,11 +15,18 @@ from numpy.polynomial import legendre
 from optlaws.errors import InputError, OptlawsError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, smoothstep
-from optlaws.mechanisms.checks import motion_law
+from optlaws.laws.law import motion_law
 from optlaws.mechanisms.machine import drives
 from optlaws.mechanisms.machine.dynamics import Panel, inverse_gain
-from optlaws.mechanisms.machine.output_curve import OutputCurve
-from optlaws.mechanisms.machine.over_time import MachineCycle, MachineResponse, RepeatedMotion, around, jumps, steady
+from optlaws.mechanisms.machine.over_time import (
+    MachineCycle,
+    MachineResponse,
+    OutputCurve,
+    RepeatedMotion,
+    around,
+    jumps,
+    steady,
+)
 from optlaws.mechanisms.machine.state_space import StateSpace
 from optlaws.mechanisms.machine.texts import check_repeats, check_rest, output_entries, time_of, title_of
 from optlaws.numbers import Array, power_of_two

@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
-from optlaws.mechanisms.spectrum.bessel import legendre_from_chebyshev, moments
-from optlaws.mechanisms.spectrum.laplace import velocity_transform
+from optlaws.mechanisms.spectrum.transforms import legendre_from_chebyshev, moments, velocity_transform
 from optlaws.numbers import Array, frequency, not_negative, numbers, whole
 
 Complex = NDArray[np.complex128]

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
-from optlaws.mechanisms.cam.constants import check_order
+from optlaws.mechanisms.follower.cam_constants import check_order
 from optlaws.mechanisms.spectrum.residual import residual_phasor, roots
 from optlaws.numbers import Array, not_negative, positive
 from optlaws.numerics.chebyshev import from_values, nodes

@@ -11,7 +11,7 @@ import numpy as np
 from optlaws.errors import InputError
 from optlaws.extras import needed
 from optlaws.laws import MotionLaw
-from optlaws.mechanisms.checks import motion_law
+from optlaws.laws.law import motion_law
 from optlaws.mechanisms.machine.machine import Machine
 from optlaws.numbers import Array, not_negative, numbers
 

@@ -1,4 +1,4 @@
-"""Laws as forcings: polynomials and sines as they are, everything else as Chebyshev series on short stretches."""
+"""The displacement of a cam as exact pieces in time: polynomials and sines, other laws as series on short stretches."""
 
 from __future__ import annotations
 
@@ -8,14 +8,100 @@ from itertools import pairwise
 
 import numpy as np
 
+from optlaws.errors import InputError
+from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, PolynomialLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import Segment, Wave, Waves
-from optlaws.mechanisms.follower.cam_motion import Forcing
+from optlaws.laws.segments.sine import SineSegment
 from optlaws.numbers import Array
 from optlaws.numerics import chebyshev
 from optlaws.numerics.panels import Panels, resolved
-from optlaws.numerics.tolerances import VELOCITY_ABSORBED, VELOCITY_RESOLVED
+from optlaws.numerics.tolerances import CLOSURE, VELOCITY_ABSORBED, VELOCITY_RESOLVED
+
+
+@dataclass(frozen=True, eq=False)
+class PolynomialMotion:
+    """A polynomial over a stretch of time by the Chebyshev series of itself and of its first two derivatives."""
+
+    length: float
+    series: tuple[Array, Array, Array]
+
+    def derivative(self, s: Array, order: int) -> Array:
+        """Derivative of order `order` at s."""
+        return chebyshev.value(self._series(order), 2.0 * s / self.length - 1.0)
+
+    @kept_property
+    def _known(self) -> dict[int, Array]:
+        return dict(enumerate(self.series))
+
+    def _series(self, order: int) -> Array:
+        if order not in self._known:
+            self._known[order] = chebyshev.derivative(self._series(order - 1)) / self.length
+        return self._known[order]
+
+
+@dataclass(frozen=True, eq=False)
+class Forcing:
+    """Displacement a over one stretch of time, s = time - start in [0, length]: a polynomial and sines.
+
+    Parameters
+    ----------
+    start, length
+        Where it lies, in units of the rise's duration.
+    a0, b0
+        Displacement and velocity at its start.
+    acceleration
+        Chebyshev series, in 2 s/length - 1, of what is no sine in c.
+    sines
+        The sines in c.
+
+    Examples
+    --------
+    >>> rise = Forcing(0.0, 0.5, 0.0, 0.0, np.array([8.0]))
+    >>> rise.derivative(np.array([0.5]), 0).tolist()
+    [1.0]
+    >>> rise = Forcing(0.0, 1.0, 0.0, 0.0, np.zeros(1), (Wave(2 * np.pi, 2 * np.pi, 0.0),))
+    >>> rise.derivative(np.array([1.0]), 0).round(12).tolist()
+    [1.0]
+    """
+
+    start: float
+    length: float
+    a0: float
+    b0: float
+    acceleration: Array
+    sines: tuple[Wave, ...] = ()
+
+    def derivative(self, s: Array, order: int) -> Array:
+        """Derivative of order `order` of a at s."""
+        if not self.sines:
+            return self._polynomial.derivative(s, order)
+        first, *others = (motion.derivative(s, 1.0, order) for motion in self._swings)
+        swing: Array = sum(others, first)
+        return swing if order > 1 and not self.acceleration.any() else swing + self._polynomial.derivative(s, order)
+
+    @kept_property
+    def _swings(self) -> tuple[SineSegment, ...]:
+        return tuple(SineSegment(*sine) for sine in self.sines)
+
+    @kept_property
+    def _polynomial(self) -> PolynomialMotion:
+        velocity = chebyshev.integral(self.length * self.acceleration, self.b0)
+        series = chebyshev.integral(self.length * velocity, self.a0), velocity, self.acceleration
+        return PolynomialMotion(self.length, series)
+
+
+def rest(start: float, length: float, a0: float) -> Forcing:
+    """The forcing of a cam that dwells.
+
+    Examples
+    --------
+    >>> rest(1.0, 0.5, 1.0).derivative(np.array([0.25]), 0).tolist()
+    [1.0]
+    """
+    return Forcing(start, length, a0, 0.0, np.zeros(1))
+
 
 COUNT = 41
 
@@ -93,3 +179,21 @@ class _Frame:
             c = tuple((chebyshev.derivative(b) / (last - first)).tolist())
             pieces.append(self._forcing(Waves(c, float(chebyshev.value(b, -1.0))), first, last))
         return pieces
+
+
+def leads_back(rise: MotionLaw, fall: MotionLaw) -> None:
+    """Refuse a return whose stroke is not that of the rise.
+
+    Raises
+    ------
+    InputError
+        Naming both strokes.
+
+    Examples
+    --------
+    >>> from optlaws.laws import smoothstep
+    >>> leads_back(smoothstep(3), smoothstep(4))
+    """
+    strokes = [float(law.a(1.0)) - float(law.a(0.0)) for law in (rise, fall)]
+    if abs(strokes[1] - strokes[0]) > CLOSURE * max(1.0, abs(strokes[0])):
+        raise InputError(f"fall must lead back over the rise's stroke {strokes[0]:g}, but has {strokes[1]:g}")

@@ -15,7 +15,7 @@ import numpy as np
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw, PolynomialLaw
-from optlaws.mechanisms.cam.polydyne import cam_factors, polydyne
+from optlaws.mechanisms.follower.polydyne import cam_factors, polydyne
 from optlaws.numbers import not_negative, positive
 from optlaws.numerics import chebyshev
 from optlaws.suggest import unknown_key
