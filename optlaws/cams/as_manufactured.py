@@ -10,11 +10,11 @@ from typing import Any, Literal
 import numpy as np
 
 from optlaws.cams.cutting.arcs_and_chords import Arcs, arcs
+from optlaws.cams.cutting.cam_files import polar
 from optlaws.cams.cutting.file_options import Cutting
 from optlaws.cams.cutting.manufactured_curves import ArcChain, PointSpline, PolarSpline, WavyCurve
 from optlaws.cams.cutting.outline import Outline
 from optlaws.cams.cutting.spline import spline
-from optlaws.cams.cutting.text_formats import polar
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.contact import FollowerContact, shifted
 from optlaws.errors import InputError

@@ -14,7 +14,7 @@ from optlaws.laws import MotionLaw
 from optlaws.laws.catalogue.reading import read_law
 from optlaws.laws.law import motion_law
 from optlaws.mechanisms.spectrum.robust import residual
-from optlaws.motion.piece import factor
+from optlaws.motion.piece import factor, unit_of
 from optlaws.motion.quantities import either, quantity
 from optlaws.numbers import Quantity, bounded, positive
 from optlaws.numerics.tolerances import AGREEMENT
@@ -23,7 +23,6 @@ from optlaws.numerics.tolerances import AGREEMENT
 FAR = 1.5
 CONSTANTS = ("B", "C", "D", "J", "rms_c")
 _MACHINE = {1: "velocity, {}/s", 2: "acceleration, {}/s²", 3: "jerk, {}/s³"}
-_UNITS = {"length": "m", "angle": "rad"}
 _PEAKS = {"D": "power", "J": "jerk"}
 
 
@@ -150,7 +149,7 @@ def compare(
         raise InputError("there is nothing to compare: name laws, such as 'modified sine' and 'law.json'")
     if (stroke is None) != (duration is None):
         raise InputError("stroke and duration go together: the peaks in the machine need both")
-    kind, height = ("length", None) if stroke is None else either(stroke, tuple(_UNITS), "stroke")
+    kind, height = ("length", None) if stroke is None else either(stroke, ("length", "angle"), "stroke")
     seconds = None if duration is None else positive(quantity(duration, "time", "duration"), "duration")
     if height is not None:
         positive(height, "stroke")
@@ -162,7 +161,7 @@ def compare(
         if name in named:
             raise InputError(f"{name} is given twice")
         named[name] = law
-    return Comparison(named, height, seconds, _UNITS[kind], nu, damping)
+    return Comparison(named, height, seconds, unit_of(kind), nu, damping)
 
 
 def costs(

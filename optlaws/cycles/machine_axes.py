@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any, Unpack
 
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.serialisation import problem_file
+from optlaws.cycles.interchange import problem_file
 from optlaws.cycles.specification.programme import period_of
 from optlaws.cycles.specification.segments import CycleSegment
 from optlaws.echo import shortened

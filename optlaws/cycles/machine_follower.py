@@ -11,11 +11,10 @@ from optlaws.laws import MotionLaw
 from optlaws.laws.law import motion_law
 from optlaws.mechanisms.follower.follower import Follower
 from optlaws.mechanisms.follower.response import Response
-from optlaws.motion.piece import factor
+from optlaws.motion.piece import factor, unit_of
 from optlaws.motion.quantities import either, quantity
 from optlaws.numbers import Quantity, positive
 
-_UNITS = {"length": "m", "angle": "rad"}
 _WAYS = "give frequency, such as '16.7 Hz', or period, such as '60 ms', and not both"
 _DURATIONS = "give duration, such as '0.1 s', or speed and rise, such as '105 rpm' and '120 deg'"
 
@@ -179,10 +178,10 @@ def machine_follower(
     Traceback (most recent call last):
     optlaws.errors.InputError: frequency must be a frequency such as '16.7 Hz', got '16.7' without a unit: ...
     """
-    kind, height = either(stroke, tuple(_UNITS), "stroke")
+    kind, height = either(stroke, ("length", "angle"), "stroke")
     seconds = _duration(duration, speed, rise)
     nu = tau * seconds * _frequency(frequency, period)
-    return MachineFollower(Follower(nu, damping), positive(height, "stroke"), seconds, _UNITS[kind])
+    return MachineFollower(Follower(nu, damping), positive(height, "stroke"), seconds, unit_of(kind))
 
 
 def _frequency(frequency: Quantity | None, period: Quantity | None) -> float:

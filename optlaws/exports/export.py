@@ -10,8 +10,8 @@ from typing import Any, Protocol
 
 from optlaws.errors import InputError
 from optlaws.exports.format import Format, Written, format_of
-from optlaws.exports.identifiers import variable_names
 from optlaws.exports.report import QUANTITIES, Report, TaskSampling, as_run, task_sampling
+from optlaws.exports.text import variable_names
 from optlaws.files import writing
 from optlaws.laws import MotionLaw
 from optlaws.motion.motion import Motion, motion_of_law

@@ -79,6 +79,17 @@ def factor(stroke: float, duration: float, nu: int) -> float:
     return stroke / duration**nu
 
 
+def unit_of(axis: str, nu: int = 0) -> str:
+    """The SI unit of a derivative by time of a length or an angle.
+
+    Examples
+    --------
+    >>> unit_of("length"), unit_of("angle", 2)
+    ('m', 'rad/s²')
+    """
+    return {"length": "m", "angle": "rad"}[axis] + ("", "/s", "/s²", "/s³", "/s⁴")[nu]
+
+
 @dataclass(frozen=True)
 class Piece:
     """A law in its place in a cycle: y = offset + stroke (a(k) - a(0)), k = (t - start)/duration, in SI units.

@@ -8,8 +8,7 @@ from optlaws.errors import InputError
 from optlaws.exports.error_bounds import SINGLE, as_stored
 from optlaws.exports.format import Request, Written, file_format
 from optlaws.exports.formats.program_polynomials import iec_heading, leaps_in_words, leaps_of_single, polynomials_for
-from optlaws.exports.identifiers import iec_name
-from optlaws.exports.text import real
+from optlaws.exports.text import iec_name, real
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion
 from optlaws.numerics.tolerances import WHOLE_NUMBER

@@ -18,10 +18,9 @@ from optlaws.exports.formats.program_polynomials import (
     polynomials_for,
     refuse_leaps,
 )
-from optlaws.exports.identifiers import iec_name
 from optlaws.exports.interpolation import hermite_powers
 from optlaws.exports.spacing import chosen
-from optlaws.exports.text import iec_comment, real, table_heading
+from optlaws.exports.text import iec_comment, iec_name, real, table_heading
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion
 
