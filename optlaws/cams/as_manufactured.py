@@ -48,18 +48,6 @@ class Following:
         By how much the cam's coordinates are turned, rad.
     outside
         How far outside of the profile the curve is, m: the radius of a cutter whose path it is.
-
-    Examples
-    --------
-    >>> from optlaws.cams.disc import DiscCam
-    >>> from optlaws.cams.followers.translating_roller import TranslatingRoller
-    >>> from optlaws.cams.curves.motion_by_angle import CamMotion
-    >>> motion = CamMotion.of_law("cycloidal", "40 mm", "360 deg")
-    >>> cam = DiscCam(motion, base_radius="80 mm", follower=TranslatingRoller("12 mm"))
-    >>> following = Following(cam.contact, cam.profile)
-    >>> angle, displacement = (float(value) for value in following.at(np.array(1.0), 0))
-    >>> round(angle, 12), round(displacement - cam.displacement(1.0), 12) + 0.0
-    (1.0, 0.0)
     """
 
     contact: FollowerContact
@@ -163,11 +151,6 @@ def run_against(cam: DiscCam, curve: Outline, outside: float = 0.0, *, leaps: bo
         How far outside of the profile the curve is, m: the radius of the cutter whose path it is.
     leaps
         Whether leaps of the acceleration make the jerk infinite; otherwise it is the greatest between them.
-
-    Raises
-    ------
-    InputError
-        If the cam's motion is not a whole turn.
     """
     if not cam.displacement.closed:
         raise InputError("a cam as made is run over a whole turn: make it of a Cycle, with dwells and the way back")

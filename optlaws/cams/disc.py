@@ -33,18 +33,7 @@ TURNINGS: dict[Turning, float] = {"counterclockwise": 1.0, "clockwise": -1.0}
 
 
 def sense(turning: object) -> float:
-    """The sense in which a cam turns, 1 for counterclockwise and -1 for clockwise.
-
-    Raises
-    ------
-    InputError
-        If it is neither of the two words.
-
-    Examples
-    --------
-    >>> sense("clockwise")
-    -1.0
-    """
+    """The sense in which a cam turns, 1 for counterclockwise and -1 for clockwise."""
     for name, sign in TURNINGS.items():
         if name == turning:
             return sign

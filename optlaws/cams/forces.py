@@ -66,24 +66,13 @@ class LineContact:
         """Greatest pressure under a force in N, where the cam has a radius of curvature in m; Pa.
 
         0 where nothing is pressed. The radius is below 0 where the cam is hollow.
-
-        Raises
-        ------
-        InputError
-            If a hollow of the cam is narrower than the roller.
         """
         with np.errstate(divide="ignore"):
             squared = self.squared(Jet((np.asarray(force),)), Jet((1.0 / np.asarray(radius),)))
         return np.asarray(np.sqrt(np.maximum(squared.terms[0], 0.0)))
 
     def squared(self, force: Jet, curvature: Jet) -> Jet:
-        """The square of it where the cam has a curvature: smooth where the follower lifts off, and below 0 beyond.
-
-        Raises
-        ------
-        InputError
-            As for `pressure`.
-        """
+        """The square of it where the cam has a curvature: smooth where the follower lifts off, and below 0 beyond."""
         both = curvature + self.roller_curvature
         if np.any(highest(both.terms[0]) < 0.0):
             raise InputError("the cam is hollow where a flat face or a roller that is wider would touch it elsewhere")
@@ -95,16 +84,6 @@ def line_contact(width: Any, materials: Any, roller: float) -> LineContact:  # n
 
     A material is one of `MATERIALS`, whose values are those of a handbook, or {"young": "3 GPa", "poisson": 0.4} from a
     data sheet.
-
-    Raises
-    ------
-    InputError
-        If the width is no length above 0, or a material is not known.
-
-    Examples
-    --------
-    >>> line_contact("20 mm", ("steel", {"young": "3 GPa", "poisson": 0.4}), 0.012).width
-    0.02
     """
     length = positive_quantity(width, "length", "width")
     if not isinstance(materials, tuple | list) or len(materials) != 2:

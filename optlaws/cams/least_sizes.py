@@ -180,18 +180,7 @@ def greatest_roller(cam: DiscCam, *, radius_of_curvature: Quantity = "0 mm") -> 
 
 
 def read_cam_limits(pressure_angle: Quantity | None, radius: Quantity | None) -> dict[str, float]:
-    """The limits of a cam: the tangent of the greatest pressure angle, and the least radius of curvature in metres.
-
-    Raises
-    ------
-    InputError
-        If there is neither, or one is out of range.
-
-    Examples
-    --------
-    >>> {name: round(value, 6) for name, value in read_cam_limits("45 deg", "5 mm").items()}
-    {'pressure angle': 1.0, 'radius of curvature': 0.005}
-    """
+    """The limits of a cam: the tangent of the greatest pressure angle, and the least radius of curvature in metres."""
     limits = {}
     if pressure_angle is not None:
         angle = quantity(pressure_angle, "angle", "pressure_angle")

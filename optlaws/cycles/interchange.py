@@ -80,7 +80,8 @@ class CycleInterchange(JsonText):
         load = given.get("load")
         if isinstance(load, Mapping) and "A" in load:
             given["load"] = Machine.from_dict(load)
-        return cls(**given, segments=[_read_segment(entry, i) for i, entry in enumerate(data["segments"], start=1)])
+        segments = [_read_segment(entry, i) for i, entry in enumerate(data["segments"], start=1)]
+        return cls(**given | {"segments": segments})
 
     def to_toml(self, title: str = "Cycle", *, axis: str = "axis") -> str:
         """A problem file for `optlaws cycle`, with this cycle as its only axis.

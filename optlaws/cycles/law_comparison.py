@@ -172,14 +172,7 @@ def costs(
     nu: float | tuple[float, float] | None = None,
     damping: float = 0.0,
 ) -> list[str]:
-    """The costs of a smaller C than that of a named standard law: power, jerk or vibration far above its own.
-
-    Examples
-    --------
-    >>> from optlaws.laws.catalogue.catalogue import catalogue
-    >>> costs(catalogue["constant acceleration"].law, catalogue["cycloidal"].law, "cycloidal")
-    ['J = inf, without bound; that of cycloidal is 39.48']
-    """
+    """The costs of a smaller C than that of a named standard law: power, jerk or vibration far above its own."""
     if not law.constants.C.value < reference.constants.C.value:
         return []
     values = {

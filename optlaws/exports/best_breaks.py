@@ -119,13 +119,7 @@ class BreakSearch:
     peak: float
 
     def fewest(self, most: int) -> BestBreaks:
-        """The fewest pieces that will do.
-
-        Raises
-        ------
-        InputError
-            If so many do not do.
-        """
+        """The fewest pieces that will do."""
         tried: list[Tried] = []
         for count in range(1, most + 1):
             even, best, breaks = self._best(count)
@@ -211,22 +205,7 @@ def _until_enough(work: Callable[[], object]) -> None:
 
 
 def fitted_best(motion: Motion, degree: int, most: int) -> Fitted:
-    """Polynomials for a motion with their breaks where `best_breaks` finds them; its own where they are low enough.
-
-    Raises
-    ------
-    InputError
-        If the target does not take as many, or a law's derivatives leap.
-
-    Examples
-    --------
-    >>> from optlaws.motion.motion import motion_of_law
-    >>> from optlaws.laws import smoothstep
-    >>> motion = motion_of_law(smoothstep(6), stroke="35 mm", duration="0.1 s")
-    >>> fit = fitted_best(motion, degree=7, most=50)
-    >>> fit.count, abs(fit.run.peak(2).value / motion.peak(2) - 1) <= 1e-3
-    (3, True)
-    """
+    """Polynomials for a motion with their breaks where `best_breaks` finds them; its own where they are low enough."""
 
     def best(piece: Piece) -> PiecewiseMotion:
         return best_breaks(piece.law, degree - 1 + degree % 2, min(most, MOST)).run

@@ -177,13 +177,7 @@ class Export:
 
 
 def export_motion(motion: Motion, to: Any, *, task: Quantity | None = None, **options: Any) -> Export:  # noqa: ANN401
-    """A motion in a format, which checks its options; `task` is the time of a drive's task, such as "1 ms".
-
-    Raises
-    ------
-    InputError
-        If there is no such format, it takes no such option, or it cannot hold the motion.
-    """
+    """A motion in a format, which checks its options; `task` is the time of a drive's task, such as "1 ms"."""
     chosen = format_of(to)
     written = chosen.write(motion, chosen.request(**options))
     sampling = None if task is None else task_sampling(written.run, motion, task)

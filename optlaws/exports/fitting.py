@@ -110,11 +110,6 @@ def fitted(
     near
         How far the acceleration may be off, as a share of its peak, where no number is asked for.
 
-    Raises
-    ------
-    InputError
-        If the target does not take as many as are needed, or derivatives are infinite.
-
     Examples
     --------
     >>> from optlaws.motion.motion import motion_of_law

@@ -171,13 +171,7 @@ FORMATS: Registry[Format] = Registry("export format")
 
 
 def format_of(name: Any) -> Format:  # noqa: ANN401 - it is checked here
-    """The format of a name.
-
-    Raises
-    ------
-    InputError
-        If there is none; the error says which is near.
-    """
+    """The format of a name."""
     if not isinstance(name, str) or name not in FORMATS:
         raise InputError(f"to: {unknown_key(name, sorted(FORMATS), 'format')}")
     return FORMATS[name]

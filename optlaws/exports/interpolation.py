@@ -37,11 +37,6 @@ def spline_powers(x: Array, y: Array, ends: Ends = "clamped", slopes: tuple[floa
     slopes
         At both ends, where it is clamped.
 
-    Raises
-    ------
-    InputError
-        If it is periodic and its first and last position differ.
-
     Examples
     --------
     >>> powers = spline_powers(np.array([0.0, 40.0, 100.0]), np.array([0.0, 20.0, 25.0]), slopes=(1.0, 0.0))

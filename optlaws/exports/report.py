@@ -233,13 +233,7 @@ _CUTS = 9  # in eight: the way is of second order in the length that is left
 
 
 def travel_of_run(run: PiecewiseMotion) -> float:
-    """The way of polynomials.
-
-    Examples
-    --------
-    >>> round(travel_of_run(PiecewiseMotion([0, 2], [[0, 2, -1]])), 12)
-    2.0
-    """
+    """The way of polynomials."""
     first, last = run.ends(0)
     moved = np.abs(last - first)
     table = run.powers(1)
@@ -251,15 +245,7 @@ def travel_of_run(run: PiecewiseMotion) -> float:
 
 
 def travel_of_law(motion: Motion) -> float:
-    """The way of an exact motion, turned where its velocity changes its sign.
-
-    Examples
-    --------
-    >>> from optlaws.motion.motion import motion_of_law
-    >>> from optlaws.laws import smoothstep
-    >>> travel_of_law(motion_of_law(smoothstep(3), stroke="-35 mm", duration="0.1 s"))
-    35.0
-    """
+    """The way of an exact motion, turned where its velocity changes its sign."""
     grids = [np.linspace(low, high, _EACH) for low, high in pairwise(motion.breaks)]
     x = np.concatenate([[motion.start], *(grid[1:] for grid in grids)])
     signs = np.sign(motion(x, 1))
@@ -308,22 +294,6 @@ def task_sampling(run: PiecewiseMotion, motion: Motion, task: Quantity) -> TaskS
         What was exported; it must be known how fast its master goes.
     task
         The time of a task, such as "1 ms".
-
-    Raises
-    ------
-    InputError
-        If the time is none, or so long or short that there are fewer than 4 or too many positions.
-
-    Examples
-    --------
-    >>> from optlaws.exports.interpolation import linear_powers
-    >>> from optlaws.motion.motion import motion_of_law
-    >>> from optlaws.laws import smoothstep
-    >>> motion = motion_of_law(smoothstep(3), stroke="35 mm", duration="0.1 s")
-    >>> x = np.linspace(0.0, 0.1, 37)
-    >>> run = PiecewiseMotion(x, linear_powers(x, motion(x)))
-    >>> round(task_sampling(run, motion, "0.1 ms").acceleration / motion.peak(2), 1)
-    27.0
     """
     seconds = quantity(task, "time", "task")
     if motion.units.rate is None:

@@ -55,18 +55,6 @@ def places(motion: Motion, count: int, *, straight: bool = False) -> Array:
         How many points.
     straight
         Whether dwells and uniform motions need no point inside, as where the controller is told V and A.
-
-    Raises
-    ------
-    InputError
-        If there are more breaks than points.
-
-    Examples
-    --------
-    >>> from optlaws.motion.motion import motion_of_law
-    >>> from optlaws.laws import smoothstep
-    >>> places(motion_of_law(smoothstep(3), stroke="35 mm", master="120 deg"), 5).tolist()
-    [0.0, 30.0, 60.0, 90.0, 120.0]
     """
     breaks = np.array(motion.breaks)
     shares = _shares(np.diff(breaks), count - 1, _needs(motion) if straight else np.ones(len(breaks) - 1))
@@ -100,11 +88,6 @@ def chosen(motion: Motion, request: Request, make: Callable[[int], TableT], leas
         Makes something of a number of points.
     least, most
         What the target can hold.
-
-    Raises
-    ------
-    InputError
-        If the target cannot hold so many or so few.
     """
     fewest = least_points(motion, least)
     if fewest > most:

@@ -95,13 +95,7 @@ class Labels:
 
 
 def program_heading(motion: PiecewiseMotion, labels: Labels, arithmetics: Sequence[FloatingPoint]) -> list[str]:
-    """Lines that say what a program evaluates, its peaks, and the bound of its rounding errors.
-
-    Examples
-    --------
-    >>> program_heading(PiecewiseMotion([0, 1], [[0, 0, 3, -2]]), Labels("s", "mm"), [])[0]
-    'y(x) in mm for x from 0.0 to 1.0 s: 1 polynomial of degree 3'
-    """
+    """Lines that say what a program evaluates, its peaks, and the bound of its rounding errors."""
     count = len(motion.coefficients)
     plural = "s" if count > 1 else ""
     interval = f"for x from {motion.start!r} to {motion.stop!r} {labels.master}"
@@ -215,11 +209,6 @@ def iec_name(name: Any, target: str, longest: int = 40) -> str:  # noqa: ANN401 
         What an error calls the target.
     longest
         How many characters it may have.
-
-    Raises
-    ------
-    InputError
-        If the target would refuse it; the error proposes one that it takes.
 
     Examples
     --------

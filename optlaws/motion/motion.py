@@ -212,11 +212,6 @@ def motion_of_law(
     start
         Position of the slave at the start; 0 unless given.
 
-    Raises
-    ------
-    InputError
-        If a quantity is wrong, or neither duration nor master are given; the error names it and an example.
-
     Examples
     --------
     >>> from optlaws.laws import smoothstep
@@ -261,11 +256,6 @@ def motion_of_pieces(
         Of positions; "mm" for lengths and "deg" for angles unless given.
     proof
         What is proven of the laws.
-
-    Raises
-    ------
-    InputError
-        If the quantity or the unit is wrong.
 
     Examples
     --------

@@ -345,13 +345,7 @@ class PiecewiseMotion:
 
 
 def from_exact(breaks: Sequence[Fraction], rows: Sequence[Sequence[Fraction]]) -> PiecewiseMotion:
-    """The piecewise motion nearest to an exact one: every number is rounded once.
-
-    Examples
-    --------
-    >>> from_exact([Fraction(0), Fraction(1, 3)], [[Fraction(1, 3)]]).coefficients
-    ((0.3333333333333333,),)
-    """
+    """The piecewise motion nearest to an exact one: every number is rounded once."""
     return PiecewiseMotion([float(place) for place in breaks], [[float(c) for c in row] for row in rows])
 
 

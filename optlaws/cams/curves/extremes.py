@@ -58,19 +58,6 @@ def enclosed_extremes(
         By how many orders the function's jet is shorter.
     tolerance
         Relative width of the enclosures that is aimed at.
-
-    Raises
-    ------
-    SolverFailure
-        If the function has no finite value at any place looked at.
-
-    Examples
-    --------
-    >>> from math import pi
-    >>> rise = CamMotion.of_law("cycloidal", "40 mm", "120 deg")
-    >>> least, greatest = enclosed_extremes(rise, lambda s: s.slope(), 1)
-    >>> bool(greatest.low <= 0.12 / pi <= greatest.high), round(greatest.angle, 9)
-    (True, 1.047197551)
     """
     known = extremes(
         lambda angle, order: function(motion.jet(angle, order + lost)), motion.breaks, share=tolerance, parts=_PARTS
@@ -167,13 +154,7 @@ class CamExtremes:
 
 
 def angle_of_tangent(tangent: EnclosedExtreme) -> EnclosedExtreme:
-    """The enclosed angle of an enclosed tangent, rad.
-
-    Examples
-    --------
-    >>> round(angle_of_tangent(EnclosedExtreme(1.0, 1.0, 0.0)).value, 9)
-    0.785398163
-    """
+    """The enclosed angle of an enclosed tangent, rad."""
     return widened(atan(tangent.low), atan(tangent.high), tangent.angle, 1.0)
 
 

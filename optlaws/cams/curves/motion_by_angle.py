@@ -318,13 +318,7 @@ class CamMotion:
 
 
 def as_motion(given: Any, axis: str) -> CamMotion:  # noqa: ANN401 - it is checked here
-    """The motion that a cycle or a motion by angle says, which must be a length or an angle as the follower asks.
-
-    Raises
-    ------
-    InputError
-        If it is neither, or of the other axis.
-    """
+    """The motion that a cycle or a motion by angle says, which must be a length or an angle as the follower asks."""
     if isinstance(given, Cycle):
         motion = CamMotion.of_cycle(given)
     elif isinstance(given, CamMotion):

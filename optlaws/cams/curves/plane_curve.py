@@ -28,12 +28,6 @@ class PiecewiseCurve:
         Coefficients of ascending powers of t, |t| <= 1, between two knots, shape (degree + 1, n, coordinates).
     blur
         How far coordinates may be from those of the spline that it was made of, for rounding.
-
-    Examples
-    --------
-    >>> curve = PiecewiseCurve(np.array([0.0, 2.0]), np.array([[[1.0]], [[2.0]]]), 0.0)
-    >>> [float(term) for term in curve.jets(np.array(1.5), 1)[0].terms]
-    [2.0, 2.0]
     """
 
     knots: Array

@@ -42,25 +42,13 @@ def as_points(outline: Outline, options: Cutting) -> str:
 
 
 def as_polar(outline: Outline, options: Cutting) -> str:
-    """Angle around the centre in degrees, counterclockwise, and the radius in millimetres; the angles are even.
-
-    Raises
-    ------
-    InputError
-        If the curve turns back as seen from the centre, so that a ray meets it more than once.
-    """
+    """Angle around the centre in degrees, counterclockwise, and the radius in millimetres; the angles are even."""
     rows = zip(np.linspace(0.0, 360.0, options.points), 1e3 * polar(outline, options.points), strict=True)
     return _table("polar angle (deg),radius (mm)", [[_decimal(t), options.rounded(r)] for t, r in rows], options)
 
 
 def polar(outline: Outline, points: int) -> Array:
-    """Radii at even angles around the centre, m, from the direction of x on; the last is the first again.
-
-    Raises
-    ------
-    InputError
-        If the curve turns back as seen from the centre.
-    """
+    """Radii at even angles around the centre, m, from the direction of x on; the last is the first again."""
     bearings = np.linspace(0.0, tau, points)
     met = outline(_met(outline, bearings[:-1]))
     radii = np.hypot(met[:, 0], met[:, 1])
@@ -287,21 +275,7 @@ ENDINGS = {
 
 
 def format_of(file: Path, name: str | None = None) -> str:
-    """The format that a file is written in.
-
-    Raises
-    ------
-    InputError
-        If the name is none of a format, or the file's ending says none.
-
-    Examples
-    --------
-    >>> format_of(Path("profile.dxf")), format_of(Path("profile.dxf"), "dxf arcs")
-    ('dxf spline', 'dxf arcs')
-    >>> format_of(Path("cam.igs"))
-    Traceback (most recent call last):
-    optlaws.errors.InputError: the ending of 'cam.igs' says no format: end it with .csv, .dxf, ... or name one of ...
-    """
+    """The format that a file is written in."""
     if name is not None:
         if name not in FORMATS:
             raise InputError(unknown_key(name, FORMATS, "format"))
@@ -326,11 +300,6 @@ def write_outline(
     """The file of a closed curve, written whole or not at all: a profile, a pitch curve, the path of a cutter.
 
     `as_` is one of `FORMATS`, that of the file's ending unless given; options are those of `Cutting`.
-
-    Raises
-    ------
-    InputError
-        If the format or an entry is unknown, a value is out of its range, or the file cannot be written.
     """
     place = Path(file)
     name = format_of(place, as_)

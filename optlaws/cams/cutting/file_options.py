@@ -47,20 +47,6 @@ class Cutting:
         Of the cutter, such as "300 mm/min"; without one no feed is said.
     about
         What the file says of itself.
-
-    Raises
-    ------
-    InputError
-        If one is out of its range; the error names it.
-
-    Examples
-    --------
-    >>> asked = Cutting(tolerance="5 um", decimals=3)
-    >>> asked.metres, asked.rounded(1.23456)
-    (5e-06, '1.235')
-    >>> Cutting(tolerance=5)
-    Traceback (most recent call last):
-    optlaws.errors.InputError: tolerance must be a length such as '35 mm', got 5 without a unit: write...
     """
 
     tolerance: Quantity = "1 um"

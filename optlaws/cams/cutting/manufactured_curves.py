@@ -38,12 +38,6 @@ class PointSpline(CurveByJets):
     ----------
     points
         Metres, shape (n, 2); the last is the first again.
-
-    Examples
-    --------
-    >>> corners = np.array([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0], [1.0, 0.0]])
-    >>> round(float(np.linalg.norm(PointSpline(corners)(np.array(0.7)))), 3)
-    0.972
     """
 
     points: Array

@@ -42,13 +42,7 @@ class Outline(Protocol):
 
 
 def stretches(outline: Outline) -> list[tuple[float, float]]:
-    """The smooth stretches of an outline, in radians.
-
-    Raises
-    ------
-    InputError
-        If its breaks do not run from 0 to a whole turn.
-    """
+    """The smooth stretches of an outline, in radians."""
     breaks = [float(place) for place in outline.breaks]
     if len(breaks) < 2 or abs(breaks[0]) > 1e-12 or abs(breaks[-1] - tau) > 1e-9:
         raise InputError("only a closed outline can be cut: its breaks must run from 0 to a whole turn")
@@ -64,11 +58,6 @@ def divided(outline: Outline, density: Density, factor: float = 1.0) -> Array:
         Parts per radian, at angles.
     factor
         How many times as many parts there shall be; each stretch has at least one.
-
-    Raises
-    ------
-    InputError
-        If there would be more than 200,000 parts.
     """
     shares = [_accumulated(density, *ends) for ends in stretches(outline)]
     parts = factor * sum(float(sums[-1]) for _, sums in shares)

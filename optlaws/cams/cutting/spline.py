@@ -72,11 +72,6 @@ def spline(outline: Outline, tolerance: float, degree: int = 3) -> Spline:
 
     One of degree 3 has a continuous curvature everywhere, at the seam as well. One of degree 5 ends at each break of
     the outline and begins again with its direction and curvature.
-
-    Raises
-    ------
-    InputError
-        If the degree is neither 3 nor 5, or the tolerance asks for more than 200,000 pieces.
     """
     if degree not in DEGREES:
         raise InputError(f"degree of a spline must be 3 or 5, got {degree}")

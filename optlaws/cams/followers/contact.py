@@ -225,13 +225,7 @@ class FollowerContact(ABC):
         """Enclosed extremes over the whole motion."""
 
     def pitch_curvatures(self, motion: CamMotion) -> tuple[EnclosedExtreme, EnclosedExtreme]:  # noqa: ARG002 - of rollers
-        """The least and the greatest curvature of the pitch curve, 1/m.
-
-        Raises
-        ------
-        InputError
-            If the follower has no roller.
-        """
+        """The least and the greatest curvature of the pitch curve, 1/m."""
         raise InputError("follower: a flat face has no roller: take a TranslatingRoller or an OscillatingRoller")
 
     @abstractmethod

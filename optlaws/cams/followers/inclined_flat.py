@@ -68,13 +68,7 @@ class InclinedFlat(CamFollower, kind="inclined flat"):
 
 @dataclass(frozen=True)
 class InclinedFace(FaceContact):
-    """An inclined face in numbers: it meets the slide's way at y = height + s, so that rho = (height + s + s'') cos.
-
-    Examples
-    --------
-    >>> InclinedFace(1.0, 0.0, 0.04, 0.0).radius(Jet((0.01, 0.0, -0.01))).terms[0]
-    0.03
-    """
+    """An inclined face in numbers: it meets the slide's way at y = height + s, so that rho = (height + s + s'') cos."""
 
     angle: float
 

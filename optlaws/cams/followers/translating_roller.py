@@ -61,14 +61,7 @@ class TranslatingRoller(CamFollower, kind="translating roller"):
 
 @dataclass(frozen=True)
 class SlidingRoller(RollerContact):
-    """A sliding roller in numbers: its centre is at x = offset, y = height + s.
-
-    Examples
-    --------
-    >>> roller = SlidingRoller(1.0, 0.0, 0.08, 0.0, 0.012)
-    >>> roller.pressure(Jet((0.02, 0.05))).terms[0]
-    0.5
-    """
+    """A sliding roller in numbers: its centre is at x = offset, y = height + s."""
 
     offset: float
     radius: float

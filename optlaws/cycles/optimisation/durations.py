@@ -53,15 +53,7 @@ class Share:
 
 
 def durations(programme: Programme, objective: CycleObjective) -> tuple[float, ...]:
-    """The durations of all stretches: those given, and the best ones where they are free.
-
-    Raises
-    ------
-    InputError
-        If a duration is free beside a joint that is not at rest.
-    InfeasibleProblem
-        If no durations keep the limits.
-    """
+    """The durations of all stretches: those given, and the best ones where they are free."""
     free = [i for i, stretch in enumerate(programme.stretches) if not stretch.fixed]
     if not free:
         return tuple(stretch.least for stretch in programme.stretches)

@@ -48,13 +48,7 @@ class SegmentEnd:
 
 
 def check_limits_at_joints(layout: Layout, objective: CycleObjective, axis: str, period: float) -> None:
-    """Refuse a limit of the force that is less than what the drive takes at a joint, whatever the law.
-
-    Raises
-    ------
-    InfeasibleProblem
-        If there is one; the error says how much it takes, and where.
-    """
+    """Refuse a limit of the force that is less than what the drive takes at a joint, whatever the law."""
     for span in layout.spans:
         for edge in _edges(span):
             limits = limits_of_stretch(edge.stretch, objective, axis)

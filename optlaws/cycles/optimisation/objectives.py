@@ -84,31 +84,13 @@ def kind_of(minimise: str) -> tuple[int, bool]:
 
 
 def check_objective(minimise: Any, load: Load | None) -> None:  # noqa: ANN401 - it is checked here
-    """Refuse what cannot be minimised.
-
-    Raises
-    ------
-    InputError
-        If it is no objective, or the load has no such output.
-    """
+    """Refuse what cannot be minimised."""
     if not isinstance(minimise, str) or (minimise not in OBJECTIVES and load_output(minimise, load) is None):
         raise InputError(f"minimise: {unknown_key(minimise, (*OBJECTIVES, 'load acceleration'), 'objective')}")
 
 
 def read_load_limits(entries: Mapping[str, Any], load: Load | None) -> dict[tuple[str, bool], float]:
-    """Limits of the load in SI units, by output and whether they are of root mean squares.
-
-    Raises
-    ------
-    InputError
-        If the load has no such output, or a limit is not above 0 or of another dimension.
-
-    Examples
-    --------
-    >>> from optlaws.cycles.specification.load import read_load
-    >>> read_load_limits({"load deflection": "2 mm"}, read_load({"period": "20 ms"}, "length"))
-    {('deflection', False): 0.002}
-    """
+    """Limits of the load in SI units, by output and whether they are of root mean squares."""
     limits = {}
     for name, value in entries.items():
         output = load_output(name, load)
@@ -118,18 +100,7 @@ def read_load_limits(entries: Mapping[str, Any], load: Load | None) -> dict[tupl
 
 
 def read_limits(entries: Mapping[str, Any], axis: str, where: str) -> dict[int, float]:
-    """Limits in SI units by the order of the derivative.
-
-    Raises
-    ------
-    InputError
-        If a name is unknown, or a limit is not above 0 or of another dimension.
-
-    Examples
-    --------
-    >>> read_limits({"velocity": "616 mm/s"}, "length", "limits")
-    {1: 0.616}
-    """
+    """Limits in SI units by the order of the derivative."""
     limits = {}
     for name, value in table(entries, where, "{'velocity': '2 m/s'}").items():
         if name in LIMITS:
@@ -143,18 +114,7 @@ def read_limits(entries: Mapping[str, Any], axis: str, where: str) -> dict[int, 
 
 
 def read_mean_force(entries: Mapping[str, Any], axis: str) -> float | None:
-    """The limit of the root mean square of the force or torque over the cycle, in SI units; None if there is none.
-
-    Raises
-    ------
-    InputError
-        If it is not above 0 or of another dimension, or given twice.
-
-    Examples
-    --------
-    >>> read_mean_force({"rms torque": "2.4 N m"}, "angle")
-    2.4
-    """
+    """The limit of the root mean square of the force or torque over the cycle, in SI units; None if there is none."""
     given = [name for name in MEANS if name in entries]
     if len(given) > 1:
         raise InputError(f"limits: {' and '.join(given)} are the same: give one of them")

@@ -107,13 +107,7 @@ ALL_MOTIONS = "all motions through the joints"
 
 
 def minimised_rms(problem: Problem) -> int | None:
-    """The order of the derivative whose root mean square a problem minimises; None if it minimises something else.
-
-    Examples
-    --------
-    >>> minimised_rms(Problem(order=3, minimise="rms_j")), minimised_rms(Problem(order=3, minimise="C"))
-    (3, None)
-    """
+    """The order of the derivative whose root mean square a problem minimises; None if it minimises something else."""
     constant = FUNCTIONALS.get(problem.minimise) if isinstance(problem.minimise, str) else None
     return constant.nu if isinstance(constant, RootMeanSquare) else None
 
@@ -123,14 +117,6 @@ def search_space(problem: Problem, span: LawSpan, order: int) -> str:
 
     A polynomial of degree 2 nu - 1 between two joints has the least root mean square of the derivative of order nu, if
     its ends ask for no more than nu conditions each.
-
-    Examples
-    --------
-    >>> from optlaws import Cycle, Return, Rise
-    >>> def space(minimise):
-    ...     return Cycle([Rise("35 mm", "120 deg"), Return()], speed="200 rpm", minimise=minimise).search_space
-    >>> space("acceleration"), space("rms jerk")
-    ('laws of order 3 with Z of degree 9', 'all motions through the joints')
     """
     nu, basis = minimised_rms(problem), problem.basis
     if isinstance(basis, Pieces):

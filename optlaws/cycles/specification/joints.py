@@ -104,11 +104,6 @@ def layout(programme: Programme, durations: Sequence[float], *, whole: bool = Fa
 
     Where nothing is known at the start of the cycle, or `whole` asks for it, its motions are one law that repeats; of
     positions if it is to be `absolute`.
-
-    Raises
-    ------
-    InputError
-        If velocities do not meet at a joint, or a law is given in a cycle that is one.
     """
     starts = tuple(accumulate(durations, initial=0.0))
     offsets = tuple(accumulate((stretch.displacement for stretch in programme.stretches), initial=programme.start))

@@ -94,13 +94,7 @@ class PointTable:
 def positions(
     motion: Motion, count: int, number_format: NumberFormat, *, even: bool = False, lines: bool = False
 ) -> tuple[Array, Array]:
-    """x and y of so many points as the target stores them.
-
-    Raises
-    ------
-    InputError
-        If points are the same as they are stored.
-    """
+    """x and y of so many points as the target stores them."""
     exact = np.linspace(motion.start, motion.stop, count) if even else places(motion, count, straight=lines)
     x = number_format.numbers(exact)
     if (np.diff(x) <= 0.0).any():
@@ -144,11 +138,6 @@ def hermite_table(
     """Positions with derivatives, so many in all, from which the controller makes Hermite's polynomials.
 
     Where the table has no derivatives the controller computes them, and they are taken as the law's.
-
-    Raises
-    ------
-    InputError
-        If a derivative is infinite at a point.
     """
     exact = places(motion, count, straight=True)
     values = _without_rounding(np.array([motion(exact, nu) for nu in range(orders)]))

@@ -41,11 +41,6 @@ def polynomials_for(
         Whether it is points that are counted, one more than segments.
     near
         How far the acceleration may be off where as few as will do are laid.
-
-    Raises
-    ------
-    InputError
-        If the target cannot hold them.
     """
     if request.points is None:
         return fitted(motion, degree, most, near=near)
@@ -144,13 +139,7 @@ def leaping(run: PiecewiseMotion, nu: int) -> float | None:
 
 
 def refuse_leaps(motion: Motion, run: PiecewiseMotion, holder: str, remedy: str) -> None:
-    """Refuse polynomials whose velocity or acceleration leaps, for what holds one value of each at a point.
-
-    Raises
-    ------
-    InputError
-        If one leaps by more than rounding; the error says where, and the remedy.
-    """
+    """Refuse polynomials whose velocity or acceleration leaps, for what holds one value of each at a point."""
     for nu, quantity in ((1, "velocity"), (2, "acceleration")):
         x = leaping(run, nu)
         if x is not None:

@@ -35,13 +35,6 @@ def profile_rows(run: PiecewiseMotion, *, cubic: bool = True) -> list[list[int]]
 
     Status, X, Y, segment type, C0, C1, C2, C3: y = Y + C1 d + C2 d² + C3 d³ with d = x - X. The last element is the
     last point alone.
-
-    Examples
-    --------
-    >>> from optlaws.exports.interpolation import spline_powers
-    >>> x = np.array([0.0, 40.0, 100.0])
-    >>> profile_rows(PiecewiseMotion(x, spline_powers(x, np.array([0.0, 20.0, 25.0]), slopes=(1.0, 0.0))))[-1]
-    [2, 1079574528, 0, 1077477376, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0]
     """
     kind = SEGMENT_TYPES["cubic" if cubic else "linear"]
     rows = []
@@ -52,13 +45,7 @@ def profile_rows(run: PiecewiseMotion, *, cubic: bool = True) -> list[list[int]]
 
 
 def profile_motion(rows: Sequence[Sequence[int]]) -> PiecewiseMotion:
-    """The motion that rows of CAM_PROFILE run.
-
-    Raises
-    ------
-    InputError
-        If a row has not 14 numbers of 32 bits.
-    """
+    """The motion that rows of CAM_PROFILE run."""
     decoded = [_values(row) for row in rows]
     breaks = [x for x, *_ in decoded]
     return PiecewiseMotion(breaks, [[y + constant, *slopes] for _, y, constant, *slopes in decoded[:-1]])

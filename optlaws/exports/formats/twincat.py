@@ -108,13 +108,7 @@ def _motion_function(motion: Motion, request: Request, *, third: bool) -> Writte
 
 
 def _shared(motion: Motion, request: Request) -> Fitted:
-    """Polynomials whose neighbours share what a point holds: velocity and acceleration, and the jerk where one is used.
-
-    Raises
-    ------
-    InputError
-        If velocity or acceleration leap, for a point holds one value of each.
-    """
+    """Polynomials whose neighbours share what a point holds: velocity, acceleration, and the jerk where one is used."""
     fit = polynomials_for(motion, request, DEGREE, MOST_POINTS - 1, points=True)
     refuse_leaps(motion, fit.run, "a point of TwinCAT", _REMEDY)
     if fit.run.degree > 5 and leaping(fit.run, 3) is not None:

@@ -143,13 +143,7 @@ def gain(nu: float, damping: float) -> float:
 
 
 def check_order(name: str, space: LawSpace, order: int) -> None:
-    """Refuse laws that do not begin and end smoothly enough for a cam.
-
-    Raises
-    ------
-    InputError
-        If the order is too low, or a derivative that must vanish at an end does not.
-    """
+    """Refuse laws that do not begin and end smoothly enough for a cam."""
     boundary = space.boundary
     jump = "acceleration" if order > _ORDER else "velocity"
     if boundary.order < order:

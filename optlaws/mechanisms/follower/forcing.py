@@ -93,13 +93,7 @@ class Forcing:
 
 
 def rest(start: float, length: float, a0: float) -> Forcing:
-    """The forcing of a cam that dwells.
-
-    Examples
-    --------
-    >>> rest(1.0, 0.5, 1.0).derivative(np.array([0.25]), 0).tolist()
-    [1.0]
-    """
+    """The forcing of a cam that dwells."""
     return Forcing(start, length, a0, 0.0, np.zeros(1))
 
 
@@ -121,12 +115,6 @@ def forcings(
         Displacement at its start; the law's own unless given.
     stroke
         Factor of the displacement, -1 for a return.
-
-    Examples
-    --------
-    >>> from optlaws.laws import smoothstep
-    >>> [forcing.derivative(np.array([2.0]), 0).tolist() for forcing in forcings(smoothstep(3), 1.0, 2.0, 1.0, -1.0)]
-    [[0.0]]
     """
     return _Frame(law, start, length, float(law.a(0.0)) if a0 is None else a0, stroke).pieces()
 
@@ -182,18 +170,7 @@ class _Frame:
 
 
 def leads_back(rise: MotionLaw, fall: MotionLaw) -> None:
-    """Refuse a return whose stroke is not that of the rise.
-
-    Raises
-    ------
-    InputError
-        Naming both strokes.
-
-    Examples
-    --------
-    >>> from optlaws.laws import smoothstep
-    >>> leads_back(smoothstep(3), smoothstep(4))
-    """
+    """Refuse a return whose stroke is not that of the rise."""
     strokes = [float(law.a(1.0)) - float(law.a(0.0)) for law in (rise, fall)]
     if abs(strokes[1] - strokes[0]) > CLOSURE * max(1.0, abs(strokes[0])):
         raise InputError(f"fall must lead back over the rise's stroke {strokes[0]:g}, but has {strokes[1]:g}")

@@ -83,16 +83,7 @@ class SineSolution:
 
 
 def stretches(forcing: Forcing, oscillator: Oscillator) -> list[ForcedStretch]:
-    """A forcing with particular solutions: the closed form, or short stretches where that would cancel.
-
-    Examples
-    --------
-    >>> from optlaws.laws import smoothstep
-    >>> from optlaws.mechanisms.follower.forcing import forcings
-    >>> (rise,) = forcings(smoothstep(20))
-    >>> len(stretches(rise, Oscillator(60.0, 0.0))), len(stretches(rise, Oscillator(15.0, 0.0)))
-    (1, 2)
-    """
+    """A forcing with particular solutions: the closed form, or short stretches where that would cancel."""
     closed = _closed(forcing, oscillator)
     if closed is not None:
         return [ForcedStretch(forcing, 0.0, forcing.length, closed, closed=True)]

@@ -121,13 +121,7 @@ def cam_powers(mass: tuple[Fraction, ...], nu: float, damping: float) -> list[Fr
 
 
 def mass_powers(cam: tuple[Fraction, ...], nu: float, damping: float) -> list[Fraction]:
-    """Coefficients Q of the mass's particular solution from q of the cam, exactly (1.25).
-
-    Examples
-    --------
-    >>> mass_powers((Fraction(1, 2), Fraction(1, 1), Fraction(1, 1)), 2.0, 0.5)
-    [Fraction(0, 1), Fraction(0, 1), Fraction(1, 1)]
-    """
+    """Coefficients Q of the mass's particular solution from q of the cam, exactly (1.25)."""
     once, twice = cam_factors(nu, damping)
     Q = [*cam, Fraction(0), Fraction(0)]
     for i in range(len(cam) - 1, -1, -1):
@@ -136,13 +130,7 @@ def mass_powers(cam: tuple[Fraction, ...], nu: float, damping: float) -> list[Fr
 
 
 def cam_factors(nu: float, damping: float) -> tuple[Fraction, Fraction]:
-    """Factors 2 n/nu² of b and 1/nu² of c in (1.27), exactly.
-
-    Examples
-    --------
-    >>> cam_factors(4.0, 0.25)
-    (Fraction(1, 8), Fraction(1, 16))
-    """
+    """Factors 2 n/nu² of b and 1/nu² of c in (1.27), exactly."""
     exact = Fraction(nu)
     return 2 * Fraction(damping) / exact, 1 / exact**2
 
@@ -164,19 +152,6 @@ def check_mass_law(law: MotionLaw) -> None:
 
     The cam's displacement holds the mass's b and c, and its velocity c and j; in the rests before and after the motion
     all of them are zero.
-
-    Raises
-    ------
-    InputError
-        If a derivative up to the jerk jumps within the motion, or is not zero at an end.
-
-    Examples
-    --------
-    >>> from optlaws.laws.savin import savin
-    >>> check_mass_law(savin("III", 7.2))
-    >>> check_mass_law(savin("I", 0.0))
-    Traceback (most recent call last):
-    optlaws.errors.InputError: the mass law has acceleration c(0) = 6, so the displacement of the cam would jump...
     """
     for order, (name, letter) in _NAMES.items():
         cam = "velocity" if order == 3 else "displacement"

@@ -97,12 +97,6 @@ class Dynamics:
     ----------
     matrix, load
         A and B, shapes (states, states) and (states, 3).
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> Dynamics(np.array([[0.0, 1.0], [-25.0, -6.0]]), np.zeros((2, 3))).roots.round(12).tolist()
-    [(-3+4j), (-3-4j)]
     """
 
     def __init__(self, matrix: Array, load: Array) -> None:

@@ -73,12 +73,6 @@ class Assembly:
         What joins them.
     driven, base
         The mass that the law drives, and what its displacement is measured from.
-
-    Examples
-    --------
-    >>> axis = Assembly({"motor": 1.0, "load": 2.0}, (Link("motor", "load", 400.0),), "motor", "ground")
-    >>> axis.matrices(["position load"])[0].tolist()
-    [[0.0, 1.0], [-200.0, 0.0]]
     """
 
     masses: Mapping[str, float]
@@ -177,11 +171,6 @@ def assembly(
 ) -> Assembly:
     """Masses, links and a drive, checked.
 
-    Raises
-    ------
-    InputError
-        If a name is unknown or a number out of range.
-
     Examples
     --------
     >>> assembly({"motor": 1.0, "load": 2.0}, [("motor", "load", 400.0)], "motor").free
@@ -242,13 +231,7 @@ class MachineModel(Protocol):
 
 
 def named_outputs(given: MachineModel, outputs: Any) -> dict[str, str]:  # noqa: ANN401 - whatever users give
-    """The names of outputs for users, with those of the model; all outputs unless some are chosen.
-
-    Raises
-    ------
-    InputError
-        If there is no such output.
-    """
+    """The names of outputs for users, with those of the model; all outputs unless some are chosen."""
     if outputs is None:
         return {name: name for name in given.outputs}
     named = {str(k): v for k, v in outputs.items()} if isinstance(outputs, Mapping) else {n: n for n in _many(outputs)}

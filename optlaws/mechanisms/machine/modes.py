@@ -51,29 +51,12 @@ class Mode:
 
 
 def modes(machine: StateSpace) -> tuple[Mode, ...]:
-    """The vibrations of a machine; equal roots are one.
-
-    Examples
-    --------
-    >>> modes(StateSpace([[-3.0]], [[3.0]], [[1.0]]))
-    ()
-    """
+    """The vibrations of a machine; equal roots are one."""
     return tuple(_mode(i, group) for i, group in enumerate(machine.dynamics.vibrations, 1))
 
 
 def mode(machine: StateSpace, number: object) -> Mode:
-    """The vibration of a machine with a given number.
-
-    Raises
-    ------
-    InputError
-        If the machine has no such mode.
-
-    Examples
-    --------
-    >>> mode(StateSpace([[0.0, 5.0], [-5.0, 0.0]], [[3.0], [0.0]], [[1.0, 0.0]]), 1).frequency
-    5.0
-    """
+    """The vibration of a machine with a given number."""
     vibrations = modes(machine)
     if not vibrations:
         raise InputError("the machine has no mode that vibrates: ask for peaks of its outputs in the dwell instead")
@@ -85,13 +68,7 @@ def mode(machine: StateSpace, number: object) -> Mode:
 
 
 def participation(machine: StateSpace, vibration: Mode, output: str) -> complex:
-    """The complex amplitude of a mode in an output, over the integral of exp(root (1 - k)) b(k).
-
-    Raises
-    ------
-    InputError
-        If the mode is defective: its vibration has no amplitude, but grows at first.
-    """
+    """The complex amplitude of a mode in an output, over the integral of exp(root (1 - k)) b(k)."""
     from scipy.linalg import schur, solve_sylvester
 
     dynamics = machine.dynamics
@@ -127,11 +104,6 @@ class ModalModel:
     ----------
     modes
         Circular frequency, damping ratio and participation of each.
-
-    Examples
-    --------
-    >>> ModalModel(((20.0, 0.05, 1.0),)).matrices(["acceleration"])[2].tolist()
-    [[-400.0, -2.0]]
     """
 
     what: ClassVar[str] = "these modes"
@@ -164,18 +136,7 @@ class ModalModel:
 
 
 def modal_model(modes: Any) -> ModalModel:  # noqa: ANN401 - whatever users give
-    """Vibrations from frequencies in Hz, damping ratios and participations, checked.
-
-    Raises
-    ------
-    InputError
-        If a number is out of range.
-
-    Examples
-    --------
-    >>> modal_model([(8.0, 0.02)]).modes
-    ((50.26548245743669, 0.02, 1.0),)
-    """
+    """Vibrations from frequencies in Hz, damping ratios and participations, checked."""
     example = "such as [(8.5, 0.02)] or [(8.5, 0.02, 0.9), (31.0, 0.01, 0.1)]"
     if not isinstance(modes, list | tuple) or not modes:
         raise InputError(

@@ -96,14 +96,7 @@ class OutputConstant(Functional):
 
     @property
     def title(self) -> str:
-        """A few words for it; the name has the whole machine in it.
-
-        Examples
-        --------
-        >>> from optlaws import Machine
-        >>> Machine([[-2.0]], [[2.0]], [[1.0]], outputs=["speed"]).peak(within=(0, 1.5)).title
-        "peak of 'speed' of a machine of 1 state, times 0 to 1.5"
-        """
+        """A few words for it; the name has the whole machine in it."""
         first, last = self.within
         words = [] if self.cycle is not None or self.within == (0.0, 1.0) else [f"times {first:g} to {last:g}"]
         words += [] if self.cycle is None else ["over a cycle with dwell {:g} and rest {:g}".format(*self.cycle)]

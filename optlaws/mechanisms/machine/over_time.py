@@ -432,13 +432,7 @@ def around(
 
 
 def steady(machine: StateSpace, cycle: Sequence[DriveStretch], radians: float = RADIANS) -> list[Panel]:
-    """The motion that comes back after a cycle, a column for each of the cycle's.
-
-    Raises
-    ------
-    InputError
-        If there is none, for the machine is in resonance with the cycle or drifts.
-    """
+    """The motion that comes back after a cycle, a column for each of the cycle's."""
     dynamics, columns = machine.dynamics, cycle[0].series.shape[2]
     size = len(dynamics.roots)
     last = cycle[-1]

@@ -98,14 +98,7 @@ class ModeResidual(Functional):
 
     @property
     def title(self) -> str:
-        """A few words for it; the name has the whole machine in it.
-
-        Examples
-        --------
-        >>> from optlaws import Machine
-        >>> Machine([[0, 1], [-400, -2]], [[0], [400]], [[1, 0]], outputs=["sway"]).residual(spread=0.1).title
-        "residual of mode 1 in 'sway' of a machine of 2 states, within 10 %"
-        """
+        """A few words for it; the name has the whole machine in it."""
         words = [f"within {100.0 * self.spread:g} %"] if self.spread else []
         words += [] if self.dampings is None else ["damping {:g} to {:g}".format(*self.dampings)]
         return title_of(self.machine, f"residual of mode {self.mode} in", self.output, *words)

@@ -148,13 +148,7 @@ class StateSpace:
         return np.array(self.C[place]) @ self.dynamics.out_of, self.direct[place]
 
     def place(self, output: str | None) -> int:
-        """Which output a name is; the first where none is named.
-
-        Raises
-        ------
-        InputError
-            If there is no such output.
-        """
+        """Which output a name is; the first where none is named."""
         if output is None:
             return 0
         if output not in self.outputs:
@@ -162,13 +156,7 @@ class StateSpace:
         return self.outputs.index(output)
 
     def settled(self, levels: Array) -> NDArray[np.complex128]:
-        """States at rest under displacements of the law, one column for each, in the triangular form.
-
-        Raises
-        ------
-        InputError
-            If there is none: the machine would drift.
-        """
+        """States at rest under displacements of the law, one column for each, in the triangular form."""
         right = -np.outer(self.load[:, 0], levels)
         if not right.any():
             return np.zeros(right.shape, dtype=np.complex128)

@@ -94,18 +94,7 @@ def residual_functional(count: int, nu: Any, damping: float = 0.0) -> tuple[Comp
 
 
 def roots(nu: Any, damping: float) -> tuple[Array, Complex, Array]:  # noqa: ANN401 - numbers of any kind
-    """Frequencies nu, roots w = -n + i lambda and lambda of followers below critical damping.
-
-    Raises
-    ------
-    InputError
-        If a frequency is not above 0 or the damping not in [0, 1).
-
-    Examples
-    --------
-    >>> roots([5.0], 0.6)
-    (array([5.]), array([-3.+4.j]), array([4.]))
-    """
+    """Frequencies nu, roots w = -n + i lambda and lambda of followers below critical damping."""
     frequencies = np.array(numbers(np.atleast_1d(np.asarray(nu)).tolist(), "nu"))
     ratio = not_negative(damping, "damping")
     if not (frequencies > 0.0).all():

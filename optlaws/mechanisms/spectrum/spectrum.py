@@ -29,14 +29,7 @@ SAMPLES = np.array([0.0, 0.25, 0.5, 0.75])
 
 
 def peak_accelerations(law: MotionLaw, frequencies: Array, w: Complex) -> Array:
-    """Greatest |a_m''| of the rise for each frequency nu and its root w = -n + i lambda, to about 1e-6.
-
-    Examples
-    --------
-    >>> from optlaws.laws.savin import savin
-    >>> peak_accelerations(savin("III", 7.2), np.array([18.0]), np.array([18.0j])).round(5)
-    array([13.76515])
-    """
+    """Greatest |a_m''| of the rise for each frequency nu and its root w = -n + i lambda, to about 1e-6."""
     pieces = forcings(law)
     peaks = np.empty(len(frequencies))
     order = np.argsort(frequencies)
