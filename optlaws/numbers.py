@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 #: numbers of double precision, of any shape
 Array: TypeAlias = NDArray[np.float64]
+#: complex numbers of double precision, of any shape
+Complex: TypeAlias = NDArray[np.complex128]
 #: a number with its unit: a text such as "35 mm", or a quantity of pint, of any registry
 Quantity: TypeAlias = "str | pint.Quantity[Any]"
 

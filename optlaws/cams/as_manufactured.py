@@ -33,21 +33,11 @@ _SAMPLES = 721
 
 @dataclass(frozen=True)
 class Following:
-    """A follower on a closed curve, at any place of it: the cam's angle there, and the displacement.
+    """A follower on a closed curve of any parameter: the cam's angle there, and the displacement.
 
     The follower is taken to touch the curve at one place, as it does where the curve bulges outward or its hollows are
-    wider than the roller.
-
-    Parameters
-    ----------
-    contact
-        The follower, in numbers.
-    curve
-        The cam's profile as it is made, m; any parameter.
-    phase
-        By how much the cam's coordinates are turned, rad.
-    outside
-        How far outside of the profile the curve is, m: the radius of a cutter whose path it is.
+    wider than the roller. `phase` turns the cam's coordinates, rad; the curve is `outside` of the profile, m, by the
+    radius of the cutter whose path it is.
     """
 
     contact: FollowerContact
@@ -139,18 +129,9 @@ class AsMade(PlainNumbers):
 
 
 def run_against(cam: DiscCam, curve: Outline, outside: float = 0.0, *, leaps: bool = True) -> AsMade:
-    """The motion of a cam's follower on a curve in place of its profile.
+    """The motion of a cam's follower on a closed curve of any parameter, `outside` of the profile, m, in its place.
 
-    Parameters
-    ----------
-    cam
-        The cam that was meant.
-    curve
-        A closed curve, as it was made; any parameter.
-    outside
-        How far outside of the profile the curve is, m: the radius of the cutter whose path it is.
-    leaps
-        Whether leaps of the acceleration make the jerk infinite; otherwise it is the greatest between them.
+    With `leaps` those of the acceleration make the jerk infinite; without, it is the greatest between them.
     """
     if not cam.displacement.closed:
         raise InputError("a cam as made is run over a whole turn: make it of a Cycle, with dwells and the way back")
@@ -288,24 +269,6 @@ def with_error(cam: DiscCam, error: Quantity, waves: Any) -> AsMade:  # noqa: AN
     amplitude, count = positive_quantity(error, "length", "error"), whole(waves, "waves", least=1, most=_MOST_WAVES)
     cases = [run_against(cam, WavyCurve(cam.profile, amplitude, count, shift), leaps=False) for shift in _SHIFTS]
     return AsMade(*(max(getattr(case, name) for case in cases) for name in AsMade.__dataclass_fields__))
-
-
-def rounding_bound(resolution: float, step: float) -> float:
-    """The greatest error of the second derivative of a cubic spline whose values are rounded: 6 eps/dk².
-
-    Parameters
-    ----------
-    resolution
-        Of the values: each is off by half of it at most.
-    step
-        Between the places.
-
-    Examples
-    --------
-    >>> round(float(rounding_bound(1e-6, np.radians(1.0))), 6)
-    0.019697
-    """
-    return 6.0 * resolution / step**2
 
 
 def _points(outline: Outline, options: Cutting) -> Outline:

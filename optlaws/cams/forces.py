@@ -40,16 +40,7 @@ _ENTRIES = ("young", "poisson")
 
 @dataclass(frozen=True)
 class LineContact:
-    """A contact along a line: p = sqrt(N E / (pi width R)) with 1/E the sum of (1 - nu²)/E of both bodies.
-
-    Attributes
-    ----------
-    width
-        Of the line, m.
-    modulus
-        E of both together, Pa.
-    roller_curvature
-        Of the follower, 1/m; 0 of a face.
+    """A contact along a line: p = sqrt(N E / (pi width R)) with 1/E the sum of (1 - nu²)/E of both bodies, SI units.
 
     Examples
     --------

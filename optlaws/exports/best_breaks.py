@@ -102,17 +102,7 @@ def _best_breaks(law: MotionLaw, orders: int, most: int) -> BestBreaks:
 
 @dataclass(frozen=True)
 class BreakSearch:
-    """The search on a stretch of a law.
-
-    Parameters
-    ----------
-    stretch
-        The stretch.
-    orders
-        How many derivatives are met at each break.
-    peak
-        C of the law.
-    """
+    """The search on a stretch of a law with the peak C, of breaks at which so many derivatives are met."""
 
     stretch: LawSection
     orders: int

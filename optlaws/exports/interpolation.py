@@ -28,14 +28,7 @@ def linear_powers(x: Array, y: Array) -> Array:
 def spline_powers(x: Array, y: Array, ends: Ends = "clamped", slopes: tuple[float, float] = (0.0, 0.0)) -> Array:
     """Ascending powers of the cubic spline through points, whose acceleration is continuous, a row for each piece.
 
-    Parameters
-    ----------
-    x, y
-        Points, shape (n,).
-    ends
-        "clamped" to slopes, "natural" without acceleration at the ends, "periodic".
-    slopes
-        At both ends, where it is clamped.
+    Its ends are "clamped" to slopes, "natural" without acceleration, or "periodic".
 
     Examples
     --------
@@ -68,12 +61,7 @@ def akima_powers(x: Array, y: Array) -> Array:
 def hermite_powers(x: Array, values: Array) -> Array:
     """Ascending powers of degree 2m - 1 that have m given derivatives at each point: y, V, A for the quintic of XYVA.
 
-    Parameters
-    ----------
-    x
-        Points, shape (n,).
-    values
-        y and its first m - 1 derivatives there, shape (m, n).
+    Points have the shape (n,), values (m, n).
 
     Examples
     --------

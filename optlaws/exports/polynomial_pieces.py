@@ -33,17 +33,7 @@ _SHORTEST = Fraction(1, 4096)
 
 @dataclass(frozen=True)
 class LawSection:
-    """A smooth part of a law between k and k: its own polynomial where it is one of low degree.
-
-    Parameters
-    ----------
-    law
-        The law.
-    ends
-        Its first and its last k.
-    exact_powers
-        Powers of k less the first, or None where it is to be approximated.
-    """
+    """A smooth part of a law between two k: with the powers of its own polynomial where that is of low degree."""
 
     law: MotionLaw
     ends: tuple[float, float]
@@ -85,15 +75,8 @@ def polynomials_of_law(
 ) -> PiecewiseMotion:
     """A law of polynomials with its stroke and duration: the same pieces, every coefficient rounded once.
 
-    Parameters
-    ----------
-    law
-        The law.
-    stroke, time
-        What multiplies its displacement and its time.
-    cancelled
-        How large the terms of a piece may be in sum, over the stroke: high powers cancel each other, and with them
-        the digits of whoever evaluates them. Pieces whose terms are larger are halved, which changes no value.
+    High powers cancel each other, and with them the digits of whoever evaluates them: pieces whose terms sum up to more
+    than `cancelled` strokes are halved, which changes no value.
 
     Examples
     --------
@@ -149,14 +132,8 @@ _LEAST = 16.0  # terms that sum up to so many strokes are no cause to halve piec
 def pieces_of_motion(motion: Motion, tolerance: float = PIECES_OF_MOTION) -> PiecewiseMotion:
     """The polynomials of a motion between breaks, in units of its master and slave.
 
-    Parameters
-    ----------
-    motion
-        The motion.
-    tolerance
-        How far the position may be from the law's, as a share of the stroke, where laws are not made of polynomials:
-        over the whole interval, no grid. Polynomials whose powers lose more digits than that are halved, which
-        changes no value.
+    Where laws are not made of polynomials, the position is within `tolerance`, a share of the stroke, over the whole
+    interval. Polynomials whose powers lose more digits than that are halved, which changes no value.
     """
     share = positive(tolerance, "tolerance")
     parts = [_of_piece(piece, share * motion.stroke) for piece in motion.pieces]

@@ -126,18 +126,9 @@ class Report:
 
 
 def as_run(run: PiecewiseMotion, motion: Motion, bound: float = 0.0, roundings: tuple[float, ...] = ()) -> Report:
-    """The report of a run: every number is an extreme over the whole motion, none is one of a grid.
+    """The report of a run by the master: every number is an extreme over the whole motion, none is one of a grid.
 
-    Parameters
-    ----------
-    run
-        What the controller makes of an export, by the master.
-    motion
-        What was exported.
-    bound
-        What roundings may add to the acceleration, by the master.
-    roundings
-        Leaps of velocity, acceleration and jerk by the master that are no more than roundings.
+    Roundings may add `bound` to the acceleration; leaps of velocity, acceleration and jerk up to `roundings` are such.
     """
     rate = motion.units.rate or 1.0
     law = _of_law(motion, rate)
@@ -282,18 +273,9 @@ class TaskSampling:
 
 
 def task_sampling(run: PiecewiseMotion, motion: Motion, task: Quantity) -> TaskSampling:
-    """The run sampled once in a task: second differences of the positions, those at both ends included.
+    """The run sampled once in a task, such as "1 ms": second differences of the positions, both ends included.
 
     Before and after a motion of one shot there is rest; a cycle goes on with itself.
-
-    Parameters
-    ----------
-    run
-        What the controller makes of an export.
-    motion
-        What was exported; it must be known how fast its master goes.
-    task
-        The time of a task, such as "1 ms".
     """
     seconds = quantity(task, "time", "task")
     if motion.units.rate is None:

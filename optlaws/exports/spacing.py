@@ -47,14 +47,7 @@ TableT = TypeVar("TableT", bound=Tabled)
 def places(motion: Motion, count: int, *, straight: bool = False) -> Array:
     """So many points with equal steps between the breaks of a motion, which are points themselves.
 
-    Parameters
-    ----------
-    motion
-        The motion.
-    count
-        How many points.
-    straight
-        Whether dwells and uniform motions need no point inside, as where the controller is told V and A.
+    With `straight` dwells and uniform motions need no point inside, as where the controller is told V and A.
     """
     breaks = np.array(motion.breaks)
     shares = _shares(np.diff(breaks), count - 1, _needs(motion) if straight else np.ones(len(breaks) - 1))
@@ -76,19 +69,7 @@ def least_points(motion: Motion, least: int = 2) -> int:
 
 
 def chosen(motion: Motion, request: Request, make: Callable[[int], TableT], least: int, most: int) -> TableT:
-    """The table with the requested number of points, or with the number whose run is best.
-
-    Parameters
-    ----------
-    motion
-        The motion.
-    request
-        Its `points` may be a number, "best" or None for the best.
-    make
-        Makes something of a number of points.
-    least, most
-        What the target can hold.
-    """
+    """The table with the requested number of points, or with that whose run is best, of those that the target holds."""
     fewest = least_points(motion, least)
     if fewest > most:
         raise InputError(f"the motion has {fewest} breaks, and the target holds {most} points: export its parts")

@@ -199,21 +199,10 @@ IEC_KEYWORDS = frozenset(_WORDS.split())
 
 
 def iec_name(name: Any, target: str, longest: int = 40) -> str:  # noqa: ANN401 - it is checked here
-    """The name of a variable in a language of IEC 61131-3.
-
-    Parameters
-    ----------
-    name
-        The name.
-    target
-        What an error calls the target.
-    longest
-        How many characters it may have.
+    """The name of a variable in a language of IEC 61131-3; the error of a target that would refuse it proposes one.
 
     Examples
     --------
-    >>> iec_name("Press_1", "CODESYS")
-    'Press_1'
     >>> iec_name("press 1", "CODESYS")
     Traceback (most recent call last):
     optlaws.errors.InputError: CODESYS takes no variable called 'press 1': letters, digits and single _ ...'press_1'

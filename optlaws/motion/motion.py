@@ -244,18 +244,8 @@ def motion_of_pieces(
 ) -> Motion:
     """The motion of laws in SI units over time, which repeats with a duration, in units of master and slave.
 
-    Parameters
-    ----------
-    pieces, duration
-        Laws in their places, and the duration of the cycle, in SI units.
-    axis
-        Whether positions are a "length" or an "angle".
-    master
-        How far the master goes in a cycle, such as "360 deg"; None for a master that is time in seconds.
-    unit
-        Of positions; "mm" for lengths and "deg" for angles unless given.
-    proof
-        What is proven of the laws.
+    The master goes so far in a cycle, such as "360 deg", or is time in seconds where it is None; positions are in "mm"
+    or "deg" unless a unit is given; `proof` is what is proven of the laws.
 
     Examples
     --------

@@ -27,12 +27,7 @@ _MORE = 4  # derivatives that Taylor's formula takes beyond those that are asked
 def enclosed_derivatives(segment: Segment, length: float, middle: Array, half: Array, order: int) -> list[Interval]:
     """The derivatives of a segment's displacement by k, from order 0 to one given, anywhere in cells.
 
-    Parameters
-    ----------
-    segment, length
-        A smooth part of a law.
-    middle, half
-        The cells' middles and half lengths, as shares of it; 0 long for single places.
+    Cells are given by their middles and half lengths, as shares of the segment; 0 long for single places.
 
     Examples
     --------

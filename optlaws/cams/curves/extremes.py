@@ -46,19 +46,7 @@ class EnclosedExtreme:
 def enclosed_extremes(
     motion: CamMotion, function: Function, lost: int, tolerance: float = CAM_EXTREMES
 ) -> tuple[EnclosedExtreme, EnclosedExtreme]:
-    """The least and the greatest value of a function of a motion.
-
-    Parameters
-    ----------
-    motion
-        The displacement.
-    function
-        Of its jet, such as that of the pressure angle's tangent.
-    lost
-        By how many orders the function's jet is shorter.
-    tolerance
-        Relative width of the enclosures that is aimed at.
-    """
+    """The least and the greatest value of a function of a motion's jet, which is shorter than that by `lost` orders."""
     known = extremes(
         lambda angle, order: function(motion.jet(angle, order + lost)), motion.breaks, share=tolerance, parts=_PARTS
     )

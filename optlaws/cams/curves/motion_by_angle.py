@@ -33,20 +33,9 @@ DIRECTIONS: dict[Direction, float] = {"rise": 1.0, "return": -1.0}
 
 @dataclass(frozen=True)
 class CamStretch:
-    """A smooth part of a motion: offset + stroke times a segment of a law, over a range of the cam's angle.
+    """A smooth part of a motion over a range of the cam's angle, rad: offset + stroke times a segment of a law.
 
-    Parameters
-    ----------
-    start, stop
-        Angles of the cam, rad.
-    offset
-        Displacement at the start, m or rad.
-    stroke
-        What the law is multiplied by.
-    duration
-        The angle of the whole law of which this is a part.
-    segment, length
-        The part of the law, and how long it is in k.
+    `duration` is the angle of the whole law, of which the segment is a part `length` long in k.
     """
 
     start: float

@@ -20,14 +20,8 @@ from optlaws.numerics.tolerances import CONTROL_POINT_BLUR
 class PiecewiseCurve:
     """Polynomials between knots, a row of coordinates each: what is enclosed are these, which are splines to rounding.
 
-    Parameters
-    ----------
-    knots
-        Increasing, shape (n + 1,).
-    powers
-        Coefficients of ascending powers of t, |t| <= 1, between two knots, shape (degree + 1, n, coordinates).
-    blur
-        How far coordinates may be from those of the spline that it was made of, for rounding.
+    `powers` are ascending in t, |t| <= 1 between two knots, shape (degree + 1, n, coordinates); coordinates may be
+    `blur` away from those of the spline, for rounding.
     """
 
     knots: Array

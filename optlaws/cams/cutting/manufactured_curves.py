@@ -30,14 +30,9 @@ class CurveByJets(ABC):
 
 @dataclass(frozen=True, eq=False)
 class PointSpline(CurveByJets):
-    """The closed cubic spline through points, over the chords between them: what drawing programs draw.
+    """The closed cubic spline through points, m, shape (n, 2), over chords between them: what drawing programs draw.
 
-    Its curvature is continuous everywhere.
-
-    Parameters
-    ----------
-    points
-        Metres, shape (n, 2); the last is the first again.
+    Its curvature is continuous everywhere; the last point is the first again.
     """
 
     points: Array
@@ -109,19 +104,7 @@ class ArcChain(CurveByJets):
 
 @dataclass(frozen=True)
 class WavyCurve(CurveAlongNormals):
-    """A curve with an error along its normals: a wave of so many periods a turn.
-
-    Parameters
-    ----------
-    base
-        The curve.
-    amplitude
-        Metres.
-    waves
-        Periods over the turn.
-    shift
-        Phase of the wave, rad.
-    """
+    """A curve with an error along its normals: a wave of so many periods a turn, amplitude in m, shift in rad."""
 
     amplitude: float
     waves: int

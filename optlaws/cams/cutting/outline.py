@@ -50,15 +50,7 @@ def stretches(outline: Outline) -> list[tuple[float, float]]:
 
 
 def divided(outline: Outline, density: Density, factor: float = 1.0) -> Array:
-    """Angles from 0 to a whole turn, breaks among them, as near each other as a density asks.
-
-    Parameters
-    ----------
-    density
-        Parts per radian, at angles.
-    factor
-        How many times as many parts there shall be; each stretch has at least one.
-    """
+    """Angles from 0 to a whole turn, breaks among them, so many times as near as a density in parts per radian."""
     shares = [_accumulated(density, *ends) for ends in stretches(outline)]
     parts = factor * sum(float(sums[-1]) for _, sums in shares)
     if parts > MOST_PARTS:
@@ -94,16 +86,9 @@ def speed(outline: Outline, angles: Array) -> Array:
 def greatest_deviation(
     off: Callable[[Any, int], Jet], places: Array, tolerance: float, *, share: float, order: int = 2
 ) -> float:
-    """The greatest magnitude of a deviation, as it is proven; one that it has where that is above a tolerance.
+    """The greatest magnitude of a deviation between places where it is smooth, as `extremes` proves it.
 
-    Parameters
-    ----------
-    off
-        The deviation, as `extremes` takes functions, of arrays of places as well.
-    places
-        Between which it is smooth.
-    share, order
-        As for `extremes`.
+    Where it is above a tolerance, it is one that the deviation has.
     """
     met = float(np.abs(off(0.5 * (places[1:] + places[:-1]), 0).terms[0]).max())
     if met > tolerance:

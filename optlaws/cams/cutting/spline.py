@@ -24,18 +24,9 @@ _NEAR = 0.1  # how near the square of the deviation is enclosed
 
 @dataclass(frozen=True, eq=False)
 class Spline:
-    """A closed B-spline whose first and last knots are as many times there as it has coefficients to a piece.
+    """A closed clamped B-spline of degree 3 or 5 over the cam's angle, rad, control points in m, shape (n, 2).
 
-    Attributes
-    ----------
-    degree
-        3 or 5.
-    knots
-        Radians, shape (n + degree + 1,): the cam's angle is its parameter.
-    controls
-        Control points, m, shape (n, 2).
-    deviation
-        Proven: at no angle is it farther from the outline, m.
+    At no angle is it farther from the outline than `deviation`, m: proven.
     """
 
     degree: int

@@ -22,16 +22,9 @@ from optlaws.suggest import unknown_key
 class Place:
     """The place of a follower: the base circle's radius, the range of its motion, and the sense of turning.
 
-    Parameters
-    ----------
-    radius
-        Distance of the roller's centre, or of the face, from the cam's centre where the follower is lowest, m.
-    lowest, highest
-        Least and greatest displacement, m or rad.
-    slopes
-        Least and greatest derivative of the displacement by the cam's angle.
-    turning
-        1 where the cam turns counterclockwise, else -1.
+    `radius` is the distance of the roller's centre, or of the face, from the cam's centre where the follower is lowest,
+    m; displacements are in m or rad, `slopes` their least and greatest derivative by the cam's angle; `turning` is 1
+    where the cam turns counterclockwise, else -1.
     """
 
     radius: float

@@ -24,18 +24,9 @@ from optlaws.synthesis.problem.constants import FUNCTIONALS, Functional
 
 @dataclass(frozen=True)
 class Driven:
-    """A constant of a span's law that measures what its drive takes.
+    """A dimensionless constant of a span's law that measures what its drive takes, with its unit in SI.
 
-    Parameters
-    ----------
-    constant
-        Of the law, dimensionless.
-    unit
-        What turns it into SI units.
-    friction
-        What dry friction adds to a mean square at least, in SI units.
-    formula
-        The force in its unit, of a mean square.
+    Of a mean square, `friction` is what dry friction adds at least, in SI units, and `formula` the force in its unit.
     """
 
     constant: Functional

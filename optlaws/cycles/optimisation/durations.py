@@ -35,16 +35,9 @@ _TOO_FAST = "no durations of the free moves keep the limits: slow the cycle down
 
 @dataclass(frozen=True)
 class Share:
-    """A move whose duration is free: what it costs over its duration, and how it is inverted.
+    """A move whose duration is free: its peak, or the integral of the square, over its duration, in SI units.
 
-    Parameters
-    ----------
-    stretch
-        The move.
-    cost
-        Its peak, or the integral of the square, in SI units, as a function of its duration.
-    quickest
-        What no law that keeps the limit of the velocity can be shorter than.
+    No law that keeps the limit of the velocity is shorter than `quickest`.
     """
 
     stretch: TimedSegment

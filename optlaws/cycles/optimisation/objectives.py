@@ -37,24 +37,10 @@ _FORCES = {"length": "force", "angle": "torque"}
 
 @dataclass(frozen=True)
 class CycleObjective:
-    """The objective of a cycle, the limits of the whole of it, and the degree of its laws.
+    """The objective of a cycle, one of `OBJECTIVES`, the limits of the whole in SI units, and the degree of its laws.
 
-    Parameters
-    ----------
-    minimise
-        One of `OBJECTIVES`.
-    limits
-        Greatest velocity, acceleration and jerk, in SI units, by order; of force or torque by -1, of power by -3.
-    order, degree
-        End conditions of laws, and the degree of Z.
-    drive
-        What the force is of, where it is minimised or bounded.
-    load
-        What is driven elastically.
-    loaded
-        Greatest values of the load's outputs, in SI units, by output and whether they are root mean squares.
-    mean_force
-        Greatest root mean square of the force or torque over the whole cycle, in SI units.
+    `limits` are by the order of the derivative, of force or torque by -1, of power by -3; `loaded` by the load's output
+    and whether of its root mean square; `mean_force` is that of the root mean square of the force over the whole cycle.
     """
 
     minimise: str

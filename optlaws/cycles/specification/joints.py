@@ -28,24 +28,10 @@ class State(NamedTuple):
 
 @dataclass(frozen=True)
 class LawSpan:
-    """The segments that one optimal law covers: their times, the states at both ends, and points on the way.
+    """The segments that one optimal law covers: one, or free ones that follow each other, with their times.
 
-    Parameters
-    ----------
-    stretches
-        One, or free ones that follow each other.
-    starts, stop
-        When each begins, and when the last one ends.
-    offset, displacement
-        Position at the start, and how far it moves.
-    first, last
-        Velocity and acceleration at both ends.
-    via
-        Pairs of time and position on the way.
-    states
-        What is known where each stretch begins, of a whole cycle in one; None where nothing is.
-    absolute
-        Whether its law is to be one of positions, not of displacements.
+    `first` and `last` are the states at both ends, `via` pairs of time and position on the way. Of a whole cycle in
+    one, `states` say what is known where each segment begins; its law is one of positions where it is `absolute`.
     """
 
     stretches: tuple[TimedSegment, ...]

@@ -21,17 +21,7 @@ DEGREES = {1: "linear", 2: "cubic Hermite", 3: "quintic Hermite", 4: "Hermite of
 
 @dataclass(frozen=True)
 class NumberFormat:
-    """How a target holds numbers.
-
-    Parameters
-    ----------
-    counts
-        Steps over the stroke to which positions are rounded; None where they are not.
-    digits
-        Digits behind the decimal sign; None for all that a double has.
-    single
-        Whether they are REAL32.
-    """
+    """The numbers that a target holds: steps over the stroke, digits behind the decimal sign, doubles or REAL32."""
 
     counts: int | None = None
     digits: int | None = None
@@ -59,20 +49,10 @@ class NumberFormat:
 
 @dataclass(frozen=True, eq=False)
 class PointTable:
-    """Points as the target stores them, and what becomes of them.
+    """Points as the target stores them, and the polynomials that the controller lays between them.
 
-    Parameters
-    ----------
-    x
-        Of the master, shape (n,).
-    values
-        y, V, A, ... of the slave, shape (m, n).
-    powers
-        Of the polynomials that the controller lays between them, ascending, a row for each.
-    resolution
-        Step of positions; 0 for doubles.
-    bound
-        What roundings may add to the peak of the acceleration.
+    `x` of the master has the shape (n,), `values` (y, V, A, ... of the slave) (m, n), ascending `powers` a row for each
+    polynomial; `resolution` is the step of positions, `bound` what roundings may add to the peak of the acceleration.
     """
 
     x: Array

@@ -27,20 +27,9 @@ SOURCE_MODEL = f"the law's own polynomials to degree {OWN_DEGREE}, else of degre
 def polynomials_for(
     motion: Motion, request: Request, degree: int, most: int, *, points: bool = False, near: float = OFF
 ) -> Fitted:
-    """Polynomials of at most a degree and a number: so many, the best, or as few as will do.
+    """Polynomials of at most a degree and a number: so many, the best, or as few as bring the acceleration `near`.
 
-    Parameters
-    ----------
-    motion
-        The motion.
-    request
-        Its `points` is a number of segments, or of points where `points` says so.
-    degree, most
-        Of the polynomials that the target holds, and how many segments it holds.
-    points
-        Whether it is points that are counted, one more than segments.
-    near
-        How far the acceleration may be off where as few as will do are laid.
+    The request's `points` are segments, or points, of which there is one more, where `points` says so.
     """
     if request.points is None:
         return fitted(motion, degree, most, near=near)

@@ -45,22 +45,11 @@ class PolynomialMotion:
 class Forcing:
     """Displacement a over one stretch of time, s = time - start in [0, length]: a polynomial and sines.
 
-    Parameters
-    ----------
-    start, length
-        Where it lies, in units of the rise's duration.
-    a0, b0
-        Displacement and velocity at its start.
-    acceleration
-        Chebyshev series, in 2 s/length - 1, of what is no sine in c.
-    sines
-        The sines in c.
+    Times are in durations of the rise. `acceleration` is the Chebyshev series, in 2 s/length - 1, of what is no sine in
+    c.
 
     Examples
     --------
-    >>> rise = Forcing(0.0, 0.5, 0.0, 0.0, np.array([8.0]))
-    >>> rise.derivative(np.array([0.5]), 0).tolist()
-    [1.0]
     >>> rise = Forcing(0.0, 1.0, 0.0, 0.0, np.zeros(1), (Wave(2 * np.pi, 2 * np.pi, 0.0),))
     >>> rise.derivative(np.array([1.0]), 0).round(12).tolist()
     [1.0]
@@ -103,19 +92,7 @@ COUNT = 41
 def forcings(
     law: MotionLaw, start: float = 0.0, length: float = 1.0, a0: float | None = None, stroke: float = 1.0
 ) -> tuple[Forcing, ...]:
-    """Pieces of a0 + stroke (law(k) - law(0)), k = (time - start) / length.
-
-    Parameters
-    ----------
-    law
-        Any law.
-    start, length
-        When it begins, and how long it takes.
-    a0
-        Displacement at its start; the law's own unless given.
-    stroke
-        Factor of the displacement, -1 for a return.
-    """
+    """Pieces of a0 + stroke (law(k) - law(0)), k = (time - start) / length; a0 is the law's own unless given."""
     return _Frame(law, start, length, float(law.a(0.0)) if a0 is None else a0, stroke).pieces()
 
 

@@ -36,19 +36,7 @@ class Particular(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class ForcedStretch:
-    """A part of a forcing with a particular solution on it.
-
-    Parameters
-    ----------
-    forcing
-        The forcing it is a part of.
-    offset, length
-        Where the stretch begins in the forcing, and how long it is.
-    particular
-        The solution.
-    closed
-        Whether it is the closed form.
-    """
+    """A part of a forcing from an offset on, with a particular solution, `closed` where that is the closed form."""
 
     forcing: Forcing
     offset: float

@@ -14,14 +14,7 @@ from optlaws.numbers import Array
 
 @dataclass(frozen=True)
 class Oscillator:
-    """The homogeneous equation of a follower.
-
-    Parameters
-    ----------
-    nu
-        Circular frequency of the undamped vibration, radians in the rise's duration.
-    damping
-        Ratio zeta = n/nu.
+    """The homogeneous equation of a follower: nu in radians in the rise's duration, damping as the ratio zeta = n/nu.
 
     Examples
     --------

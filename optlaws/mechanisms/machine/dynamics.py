@@ -13,14 +13,11 @@ from itertools import pairwise
 from math import ceil, inf, sqrt
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
-from optlaws.numbers import Array
+from optlaws.numbers import Array, Complex
 from optlaws.numerics import chebyshev
 from optlaws.numerics.tolerances import SAME_ROOT, SAME_TIME, VIBRATING
-
-Complex = NDArray[np.complex128]
 
 RADIANS = 10.0  # of the fastest vibration in a panel
 DECAY = 40.0  # of the fastest decay in a panel, while it is not over
@@ -34,14 +31,9 @@ PER_ROOT_OF_DECAY = 6.5  # coefficients that an exponential needs for each root 
 
 @dataclass(frozen=True, eq=False)
 class DriveStretch:
-    """The motion of the drive on one stretch of time.
+    """The motion of the drive on one stretch of time, in durations of the rise.
 
-    Attributes
-    ----------
-    start, length
-        Where the stretch lies, in durations of the rise.
-    series
-        Chebyshev series of a, b and c on it, shape (coefficients, 3, columns): one column for each law.
+    `series` are Chebyshev series of a, b and c on it, shape (coefficients, 3, columns): one column for each law.
     """
 
     start: float
@@ -68,14 +60,8 @@ class DriveStretch:
 class Panel:
     """The machine's states over a short time, as Chebyshev series, in the coordinates of its triangular form.
 
-    Attributes
-    ----------
-    start, length
-        Where it lies.
-    states
-        Series of the states, shape (coefficients, states, columns).
-    drive
-        Series of a, b and c, shape (coefficients, 3, columns), no longer than those.
+    `states` have the shape (coefficients, states, columns), `drive` (coefficients, 3, columns) with no more
+    coefficients.
     """
 
     start: float
@@ -91,13 +77,7 @@ class Panel:
 
 
 class Dynamics:
-    """x' = A x + B (a, b, c) in triangular form.
-
-    Parameters
-    ----------
-    matrix, load
-        A and B, shapes (states, states) and (states, 3).
-    """
+    """x' = A x + B (a, b, c) in triangular form; A and B have the shapes (states, states) and (states, 3)."""
 
     def __init__(self, matrix: Array, load: Array) -> None:
         from scipy.linalg import matrix_balance, schur

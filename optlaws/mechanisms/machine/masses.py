@@ -63,17 +63,7 @@ class Link:
 
 @dataclass(frozen=True, eq=False)
 class Assembly:
-    """Masses, links and a drive: the law is the displacement of a mass, or its distance from another one.
-
-    Attributes
-    ----------
-    masses
-        Masses, or moments of inertia, by name; the driven one may have none.
-    links
-        What joins them.
-    driven, base
-        The mass that the law drives, and what its displacement is measured from.
-    """
+    """Masses by name, links, and the mass that a law drives: the law is its displacement from the ground or a base."""
 
     masses: Mapping[str, float]
     links: tuple[Link, ...]

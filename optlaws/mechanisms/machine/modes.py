@@ -8,15 +8,12 @@ from math import pi
 from typing import Any, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.mechanisms.machine.state_space import StateSpace
-from optlaws.numbers import Array, not_negative, numbers, positive
+from optlaws.numbers import Array, Complex, not_negative, numbers, positive
 from optlaws.numerics.tolerances import DEFECTIVE, SAME_ROOT
-
-Complex = NDArray[np.complex128]
 
 
 @dataclass(frozen=True)
@@ -98,13 +95,7 @@ def _mode(number: int, group: Complex) -> Mode:
 
 @dataclass(frozen=True, eq=False)
 class ModalModel:
-    """Vibrations by their frequencies: rigid motion of the drive and what each mode adds to it.
-
-    Attributes
-    ----------
-    modes
-        Circular frequency, damping ratio and participation of each.
-    """
+    """Vibrations by circular frequency, damping ratio and participation: rigid motion and what each mode adds to it."""
 
     what: ClassVar[str] = "these modes"
 

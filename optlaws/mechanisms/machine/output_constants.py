@@ -50,20 +50,10 @@ _SIDE = {signs: side for side, signs in SIDES.items()}
 
 @dataclass(frozen=True, repr=False)
 class OutputConstant(Functional):
-    """The common part of constants of an output.
+    """The common part of constants of an output, with an offset added to it.
 
-    Attributes
-    ----------
-    machine, output
-        Of which machine, which output.
-    within
-        The first and the last time that count, in durations of the rise; the law rests from 1 on.
-    cycle
-        The dwell and the rest of a cycle of rise, dwell, return and rest; None for one rise.
-    steady
-        Whether the law is itself a whole cycle that repeats; its duration is then the unit of time.
-    offset
-        What is added to the output.
+    Times `within` which it counts are in durations of the rise; the law rests from 1 on. A `cycle` is given by the
+    dwell and the rest of rise, dwell, return and rest; where `steady`, the law is itself a whole cycle that repeats.
     """
 
     machine: StateSpace = field(compare=False)

@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
@@ -21,7 +20,7 @@ from optlaws.mechanisms.follower.forcing import leads_back
 from optlaws.mechanisms.machine import drives
 from optlaws.mechanisms.machine.dynamics import RADIANS, DriveStretch, Panel
 from optlaws.mechanisms.machine.state_space import StateSpace
-from optlaws.numbers import Array, real_times, whole
+from optlaws.numbers import Array, Complex, real_times, whole
 from optlaws.numerics import chebyshev
 from optlaws.numerics.tolerances import END_ROUNDING, EPSILON, RESONANCE, SHORTEST_STRETCH
 
@@ -150,9 +149,6 @@ class OutputCurve(Curve):
     def _mean_square(self, nu: int) -> float:
         squares = [chebyshev.mean_product(series, series) for series in self._of_order(nu)]
         return float(self.lengths @ np.array(squares)) / float(self.lengths.sum())
-
-
-Complex = NDArray[np.complex128]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -381,20 +377,15 @@ class MachineCycle(MachineMotion):
 class RepeatedMotion(MachineMotion):
     """The steady outputs of a machine under a motion that repeats, whatever it is made of; made by a whole cycle.
 
-    Attributes
-    ----------
-    drives
-        The motion, stretch after stretch, in the machine's unit of time.
-    jumps
-        Where its velocity jumps inside of a stretch, and by how much.
+    `drives` are its stretches in the machine's unit of time, `jumps` where the velocity jumps inside, and by how much.
 
     Examples
     --------
     >>> from optlaws import Machine, smoothstep
     >>> mass = Machine([[0, 1], [-400, -2]], [[0], [400]], [[1, 0]], outputs=["position"])
     >>> there, back = drives.of_law(smoothstep(4)), drives.of_law(smoothstep(4), 1.0, 1.0, 1.0, -1.0)
-    >>> repeated, own = RepeatedMotion(mass, (*there, *back), ()), mass.cycle(smoothstep(4), dwell=0, rest=0)
-    >>> bool(abs(repeated.peak("position").value - own.peak("position").value) < 1e-12)
+    >>> repeated, cycle = RepeatedMotion(mass, (*there, *back), ()), mass.cycle(smoothstep(4), dwell=0, rest=0)
+    >>> bool(abs(repeated.peak("position").value - cycle.peak("position").value) < 1e-12)
     True
     """
 

@@ -13,7 +13,6 @@ from functools import lru_cache
 from math import asin, ceil, nan
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
@@ -24,14 +23,12 @@ from optlaws.mechanisms.machine.state_space import StateSpace
 from optlaws.mechanisms.machine.texts import check_rest, machine_of, text_of, title_of
 from optlaws.mechanisms.spectrum.robust import cached_columns, domain_of, greatest_modulus, velocity_transforms, widened
 from optlaws.mechanisms.spectrum.transforms import velocity_transform_of
-from optlaws.numbers import Array, not_negative, numbers, power_of_two
+from optlaws.numbers import Array, Complex, not_negative, numbers, power_of_two
 from optlaws.numerics import chebyshev
 from optlaws.numerics.tolerances import NEGLIGIBLE_TERM
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.problem.constants import MAKERS, Functional
 from optlaws.synthesis.spaces.space import LawSpace
-
-Complex = NDArray[np.complex128]
 
 _SPARE = 40
 _WIDEST = 1000.0

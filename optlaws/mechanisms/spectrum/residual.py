@@ -5,15 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.spectrum.transforms import legendre_from_chebyshev, moments, velocity_transform
-from optlaws.numbers import Array, frequency, not_negative, numbers, whole
-
-Complex = NDArray[np.complex128]
+from optlaws.numbers import Array, Complex, frequency, not_negative, numbers, whole
 
 
 def residual_phasor(law: MotionLaw, nu: Any, damping: float = 0.0) -> Complex:  # noqa: ANN401 - numbers of any kind

@@ -12,21 +12,18 @@ from math import ceil, nan
 
 import numpy as np
 from numpy.polynomial import legendre
-from numpy.typing import NDArray
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.follower.cam_constants import check_order
 from optlaws.mechanisms.spectrum.residual import residual_phasor, roots
-from optlaws.numbers import Array, not_negative, positive
+from optlaws.numbers import Array, Complex, not_negative, positive
 from optlaws.numerics.chebyshev import from_values, nodes
 from optlaws.numerics.peaks import Peak
 from optlaws.synthesis.families.cone import ConeFamily, stationary_places
 from optlaws.synthesis.problem.constants import MAKERS, Functional
 from optlaws.synthesis.spaces.space import LawSpace
-
-Complex = NDArray[np.complex128]
 
 _WIDEST = 1000.0
 _SPARE = 40
@@ -189,14 +186,7 @@ def residual(
 
 
 def greatest_modulus(amplitude: Callable[[Array], Complex], nodes: Array) -> tuple[float, float]:
-    """The greatest magnitude of an amplitude over places from -1 to 1, and its place.
-
-    Parameters
-    ----------
-    amplitude
-        An analytic function of places.
-    nodes
-        Chebyshev nodes that resolve it, or a single place.
+    """The greatest magnitude of an analytic amplitude from -1 to 1, by nodes that resolve it, and its place.
 
     Examples
     --------
@@ -231,14 +221,7 @@ def cached_columns(space: LawSpace, key: tuple[object, ...], computed: Callable[
 def velocity_transforms(space: LawSpace, w: Complex, highest: float) -> Complex:
     """Integrals of exp(w (1 - k)) b(k), a row for each root w, for the free functions and the base law of a space.
 
-    Parameters
-    ----------
-    space
-        The laws.
-    w
-        Roots with real parts of at most 0.
-    highest
-        The greatest magnitude of a root.
+    Roots have real parts of at most 0 and magnitudes of at most `highest`.
     """
     k, weights = _gauss_rule(space, highest)
     family = space.derivative(1, "b", np.zeros(space.terms))

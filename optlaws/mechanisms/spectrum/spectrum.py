@@ -7,7 +7,6 @@ from math import ceil
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
@@ -15,11 +14,9 @@ from optlaws.laws.law import motion_law
 from optlaws.mechanisms.follower.forcing import Forcing, forcings
 from optlaws.mechanisms.spectrum.residual import residual_phasor, roots
 from optlaws.mechanisms.spectrum.transforms import legendre_from_chebyshev, moments
-from optlaws.numbers import Array
+from optlaws.numbers import Array, Complex
 from optlaws.numerics import chebyshev
 from optlaws.numerics.tolerances import BEYOND_CUBIC, LOAD_RESOLVED
-
-Complex = NDArray[np.complex128]
 
 RADIANS = 0.7
 TERMS = 9
@@ -163,7 +160,7 @@ class ResponseSpectrum:
     law: MotionLaw
     damping: float
     nu: Array
-    phasor: NDArray[np.complex128]
+    phasor: Complex
 
     def __eq__(self, other: object) -> bool:
         return self._contents() == other._contents() if isinstance(other, ResponseSpectrum) else NotImplemented

@@ -8,34 +8,21 @@ from itertools import pairwise
 from math import ceil
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.laws import MotionLaw
 from optlaws.laws.law import motion_law
 from optlaws.mechanisms.follower.forcing import Forcing, forcings
-from optlaws.numbers import Array
+from optlaws.numbers import Array, Complex
 from optlaws.numerics import chebyshev
 from optlaws.numerics.tolerances import TINY
 
-Complex = NDArray[np.complex128]
-
 
 def moments(sigma: Complex, count: int) -> Complex:
-    """Half the integral over |x| <= 1 of P_n(x) exp(sigma (1 - x)), n = 0 ... count - 1.
+    """Half the integral over |x| <= 1 of P_n(x) exp(sigma (1 - x)), n = 0 ... count - 1, shape (m, count).
 
     It is (-1)^n exp(sigma) i_n(sigma), and for imaginary sigma a spherical Bessel function j_n. The ratios of
-    consecutive n come from their recurrence run downwards, which is stable for every argument.
-
-    Parameters
-    ----------
-    sigma
-        Arguments, shape (m,), not zero and with real part at most 0.
-    count
-        Number of polynomials.
-
-    Returns
-    -------
-    Complex array, shape (m, count).
+    consecutive n come from their recurrence run downwards, which is stable for every argument: not 0, real part at most
+    0.
 
     Examples
     --------
@@ -94,9 +81,6 @@ def legendre_from_chebyshev(count: int) -> Array:
     table = np.triu(table)
     table[np.add.outer(np.arange(count), np.arange(count)) % 2 == 1] = 0.0
     return table
-
-
-Complex = NDArray[np.complex128]
 
 
 def velocity_transform(law: MotionLaw, w: Complex) -> Complex:
