@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -162,7 +162,8 @@ class BreakSearch:
 
         start = -np.log(grading) * np.minimum(np.arange(1, half), np.arange(half - 1, 0, -1) + (count - half))
         if half > 1:
-            _until_enough(lambda: minimize(off, start, method="Nelder-Mead", options={"maxfev": _EVALUATIONS}))
+            with suppress(_Enough):
+                minimize(off, start, method="Nelder-Mead", options={"maxfev": _EVALUATIONS})
 
     @staticmethod
     def _placed(lengths: Array) -> Array:
@@ -185,13 +186,6 @@ def _refuse_leaps(law: MotionLaw, orders: int) -> None:
                 f"the derivative of order {nu} of the law leaps, and pieces of degree {2 * orders - 1} share it at "
                 "their breaks: take a lower degree, or the law's own breaks (points not 'best')"
             )
-
-
-def _until_enough(work: Callable[[], object]) -> None:
-    try:
-        work()
-    except _Enough:
-        return
 
 
 def fitted_best(motion: Motion, degree: int, most: int) -> Fitted:

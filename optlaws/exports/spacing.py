@@ -6,13 +6,15 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
 from math import inf, isfinite
-from typing import NamedTuple, Protocol, TypeVar
+from typing import NamedTuple
 
 import numpy as np
 
 from optlaws.errors import InputError
-from optlaws.exports.format import BEST, Request
+from optlaws.exports.format import BEST, Request, Written
+from optlaws.kept import kept_property
 from optlaws.motion.motion import Motion
+from optlaws.motion.polynomials import PiecewiseMotion
 from optlaws.numbers import Array
 from optlaws.numerics import bernstein
 from optlaws.numerics.tolerances import AS_GOOD, RUN_OFF
@@ -25,23 +27,28 @@ _DIGITS = 12
 _BETWEEN = 0.4  # share of a step; halfway, symmetric curves cross
 
 
-class Tabled(Protocol):
-    """Polynomials that a controller lays between points."""
+@dataclass(frozen=True, eq=False)
+class PointTable:
+    """Points as the target stores them, and the polynomials that the controller lays between them.
 
-    @property
-    def x(self) -> Array:
-        """The places of the points, by the master."""
+    `x` of the master has the shape (n,), `values` (y, V, A, ... of the slave) (m, n), ascending `powers` a row for each
+    polynomial; `resolution` is the step of positions, `bound` what roundings may add to the peak of the acceleration.
+    """
 
-    @property
-    def powers(self) -> Array:
-        """Ascending powers, a row for each piece."""
+    x: Array
+    values: Array
+    powers: Array
+    resolution: float
+    bound: float
 
-    @property
-    def resolution(self) -> float:
-        """The step to which positions are rounded."""
+    @kept_property
+    def run(self) -> PiecewiseMotion:
+        """The motion that the controller makes of the points."""
+        return PiecewiseMotion(self.x, self.powers)
 
-
-TableT = TypeVar("TableT", bound=Tabled)
+    def written(self, text: str, model: str, notes: tuple[str, ...] = ()) -> Written:
+        """The file of the table, with what a controller makes of it."""
+        return Written(text, self.run, model, len(self.x), "points", self.resolution, self.bound, notes)
 
 
 def places(motion: Motion, count: int, *, straight: bool = False) -> Array:
@@ -63,14 +70,9 @@ def _between(low: float, high: float, steps: int, digits: int) -> Array:
     return inside
 
 
-def least_points(motion: Motion, least: int = 2) -> int:
-    """How many points a table has at least: one at every break."""
-    return max(least, len(motion.breaks))
-
-
-def chosen(motion: Motion, request: Request, make: Callable[[int], TableT], least: int, most: int) -> TableT:
+def chosen(motion: Motion, request: Request, make: Callable[[int], PointTable], least: int, most: int) -> PointTable:
     """The table with the requested number of points, or with that whose run is best, of those that the target holds."""
-    fewest = least_points(motion, least)
+    fewest = max(least, len(motion.breaks))  # one at every break
     if fewest > most:
         raise InputError(f"the motion has {fewest} breaks, and the target holds {most} points: export its parts")
     if request.points not in {None, BEST}:
@@ -81,7 +83,7 @@ def chosen(motion: Motion, request: Request, make: Callable[[int], TableT], leas
     return best(motion, make, fewest, min(most, max(MOST_TRIED, fewest)))
 
 
-def best(motion: Motion, make: Callable[[int], TableT], least: int, most: int) -> TableT:
+def best(motion: Motion, make: Callable[[int], PointTable], least: int, most: int) -> PointTable:
     """The table with the number of points whose run is best, tried up to 64 one by one, then over the range.
 
     Runs count that are within 1e-4 of the stroke of the law, or within the resolution, or as near as any. The best of
@@ -89,7 +91,7 @@ def best(motion: Motion, make: Callable[[int], TableT], least: int, most: int) -
     the law's own peak is no gain. Among numbers as good to a thousandth those count whose acceleration leaps
     least further than the law's, at points and at the ends, to a thousandth of the peak, and of these the least.
     """
-    judge, tried = RunRanking.of(motion), dict[int, tuple[Rank, TableT]]()
+    judge, tried = RunRanking.of(motion), dict[int, tuple[Rank, PointTable]]()
 
     def attempt(counts: set[int]) -> None:
         for count in sorted(counts - tried.keys()):
@@ -142,7 +144,7 @@ class RunRanking:
         ends = abs(last - first) if motion.repeats else max(abs(first), abs(last))
         return cls(motion, motion.peak(1), motion.peak(2), motion.leap(2)[0], ends)
 
-    def rank(self, table: Tabled) -> Rank:
+    def rank(self, table: PointTable) -> Rank:
         """How good polynomials are."""
         x, powers, off = table.x, table.powers, self._off(table)
         steps = np.diff(x)
@@ -158,7 +160,7 @@ class RunRanking:
         peak = max(_peak(powers, steps, first, last) / self.acceleration, 1.0)
         return Rank(off, peak, beyond / self.acceleration)
 
-    def _off(self, table: Tabled) -> float:
+    def _off(self, table: PointTable) -> float:
         """How far the polynomials are from the motion between points, where they are about farthest."""
         after = _BETWEEN * np.diff(table.x)
         run = (table.powers * after[:, None] ** np.arange(table.powers.shape[1])).sum(axis=1)

@@ -169,6 +169,7 @@ def iec_comment(lines: tuple[str, ...]) -> str:
 
 
 _PLAIN = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
+_LONGEST = 40  # characters of a name
 _SHORT = 26  # characters, so that prefix and number have room in the shortest names of targets
 _RUNS = re.compile(r"[^A-Za-z0-9]+")
 
@@ -198,7 +199,7 @@ C_KEYWORDS = frozenset(_C_WORDS.split())
 IEC_KEYWORDS = frozenset(_WORDS.split())
 
 
-def iec_name(name: Any, target: str, longest: int = 40) -> str:  # noqa: ANN401 - it is checked here
+def iec_name(name: Any, target: str) -> str:  # noqa: ANN401 - it is checked here
     """The name of a variable in a language of IEC 61131-3; the error of a target that would refuse it proposes one.
 
     Examples
@@ -207,9 +208,9 @@ def iec_name(name: Any, target: str, longest: int = 40) -> str:  # noqa: ANN401 
     Traceback (most recent call last):
     optlaws.errors.InputError: CODESYS takes no variable called 'press 1': letters, digits and single _ ...'press_1'
     """
-    why = _fault(name, longest)
+    why = _fault(name)
     if why:
-        proposed = _proposed(name, longest)
+        proposed = _proposed(name, _LONGEST)
         raise InputError(f"{target} takes no variable called {shortened(name)}: {why}; take {proposed!r}")
     return str(name)
 
@@ -233,12 +234,12 @@ def variable_names(names: Iterable[str]) -> dict[str, str]:
     return identifiers
 
 
-def _fault(name: Any, longest: int) -> str:  # noqa: ANN401
+def _fault(name: Any) -> str:  # noqa: ANN401
     if not isinstance(name, str) or not _PLAIN.fullmatch(name) or "__" in name or name.endswith("_"):
         return "letters, digits and single _ between them make a name, a digit does not begin it"
     if name.lower() in IEC_KEYWORDS:
         return "it is a keyword"
-    return f"it may have {longest} characters" if len(name) > longest else ""
+    return f"it may have {_LONGEST} characters" if len(name) > _LONGEST else ""
 
 
 def _proposed(name: Any, longest: int) -> str:  # noqa: ANN401

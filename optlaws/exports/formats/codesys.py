@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from optlaws.exports.format import Request, Written, file_format
-from optlaws.exports.formats.point_table import NumberFormat, PointTable, hermite_table, table_by_interpolation
+from optlaws.exports.formats.point_table import NumberFormat, hermite_table, table_by_interpolation
 from optlaws.exports.formats.program_polynomials import fields, iec_heading, polynomials_for
-from optlaws.exports.spacing import chosen
+from optlaws.exports.spacing import PointTable, chosen
 from optlaws.exports.text import iec_comment, iec_name, real, table_heading
 from optlaws.motion.motion import Motion
 

@@ -12,7 +12,6 @@ from optlaws.errors import InputError
 from optlaws.exports.format import MOST_POINTS, Request, Written, file_format
 from optlaws.exports.formats.point_table import (
     NumberFormat,
-    PointTable,
     hermite_table,
     linear_table,
     positions,
@@ -20,7 +19,7 @@ from optlaws.exports.formats.point_table import (
     table_by_interpolation,
 )
 from optlaws.exports.interpolation import linear_powers
-from optlaws.exports.spacing import chosen
+from optlaws.exports.spacing import PointTable, chosen
 from optlaws.exports.text import plain, plain_column, table_heading
 from optlaws.files.writing import MARK
 from optlaws.motion.motion import Motion

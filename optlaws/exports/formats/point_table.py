@@ -7,12 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from optlaws.errors import InputError
-from optlaws.exports.format import Written
 from optlaws.exports.interpolation import Ends, akima_powers, hermite_powers, linear_powers, spline_powers
-from optlaws.exports.spacing import places
-from optlaws.kept import kept_property
+from optlaws.exports.spacing import PointTable, places
 from optlaws.motion.motion import Motion
-from optlaws.motion.polynomials import PiecewiseMotion
 from optlaws.numbers import Array
 from optlaws.numerics.tolerances import TABLE_ROUNDING
 
@@ -47,30 +44,6 @@ class NumberFormat:
         return (rounded.astype(np.float32).astype(np.float64) if self.single else rounded) + 0.0
 
 
-@dataclass(frozen=True, eq=False)
-class PointTable:
-    """Points as the target stores them, and the polynomials that the controller lays between them.
-
-    `x` of the master has the shape (n,), `values` (y, V, A, ... of the slave) (m, n), ascending `powers` a row for each
-    polynomial; `resolution` is the step of positions, `bound` what roundings may add to the peak of the acceleration.
-    """
-
-    x: Array
-    values: Array
-    powers: Array
-    resolution: float
-    bound: float
-
-    @kept_property
-    def run(self) -> PiecewiseMotion:
-        """The motion that the controller makes of the points."""
-        return PiecewiseMotion(self.x, self.powers)
-
-    def written(self, text: str, model: str, notes: tuple[str, ...] = ()) -> Written:
-        """The file of the table, with what a controller makes of it."""
-        return Written(text, self.run, model, len(self.x), "points", self.resolution, self.bound, notes)
-
-
 def positions(
     motion: Motion, count: int, number_format: NumberFormat, *, even: bool = False, lines: bool = False
 ) -> tuple[Array, Array]:
@@ -85,14 +58,12 @@ def positions(
     return x, number_format.positions(np.asarray(motion(exact)), motion)
 
 
-def spline_table(
-    motion: Motion, count: int, number_format: NumberFormat, *, ends: Ends = "clamped", even: bool = False
-) -> PointTable:
+def spline_table(motion: Motion, count: int, number_format: NumberFormat, *, ends: Ends = "clamped") -> PointTable:
     """Positions through which the controller lays the cubic spline; clamped to the velocities of the motion's ends.
 
     A periodic one ends exactly where it begins, as the motion does but for rounding.
     """
-    x, y = positions(motion, count, number_format, even=even)
+    x, y = positions(motion, count, number_format)
     slopes = number_format.numbers(np.array(motion.ends(1)))
     if ends == "periodic":
         y[-1] = y[0]
@@ -100,9 +71,9 @@ def spline_table(
     return PointTable(x, y[None], powers, number_format.resolution(motion), rounding_bound(motion, x, y, slopes))
 
 
-def linear_table(motion: Motion, count: int, number_format: NumberFormat, *, even: bool = False) -> PointTable:
+def linear_table(motion: Motion, count: int, number_format: NumberFormat) -> PointTable:
     """Positions between which the controller goes straight."""
-    x, y = positions(motion, count, number_format, even=even, lines=True)
+    x, y = positions(motion, count, number_format, lines=True)
     return PointTable(x, y[None], linear_powers(x, y), number_format.resolution(motion), 0.0)
 
 

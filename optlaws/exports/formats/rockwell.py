@@ -10,8 +10,8 @@ import numpy as np
 
 from optlaws.errors import InputError
 from optlaws.exports.format import MOST_POINTS, Request, Written, file_format
-from optlaws.exports.formats.point_table import NumberFormat, PointTable, table_by_interpolation
-from optlaws.exports.spacing import chosen
+from optlaws.exports.formats.point_table import NumberFormat, table_by_interpolation
+from optlaws.exports.spacing import PointTable, chosen
 from optlaws.exports.text import iec_comment, iec_name, real, table_heading
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion

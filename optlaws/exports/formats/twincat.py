@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from optlaws.exports.fitting import Fitted
 from optlaws.exports.format import MOST_POINTS, Request, Written, file_format
-from optlaws.exports.formats.point_table import NumberFormat, PointTable, linear_table, spline_table
+from optlaws.exports.formats.point_table import NumberFormat, linear_table, spline_table
 from optlaws.exports.formats.program_polynomials import (
     ends_of,
     fields,
@@ -19,7 +19,7 @@ from optlaws.exports.formats.program_polynomials import (
     refuse_leaps,
 )
 from optlaws.exports.interpolation import hermite_powers
-from optlaws.exports.spacing import chosen
+from optlaws.exports.spacing import PointTable, chosen
 from optlaws.exports.text import iec_comment, iec_name, real, table_heading
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion

@@ -14,8 +14,8 @@ from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.law import motion_law
 from optlaws.mechanisms.follower.follower import Follower
-from optlaws.mechanisms.machine.masses import Assembly, Link, assembly, named_outputs
-from optlaws.mechanisms.machine.modes import ModalModel, Mode, modal_model, modes
+from optlaws.mechanisms.machine.masses import Link, MachineModel, assembly
+from optlaws.mechanisms.machine.modes import Mode, modal_model, modes
 from optlaws.mechanisms.machine.over_time import MachineCycle, MachineResponse
 from optlaws.mechanisms.machine.state_space import SYMBOLS, StateSpace
 from optlaws.numbers import not_negative, positive
@@ -222,14 +222,14 @@ class Machine(StateSpace):
     @classmethod
     def _driven(
         cls,
-        given: Assembly | ModalModel,
+        given: MachineModel,
         outputs: Mapping[str, str] | Sequence[str] | None,
         *,
         duration: float,
         stroke: float,
     ) -> Self:
         """The machine of a model driven by a, b and c, without those that do not enter."""
-        names = named_outputs(given, outputs)
+        names = given.named(outputs)
         A, B, C, D = given.matrices(list(names.values()))
         used = [i for i in range(3) if i == 0 or B[:, i].any() or D[:, i].any()]
         inputs = "".join(SYMBOLS[i] for i in used)

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from math import pi
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.mechanisms.machine.masses import MachineModel
 from optlaws.mechanisms.machine.state_space import StateSpace
 from optlaws.numbers import Array, Complex, not_negative, numbers, positive
 from optlaws.numerics.tolerances import DEFECTIVE, SAME_ROOT
@@ -94,27 +94,21 @@ def _mode(number: int, group: Complex) -> Mode:
 
 
 @dataclass(frozen=True, eq=False)
-class ModalModel:
+class ModalModel(MachineModel):
     """Vibrations by circular frequency, damping ratio and participation: rigid motion and what each mode adds to it."""
 
-    what: ClassVar[str] = "these modes"
+    what = "these modes"
 
     modes: tuple[tuple[float, float, float], ...]
 
-    def matrices(self, outputs: Sequence[str]) -> tuple[Array, Array, Array, Array]:
-        """A, B, C and D for the inputs a, b and c: deflections, then their velocities."""
-        size = len(self.modes)
+    @property
+    def accelerations(self) -> Array:  # noqa: D102
         frequencies, dampings, shares = np.array(self.modes).T
-        A, B = np.zeros((2 * size, 2 * size)), np.zeros((2 * size, 3))
-        A[:size, size:] = np.eye(size)
-        A[size:, :size], A[size:, size:] = np.diag(-(frequencies**2)), np.diag(-2.0 * dampings * frequencies)
-        B[size:, 2] = -shares
-        rows = np.array([self.outputs[name] for name in outputs])
-        return A, B, rows[:, : 2 * size], rows[:, 2 * size :]
+        parts = np.diag(-(frequencies**2)), np.diag(-2.0 * dampings * frequencies), np.zeros((len(shares), 2))
+        return np.column_stack([*parts, -shares])
 
     @property
-    def outputs(self) -> dict[str, Array]:
-        """Rows over deflections, their velocities, and a, b and c, by the names of outputs."""
+    def outputs(self) -> dict[str, Array]:  # noqa: D102
         size = len(self.modes)
         frequencies, dampings, shares = np.array(self.modes).T
         unit = np.eye(2 * size + 3)

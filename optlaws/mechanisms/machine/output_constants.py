@@ -349,38 +349,17 @@ def output_peak(
     side: str = "both",
     offset: float = 0.0,
 ) -> OutputPeak:
-    """The greatest magnitude of an output of a machine, or its greatest or least value.
+    """The greatest magnitude of an output of a machine, or its greatest or least value, as `Machine.peak` has it.
 
-    Parameters
-    ----------
-    of
-        The machine, or its text with the output.
-    within
-        The first and the last time that count, in durations of the rise; the law rests from 1 on.
-    cycle
-        The dwell and the rest of a cycle that repeats; then the whole of it counts.
-    output
-        Which output; the first one unless given.
-    steady
-        Whether the law is itself a whole cycle that repeats, such as one of `PeriodicPieces`.
-    side
-        "both" for the greatest magnitude, "high" for the greatest value, "low" for the greatest opposite.
-    offset
-        What is added to the output, in its units: a constant load.
-
-    Raises
-    ------
-    InputError
-        If there is no such output or side, or a number is out of range.
+    `of` is the machine, or its text with the output; `steady` says that the law is itself a whole cycle that repeats,
+    such as one of `PeriodicPieces`.
 
     Examples
     --------
     >>> from optlaws import Machine, smoothstep
     >>> machine = Machine([[0, 1], [-400, -2]], [[0], [400]], [[-400, -2]], [[400]], outputs=["acceleration"])
-    >>> output_peak(of=machine).value(smoothstep(4)), output_peak(of=machine, within=(1, 2)).value(smoothstep(4))
-    (10.254029, 1.620669)
-    >>> output_peak(of=machine, side="low").value(smoothstep(4))
-    9.523921
+    >>> [output_peak(of=machine, **of).value(smoothstep(4)) for of in ({"within": (1, 2)}, {"side": "low"})]
+    [1.620669, 9.523921]
     """
     if side not in tuple(SIDES):
         raise InputError(unknown_key(side, SIDES, "side"))
@@ -398,27 +377,7 @@ def output_rms(
     steady: bool = False,
     offset: float = 0.0,
 ) -> OutputRms:
-    """The root mean square of an output of a machine, over the rise and a dwell after it, or over a cycle.
-
-    Parameters
-    ----------
-    of
-        The machine, or its text with the output.
-    dwell
-        How much of the dwell counts too, in durations of the rise.
-    cycle
-        The dwell and the rest of a cycle that repeats; then the whole of it counts.
-    output
-        Which output; the first one unless given.
-    steady
-        Whether the law is itself a whole cycle that repeats.
-    offset
-        What is added to the output, in its units: a constant load.
-
-    Raises
-    ------
-    InputError
-        If there is no such output, or a number is out of range.
+    """The root mean square of an output of a machine, as `Machine.rms` has it; `of` and `steady` as for `output_peak`.
 
     Examples
     --------

@@ -153,71 +153,31 @@ class OutputCurve(Curve):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class MachineMotion(ABC):
-    """The outputs of a machine over time, by their names: each a curve.
-
-    Attributes
-    ----------
-    machine
-        The machine.
-    """
+    """The outputs of a machine over time, by their names: each a curve, an `InputError` where there is none."""
 
     machine: StateSpace
 
     def __getitem__(self, output: str) -> OutputCurve:
-        """The curve of an output.
-
-        Raises
-        ------
-        InputError
-            If there is no such output.
-        """
+        """The curve of an output."""
         self.machine.place(output)
         if output not in self._curves:
             self._curves[output] = self._curve(output)
         return self._curves[output]
 
     def peak(self, output: str) -> Peak:
-        """The greatest magnitude of an output, with its place.
-
-        Raises
-        ------
-        InputError
-            If there is no such output.
-        """
+        """The greatest magnitude of an output, with its place."""
         return self[output].peak(0)
 
     def extrema(self, output: str) -> tuple[Peak, Peak]:
-        """Minimum and maximum of an output, signed.
-
-        Raises
-        ------
-        InputError
-            If there is no such output.
-        """
+        """Minimum and maximum of an output, signed."""
         return self[output].extrema(0)
 
     def rms(self, output: str) -> float:
-        """Root mean square of an output.
-
-        Raises
-        ------
-        InputError
-            If there is no such output.
-        """
+        """Root mean square of an output."""
         return self[output].rms(0)
 
     def to_pandas(self, count: int = 201) -> Any:  # noqa: ANN401 - pandas is imported where it is asked for
-        """Samples of all outputs as a data frame over time; needs the extra `optlaws[studies]`.
-
-        Parameters
-        ----------
-        count
-            Number of equally spaced times, at least 2.
-
-        Raises
-        ------
-        InputError
-            If `count` is not an integer of at least 2, or pandas is missing.
+        """Samples of all outputs as a data frame over `count` equally spaced times; needs the extra `optlaws[studies]`.
 
         Examples
         --------
@@ -279,13 +239,7 @@ class MachineResponse(MachineMotion):
     dwell: float
 
     def rise_peak(self, output: str) -> Peak:
-        """The greatest magnitude of an output during the rise.
-
-        Raises
-        ------
-        InputError
-            If there is no such output.
-        """
+        """The greatest magnitude of an output during the rise."""
         return self._greatest(output, (0.0, 1.0))
 
     def dwell_peak(self, output: str) -> Peak:
@@ -294,7 +248,7 @@ class MachineResponse(MachineMotion):
         Raises
         ------
         InputError
-            If there is no such output, or no dwell was asked for.
+            If no dwell was asked for.
         """
         if self.dwell <= SHORTEST_STRETCH:
             raise InputError("this response has no dwell: ask for one, machine.response(law, dwell=1.0)")

@@ -69,14 +69,8 @@ class BoxEdge:
 class ModeResidual(Functional):
     """Greatest amplitude of a mode in an output after the motion, over a box; made by `Machine.residual`.
 
-    Attributes
-    ----------
-    machine, output, mode
-        Of which machine, in which output, which mode.
-    spread
-        Share by which the mode's frequency may be off, either way.
-    dampings
-        The least and the greatest damping ratio; None for the mode's own.
+    The mode's frequency may be off by the share `spread`, either way; `dampings` are the least and the greatest ratio,
+    or None for the mode's own.
     """
 
     machine: StateSpace = field(compare=False)
@@ -184,27 +178,9 @@ def mode_residual(
     damping: tuple[float, float] | float | None = None,
     output: str | None = None,
 ) -> ModeResidual:
-    """The greatest amplitude that a mode is left with in an output, over a box of frequencies and damping ratios.
+    """The greatest amplitude that a mode is left with in an output, over a box, as `Machine.residual` has it.
 
-    In units of the output: of the free vibration at k = 1, its envelope where damped.
-
-    Parameters
-    ----------
-    of
-        The machine, or its text with the output.
-    mode
-        Number of the mode.
-    spread
-        Share by which its frequency may be off, either way: 0.1 for 10 %.
-    damping
-        The least and the greatest damping ratio, or the only one; the mode's own unless given.
-    output
-        Which output; the first one unless given.
-
-    Raises
-    ------
-    InputError
-        If there is no such mode or output, or a number is out of range.
+    `of` is the machine, or its text with the output.
 
     Examples
     --------
