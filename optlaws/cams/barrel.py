@@ -55,7 +55,7 @@ class BarrelCam:
     Raises
     ------
     InputError
-        If there is no such groove; the error says the remedy.
+        If there is no such groove, or an argument of a method is none; the error says the remedy.
 
     Examples
     --------
@@ -116,11 +116,6 @@ class BarrelCam:
             "upper", which pushes the roller back, or "lower", which pushes it forth.
         radius
             The distance in metres; that of the cylinder unless given.
-
-        Raises
-        ------
-        InputError
-            If there is no such side, or the distance is not within the groove.
         """
         if side not in tuple(SIDES):
             raise InputError(unknown_key(side, SIDES, "side"))
@@ -145,13 +140,7 @@ class BarrelCam:
         return SpaceCurve(curve.motion, curve.radius, SIDES[side] * (self.roller - cutter), curve.turning)
 
     def pressure_angle(self, angle: Any, nu: int = 0, radius: float | None = None) -> Any:  # noqa: ANN401
-        """The pressure angle at a distance from the shaft's axis, the bottom of the groove unless given, rad.
-
-        Raises
-        ------
-        InputError
-            If an angle is no finite number, or the distance not within the groove.
-        """
+        """The pressure angle at a distance from the shaft's axis, the bottom of the groove unless given, rad."""
         order = derivative(nu)
         at = self.radii[1] if radius is None else self._within(radius)
         slope = self.displacement.jet(real_times(angle), order + 1).slope()
@@ -235,13 +224,7 @@ class SpaceCurve:
         return self.motion.breaks
 
     def __call__(self, angle: Any, nu: int = 0, *, before: bool = False) -> Array:  # noqa: ANN401 - checked here
-        """Points, or derivatives of order nu by the angle, shape of `angle` and three more.
-
-        Raises
-        ------
-        InputError
-            If an angle is no finite number, or out of the interval of a motion that is not closed.
-        """
+        """Points, or derivatives of order nu by the angle, shape of `angle` and three more."""
         order = derivative(nu)
         parts = self.jets(real_times(angle), order, before=before)
         return np.stack([part.derivative(order) for part in parts], axis=-1)

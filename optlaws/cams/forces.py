@@ -198,13 +198,7 @@ class CamForces:
         return self._given(self._torque, angle)
 
     def contact_pressure(self, angle: Any) -> Any:  # noqa: ANN401 - as for the follower's
-        """Hertz's greatest pressure in the contact, Pa.
-
-        Raises
-        ------
-        InputError
-            If no width was given.
-        """
+        """Hertz's greatest pressure in the contact, Pa."""
         squared = self._given(self._squared_pressure, angle)
         values = np.sqrt(np.maximum(squared, 0.0))
         return values if np.ndim(values) else float(values)

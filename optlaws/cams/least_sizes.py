@@ -7,7 +7,6 @@ every range of smaller base circles one of them is proven to break its limit, wi
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, fields, replace
 from math import degrees, tan
 from typing import Any, TypeVar
@@ -321,14 +320,10 @@ class _Sizes:
 def _spanning(smaller: Kind, larger: Kind) -> Kind:
     """A contact whose base circle is anywhere between two."""
     changed: dict[str, Any] = {}
-    for name in _numbers(smaller):
+    for name in (field.name for field in fields(smaller)):
         first, last = getattr(smaller, name), getattr(larger, name)
         if first != last:
             middle = 0.5 * (first + last)
             radius = 0.5 * abs(last - first) + 16.0 * ROUNDOFF * (abs(first) + abs(last))
             changed[name] = Interval(np.array(middle), np.array(radius))
     return replace(smaller, **changed)
-
-
-def _numbers(contact: FollowerContact) -> Iterator[str]:
-    return (field.name for field in fields(contact))

@@ -79,7 +79,8 @@ class Cycle(CycleInterchange):
     Raises
     ------
     InputError
-        If durations do not sum, positions do not close or velocities do not meet; the error says the remedy.
+        If durations do not sum, positions do not close or velocities do not meet; the error says the remedy, as it
+        does where a method is given what is no time, speed or angle, or is asked for a load or drive that is not there.
     InfeasibleProblem
         If a joint takes more force than a limit allows; limits that no law keeps are told when laws are looked for.
 
@@ -248,25 +249,13 @@ class Cycle(CycleInterchange):
 
     @kept_property
     def effort(self) -> Effort:
-        """Force or torque and power that the drive takes.
-
-        Raises
-        ------
-        InputError
-            If the cycle has no drive.
-        """
+        """Force or torque and power that the drive takes."""
         if self._drive is None:
             raise InputError("the cycle has no drive: give one, such as drive={'mass': '2 kg', 'gravity': '20 N'}")
         return effort(self._drive, self.pieces, self.duration)
 
     def __call__(self, time: Any, nu: int = 0) -> Any:  # noqa: ANN401 - a number for a number, an array for arrays
-        """Position (nu 0), velocity, acceleration, jerk at a time in seconds, in SI units; the cycle repeats.
-
-        Raises
-        ------
-        InputError
-            If a time is no finite number.
-        """
+        """Position (nu 0), velocity, acceleration, jerk at a time in seconds, in SI units; the cycle repeats."""
         values = self._timed.values(real_times(time), derivative(nu))
         return values if values.ndim else float(values)
 
@@ -277,11 +266,6 @@ class Cycle(CycleInterchange):
 
     def at(self, speed: Quantity) -> Cycle:
         """The same motion at another speed of the master: every law as it is, every duration in proportion.
-
-        Raises
-        ------
-        InputError
-            If the speed is not above 0, or no angular velocity.
 
         Examples
         --------

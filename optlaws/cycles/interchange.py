@@ -62,13 +62,7 @@ class CycleInterchange(JsonText):
 
     @classmethod
     def from_dict(cls, data: Any) -> Self:  # noqa: ANN401 - it is checked here
-        """Read what `to_dict` gave.
-
-        Raises
-        ------
-        InputError
-            If an entry is unknown or wrong.
-        """
+        """Read what `to_dict` gave."""
         if not isinstance(data, Mapping) or not isinstance(data.get("segments"), list):
             raise InputError("a stored cycle is a table with a list of segments, as Cycle.to_dict gives it")
         if data.get("format", FORMAT) != FORMAT:
@@ -136,11 +130,6 @@ class CycleInterchange(JsonText):
             How far the master goes in a cycle, such as "360 deg"; None for a master that is time in seconds.
         unit
             Of positions; "mm" for lengths and "deg" for angles unless given.
-
-        Raises
-        ------
-        InputError
-            If the quantity or the unit is wrong.
 
         Examples
         --------
@@ -220,23 +209,10 @@ class CycleInterchange(JsonText):
         return pieces_of_motion(self.motion(master, unit), tolerance)
 
     def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
-        """Draw position, velocity, acceleration and jerk over time, with segments and limits, by matplotlib.
+        """Draw position, velocity, acceleration and jerk over time, with segments and limits; return the artists.
 
-        Parameters
-        ----------
-        ax
-            Four axes, or one for all, where every curve is divided by its peak; a new figure unless given.
-        style
-            What `Axes.plot` takes, for the curves.
-
-        Returns
-        -------
-        The artists; `[0].figure` is the figure.
-
-        Raises
-        ------
-        InputError
-            If there are neither one nor four axes.
+        `ax` are four axes of matplotlib, or one for all, where every curve is divided by its peak; a new figure unless
+        given. `style` is what `Axes.plot` takes, for the curves.
 
         Examples
         --------
@@ -251,11 +227,6 @@ class CycleInterchange(JsonText):
 
     def summary(self) -> Summary:
         """The proof of the cycle, its peaks, its drive and its joints, as rows in SI units.
-
-        Raises
-        ------
-        InfeasibleProblem, SolverFailure
-            If there are no laws.
 
         Examples
         --------

@@ -51,13 +51,7 @@ class MachineFollower:
     unit: str = "m"
 
     def response(self, law: MotionLaw) -> MachineAnswer:
-        """The response of the mass to a cam that moves by a law and rests afterwards, in machine units.
-
-        Raises
-        ------
-        InputError
-            If `law` is no motion law.
-        """
+        """The response of the mass to a cam that moves by a law and rests afterwards, in machine units."""
         return MachineAnswer(self, self.follower.response(motion_law(law)))
 
 

@@ -80,13 +80,7 @@ class Export:
         return self.written.points
 
     def write(self, file: str | Path) -> Path:
-        """Write the file, whole or not at all; one that is there and says something else is kept as NAME.orig.
-
-        Raises
-        ------
-        InputError
-            If the name is none for a file.
-        """
+        """Write the file, whole or not at all; one that is there and says something else is kept as NAME.orig."""
         return writing.write_any(Path(file), self.text)
 
     def to_dict(self) -> dict[str, Any]:

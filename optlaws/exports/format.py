@@ -61,13 +61,7 @@ class Request:
             raise InputError(f"decimal must be '.' or ',', got {shortened(self.decimal)}")
 
     def interpolation_among(self, known: Collection[str], default: str = "cubic") -> str:
-        """The interpolation, one of those that the target knows.
-
-        Raises
-        ------
-        InputError
-            If it is none of them.
-        """
+        """The interpolation, one of those that the target knows."""
         interpolation = self.interpolation or default
         if interpolation not in known:
             raise InputError(f"interpolation must be one of {', '.join(known)}, got {interpolation!r}")

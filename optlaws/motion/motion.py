@@ -112,13 +112,7 @@ class Motion:
         return self.pieces[-1].end(0, 1) - self.pieces[0].end(0, 0)
 
     def __call__(self, x: Any, nu: int = 0) -> Any:  # noqa: ANN401 - a number for a number, an array for arrays
-        """The derivative of order nu at x; at a break just after it, at the end just before it.
-
-        Raises
-        ------
-        InputError
-            If an x is no finite number or lies beyond the motion.
-        """
+        """The derivative of order nu at x; at a break just after it, at the end just before it."""
         places, order = real_times(x), derivative(nu)
         beyond = (places < self.start) | (places > self.stop)
         if beyond.any():

@@ -211,13 +211,7 @@ class CamMotion:
         return self._extremes(1)
 
     def __call__(self, angle: Any, nu: int = 0) -> Any:  # noqa: ANN401 - a number for a number, an array for arrays
-        """The derivative of order nu by the angle in rad; at a break that just after it.
-
-        Raises
-        ------
-        InputError
-            If an angle is no finite number, or out of the interval of a motion that is not closed.
-        """
+        """The derivative of order nu by the angle in rad; at a break that just after it."""
         order = derivative(nu)
         values = self.jet(real_times(angle), order).derivative(order)
         return values if np.ndim(values) else float(values)

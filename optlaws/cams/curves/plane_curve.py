@@ -122,7 +122,7 @@ class PlaneCurve(ABC):
         Raises
         ------
         InputError
-            If an angle is no finite number, or out of the interval of a curve that is not closed.
+            If an angle is no finite number, or out of the interval of a curve that is not closed; so do other methods.
         """
         order = derivative(nu)
         x, y = self.jets(real_times(angle), order, before=before)
@@ -160,23 +160,11 @@ class PlaneCurve(ABC):
         return values if np.ndim(values) else float(values)
 
     def offset(self, distance: float) -> OffsetCurve:
-        """The parallel curve so many metres outward, or inward where it is below 0.
-
-        Raises
-        ------
-        InputError
-            If the distance is no finite number.
-        """
+        """The parallel curve so many metres outward, or inward where it is below 0."""
         return OffsetCurve(self, finite(distance, "distance"))
 
     def samples(self, count: int = 721) -> tuple[Array, Array]:
-        """Equally spaced angles with every break among them, and the points there.
-
-        Raises
-        ------
-        InputError
-            If `count` is no integer of at least 2.
-        """
+        """Equally spaced angles with every break among them, and the points there."""
         even = np.linspace(*self.interval, whole(count, "count", least=2, most=_MOST))
         angles = np.unique(np.concatenate([even, self.breaks]))
         return angles, self(angles)

@@ -58,13 +58,7 @@ class CamFollower(ABC):
 
     @abstractmethod
     def contact(self, place: Place) -> FollowerContact:
-        """How it touches a cam.
-
-        Raises
-        ------
-        InputError
-            If there is no such mechanism; the error says the remedy.
-        """
+        """How it touches a cam."""
 
     @abstractmethod
     def base_radius(self, level: float) -> float:

@@ -43,13 +43,7 @@ class InclinedFlat(CamFollower, kind="inclined flat"):
 
     @property
     def angle(self) -> float:
-        """The inclination in rad.
-
-        Raises
-        ------
-        InputError
-            If it is no angle between -90 and 90 deg.
-        """
+        """The inclination in rad."""
         angle = quantity(self.inclination, "angle", "face: inclination")
         if abs(angle) >= 0.5 * pi:
             raise InputError(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from math import inf, pi, sin, sqrt
+from math import inf, pi, sin
 
 import numpy as np
 
@@ -126,11 +126,6 @@ class RollerContact(FollowerContact):
         """How far the roller's centre is from the cam's, squared, where it touches a profile."""
         x, y = shifted(point, normal, self.roller)
         return x * x + y * y
-
-
-def side_of(long: float, short: float) -> float:
-    """The other leg of a right triangle."""
-    return sqrt((long - short) * (long + short))
 
 
 def half_turn(angle: float) -> bool:

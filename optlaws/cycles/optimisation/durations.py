@@ -25,7 +25,6 @@ from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.laws import MotionLaw
 from optlaws.motion.piece import factor, named_law
 from optlaws.numerics.tolerances import AGREEMENT, DURATION_STEP, SAME_TIME, SHORTEST_MOVE
-from optlaws.synthesis.problem.ranges import Range
 from optlaws.synthesis.solve import synthesize
 
 _REST = State(0.0, 0.0)
@@ -117,17 +116,13 @@ def _shape(programme: Programme, i: int, objective: CycleObjective, nu: int, *, 
             if not unlimited:
                 unlimited.append(synthesize(replace(problem, B=None, C=None, J=None)).law)
             limits = {order: problem.range(name) for order, name in ((1, "B"), (2, "C"), (3, "J"))}
-            if all(_keeps(unlimited[0], order, limit) for order, limit in limits.items()):
+            if all(limit is None or unlimited[0].peak(order).value <= limit.high for order, limit in limits.items()):
                 return _constant(unlimited[0], nu, mean=mean)
             return _constant(synthesize(problem).law, nu, mean=mean)
         except InfeasibleProblem:
             return inf
 
     return shape
-
-
-def _keeps(law: MotionLaw, order: int, limit: Range | None) -> bool:
-    return limit is None or law.peak(order).value <= limit.high
 
 
 def _constant(law: MotionLaw, nu: int, *, mean: bool) -> float:

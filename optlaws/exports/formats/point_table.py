@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
 from optlaws.errors import InputError
+from optlaws.exports.format import Request
 from optlaws.exports.interpolation import Ends, akima_powers, hermite_powers, linear_powers, spline_powers
-from optlaws.exports.spacing import PointTable, places
+from optlaws.exports.spacing import PointTable, chosen, places
 from optlaws.motion.motion import Motion
 from optlaws.numbers import Array
 from optlaws.numerics.tolerances import TABLE_ROUNDING
@@ -114,6 +116,15 @@ def table_by_interpolation(motion: Motion, count: int, number_format: NumberForm
         if interpolation == "linear"
         else spline_table(motion, count, number_format)
     )
+
+
+def chosen_table(
+    motion: Motion, request: Request, interpolation: str, most: int, *, least: int = 2, single: bool = False
+) -> PointTable:
+    """The table for an interpolation with the requested number of points, or with that whose run is best."""
+    held = NumberFormat(request.counts, request.digits, single)
+    make = partial(table_by_interpolation, motion, number_format=held, interpolation=interpolation)
+    return chosen(motion, request, make, least=least, most=most)
 
 
 def _without_rounding(values: Array) -> Array:

@@ -10,8 +10,8 @@ import numpy as np
 
 from optlaws.errors import InputError
 from optlaws.exports.format import MOST_POINTS, Request, Written, file_format
-from optlaws.exports.formats.point_table import NumberFormat, table_by_interpolation
-from optlaws.exports.spacing import PointTable, chosen
+from optlaws.exports.formats.point_table import NumberFormat, chosen_table
+from optlaws.exports.spacing import PointTable
 from optlaws.exports.text import iec_comment, iec_name, real, table_heading
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion
@@ -68,12 +68,7 @@ def _values(row: Sequence[int]) -> list[float]:
 
 def _table(motion: Motion, request: Request, *, single: bool) -> PointTable:
     interpolation = request.interpolation_among(SEGMENT_TYPES)
-    number_format = NumberFormat(request.counts, request.digits, single)
-
-    def make(count: int) -> PointTable:
-        return table_by_interpolation(motion, count, number_format, interpolation)
-
-    return chosen(motion, request, make, least=2, most=MOST_POINTS)
+    return chosen_table(motion, request, interpolation, MOST_POINTS, single=single)
 
 
 def _array(motion: Motion, request: Request, *, single: bool) -> Written:

@@ -35,7 +35,7 @@ class Follower:
     Raises
     ------
     InputError
-        If a number is not finite or out of its range.
+        If a number is not finite or out of its range, here and in its methods.
 
     Examples
     --------
@@ -80,11 +80,6 @@ class Follower:
         damping
             Viscous damping between mass and ground in N s/m, or N m s/rad; not the ratio.
 
-        Raises
-        ------
-        InputError
-            If a number is not finite or out of its range.
-
         Examples
         --------
         >>> Follower.from_units(mass=2.0, stiffness=80e3, duration=0.1, damping=40.0)
@@ -111,11 +106,6 @@ class Follower:
         damping
             Ratio zeta.
 
-        Raises
-        ------
-        InputError
-            If a number is not finite or out of its range.
-
         Examples
         --------
         >>> Follower.from_speed(speed_rpm=105, rise_angle_deg=120, natural_period=0.06, damping=0.05)
@@ -125,19 +115,7 @@ class Follower:
         return cls(pi / 3.0 * positive(rise_angle_deg, "rise_angle_deg") / turn, damping)
 
     def speed_rpm(self, *, rise_angle_deg: float, natural_period: float) -> float:
-        """Speed of the cam, in revolutions per minute, at which a machine is this follower (1.26).
-
-        Parameters
-        ----------
-        rise_angle_deg
-            Angle of the cam during the rise, degrees.
-        natural_period
-            Period of the undamped free vibration, s.
-
-        Raises
-        ------
-        InputError
-            If a number is not finite or not positive.
+        """Speed of the cam, in revolutions per minute, at which a machine is this follower, as `from_speed` takes it.
 
         Examples
         --------
@@ -165,11 +143,6 @@ class Follower:
             Motion of the cam.
         initial
             Displacement and velocity of the mass at k = 0; at rest on the cam unless given.
-
-        Raises
-        ------
-        InputError
-            If `law` is no motion law, or `initial` are not two finite numbers.
 
         Examples
         --------

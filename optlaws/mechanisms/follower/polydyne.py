@@ -55,7 +55,9 @@ def polydyne(law: MotionLaw, nu: float, damping: float = 0.0) -> MotionLaw:
     law = motion_law(law)
     check_mass_law(law)
     if isinstance(law, PolynomialLaw):
-        return _from_powers(cam_powers(law.exact_powers(), frequency, ratio), law)
+        # what the checks let pass as zero at the start is rounding, and would be a step of the cam
+        powers = cam_powers(law.exact_powers(), frequency, ratio)[2:]
+        return PolynomialLaw.from_powers([Fraction(law.a0), Fraction(law.b0), *powers])
     once, twice = (float(factor) for factor in cam_factors(frequency, ratio))
     if isinstance(law, PiecewiseLaw):
         places = zip(law.segments, pairwise(law.breaks), strict=True)
@@ -133,11 +135,6 @@ def cam_factors(nu: float, damping: float) -> tuple[Fraction, Fraction]:
     """Factors 2 n/nu² of b and 1/nu² of c in (1.27), exactly."""
     exact = Fraction(nu)
     return 2 * Fraction(damping) / exact, 1 / exact**2
-
-
-def _from_powers(powers: list[Fraction], law: PolynomialLaw) -> PolynomialLaw:
-    # what the checks let pass as zero at the start is rounding, and would be a step of the cam
-    return PolynomialLaw.from_powers([Fraction(law.a0), Fraction(law.b0), *powers[2:]])
 
 
 _NAMES = {1: ("velocity", "b"), 2: ("acceleration", "c"), 3: ("jerk", "j")}

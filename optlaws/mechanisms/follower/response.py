@@ -147,11 +147,6 @@ class Response(MassMotion):
     def dwell_peak(self, nu: int) -> Peak:
         """Greatest magnitude from k = 1 on of the derivative of order `nu`, for nu = 0 of the deviation from rest.
 
-        Raises
-        ------
-        InputError
-            If `nu` is not an integer of at least 0.
-
         Examples
         --------
         >>> from optlaws.laws import smoothstep

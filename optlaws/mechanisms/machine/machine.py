@@ -46,7 +46,8 @@ class Machine(StateSpace):
     Raises
     ------
     InputError
-        If the matrices do not fit each other, a number is not finite, or the machine is unstable.
+        If the matrices do not fit each other, a number is not finite, or the machine is unstable; in its methods, if an
+        argument is out of range or names no output.
 
     Examples
     --------
@@ -87,11 +88,6 @@ class Machine(StateSpace):
             link, such as "force motor-load".
         duration, stroke
             Duration of the rise, s, and its stroke, m or rad; 1 where all numbers are dimensionless.
-
-        Raises
-        ------
-        InputError
-            If a name is unknown or a number out of range.
 
         Examples
         --------
@@ -134,11 +130,6 @@ class Machine(StateSpace):
             "velocity" and "acceleration" of that place, "deflection", by how much it is away from where it would be if
             all were rigid; of several modes also "deflection 1" and so on.
 
-        Raises
-        ------
-        InputError
-            If a number is out of range or there is no such output.
-
         Examples
         --------
         >>> from optlaws import smoothstep
@@ -171,11 +162,6 @@ class Machine(StateSpace):
         duration, stroke
             Duration of the rise in the system's unit of time, and its stroke.
 
-        Raises
-        ------
-        InputError
-            If it is no such system.
-
         Examples
         --------
         >>> from scipy.signal import TransferFunction
@@ -196,11 +182,6 @@ class Machine(StateSpace):
         ----------
         follower
             The follower.
-
-        Raises
-        ------
-        InputError
-            If it is none.
 
         Examples
         --------
@@ -240,11 +221,6 @@ class Machine(StateSpace):
     def at_speed(self, factor: float) -> Self:
         """The same machine run `factor` times as fast: the rise takes 1/factor of its duration.
 
-        Raises
-        ------
-        InputError
-            If the factor is not above 0.
-
         Examples
         --------
         >>> Machine([[-2.0]], [[2.0]], [[1.0]]).at_speed(2.0).A
@@ -275,11 +251,6 @@ class Machine(StateSpace):
         dwell
             Duration of the dwell that is looked at, in durations of the rise.
 
-        Raises
-        ------
-        InputError
-            If `law` is no motion law or the dwell is below 0.
-
         Examples
         --------
         >>> from optlaws import smoothstep
@@ -292,18 +263,7 @@ class Machine(StateSpace):
     def cycle(
         self, rise: MotionLaw, fall: MotionLaw | None = None, *, dwell: float, fall_duration: float = 1.0, rest: float
     ) -> MachineCycle:
-        """The steady motion of the machine when the law rises, dwells, returns and rests again and again.
-
-        Parameters
-        ----------
-        rise
-            Law of the rise.
-        fall
-            Law of the return, run from its end of the rise as a(1) - (fall(k) - fall(0)); the rise's own unless given.
-        dwell, rest
-            Durations of the upper and of the lower dwell, in durations of the rise; 0 or more.
-        fall_duration
-            Duration of the return, in durations of the rise.
+        """The steady motion of the machine when the law rises, dwells, returns and rests, as `Follower.cycle` takes it.
 
         Raises
         ------
@@ -352,11 +312,6 @@ class Machine(StateSpace):
         offset
             What is added to the output, in its units: a constant load, such as the weight that the drive holds.
 
-        Raises
-        ------
-        InputError
-            If there is no such output or side, or a number is out of range.
-
         Examples
         --------
         >>> from optlaws import Chebyshev, Problem, synthesize
@@ -392,11 +347,6 @@ class Machine(StateSpace):
         offset
             What is added to the output, in its units: a constant load.
 
-        Raises
-        ------
-        InputError
-            If there is no such output, or a number is out of range.
-
         Examples
         --------
         >>> from optlaws import smoothstep
@@ -431,11 +381,6 @@ class Machine(StateSpace):
             Share by which the mode's frequency may be off, either way: 0.1 for 10 %.
         damping
             The least and the greatest damping ratio; the mode's own unless given.
-
-        Raises
-        ------
-        InputError
-            If there is no such mode or output, or a number is out of range.
 
         Examples
         --------

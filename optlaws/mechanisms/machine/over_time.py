@@ -81,13 +81,7 @@ class OutputCurve(Curve):
         return times, {self.name: self(times)}
 
     def times(self, count: int) -> Array:
-        """Equally spaced times over the interval.
-
-        Raises
-        ------
-        InputError
-            If `count` is not an integer of at least 2.
-        """
+        """Equally spaced times over the interval."""
         return np.linspace(*self.interval, whole(count, "count", 2))
 
     def __repr__(self) -> str:

@@ -103,11 +103,6 @@ class StateSpace:
             Stroke of the rise, in units of the input's displacement.
         inputs, outputs
             As of `Machine`.
-
-        Raises
-        ------
-        InputError
-            If a number is out of range, or the matrices do not fit.
         """
         T, h = positive(duration, "duration"), positive(stroke, "stroke")
         _check_inputs(inputs)
@@ -171,13 +166,7 @@ class StateSpace:
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> Self:
-        """The machine that `to_dict` wrote.
-
-        Raises
-        ------
-        InputError
-            If an entry is missing, unknown or wrong.
-        """
+        """The machine that `to_dict` wrote."""
         if not isinstance(data, Mapping):
             raise InputError(f"a machine must be a table of A, B, C, D, inputs and outputs, got {shortened(data)}")
         for name in data:
