@@ -22,6 +22,7 @@ from optlaws.cams.curves.extremes import (
     first_least,
 )
 from optlaws.cams.curves.motion_by_angle import CamMotion, as_motion
+from optlaws.cams.curves.plane_curve import CurveByAngle
 from optlaws.cams.disc import Turning, sense
 from optlaws.cams.followers.follower import positive, shown
 from optlaws.cycles.cycle import Cycle
@@ -30,8 +31,6 @@ from optlaws.kept import kept_property
 from optlaws.numbers import Array, Quantity, derivative, real_times
 from optlaws.numerics.enclosures.taylor import Jet, variable
 from optlaws.suggest import unknown_key
-
-Triple = tuple[Jet, Jet, Jet]
 
 Side = Literal["upper", "lower"]
 SIDES: dict[Side, float] = {"upper": 1.0, "lower": -1.0}
@@ -198,7 +197,7 @@ class BarrelCam:
 
 
 @dataclass(frozen=True)
-class SpaceCurve:
+class SpaceCurve(CurveByAngle):
     """A curve on a barrel cam as a function of the cam's angle: x, y square to the shaft and z along it, m.
 
     Parameters
@@ -219,18 +218,10 @@ class SpaceCurve:
     turning: float
 
     @property
-    def breaks(self) -> tuple[float, ...]:
-        """Angles between which it is smooth, both ends included, rad."""
+    def breaks(self) -> tuple[float, ...]:  # noqa: D102
         return self.motion.breaks
 
-    def __call__(self, angle: Any, nu: int = 0, *, before: bool = False) -> Array:  # noqa: ANN401 - checked here
-        """Points, or derivatives of order nu by the angle, shape of `angle` and three more."""
-        order = derivative(nu)
-        parts = self.jets(real_times(angle), order, before=before)
-        return np.stack([part.derivative(order) for part in parts], axis=-1)
-
-    def jets(self, angle: Array, order: int, *, before: bool = False) -> Triple:
-        """The three coordinates with their derivatives up to an order."""
+    def jets(self, angle: Array, order: int, *, before: bool = False) -> tuple[Jet, Jet, Jet]:  # noqa: D102
         s = self.motion.jet(angle, order + 1, before=before)
         slope = s.slope()
         way = (slope * slope + self.radius**2).root()

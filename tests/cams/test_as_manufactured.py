@@ -6,9 +6,8 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from optlaws import Chebyshev, Cycle, Dwell, Problem, Return, Rise, synthesize
-from optlaws.cams.as_manufactured import as_made, run_against, with_error
+from optlaws.cams.as_manufactured import ArcChain, PointSpline, as_made, run_against, with_error
 from optlaws.cams.cutting.cam_files import write_outline
-from optlaws.cams.cutting.manufactured_curves import ArcChain, PointSpline
 from optlaws.cams.cutting.spline import Spline
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.translating_flat import TranslatingFlat

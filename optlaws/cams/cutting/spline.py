@@ -7,7 +7,7 @@ from math import inf, sqrt, tau
 
 import numpy as np
 
-from optlaws.cams.curves.plane_curve import PiecewiseCurve, derivatives
+from optlaws.cams.curves.plane_curve import CurveByJets, PiecewiseCurve
 from optlaws.cams.cutting.outline import MOST_PARTS, Outline, greatest_deviation, stretches
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
@@ -23,7 +23,7 @@ _NEAR = 0.1  # how near the square of the deviation is enclosed
 
 
 @dataclass(frozen=True, eq=False)
-class Spline:
+class Spline(CurveByJets):
     """A closed clamped B-spline of degree 3 or 5 over the cam's angle, rad, control points in m, shape (n, 2).
 
     At no angle is it farther from the outline than `deviation`, m: proven.
@@ -43,14 +43,9 @@ class Spline:
         """How far the polynomials that are enclosed may be from the spline for rounding, m."""
         return self._pieces.blur
 
-    def jets(self, angles: Array | Interval, order: int) -> Pair:
-        """Both coordinates with their Taylor terms by the angle."""
-        x, y = self._pieces.jets(angles, order)
+    def jets(self, places: Array | Interval, order: int) -> Pair:  # noqa: D102
+        x, y = self._pieces.jets(places, order)
         return x, y
-
-    def __call__(self, angles: Array, nu: int = 0) -> Array:
-        """Points, or derivatives by the angle, shape (..., 2)."""
-        return derivatives(self, angles, nu)
 
     @property
     def breaks(self) -> tuple[float, ...]:

@@ -122,8 +122,8 @@ def chosen_table(
     motion: Motion, request: Request, interpolation: str, most: int, *, least: int = 2, single: bool = False
 ) -> PointTable:
     """The table for an interpolation with the requested number of points, or with that whose run is best."""
-    held = NumberFormat(request.counts, request.digits, single)
-    make = partial(table_by_interpolation, motion, number_format=held, interpolation=interpolation)
+    numbers = NumberFormat(request.counts, request.digits, single)
+    make = partial(table_by_interpolation, motion, number_format=numbers, interpolation=interpolation)
     return chosen(motion, request, make, least=least, most=most)
 
 
