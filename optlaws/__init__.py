@@ -62,8 +62,7 @@ _load, __dir__, __all__ = face(
         "optlaws.mechanisms.machine.masses": "Link",
         "optlaws.mechanisms.machine.parameters": "MachineSpectrum machine_spectrum",
         "optlaws.cycles.law_comparison": "Comparison compare",
-        "optlaws.mechanisms.spectrum.residual": "residual_functional residual_phasor",
-        "optlaws.mechanisms.spectrum.robust": "residual",
+        "optlaws.mechanisms.spectrum.residual": "residual residual_functional residual_phasor",
         "optlaws.mechanisms.spectrum.spectrum": "ResponseSpectrum response_spectrum",
         "optlaws.numerics.peaks": "Peak",
         "optlaws.studies.run": "run_study",
@@ -144,7 +143,7 @@ declare(
         "optlaws.mechanisms.follower.cam_constants": "B_cam C_cam C_minus_cam C_plus_cam D_cam J_cam",
         "optlaws.mechanisms.machine.output_constants": "output_peak output_rms",
         "optlaws.mechanisms.machine.residual_boxes": "mode_residual",
-        "optlaws.mechanisms.spectrum.robust": "residual",
+        "optlaws.mechanisms.spectrum.residual": "residual",
         "optlaws.synthesis.functionals.makers": "integral peak rms value",
     },
 )

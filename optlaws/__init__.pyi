@@ -87,9 +87,9 @@ from optlaws.mechanisms.machine.machine import Machine as Machine
 from optlaws.mechanisms.machine.masses import Link as Link
 from optlaws.mechanisms.machine.parameters import MachineSpectrum as MachineSpectrum
 from optlaws.mechanisms.machine.parameters import machine_spectrum as machine_spectrum
+from optlaws.mechanisms.spectrum.residual import residual as residual
 from optlaws.mechanisms.spectrum.residual import residual_functional as residual_functional
 from optlaws.mechanisms.spectrum.residual import residual_phasor as residual_phasor
-from optlaws.mechanisms.spectrum.robust import residual as residual
 from optlaws.mechanisms.spectrum.spectrum import ResponseSpectrum as ResponseSpectrum
 from optlaws.mechanisms.spectrum.spectrum import response_spectrum as response_spectrum
 from optlaws.motion.polynomials import PiecewiseMotion as PiecewiseMotion

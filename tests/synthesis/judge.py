@@ -18,7 +18,7 @@ from optlaws.formulas.tree import Table
 from optlaws.mechanisms.follower.cam_constants import CamPeak, CamPower
 from optlaws.mechanisms.machine.output_constants import OutputConstant
 from optlaws.mechanisms.machine.residual_boxes import ModeResidual
-from optlaws.mechanisms.spectrum.robust import Residual
+from optlaws.mechanisms.spectrum.residual import Residual
 from optlaws.synthesis import Maximum
 from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaPeak, FormulaRms, FormulaValue, OfFormula
 from optlaws.synthesis.problem.expression import leaves
