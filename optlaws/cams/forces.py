@@ -42,8 +42,6 @@ _ENTRIES = ("young", "poisson")
 class LineContact:
     """A contact along a line: p = sqrt(N E / (pi width R)) with 1/E the sum of (1 - nu²)/E of both bodies, SI units.
 
-    Examples
-    --------
     >>> contact = line_contact("20 mm", ("steel", "steel"), roller=0.012)
     >>> round(float(contact.pressure(np.array(1000.0), np.array(0.08))) / 1e6, 3)
     419.51

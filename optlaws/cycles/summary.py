@@ -104,8 +104,6 @@ def summary(cycle: Cycle) -> Summary:
 def cycle_page(cycle: Cycle) -> str:
     """A cycle as HTML; where its laws cannot be had, the error in their place.
 
-    Examples
-    --------
     >>> from optlaws import Cycle, Return, Rise
     >>> shown = cycle_page(Cycle([Rise("35 mm", "120 deg"), Return()], speed="200 rpm"))
     >>> shown.count("<svg"), "acceleration, m/s²" in shown

@@ -89,8 +89,6 @@ def fitted(
     that, or until there are as many as `count` asks for; the target takes at most `most`. Through a whole law they may
     be `laid` in another way.
 
-    Examples
-    --------
     >>> from optlaws.motion.motion import motion_of_law
     >>> from optlaws.laws import smoothstep
     >>> motion = motion_of_law(smoothstep(5), stroke="35 mm", duration="0.1 s")
@@ -129,8 +127,6 @@ def exactly(motion: Motion, degree: int) -> Fitted | None:
     A polynomial of degree n in powers of k has terms far above its values; on a part of the interval, in powers of x
     less its start, they are as small as these.
 
-    Examples
-    --------
     >>> from optlaws.motion.motion import motion_of_law
     >>> from optlaws.laws import smoothstep
     >>> fit = exactly(motion_of_law(smoothstep(9), stroke="35 mm", duration="0.1 s"), 40)

@@ -17,8 +17,6 @@ Ends = Literal["clamped", "natural", "periodic"]
 def linear_powers(x: Array, y: Array) -> Array:
     """Ascending powers of straight lines between points, a row for each piece: the velocity leaps at each point.
 
-    Examples
-    --------
     >>> linear_powers(np.array([0.0, 1.0, 3.0]), np.array([0.0, 2.0, 0.0])).tolist()
     [[0.0, 2.0], [2.0, -1.0]]
     """
@@ -30,8 +28,6 @@ def spline_powers(x: Array, y: Array, ends: Ends = "clamped", slopes: tuple[floa
 
     Its ends are "clamped" to slopes, "natural" without acceleration, or "periodic".
 
-    Examples
-    --------
     >>> powers = spline_powers(np.array([0.0, 40.0, 100.0]), np.array([0.0, 20.0, 25.0]), slopes=(1.0, 0.0))
     >>> [round(power, 9) for power in powers[0].tolist()]
     [0.0, 1.0, -0.0175, 0.000125]
@@ -47,8 +43,6 @@ def spline_powers(x: Array, y: Array, ends: Ends = "clamped", slopes: tuple[floa
 def akima_powers(x: Array, y: Array) -> Array:
     """Ascending powers of Akima's cubics, as Modelica's tables take them: the acceleration leaps at each point.
 
-    Examples
-    --------
     >>> x = np.linspace(0.0, 1.0, 6)
     >>> akima_powers(x, x**2)[0].round(9).tolist()
     [0.0, 0.0, 1.0, 0.0]
@@ -63,8 +57,6 @@ def hermite_powers(x: Array, values: Array) -> Array:
 
     Points have the shape (n,), values (m, n).
 
-    Examples
-    --------
     >>> hermite_powers(np.array([0.0, 2.0]), np.array([[0.0, 1.0], [0.0, 0.0], [0.0, 0.0]])).tolist()
     [[0.0, 0.0, 0.0, 1.25, -0.9375, 0.1875]]
     """

@@ -78,8 +78,6 @@ def polynomials_of_law(
     High powers cancel each other, and with them the digits of whoever evaluates them: pieces whose terms sum up to more
     than `cancelled` strokes are halved, which changes no value.
 
-    Examples
-    --------
     >>> from optlaws import smoothstep
     >>> polynomials_of_law(smoothstep(2), stroke=0.5, time=2.0).coefficients
     ((0.0, 0.0, 0.375, -0.125),)

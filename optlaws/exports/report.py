@@ -59,7 +59,7 @@ class Characteristics:
 
     def to_dict(self) -> dict[str, Any]:
         """The characteristics by TwinCAT's names, as plain data; what is infinite is null."""
-        data: dict[str, Any] = {"StartPoint": _point(None, self.start), "EndPoint": _point(None, self.end)}
+        data: dict[str, Any] = {"StartPoint": _point(self.start), "EndPoint": _point(self.end)}
         for side, extremes in (("Min", self.least), ("Max", self.greatest)):
             for name, extreme in zip(QUANTITIES, extremes, strict=True):
                 data[f"PointAt{side}Slave{name}"] = {"MasterPosition": extreme.x, f"Slave{name}": _known(extreme.value)}
@@ -214,9 +214,8 @@ def _known(value: float) -> float | None:
     return value if isfinite(value) else None
 
 
-def _point(x: float | None, values: tuple[float, ...]) -> dict[str, Any]:
-    place = {} if x is None else {"MasterPosition": x}
-    return place | {f"Slave{name}": _known(value) for name, value in zip(QUANTITIES, values, strict=True)}
+def _point(values: tuple[float, ...]) -> dict[str, Any]:
+    return {f"Slave{name}": _known(value) for name, value in zip(QUANTITIES, values, strict=True)}
 
 
 _EACH = 257

@@ -24,8 +24,6 @@ WIDTH = 110
 def real(value: float, *, single: bool = False) -> str:
     """A number with a point, as IEC 61131-3 and C both read it; for REAL32 the fewest digits that give it back.
 
-    Examples
-    --------
     >>> real(1e-7), real(0.1), real(-35.0), real(0.1, single=True)
     ('1.0E-7', '0.1', '-35.0', '0.1')
     """
@@ -38,8 +36,6 @@ def real(value: float, *, single: bool = False) -> str:
 def wrapped(items: Sequence[str], indent: str) -> list[str]:
     """Items with commas between them, in lines of bearable length.
 
-    Examples
-    --------
     >>> wrapped(["1.0", "2.0"], "  ")
     ['  1.0, 2.0']
     """
@@ -57,8 +53,6 @@ def wrapped(items: Sequence[str], indent: str) -> list[str]:
 def safe(lines: Iterable[str]) -> list[str]:
     """Lines of a comment that cannot end it, nor nest one: in no language that is written here.
 
-    Examples
-    --------
     >>> safe(["a */ b (* c *)", "two" + chr(10) + "lines"])
     ['a * / b ( * c * )', 'two', 'lines']
     """
@@ -114,8 +108,6 @@ def program_heading(motion: PiecewiseMotion, labels: Labels, arithmetics: Sequen
 def rounded_up(bound: float) -> str:
     """A bound in three digits, none below it.
 
-    Examples
-    --------
     >>> rounded_up(2.7101e-5)
     '2.72e-05'
     """
@@ -130,8 +122,6 @@ def _peaks(motion: PiecewiseMotion, nu: int, unit: str) -> str:
 def plain(value: float, digits: int | None = None, decimal: str = ".") -> str:
     """A number without an exponent: all digits that a double needs, or so many behind the decimal sign.
 
-    Examples
-    --------
     >>> plain(1e-05), plain(2.5, 3, ","), plain(-1e-9, 3), plain(120.0)
     ('0.00001', '2,500', '0.000', '120')
     """
@@ -142,17 +132,14 @@ def plain_column(values: Iterable[float], digits: int | None = None, decimal: st
     """Many numbers as `plain` writes one."""
     if digits is None:
         texts = [repr(value + 0.0) for value in values]
-        texts = [_positional(text) if "e" in text else text.removesuffix(".0") for text in texts]
+        texts = [
+            np.format_float_positional(float(text), trim="-") if "e" in text else text.removesuffix(".0")
+            for text in texts
+        ]
     else:
         texts = [f"{value:.{digits}f}" for value in values]
         texts = [text[1:] if text.startswith("-") and not text.strip("-0.") else text for text in texts]
     return texts if decimal == "." else [text.replace(".", decimal) for text in texts]
-
-
-def _positional(text: str) -> str:
-    from numpy import format_float_positional
-
-    return format_float_positional(float(text), trim="-")
 
 
 def table_heading(motion: Motion, target: str) -> tuple[str, ...]:
@@ -202,8 +189,6 @@ IEC_KEYWORDS = frozenset(_WORDS.split())
 def iec_name(name: Any, target: str) -> str:  # noqa: ANN401 - it is checked here
     """The name of a variable in a language of IEC 61131-3; the error of a target that would refuse it proposes one.
 
-    Examples
-    --------
     >>> iec_name("press 1", "CODESYS")
     Traceback (most recent call last):
     optlaws.errors.InputError: CODESYS takes no variable called 'press 1': letters, digits and single _ ...'press_1'
@@ -218,8 +203,6 @@ def iec_name(name: Any, target: str) -> str:  # noqa: ANN401 - it is checked her
 def variable_names(names: Iterable[str]) -> dict[str, str]:
     """For each name one that every target takes for a variable, and no two alike whatever the case of letters.
 
-    Examples
-    --------
     >>> variable_names(["weld head", "Weld_head", "string", "2nd table"])
     {'weld head': 'weld_head', 'Weld_head': 'Weld_head_2', 'string': 'Cam_string', '2nd table': 'Cam_2nd_table'}
     """

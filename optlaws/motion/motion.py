@@ -241,8 +241,6 @@ def motion_of_pieces(
     The master goes so far in a cycle, such as "360 deg", or is time in seconds where it is None; positions are in "mm"
     or "deg" unless a unit is given; `proof` is what is proven of the laws.
 
-    Examples
-    --------
     >>> from optlaws.laws import smoothstep
     >>> motion = motion_of_pieces([Piece(0.0, 0.1, 0.0, 0.035, smoothstep(3))], 0.1, "length", master="120 deg")
     >>> motion.units, motion(60.0)

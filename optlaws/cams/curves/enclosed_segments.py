@@ -29,8 +29,6 @@ def enclosed_derivatives(segment: Segment, length: float, middle: Array, half: A
 
     Cells are given by their middles and half lengths, as shares of the segment; 0 long for single places.
 
-    Examples
-    --------
     >>> from optlaws.laws.segments import SineSegment
     >>> slope = enclosed_derivatives(SineSegment(1.0, 3.0), 0.5, np.array([0.5]), np.array([0.01]), 1)[1]
     >>> bool(slope.low[0] < SineSegment(1.0, 3.0).derivative(np.array([0.505]), 0.5, 1)[0] < slope.high[0])
@@ -47,8 +45,6 @@ def enclosed_derivatives(segment: Segment, length: float, middle: Array, half: A
 def enclosed_power(segment: Segment, length: float, middle: Array, half: Array, order: int) -> Jet:
     """The Taylor terms by k of the kinetic power d = b c anywhere in cells, finite where c is not.
 
-    Examples
-    --------
     >>> power = enclosed_power(PowerSegment(0.0, 2.0), 0.5, np.array([0.0]), np.array([0.0]), 0).terms[0]
     >>> bool(power.low[0] <= 4.0 <= power.high[0]), bool(power.radius[0] < 1e-12)
     (True, True)

@@ -58,8 +58,6 @@ def enclosed_extremes(
 def first_least(*known: EnclosedExtreme) -> EnclosedExtreme:
     """The least of several extremes, and the first angle of those that are as low as one another.
 
-    Examples
-    --------
     >>> first_least(EnclosedExtreme(1.0, 1.0, 5.3), EnclosedExtreme(1.0 + 1e-15, 1.0 + 1e-15, 0.2))
     EnclosedExtreme(low=1.0, high=1.0, angle=0.2)
     """

@@ -230,8 +230,6 @@ class FollowerContact(ABC):
 def bearing(x: Jet, y: Jet) -> Jet:
     """The direction of a vector, rad.
 
-    Examples
-    --------
     >>> turn = bearing(Jet((0.0, -1.0)), Jet((2.0, 0.0)))
     >>> round(float(turn.terms[0]), 6), float(turn.terms[1])
     (1.570796, 0.5)

@@ -61,8 +61,6 @@ class CycleObjective:
 def kind_of(minimise: str) -> tuple[int, bool]:
     """The order of what is minimised (-1 a force, -2 of the load, -3 the power), and whether its root mean square.
 
-    Examples
-    --------
     >>> kind_of("rms jerk"), kind_of("load acceleration")
     ((3, True), (-2, False))
     """
@@ -112,8 +110,6 @@ def read_mean_force(entries: Mapping[str, Any], axis: str) -> float | None:
 def in_units(nu: int, value: float, axis: str) -> str:
     """A limit as text, in the unit that machines have it in.
 
-    Examples
-    --------
     >>> in_units(1, 0.616, "length"), in_units(FORCE, 120.0, "length"), in_units(3, 900.0, "angle")
     ('the velocity 616 mm/s', 'the force 120 N', 'the jerk 900 rad/s^3')
     """

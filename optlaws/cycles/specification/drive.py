@@ -127,8 +127,6 @@ class Effort(PlainNumbers):
 def effort(drive: CycleDrive, pieces: Sequence[Piece], period: float) -> Effort:
     """The force and power of a drive over pieces that make a cycle.
 
-    Examples
-    --------
     >>> from optlaws.laws import smoothstep
     >>> drive = CycleDrive(inertia=2.0, viscous=0.0, stiffness=0.0, constant=0.0, dry=0.0)
     >>> rise = Piece(0.0, 1.0, 0.0, 1.0, smoothstep(2))

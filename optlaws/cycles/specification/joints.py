@@ -13,7 +13,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws import smoothstep
 from optlaws.motion.piece import Piece, named_law
-from optlaws.motion.quantities import quantity
+from optlaws.motion.quantities import in_small_units, quantity
 from optlaws.numerics.tolerances import CLOSURE
 
 UNIFORM = smoothstep(1)
@@ -141,17 +141,12 @@ def _check_velocities(programme: Programme, before: int, after: int, ended: Stat
     if abs(ended.velocity - begun.velocity) <= CLOSURE * max(size, abs(ended.velocity), abs(begun.velocity)):
         return
     first, second = programme.stretches[before], programme.stretches[after]
-    unit = "mm/s" if programme.axis == "length" else "deg/s"
-    shown = [_shown(state.velocity, programme.axis) for state in (ended, begun)]
+    shown = [f"{in_small_units(state.velocity, programme.axis)}/s" for state in (ended, begun)]
     meant = second if not isinstance(second.given, Dwell | ConstantVelocity) else first
     raise InputError(
-        f"{first.where} ends with {shown[0]} {unit} and {second.where} starts with {shown[1]} {unit}: put a motion "
+        f"{first.where} ends with {shown[0]} and {second.where} starts with {shown[1]}: put a motion "
         f"between them, or give {meant.where} law='optimal', which takes the velocities of its neighbours"
     )
-
-
-def _shown(velocity: float, axis: str) -> str:
-    return f"{velocity * (1e3 if axis == 'length' else 57.29577951308232):.9g}"
 
 
 def _whole(

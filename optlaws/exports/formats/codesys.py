@@ -91,7 +91,6 @@ def _reference(name: str, motion: Motion, kind: str, count: int, more: str = "")
 
 
 DEGREE = 7
-MOST_SEGMENTS = 32_767  # nElements of MC_CAM_REF is an INT
 
 
 @file_format(
@@ -104,7 +103,7 @@ MOST_SEGMENTS = 32_767  # nElements of MC_CAM_REF is an INT
 )
 def _cam_builder(motion: Motion, request: Request) -> Written:
     name = iec_name(request.name, "CODESYS")
-    fit = polynomials_for(motion, request, DEGREE, MOST_SEGMENTS)
+    fit = polynomials_for(motion, request, DEGREE, MOST)
     run, count = fit.run, fit.count
     notes = (
         fit.in_words(motion.units.slave),

@@ -138,8 +138,6 @@ def rounding_bound(motion: Motion, x: Array, y: Array, slopes: Array) -> float:
     The spline's accelerations at its points solve a system whose diagonal is twice the sum of what is beside it, with
     six times the second divided differences of the positions on the right; these are wrong by eps/(h_i h_i+1) at most.
 
-    Examples
-    --------
     >>> from optlaws.motion.motion import motion_of_law
     >>> from optlaws.laws import smoothstep
     >>> motion = motion_of_law(smoothstep(3), stroke="1 m", duration="1 s")

@@ -66,8 +66,6 @@ def iec_heading(title: str, motion: Motion, run: PiecewiseMotion, notes: Sequenc
 def fields(**values: object) -> str:
     """Fields of a structure with their values, floats as literals.
 
-    Examples
-    --------
     >>> fields(PointIndex=1, MasterPos=0.5)
     'PointIndex := 1, MasterPos := 0.5'
     """

@@ -78,6 +78,8 @@ DEGREE = 7
 FUNCTIONS = {5: ("MOTIONFUNCTYPE_POLYNOM5_MM", "Polynomial5"), 7: ("MOTIONFUNCTYPE_POLYNOM7_MM", "Polynomial7")}
 _REMEDY = "take a smoother law, or a format whose pieces have ends of their own, such as codesys-cambuilder"
 _LAST = ("MOTIONFUNCTYPE_NOTDEF", "Undefined")
+_NC2 = ("MasterPos", "SlavePos", "SlaveVelo", "SlaveAcc", "SlaveJerk")
+_MC3 = ("MasterPosition", "SlavePosition", "SlaveVelocity", "SlaveAcceleration", "SlaveJerk")
 
 
 def _motion_function(motion: Motion, request: Request, *, third: bool) -> Written:
@@ -88,7 +90,7 @@ def _motion_function(motion: Motion, request: Request, *, third: bool) -> Writte
     values = np.array([*(end.first for end in ends), ends[-1].last]).T
     run = _run(fit.run.breaks, values, degrees)
     rows = [
-        (_of_mc3 if third else _of_nc2)(i, x, values[:, i].tolist(), degree)
+        _point(i + 1, (x, *values[:, i].tolist()), degree, third=third)
         for i, (x, degree) in enumerate(zip(fit.run.breaks, [*degrees, 0], strict=True))
     ]
     kind = "MotionFunctionPoint" if third else "MC_MotionFunctionPoint"
@@ -123,32 +125,17 @@ def _run(breaks: tuple[float, ...], values: NDArray[np.float64], degrees: list[i
     return PiecewiseMotion(breaks, rows)
 
 
-def _of_nc2(place: int, x: float, values: list[float], degree: int) -> str:
-    function = FUNCTIONS[degree][0] if degree else _LAST[0]
-    y, v, a, j = values
+def _point(place: int, numbers: tuple[float, ...], degree: int, *, third: bool) -> str:
+    """A point from the master's position, y, V, A and J, and the degree of the polynomial after it, 0 at the end."""
+    function = FUNCTIONS.get(degree, _LAST)[third]
+    if third:
+        return fields(FunctionType=f"EMotionFunctionType.{function}", **dict(zip(_MC3, numbers, strict=True)))
     return fields(
-        PointIndex=place + 1,
+        PointIndex=place,
         FunctionType=function,
         PointType="MOTIONPOINTTYPE_MOTION",
         RelIndexNextPoint=1 if degree else 0,
-        MasterPos=x,
-        SlavePos=y,
-        SlaveVelo=v,
-        SlaveAcc=a,
-        SlaveJerk=j,
-    )
-
-
-def _of_mc3(place: int, x: float, values: list[float], degree: int) -> str:  # noqa: ARG001 - as the other
-    function = FUNCTIONS[degree][1] if degree else _LAST[1]
-    y, v, a, j = values
-    return fields(
-        FunctionType=f"EMotionFunctionType.{function}",
-        MasterPosition=x,
-        SlavePosition=y,
-        SlaveVelocity=v,
-        SlaveAcceleration=a,
-        SlaveJerk=j,
+        **dict(zip(_NC2, numbers, strict=True)),
     )
 
 

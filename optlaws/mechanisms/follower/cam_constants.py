@@ -133,8 +133,6 @@ def gain(nu: float, damping: float) -> float:
     It is nu² times the integral over the rise of the magnitude of the response to an impulse, which is at most k,
     and exp(-n k)/lambda below critical damping; from critical damping on it has no zero and the whole is at most 1.
 
-    Examples
-    --------
     >>> gain(20.0, 0.0), gain(0.5, 0.0), gain(20.0, 1.0)
     (20.0, 0.125, 1.0)
     """

@@ -48,8 +48,6 @@ class Forcing:
     Times are in durations of the rise. `acceleration` is the Chebyshev series, in 2 s/length - 1, of what is no sine in
     c.
 
-    Examples
-    --------
     >>> rise = Forcing(0.0, 1.0, 0.0, 0.0, np.zeros(1), (Wave(2 * np.pi, 2 * np.pi, 0.0),))
     >>> rise.derivative(np.array([1.0]), 0).round(12).tolist()
     [1.0]

@@ -81,8 +81,6 @@ def stretches(forcing: Forcing, oscillator: Oscillator) -> list[ForcedStretch]:
 def closed_form(load: Array, oscillator: Oscillator, length: float) -> PolynomialMotion | None:
     """The polynomial u with u'' + 2 n u' + nu² u = -load (1.25); None where it is large beside the load.
 
-    Examples
-    --------
     >>> closed_form(np.array([8.0]), Oscillator(2.0, 0.0), 1.0).series[0].tolist()
     [-2.0]
     """

@@ -112,8 +112,6 @@ def mass_law(cam: MotionLaw, nu: float, damping: float = 0.0) -> PolynomialLaw:
 def cam_powers(mass: tuple[Fraction, ...], nu: float, damping: float) -> list[Fraction]:
     """Coefficients q of the cam from Q of the mass, in ascending powers of k, exactly (1.27).
 
-    Examples
-    --------
     >>> cam_powers((Fraction(0), Fraction(0), Fraction(1)), 2.0, 0.5)
     [Fraction(1, 2), Fraction(1, 1), Fraction(1, 1)]
     """

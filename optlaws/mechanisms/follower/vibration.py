@@ -16,8 +16,6 @@ from optlaws.numbers import Array
 class Oscillator:
     """The homogeneous equation of a follower: nu in radians in the rise's duration, damping as the ratio zeta = n/nu.
 
-    Examples
-    --------
     >>> Oscillator(5.0, 0.6).frequency, Oscillator(5.0, 1.25).frequency
     (4.0, 0.0)
     """

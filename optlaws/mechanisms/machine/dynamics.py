@@ -248,8 +248,6 @@ def solutions(root: complex, load: Complex) -> Complex:
     is solved for beside the particular ones, from a coefficient 0, or a coefficient 1, that it is not without; where
     the coefficients are too few to show it, from the last one, beside which the particular ones are smooth.
 
-    Examples
-    --------
     >>> load = np.zeros((3, 1), dtype=complex)
     >>> load[1] = 1.0
     >>> solutions(0.0, load).real.round(12).tolist()
@@ -308,8 +306,6 @@ def inverse_gain(A: Array, load: Array, states: Array, direct: Array) -> tuple[i
     directly is what the inverse machine makes of the output: as much as is fed through, and the integral of its
     response to an impulse at most. Infinite where nothing enters directly.
 
-    Examples
-    --------
     >>> force = inverse_gain(np.array([[-1.0]]), np.zeros((1, 3)), np.zeros(1), np.array([0.0, 0.0, 2.0]))
     >>> force
     (2, 0.505)

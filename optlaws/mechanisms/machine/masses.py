@@ -186,8 +186,6 @@ def assembly(
 ) -> Assembly:
     """Masses, links and a drive, checked.
 
-    Examples
-    --------
     >>> assembly({"motor": 1.0, "load": 2.0}, [("motor", "load", 400.0)], "motor").free
     ('load',)
     """

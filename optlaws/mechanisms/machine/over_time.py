@@ -327,8 +327,6 @@ class RepeatedMotion(MachineMotion):
 
     `drives` are its stretches in the machine's unit of time, `jumps` where the velocity jumps inside, and by how much.
 
-    Examples
-    --------
     >>> from optlaws import Machine, smoothstep
     >>> mass = Machine([[0, 1], [-400, -2]], [[0], [400]], [[1, 0]], outputs=["position"])
     >>> there, back = drives.of_law(smoothstep(4)), drives.of_law(smoothstep(4), 1.0, 1.0, 1.0, -1.0)

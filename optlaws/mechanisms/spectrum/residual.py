@@ -279,8 +279,6 @@ def residual(
 def greatest_modulus(amplitude: Callable[[Array], Complex], nodes: Array) -> tuple[float, float]:
     """The greatest magnitude of an analytic amplitude from -1 to 1, by nodes that resolve it, and its place.
 
-    Examples
-    --------
     >>> greatest_modulus(lambda u: 1.0 + 1j * u * u, np.ones(1))
     (1.414214, 1.0)
     """

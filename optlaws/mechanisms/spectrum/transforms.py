@@ -24,8 +24,6 @@ def moments(sigma: Complex, count: int) -> Complex:
     consecutive n come from their recurrence run downwards, which is stable for every argument: not 0, real part at most
     0.
 
-    Examples
-    --------
     >>> moments(np.array([-0.5 + 0.0j]), 2).real.round(9).tolist()
     [[0.632120559, 0.103638324]]
     """
@@ -69,8 +67,6 @@ def _alike(sigma: Complex, count: int, largest: float) -> Complex:
 def legendre_from_chebyshev(count: int) -> Array:
     """Matrix that turns `count` Chebyshev coefficients into Legendre ones.
 
-    Examples
-    --------
     >>> legendre_from_chebyshev(3).round(6).tolist()
     [[1.0, 0.0, -0.333333], [0.0, 1.0, 0.0], [0.0, 0.0, 1.333333]]
     """
