@@ -5,7 +5,7 @@ from __future__ import annotations
 import operator
 from collections.abc import Iterable
 from fractions import Fraction
-from math import frexp, inf, isfinite, ldexp
+from math import frexp, inf, isfinite, ldexp, radians
 from numbers import Rational, Real
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 #: numbers of double precision, of any shape
 Array: TypeAlias = NDArray[np.float64]
+#: complex numbers of double precision, of any shape
+Complex: TypeAlias = NDArray[np.complex128]
 #: a number with its unit: a text such as "35 mm", or a quantity of pint, of any registry
 Quantity: TypeAlias = "str | pint.Quantity[Any]"
 
@@ -339,3 +341,14 @@ def _array(values: Any) -> Array | None:  # noqa: ANN401
     if given.dtype.kind not in "fiu" and given.size:
         return None
     return given.astype(np.float64)
+
+
+def deg(angle: float) -> float:
+    """An angle given in degrees, in radians: the library computes in these.
+
+    Examples
+    --------
+    >>> deg(180)
+    3.141592653589793
+    """
+    return radians(angle)

@@ -9,12 +9,12 @@ from typing import Any, Literal
 
 import numpy as np
 
+from optlaws.cams.curves.plane_curve import CurveAlongNormals, CurveByJets, PiecewiseCurve
 from optlaws.cams.cutting.arcs_and_chords import Arcs, arcs
+from optlaws.cams.cutting.cam_files import polar
 from optlaws.cams.cutting.file_options import Cutting
-from optlaws.cams.cutting.manufactured_curves import ArcChain, PointSpline, PolarSpline, WavyCurve
 from optlaws.cams.cutting.outline import Outline
 from optlaws.cams.cutting.spline import spline
-from optlaws.cams.cutting.text_formats import polar
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.contact import FollowerContact, shifted
 from optlaws.errors import InputError
@@ -24,42 +24,124 @@ from optlaws.motion.quantities import positive_quantity, quantity
 from optlaws.numbers import Array, Quantity, whole
 from optlaws.numerics.enclosures.branch_and_bound import Function, extremes
 from optlaws.numerics.enclosures.interval import Interval
-from optlaws.numerics.enclosures.taylor import Jet
+from optlaws.numerics.enclosures.taylor import Jet, Pair, turned, variable
 from optlaws.numerics.tolerances import DEVIATIONS, MANUFACTURED_LEAP, MANUFACTURED_PEAKS
 from optlaws.suggest import unknown_key
+
+
+@dataclass(frozen=True, eq=False)
+class PointSpline(CurveByJets):
+    """The closed cubic spline through points, m, shape (n, 2), over chords between them: what drawing programs draw.
+
+    Its curvature is continuous everywhere; the last point is the first again.
+    """
+
+    points: Array
+
+    @kept_property
+    def breaks(self) -> tuple[float, ...]:
+        """The points, by the way along the chords."""
+        lengths = np.linalg.norm(np.diff(self.points, axis=0), axis=1)
+        return (0.0, *np.cumsum(lengths).tolist())
+
+    @kept_property
+    def _pieces(self) -> PiecewiseCurve:
+        return periodic(self.breaks, self.points)
+
+    def jets(self, places: Array | Interval, order: int) -> Pair:
+        """Both coordinates with their Taylor terms by the way along the chords."""
+        x, y = self._pieces.jets(places, order)
+        return x, y
+
+
+@dataclass(frozen=True, eq=False)
+class PolarSpline(CurveByJets):
+    """The curve whose radius is the closed cubic spline through radii at even angles around the centre."""
+
+    radii: Array
+
+    @kept_property
+    def breaks(self) -> tuple[float, ...]:
+        """The angles of the radii."""
+        return tuple(np.linspace(0.0, tau, len(self.radii)).tolist())
+
+    @kept_property
+    def _pieces(self) -> PiecewiseCurve:
+        return periodic(self.breaks, self.radii[:, None])
+
+    def jets(self, places: Array | Interval, order: int) -> Pair:
+        """Both coordinates with their Taylor terms by the angle around the centre."""
+        (radius,) = self._pieces.jets(places, order)
+        sine, cosine = variable(places, order).waves()
+        return radius * cosine, radius * sine
+
+
+@dataclass(frozen=True, eq=False)
+class ArcChain(CurveByJets):
+    """Arcs as a curve: its parameter grows by one along each."""
+
+    arcs: Arcs
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """The parameters where one arc ends and the next begins."""
+        return tuple(float(i) for i in range(len(self.arcs.points) + 1))
+
+    def jets(self, places: Array | Interval, order: int) -> Pair:
+        """Both coordinates with their Taylor terms by the parameter."""
+        middle = places.middle if isinstance(places, Interval) else np.asarray(places, dtype=np.float64)
+        which = np.clip(np.floor(middle).astype(int), 0, len(self.arcs.points) - 1)
+        share = variable(places - which.astype(np.float64), order)
+        straight = (self.arcs.bulges == 0.0)[:, None]
+        # a line is the way along its chord, an arc a radius that turns about its centre
+        centres = np.where(straight, self.arcs.points, self.arcs.centres)
+        ways, radii = np.where(straight, self.arcs.ends - self.arcs.points, 0.0), self.arcs.points - centres
+        x, y = turned(
+            (share * 0.0 + radii[which, 0], share * 0.0 + radii[which, 1]),
+            share * (4.0 * np.arctan(self.arcs.bulges))[which],
+        )
+        return x + share * ways[which, 0] + centres[which, 0], y + share * ways[which, 1] + centres[which, 1]
+
+
+@dataclass(frozen=True)
+class WavyCurve(CurveAlongNormals):
+    """A curve with an error along its normals: a wave of so many periods a turn, amplitude in m, shift in rad."""
+
+    amplitude: float
+    waves: int
+    shift: float
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """Breaks of the curve, and every half wave, so that each part is simple."""
+        waves = np.linspace(*self.base.interval, 2 * self.waves + 1)
+        return tuple(np.unique(np.concatenate([self.base.breaks, waves])).tolist())
+
+    def jets(self, angle: Array | Interval, order: int, *, before: bool = False) -> Pair:  # noqa: D102
+        x, y = self.base.jets(angle, order, before=before)
+        along_x, along_y = self.base.normal_jets(angle, order, before=before)
+        _, wave = (variable(angle, order) * float(self.waves) + self.shift).waves()
+        return x + along_x * wave * self.amplitude, y + along_y * wave * self.amplitude
+
+
+def periodic(places: tuple[float, ...], values: Array) -> PiecewiseCurve:
+    """The closed cubic spline through rows of values."""
+    from scipy.interpolate import make_interp_spline
+
+    spline = make_interp_spline(np.array(places), values, k=3, bc_type="periodic")
+    return PiecewiseCurve.of_spline(spline.t, spline.c, 3)
+
 
 _SAMPLES = 721
 
 
 @dataclass(frozen=True)
 class Following:
-    """A follower on a closed curve, at any place of it: the cam's angle there, and the displacement.
+    """A follower on a closed curve of any parameter: the cam's angle there, and the displacement.
 
     The follower is taken to touch the curve at one place, as it does where the curve bulges outward or its hollows are
-    wider than the roller.
-
-    Parameters
-    ----------
-    contact
-        The follower, in numbers.
-    curve
-        The cam's profile as it is made, m; any parameter.
-    phase
-        By how much the cam's coordinates are turned, rad.
-    outside
-        How far outside of the profile the curve is, m: the radius of a cutter whose path it is.
-
-    Examples
-    --------
-    >>> from optlaws.cams.disc import DiscCam
-    >>> from optlaws.cams.followers.translating_roller import TranslatingRoller
-    >>> from optlaws.cams.curves.motion_by_angle import CamMotion
-    >>> motion = CamMotion.of_law("cycloidal", "40 mm", "360 deg")
-    >>> cam = DiscCam(motion, base_radius="80 mm", follower=TranslatingRoller("12 mm"))
-    >>> following = Following(cam.contact, cam.profile)
-    >>> angle, displacement = (float(value) for value in following.at(np.array(1.0), 0))
-    >>> round(angle, 12), round(displacement - cam.displacement(1.0), 12) + 0.0
-    (1.0, 0.0)
+    wider than the roller. `phase` turns the cam's coordinates, rad; the curve is `outside` of the profile, m, by the
+    radius of the cutter whose path it is.
     """
 
     contact: FollowerContact
@@ -151,23 +233,9 @@ class AsMade(PlainNumbers):
 
 
 def run_against(cam: DiscCam, curve: Outline, outside: float = 0.0, *, leaps: bool = True) -> AsMade:
-    """The motion of a cam's follower on a curve in place of its profile.
+    """The motion of a cam's follower on a closed curve of any parameter, `outside` of the profile, m, in its place.
 
-    Parameters
-    ----------
-    cam
-        The cam that was meant.
-    curve
-        A closed curve, as it was made; any parameter.
-    outside
-        How far outside of the profile the curve is, m: the radius of the cutter whose path it is.
-    leaps
-        Whether leaps of the acceleration make the jerk infinite; otherwise it is the greatest between them.
-
-    Raises
-    ------
-    InputError
-        If the cam's motion is not a whole turn.
+    With `leaps` those of the acceleration make the jerk infinite; without, it is the greatest between them.
     """
     if not cam.displacement.closed:
         raise InputError("a cam as made is run over a whole turn: make it of a Cycle, with dwells and the way back")
@@ -305,24 +373,6 @@ def with_error(cam: DiscCam, error: Quantity, waves: Any) -> AsMade:  # noqa: AN
     amplitude, count = positive_quantity(error, "length", "error"), whole(waves, "waves", least=1, most=_MOST_WAVES)
     cases = [run_against(cam, WavyCurve(cam.profile, amplitude, count, shift), leaps=False) for shift in _SHIFTS]
     return AsMade(*(max(getattr(case, name) for case in cases) for name in AsMade.__dataclass_fields__))
-
-
-def rounding_bound(resolution: float, step: float) -> float:
-    """The greatest error of the second derivative of a cubic spline whose values are rounded: 6 eps/dk².
-
-    Parameters
-    ----------
-    resolution
-        Of the values: each is off by half of it at most.
-    step
-        Between the places.
-
-    Examples
-    --------
-    >>> round(float(rounding_bound(1e-6, np.radians(1.0))), 6)
-    0.019697
-    """
-    return 6.0 * resolution / step**2
 
 
 def _points(outline: Outline, options: Cutting) -> Outline:

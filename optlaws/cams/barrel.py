@@ -22,6 +22,7 @@ from optlaws.cams.curves.extremes import (
     first_least,
 )
 from optlaws.cams.curves.motion_by_angle import CamMotion, as_motion
+from optlaws.cams.curves.plane_curve import CurveByAngle
 from optlaws.cams.disc import Turning, sense
 from optlaws.cams.followers.follower import positive, shown
 from optlaws.cycles.cycle import Cycle
@@ -30,8 +31,6 @@ from optlaws.kept import kept_property
 from optlaws.numbers import Array, Quantity, derivative, real_times
 from optlaws.numerics.enclosures.taylor import Jet, variable
 from optlaws.suggest import unknown_key
-
-Triple = tuple[Jet, Jet, Jet]
 
 Side = Literal["upper", "lower"]
 SIDES: dict[Side, float] = {"upper": 1.0, "lower": -1.0}
@@ -55,7 +54,7 @@ class BarrelCam:
     Raises
     ------
     InputError
-        If there is no such groove; the error says the remedy.
+        If there is no such groove, or an argument of a method is none; the error says the remedy.
 
     Examples
     --------
@@ -116,11 +115,6 @@ class BarrelCam:
             "upper", which pushes the roller back, or "lower", which pushes it forth.
         radius
             The distance in metres; that of the cylinder unless given.
-
-        Raises
-        ------
-        InputError
-            If there is no such side, or the distance is not within the groove.
         """
         if side not in tuple(SIDES):
             raise InputError(unknown_key(side, SIDES, "side"))
@@ -145,13 +139,7 @@ class BarrelCam:
         return SpaceCurve(curve.motion, curve.radius, SIDES[side] * (self.roller - cutter), curve.turning)
 
     def pressure_angle(self, angle: Any, nu: int = 0, radius: float | None = None) -> Any:  # noqa: ANN401
-        """The pressure angle at a distance from the shaft's axis, the bottom of the groove unless given, rad.
-
-        Raises
-        ------
-        InputError
-            If an angle is no finite number, or the distance not within the groove.
-        """
+        """The pressure angle at a distance from the shaft's axis, the bottom of the groove unless given, rad."""
         order = derivative(nu)
         at = self.radii[1] if radius is None else self._within(radius)
         slope = self.displacement.jet(real_times(angle), order + 1).slope()
@@ -209,7 +197,7 @@ class BarrelCam:
 
 
 @dataclass(frozen=True)
-class SpaceCurve:
+class SpaceCurve(CurveByAngle):
     """A curve on a barrel cam as a function of the cam's angle: x, y square to the shaft and z along it, m.
 
     Parameters
@@ -230,24 +218,10 @@ class SpaceCurve:
     turning: float
 
     @property
-    def breaks(self) -> tuple[float, ...]:
-        """Angles between which it is smooth, both ends included, rad."""
+    def breaks(self) -> tuple[float, ...]:  # noqa: D102
         return self.motion.breaks
 
-    def __call__(self, angle: Any, nu: int = 0, *, before: bool = False) -> Array:  # noqa: ANN401 - checked here
-        """Points, or derivatives of order nu by the angle, shape of `angle` and three more.
-
-        Raises
-        ------
-        InputError
-            If an angle is no finite number, or out of the interval of a motion that is not closed.
-        """
-        order = derivative(nu)
-        parts = self.jets(real_times(angle), order, before=before)
-        return np.stack([part.derivative(order) for part in parts], axis=-1)
-
-    def jets(self, angle: Array, order: int, *, before: bool = False) -> Triple:
-        """The three coordinates with their derivatives up to an order."""
+    def jets(self, angle: Array, order: int, *, before: bool = False) -> tuple[Jet, Jet, Jet]:  # noqa: D102
         s = self.motion.jet(angle, order + 1, before=before)
         slope = s.slope()
         way = (slope * slope + self.radius**2).root()

@@ -37,17 +37,7 @@ from optlaws.synthesis.solve import synthesize
 
 
 class SolvedPiece(NamedTuple):
-    """A piece of a cycle with its law.
-
-    Attributes
-    ----------
-    piece
-        With the law.
-    solution
-        None where the law is given.
-    bound
-        What no other law is below; that of the solution unless a better one is known.
-    """
+    """A piece of a cycle with its law, with its solution if it was looked for, and a bound better than that one's."""
 
     piece: Piece
     solution: Solution | None

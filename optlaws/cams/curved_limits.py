@@ -43,16 +43,8 @@ _MANY = 6
 class RollerCurvature:
     """A greatest curvature of a roller's pitch curve as a limit of one piece's law: G(a, b) - c s''(1) <= 0.
 
-    Parameters
-    ----------
-    piece
-        With its displacement.
-    contact
-        The roller.
-    radius
-        The least radius of curvature of the pitch curve where it bulges, m.
-    period
-        Of a turn, in the unit of the piece's duration.
+    `radius` is the least radius of curvature of the pitch curve where it bulges, m; `period` is of a turn, in the unit
+    of the piece's duration.
     """
 
     piece: Piece
@@ -154,20 +146,11 @@ def curvature_of(piece: Piece, contact: FollowerContact, least: float, period: f
 
 
 def bound_under(curvature: RollerCurvature, problem: Problem, most: float) -> float:
-    """The lower bound of a problem's objective under a limit of curvature, where a law has the objective `most`.
+    """The lower bound of a convex problem's objective under a limit of curvature, where a law has the objective `most`.
 
     Laws that are better run in a tube: their b is between values at 25 times, each the optimum of a convex problem,
     and in between no further from these than their greatest acceleration takes it. There planes below G are limits
     that are convex. Where nothing bounds the acceleration, the bound is that of the problem itself.
-
-    Parameters
-    ----------
-    curvature
-        The limit, which the problem does not hold.
-    problem
-        Convex.
-    most
-        Of its objective.
     """
     least = synthesize(problem).lower_bound
     greatest = _most_acceleration(problem, most)

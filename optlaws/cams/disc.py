@@ -33,18 +33,7 @@ TURNINGS: dict[Turning, float] = {"counterclockwise": 1.0, "clockwise": -1.0}
 
 
 def sense(turning: object) -> float:
-    """The sense in which a cam turns, 1 for counterclockwise and -1 for clockwise.
-
-    Raises
-    ------
-    InputError
-        If it is neither of the two words.
-
-    Examples
-    --------
-    >>> sense("clockwise")
-    -1.0
-    """
+    """The sense in which a cam turns, 1 for counterclockwise and -1 for clockwise."""
     for name, sign in TURNINGS.items():
         if name == turning:
             return sign
@@ -75,7 +64,7 @@ class DiscCam:
     Raises
     ------
     InputError
-        If there is no such mechanism; the error says the remedy.
+        If there is no such mechanism, or an argument of a method is none; the error says the remedy.
 
     Examples
     --------
@@ -131,23 +120,11 @@ class DiscCam:
         return self.pitch_curve.offset(-self.contact.roller) if self.contact.roller else self.pitch_curve
 
     def cutter_path(self, cutter_radius: Quantity) -> PlaneCurve:
-        """The way of the centre of a cutter or grinding wheel that makes the profile.
-
-        Raises
-        ------
-        InputError
-            If the radius is no length above 0.
-        """
+        """The way of the centre of a cutter or grinding wheel that makes the profile."""
         return self.pitch_curve.offset(positive(cutter_radius, "cutter_radius") - self.contact.roller)
 
     def outline(self, curve: CutCurve | None = None, cutter_radius: Quantity | None = None) -> PlaneCurve:
-        """The curve that is cut: the "profile", the "pitch" curve, or the path of a "cutter" with a radius.
-
-        Raises
-        ------
-        InputError
-            If it is unknown, or a cutter has no radius.
-        """
+        """The curve that is cut: the "profile", the "pitch" curve, or the path of a "cutter" with a radius."""
         chosen = curve or ("profile" if cutter_radius is None else "cutter")
         if chosen not in CURVES:
             raise InputError(unknown_key(chosen, CURVES, "curve"))
@@ -221,43 +198,23 @@ class DiscCam:
         return self.summary()._repr_html_()
 
     def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
-        """Draw the cam with its follower, pressure angle, curvature and displacement, by matplotlib.
+        """Draw the cam with its follower, pressure angle, curvature and displacement; return the artists of matplotlib.
 
-        Parameters
-        ----------
-        ax
-            One pair of axes, for the cam alone, or four; a new figure unless given.
-        style
-            What `Axes.plot` takes, for the curves.
-
-        Returns
-        -------
-        The artists; `[0].figure` is the figure.
+        `ax` is one pair of axes, for the cam alone, or four; a new figure unless given. `style` is what `Axes.plot`
+        takes, for the curves.
         """
         from optlaws.plots.cam import draw_cam
 
         return draw_cam(self, ax, **style)
 
     def pressure_angle(self, angle: Any, nu: int = 0) -> Any:  # noqa: ANN401 - a number for a number, arrays for arrays
-        """The angle between the force on the follower and its way, rad, or a derivative of it by the cam's angle.
-
-        Raises
-        ------
-        InputError
-            If an angle is no finite number.
-        """
+        """The angle between the force on the follower and its way, rad, or a derivative of it by the cam's angle."""
         order = derivative(nu)
         s = self.displacement.jet(real_times(angle), order + 2)
         return _plain(self.contact.pressure(s).cut(order).arctangent().derivative(order))
 
     def radius_of_curvature(self, angle: Any) -> Any:  # noqa: ANN401 - as for pressure angles
-        """The radius of curvature of the profile, m: above 0 where it bulges outward, below where it is hollow.
-
-        Raises
-        ------
-        InputError
-            If an angle is no finite number.
-        """
+        """The radius of curvature of the profile, m: above 0 where it bulges outward, below where it is hollow."""
         s = self.displacement.jet(real_times(angle), 2)
         return _plain(self.contact.radius_of_curvature(s))
 

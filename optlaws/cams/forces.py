@@ -40,19 +40,8 @@ _ENTRIES = ("young", "poisson")
 
 @dataclass(frozen=True)
 class LineContact:
-    """A contact along a line: p = sqrt(N E / (pi width R)) with 1/E the sum of (1 - nu²)/E of both bodies.
+    """A contact along a line: p = sqrt(N E / (pi width R)) with 1/E the sum of (1 - nu²)/E of both bodies, SI units.
 
-    Attributes
-    ----------
-    width
-        Of the line, m.
-    modulus
-        E of both together, Pa.
-    roller_curvature
-        Of the follower, 1/m; 0 of a face.
-
-    Examples
-    --------
     >>> contact = line_contact("20 mm", ("steel", "steel"), roller=0.012)
     >>> round(float(contact.pressure(np.array(1000.0), np.array(0.08))) / 1e6, 3)
     419.51
@@ -66,24 +55,13 @@ class LineContact:
         """Greatest pressure under a force in N, where the cam has a radius of curvature in m; Pa.
 
         0 where nothing is pressed. The radius is below 0 where the cam is hollow.
-
-        Raises
-        ------
-        InputError
-            If a hollow of the cam is narrower than the roller.
         """
         with np.errstate(divide="ignore"):
             squared = self.squared(Jet((np.asarray(force),)), Jet((1.0 / np.asarray(radius),)))
         return np.asarray(np.sqrt(np.maximum(squared.terms[0], 0.0)))
 
     def squared(self, force: Jet, curvature: Jet) -> Jet:
-        """The square of it where the cam has a curvature: smooth where the follower lifts off, and below 0 beyond.
-
-        Raises
-        ------
-        InputError
-            As for `pressure`.
-        """
+        """The square of it where the cam has a curvature: smooth where the follower lifts off, and below 0 beyond."""
         both = curvature + self.roller_curvature
         if np.any(highest(both.terms[0]) < 0.0):
             raise InputError("the cam is hollow where a flat face or a roller that is wider would touch it elsewhere")
@@ -95,16 +73,6 @@ def line_contact(width: Any, materials: Any, roller: float) -> LineContact:  # n
 
     A material is one of `MATERIALS`, whose values are those of a handbook, or {"young": "3 GPa", "poisson": 0.4} from a
     data sheet.
-
-    Raises
-    ------
-    InputError
-        If the width is no length above 0, or a material is not known.
-
-    Examples
-    --------
-    >>> line_contact("20 mm", ("steel", {"young": "3 GPa", "poisson": 0.4}), 0.012).width
-    0.02
     """
     length = positive_quantity(width, "length", "width")
     if not isinstance(materials, tuple | list) or len(materials) != 2:
@@ -228,13 +196,7 @@ class CamForces:
         return self._given(self._torque, angle)
 
     def contact_pressure(self, angle: Any) -> Any:  # noqa: ANN401 - as for the follower's
-        """Hertz's greatest pressure in the contact, Pa.
-
-        Raises
-        ------
-        InputError
-            If no width was given.
-        """
+        """Hertz's greatest pressure in the contact, Pa."""
         squared = self._given(self._squared_pressure, angle)
         values = np.sqrt(np.maximum(squared, 0.0))
         return values if np.ndim(values) else float(values)

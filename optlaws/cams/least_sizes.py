@@ -7,7 +7,6 @@ every range of smaller base circles one of them is proven to break its limit, wi
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, fields, replace
 from math import degrees, tan
 from typing import Any, TypeVar
@@ -180,18 +179,7 @@ def greatest_roller(cam: DiscCam, *, radius_of_curvature: Quantity = "0 mm") -> 
 
 
 def read_cam_limits(pressure_angle: Quantity | None, radius: Quantity | None) -> dict[str, float]:
-    """The limits of a cam: the tangent of the greatest pressure angle, and the least radius of curvature in metres.
-
-    Raises
-    ------
-    InputError
-        If there is neither, or one is out of range.
-
-    Examples
-    --------
-    >>> {name: round(value, 6) for name, value in read_cam_limits("45 deg", "5 mm").items()}
-    {'pressure angle': 1.0, 'radius of curvature': 0.005}
-    """
+    """The limits of a cam: the tangent of the greatest pressure angle, and the least radius of curvature in metres."""
     limits = {}
     if pressure_angle is not None:
         angle = quantity(pressure_angle, "angle", "pressure_angle")
@@ -332,14 +320,10 @@ class _Sizes:
 def _spanning(smaller: Kind, larger: Kind) -> Kind:
     """A contact whose base circle is anywhere between two."""
     changed: dict[str, Any] = {}
-    for name in _numbers(smaller):
+    for name in (field.name for field in fields(smaller)):
         first, last = getattr(smaller, name), getattr(larger, name)
         if first != last:
             middle = 0.5 * (first + last)
             radius = 0.5 * abs(last - first) + 16.0 * ROUNDOFF * (abs(first) + abs(last))
             changed[name] = Interval(np.array(middle), np.array(radius))
     return replace(smaller, **changed)
-
-
-def _numbers(contact: FollowerContact) -> Iterator[str]:
-    return (field.name for field in fields(contact))

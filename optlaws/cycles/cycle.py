@@ -7,8 +7,8 @@ from dataclasses import dataclass, field, replace
 from math import sqrt
 from typing import Any
 
-from optlaws.cycles.export_mixin import ExportMixin
-from optlaws.cycles.kinematics import SegmentPeaks, jumps_at_joints, segment_peaks, values_at
+from optlaws.cycles.interchange import CycleInterchange
+from optlaws.cycles.kinematics import SegmentPeaks, TimedCycle
 from optlaws.cycles.optimisation.durations import durations
 from optlaws.cycles.optimisation.joint_limits import check_limits_at_joints
 from optlaws.cycles.optimisation.mean_force import Best, best_of
@@ -25,8 +25,6 @@ from optlaws.cycles.optimisation.objectives import (
     read_mean_force,
 )
 from optlaws.cycles.optimisation.search_spaces import remark_on_degrees, search_space
-from optlaws.cycles.retiming import TimedCycle, cam_segments, segments_at
-from optlaws.cycles.serialisation import SerialisationMixin
 from optlaws.cycles.specification.drive import CycleDrive, Effort, effort, read_drive
 from optlaws.cycles.specification.joints import LawSpan, Layout, layout
 from optlaws.cycles.specification.load import LOAD, Load, read_load
@@ -44,7 +42,7 @@ from optlaws.synthesis.solution import Solution, Status
 
 
 @dataclass(frozen=True, repr=False)
-class Cycle(ExportMixin, SerialisationMixin):
+class Cycle(CycleInterchange):
     """A cycle that repeats: segments, and how fast the master turns; call it for motion in SI units over time.
 
     Positions are lengths or angles, whichever the first displacement is. Laws that are to be optimal are looked for
@@ -81,7 +79,8 @@ class Cycle(ExportMixin, SerialisationMixin):
     Raises
     ------
     InputError
-        If durations do not sum, positions do not close or velocities do not meet; the error says the remedy.
+        If durations do not sum, positions do not close or velocities do not meet; the error says the remedy, as it
+        does where a method is given what is no time, speed or angle, or is asked for a load or drive that is not there.
     InfeasibleProblem
         If a joint takes more force than a limit allows; limits that no law keeps are told when laws are looked for.
 
@@ -213,7 +212,7 @@ class Cycle(ExportMixin, SerialisationMixin):
     @kept_property
     def peaks(self) -> tuple[SegmentPeaks, ...]:
         """Least and greatest values in every segment."""
-        return segment_peaks(self.programme, self._layout.starts, self.pieces)
+        return self._timed.peaks()
 
     def peak(self, nu: int) -> float:
         """The greatest magnitude of the derivative of order nu over the cycle, up to the jerk, in SI units."""
@@ -225,7 +224,7 @@ class Cycle(ExportMixin, SerialisationMixin):
     @property
     def joints(self) -> tuple[dict[str, Any], ...]:
         """Every joint: its time, and by how much velocity, acceleration and jerk leap there; 0 where they do not."""
-        return jumps_at_joints(self._layout.starts[:-1], self.pieces, [self.peak(nu) for nu in (1, 2, 3)])
+        return self._timed.jumps([self.peak(nu) for nu in (1, 2, 3)])
 
     @kept_property
     def load_motion(self) -> RepeatedMotion:
@@ -250,26 +249,14 @@ class Cycle(ExportMixin, SerialisationMixin):
 
     @kept_property
     def effort(self) -> Effort:
-        """Force or torque and power that the drive takes.
-
-        Raises
-        ------
-        InputError
-            If the cycle has no drive.
-        """
+        """Force or torque and power that the drive takes."""
         if self._drive is None:
             raise InputError("the cycle has no drive: give one, such as drive={'mass': '2 kg', 'gravity': '20 N'}")
         return effort(self._drive, self.pieces, self.duration)
 
     def __call__(self, time: Any, nu: int = 0) -> Any:  # noqa: ANN401 - a number for a number, an array for arrays
-        """Position (nu 0), velocity, acceleration, jerk at a time in seconds, in SI units; the cycle repeats.
-
-        Raises
-        ------
-        InputError
-            If a time is no finite number.
-        """
-        values = values_at(self.programme, self.pieces, real_times(time), derivative(nu))
+        """Position (nu 0), velocity, acceleration, jerk at a time in seconds, in SI units; the cycle repeats."""
+        values = self._timed.values(real_times(time), derivative(nu))
         return values if values.ndim else float(values)
 
     def at_angle(self, degrees: Any, nu: int = 0) -> Any:  # noqa: ANN401 - as for times
@@ -280,11 +267,6 @@ class Cycle(ExportMixin, SerialisationMixin):
     def at(self, speed: Quantity) -> Cycle:
         """The same motion at another speed of the master: every law as it is, every duration in proportion.
 
-        Raises
-        ------
-        InputError
-            If the speed is not above 0, or no angular velocity.
-
         Examples
         --------
         >>> from optlaws.cycles.specification.segments import Return, Rise
@@ -294,7 +276,7 @@ class Cycle(ExportMixin, SerialisationMixin):
         (0.15, 4.0)
         """
         period = period_of(speed, None)
-        segments = segments_at(self._timed, period / self.duration)
+        segments = self._timed.at_speed(period / self.duration)
         # laws that are known leave nothing of a load to look for
         minimise = "acceleration" if kind_of(self.minimise)[0] == LOADED else self.minimise
         return replace(self, segments=segments, speed=None, period=f"{period!r} s", minimise=minimise, limits={})
@@ -328,7 +310,7 @@ class Cycle(ExportMixin, SerialisationMixin):
         >>> round(Cycle(moves, speed="300 rpm").cam("20 ms", damping=0.05).peak(2), 6)
         39.380514
         """
-        segments = cam_segments(self._timed, period, damping)
+        segments = self._timed.of_cam(period, damping)
         return replace(self, segments=segments, speed=None, period=f"{self.duration!r} s")
 
     @property
@@ -345,9 +327,9 @@ class Cycle(ExportMixin, SerialisationMixin):
         laws = zip(self._layout.spans, self._best.laws, strict=True)
         return [(span, solution.problem) for span, (_, solution) in laws]
 
-    @property
+    @kept_property
     def _timed(self) -> TimedCycle:
-        return TimedCycle(self.segments, self.programme, self._layout.starts, self.pieces)
+        return TimedCycle(self.programme, self._layout.starts, self.pieces)
 
     @kept_property
     def _drive(self) -> CycleDrive | None:

@@ -12,9 +12,9 @@ from optlaws.extras import needed
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.catalogue.reading import read_law
-from optlaws.mechanisms.checks import motion_law
-from optlaws.mechanisms.spectrum.robust import residual
-from optlaws.motion.piece import factor
+from optlaws.laws.law import motion_law
+from optlaws.mechanisms.spectrum.residual import residual
+from optlaws.motion.piece import factor, unit_of
 from optlaws.motion.quantities import either, quantity
 from optlaws.numbers import Quantity, bounded, positive
 from optlaws.numerics.tolerances import AGREEMENT
@@ -23,7 +23,6 @@ from optlaws.numerics.tolerances import AGREEMENT
 FAR = 1.5
 CONSTANTS = ("B", "C", "D", "J", "rms_c")
 _MACHINE = {1: "velocity, {}/s", 2: "acceleration, {}/s²", 3: "jerk, {}/s³"}
-_UNITS = {"length": "m", "angle": "rad"}
 _PEAKS = {"D": "power", "J": "jerk"}
 
 
@@ -150,7 +149,7 @@ def compare(
         raise InputError("there is nothing to compare: name laws, such as 'modified sine' and 'law.json'")
     if (stroke is None) != (duration is None):
         raise InputError("stroke and duration go together: the peaks in the machine need both")
-    kind, height = ("length", None) if stroke is None else either(stroke, tuple(_UNITS), "stroke")
+    kind, height = ("length", None) if stroke is None else either(stroke, ("length", "angle"), "stroke")
     seconds = None if duration is None else positive(quantity(duration, "time", "duration"), "duration")
     if height is not None:
         positive(height, "stroke")
@@ -162,7 +161,7 @@ def compare(
         if name in named:
             raise InputError(f"{name} is given twice")
         named[name] = law
-    return Comparison(named, height, seconds, _UNITS[kind], nu, damping)
+    return Comparison(named, height, seconds, unit_of(kind), nu, damping)
 
 
 def costs(
@@ -173,14 +172,7 @@ def costs(
     nu: float | tuple[float, float] | None = None,
     damping: float = 0.0,
 ) -> list[str]:
-    """The costs of a smaller C than that of a named standard law: power, jerk or vibration far above its own.
-
-    Examples
-    --------
-    >>> from optlaws.laws.catalogue.catalogue import catalogue
-    >>> costs(catalogue["constant acceleration"].law, catalogue["cycloidal"].law, "cycloidal")
-    ['J = inf, without bound; that of cycloidal is 39.48']
-    """
+    """The costs of a smaller C than that of a named standard law: power, jerk or vibration far above its own."""
     if not law.constants.C.value < reference.constants.C.value:
         return []
     values = {

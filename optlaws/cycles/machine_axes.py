@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any, Unpack
 
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.serialisation import problem_file
+from optlaws.cycles.interchange import problem_file
 from optlaws.cycles.specification.programme import period_of
 from optlaws.cycles.specification.segments import CycleSegment
 from optlaws.echo import shortened
@@ -150,13 +150,7 @@ class Axes(JsonText, Mapping[str, Cycle]):
 
     @classmethod
     def from_dict(cls, data: Any) -> Axes:  # noqa: ANN401 - it is checked here
-        """Read what `to_dict` gave.
-
-        Raises
-        ------
-        InputError
-            If it is none, or an axis is wrong.
-        """
+        """Read what `to_dict` gave."""
         stored = data.get("axes") if isinstance(data, Mapping) else None
         if not isinstance(stored, Mapping) or data.get("format", FORMAT) != FORMAT:
             raise InputError(f"stored axes have format {FORMAT!r} and a table of axes, got {shortened(data)}")
@@ -193,26 +187,11 @@ class Axes(JsonText, Mapping[str, Cycle]):
         return pd.concat(frames, names=["axis", "segment number"])
 
     def plot(self, ax: Any = None, *, nu: int = 0, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
-        """Draw all axes over one time, one below the other, with their segments, by matplotlib.
+        """Draw all axes over one time, one below the other, with their segments, by matplotlib; return the artists.
 
-        Parameters
-        ----------
-        ax
-            As many axes of matplotlib as there are axes, or one for all, where every curve is divided by its peak; a
-            new figure unless given.
-        nu
-            What is drawn: position (0), velocity, acceleration or jerk (3).
-        style
-            What `Axes.plot` of matplotlib takes, for the curves.
-
-        Returns
-        -------
-        The artists; `[0].figure` is the figure.
-
-        Raises
-        ------
-        InputError
-            If there are neither one nor as many, or nu is none of the four.
+        `nu` is what is drawn: position (0), velocity, acceleration or jerk (3). `ax` are as many axes of matplotlib, or
+        one for all, where every curve is divided by its peak, else an `InputError`; a new figure unless given. `style`
+        is what `Axes.plot` of matplotlib takes.
         """
         from optlaws.plots.cycle import draw_axes
 

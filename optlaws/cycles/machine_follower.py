@@ -8,14 +8,13 @@ from typing import Any
 
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
-from optlaws.mechanisms.checks import motion_law
+from optlaws.laws.law import motion_law
 from optlaws.mechanisms.follower.follower import Follower
 from optlaws.mechanisms.follower.response import Response
-from optlaws.motion.piece import factor
+from optlaws.motion.piece import factor, unit_of
 from optlaws.motion.quantities import either, quantity
 from optlaws.numbers import Quantity, positive
 
-_UNITS = {"length": "m", "angle": "rad"}
 _WAYS = "give frequency, such as '16.7 Hz', or period, such as '60 ms', and not both"
 _DURATIONS = "give duration, such as '0.1 s', or speed and rise, such as '105 rpm' and '120 deg'"
 
@@ -52,13 +51,7 @@ class MachineFollower:
     unit: str = "m"
 
     def response(self, law: MotionLaw) -> MachineAnswer:
-        """The response of the mass to a cam that moves by a law and rests afterwards, in machine units.
-
-        Raises
-        ------
-        InputError
-            If `law` is no motion law.
-        """
+        """The response of the mass to a cam that moves by a law and rests afterwards, in machine units."""
         return MachineAnswer(self, self.follower.response(motion_law(law)))
 
 
@@ -179,10 +172,10 @@ def machine_follower(
     Traceback (most recent call last):
     optlaws.errors.InputError: frequency must be a frequency such as '16.7 Hz', got '16.7' without a unit: ...
     """
-    kind, height = either(stroke, tuple(_UNITS), "stroke")
+    kind, height = either(stroke, ("length", "angle"), "stroke")
     seconds = _duration(duration, speed, rise)
     nu = tau * seconds * _frequency(frequency, period)
-    return MachineFollower(Follower(nu, damping), positive(height, "stroke"), seconds, _UNITS[kind])
+    return MachineFollower(Follower(nu, damping), positive(height, "stroke"), seconds, unit_of(kind))
 
 
 def _frequency(frequency: Quantity | None, period: Quantity | None) -> float:

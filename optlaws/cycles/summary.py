@@ -10,6 +10,7 @@ import numpy as np
 from optlaws.cycles.optimisation.objectives import FORCE, LOADED, POWER, kind_of
 from optlaws.cycles.specification.load import LOAD, read_load
 from optlaws.errors import OptlawsError
+from optlaws.motion.piece import unit_of
 from optlaws.shown.showing import drawing, facts, page, table
 from optlaws.shown.summary import Row, Summary
 
@@ -26,17 +27,6 @@ _LOAD_UNITS = {
     "force": "N",
     "torque": "N m",
 }
-
-
-def unit_of(axis: str, nu: int) -> str:
-    """The SI unit of a derivative by time of a length or an angle.
-
-    Examples
-    --------
-    >>> unit_of("length", 0), unit_of("angle", 2)
-    ('m', 'rad/s²')
-    """
-    return {"length": "m", "angle": "rad"}[axis] + ("", "/s", "/s²", "/s³", "/s⁴")[nu]
 
 
 def objective_unit(cycle: Cycle) -> str:
@@ -114,8 +104,6 @@ def summary(cycle: Cycle) -> Summary:
 def cycle_page(cycle: Cycle) -> str:
     """A cycle as HTML; where its laws cannot be had, the error in their place.
 
-    Examples
-    --------
     >>> from optlaws import Cycle, Return, Rise
     >>> shown = cycle_page(Cycle([Rise("35 mm", "120 deg"), Return()], speed="200 rpm"))
     >>> shown.count("<svg"), "acceleration, m/s²" in shown

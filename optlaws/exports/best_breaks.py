@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -11,8 +11,7 @@ import numpy as np
 from optlaws.errors import InputError
 from optlaws.exports.fitting import Fitted, fitted
 from optlaws.exports.polynomial_pieces import LawSection
-from optlaws.laws.law import MotionLaw
-from optlaws.mechanisms.checks import motion_law
+from optlaws.laws.law import MotionLaw, motion_law
 from optlaws.motion.motion import Motion
 from optlaws.motion.piece import Piece
 from optlaws.motion.polynomials import PiecewiseMotion
@@ -103,30 +102,14 @@ def _best_breaks(law: MotionLaw, orders: int, most: int) -> BestBreaks:
 
 @dataclass(frozen=True)
 class BreakSearch:
-    """The search on a stretch of a law.
-
-    Parameters
-    ----------
-    stretch
-        The stretch.
-    orders
-        How many derivatives are met at each break.
-    peak
-        C of the law.
-    """
+    """The search on a stretch of a law with the peak C, of breaks at which so many derivatives are met."""
 
     stretch: LawSection
     orders: int
     peak: float
 
     def fewest(self, most: int) -> BestBreaks:
-        """The fewest pieces that will do.
-
-        Raises
-        ------
-        InputError
-            If so many do not do.
-        """
+        """The fewest pieces that will do."""
         tried: list[Tried] = []
         for count in range(1, most + 1):
             even, best, breaks = self._best(count)
@@ -179,7 +162,8 @@ class BreakSearch:
 
         start = -np.log(grading) * np.minimum(np.arange(1, half), np.arange(half - 1, 0, -1) + (count - half))
         if half > 1:
-            _until_enough(lambda: minimize(off, start, method="Nelder-Mead", options={"maxfev": _EVALUATIONS}))
+            with suppress(_Enough):
+                minimize(off, start, method="Nelder-Mead", options={"maxfev": _EVALUATIONS})
 
     @staticmethod
     def _placed(lengths: Array) -> Array:
@@ -204,30 +188,8 @@ def _refuse_leaps(law: MotionLaw, orders: int) -> None:
             )
 
 
-def _until_enough(work: Callable[[], object]) -> None:
-    try:
-        work()
-    except _Enough:
-        return
-
-
 def fitted_best(motion: Motion, degree: int, most: int) -> Fitted:
-    """Polynomials for a motion with their breaks where `best_breaks` finds them; its own where they are low enough.
-
-    Raises
-    ------
-    InputError
-        If the target does not take as many, or a law's derivatives leap.
-
-    Examples
-    --------
-    >>> from optlaws.motion.motion import motion_of_law
-    >>> from optlaws.laws import smoothstep
-    >>> motion = motion_of_law(smoothstep(6), stroke="35 mm", duration="0.1 s")
-    >>> fit = fitted_best(motion, degree=7, most=50)
-    >>> fit.count, abs(fit.run.peak(2).value / motion.peak(2) - 1) <= 1e-3
-    (3, True)
-    """
+    """Polynomials for a motion with their breaks where `best_breaks` finds them; its own where they are low enough."""
 
     def best(piece: Piece) -> PiecewiseMotion:
         return best_breaks(piece.law, degree - 1 + degree % 2, min(most, MOST)).run

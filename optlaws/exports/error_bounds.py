@@ -37,13 +37,6 @@ ORDERS = 4
 def as_stored(motion: PiecewiseMotion, arithmetic: FloatingPoint) -> PiecewiseMotion:
     """The motion in the numbers that an arithmetic has, each polynomial moved to where its break comes to lie.
 
-    Raises
-    ------
-    InputError
-        If a number is beyond REAL32, or two breaks round to one.
-
-    Examples
-    --------
     >>> as_stored(PiecewiseMotion([0.1, 1.1], [[0.0, 1.0]]), SINGLE).coefficients
     ((1.4901161415892261e-09, 1.0),)
     """

@@ -10,8 +10,8 @@ from typing import Any, Protocol
 
 from optlaws.errors import InputError
 from optlaws.exports.format import Format, Written, format_of
-from optlaws.exports.identifiers import variable_names
 from optlaws.exports.report import QUANTITIES, Report, TaskSampling, as_run, task_sampling
+from optlaws.exports.text import variable_names
 from optlaws.files import writing
 from optlaws.laws import MotionLaw
 from optlaws.motion.motion import Motion, motion_of_law
@@ -80,13 +80,7 @@ class Export:
         return self.written.points
 
     def write(self, file: str | Path) -> Path:
-        """Write the file, whole or not at all; one that is there and says something else is kept as NAME.orig.
-
-        Raises
-        ------
-        InputError
-            If the name is none for a file.
-        """
+        """Write the file, whole or not at all; one that is there and says something else is kept as NAME.orig."""
         return writing.write_any(Path(file), self.text)
 
     def to_dict(self) -> dict[str, Any]:
@@ -177,13 +171,7 @@ class Export:
 
 
 def export_motion(motion: Motion, to: Any, *, task: Quantity | None = None, **options: Any) -> Export:  # noqa: ANN401
-    """A motion in a format, which checks its options; `task` is the time of a drive's task, such as "1 ms".
-
-    Raises
-    ------
-    InputError
-        If there is no such format, it takes no such option, or it cannot hold the motion.
-    """
+    """A motion in a format, which checks its options; `task` is the time of a drive's task, such as "1 ms"."""
     chosen = format_of(to)
     written = chosen.write(motion, chosen.request(**options))
     sampling = None if task is None else task_sampling(written.run, motion, task)

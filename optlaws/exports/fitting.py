@@ -28,16 +28,9 @@ _SHORT = 10
 
 @dataclass(frozen=True)
 class Fitted:
-    """Polynomials of a motion.
+    """Polynomials of a motion over its master: those of the laws, each number rounded once, where `exact`.
 
-    Parameters
-    ----------
-    run
-        The polynomials, over the motion's master.
-    exact
-        Whether they are those of the laws, each number rounded once.
-    deviation, acceleration
-        How far their position and their acceleration are from the motion at most, in its units; 0 where exact.
+    `deviation` and `acceleration` are how far position and acceleration are off at most, in units of the motion.
     """
 
     run: PiecewiseMotion
@@ -88,43 +81,20 @@ class _FittedSection:
 def fitted(
     motion: Motion, degree: int, most: int, count: int | None = None, *, laid: Laid | None = None, near: float = OFF
 ) -> Fitted:
-    """Polynomials of a degree for a motion: its own where they are low enough, else Hermite's.
+    """Polynomials of a degree from 3 to 9 for a motion: its own where they are low enough, else Hermite's.
 
     Where laws are polynomials of at most the degree they are taken as they are. Elsewhere polynomials of the greatest
-    odd degree have the law's derivatives at both ends, and one more is laid where the acceleration is furthest from
-    the law's, until its peak is within a thousandth of the motion's and it is nowhere off by more than a hundredth
-    of that, or until there are as many as are asked for.
+    odd degree have the law's derivatives at both ends, and one more is laid where the acceleration is furthest from the
+    law's, until its peak is within a thousandth of the motion's and it is nowhere off by more than a share `near` of
+    that, or until there are as many as `count` asks for; the target takes at most `most`. Through a whole law they may
+    be `laid` in another way.
 
-    Parameters
-    ----------
-    motion
-        The motion.
-    degree
-        The highest that the target takes, from 3 to 9.
-    most
-        How many polynomials it takes.
-    count
-        How many there shall be; as few as will do unless given.
-    laid
-        What lays the polynomials in k through a whole law that has to be approximated, if not this.
-    near
-        How far the acceleration may be off, as a share of its peak, where no number is asked for.
-
-    Raises
-    ------
-    InputError
-        If the target does not take as many as are needed, or derivatives are infinite.
-
-    Examples
-    --------
     >>> from optlaws.motion.motion import motion_of_law
     >>> from optlaws.laws import smoothstep
     >>> motion = motion_of_law(smoothstep(5), stroke="35 mm", duration="0.1 s")
     >>> fit = fitted(motion, degree=7, most=50)
-    >>> fit.count, fit.exact, f"{fit.deviation:.1e}"
-    (4, False, '4.9e-04')
-    >>> fitted(motion, degree=9, most=50).exact
-    True
+    >>> fit.count, fit.exact, f"{fit.deviation:.1e}", fitted(motion, degree=9, most=50).exact
+    (4, False, '4.9e-04', True)
     """
     orders = (degree + 1) // 2
     pairs = [
@@ -157,8 +127,6 @@ def exactly(motion: Motion, degree: int) -> Fitted | None:
     A polynomial of degree n in powers of k has terms far above its values; on a part of the interval, in powers of x
     less its start, they are as small as these.
 
-    Examples
-    --------
     >>> from optlaws.motion.motion import motion_of_law
     >>> from optlaws.laws import smoothstep
     >>> fit = exactly(motion_of_law(smoothstep(9), stroke="35 mm", duration="0.1 s"), 40)

@@ -61,13 +61,7 @@ class Request:
             raise InputError(f"decimal must be '.' or ',', got {shortened(self.decimal)}")
 
     def interpolation_among(self, known: Collection[str], default: str = "cubic") -> str:
-        """The interpolation, one of those that the target knows.
-
-        Raises
-        ------
-        InputError
-            If it is none of them.
-        """
+        """The interpolation, one of those that the target knows."""
         interpolation = self.interpolation or default
         if interpolation not in known:
             raise InputError(f"interpolation must be one of {', '.join(known)}, got {interpolation!r}")
@@ -171,13 +165,7 @@ FORMATS: Registry[Format] = Registry("export format")
 
 
 def format_of(name: Any) -> Format:  # noqa: ANN401 - it is checked here
-    """The format of a name.
-
-    Raises
-    ------
-    InputError
-        If there is none; the error says which is near.
-    """
+    """The format of a name."""
     if not isinstance(name, str) or name not in FORMATS:
         raise InputError(f"to: {unknown_key(name, sorted(FORMATS), 'format')}")
     return FORMATS[name]

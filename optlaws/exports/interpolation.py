@@ -17,8 +17,6 @@ Ends = Literal["clamped", "natural", "periodic"]
 def linear_powers(x: Array, y: Array) -> Array:
     """Ascending powers of straight lines between points, a row for each piece: the velocity leaps at each point.
 
-    Examples
-    --------
     >>> linear_powers(np.array([0.0, 1.0, 3.0]), np.array([0.0, 2.0, 0.0])).tolist()
     [[0.0, 2.0], [2.0, -1.0]]
     """
@@ -28,22 +26,8 @@ def linear_powers(x: Array, y: Array) -> Array:
 def spline_powers(x: Array, y: Array, ends: Ends = "clamped", slopes: tuple[float, float] = (0.0, 0.0)) -> Array:
     """Ascending powers of the cubic spline through points, whose acceleration is continuous, a row for each piece.
 
-    Parameters
-    ----------
-    x, y
-        Points, shape (n,).
-    ends
-        "clamped" to slopes, "natural" without acceleration at the ends, "periodic".
-    slopes
-        At both ends, where it is clamped.
+    Its ends are "clamped" to slopes, "natural" without acceleration, or "periodic".
 
-    Raises
-    ------
-    InputError
-        If it is periodic and its first and last position differ.
-
-    Examples
-    --------
     >>> powers = spline_powers(np.array([0.0, 40.0, 100.0]), np.array([0.0, 20.0, 25.0]), slopes=(1.0, 0.0))
     >>> [round(power, 9) for power in powers[0].tolist()]
     [0.0, 1.0, -0.0175, 0.000125]
@@ -59,8 +43,6 @@ def spline_powers(x: Array, y: Array, ends: Ends = "clamped", slopes: tuple[floa
 def akima_powers(x: Array, y: Array) -> Array:
     """Ascending powers of Akima's cubics, as Modelica's tables take them: the acceleration leaps at each point.
 
-    Examples
-    --------
     >>> x = np.linspace(0.0, 1.0, 6)
     >>> akima_powers(x, x**2)[0].round(9).tolist()
     [0.0, 0.0, 1.0, 0.0]
@@ -73,15 +55,8 @@ def akima_powers(x: Array, y: Array) -> Array:
 def hermite_powers(x: Array, values: Array) -> Array:
     """Ascending powers of degree 2m - 1 that have m given derivatives at each point: y, V, A for the quintic of XYVA.
 
-    Parameters
-    ----------
-    x
-        Points, shape (n,).
-    values
-        y and its first m - 1 derivatives there, shape (m, n).
+    Points have the shape (n,), values (m, n).
 
-    Examples
-    --------
     >>> hermite_powers(np.array([0.0, 2.0]), np.array([[0.0, 1.0], [0.0, 0.0], [0.0, 0.0]])).tolist()
     [[0.0, 0.0, 0.0, 1.25, -0.9375, 0.1875]]
     """

@@ -33,17 +33,7 @@ _SHORTEST = Fraction(1, 4096)
 
 @dataclass(frozen=True)
 class LawSection:
-    """A smooth part of a law between k and k: its own polynomial where it is one of low degree.
-
-    Parameters
-    ----------
-    law
-        The law.
-    ends
-        Its first and its last k.
-    exact_powers
-        Powers of k less the first, or None where it is to be approximated.
-    """
+    """A smooth part of a law between two k: with the powers of its own polynomial where that is of low degree."""
 
     law: MotionLaw
     ends: tuple[float, float]
@@ -54,13 +44,7 @@ class LawSection:
         return np.asarray(self.law(np.minimum(k, self._last), nu))
 
     def hermite(self, k: Array, orders: int) -> PiecewiseMotion:
-        """Polynomials between places that have the law's first derivatives at each of them.
-
-        Raises
-        ------
-        InputError
-            If a derivative is infinite at one of them.
-        """
+        """Polynomials between places that have the law's first derivatives at each of them."""
         values = np.array([self.values(k, nu) for nu in range(orders)])
         if not np.isfinite(values).all():
             raise InputError(
@@ -80,14 +64,7 @@ class LawSection:
 
 
 def is_polynomial(law: MotionLaw) -> bool:
-    """Whether a law is made of polynomials alone, so that controllers can run it without loss.
-
-    Examples
-    --------
-    >>> from optlaws import catalogue, smoothstep
-    >>> is_polynomial(smoothstep(3)), is_polynomial(catalogue["cycloidal"].law)
-    (True, False)
-    """
+    """Whether a law is made of polynomials alone, so that controllers can run it without loss."""
     if isinstance(law, PiecewiseLaw):
         return all(isinstance(segment, PolynomialSegment) for segment in law.segments)
     return isinstance(law, PolynomialLaw)
@@ -98,23 +75,9 @@ def polynomials_of_law(
 ) -> PiecewiseMotion:
     """A law of polynomials with its stroke and duration: the same pieces, every coefficient rounded once.
 
-    Parameters
-    ----------
-    law
-        The law.
-    stroke, time
-        What multiplies its displacement and its time.
-    cancelled
-        How large the terms of a piece may be in sum, over the stroke: high powers cancel each other, and with them
-        the digits of whoever evaluates them. Pieces whose terms are larger are halved, which changes no value.
+    High powers cancel each other, and with them the digits of whoever evaluates them: pieces whose terms sum up to more
+    than `cancelled` strokes are halved, which changes no value.
 
-    Raises
-    ------
-    InputError
-        If the law is not made of polynomials, or the duration is not above 0.
-
-    Examples
-    --------
     >>> from optlaws import smoothstep
     >>> polynomials_of_law(smoothstep(2), stroke=0.5, time=2.0).coefficients
     ((0.0, 0.0, 0.375, -0.125),)
@@ -138,19 +101,7 @@ def _tame(stretch: Stretch, cancelled: float) -> Iterator[Stretch]:
 
 
 def stretches(law: MotionLaw) -> Iterator[Stretch]:
-    """The polynomials of a law in exact arithmetic.
-
-    Raises
-    ------
-    InputError
-        If the law is not made of polynomials.
-
-    Examples
-    --------
-    >>> from optlaws import smoothstep
-    >>> [list(map(str, powers)) for _, _, powers in stretches(smoothstep(2))]
-    [['0', '0', '3', '-2']]
-    """
+    """The polynomials of a law in exact arithmetic."""
     if not is_polynomial(law):
         raise InputError("the law is not made of polynomials: approximate it by pieces within a stated deviation")
     if isinstance(law, PolynomialLaw):
@@ -179,26 +130,8 @@ _LEAST = 16.0  # terms that sum up to so many strokes are no cause to halve piec
 def pieces_of_motion(motion: Motion, tolerance: float = PIECES_OF_MOTION) -> PiecewiseMotion:
     """The polynomials of a motion between breaks, in units of its master and slave.
 
-    Parameters
-    ----------
-    motion
-        The motion.
-    tolerance
-        How far the position may be from the law's, as a share of the stroke, where laws are not made of polynomials:
-        over the whole interval, no grid. Polynomials whose powers lose more digits than that are halved, which
-        changes no value.
-
-    Raises
-    ------
-    InputError
-        If derivatives are infinite, or too many pieces would be needed.
-
-    Examples
-    --------
-    >>> from optlaws.laws import smoothstep
-    >>> motion = motion_of_law(smoothstep(2), stroke="35 mm", duration="0.1 s")
-    >>> [round(coefficient, 6) for coefficient in pieces_of_motion(motion).coefficients[0]]
-    [0.0, 0.0, 10500.0, -70000.0]
+    Where laws are not made of polynomials, the position is within `tolerance`, a share of the stroke, over the whole
+    interval. Polynomials whose powers lose more digits than that are halved, which changes no value.
     """
     share = positive(tolerance, "tolerance")
     parts = [_of_piece(piece, share * motion.stroke) for piece in motion.pieces]

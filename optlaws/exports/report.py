@@ -59,7 +59,7 @@ class Characteristics:
 
     def to_dict(self) -> dict[str, Any]:
         """The characteristics by TwinCAT's names, as plain data; what is infinite is null."""
-        data: dict[str, Any] = {"StartPoint": _point(None, self.start), "EndPoint": _point(None, self.end)}
+        data: dict[str, Any] = {"StartPoint": _point(self.start), "EndPoint": _point(self.end)}
         for side, extremes in (("Min", self.least), ("Max", self.greatest)):
             for name, extreme in zip(QUANTITIES, extremes, strict=True):
                 data[f"PointAt{side}Slave{name}"] = {"MasterPosition": extreme.x, f"Slave{name}": _known(extreme.value)}
@@ -126,18 +126,9 @@ class Report:
 
 
 def as_run(run: PiecewiseMotion, motion: Motion, bound: float = 0.0, roundings: tuple[float, ...] = ()) -> Report:
-    """The report of a run: every number is an extreme over the whole motion, none is one of a grid.
+    """The report of a run by the master: every number is an extreme over the whole motion, none is one of a grid.
 
-    Parameters
-    ----------
-    run
-        What the controller makes of an export, by the master.
-    motion
-        What was exported.
-    bound
-        What roundings may add to the acceleration, by the master.
-    roundings
-        Leaps of velocity, acceleration and jerk by the master that are no more than roundings.
+    Roundings may add `bound` to the acceleration; leaps of velocity, acceleration and jerk up to `roundings` are such.
     """
     rate = motion.units.rate or 1.0
     law = _of_law(motion, rate)
@@ -223,9 +214,8 @@ def _known(value: float) -> float | None:
     return value if isfinite(value) else None
 
 
-def _point(x: float | None, values: tuple[float, ...]) -> dict[str, Any]:
-    place = {} if x is None else {"MasterPosition": x}
-    return place | {f"Slave{name}": _known(value) for name, value in zip(QUANTITIES, values, strict=True)}
+def _point(values: tuple[float, ...]) -> dict[str, Any]:
+    return {f"Slave{name}": _known(value) for name, value in zip(QUANTITIES, values, strict=True)}
 
 
 _EACH = 257
@@ -233,13 +223,7 @@ _CUTS = 9  # in eight: the way is of second order in the length that is left
 
 
 def travel_of_run(run: PiecewiseMotion) -> float:
-    """The way of polynomials.
-
-    Examples
-    --------
-    >>> round(travel_of_run(PiecewiseMotion([0, 2], [[0, 2, -1]])), 12)
-    2.0
-    """
+    """The way of polynomials."""
     first, last = run.ends(0)
     moved = np.abs(last - first)
     table = run.powers(1)
@@ -251,15 +235,7 @@ def travel_of_run(run: PiecewiseMotion) -> float:
 
 
 def travel_of_law(motion: Motion) -> float:
-    """The way of an exact motion, turned where its velocity changes its sign.
-
-    Examples
-    --------
-    >>> from optlaws.motion.motion import motion_of_law
-    >>> from optlaws.laws import smoothstep
-    >>> travel_of_law(motion_of_law(smoothstep(3), stroke="-35 mm", duration="0.1 s"))
-    35.0
-    """
+    """The way of an exact motion, turned where its velocity changes its sign."""
     grids = [np.linspace(low, high, _EACH) for low, high in pairwise(motion.breaks)]
     x = np.concatenate([[motion.start], *(grid[1:] for grid in grids)])
     signs = np.sign(motion(x, 1))
@@ -296,34 +272,9 @@ class TaskSampling:
 
 
 def task_sampling(run: PiecewiseMotion, motion: Motion, task: Quantity) -> TaskSampling:
-    """The run sampled once in a task: second differences of the positions, those at both ends included.
+    """The run sampled once in a task, such as "1 ms": second differences of the positions, both ends included.
 
     Before and after a motion of one shot there is rest; a cycle goes on with itself.
-
-    Parameters
-    ----------
-    run
-        What the controller makes of an export.
-    motion
-        What was exported; it must be known how fast its master goes.
-    task
-        The time of a task, such as "1 ms".
-
-    Raises
-    ------
-    InputError
-        If the time is none, or so long or short that there are fewer than 4 or too many positions.
-
-    Examples
-    --------
-    >>> from optlaws.exports.interpolation import linear_powers
-    >>> from optlaws.motion.motion import motion_of_law
-    >>> from optlaws.laws import smoothstep
-    >>> motion = motion_of_law(smoothstep(3), stroke="35 mm", duration="0.1 s")
-    >>> x = np.linspace(0.0, 0.1, 37)
-    >>> run = PiecewiseMotion(x, linear_powers(x, motion(x)))
-    >>> round(task_sampling(run, motion, "0.1 ms").acceleration / motion.peak(2), 1)
-    27.0
     """
     seconds = quantity(task, "time", "task")
     if motion.units.rate is None:

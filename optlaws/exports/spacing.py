@@ -6,13 +6,15 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
 from math import inf, isfinite
-from typing import NamedTuple, Protocol, TypeVar
+from typing import NamedTuple
 
 import numpy as np
 
 from optlaws.errors import InputError
-from optlaws.exports.format import BEST, Request
+from optlaws.exports.format import BEST, Request, Written
+from optlaws.kept import kept_property
 from optlaws.motion.motion import Motion
+from optlaws.motion.polynomials import PiecewiseMotion
 from optlaws.numbers import Array
 from optlaws.numerics import bernstein
 from optlaws.numerics.tolerances import AS_GOOD, RUN_OFF
@@ -25,48 +27,34 @@ _DIGITS = 12
 _BETWEEN = 0.4  # share of a step; halfway, symmetric curves cross
 
 
-class Tabled(Protocol):
-    """Polynomials that a controller lays between points."""
+@dataclass(frozen=True, eq=False)
+class PointTable:
+    """Points as the target stores them, and the polynomials that the controller lays between them.
 
-    @property
-    def x(self) -> Array:
-        """The places of the points, by the master."""
+    `x` of the master has the shape (n,), `values` (y, V, A, ... of the slave) (m, n), ascending `powers` a row for each
+    polynomial; `resolution` is the step of positions, `bound` what roundings may add to the peak of the acceleration.
+    """
 
-    @property
-    def powers(self) -> Array:
-        """Ascending powers, a row for each piece."""
+    x: Array
+    values: Array
+    powers: Array
+    resolution: float
+    bound: float
 
-    @property
-    def resolution(self) -> float:
-        """The step to which positions are rounded."""
+    @kept_property
+    def run(self) -> PiecewiseMotion:
+        """The motion that the controller makes of the points."""
+        return PiecewiseMotion(self.x, self.powers)
 
-
-TableT = TypeVar("TableT", bound=Tabled)
+    def written(self, text: str, model: str, notes: tuple[str, ...] = ()) -> Written:
+        """The file of the table, with what a controller makes of it."""
+        return Written(text, self.run, model, len(self.x), "points", self.resolution, self.bound, notes)
 
 
 def places(motion: Motion, count: int, *, straight: bool = False) -> Array:
     """So many points with equal steps between the breaks of a motion, which are points themselves.
 
-    Parameters
-    ----------
-    motion
-        The motion.
-    count
-        How many points.
-    straight
-        Whether dwells and uniform motions need no point inside, as where the controller is told V and A.
-
-    Raises
-    ------
-    InputError
-        If there are more breaks than points.
-
-    Examples
-    --------
-    >>> from optlaws.motion.motion import motion_of_law
-    >>> from optlaws.laws import smoothstep
-    >>> places(motion_of_law(smoothstep(3), stroke="35 mm", master="120 deg"), 5).tolist()
-    [0.0, 30.0, 60.0, 90.0, 120.0]
+    With `straight` dwells and uniform motions need no point inside, as where the controller is told V and A.
     """
     breaks = np.array(motion.breaks)
     shares = _shares(np.diff(breaks), count - 1, _needs(motion) if straight else np.ones(len(breaks) - 1))
@@ -82,31 +70,9 @@ def _between(low: float, high: float, steps: int, digits: int) -> Array:
     return inside
 
 
-def least_points(motion: Motion, least: int = 2) -> int:
-    """How many points a table has at least: one at every break."""
-    return max(least, len(motion.breaks))
-
-
-def chosen(motion: Motion, request: Request, make: Callable[[int], TableT], least: int, most: int) -> TableT:
-    """The table with the requested number of points, or with the number whose run is best.
-
-    Parameters
-    ----------
-    motion
-        The motion.
-    request
-        Its `points` may be a number, "best" or None for the best.
-    make
-        Makes something of a number of points.
-    least, most
-        What the target can hold.
-
-    Raises
-    ------
-    InputError
-        If the target cannot hold so many or so few.
-    """
-    fewest = least_points(motion, least)
+def chosen(motion: Motion, request: Request, make: Callable[[int], PointTable], least: int, most: int) -> PointTable:
+    """The table with the requested number of points, or with that whose run is best, of those that the target holds."""
+    fewest = max(least, len(motion.breaks))  # one at every break
     if fewest > most:
         raise InputError(f"the motion has {fewest} breaks, and the target holds {most} points: export its parts")
     if request.points not in {None, BEST}:
@@ -117,7 +83,7 @@ def chosen(motion: Motion, request: Request, make: Callable[[int], TableT], leas
     return best(motion, make, fewest, min(most, max(MOST_TRIED, fewest)))
 
 
-def best(motion: Motion, make: Callable[[int], TableT], least: int, most: int) -> TableT:
+def best(motion: Motion, make: Callable[[int], PointTable], least: int, most: int) -> PointTable:
     """The table with the number of points whose run is best, tried up to 64 one by one, then over the range.
 
     Runs count that are within 1e-4 of the stroke of the law, or within the resolution, or as near as any. The best of
@@ -125,7 +91,7 @@ def best(motion: Motion, make: Callable[[int], TableT], least: int, most: int) -
     the law's own peak is no gain. Among numbers as good to a thousandth those count whose acceleration leaps
     least further than the law's, at points and at the ends, to a thousandth of the peak, and of these the least.
     """
-    judge, tried = RunRanking.of(motion), dict[int, tuple[Rank, TableT]]()
+    judge, tried = RunRanking.of(motion), dict[int, tuple[Rank, PointTable]]()
 
     def attempt(counts: set[int]) -> None:
         for count in sorted(counts - tried.keys()):
@@ -178,7 +144,7 @@ class RunRanking:
         ends = abs(last - first) if motion.repeats else max(abs(first), abs(last))
         return cls(motion, motion.peak(1), motion.peak(2), motion.leap(2)[0], ends)
 
-    def rank(self, table: Tabled) -> Rank:
+    def rank(self, table: PointTable) -> Rank:
         """How good polynomials are."""
         x, powers, off = table.x, table.powers, self._off(table)
         steps = np.diff(x)
@@ -194,7 +160,7 @@ class RunRanking:
         peak = max(_peak(powers, steps, first, last) / self.acceleration, 1.0)
         return Rank(off, peak, beyond / self.acceleration)
 
-    def _off(self, table: Tabled) -> float:
+    def _off(self, table: PointTable) -> float:
         """How far the polynomials are from the motion between points, where they are about farthest."""
         after = _BETWEEN * np.diff(table.x)
         run = (table.powers * after[:, None] ** np.arange(table.powers.shape[1])).sum(axis=1)

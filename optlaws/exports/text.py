@@ -1,13 +1,18 @@
-"""Numbers, comments and headings in the files of controllers."""
+"""Numbers, names, comments and headings in the files of controllers."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from decimal import ROUND_CEILING, Context
+from itertools import chain, count
+from typing import Any
 
 import numpy as np
 
+from optlaws.echo import shortened
+from optlaws.errors import InputError
 from optlaws.exports.error_bounds import FloatingPoint, error_bounds
 from optlaws.files.writing import MARK
 from optlaws.motion.motion import Motion
@@ -19,8 +24,6 @@ WIDTH = 110
 def real(value: float, *, single: bool = False) -> str:
     """A number with a point, as IEC 61131-3 and C both read it; for REAL32 the fewest digits that give it back.
 
-    Examples
-    --------
     >>> real(1e-7), real(0.1), real(-35.0), real(0.1, single=True)
     ('1.0E-7', '0.1', '-35.0', '0.1')
     """
@@ -33,8 +36,6 @@ def real(value: float, *, single: bool = False) -> str:
 def wrapped(items: Sequence[str], indent: str) -> list[str]:
     """Items with commas between them, in lines of bearable length.
 
-    Examples
-    --------
     >>> wrapped(["1.0", "2.0"], "  ")
     ['  1.0, 2.0']
     """
@@ -52,8 +53,6 @@ def wrapped(items: Sequence[str], indent: str) -> list[str]:
 def safe(lines: Iterable[str]) -> list[str]:
     """Lines of a comment that cannot end it, nor nest one: in no language that is written here.
 
-    Examples
-    --------
     >>> safe(["a */ b (* c *)", "two" + chr(10) + "lines"])
     ['a * / b ( * c * )', 'two', 'lines']
     """
@@ -90,13 +89,7 @@ class Labels:
 
 
 def program_heading(motion: PiecewiseMotion, labels: Labels, arithmetics: Sequence[FloatingPoint]) -> list[str]:
-    """Lines that say what a program evaluates, its peaks, and the bound of its rounding errors.
-
-    Examples
-    --------
-    >>> program_heading(PiecewiseMotion([0, 1], [[0, 0, 3, -2]]), Labels("s", "mm"), [])[0]
-    'y(x) in mm for x from 0.0 to 1.0 s: 1 polynomial of degree 3'
-    """
+    """Lines that say what a program evaluates, its peaks, and the bound of its rounding errors."""
     count = len(motion.coefficients)
     plural = "s" if count > 1 else ""
     interval = f"for x from {motion.start!r} to {motion.stop!r} {labels.master}"
@@ -115,8 +108,6 @@ def program_heading(motion: PiecewiseMotion, labels: Labels, arithmetics: Sequen
 def rounded_up(bound: float) -> str:
     """A bound in three digits, none below it.
 
-    Examples
-    --------
     >>> rounded_up(2.7101e-5)
     '2.72e-05'
     """
@@ -131,8 +122,6 @@ def _peaks(motion: PiecewiseMotion, nu: int, unit: str) -> str:
 def plain(value: float, digits: int | None = None, decimal: str = ".") -> str:
     """A number without an exponent: all digits that a double needs, or so many behind the decimal sign.
 
-    Examples
-    --------
     >>> plain(1e-05), plain(2.5, 3, ","), plain(-1e-9, 3), plain(120.0)
     ('0.00001', '2,500', '0.000', '120')
     """
@@ -143,17 +132,14 @@ def plain_column(values: Iterable[float], digits: int | None = None, decimal: st
     """Many numbers as `plain` writes one."""
     if digits is None:
         texts = [repr(value + 0.0) for value in values]
-        texts = [_positional(text) if "e" in text else text.removesuffix(".0") for text in texts]
+        texts = [
+            np.format_float_positional(float(text), trim="-") if "e" in text else text.removesuffix(".0")
+            for text in texts
+        ]
     else:
         texts = [f"{value:.{digits}f}" for value in values]
         texts = [text[1:] if text.startswith("-") and not text.strip("-0.") else text for text in texts]
     return texts if decimal == "." else [text.replace(".", decimal) for text in texts]
-
-
-def _positional(text: str) -> str:
-    from numpy import format_float_positional
-
-    return format_float_positional(float(text), trim="-")
 
 
 def table_heading(motion: Motion, target: str) -> tuple[str, ...]:
@@ -167,3 +153,80 @@ def table_heading(motion: Motion, target: str) -> tuple[str, ...]:
 def iec_comment(lines: tuple[str, ...]) -> str:
     """Lines as a comment of IEC 61131-3."""
     return "\n".join(["(*", *(f"   {line}" for line in safe(lines)), "*)", ""])
+
+
+_PLAIN = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
+_LONGEST = 40  # characters of a name
+_SHORT = 26  # characters, so that prefix and number have room in the shortest names of targets
+_RUNS = re.compile(r"[^A-Za-z0-9]+")
+
+_WORDS = """
+    abs acos action add and any array asin at atan bit bool by byte case char concat configuration constant continue
+    cos date date_and_time delete dint div do dt dword else elsif end_action end_case end_configuration end_for
+    end_function end_function_block end_if end_program end_repeat end_resource end_step end_struct end_transition
+    end_type end_var end_while eq exit exp expt extends external false find for from function function_block ge gt if
+    implements in initial_step insert int interface interval into jmp le left len limit lint ln log lreal lt lword max
+    method mid min mod move mul mux ne non_retain not of on or override persistent pointer priority private program
+    property protected public read_only read_write real reference ref_to repeat replace resource retain return right
+    rol ror sel shl shr sin single sint sqrt step string struct sub super task tan then this time time_of_day to tod
+    transition true trunc type udint uint ulint until using usint var var_access var_config var_external var_global
+    var_in_out var_input var_output var_temp wchar when while with word wstring xor
+"""
+_C_WORDS = """
+    auto break case char const continue default do double else enum extern float for goto if inline int long
+    register restrict return short signed sizeof static struct switch typedef union unsigned void volatile while
+    alignas alignof and and_eq asm atomic bitand bitor bool catch class compl concept const_cast constexpr delete
+    dynamic_cast explicit export false friend mutable namespace new noexcept not not_eq nullptr operator or or_eq
+    private protected public reinterpret_cast requires static_assert static_cast template this thread_local throw
+    true try typeid typename typeof using virtual wchar_t xor xor_eq
+"""
+#: keywords of C and C++
+C_KEYWORDS = frozenset(_C_WORDS.split())
+#: keywords of IEC 61131-3 and of the languages made of it; no variable may be called so, in whatever case
+IEC_KEYWORDS = frozenset(_WORDS.split())
+
+
+def iec_name(name: Any, target: str) -> str:  # noqa: ANN401 - it is checked here
+    """The name of a variable in a language of IEC 61131-3; the error of a target that would refuse it proposes one.
+
+    >>> iec_name("press 1", "CODESYS")
+    Traceback (most recent call last):
+    optlaws.errors.InputError: CODESYS takes no variable called 'press 1': letters, digits and single _ ...'press_1'
+    """
+    why = _fault(name)
+    if why:
+        proposed = _proposed(name, _LONGEST)
+        raise InputError(f"{target} takes no variable called {shortened(name)}: {why}; take {proposed!r}")
+    return str(name)
+
+
+def variable_names(names: Iterable[str]) -> dict[str, str]:
+    """For each name one that every target takes for a variable, and no two alike whatever the case of letters.
+
+    >>> variable_names(["weld head", "Weld_head", "string", "2nd table"])
+    {'weld head': 'weld_head', 'Weld_head': 'Weld_head_2', 'string': 'Cam_string', '2nd table': 'Cam_2nd_table'}
+    """
+    identifiers: dict[str, str] = {}
+    taken: set[str] = set()
+    for name in names:
+        plain = _proposed(name, _SHORT)
+        plain = f"Cam_{plain}" if plain.lower() in C_KEYWORDS else plain
+        numbered = (f"{plain}_{number}" for number in count(2))
+        identifiers[name] = next(candidate for candidate in chain([plain], numbered) if candidate.lower() not in taken)
+        taken.add(identifiers[name].lower())
+    return identifiers
+
+
+def _fault(name: Any) -> str:  # noqa: ANN401
+    if not isinstance(name, str) or not _PLAIN.fullmatch(name) or "__" in name or name.endswith("_"):
+        return "letters, digits and single _ between them make a name, a digit does not begin it"
+    if name.lower() in IEC_KEYWORDS:
+        return "it is a keyword"
+    return f"it may have {_LONGEST} characters" if len(name) > _LONGEST else ""
+
+
+def _proposed(name: Any, longest: int) -> str:  # noqa: ANN401
+    words = _RUNS.sub("_", name if isinstance(name, str) else "").strip("_")
+    words = words if words and not words[0].isdigit() else f"Cam_{words}".strip("_")
+    words = words[:longest].rstrip("_")
+    return f"Cam_{words}"[:longest] if words.lower() in IEC_KEYWORDS else words

@@ -15,7 +15,7 @@ from optlaws.cycles.summary import drive_rows, joint_rows, proof_rows
 from optlaws.errors import InputError
 from optlaws.exports.export import Export, export_cycle
 from optlaws.exports.format import FORMATS, format_of
-from optlaws.exports.identifiers import variable_names
+from optlaws.exports.text import variable_names
 from optlaws.files import tables, writing
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile, ExportEntries, read
 from optlaws.plots.cycle import QUANTITIES, UNITS, axes_figure, cycle_figure

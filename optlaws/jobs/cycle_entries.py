@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal
 import msgspec
 
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.serialisation import KINDS
+from optlaws.cycles.interchange import KINDS
 from optlaws.cycles.specification.segments import CycleSegment
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.files.problem_file import Text, convert

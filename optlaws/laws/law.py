@@ -8,6 +8,8 @@ from typing import Any
 
 import numpy as np
 
+from optlaws.echo import shortened
+from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws.constants import Constants
 from optlaws.laws.curve import Curve, Sides
@@ -217,3 +219,28 @@ class MotionLaw(Curve, LawExport, StoredLaw):
     @abstractmethod
     def _summary(self) -> str:
         """The text of the repr besides the constants."""
+
+
+def motion_law(value: Any, name: str = "law") -> MotionLaw:  # noqa: ANN401 - whatever a caller hands over
+    """The value, if it is a motion law; of an entry of the catalogue or a solution, its law.
+
+    Raises
+    ------
+    InputError
+        If it is not one.
+
+    Examples
+    --------
+    >>> from optlaws.laws import smoothstep
+    >>> motion_law(smoothstep(3)) == smoothstep(3)
+    True
+    """
+    if isinstance(value, MotionLaw):
+        return value
+    law = getattr(value, "law", None)
+    if not isinstance(law, MotionLaw):
+        raise InputError(
+            f"{name} must be a motion law, a MotionLaw such as smoothstep(4) or savin('III', 7.2), "
+            f"got {shortened(value)}"
+        )
+    return law

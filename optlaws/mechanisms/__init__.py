@@ -5,14 +5,12 @@ from optlaws.lazy import face
 __getattr__, __dir__, __all__ = face(
     __name__,
     {
-        "optlaws.mechanisms.angles": "deg",
-        "optlaws.mechanisms.follower.cycle": "CycleResponse",
-        "optlaws.mechanisms.follower.follower": "Follower",
-        "optlaws.mechanisms.follower.off_design": "Deviation off_design",
-        "optlaws.mechanisms.follower.response": "Response",
+        "optlaws.numbers": "deg",
+        "optlaws.mechanisms.follower.response": "CycleResponse Response",
+        "optlaws.mechanisms.follower.follower": "Deviation Follower off_design",
         "optlaws.mechanisms.machine.machine": "Machine",
         "optlaws.mechanisms.machine.masses": "Link",
-        "optlaws.mechanisms.cam.polydyne": "mass_law polydyne",
+        "optlaws.mechanisms.follower.polydyne": "mass_law polydyne",
         "optlaws.mechanisms.spectrum.residual": "residual_functional residual_phasor",
         "optlaws.mechanisms.spectrum.spectrum": "ResponseSpectrum response_spectrum",
     },

@@ -1,11 +1,10 @@
 # made by tests/contracts/faces.py from the table in __init__.py
-from optlaws.mechanisms.angles import deg as deg
-from optlaws.mechanisms.cam.polydyne import mass_law as mass_law
-from optlaws.mechanisms.cam.polydyne import polydyne as polydyne
-from optlaws.mechanisms.follower.cycle import CycleResponse as CycleResponse
+from optlaws.mechanisms.follower.follower import Deviation as Deviation
 from optlaws.mechanisms.follower.follower import Follower as Follower
-from optlaws.mechanisms.follower.off_design import Deviation as Deviation
-from optlaws.mechanisms.follower.off_design import off_design as off_design
+from optlaws.mechanisms.follower.follower import off_design as off_design
+from optlaws.mechanisms.follower.polydyne import mass_law as mass_law
+from optlaws.mechanisms.follower.polydyne import polydyne as polydyne
+from optlaws.mechanisms.follower.response import CycleResponse as CycleResponse
 from optlaws.mechanisms.follower.response import Response as Response
 from optlaws.mechanisms.machine.machine import Machine as Machine
 from optlaws.mechanisms.machine.masses import Link as Link
@@ -13,6 +12,7 @@ from optlaws.mechanisms.spectrum.residual import residual_functional as residual
 from optlaws.mechanisms.spectrum.residual import residual_phasor as residual_phasor
 from optlaws.mechanisms.spectrum.spectrum import ResponseSpectrum as ResponseSpectrum
 from optlaws.mechanisms.spectrum.spectrum import response_spectrum as response_spectrum
+from optlaws.numbers import deg as deg
 
 __all__ = [
     "CycleResponse",

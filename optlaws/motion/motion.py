@@ -112,13 +112,7 @@ class Motion:
         return self.pieces[-1].end(0, 1) - self.pieces[0].end(0, 0)
 
     def __call__(self, x: Any, nu: int = 0) -> Any:  # noqa: ANN401 - a number for a number, an array for arrays
-        """The derivative of order nu at x; at a break just after it, at the end just before it.
-
-        Raises
-        ------
-        InputError
-            If an x is no finite number or lies beyond the motion.
-        """
+        """The derivative of order nu at x; at a break just after it, at the end just before it."""
         places, order = real_times(x), derivative(nu)
         beyond = (places < self.start) | (places > self.stop)
         if beyond.any():
@@ -212,11 +206,6 @@ def motion_of_law(
     start
         Position of the slave at the start; 0 unless given.
 
-    Raises
-    ------
-    InputError
-        If a quantity is wrong, or neither duration nor master are given; the error names it and an example.
-
     Examples
     --------
     >>> from optlaws.laws import smoothstep
@@ -249,26 +238,9 @@ def motion_of_pieces(
 ) -> Motion:
     """The motion of laws in SI units over time, which repeats with a duration, in units of master and slave.
 
-    Parameters
-    ----------
-    pieces, duration
-        Laws in their places, and the duration of the cycle, in SI units.
-    axis
-        Whether positions are a "length" or an "angle".
-    master
-        How far the master goes in a cycle, such as "360 deg"; None for a master that is time in seconds.
-    unit
-        Of positions; "mm" for lengths and "deg" for angles unless given.
-    proof
-        What is proven of the laws.
+    The master goes so far in a cycle, such as "360 deg", or is time in seconds where it is None; positions are in "mm"
+    or "deg" unless a unit is given; `proof` is what is proven of the laws.
 
-    Raises
-    ------
-    InputError
-        If the quantity or the unit is wrong.
-
-    Examples
-    --------
     >>> from optlaws.laws import smoothstep
     >>> motion = motion_of_pieces([Piece(0.0, 0.1, 0.0, 0.035, smoothstep(3))], 0.1, "length", master="120 deg")
     >>> motion.units, motion(60.0)

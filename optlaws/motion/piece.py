@@ -32,18 +32,7 @@ from optlaws.numerics.tolerances import CLOSURE, INSIDE_PIECE, SAME_TIME
 
 
 def named_law(given: Any, where: str) -> MotionLaw:  # noqa: ANN401 - it is checked here
-    """The law of a name, a file or a value; `where` is what an error calls the segment.
-
-    Raises
-    ------
-    InputError
-        If there is no such law, or its stroke is not 1.
-
-    Examples
-    --------
-    >>> named_law("cycloidal", "segment 1").continuity
-    9
-    """
+    """The law of a name, a file or a value; `where` is what an error calls the segment."""
     try:
         law = given if isinstance(given, MotionLaw) else _read(given)
     except InputError as error:
@@ -69,27 +58,18 @@ _LEAPS = 2
 
 
 def factor(stroke: float, duration: float, nu: int) -> float:
-    """The factor that turns the derivative of order nu of a law into machine units: h/T^nu.
-
-    Examples
-    --------
-    >>> factor(0.035, 0.1, 2)
-    3.5
-    """
+    """The factor that turns the derivative of order nu of a law into machine units: h/T^nu."""
     return stroke / duration**nu
+
+
+def unit_of(axis: str, nu: int = 0) -> str:
+    """The SI unit of a derivative by time of a length or an angle."""
+    return {"length": "m", "angle": "rad"}[axis] + ("", "/s", "/s²", "/s³", "/s⁴")[nu]
 
 
 @dataclass(frozen=True)
 class Piece:
-    """A law in its place in a cycle: y = offset + stroke (a(k) - a(0)), k = (t - start)/duration, in SI units.
-
-    Examples
-    --------
-    >>> from optlaws.laws import smoothstep
-    >>> piece = Piece(0.1, 0.2, 0.0, 0.04, smoothstep(3))
-    >>> piece.values(np.array([0.2]), 1)
-    array([0.375])
-    """
+    """A law in its place in a cycle: y = offset + stroke (a(k) - a(0)), k = (t - start)/duration, in SI units."""
 
     start: float
     duration: float

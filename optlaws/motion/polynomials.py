@@ -50,7 +50,8 @@ class PiecewiseMotion:
     Raises
     ------
     InputError
-        If the breaks do not increase, or there is not a row of finite numbers for every piece.
+        If the breaks do not increase, or there is not a row of finite numbers for every piece; in its methods, if a
+        place is beyond the breaks.
 
     Examples
     --------
@@ -75,11 +76,6 @@ class PiecewiseMotion:
 
     def __call__(self, x: Any, nu: int = 0) -> Any:  # noqa: ANN401 - a number for a number, an array for arrays
         """The derivative of order nu at x.
-
-        Raises
-        ------
-        InputError
-            If an x is outside the breaks, or nu is no order of a derivative.
 
         Examples
         --------
@@ -246,11 +242,6 @@ class PiecewiseMotion:
     def minus(self, other: PiecewiseMotion) -> PiecewiseMotion:
         """The difference, between the breaks of both.
 
-        Raises
-        ------
-        InputError
-            If the two are not over the same interval.
-
         Examples
         --------
         >>> PiecewiseMotion([0, 2], [[0, 1]]).minus(PiecewiseMotion([0, 1, 2], [[0, 1], [1]])).coefficients
@@ -269,13 +260,7 @@ class PiecewiseMotion:
         return PiecewiseMotion(breaks, table)
 
     def then(self, other: PiecewiseMotion) -> PiecewiseMotion:
-        """First this motion and then another that begins where it ends.
-
-        Raises
-        ------
-        InputError
-            If the other begins elsewhere.
-        """
+        """First this motion and then another that begins where it ends."""
         if other.start != self.stop:
             raise InputError(f"the next motion must begin at {self.stop!r}, where this one ends, got {other.start!r}")
         return PiecewiseMotion((*self.breaks, *other.breaks[1:]), (*self.coefficients, *other.coefficients))
@@ -345,13 +330,7 @@ class PiecewiseMotion:
 
 
 def from_exact(breaks: Sequence[Fraction], rows: Sequence[Sequence[Fraction]]) -> PiecewiseMotion:
-    """The piecewise motion nearest to an exact one: every number is rounded once.
-
-    Examples
-    --------
-    >>> from_exact([Fraction(0), Fraction(1, 3)], [[Fraction(1, 3)]]).coefficients
-    ((0.3333333333333333,),)
-    """
+    """The piecewise motion nearest to an exact one: every number is rounded once."""
     return PiecewiseMotion([float(place) for place in breaks], [[float(c) for c in row] for row in rows])
 
 

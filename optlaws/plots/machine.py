@@ -10,8 +10,8 @@ if TYPE_CHECKING:
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
 
-    from optlaws.mechanisms.machine.output_curve import OutputCurve
-    from optlaws.mechanisms.of_machines.parameters import MachineSpectrum
+    from optlaws.mechanisms.machine.over_time import OutputCurve
+    from optlaws.mechanisms.machine.parameters import MachineSpectrum
     from optlaws.mechanisms.spectrum.spectrum import ResponseSpectrum
 
 

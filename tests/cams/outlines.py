@@ -6,7 +6,7 @@ from math import pi, tau
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.cams.curves.plane_curve import derivatives
+from optlaws.cams.curves.plane_curve import CurveByJets
 from optlaws.numerics.enclosures.interval import Interval
 from optlaws.numerics.enclosures.taylor import Pair, variable
 
@@ -31,7 +31,7 @@ class Ellipse:
 
 
 @dataclass(frozen=True)
-class Bumped:
+class Bumped(CurveByJets):
     """A circle with a bump height/(1 + ((angle - centre)/width)²) upon it, counterclockwise; metres and radians."""
 
     radius: float
@@ -40,11 +40,8 @@ class Bumped:
     width: float
     breaks: tuple[float, ...] = (0.0, tau)
 
-    def __call__(self, angle: Array, nu: int = 0) -> Array:
-        return derivatives(self, angle, nu)
-
-    def jets(self, angle: Array | Interval, order: int) -> Pair:
-        at = variable(angle, order)
+    def jets(self, places: Array | Interval, order: int) -> Pair:
+        at = variable(places, order)
         away = (at - self.centre) / self.width
         out, (sine, cosine) = self.height / (away * away + 1.0) + self.radius, at.waves()
         return cosine * out, sine * out

@@ -6,13 +6,12 @@ import numpy as np
 import pytest
 
 from optlaws import Cycle, Dwell, Return, Rise
-from optlaws.cams.as_manufactured import Following, run_against
+from optlaws.cams.as_manufactured import ArcChain, Following, PointSpline, PolarSpline, run_against
 from optlaws.cams.curves.plane_curve import PlaneCurve
 from optlaws.cams.cutting.arcs_and_chords import arcs
-from optlaws.cams.cutting.manufactured_curves import ArcChain, PointSpline, PolarSpline
+from optlaws.cams.cutting.cam_files import polar
 from optlaws.cams.cutting.outline import Outline
 from optlaws.cams.cutting.spline import spline
-from optlaws.cams.cutting.text_formats import polar
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.follower import CamFollower
 from optlaws.cams.followers.inclined_flat import InclinedFlat

@@ -18,10 +18,10 @@ from numpy.typing import NDArray
 from optlaws import BoundaryConditions, BSplines, Chebyshev, Functional, InputError, Machine, MotionLaw, Pieces
 from optlaws.balancing.loaders.constants import LoaderPeak
 from optlaws.formulas.vocabulary import ORDERS
-from optlaws.mechanisms.cam.constants import CamPeak, CamPower
+from optlaws.mechanisms.follower.cam_constants import CamPeak, CamPower
 from optlaws.mechanisms.machine.output_constants import OutputConstant
 from optlaws.mechanisms.machine.residual_boxes import ModeResidual
-from optlaws.mechanisms.spectrum.robust import Residual
+from optlaws.mechanisms.spectrum.residual import Residual
 from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaPeak, FormulaRms, FormulaValue, OfFormula
 from optlaws.synthesis.problem.constants import (
     ALIASES,

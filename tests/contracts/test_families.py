@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from optlaws import BoundaryConditions, BSplines, Chebyshev, Pieces
 from optlaws.balancing.loaders.constants import B_loader, C_loader, D_loader
-from optlaws.mechanisms.spectrum.robust import residual
+from optlaws.mechanisms.spectrum.residual import residual
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.curved import FormulaFamily
 from optlaws.synthesis.families.energy import EnergyFamily

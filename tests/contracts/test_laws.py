@@ -35,7 +35,7 @@ from optlaws.balancing.dwells.parts import PartSegment
 from optlaws.balancing.loaders.law import LoaderLaw
 from optlaws.laws.curve import Curve
 from optlaws.laws.segments import FractionalSegment, HarmonicSegment, PolynomialSegment, PowerSegment, SineSegment
-from optlaws.mechanisms.follower.mass_motion import MassMotion
+from optlaws.mechanisms.follower.response import MassMotion
 from tests.contracts.kinds import kinds
 from tests.laws.examples import EXAMPLES, cut_sine, free_function_law
 

@@ -13,7 +13,7 @@ from optlaws import (
     off_design,
     polydyne,
 )
-from optlaws.mechanisms.cam.polydyne import mass_law
+from optlaws.mechanisms.follower.polydyne import mass_law
 
 OSCILLATOR = Machine([[0, 1], [-400, -2]], [[0], [400]], [[1, 0]], outputs=["position"])
 MACHINE = {"frequency": "16.7 Hz", "speed": "105 rpm", "rise": "120 deg", "stroke": "35 mm"}

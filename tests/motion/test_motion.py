@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from optlaws import Cycle, Dwell, InputError, Return, Rise, catalogue, smoothstep
-from optlaws.exports.identifiers import iec_name
+from optlaws.exports.text import iec_name
 from optlaws.motion.motion import Motion, motion_of_law
 
 

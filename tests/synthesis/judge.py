@@ -15,10 +15,10 @@ from scipy.optimize import minimize_scalar
 from optlaws import Expression, Functional, MotionLaw, Problem, Range, Solution, Window, peak
 from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.tree import Table
-from optlaws.mechanisms.cam.constants import CamPeak, CamPower
+from optlaws.mechanisms.follower.cam_constants import CamPeak, CamPower
 from optlaws.mechanisms.machine.output_constants import OutputConstant
 from optlaws.mechanisms.machine.residual_boxes import ModeResidual
-from optlaws.mechanisms.spectrum.robust import Residual
+from optlaws.mechanisms.spectrum.residual import Residual
 from optlaws.synthesis import Maximum
 from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaPeak, FormulaRms, FormulaValue, OfFormula
 from optlaws.synthesis.problem.expression import leaves

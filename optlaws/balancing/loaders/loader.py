@@ -12,7 +12,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
-from optlaws.mechanisms.checks import motion_law
+from optlaws.laws.law import motion_law
 from optlaws.numbers import bounded, real
 from optlaws.numerics.tolerances import AGREEMENT, LOADER_TERM
 

@@ -27,15 +27,8 @@ _MORE = 4  # derivatives that Taylor's formula takes beyond those that are asked
 def enclosed_derivatives(segment: Segment, length: float, middle: Array, half: Array, order: int) -> list[Interval]:
     """The derivatives of a segment's displacement by k, from order 0 to one given, anywhere in cells.
 
-    Parameters
-    ----------
-    segment, length
-        A smooth part of a law.
-    middle, half
-        The cells' middles and half lengths, as shares of it; 0 long for single places.
+    Cells are given by their middles and half lengths, as shares of the segment; 0 long for single places.
 
-    Examples
-    --------
     >>> from optlaws.laws.segments import SineSegment
     >>> slope = enclosed_derivatives(SineSegment(1.0, 3.0), 0.5, np.array([0.5]), np.array([0.01]), 1)[1]
     >>> bool(slope.low[0] < SineSegment(1.0, 3.0).derivative(np.array([0.505]), 0.5, 1)[0] < slope.high[0])
@@ -52,8 +45,6 @@ def enclosed_derivatives(segment: Segment, length: float, middle: Array, half: A
 def enclosed_power(segment: Segment, length: float, middle: Array, half: Array, order: int) -> Jet:
     """The Taylor terms by k of the kinetic power d = b c anywhere in cells, finite where c is not.
 
-    Examples
-    --------
     >>> power = enclosed_power(PowerSegment(0.0, 2.0), 0.5, np.array([0.0]), np.array([0.0]), 0).terms[0]
     >>> bool(power.low[0] <= 4.0 <= power.high[0]), bool(power.radius[0] < 1e-12)
     (True, True)

@@ -46,32 +46,7 @@ class EnclosedExtreme:
 def enclosed_extremes(
     motion: CamMotion, function: Function, lost: int, tolerance: float = CAM_EXTREMES
 ) -> tuple[EnclosedExtreme, EnclosedExtreme]:
-    """The least and the greatest value of a function of a motion.
-
-    Parameters
-    ----------
-    motion
-        The displacement.
-    function
-        Of its jet, such as that of the pressure angle's tangent.
-    lost
-        By how many orders the function's jet is shorter.
-    tolerance
-        Relative width of the enclosures that is aimed at.
-
-    Raises
-    ------
-    SolverFailure
-        If the function has no finite value at any place looked at.
-
-    Examples
-    --------
-    >>> from math import pi
-    >>> rise = CamMotion.of_law("cycloidal", "40 mm", "120 deg")
-    >>> least, greatest = enclosed_extremes(rise, lambda s: s.slope(), 1)
-    >>> bool(greatest.low <= 0.12 / pi <= greatest.high), round(greatest.angle, 9)
-    (True, 1.047197551)
-    """
+    """The least and the greatest value of a function of a motion's jet, which is shorter than that by `lost` orders."""
     known = extremes(
         lambda angle, order: function(motion.jet(angle, order + lost)), motion.breaks, share=tolerance, parts=_PARTS
     )
@@ -83,8 +58,6 @@ def enclosed_extremes(
 def first_least(*known: EnclosedExtreme) -> EnclosedExtreme:
     """The least of several extremes, and the first angle of those that are as low as one another.
 
-    Examples
-    --------
     >>> first_least(EnclosedExtreme(1.0, 1.0, 5.3), EnclosedExtreme(1.0 + 1e-15, 1.0 + 1e-15, 0.2))
     EnclosedExtreme(low=1.0, high=1.0, angle=0.2)
     """
@@ -167,13 +140,7 @@ class CamExtremes:
 
 
 def angle_of_tangent(tangent: EnclosedExtreme) -> EnclosedExtreme:
-    """The enclosed angle of an enclosed tangent, rad.
-
-    Examples
-    --------
-    >>> round(angle_of_tangent(EnclosedExtreme(1.0, 1.0, 0.0)).value, 9)
-    0.785398163
-    """
+    """The enclosed angle of an enclosed tangent, rad."""
     return widened(atan(tangent.low), atan(tangent.high), tangent.angle, 1.0)
 
 

@@ -33,20 +33,9 @@ DIRECTIONS: dict[Direction, float] = {"rise": 1.0, "return": -1.0}
 
 @dataclass(frozen=True)
 class CamStretch:
-    """A smooth part of a motion: offset + stroke times a segment of a law, over a range of the cam's angle.
+    """A smooth part of a motion over a range of the cam's angle, rad: offset + stroke times a segment of a law.
 
-    Parameters
-    ----------
-    start, stop
-        Angles of the cam, rad.
-    offset
-        Displacement at the start, m or rad.
-    stroke
-        What the law is multiplied by.
-    duration
-        The angle of the whole law of which this is a part.
-    segment, length
-        The part of the law, and how long it is in k.
+    `duration` is the angle of the whole law, of which the segment is a part `length` long in k.
     """
 
     start: float
@@ -222,13 +211,7 @@ class CamMotion:
         return self._extremes(1)
 
     def __call__(self, angle: Any, nu: int = 0) -> Any:  # noqa: ANN401 - a number for a number, an array for arrays
-        """The derivative of order nu by the angle in rad; at a break that just after it.
-
-        Raises
-        ------
-        InputError
-            If an angle is no finite number, or out of the interval of a motion that is not closed.
-        """
+        """The derivative of order nu by the angle in rad; at a break that just after it."""
         order = derivative(nu)
         values = self.jet(real_times(angle), order).derivative(order)
         return values if np.ndim(values) else float(values)
@@ -318,13 +301,7 @@ class CamMotion:
 
 
 def as_motion(given: Any, axis: str) -> CamMotion:  # noqa: ANN401 - it is checked here
-    """The motion that a cycle or a motion by angle says, which must be a length or an angle as the follower asks.
-
-    Raises
-    ------
-    InputError
-        If it is neither, or of the other axis.
-    """
+    """The motion that a cycle or a motion by angle says, which must be a length or an angle as the follower asks."""
     if isinstance(given, Cycle):
         motion = CamMotion.of_cycle(given)
     elif isinstance(given, CamMotion):

@@ -15,25 +15,15 @@ from optlaws.numerics.enclosures.interval import Interval
 from optlaws.numerics.enclosures.taylor import Jet, Pair
 from optlaws.numerics.tolerances import CONTROL_POINT_BLUR
 
+_MOST = 1_000_000
+
 
 @dataclass(frozen=True, eq=False)
 class PiecewiseCurve:
     """Polynomials between knots, a row of coordinates each: what is enclosed are these, which are splines to rounding.
 
-    Parameters
-    ----------
-    knots
-        Increasing, shape (n + 1,).
-    powers
-        Coefficients of ascending powers of t, |t| <= 1, between two knots, shape (degree + 1, n, coordinates).
-    blur
-        How far coordinates may be from those of the spline that it was made of, for rounding.
-
-    Examples
-    --------
-    >>> curve = PiecewiseCurve(np.array([0.0, 2.0]), np.array([[[1.0]], [[2.0]]]), 0.0)
-    >>> [float(term) for term in curve.jets(np.array(1.5), 1)[0].terms]
-    [2.0, 2.0]
+    `powers` are ascending in t, |t| <= 1 between two knots, shape (degree + 1, n, coordinates); coordinates may be
+    `blur` away from those of the spline, for rounding.
     """
 
     knots: Array
@@ -71,10 +61,57 @@ class PiecewiseCurve:
         return total / half**nu
 
 
-_MOST = 1_000_000
+class CurveByJets(ABC):
+    """A closed plane curve that is known by its jets, over a parameter of its own."""
+
+    @abstractmethod
+    def jets(self, places: Array | Interval, order: int) -> Pair:
+        """Both coordinates with their Taylor terms by the parameter."""
+
+    def __call__(self, places: Array, nu: int = 0) -> Array:
+        """Points, or derivatives by the parameter, shape of `places` and two more."""
+        return np.stack([jet.derivative(nu) for jet in self.jets(np.asarray(places, dtype=np.float64), nu)], axis=-1)
 
 
-class PlaneCurve(ABC):
+class CurveByAngle(ABC):
+    """A curve on a cam as a function of the cam's angle; call it for points or derivatives by the angle."""
+
+    @property
+    @abstractmethod
+    def breaks(self) -> tuple[float, ...]:
+        """Angles between which it is smooth, both ends included, rad."""
+
+    @abstractmethod
+    def jets(self, angle: Any, order: int, *, before: bool = False) -> tuple[Jet, ...]:  # noqa: ANN401 - also intervals
+        """The coordinates with their derivatives up to an order."""
+
+    def __call__(self, angle: Any, nu: int = 0, *, before: bool = False) -> Array:  # noqa: ANN401 - checked here
+        """Points, or derivatives of order nu by the angle, m.
+
+        Parameters
+        ----------
+        angle
+            Of the cam, rad; a number or an array of any shape.
+        nu
+            Order of the derivative.
+        before
+            At a break, take what is just before it.
+
+        Returns
+        -------
+        An array of the shape of `angle` and one more axis: x and y, of a curve in space z too.
+
+        Raises
+        ------
+        InputError
+            If an angle is no finite number, or out of the interval of a curve that is not closed; so do other methods.
+        """
+        order = derivative(nu)
+        jets = self.jets(real_times(angle), order, before=before)
+        return np.stack([jet.derivative(order) for jet in jets], axis=-1)
+
+
+class PlaneCurve(CurveByAngle):
     """A curve around a cam's centre, as a function of the cam's angle; call it for points or derivatives by the angle.
 
     Coordinates are those of the cam, in metres, with the follower's at the angle 0; angles are in radians. Curves are
@@ -90,11 +127,6 @@ class PlaneCurve(ABC):
     >>> pitch([0.0, 1.0]).shape, pitch(1.0, nu=2).shape, round(float(np.hypot(*pitch(0.0))), 9)
     ((2, 2), (2,), 0.08)
     """
-
-    @property
-    @abstractmethod
-    def breaks(self) -> tuple[float, ...]:
-        """Angles between which it is smooth, both ends included, rad."""
 
     @property
     @abstractmethod
@@ -114,31 +146,6 @@ class PlaneCurve(ABC):
     def interval(self) -> tuple[float, float]:
         """The first and the last angle, rad."""
         return self.breaks[0], self.breaks[-1]
-
-    def __call__(self, angle: Any, nu: int = 0, *, before: bool = False) -> Array:  # noqa: ANN401 - checked here
-        """Points, or derivatives of order nu by the angle, m.
-
-        Parameters
-        ----------
-        angle
-            Of the cam, rad; a number or an array of any shape.
-        nu
-            Order of the derivative.
-        before
-            At a break, take what is just before it.
-
-        Returns
-        -------
-        An array of the shape of `angle` and two more: x and y.
-
-        Raises
-        ------
-        InputError
-            If an angle is no finite number, or out of the interval of a curve that is not closed.
-        """
-        order = derivative(nu)
-        x, y = self.jets(real_times(angle), order, before=before)
-        return np.stack([x.derivative(order), y.derivative(order)], axis=-1)
 
     def normal(self, angle: Any, *, before: bool = False) -> Array:  # noqa: ANN401 - as for points
         """The unit normal away from the cam, shape of `angle` and two more."""
@@ -172,23 +179,11 @@ class PlaneCurve(ABC):
         return values if np.ndim(values) else float(values)
 
     def offset(self, distance: float) -> OffsetCurve:
-        """The parallel curve so many metres outward, or inward where it is below 0.
-
-        Raises
-        ------
-        InputError
-            If the distance is no finite number.
-        """
+        """The parallel curve so many metres outward, or inward where it is below 0."""
         return OffsetCurve(self, finite(distance, "distance"))
 
     def samples(self, count: int = 721) -> tuple[Array, Array]:
-        """Equally spaced angles with every break among them, and the points there.
-
-        Raises
-        ------
-        InputError
-            If `count` is no integer of at least 2.
-        """
+        """Equally spaced angles with every break among them, and the points there."""
         even = np.linspace(*self.interval, whole(count, "count", least=2, most=_MOST))
         angles = np.unique(np.concatenate([even, self.breaks]))
         return angles, self(angles)
@@ -240,9 +235,3 @@ class OffsetCurve(CurveAlongNormals):
 
     def offset(self, distance: float) -> OffsetCurve:  # noqa: D102
         return OffsetCurve(self.base, self.distance + finite(distance, "distance"))
-
-
-def derivatives(curve: Any, places: Array, nu: int) -> Array:  # noqa: ANN401 - whatever has jets
-    """Points of a curve, or derivatives by its parameter, shape of `places` and two more."""
-    x, y = curve.jets(np.asarray(places, dtype=np.float64), nu)
-    return np.stack([x.derivative(nu), y.derivative(nu)], axis=-1)

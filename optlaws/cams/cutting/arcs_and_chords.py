@@ -18,17 +18,7 @@ FEWEST = 3
 
 @dataclass(frozen=True, eq=False)
 class Polygon:
-    """A closed polygon with its corners on an outline.
-
-    Attributes
-    ----------
-    corners
-        Metres, shape (n, 2); the last one leads back to the first.
-    angles
-        Where on the outline they are, radians.
-    deviation
-        Proven: no place of the outline is farther from its chord, m.
-    """
+    """A closed polygon with corners at angles of an outline, m, shape (n, 2), and the proven deviation from that."""
 
     corners: Array
     angles: Array
@@ -75,16 +65,10 @@ _SMALL = 0.9
 
 @dataclass(frozen=True, eq=False)
 class Arcs:
-    """A closed chain of arcs, each touching the next.
+    """A closed chain of arcs, each touching the next; no place of the outline is `deviation` off, m: proven.
 
-    Attributes
-    ----------
-    points
-        Where the arcs begin, m, shape (n, 2); the last leads back to the first.
-    bulges
-        Of each arc the tangent of a quarter of its angle, positive where it turns left; 0 for a line; shape (n,).
-    deviation
-        Proven: no place of the outline is farther from its arc, m.
+    `points` are where arcs begin, m, shape (n, 2); `bulges` the tangents of a quarter of their angles, positive where
+    an arc turns left, 0 for a line, shape (n,).
     """
 
     points: Array

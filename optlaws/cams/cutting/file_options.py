@@ -33,34 +33,9 @@ class CuttingOptions(TypedDict, total=False):
 class Cutting:
     """The checked options of a file for cutting.
 
-    Parameters
-    ----------
-    tolerance
-        How far polygon, arcs or spline may be from the curve, such as "1 um".
-    decimals
-        Of a millimetre, in the file.
-    points
-        Of a table, over the whole turn; the last is the first again.
-    degree
-        Of splines, 3 or 5.
-    feed
-        Of the cutter, such as "300 mm/min"; without one no feed is said.
-    about
-        What the file says of itself.
-
-    Raises
-    ------
-    InputError
-        If one is out of its range; the error names it.
-
-    Examples
-    --------
-    >>> asked = Cutting(tolerance="5 um", decimals=3)
-    >>> asked.metres, asked.rounded(1.23456)
-    (5e-06, '1.235')
-    >>> Cutting(tolerance=5)
-    Traceback (most recent call last):
-    optlaws.errors.InputError: tolerance must be a length such as '35 mm', got 5 without a unit: write...
+    `tolerance` is how far polygon, arcs or spline may be from the curve, `decimals` are of a millimetre, `points` those
+    of a table over the whole turn, the last being the first again, `degree` is that of splines, 3 or 5. Without a
+    `feed`, such as "300 mm/min", the file has none; `about` is what it says of itself.
     """
 
     tolerance: Quantity = "1 um"

@@ -42,13 +42,7 @@ class Outline(Protocol):
 
 
 def stretches(outline: Outline) -> list[tuple[float, float]]:
-    """The smooth stretches of an outline, in radians.
-
-    Raises
-    ------
-    InputError
-        If its breaks do not run from 0 to a whole turn.
-    """
+    """The smooth stretches of an outline, in radians."""
     breaks = [float(place) for place in outline.breaks]
     if len(breaks) < 2 or abs(breaks[0]) > 1e-12 or abs(breaks[-1] - tau) > 1e-9:
         raise InputError("only a closed outline can be cut: its breaks must run from 0 to a whole turn")
@@ -56,20 +50,7 @@ def stretches(outline: Outline) -> list[tuple[float, float]]:
 
 
 def divided(outline: Outline, density: Density, factor: float = 1.0) -> Array:
-    """Angles from 0 to a whole turn, breaks among them, as near each other as a density asks.
-
-    Parameters
-    ----------
-    density
-        Parts per radian, at angles.
-    factor
-        How many times as many parts there shall be; each stretch has at least one.
-
-    Raises
-    ------
-    InputError
-        If there would be more than 200,000 parts.
-    """
+    """Angles from 0 to a whole turn, breaks among them, so many times as near as a density in parts per radian."""
     shares = [_accumulated(density, *ends) for ends in stretches(outline)]
     parts = factor * sum(float(sums[-1]) for _, sums in shares)
     if parts > MOST_PARTS:
@@ -105,16 +86,9 @@ def speed(outline: Outline, angles: Array) -> Array:
 def greatest_deviation(
     off: Callable[[Any, int], Jet], places: Array, tolerance: float, *, share: float, order: int = 2
 ) -> float:
-    """The greatest magnitude of a deviation, as it is proven; one that it has where that is above a tolerance.
+    """The greatest magnitude of a deviation between places where it is smooth, as `extremes` proves it.
 
-    Parameters
-    ----------
-    off
-        The deviation, as `extremes` takes functions, of arrays of places as well.
-    places
-        Between which it is smooth.
-    share, order
-        As for `extremes`.
+    Where it is above a tolerance, it is one that the deviation has.
     """
     met = float(np.abs(off(0.5 * (places[1:] + places[:-1]), 0).terms[0]).max())
     if met > tolerance:

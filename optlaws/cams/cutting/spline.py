@@ -7,7 +7,7 @@ from math import inf, sqrt, tau
 
 import numpy as np
 
-from optlaws.cams.curves.plane_curve import PiecewiseCurve, derivatives
+from optlaws.cams.curves.plane_curve import CurveByJets, PiecewiseCurve
 from optlaws.cams.cutting.outline import MOST_PARTS, Outline, greatest_deviation, stretches
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
@@ -23,19 +23,10 @@ _NEAR = 0.1  # how near the square of the deviation is enclosed
 
 
 @dataclass(frozen=True, eq=False)
-class Spline:
-    """A closed B-spline whose first and last knots are as many times there as it has coefficients to a piece.
+class Spline(CurveByJets):
+    """A closed clamped B-spline of degree 3 or 5 over the cam's angle, rad, control points in m, shape (n, 2).
 
-    Attributes
-    ----------
-    degree
-        3 or 5.
-    knots
-        Radians, shape (n + degree + 1,): the cam's angle is its parameter.
-    controls
-        Control points, m, shape (n, 2).
-    deviation
-        Proven: at no angle is it farther from the outline, m.
+    At no angle is it farther from the outline than `deviation`, m: proven.
     """
 
     degree: int
@@ -52,14 +43,9 @@ class Spline:
         """How far the polynomials that are enclosed may be from the spline for rounding, m."""
         return self._pieces.blur
 
-    def jets(self, angles: Array | Interval, order: int) -> Pair:
-        """Both coordinates with their Taylor terms by the angle."""
-        x, y = self._pieces.jets(angles, order)
+    def jets(self, places: Array | Interval, order: int) -> Pair:  # noqa: D102
+        x, y = self._pieces.jets(places, order)
         return x, y
-
-    def __call__(self, angles: Array, nu: int = 0) -> Array:
-        """Points, or derivatives by the angle, shape (..., 2)."""
-        return derivatives(self, angles, nu)
 
     @property
     def breaks(self) -> tuple[float, ...]:
@@ -72,11 +58,6 @@ def spline(outline: Outline, tolerance: float, degree: int = 3) -> Spline:
 
     One of degree 3 has a continuous curvature everywhere, at the seam as well. One of degree 5 ends at each break of
     the outline and begins again with its direction and curvature.
-
-    Raises
-    ------
-    InputError
-        If the degree is neither 3 nor 5, or the tolerance asks for more than 200,000 pieces.
     """
     if degree not in DEGREES:
         raise InputError(f"degree of a spline must be 3 or 5, got {degree}")

@@ -48,14 +48,8 @@ class LinearLimit:
 class Drag(NamedTuple):
     """The action on the follower of a friction force of 1 N along the surfaces, the way in which the cam's runs past.
 
-    Attributes
-    ----------
-    lever
-        It drives the follower with so many N, or N m.
-    across
-        Its sideways part on a slide, and 0 on an arm, N.
-    moment
-        About where the force meets a slide's way, N m.
+    It drives the follower with `lever` N, or N m; `across` is its sideways part on a slide, N, and `moment` the one
+    about where the force meets a slide's way, N m.
     """
 
     lever: Jet
@@ -66,18 +60,9 @@ class Drag(NamedTuple):
 class Transmission(NamedTuple):
     """The action of a force of 1 N between cam and follower, at places of the turn or in intervals of them.
 
-    Attributes
-    ----------
-    lever
-        On the follower: 1 N along the normal drives it with so many N, or N m.
-    sliding
-        How fast the surfaces slide, or the roller rolls, m per radian of the cam.
-    across
-        Sideways part of the normal's force on a slide, and 0 on an arm, N.
-    moment
-        Of the normal's force about where a slide's way meets the level of the contact, N m.
-    drag
-        What friction along the surfaces does; None of a roller, which gives way.
+    Along the normal it drives the follower with `lever` N, or N m; `across` is its sideways part on a slide, N, and
+    `moment` the one about where the slide's way meets the level of the contact, N m. Surfaces slide, or the roller
+    rolls, by `sliding` m per radian of the cam; a roller has no drag, for it gives way.
     """
 
     lever: Jet
@@ -95,14 +80,8 @@ class Transmission(NamedTuple):
 class Friction:
     """Friction of a cam and its follower; coefficients without a dimension, lengths in metres.
 
-    Attributes
-    ----------
-    contact
-        Of a face that slides on the cam; of a roller, what rolling and its pin take, at the roller's surface.
-    guide
-        Of a slide in its guide.
-    overhang, length
-        From where the cam touches to the guide, and the guide's length.
+    `contact` is that of a face that slides on the cam, or what a rolling roller and its pin take at its surface;
+    `guide` that of a slide in its guide, `overhang` away from where the cam touches and `length` long.
     """
 
     contact: float = 0.0
@@ -123,16 +102,9 @@ class Friction:
 
 
 class ContactState(NamedTuple):
-    """The position of a follower that touches a curve, as jets of the curve's own parameter.
+    """The position of a follower that touches a curve, as jets of the curve's own parameter; m and rad.
 
-    Attributes
-    ----------
-    displacement
-        Of the follower, m or rad.
-    direction
-        Of its roller's centre, or of the normal of its face, in its frame, rad.
-    in_cam
-        The same direction in the cam's coordinates, rad.
+    `direction` is that of its roller's centre, or of the normal of its face, in its frame, `in_cam` in the cam's.
     """
 
     displacement: Jet
@@ -153,14 +125,8 @@ class CurvatureTerms(NamedTuple):
 class FollowerContact(ABC):
     """A follower of a cam, in metres and radians, beside which the cam turns; its displacement s comes as a jet.
 
-    Parameters
-    ----------
-    turning
-        1 where the cam turns counterclockwise, else -1.
-    lowest
-        The displacement of the motion at which the follower is at the base circle.
-    level
-        Where the follower is there: height above the cam's centre, or angle from the line from pivot to centre.
+    `turning` is 1 where the cam turns counterclockwise, else -1. At the base circle its motion has the displacement
+    `lowest`, and it is at a `level`: a height above the cam's centre, or an angle from the line from pivot to centre.
     """
 
     turning: float
@@ -225,13 +191,7 @@ class FollowerContact(ABC):
         """Enclosed extremes over the whole motion."""
 
     def pitch_curvatures(self, motion: CamMotion) -> tuple[EnclosedExtreme, EnclosedExtreme]:  # noqa: ARG002 - of rollers
-        """The least and the greatest curvature of the pitch curve, 1/m.
-
-        Raises
-        ------
-        InputError
-            If the follower has no roller.
-        """
+        """The least and the greatest curvature of the pitch curve, 1/m."""
         raise InputError("follower: a flat face has no roller: take a TranslatingRoller or an OscillatingRoller")
 
     @abstractmethod
@@ -245,18 +205,10 @@ class FollowerContact(ABC):
     def linear_limits(
         self, piece: Piece, limits: Mapping[str, float], angle: float, *, below: bool
     ) -> list[LinearLimit]:
-        """Limits of a cam as linear limits of a law.
+        """Limits of a cam, as `read_cam_limits` gives them, as linear limits of a law over an angle of the cam in rad.
 
-        Parameters
-        ----------
-        piece
-            With its displacement; its law guides where lines touch limits that are not convex.
-        limits
-            As `read_cam_limits` gives them; those that are not convex and have no lines are left out.
-        angle
-            Of the cam, over which the piece goes, rad.
-        below
-            Whether lines are on the side where the limits are kept, or where they are broken.
+        Those that are not convex have lines on the side where they are kept (`below`) or broken, which touch them where
+        the piece's law is; without such lines they are left out.
         """
         pressure, radius = limits.get(PRESSURE), limits.get(CURVATURE)
         lines = [] if pressure is None else self.pressure_limits(piece, pressure, angle, below=below)
@@ -278,8 +230,6 @@ class FollowerContact(ABC):
 def bearing(x: Jet, y: Jet) -> Jet:
     """The direction of a vector, rad.
 
-    Examples
-    --------
     >>> turn = bearing(Jet((0.0, -1.0)), Jet((2.0, 0.0)))
     >>> round(float(turn.terms[0]), 6), float(turn.terms[1])
     (1.570796, 0.5)

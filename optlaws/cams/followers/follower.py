@@ -22,16 +22,9 @@ from optlaws.suggest import unknown_key
 class Place:
     """The place of a follower: the base circle's radius, the range of its motion, and the sense of turning.
 
-    Parameters
-    ----------
-    radius
-        Distance of the roller's centre, or of the face, from the cam's centre where the follower is lowest, m.
-    lowest, highest
-        Least and greatest displacement, m or rad.
-    slopes
-        Least and greatest derivative of the displacement by the cam's angle.
-    turning
-        1 where the cam turns counterclockwise, else -1.
+    `radius` is the distance of the roller's centre, or of the face, from the cam's centre where the follower is lowest,
+    m; displacements are in m or rad, `slopes` their least and greatest derivative by the cam's angle; `turning` is 1
+    where the cam turns counterclockwise, else -1.
     """
 
     radius: float
@@ -65,13 +58,7 @@ class CamFollower(ABC):
 
     @abstractmethod
     def contact(self, place: Place) -> FollowerContact:
-        """How it touches a cam.
-
-        Raises
-        ------
-        InputError
-            If there is no such mechanism; the error says the remedy.
-        """
+        """How it touches a cam."""
 
     @abstractmethod
     def base_radius(self, level: float) -> float:
@@ -93,34 +80,12 @@ class CamFollower(ABC):
 
 
 def positive(value: Any, name: str) -> float:  # noqa: ANN401 - it is checked here
-    """A length above 0, in metres.
-
-    Raises
-    ------
-    InputError
-        If it is none.
-
-    Examples
-    --------
-    >>> positive("12 mm", "roller")
-    0.012
-    """
+    """A length above 0, in metres."""
     return positive_quantity(value, "length", name)
 
 
 def roller_radius(value: Any, place: Place) -> float:  # noqa: ANN401 - it is checked here
-    """The radius of a roller whose centre runs on a base circle, in metres.
-
-    Raises
-    ------
-    InputError
-        If it is none, or nothing would be left of the cam.
-
-    Examples
-    --------
-    >>> roller_radius("12 mm", Place(0.08, 0.0, 0.03, (-0.1, 0.1), 1.0))
-    0.012
-    """
+    """The radius of a roller whose centre runs on a base circle, in metres."""
     radius = positive(value, "roller: radius")
     if radius >= place.radius:
         raise InputError(
@@ -131,54 +96,25 @@ def roller_radius(value: Any, place: Place) -> float:  # noqa: ANN401 - it is ch
 
 
 def shown(length: float) -> str:
-    """A length in millimetres.
-
-    Examples
-    --------
-    >>> shown(0.08)
-    '80 mm'
-    """
+    """A length in millimetres."""
     return f"{1e3 * length:.9g} mm"
 
 
 def follower_kinds() -> dict[str, type[CamFollower]]:
-    """The kinds of followers by their names in problem files.
-
-    Examples
-    --------
-    >>> "translating roller" in follower_kinds()
-    True
-    """
+    """The kinds of followers by their names in problem files."""
     _load()
     # slides before arms, whichever was imported first
     return dict(sorted(CamFollower.kinds.items(), reverse=True))
 
 
 def follower_names() -> str:
-    """Names of the classes, as an error lists them.
-
-    Examples
-    --------
-    >>> follower_names().split()[:2]
-    ['TranslatingRoller,', 'TranslatingFlat,']
-    """
+    """Names of the classes, as an error lists them."""
     *names, last = [kind.__name__ for kind in follower_kinds().values()]
     return f"{', '.join(names)} or {last}"
 
 
 def read_follower(entries: Mapping[str, Any]) -> CamFollower:
-    """A follower from entries of a problem file.
-
-    Raises
-    ------
-    InputError
-        If its kind is unknown, or it has an entry that its kind does not take, or lacks one.
-
-    Examples
-    --------
-    >>> read_follower({"kind": "translating roller", "radius": "12 mm"})
-    TranslatingRoller(radius='12 mm', offset='0 mm')
-    """
+    """A follower from entries of a problem file."""
     kinds = follower_kinds()
     if "kind" not in entries:
         raise InputError(f"follower: kind is missing: give one of {', '.join(kinds)}")

@@ -43,13 +43,7 @@ class InclinedFlat(CamFollower, kind="inclined flat"):
 
     @property
     def angle(self) -> float:
-        """The inclination in rad.
-
-        Raises
-        ------
-        InputError
-            If it is no angle between -90 and 90 deg.
-        """
+        """The inclination in rad."""
         angle = quantity(self.inclination, "angle", "face: inclination")
         if abs(angle) >= 0.5 * pi:
             raise InputError(
@@ -68,13 +62,7 @@ class InclinedFlat(CamFollower, kind="inclined flat"):
 
 @dataclass(frozen=True)
 class InclinedFace(FaceContact):
-    """An inclined face in numbers: it meets the slide's way at y = height + s, so that rho = (height + s + s'') cos.
-
-    Examples
-    --------
-    >>> InclinedFace(1.0, 0.0, 0.04, 0.0).radius(Jet((0.01, 0.0, -0.01))).terms[0]
-    0.03
-    """
+    """An inclined face in numbers: it meets the slide's way at y = height + s, so that rho = (height + s + s'') cos."""
 
     angle: float
 

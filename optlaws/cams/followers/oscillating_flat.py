@@ -77,14 +77,6 @@ class SwingingFace(FaceContact):
     """A swinging face in numbers: its pivot at x = distance, the face at phi = first + s from the line to the centre.
 
     It is touched at distance cos(phi)/(1 ± phi') from the foot of the pivot.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> face = SwingingFace(1.0, 0.0, np.arcsin(0.4), 0.1, 0.0)
-    >>> still = Jet(tuple(np.float64(0.0) for _ in range(3)))
-    >>> round(float(face.radius(still).terms[0]), 12)
-    0.04
     """
 
     distance: float

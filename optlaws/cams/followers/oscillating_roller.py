@@ -82,15 +82,7 @@ class OscillatingRoller(CamFollower, kind="oscillating roller"):
 
 @dataclass(frozen=True)
 class SwingingRoller(RollerContact):
-    """A swinging roller in numbers: its pivot at x = distance, the arm at psi = first + s from the line to the centre.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> roller = SwingingRoller(1.0, 0.0, 1.0, 0.09, 0.12, 0.012)
-    >>> round(float(roller.pressure(Jet((np.float64(0.0), 0.0))).terms[0]), 6)
-    0.249204
-    """
+    """A swinging roller in numbers: pivot at x = distance, the arm at psi = first + s from the line to the centre."""
 
     arm: float
     distance: float

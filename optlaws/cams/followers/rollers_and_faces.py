@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from math import inf, pi, sin, sqrt
+from math import inf, pi, sin
 
 import numpy as np
 
@@ -128,25 +128,8 @@ class RollerContact(FollowerContact):
         return x * x + y * y
 
 
-def side_of(long: float, short: float) -> float:
-    """The other leg of a right triangle.
-
-    Examples
-    --------
-    >>> side_of(5.0, 3.0)
-    4.0
-    """
-    return sqrt((long - short) * (long + short))
-
-
 def half_turn(angle: float) -> bool:
-    """Whether an angle is strictly within half a turn, where its sine is above 0.
-
-    Examples
-    --------
-    >>> half_turn(1.0), half_turn(-0.1)
-    (True, False)
-    """
+    """Whether an angle is strictly within half a turn, where its sine is above 0."""
     return 0.0 < angle < pi and sin(angle) > 0.0
 
 
@@ -196,13 +179,7 @@ class FaceContact(FollowerContact):
 
 
 def sign(jet: Jet) -> Jet:
-    """1 or -1; where intervals leave open which, all between.
-
-    Examples
-    --------
-    >>> sign(Jet((np.array([0.5, -2.0]), np.array([1.0, 1.0])))).terms[0].tolist()
-    [1.0, -1.0]
-    """
+    """1 or -1; where intervals leave open which, all between."""
     first = jet.terms[0]
     if not isinstance(first, Interval):
         return Jet((np.sign(first), *(np.zeros(np.shape(first)),) * jet.order))

@@ -37,13 +37,7 @@ class TranslatingFlat(CamFollower, kind="translating flat"):
 
 @dataclass(frozen=True)
 class SlidingFace(FaceContact):
-    """A sliding face in numbers: at y = height + s, touched at x = s', so that rho = height + s + s''.
-
-    Examples
-    --------
-    >>> SlidingFace(1.0, 0.0, 0.04).radius(Jet((0.01, 0.0, -0.01))).terms[0]
-    0.03
-    """
+    """A sliding face in numbers: at y = height + s, touched at x = s', so that rho = height + s + s''."""
 
     def point(self, s: Jet) -> Pair:  # noqa: D102
         return s.slope() * self.turning, s + (self.level - self.lowest)

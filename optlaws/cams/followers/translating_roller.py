@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import hypot
+from math import hypot, sqrt
 from typing import ClassVar
 
 from optlaws.cams.followers.contact import PRESSURE, ContactState, CurvatureTerms, LinearLimit, Transmission
 from optlaws.cams.followers.follower import CamFollower, Place, roller_radius, shown
-from optlaws.cams.followers.rollers_and_faces import RollerContact, side_of
+from optlaws.cams.followers.rollers_and_faces import RollerContact
 from optlaws.errors import InputError
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import quantity
@@ -48,7 +48,13 @@ class TranslatingRoller(CamFollower, kind="translating roller"):
                 f"roller: offset {shown(offset)} is beyond the base circle of radius {shown(place.radius)}: the roller"
                 " cannot touch it: make the offset less or the base circle larger"
             )
-        return SlidingRoller(place.turning, place.lowest, side_of(place.radius, abs(offset)), offset, radius)
+        return SlidingRoller(
+            place.turning,
+            place.lowest,
+            sqrt((place.radius - abs(offset)) * (place.radius + abs(offset))),
+            offset,
+            radius,
+        )
 
     def base_radius(self, level: float) -> float:
         """The way from the cam's centre to the roller's at a height."""
@@ -61,14 +67,7 @@ class TranslatingRoller(CamFollower, kind="translating roller"):
 
 @dataclass(frozen=True)
 class SlidingRoller(RollerContact):
-    """A sliding roller in numbers: its centre is at x = offset, y = height + s.
-
-    Examples
-    --------
-    >>> roller = SlidingRoller(1.0, 0.0, 0.08, 0.0, 0.012)
-    >>> roller.pressure(Jet((0.02, 0.05))).terms[0]
-    0.5
-    """
+    """A sliding roller in numbers: its centre is at x = offset, y = height + s."""
 
     offset: float
     radius: float

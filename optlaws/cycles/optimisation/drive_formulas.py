@@ -24,18 +24,9 @@ from optlaws.synthesis.problem.constants import FUNCTIONALS, Functional
 
 @dataclass(frozen=True)
 class Driven:
-    """A constant of a span's law that measures what its drive takes.
+    """A dimensionless constant of a span's law that measures what its drive takes, with its unit in SI.
 
-    Parameters
-    ----------
-    constant
-        Of the law, dimensionless.
-    unit
-        What turns it into SI units.
-    friction
-        What dry friction adds to a mean square at least, in SI units.
-    formula
-        The force in its unit, of a mean square.
+    Of a mean square, `friction` is what dry friction adds at least, in SI units, and `formula` the force in its unit.
     """
 
     constant: Functional
@@ -52,13 +43,7 @@ def may_turn(span: LawSpan) -> bool:
 
 
 def driven_peak(span: LawSpan, drive: CycleDrive | None, stroke: float, nu: int) -> Driven:
-    """Peak of the force (nu -1) or the power (nu -3) along a span's law.
-
-    Raises
-    ------
-    InputError
-        If there is no drive, nothing resists, or dry friction turns with the motion.
-    """
+    """Peak of the force (nu -1) or the power (nu -3) along a span's law."""
     known = _known(drive)
     if nu == POWER and known.inertia > 0.0 and known == CycleDrive(known.inertia, 0.0, 0.0, 0.0, 0.0):
         return Driven(FUNCTIONALS["D"], known.inertia * stroke**2 / span.duration**3)
@@ -67,13 +52,7 @@ def driven_peak(span: LawSpan, drive: CycleDrive | None, stroke: float, nu: int)
 
 
 def driven_formula(span: LawSpan, drive: CycleDrive | None, stroke: float, nu: int) -> tuple[str, float]:
-    """Force or power along a span's law as a formula, and its unit.
-
-    Raises
-    ------
-    InputError
-        If there is no drive, nothing resists, or dry friction turns with the motion.
-    """
+    """Force or power along a span's law as a formula, and its unit."""
     known = _known(drive)
     if known.dry > 0.0 and may_turn(span):
         raise InputError(
@@ -89,13 +68,7 @@ def driven_formula(span: LawSpan, drive: CycleDrive | None, stroke: float, nu: i
 
 
 def driven_mean(span: LawSpan, drive: CycleDrive | None, stroke: float) -> Driven:
-    """Root mean square of the force along a span's law.
-
-    Raises
-    ------
-    InputError
-        If there is no drive, nothing resists, or dry friction turns with the motion against a spring or a weight.
-    """
+    """Root mean square of the force along a span's law."""
     known = _known(drive)
     unit = _unit(span, known, stroke)
     if known.dry == 0.0 or not may_turn(span):

@@ -25,7 +25,6 @@ from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.laws import MotionLaw
 from optlaws.motion.piece import factor, named_law
 from optlaws.numerics.tolerances import AGREEMENT, DURATION_STEP, SAME_TIME, SHORTEST_MOVE
-from optlaws.synthesis.problem.ranges import Range
 from optlaws.synthesis.solve import synthesize
 
 _REST = State(0.0, 0.0)
@@ -35,16 +34,9 @@ _TOO_FAST = "no durations of the free moves keep the limits: slow the cycle down
 
 @dataclass(frozen=True)
 class Share:
-    """A move whose duration is free: what it costs over its duration, and how it is inverted.
+    """A move whose duration is free: its peak, or the integral of the square, over its duration, in SI units.
 
-    Parameters
-    ----------
-    stretch
-        The move.
-    cost
-        Its peak, or the integral of the square, in SI units, as a function of its duration.
-    quickest
-        What no law that keeps the limit of the velocity can be shorter than.
+    No law that keeps the limit of the velocity is shorter than `quickest`.
     """
 
     stretch: TimedSegment
@@ -53,15 +45,7 @@ class Share:
 
 
 def durations(programme: Programme, objective: CycleObjective) -> tuple[float, ...]:
-    """The durations of all stretches: those given, and the best ones where they are free.
-
-    Raises
-    ------
-    InputError
-        If a duration is free beside a joint that is not at rest.
-    InfeasibleProblem
-        If no durations keep the limits.
-    """
+    """The durations of all stretches: those given, and the best ones where they are free."""
     free = [i for i, stretch in enumerate(programme.stretches) if not stretch.fixed]
     if not free:
         return tuple(stretch.least for stretch in programme.stretches)
@@ -132,17 +116,13 @@ def _shape(programme: Programme, i: int, objective: CycleObjective, nu: int, *, 
             if not unlimited:
                 unlimited.append(synthesize(replace(problem, B=None, C=None, J=None)).law)
             limits = {order: problem.range(name) for order, name in ((1, "B"), (2, "C"), (3, "J"))}
-            if all(_keeps(unlimited[0], order, limit) for order, limit in limits.items()):
+            if all(limit is None or unlimited[0].peak(order).value <= limit.high for order, limit in limits.items()):
                 return _constant(unlimited[0], nu, mean=mean)
             return _constant(synthesize(problem).law, nu, mean=mean)
         except InfeasibleProblem:
             return inf
 
     return shape
-
-
-def _keeps(law: MotionLaw, order: int, limit: Range | None) -> bool:
-    return limit is None or law.peak(order).value <= limit.high
 
 
 def _constant(law: MotionLaw, nu: int, *, mean: bool) -> float:

@@ -48,13 +48,7 @@ class SegmentEnd:
 
 
 def check_limits_at_joints(layout: Layout, objective: CycleObjective, axis: str, period: float) -> None:
-    """Refuse a limit of the force that is less than what the drive takes at a joint, whatever the law.
-
-    Raises
-    ------
-    InfeasibleProblem
-        If there is one; the error says how much it takes, and where.
-    """
+    """Refuse a limit of the force that is less than what the drive takes at a joint, whatever the law."""
     for span in layout.spans:
         for edge in _edges(span):
             limits = limits_of_stretch(edge.stretch, objective, axis)
@@ -71,7 +65,8 @@ def check_limits_at_joints(layout: Layout, objective: CycleObjective, axis: str,
 
 def _edges(span: LawSpan) -> Iterator[SegmentEnd]:
     """The ends of stretches of a span at which its motion is known."""
-    states = (*span.states, span.states[0]) if span.turns else _ends_of(span)
+    inner = (None,) * (len(span.stretches) - 1)
+    states = (*span.states, span.states[0]) if span.turns else (span.first, *inner, span.last)
     positions = list(accumulate((stretch.displacement for stretch in span.stretches), initial=span.offset))
     times = (*span.starts, span.stop)
     direction = 0.0 if may_turn(span) else 1.0 if span.displacement > 0.0 else -1.0
@@ -80,10 +75,6 @@ def _edges(span: LawSpan) -> Iterator[SegmentEnd]:
             state = states[j]
             if state is not None:
                 yield SegmentEnd(stretch, name, times[j], positions[j], state, direction)
-
-
-def _ends_of(span: LawSpan) -> tuple[State | None, ...]:
-    return (span.first, *(None for _ in span.stretches[1:]), span.last)
 
 
 def ties_broken(
@@ -103,17 +94,15 @@ def ties_broken(
     if max(peak_of(piece, nu, objective.drive) for piece, _ in laws) > greatest * (1.0 + AGREEMENT):
         return laws, ()
     calm = replace(
-        objective, minimise="acceleration", limits={**objective.limits, nu: min(greatest, _limit(objective, nu))}
+        objective,
+        minimise="acceleration",
+        limits={**objective.limits, nu: min(greatest, objective.limits.get(nu, greatest))},
     )
     remark = (
         f"the {objective.minimise} is greatest at {360.0 * time / period:.6g} deg of the master, where no law changes "
         "it: of the laws that take no more elsewhere, those of least acceleration"
     )
     return tuple(_calmer(span, calm, axis, law) for span, law in zip(layout.spans, laws, strict=True)), (remark,)
-
-
-def _limit(objective: CycleObjective, nu: int) -> float:
-    return objective.limits.get(nu, float("inf"))
 
 
 def _calmer(span: LawSpan, calm: CycleObjective, axis: str, law: tuple[Piece, Solution]) -> tuple[Piece, Solution]:

@@ -50,15 +50,7 @@ class Best:
 
 
 def best_of(layout: Layout, objective: CycleObjective, axis: str, period: float) -> Best:
-    """The best laws of all spans.
-
-    Raises
-    ------
-    InputError
-        If a limit is of a drive that is not given.
-    InfeasibleProblem
-        If no laws keep the limits.
-    """
+    """The best laws of all spans."""
     if objective.mean_force is None or not layout.spans:
         laws = tuple(_solved(span, objective, axis) for span in layout.spans)
         bound = bound_of(layout, laws, objective, period)

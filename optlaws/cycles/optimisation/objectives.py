@@ -37,24 +37,10 @@ _FORCES = {"length": "force", "angle": "torque"}
 
 @dataclass(frozen=True)
 class CycleObjective:
-    """The objective of a cycle, the limits of the whole of it, and the degree of its laws.
+    """The objective of a cycle, one of `OBJECTIVES`, the limits of the whole in SI units, and the degree of its laws.
 
-    Parameters
-    ----------
-    minimise
-        One of `OBJECTIVES`.
-    limits
-        Greatest velocity, acceleration and jerk, in SI units, by order; of force or torque by -1, of power by -3.
-    order, degree
-        End conditions of laws, and the degree of Z.
-    drive
-        What the force is of, where it is minimised or bounded.
-    load
-        What is driven elastically.
-    loaded
-        Greatest values of the load's outputs, in SI units, by output and whether they are root mean squares.
-    mean_force
-        Greatest root mean square of the force or torque over the whole cycle, in SI units.
+    `limits` are by the order of the derivative, of force or torque by -1, of power by -3; `loaded` by the load's output
+    and whether of its root mean square; `mean_force` is that of the root mean square of the force over the whole cycle.
     """
 
     minimise: str
@@ -75,8 +61,6 @@ class CycleObjective:
 def kind_of(minimise: str) -> tuple[int, bool]:
     """The order of what is minimised (-1 a force, -2 of the load, -3 the power), and whether its root mean square.
 
-    Examples
-    --------
     >>> kind_of("rms jerk"), kind_of("load acceleration")
     ((3, True), (-2, False))
     """
@@ -84,31 +68,13 @@ def kind_of(minimise: str) -> tuple[int, bool]:
 
 
 def check_objective(minimise: Any, load: Load | None) -> None:  # noqa: ANN401 - it is checked here
-    """Refuse what cannot be minimised.
-
-    Raises
-    ------
-    InputError
-        If it is no objective, or the load has no such output.
-    """
+    """Refuse what cannot be minimised."""
     if not isinstance(minimise, str) or (minimise not in OBJECTIVES and load_output(minimise, load) is None):
         raise InputError(f"minimise: {unknown_key(minimise, (*OBJECTIVES, 'load acceleration'), 'objective')}")
 
 
 def read_load_limits(entries: Mapping[str, Any], load: Load | None) -> dict[tuple[str, bool], float]:
-    """Limits of the load in SI units, by output and whether they are of root mean squares.
-
-    Raises
-    ------
-    InputError
-        If the load has no such output, or a limit is not above 0 or of another dimension.
-
-    Examples
-    --------
-    >>> from optlaws.cycles.specification.load import read_load
-    >>> read_load_limits({"load deflection": "2 mm"}, read_load({"period": "20 ms"}, "length"))
-    {('deflection', False): 0.002}
-    """
+    """Limits of the load in SI units, by output and whether they are of root mean squares."""
     limits = {}
     for name, value in entries.items():
         output = load_output(name, load)
@@ -118,18 +84,7 @@ def read_load_limits(entries: Mapping[str, Any], load: Load | None) -> dict[tupl
 
 
 def read_limits(entries: Mapping[str, Any], axis: str, where: str) -> dict[int, float]:
-    """Limits in SI units by the order of the derivative.
-
-    Raises
-    ------
-    InputError
-        If a name is unknown, or a limit is not above 0 or of another dimension.
-
-    Examples
-    --------
-    >>> read_limits({"velocity": "616 mm/s"}, "length", "limits")
-    {1: 0.616}
-    """
+    """Limits in SI units by the order of the derivative."""
     limits = {}
     for name, value in table(entries, where, "{'velocity': '2 m/s'}").items():
         if name in LIMITS:
@@ -143,18 +98,7 @@ def read_limits(entries: Mapping[str, Any], axis: str, where: str) -> dict[int, 
 
 
 def read_mean_force(entries: Mapping[str, Any], axis: str) -> float | None:
-    """The limit of the root mean square of the force or torque over the cycle, in SI units; None if there is none.
-
-    Raises
-    ------
-    InputError
-        If it is not above 0 or of another dimension, or given twice.
-
-    Examples
-    --------
-    >>> read_mean_force({"rms torque": "2.4 N m"}, "angle")
-    2.4
-    """
+    """The limit of the root mean square of the force or torque over the cycle, in SI units; None if there is none."""
     given = [name for name in MEANS if name in entries]
     if len(given) > 1:
         raise InputError(f"limits: {' and '.join(given)} are the same: give one of them")
@@ -166,8 +110,6 @@ def read_mean_force(entries: Mapping[str, Any], axis: str) -> float | None:
 def in_units(nu: int, value: float, axis: str) -> str:
     """A limit as text, in the unit that machines have it in.
 
-    Examples
-    --------
     >>> in_units(1, 0.616, "length"), in_units(FORCE, 120.0, "length"), in_units(3, 900.0, "angle")
     ('the velocity 616 mm/s', 'the force 120 N', 'the jerk 900 rad/s^3')
     """

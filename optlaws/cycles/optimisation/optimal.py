@@ -54,13 +54,7 @@ _ROUGH = 15  # degree of Z where points on the way or velocities bend the law
 
 
 def solve(span: LawSpan, objective: CycleObjective, axis: str, mean_square: float = inf) -> tuple[Piece, Solution]:
-    """The best law of a span, in its place, with its proof; the mean square of its force is at most what is said.
-
-    Raises
-    ------
-    InfeasibleProblem
-        If no law keeps the limits; the error names the segment.
-    """
+    """The best law of a span, in its place, with its proof; the mean square of its force is at most what is said."""
     stroke = scale(span)
     problem = span_problem(span, objective, axis, stroke)
     if mean_square < inf:
@@ -109,13 +103,7 @@ def _with_more_pieces(problem: Problem, basis: Pieces, span: LawSpan) -> Solutio
 
 
 def solved(problem: Problem, span: LawSpan) -> Solution:
-    """The solution of a span's problem.
-
-    Raises
-    ------
-    InfeasibleProblem
-        If no law keeps the limits; the error names the segment.
-    """
+    """The solution of a span's problem."""
     try:
         return synthesize(problem)
     except InfeasibleProblem as error:
@@ -158,13 +146,7 @@ def with_least_limit(
 
 
 def with_mean_square(problem: Problem, span: LawSpan, objective: CycleObjective, stroke: float, most: float) -> Problem:
-    """The problem of a span whose force has no greater mean square than is said, in SI units.
-
-    Raises
-    ------
-    InfeasibleProblem
-        If dry friction alone takes more.
-    """
+    """The problem of a span whose force has no greater mean square than is said, in SI units."""
     driven = driven_mean(span, objective.drive, stroke)
     if most <= driven.friction:
         raise InfeasibleProblem(
@@ -191,13 +173,7 @@ def scale(span: LawSpan) -> float:
 
 
 def span_problem(span: LawSpan, objective: CycleObjective, axis: str, stroke: float) -> Problem:
-    """The dimensionless problem of a span.
-
-    Raises
-    ------
-    InputError
-        If nothing moves, or a limit is less than what the ends ask.
-    """
+    """The dimensionless problem of a span."""
     if stroke == 0.0:
         raise InputError(f"{span.where} has nothing to move: take a Dwell")
     if span.turns or len(span.stretches) > 1 or span.via:

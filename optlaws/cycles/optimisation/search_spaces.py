@@ -27,8 +27,6 @@ def joined_basis(span: LawSpan, order: int, degree: int, minimised: int) -> Piec
     breaks: a linear program on known places. `minimised` is the order of the derivative minimised, -2 of a load, -3 of
     power.
 
-    Examples
-    --------
     >>> from optlaws import Cycle, Dwell, Free
     >>> motions = [Dwell("0.1 s"), Free("30 mm", "0.2 s"), Free("-30 mm")]
     >>> (solution,) = Cycle(motions, period="0.5 s").solutions
@@ -60,8 +58,6 @@ def joined_basis(span: LawSpan, order: int, degree: int, minimised: int) -> Piec
 def halved(basis: Pieces) -> Pieces | None:
     """Splines with every piece but straight ones cut in two; None where these were too many.
 
-    Examples
-    --------
     >>> halved(Pieces((0.0, 0.5, 1.0), 3, 1)).breaks
     (0.0, 0.25, 0.5, 0.75, 1.0)
     """
@@ -107,13 +103,7 @@ ALL_MOTIONS = "all motions through the joints"
 
 
 def minimised_rms(problem: Problem) -> int | None:
-    """The order of the derivative whose root mean square a problem minimises; None if it minimises something else.
-
-    Examples
-    --------
-    >>> minimised_rms(Problem(order=3, minimise="rms_j")), minimised_rms(Problem(order=3, minimise="C"))
-    (3, None)
-    """
+    """The order of the derivative whose root mean square a problem minimises; None if it minimises something else."""
     constant = FUNCTIONALS.get(problem.minimise) if isinstance(problem.minimise, str) else None
     return constant.nu if isinstance(constant, RootMeanSquare) else None
 
@@ -123,14 +113,6 @@ def search_space(problem: Problem, span: LawSpan, order: int) -> str:
 
     A polynomial of degree 2 nu - 1 between two joints has the least root mean square of the derivative of order nu, if
     its ends ask for no more than nu conditions each.
-
-    Examples
-    --------
-    >>> from optlaws import Cycle, Return, Rise
-    >>> def space(minimise):
-    ...     return Cycle([Rise("35 mm", "120 deg"), Return()], speed="200 rpm", minimise=minimise).search_space
-    >>> space("acceleration"), space("rms jerk")
-    ('laws of order 3 with Z of degree 9', 'all motions through the joints')
     """
     nu, basis = minimised_rms(problem), problem.basis
     if isinstance(basis, Pieces):
@@ -160,8 +142,6 @@ def splines_of_least_rms(span: LawSpan, order: int, nu: int) -> Pieces | None:
     They are of degree 2 nu - 1 with breaks at the joints alone, and as smooth as can be but where more than the
     position is known. None where such a motion would break what the order asks of its ends: then none is the best.
 
-    Examples
-    --------
     >>> from optlaws import Cycle, Dwell, Free
     >>> motions = [Dwell("0.1 s"), Free("30 mm", "0.2 s"), Free("-30 mm")]
     >>> (solution,) = Cycle(motions, period="0.5 s", minimise="rms jerk").solutions

@@ -40,13 +40,7 @@ ENTRIES = {
 
 @dataclass(frozen=True)
 class CycleDrive:
-    """The force of a motion y: inertia y'' + viscous y' + stiffness y + constant + dry sign(y'), in SI units.
-
-    Examples
-    --------
-    >>> read_drive({"mass": "2 kg", "dry": "5 N"}, "length").inertia
-    2.0
-    """
+    """The force of a motion y: inertia y'' + viscous y' + stiffness y + constant + dry sign(y'), in SI units."""
 
     inertia: float
     viscous: float
@@ -85,18 +79,7 @@ class CycleDrive:
 
 
 def read_drive(entries: Mapping[str, Any], axis: str) -> CycleDrive:
-    """A drive from its entries, each a quantity with its unit; what is not given is 0.
-
-    Raises
-    ------
-    InputError
-        If an entry is unknown, of another dimension, or negative where that has no meaning.
-
-    Examples
-    --------
-    >>> read_drive({"inertia": "0.02 kg m^2", "viscous": "0.01 N m s/rad"}, "angle").viscous
-    0.01
-    """
+    """A drive from its entries, each a quantity with its unit; what is not given is 0."""
     known = ENTRIES[axis]
     for key in table(entries, "drive", "{'mass': '2 kg'}"):
         if key not in known:
@@ -144,8 +127,6 @@ class Effort(PlainNumbers):
 def effort(drive: CycleDrive, pieces: Sequence[Piece], period: float) -> Effort:
     """The force and power of a drive over pieces that make a cycle.
 
-    Examples
-    --------
     >>> from optlaws.laws import smoothstep
     >>> drive = CycleDrive(inertia=2.0, viscous=0.0, stiffness=0.0, constant=0.0, dry=0.0)
     >>> rise = Piece(0.0, 1.0, 0.0, 1.0, smoothstep(2))
@@ -171,15 +152,7 @@ def peak_of(piece: Piece, nu: int, drive: CycleDrive | None) -> float:
 
 
 def square_of_force(drive: CycleDrive, piece: Piece) -> float:
-    """The integral of the square of the force over a piece, in SI units.
-
-    Examples
-    --------
-    >>> from optlaws.laws import smoothstep
-    >>> drive = CycleDrive(inertia=2.0, viscous=0.0, stiffness=0.0, constant=0.0, dry=0.0)
-    >>> round(square_of_force(drive, Piece(0.0, 1.0, 0.0, 1.0, smoothstep(2))), 9)
-    48.0
-    """
+    """The integral of the square of the force over a piece, in SI units."""
     return _integral(piece, partial(_square, drive, piece))
 
 

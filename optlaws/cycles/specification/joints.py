@@ -13,7 +13,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws import smoothstep
 from optlaws.motion.piece import Piece, named_law
-from optlaws.motion.quantities import quantity
+from optlaws.motion.quantities import in_small_units, quantity
 from optlaws.numerics.tolerances import CLOSURE
 
 UNIFORM = smoothstep(1)
@@ -28,24 +28,10 @@ class State(NamedTuple):
 
 @dataclass(frozen=True)
 class LawSpan:
-    """The segments that one optimal law covers: their times, the states at both ends, and points on the way.
+    """The segments that one optimal law covers: one, or free ones that follow each other, with their times.
 
-    Parameters
-    ----------
-    stretches
-        One, or free ones that follow each other.
-    starts, stop
-        When each begins, and when the last one ends.
-    offset, displacement
-        Position at the start, and how far it moves.
-    first, last
-        Velocity and acceleration at both ends.
-    via
-        Pairs of time and position on the way.
-    states
-        What is known where each stretch begins, of a whole cycle in one; None where nothing is.
-    absolute
-        Whether its law is to be one of positions, not of displacements.
+    `first` and `last` are the states at both ends, `via` pairs of time and position on the way. Of a whole cycle in
+    one, `states` say what is known where each segment begins; its law is one of positions where it is `absolute`.
     """
 
     stretches: tuple[TimedSegment, ...]
@@ -104,11 +90,6 @@ def layout(programme: Programme, durations: Sequence[float], *, whole: bool = Fa
 
     Where nothing is known at the start of the cycle, or `whole` asks for it, its motions are one law that repeats; of
     positions if it is to be `absolute`.
-
-    Raises
-    ------
-    InputError
-        If velocities do not meet at a joint, or a law is given in a cycle that is one.
     """
     starts = tuple(accumulate(durations, initial=0.0))
     offsets = tuple(accumulate((stretch.displacement for stretch in programme.stretches), initial=programme.start))
@@ -160,17 +141,12 @@ def _check_velocities(programme: Programme, before: int, after: int, ended: Stat
     if abs(ended.velocity - begun.velocity) <= CLOSURE * max(size, abs(ended.velocity), abs(begun.velocity)):
         return
     first, second = programme.stretches[before], programme.stretches[after]
-    unit = "mm/s" if programme.axis == "length" else "deg/s"
-    shown = [_shown(state.velocity, programme.axis) for state in (ended, begun)]
+    shown = [f"{in_small_units(state.velocity, programme.axis)}/s" for state in (ended, begun)]
     meant = second if not isinstance(second.given, Dwell | ConstantVelocity) else first
     raise InputError(
-        f"{first.where} ends with {shown[0]} {unit} and {second.where} starts with {shown[1]} {unit}: put a motion "
+        f"{first.where} ends with {shown[0]} and {second.where} starts with {shown[1]}: put a motion "
         f"between them, or give {meant.where} law='optimal', which takes the velocities of its neighbours"
     )
-
-
-def _shown(velocity: float, axis: str) -> str:
-    return f"{velocity * (1e3 if axis == 'length' else 57.29577951308232):.9g}"
 
 
 def _whole(

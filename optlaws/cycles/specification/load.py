@@ -26,14 +26,7 @@ LOAD = "load "
 
 @dataclass(frozen=True)
 class Load:
-    """A machine in seconds and SI units that the motion drives, and the dimensions of its outputs where they are known.
-
-    Examples
-    --------
-    >>> load = read_load({"period": "20 ms", "damping": 0.05}, "length")
-    >>> load.machine.outputs, load.dimensions["deflection"]
-    (('acceleration', 'deflection'), 'length')
-    """
+    """A machine in seconds and SI units that the motion drives, and the dimensions of its outputs where known."""
 
     machine: Machine
     dimensions: Mapping[str, str]
@@ -65,19 +58,7 @@ class Load:
 
 
 def read_load(given: Any, axis: str) -> Load:  # noqa: ANN401 - it is checked here
-    """A load from its entries, or a machine in seconds and SI units.
-
-    Raises
-    ------
-    InputError
-        If an entry is unknown or of another dimension, or the period is missing.
-
-    Examples
-    --------
-    >>> read_load({"damping": 0.05}, "length")
-    Traceback (most recent call last):
-    optlaws.errors.InputError: load: give the period of its free vibration, such as period = '20 ms'
-    """
+    """A load from its entries, or a machine in seconds and SI units."""
     if isinstance(given, Machine):
         return Load(given, {})
     if not isinstance(given, Mapping):
@@ -127,18 +108,7 @@ def _article(axis: str) -> str:
 
 
 def load_output(name: str, load: Load | None) -> tuple[str, bool] | None:
-    """The output that an objective or a limit speaks of, and whether of its root mean square; None if of none.
-
-    Raises
-    ------
-    InputError
-        If there is no load, or it has no such output.
-
-    Examples
-    --------
-    >>> load_output("rms load deflection", read_load({"period": "20 ms"}, "length"))
-    ('deflection', True)
-    """
+    """The output that an objective or a limit speaks of, and whether of its root mean square; None if of none."""
     mean = name.startswith(f"rms {LOAD}")
     if not mean and not name.startswith(LOAD):
         return None

@@ -61,18 +61,7 @@ class Programme:
 
 
 def period_of(speed: Any, period: Any) -> float:  # noqa: ANN401 - it is checked here
-    """Duration of a cycle in seconds, from the master's speed or given.
-
-    Raises
-    ------
-    InputError
-        If both or neither are given, or it is not positive.
-
-    Examples
-    --------
-    >>> round(period_of("200 rpm", None), 12)
-    0.3
-    """
+    """Duration of a cycle in seconds, from the master's speed or given."""
     if (speed is None) == (period is None):
         raise InputError('a cycle has either a speed such as "200 rpm" or a period such as "0.3 s"')
     if speed is None:
@@ -93,13 +82,7 @@ def axis_of(segments: Sequence[CycleSegment]) -> str:
 
 
 def programme(segments: Sequence[CycleSegment], period: float, start: Any, advance: Any) -> Programme:  # noqa: ANN401
-    """A cycle as numbers.
-
-    Raises
-    ------
-    InputError
-        If durations do not sum, or positions do not close.
-    """
+    """A cycle as numbers."""
     axis = axis_of(segments)
     first = 0.0 if start is None else quantity(start, axis, "start")
     forward = 0.0 if advance is None else quantity(advance, axis, "advance")
@@ -117,18 +100,7 @@ def programme(segments: Sequence[CycleSegment], period: float, start: Any, advan
 
 
 def time_of(value: Any, period: float, name: str) -> float:  # noqa: ANN401 - it is checked here
-    """A time, or an angle of the master as a time.
-
-    Raises
-    ------
-    InputError
-        If it is neither.
-
-    Examples
-    --------
-    >>> round(time_of("120 deg", 0.3, "duration"), 12)
-    0.1
-    """
+    """A time, or an angle of the master as a time."""
     kind, number = either(value, ("angle", "time"), name)
     return number / TURN * period if kind == "angle" else number
 

@@ -8,8 +8,7 @@ from optlaws.errors import InputError
 from optlaws.exports.error_bounds import SINGLE, as_stored
 from optlaws.exports.format import Request, Written, file_format
 from optlaws.exports.formats.program_polynomials import iec_heading, leaps_in_words, leaps_of_single, polynomials_for
-from optlaws.exports.identifiers import iec_name
-from optlaws.exports.text import real
+from optlaws.exports.text import iec_name, real
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion
 from optlaws.numerics.tolerances import WHOLE_NUMBER
@@ -69,13 +68,7 @@ def _period(value: float, of: str, unit: str, least: int) -> int:
 
 
 def _profile(run: PiecewiseMotion, scale: float, master: int, slave: int) -> PiecewiseMotion:
-    """The polynomials from 0 to the master's period in REAL32, the first from 0; what the drive checks holds.
-
-    Raises
-    ------
-    InputError
-        If the last does not end at the slave's period (error 5304 of the drive).
-    """
+    """The polynomials from 0 to the master's period in REAL32, the first from 0; what the drive checks holds."""
     first = Fraction(run.coefficients[0][0])
     rows = [[Fraction(c) * Fraction(scale) for c in row] for row in run.coefficients]
     for row in rows:

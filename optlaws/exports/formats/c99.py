@@ -10,8 +10,7 @@ from optlaws.errors import InputError
 from optlaws.exports.error_bounds import DOUBLE, SINGLE, as_stored
 from optlaws.exports.format import Request, Written, file_format
 from optlaws.exports.formats.program_polynomials import SOURCE_MODEL, SOURCE_PIECES, labels_of, source_polynomials
-from optlaws.exports.identifiers import C_KEYWORDS
-from optlaws.exports.text import QUANTITIES, Labels, program_heading, real, safe, wrapped
+from optlaws.exports.text import C_KEYWORDS, QUANTITIES, Labels, program_heading, real, safe, wrapped
 from optlaws.files.writing import MARK
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion
@@ -112,18 +111,7 @@ def header(motion: PiecewiseMotion, name: str = "motion", labels: Labels | None 
 
 
 def c_name(name: Any) -> str:  # noqa: ANN401 - it is checked here
-    """The name of a function in C and C++, short enough for every compiler with what is added to it.
-
-    Raises
-    ------
-    InputError
-        If it is none; the error proposes one.
-
-    Examples
-    --------
-    >>> c_name("press")
-    'press'
-    """
+    """The name of a function in C and C++, short enough for every compiler with what is added to it."""
     if isinstance(name, str) and _NAME.fullmatch(name) and name not in C_KEYWORDS and "__" not in name:
         return name
     words = re.sub(r"[^A-Za-z0-9]+", "_", name if isinstance(name, str) else "").strip("_")

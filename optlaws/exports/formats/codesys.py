@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 from optlaws.exports.format import Request, Written, file_format
-from optlaws.exports.formats.point_table import NumberFormat, PointTable, hermite_table, table_by_interpolation
+from optlaws.exports.formats.point_table import chosen_table
 from optlaws.exports.formats.program_polynomials import fields, iec_heading, polynomials_for
-from optlaws.exports.identifiers import iec_name
-from optlaws.exports.spacing import chosen
-from optlaws.exports.text import iec_comment, real, table_heading
+from optlaws.exports.text import iec_comment, iec_name, real, table_heading
 from optlaws.motion.motion import Motion
 
 MOST = 32_767  # nElements is an INT
@@ -25,7 +23,7 @@ INTERPOLATIONS = {"linear": 1, "cubic": 3}
 )
 def _xyva(motion: Motion, request: Request) -> Written:
     name = iec_name(request.name, "CODESYS")
-    table = chosen(motion, request, lambda count: hermite_table(motion, count, NumberFormat(), 3), least=2, most=MOST)
+    table = chosen_table(motion, request, "quintic", MOST)
     rows = [
         f"        (dX := {real(x)}, dY := {real(y)}, dV := {real(v)}, dA := {real(a)})"
         for x, (y, v, a) in zip(table.x.tolist(), table.values.T.tolist(), strict=True)
@@ -57,11 +55,7 @@ def _xyva(motion: Motion, request: Request) -> Written:
 def _xy(motion: Motion, request: Request) -> Written:
     name = iec_name(request.name, "CODESYS")
     interpolation = request.interpolation_among(INTERPOLATIONS)
-
-    def make(count: int) -> PointTable:
-        return table_by_interpolation(motion, count, NumberFormat(request.counts), interpolation)
-
-    table = chosen(motion, request, make, least=2, most=STANDARD[-1])
+    table = chosen_table(motion, request, interpolation, STANDARD[-1])
     count = len(table.x)
     size = next(standard for standard in STANDARD if standard >= count)
     rows = [f"[{real(x)}, {real(y)}]" for x, y in zip(table.x.tolist(), table.values[0].tolist(), strict=True)]
@@ -97,7 +91,6 @@ def _reference(name: str, motion: Motion, kind: str, count: int, more: str = "")
 
 
 DEGREE = 7
-MOST_SEGMENTS = 32_767  # nElements of MC_CAM_REF is an INT
 
 
 @file_format(
@@ -110,7 +103,7 @@ MOST_SEGMENTS = 32_767  # nElements of MC_CAM_REF is an INT
 )
 def _cam_builder(motion: Motion, request: Request) -> Written:
     name = iec_name(request.name, "CODESYS")
-    fit = polynomials_for(motion, request, DEGREE, MOST_SEGMENTS)
+    fit = polynomials_for(motion, request, DEGREE, MOST)
     run, count = fit.run, fit.count
     notes = (
         fit.in_words(motion.units.slave),

@@ -12,15 +12,13 @@ from optlaws.errors import InputError
 from optlaws.exports.format import MOST_POINTS, Request, Written, file_format
 from optlaws.exports.formats.point_table import (
     NumberFormat,
-    PointTable,
+    chosen_table,
     hermite_table,
     linear_table,
     positions,
-    spline_table,
-    table_by_interpolation,
 )
 from optlaws.exports.interpolation import linear_powers
-from optlaws.exports.spacing import chosen
+from optlaws.exports.spacing import PointTable, chosen
 from optlaws.exports.text import plain, plain_column, table_heading
 from optlaws.files.writing import MARK
 from optlaws.motion.motion import Motion
@@ -54,12 +52,7 @@ _plain_format = partial(file_format, takes=_TEXT, contents="x, y as text", limit
 )
 def _csv(motion: Motion, request: Request) -> Written:
     interpolation = request.interpolation_among(("cubic", "linear", "akima", "c1", "quintic", "septic"))
-    number_format = NumberFormat(request.counts, request.digits)
-
-    def make(count: int) -> PointTable:
-        return table_by_interpolation(motion, count, number_format, interpolation)
-
-    table = chosen(motion, request, make, least=2, most=MOST_POINTS)
+    table = chosen_table(motion, request, interpolation, MOST_POINTS)
     separator = ";" if request.decimal == "," else ","
     units = motion.units
     derivatives = [f"{units.slave}/{units.master}{power}" for power in ("", "^2", "^3")]
@@ -97,8 +90,7 @@ def _sew(motion: Motion, request: Request) -> Written:
 
 @_plain_format("lenze", target="Lenze Cam Loader", model="C2 cubic spline (assumed)", extension=".txt")
 def _lenze(motion: Motion, request: Request) -> Written:
-    number_format = NumberFormat(request.counts, request.digits)
-    table = chosen(motion, request, lambda count: spline_table(motion, count, number_format), least=2, most=MOST_POINTS)
+    table = chosen_table(motion, request, "cubic", MOST_POINTS)
     first, *others = _rows(_x_and_y(table), request, " ")
     return table.written(_lines([f"{first} // {table_heading(motion, 'cam')[0]}; {MARK}", *others]), MODELS["cubic"])
 
@@ -111,8 +103,7 @@ def _lenze(motion: Motion, request: Request) -> Written:
     extension=".csv",
 )
 def _kas(motion: Motion, request: Request) -> Written:
-    number_format = NumberFormat(request.counts, request.digits)
-    table = chosen(motion, request, lambda count: spline_table(motion, count, number_format), least=5, most=MOST_POINTS)
+    table = chosen_table(motion, request, "cubic", MOST_POINTS, least=5)
     lines = ["CYCLIC;YES;" if motion.repeats else "CYCLIC;NO;", "TABLE_BEGIN;;"]
     lines += [f"{row};SPLINE" for row in _rows(_x_and_y(table), request, ";")]
     top = [plain(float(np.abs(values).max())) for values in (table.x, table.values[0])]

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
 from optlaws.errors import InputError
-from optlaws.exports.format import Written
+from optlaws.exports.format import Request
 from optlaws.exports.interpolation import Ends, akima_powers, hermite_powers, linear_powers, spline_powers
-from optlaws.exports.spacing import places
-from optlaws.kept import kept_property
+from optlaws.exports.spacing import PointTable, chosen, places
 from optlaws.motion.motion import Motion
-from optlaws.motion.polynomials import PiecewiseMotion
 from optlaws.numbers import Array
 from optlaws.numerics.tolerances import TABLE_ROUNDING
 
@@ -21,17 +20,7 @@ DEGREES = {1: "linear", 2: "cubic Hermite", 3: "quintic Hermite", 4: "Hermite of
 
 @dataclass(frozen=True)
 class NumberFormat:
-    """How a target holds numbers.
-
-    Parameters
-    ----------
-    counts
-        Steps over the stroke to which positions are rounded; None where they are not.
-    digits
-        Digits behind the decimal sign; None for all that a double has.
-    single
-        Whether they are REAL32.
-    """
+    """The numbers that a target holds: steps over the stroke, digits behind the decimal sign, doubles or REAL32."""
 
     counts: int | None = None
     digits: int | None = None
@@ -57,50 +46,10 @@ class NumberFormat:
         return (rounded.astype(np.float32).astype(np.float64) if self.single else rounded) + 0.0
 
 
-@dataclass(frozen=True, eq=False)
-class PointTable:
-    """Points as the target stores them, and what becomes of them.
-
-    Parameters
-    ----------
-    x
-        Of the master, shape (n,).
-    values
-        y, V, A, ... of the slave, shape (m, n).
-    powers
-        Of the polynomials that the controller lays between them, ascending, a row for each.
-    resolution
-        Step of positions; 0 for doubles.
-    bound
-        What roundings may add to the peak of the acceleration.
-    """
-
-    x: Array
-    values: Array
-    powers: Array
-    resolution: float
-    bound: float
-
-    @kept_property
-    def run(self) -> PiecewiseMotion:
-        """The motion that the controller makes of the points."""
-        return PiecewiseMotion(self.x, self.powers)
-
-    def written(self, text: str, model: str, notes: tuple[str, ...] = ()) -> Written:
-        """The file of the table, with what a controller makes of it."""
-        return Written(text, self.run, model, len(self.x), "points", self.resolution, self.bound, notes)
-
-
 def positions(
     motion: Motion, count: int, number_format: NumberFormat, *, even: bool = False, lines: bool = False
 ) -> tuple[Array, Array]:
-    """x and y of so many points as the target stores them.
-
-    Raises
-    ------
-    InputError
-        If points are the same as they are stored.
-    """
+    """x and y of so many points as the target stores them."""
     exact = np.linspace(motion.start, motion.stop, count) if even else places(motion, count, straight=lines)
     x = number_format.numbers(exact)
     if (np.diff(x) <= 0.0).any():
@@ -111,14 +60,12 @@ def positions(
     return x, number_format.positions(np.asarray(motion(exact)), motion)
 
 
-def spline_table(
-    motion: Motion, count: int, number_format: NumberFormat, *, ends: Ends = "clamped", even: bool = False
-) -> PointTable:
+def spline_table(motion: Motion, count: int, number_format: NumberFormat, *, ends: Ends = "clamped") -> PointTable:
     """Positions through which the controller lays the cubic spline; clamped to the velocities of the motion's ends.
 
     A periodic one ends exactly where it begins, as the motion does but for rounding.
     """
-    x, y = positions(motion, count, number_format, even=even)
+    x, y = positions(motion, count, number_format)
     slopes = number_format.numbers(np.array(motion.ends(1)))
     if ends == "periodic":
         y[-1] = y[0]
@@ -126,9 +73,9 @@ def spline_table(
     return PointTable(x, y[None], powers, number_format.resolution(motion), rounding_bound(motion, x, y, slopes))
 
 
-def linear_table(motion: Motion, count: int, number_format: NumberFormat, *, even: bool = False) -> PointTable:
+def linear_table(motion: Motion, count: int, number_format: NumberFormat) -> PointTable:
     """Positions between which the controller goes straight."""
-    x, y = positions(motion, count, number_format, even=even, lines=True)
+    x, y = positions(motion, count, number_format, lines=True)
     return PointTable(x, y[None], linear_powers(x, y), number_format.resolution(motion), 0.0)
 
 
@@ -144,11 +91,6 @@ def hermite_table(
     """Positions with derivatives, so many in all, from which the controller makes Hermite's polynomials.
 
     Where the table has no derivatives the controller computes them, and they are taken as the law's.
-
-    Raises
-    ------
-    InputError
-        If a derivative is infinite at a point.
     """
     exact = places(motion, count, straight=True)
     values = _without_rounding(np.array([motion(exact, nu) for nu in range(orders)]))
@@ -176,6 +118,15 @@ def table_by_interpolation(motion: Motion, count: int, number_format: NumberForm
     )
 
 
+def chosen_table(
+    motion: Motion, request: Request, interpolation: str, most: int, *, least: int = 2, single: bool = False
+) -> PointTable:
+    """The table for an interpolation with the requested number of points, or with that whose run is best."""
+    numbers = NumberFormat(request.counts, request.digits, single)
+    make = partial(table_by_interpolation, motion, number_format=numbers, interpolation=interpolation)
+    return chosen(motion, request, make, least=least, most=most)
+
+
 def _without_rounding(values: Array) -> Array:
     """The values with 0 where rounding, beside the greatest of their row, has missed it."""
     return np.where(np.abs(values) <= TABLE_ROUNDING * np.abs(values).max(axis=1, keepdims=True), 0.0, values)
@@ -187,8 +138,6 @@ def rounding_bound(motion: Motion, x: Array, y: Array, slopes: Array) -> float:
     The spline's accelerations at its points solve a system whose diagonal is twice the sum of what is beside it, with
     six times the second divided differences of the positions on the right; these are wrong by eps/(h_i h_i+1) at most.
 
-    Examples
-    --------
     >>> from optlaws.motion.motion import motion_of_law
     >>> from optlaws.laws import smoothstep
     >>> motion = motion_of_law(smoothstep(3), stroke="1 m", duration="1 s")

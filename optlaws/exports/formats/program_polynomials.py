@@ -27,25 +27,9 @@ SOURCE_MODEL = f"the law's own polynomials to degree {OWN_DEGREE}, else of degre
 def polynomials_for(
     motion: Motion, request: Request, degree: int, most: int, *, points: bool = False, near: float = OFF
 ) -> Fitted:
-    """Polynomials of at most a degree and a number: so many, the best, or as few as will do.
+    """Polynomials of at most a degree and a number: so many, the best, or as few as bring the acceleration `near`.
 
-    Parameters
-    ----------
-    motion
-        The motion.
-    request
-        Its `points` is a number of segments, or of points where `points` says so.
-    degree, most
-        Of the polynomials that the target holds, and how many segments it holds.
-    points
-        Whether it is points that are counted, one more than segments.
-    near
-        How far the acceleration may be off where as few as will do are laid.
-
-    Raises
-    ------
-    InputError
-        If the target cannot hold them.
+    The request's `points` are segments, or points, of which there is one more, where `points` says so.
     """
     if request.points is None:
         return fitted(motion, degree, most, near=near)
@@ -82,8 +66,6 @@ def iec_heading(title: str, motion: Motion, run: PiecewiseMotion, notes: Sequenc
 def fields(**values: object) -> str:
     """Fields of a structure with their values, floats as literals.
 
-    Examples
-    --------
     >>> fields(PointIndex=1, MasterPos=0.5)
     'PointIndex := 1, MasterPos := 0.5'
     """
@@ -144,13 +126,7 @@ def leaping(run: PiecewiseMotion, nu: int) -> float | None:
 
 
 def refuse_leaps(motion: Motion, run: PiecewiseMotion, holder: str, remedy: str) -> None:
-    """Refuse polynomials whose velocity or acceleration leaps, for what holds one value of each at a point.
-
-    Raises
-    ------
-    InputError
-        If one leaps by more than rounding; the error says where, and the remedy.
-    """
+    """Refuse polynomials whose velocity or acceleration leaps, for what holds one value of each at a point."""
     for nu, quantity in ((1, "velocity"), (2, "acceleration")):
         x = leaping(run, nu)
         if x is not None:

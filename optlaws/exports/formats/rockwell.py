@@ -10,10 +10,9 @@ import numpy as np
 
 from optlaws.errors import InputError
 from optlaws.exports.format import MOST_POINTS, Request, Written, file_format
-from optlaws.exports.formats.point_table import NumberFormat, PointTable, table_by_interpolation
-from optlaws.exports.identifiers import iec_name
-from optlaws.exports.spacing import chosen
-from optlaws.exports.text import iec_comment, real, table_heading
+from optlaws.exports.formats.point_table import NumberFormat, chosen_table
+from optlaws.exports.spacing import PointTable
+from optlaws.exports.text import iec_comment, iec_name, real, table_heading
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion
 
@@ -36,13 +35,6 @@ def profile_rows(run: PiecewiseMotion, *, cubic: bool = True) -> list[list[int]]
 
     Status, X, Y, segment type, C0, C1, C2, C3: y = Y + C1 d + C2 d² + C3 d³ with d = x - X. The last element is the
     last point alone.
-
-    Examples
-    --------
-    >>> from optlaws.exports.interpolation import spline_powers
-    >>> x = np.array([0.0, 40.0, 100.0])
-    >>> profile_rows(PiecewiseMotion(x, spline_powers(x, np.array([0.0, 20.0, 25.0]), slopes=(1.0, 0.0))))[-1]
-    [2, 1079574528, 0, 1077477376, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0]
     """
     kind = SEGMENT_TYPES["cubic" if cubic else "linear"]
     rows = []
@@ -53,13 +45,7 @@ def profile_rows(run: PiecewiseMotion, *, cubic: bool = True) -> list[list[int]]
 
 
 def profile_motion(rows: Sequence[Sequence[int]]) -> PiecewiseMotion:
-    """The motion that rows of CAM_PROFILE run.
-
-    Raises
-    ------
-    InputError
-        If a row has not 14 numbers of 32 bits.
-    """
+    """The motion that rows of CAM_PROFILE run."""
     decoded = [_values(row) for row in rows]
     breaks = [x for x, *_ in decoded]
     return PiecewiseMotion(breaks, [[y + constant, *slopes] for _, y, constant, *slopes in decoded[:-1]])
@@ -82,12 +68,7 @@ def _values(row: Sequence[int]) -> list[float]:
 
 def _table(motion: Motion, request: Request, *, single: bool) -> PointTable:
     interpolation = request.interpolation_among(SEGMENT_TYPES)
-    number_format = NumberFormat(request.counts, request.digits, single)
-
-    def make(count: int) -> PointTable:
-        return table_by_interpolation(motion, count, number_format, interpolation)
-
-    return chosen(motion, request, make, least=2, most=MOST_POINTS)
+    return chosen_table(motion, request, interpolation, MOST_POINTS, single=single)
 
 
 def _array(motion: Motion, request: Request, *, single: bool) -> Written:

@@ -16,8 +16,8 @@ from optlaws.exports.formats.program_polynomials import (
     polynomials_for,
     refuse_leaps,
 )
-from optlaws.exports.identifiers import iec_name
 from optlaws.exports.interpolation import hermite_powers
+from optlaws.exports.text import iec_name
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion
 

@@ -14,8 +14,7 @@ from optlaws.exports.formats.program_polynomials import (
     leaps_of_single,
     source_polynomials,
 )
-from optlaws.exports.identifiers import iec_name
-from optlaws.exports.text import Labels, program_heading, real, safe, wrapped
+from optlaws.exports.text import Labels, iec_name, program_heading, real, safe, wrapped
 from optlaws.files.writing import MARK
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion

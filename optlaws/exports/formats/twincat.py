@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from optlaws.exports.fitting import Fitted
 from optlaws.exports.format import MOST_POINTS, Request, Written, file_format
-from optlaws.exports.formats.point_table import NumberFormat, PointTable, linear_table, spline_table
+from optlaws.exports.formats.point_table import NumberFormat, linear_table, spline_table
 from optlaws.exports.formats.program_polynomials import (
     ends_of,
     fields,
@@ -18,10 +18,9 @@ from optlaws.exports.formats.program_polynomials import (
     polynomials_for,
     refuse_leaps,
 )
-from optlaws.exports.identifiers import iec_name
 from optlaws.exports.interpolation import hermite_powers
-from optlaws.exports.spacing import chosen
-from optlaws.exports.text import iec_comment, real, table_heading
+from optlaws.exports.spacing import PointTable, chosen
+from optlaws.exports.text import iec_comment, iec_name, real, table_heading
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion
 
@@ -79,6 +78,8 @@ DEGREE = 7
 FUNCTIONS = {5: ("MOTIONFUNCTYPE_POLYNOM5_MM", "Polynomial5"), 7: ("MOTIONFUNCTYPE_POLYNOM7_MM", "Polynomial7")}
 _REMEDY = "take a smoother law, or a format whose pieces have ends of their own, such as codesys-cambuilder"
 _LAST = ("MOTIONFUNCTYPE_NOTDEF", "Undefined")
+_NC2 = ("MasterPos", "SlavePos", "SlaveVelo", "SlaveAcc", "SlaveJerk")
+_MC3 = ("MasterPosition", "SlavePosition", "SlaveVelocity", "SlaveAcceleration", "SlaveJerk")
 
 
 def _motion_function(motion: Motion, request: Request, *, third: bool) -> Written:
@@ -89,7 +90,7 @@ def _motion_function(motion: Motion, request: Request, *, third: bool) -> Writte
     values = np.array([*(end.first for end in ends), ends[-1].last]).T
     run = _run(fit.run.breaks, values, degrees)
     rows = [
-        (_of_mc3 if third else _of_nc2)(i, x, values[:, i].tolist(), degree)
+        _point(i + 1, (x, *values[:, i].tolist()), degree, third=third)
         for i, (x, degree) in enumerate(zip(fit.run.breaks, [*degrees, 0], strict=True))
     ]
     kind = "MotionFunctionPoint" if third else "MC_MotionFunctionPoint"
@@ -109,13 +110,7 @@ def _motion_function(motion: Motion, request: Request, *, third: bool) -> Writte
 
 
 def _shared(motion: Motion, request: Request) -> Fitted:
-    """Polynomials whose neighbours share what a point holds: velocity and acceleration, and the jerk where one is used.
-
-    Raises
-    ------
-    InputError
-        If velocity or acceleration leap, for a point holds one value of each.
-    """
+    """Polynomials whose neighbours share what a point holds: velocity, acceleration, and the jerk where one is used."""
     fit = polynomials_for(motion, request, DEGREE, MOST_POINTS - 1, points=True)
     refuse_leaps(motion, fit.run, "a point of TwinCAT", _REMEDY)
     if fit.run.degree > 5 and leaping(fit.run, 3) is not None:
@@ -130,32 +125,17 @@ def _run(breaks: tuple[float, ...], values: NDArray[np.float64], degrees: list[i
     return PiecewiseMotion(breaks, rows)
 
 
-def _of_nc2(place: int, x: float, values: list[float], degree: int) -> str:
-    function = FUNCTIONS[degree][0] if degree else _LAST[0]
-    y, v, a, j = values
+def _point(place: int, numbers: tuple[float, ...], degree: int, *, third: bool) -> str:
+    """A point from the master's position, y, V, A and J, and the degree of the polynomial after it, 0 at the end."""
+    function = FUNCTIONS.get(degree, _LAST)[third]
+    if third:
+        return fields(FunctionType=f"EMotionFunctionType.{function}", **dict(zip(_MC3, numbers, strict=True)))
     return fields(
-        PointIndex=place + 1,
+        PointIndex=place,
         FunctionType=function,
         PointType="MOTIONPOINTTYPE_MOTION",
         RelIndexNextPoint=1 if degree else 0,
-        MasterPos=x,
-        SlavePos=y,
-        SlaveVelo=v,
-        SlaveAcc=a,
-        SlaveJerk=j,
-    )
-
-
-def _of_mc3(place: int, x: float, values: list[float], degree: int) -> str:  # noqa: ARG001 - as the other
-    function = FUNCTIONS[degree][1] if degree else _LAST[1]
-    y, v, a, j = values
-    return fields(
-        FunctionType=f"EMotionFunctionType.{function}",
-        MasterPosition=x,
-        SlavePosition=y,
-        SlaveVelocity=v,
-        SlaveAcceleration=a,
-        SlaveJerk=j,
+        **dict(zip(_NC2, numbers, strict=True)),
     )
 
 

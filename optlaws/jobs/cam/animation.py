@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from optlaws.cams.cutting.cam_files import beziers
 from optlaws.cams.cutting.spline import spline
-from optlaws.cams.cutting.text_formats import beziers
 from optlaws.cams.disc import DiscCam
 from optlaws.files.writing import MARK
 from optlaws.numbers import Array

@@ -21,7 +21,7 @@ from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.laws.making.input_shaping import Shaper, shaped_law
 from optlaws.mechanisms.machine.machine import Machine
 from optlaws.mechanisms.machine.modes import mode
-from optlaws.mechanisms.spectrum.laplace import velocity_transform
+from optlaws.mechanisms.spectrum.transforms import velocity_transform
 from optlaws.plots.style import BLUES, GREEN, GREY, WARM, empty_figure, plot_style, save_picture
 from optlaws.results.page import Page
 from optlaws.studies.problem_entries import gap, record

@@ -9,7 +9,7 @@ from math import ceil, log2
 import numpy as np
 
 from optlaws.kept import kept_property
-from optlaws.mechanisms.follower.cam_motion import Forcing
+from optlaws.mechanisms.follower.forcing import Forcing
 from optlaws.mechanisms.follower.particular import RADIANS, ForcedStretch, stretches
 from optlaws.mechanisms.follower.vibration import Oscillator
 from optlaws.numbers import Array
@@ -29,17 +29,7 @@ SAMPLES = 0.5 - 0.5 * chebyshev.nodes(17)
 
 @dataclass(frozen=True, eq=False)
 class MassChain:
-    """The motion of the mass over consecutive forcings, from a given state at their start.
-
-    Parameters
-    ----------
-    oscillator
-        Its free vibration.
-    forcings
-        What the cam does, without gaps in time.
-    initial
-        Displacement and velocity of the mass at the start.
-    """
+    """The motion of the mass over consecutive forcings without gaps, from displacement and velocity at their start."""
 
     oscillator: Oscillator
     forcings: Sequence[Forcing]

@@ -1,15 +1,18 @@
-"""The elastic follower: a mass driven by its cam through a spring (1.19)."""
+"""The elastic follower: a mass driven by its cam through a spring (1.19), and what errors of its design cost."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import cos, exp, pi, sqrt, tau
+from typing import Any, Literal
 
-from optlaws.laws import MotionLaw
-from optlaws.mechanisms.checks import motion_law, state
-from optlaws.mechanisms.follower.cycle import CycleResponse
-from optlaws.mechanisms.follower.response import Response
-from optlaws.numbers import frequency, not_negative, positive
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.laws import MotionLaw, Peak
+from optlaws.laws.law import motion_law
+from optlaws.mechanisms.follower.response import CycleResponse, Response
+from optlaws.numbers import frequency, not_negative, numbers, positive
 
 _SHOWN = 240
 
@@ -32,7 +35,7 @@ class Follower:
     Raises
     ------
     InputError
-        If a number is not finite or out of its range.
+        If a number is not finite or out of its range, here and in its methods.
 
     Examples
     --------
@@ -77,11 +80,6 @@ class Follower:
         damping
             Viscous damping between mass and ground in N s/m, or N m s/rad; not the ratio.
 
-        Raises
-        ------
-        InputError
-            If a number is not finite or out of its range.
-
         Examples
         --------
         >>> Follower.from_units(mass=2.0, stiffness=80e3, duration=0.1, damping=40.0)
@@ -108,11 +106,6 @@ class Follower:
         damping
             Ratio zeta.
 
-        Raises
-        ------
-        InputError
-            If a number is not finite or out of its range.
-
         Examples
         --------
         >>> Follower.from_speed(speed_rpm=105, rise_angle_deg=120, natural_period=0.06, damping=0.05)
@@ -122,19 +115,7 @@ class Follower:
         return cls(pi / 3.0 * positive(rise_angle_deg, "rise_angle_deg") / turn, damping)
 
     def speed_rpm(self, *, rise_angle_deg: float, natural_period: float) -> float:
-        """Speed of the cam, in revolutions per minute, at which a machine is this follower (1.26).
-
-        Parameters
-        ----------
-        rise_angle_deg
-            Angle of the cam during the rise, degrees.
-        natural_period
-            Period of the undamped free vibration, s.
-
-        Raises
-        ------
-        InputError
-            If a number is not finite or not positive.
+        """Speed of the cam, in revolutions per minute, at which a machine is this follower, as `from_speed` takes it.
 
         Examples
         --------
@@ -163,11 +144,6 @@ class Follower:
         initial
             Displacement and velocity of the mass at k = 0; at rest on the cam unless given.
 
-        Raises
-        ------
-        InputError
-            If `law` is no motion law, or `initial` are not two finite numbers.
-
         Examples
         --------
         >>> from optlaws.laws import smoothstep
@@ -175,7 +151,7 @@ class Follower:
         0.01
         """
         cam = motion_law(law)
-        at_start = (float(cam.a(0.0)), 0.0) if initial is None else state(initial)
+        at_start = (float(cam.a(0.0)), 0.0) if initial is None else _state(initial)
         return Response(self.nu, self.damping, cam, at_start)
 
     def cycle(
@@ -216,3 +192,105 @@ class Follower:
             positive(fall_duration, "fall_duration"),
             not_negative(rest, "rest"),
         )
+
+
+def _state(value: Any) -> tuple[float, float]:  # noqa: ANN401 - whatever a caller hands over
+    """Displacement and velocity of a mass as two floats."""
+    pair = numbers(value, "initial")
+    if len(pair) != 2:
+        raise InputError(f"initial must be displacement and velocity of the mass, got {shortened(value)}")
+    return pair[0], pair[1]
+
+
+Change = Literal["speed", "stiffness"]
+
+DEVIATIONS = (-10.0, -5.0, 0.0, 5.0, 10.0)
+
+
+@dataclass(frozen=True)
+class Deviation:
+    """A follower off its design and its response.
+
+    Parameters
+    ----------
+    percent
+        Change of nu in percent of the design's.
+    response
+        What the mass does.
+    reference
+        The law meant for the mass.
+
+    Examples
+    --------
+    >>> from optlaws.laws.savin import savin
+    >>> worst = off_design(savin("III", 7.2), savin("III", 7.2), Follower(nu=20))[0]
+    >>> worst.percent, worst.dynamic_factor
+    (-10.0, 2.035976)
+    """
+
+    percent: float
+    response: Response
+    reference: MotionLaw
+
+    @property
+    def dynamic_factor(self) -> float:
+        """max |a_m''| of the rise over C of the reference."""
+        return self.response.dynamic_factor(self.reference)
+
+    @property
+    def peak(self) -> Peak:
+        """max |a_m''| of the rise and its place."""
+        return self.response.peak(2)
+
+
+def off_design(
+    cam: MotionLaw,
+    reference: MotionLaw,
+    design: Follower,
+    *,
+    deviations: Sequence[float] = DEVIATIONS,
+    change: Change = "speed",
+) -> tuple[Deviation, ...]:
+    """Responses to one cam of followers whose nu deviates from the design's.
+
+    nu = T sqrt(stiffness/mass) falls by as many percent as the speed rises, to first order, and by half as many as the
+    stiffness falls. A change of speed leaves the damping ratio as it is, a change of stiffness n = h T / 2 mass.
+
+    Parameters
+    ----------
+    cam
+        Law of the cam.
+    reference
+        Law meant for the mass, whose C the dynamic factor refers to.
+    design
+        The follower for which the cam was made.
+    deviations
+        Changes of nu in percent, above -100.
+    change
+        "speed" keeps the damping ratio, "stiffness" keeps n.
+
+    Raises
+    ------
+    InputError
+        If an argument is out of range or unknown.
+
+    Examples
+    --------
+    >>> from optlaws.laws.savin import savin
+    >>> from optlaws.mechanisms import polydyne
+    >>> law = savin("IV", 11.0)
+    >>> [round(deviation.dynamic_factor, 6) for deviation in off_design(polydyne(law, nu=20), law, Follower(nu=20))]
+    [1.185564, 1.102502, 1.0, 0.963659, 0.945973]
+    """
+    meant = motion_law(reference, "reference")
+    percents = numbers(list(deviations), "deviations")
+    if min(percents, default=0.0) <= -100.0:
+        raise InputError(f"deviations are changes of nu in percent and must be above -100, got {min(percents):g}")
+    if change not in ("speed", "stiffness"):
+        raise InputError(f'change must be "speed" or "stiffness", got {shortened(change)}')
+    compared = []
+    for percent in percents:
+        factor = 1.0 + percent / 100.0
+        ratio = design.damping if change == "speed" else design.damping / factor
+        compared.append(Deviation(percent, Follower(design.nu * factor, ratio).response(cam), meant))
+    return tuple(compared)

@@ -15,7 +15,7 @@ from typing import Protocol
 
 import numpy as np
 
-from optlaws.mechanisms.follower.cam_motion import Forcing, PolynomialMotion
+from optlaws.mechanisms.follower.forcing import Forcing, PolynomialMotion
 from optlaws.mechanisms.follower.vibration import Oscillator
 from optlaws.numbers import Array
 from optlaws.numerics import chebyshev
@@ -36,19 +36,7 @@ class Particular(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class ForcedStretch:
-    """A part of a forcing with a particular solution on it.
-
-    Parameters
-    ----------
-    forcing
-        The forcing it is a part of.
-    offset, length
-        Where the stretch begins in the forcing, and how long it is.
-    particular
-        The solution.
-    closed
-        Whether it is the closed form.
-    """
+    """A part of a forcing from an offset on, with a particular solution, `closed` where that is the closed form."""
 
     forcing: Forcing
     offset: float
@@ -83,16 +71,7 @@ class SineSolution:
 
 
 def stretches(forcing: Forcing, oscillator: Oscillator) -> list[ForcedStretch]:
-    """A forcing with particular solutions: the closed form, or short stretches where that would cancel.
-
-    Examples
-    --------
-    >>> from optlaws.laws import smoothstep
-    >>> from optlaws.mechanisms.follower.law_motion import forcings
-    >>> (rise,) = forcings(smoothstep(20))
-    >>> len(stretches(rise, Oscillator(60.0, 0.0))), len(stretches(rise, Oscillator(15.0, 0.0)))
-    (1, 2)
-    """
+    """A forcing with particular solutions: the closed form, or short stretches where that would cancel."""
     closed = _closed(forcing, oscillator)
     if closed is not None:
         return [ForcedStretch(forcing, 0.0, forcing.length, closed, closed=True)]
@@ -102,8 +81,6 @@ def stretches(forcing: Forcing, oscillator: Oscillator) -> list[ForcedStretch]:
 def closed_form(load: Array, oscillator: Oscillator, length: float) -> PolynomialMotion | None:
     """The polynomial u with u'' + 2 n u' + nu² u = -load (1.25); None where it is large beside the load.
 
-    Examples
-    --------
     >>> closed_form(np.array([8.0]), Oscillator(2.0, 0.0), 1.0).series[0].tolist()
     [-2.0]
     """

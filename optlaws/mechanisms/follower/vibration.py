@@ -14,17 +14,8 @@ from optlaws.numbers import Array
 
 @dataclass(frozen=True)
 class Oscillator:
-    """The homogeneous equation of a follower.
+    """The homogeneous equation of a follower: nu in radians in the rise's duration, damping as the ratio zeta = n/nu.
 
-    Parameters
-    ----------
-    nu
-        Circular frequency of the undamped vibration, radians in the rise's duration.
-    damping
-        Ratio zeta = n/nu.
-
-    Examples
-    --------
     >>> Oscillator(5.0, 0.6).frequency, Oscillator(5.0, 1.25).frequency
     (4.0, 0.0)
     """
@@ -52,13 +43,7 @@ class Oscillator:
         return max(self.nu, self.n + self._spread)
 
     def even_odd(self, s: Array) -> tuple[Array, Array]:
-        """exp(-n s) cos(lambda s) and exp(-n s) sin(lambda s) / lambda, or what becomes of them past critical.
-
-        Examples
-        --------
-        >>> [values.tolist() for values in Oscillator(1.0, 1.0).even_odd(np.array([0.0]))]
-        [[1.0], [0.0]]
-        """
+        """exp(-n s) cos(lambda s) and exp(-n s) sin(lambda s) / lambda, or what becomes of them past critical."""
         if self.damping <= 1.0:
             decay, phase = np.exp(-self.n * s), self.frequency * s
             return decay * np.cos(phase), decay * s * np.sinc(phase / pi)
@@ -69,38 +54,20 @@ class Oscillator:
         return 0.5 * slow * (1.0 + np.exp(-twice)), slow * s * ratio
 
     def motion(self, h0: float, v0: float, s: Array, order: int) -> Array:
-        """Derivative of order `order` at s of the vibration with displacement h0 and velocity v0 at s = 0.
-
-        Examples
-        --------
-        >>> Oscillator(2.0, 0.0).motion(1.0, 0.0, np.array([0.0]), 2).tolist()
-        [-4.0]
-        """
+        """Derivative of order `order` at s of the vibration with displacement h0 and velocity v0 at s = 0."""
         for _ in range(order):
             h0, v0 = v0, -2.0 * self.n * v0 - self.nu**2 * h0
         even, odd = self.even_odd(s)
         return h0 * even + (v0 + self.n * h0) * odd
 
     def amplitude(self, h0: float, v0: float) -> float:
-        """Amplitude of the envelope at s = 0 below critical damping (1.21); else the greatest |h| from s = 0 on.
-
-        Examples
-        --------
-        >>> Oscillator(2.0, 0.0).amplitude(0.3, 0.8)
-        0.5
-        """
+        """Amplitude of the envelope at s = 0 below critical damping (1.21); else the greatest |h| from s = 0 on."""
         if self.frequency > 0.0:
             return hypot(h0, (v0 + self.n * h0) / self.frequency)
         return self.peak(h0, v0, 0).value
 
     def peak(self, h0: float, v0: float, order: int) -> Peak:
-        """Greatest magnitude of the derivative of order `order` from s = 0 on, and its place s.
-
-        Examples
-        --------
-        >>> Oscillator(2.0, 0.0).peak(0.0, 2.0, 0)
-        Peak(value=1.0, k=0.785398)
-        """
+        """Greatest magnitude of the derivative of order `order` from s = 0 on, and its place s."""
         for _ in range(order):
             h0, v0 = v0, -2.0 * self.n * v0 - self.nu**2 * h0
         places = np.array([0.0, self._first_stop(h0, v0)])

@@ -9,8 +9,7 @@ from math import ceil
 import numpy as np
 
 from optlaws.laws import MotionLaw
-from optlaws.mechanisms.follower.cam_motion import Forcing
-from optlaws.mechanisms.follower.law_motion import forcings
+from optlaws.mechanisms.follower.forcing import Forcing, forcings
 from optlaws.mechanisms.machine.dynamics import DriveStretch
 from optlaws.numbers import Array
 from optlaws.numerics import chebyshev
@@ -24,42 +23,19 @@ _COUNT = 41
 def of_law(
     law: MotionLaw, start: float = 0.0, length: float = 1.0, a0: float | None = None, stroke: float = 1.0
 ) -> list[DriveStretch]:
-    """A law as it drives a machine, a0 + stroke (law(k) - law(0)) with k = (time - start) / length.
-
-    Examples
-    --------
-    >>> from optlaws.laws import smoothstep
-    >>> (rise,) = of_law(smoothstep(3))
-    >>> rise.ends[1].round(12).ravel().tolist()
-    [1.0, 0.0, 0.0]
-    """
+    """A law as it drives a machine, a0 + stroke (law(k) - law(0)) with k = (time - start) / length."""
     return [drive for forcing in forcings(law, start, length, a0, stroke) for drive in _drives(forcing)]
 
 
 def rest(start: float, length: float, level: Array) -> DriveStretch:
-    """A dwell at displacements, one for each column.
-
-    Examples
-    --------
-    >>> rest(1.0, 0.5, np.array([1.0])).series.ravel().tolist()
-    [1.0, 0.0, 0.0]
-    """
+    """A dwell at displacements, one for each column."""
     series = np.zeros((1, 3, len(level)))
     series[0, 0] = level
     return DriveStretch(start, length, series)
 
 
 def of_space(space: LawSpace) -> list[DriveStretch]:
-    """The drives of all laws of a space at once: a column for each free function, the base law's last.
-
-    Examples
-    --------
-    >>> from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
-    >>> from optlaws.synthesis.spaces.polynomials.space import polynomial_space
-    >>> (drive,) = of_space(polynomial_space(BoundaryConditions.rest(2), 3, symmetric=True))
-    >>> drive.ends[1][0].round(12).tolist()
-    [0.0, 0.0, 1.0]
-    """
+    """The drives of all laws of a space at once: a column for each free function, the base law's last."""
     breaks: Sequence[float] = getattr(space, "breaks", (0.0, 1.0))
     x = chebyshev.nodes(_terms(space))
     drives = []

@@ -13,14 +13,11 @@ from itertools import pairwise
 from math import ceil, inf, sqrt
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
-from optlaws.numbers import Array
+from optlaws.numbers import Array, Complex
 from optlaws.numerics import chebyshev
 from optlaws.numerics.tolerances import SAME_ROOT, SAME_TIME, VIBRATING
-
-Complex = NDArray[np.complex128]
 
 RADIANS = 10.0  # of the fastest vibration in a panel
 DECAY = 40.0  # of the fastest decay in a panel, while it is not over
@@ -34,14 +31,9 @@ PER_ROOT_OF_DECAY = 6.5  # coefficients that an exponential needs for each root 
 
 @dataclass(frozen=True, eq=False)
 class DriveStretch:
-    """The motion of the drive on one stretch of time.
+    """The motion of the drive on one stretch of time, in durations of the rise.
 
-    Attributes
-    ----------
-    start, length
-        Where the stretch lies, in durations of the rise.
-    series
-        Chebyshev series of a, b and c on it, shape (coefficients, 3, columns): one column for each law.
+    `series` are Chebyshev series of a, b and c on it, shape (coefficients, 3, columns): one column for each law.
     """
 
     start: float
@@ -68,14 +60,8 @@ class DriveStretch:
 class Panel:
     """The machine's states over a short time, as Chebyshev series, in the coordinates of its triangular form.
 
-    Attributes
-    ----------
-    start, length
-        Where it lies.
-    states
-        Series of the states, shape (coefficients, states, columns).
-    drive
-        Series of a, b and c, shape (coefficients, 3, columns), no longer than those.
+    `states` have the shape (coefficients, states, columns), `drive` (coefficients, 3, columns) with no more
+    coefficients.
     """
 
     start: float
@@ -91,19 +77,7 @@ class Panel:
 
 
 class Dynamics:
-    """x' = A x + B (a, b, c) in triangular form.
-
-    Parameters
-    ----------
-    matrix, load
-        A and B, shapes (states, states) and (states, 3).
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> Dynamics(np.array([[0.0, 1.0], [-25.0, -6.0]]), np.zeros((2, 3))).roots.round(12).tolist()
-    [(-3+4j), (-3-4j)]
-    """
+    """x' = A x + B (a, b, c) in triangular form; A and B have the shapes (states, states) and (states, 3)."""
 
     def __init__(self, matrix: Array, load: Array) -> None:
         from scipy.linalg import matrix_balance, schur
@@ -274,8 +248,6 @@ def solutions(root: complex, load: Complex) -> Complex:
     is solved for beside the particular ones, from a coefficient 0, or a coefficient 1, that it is not without; where
     the coefficients are too few to show it, from the last one, beside which the particular ones are smooth.
 
-    Examples
-    --------
     >>> load = np.zeros((3, 1), dtype=complex)
     >>> load[1] = 1.0
     >>> solutions(0.0, load).real.round(12).tolist()
@@ -334,8 +306,6 @@ def inverse_gain(A: Array, load: Array, states: Array, direct: Array) -> tuple[i
     directly is what the inverse machine makes of the output: as much as is fed through, and the integral of its
     response to an impulse at most. Infinite where nothing enters directly.
 
-    Examples
-    --------
     >>> force = inverse_gain(np.array([[-1.0]]), np.zeros((1, 3)), np.zeros(1), np.array([0.0, 0.0, 2.0]))
     >>> force
     (2, 0.505)

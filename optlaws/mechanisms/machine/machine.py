@@ -1,18 +1,23 @@
-"""Machines that a law drives: made from matrices, masses or systems, and asked for responses and constants."""
+"""Linear machines that a law drives: made from matrices, masses, modes or systems; their responses and constants."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
+from optlaws.echo import shortened
+from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
-from optlaws.mechanisms.checks import motion_law
-from optlaws.mechanisms.machine.making import MachineConstructors
-from optlaws.mechanisms.machine.modes import Mode, modes
+from optlaws.laws.law import motion_law
+from optlaws.mechanisms.follower.follower import Follower
+from optlaws.mechanisms.machine.masses import Link, MachineModel, assembly
+from optlaws.mechanisms.machine.modes import Mode, modal_model, modes
 from optlaws.mechanisms.machine.over_time import MachineCycle, MachineResponse
+from optlaws.mechanisms.machine.state_space import SYMBOLS, StateSpace
 from optlaws.numbers import not_negative, positive
 
 if TYPE_CHECKING:
@@ -21,7 +26,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, init=False, repr=False)
-class Machine(MachineConstructors):
+class Machine(StateSpace):
     """A linear machine that a law drives: x' = A x + B w, y = C x + D w, in durations of the rise.
 
     The machine is at rest before the law begins. Made from matrices as here, from matrices in seconds (`from_units`),
@@ -41,7 +46,8 @@ class Machine(MachineConstructors):
     Raises
     ------
     InputError
-        If the matrices do not fit each other, a number is not finite, or the machine is unstable.
+        If the matrices do not fit each other, a number is not finite, or the machine is unstable; in its methods, if an
+        argument is out of range or names no output.
 
     Examples
     --------
@@ -53,13 +59,167 @@ class Machine(MachineConstructors):
     0.489570
     """
 
+    @classmethod
+    def from_masses(
+        cls,
+        masses: Mapping[str, float],
+        links: Sequence[Link | Sequence[Any]],
+        *,
+        drive: str | tuple[str, str],
+        outputs: Mapping[str, str] | Sequence[str] | None = None,
+        duration: float = 1.0,
+        stroke: float = 1.0,
+    ) -> Self:
+        """The machine of masses, springs and dampers.
+
+        Parameters
+        ----------
+        masses
+            Masses in kg, or moments of inertia in kg m², by name; that of the driven one may be 0.
+        links
+            Springs with dampers: `Link("motor", "load", stiffness=400, damping=0.4)`, or such a tuple: N/m and N s/m,
+            no ratio. "ground" is what stands still.
+        drive
+            The mass whose displacement is the law; or two, the law being the second one's distance from the first:
+            ("camshaft", "roller").
+        outputs
+            Outputs by the names they are to have, or a list of them; all there are unless given: "drive force";
+            "position", "velocity" and "acceleration" of a mass, such as "position load"; "deflection" and "force" of a
+            link, such as "force motor-load".
+        duration, stroke
+            Duration of the rise, s, and its stroke, m or rad; 1 where all numbers are dimensionless.
+
+        Examples
+        --------
+        >>> axis = Machine.from_masses(
+        ...     {"motor": 1.0, "load": 2.0},
+        ...     [Link("motor", "load", stiffness=800.0, damping=2.0)],
+        ...     drive="motor",
+        ...     outputs={"motor torque": "drive force", "belt force": "force motor-load"},
+        ... )
+        >>> axis
+        Machine(states=2, inputs='abc', outputs=['motor torque', 'belt force'])
+        """
+        return cls._driven(assembly(masses, links, drive), outputs, duration=duration, stroke=stroke)
+
+    @classmethod
+    def from_modes(
+        cls,
+        modes: Sequence[Sequence[float]],
+        *,
+        duration: float,
+        stroke: float = 1.0,
+        outputs: Mapping[str, str] | Sequence[str] | None = None,
+    ) -> Self:
+        """The machine of vibrations that were measured: frequencies and damping ratios, and how much of each shows.
+
+        What the drive carries moves by the law and bends by the sum of its modes, each of which the acceleration of the
+        drive excites.
+
+        Parameters
+        ----------
+        modes
+            For each vibration its frequency in Hz, the undamped one, a number; its damping ratio, the share of the
+            critical damping of what moves relative to the drive (that of a `Follower` is relative to the ground); and
+            its participation: the share of the drive's displacement with which it moves at the place that counts, 1
+            unless given.
+        duration, stroke
+            Duration of the rise, s, and its stroke, m or rad.
+        outputs
+            Outputs by the names they are to have, or a list of them; all there are unless given: "position",
+            "velocity" and "acceleration" of that place, "deflection", by how much it is away from where it would be if
+            all were rigid; of several modes also "deflection 1" and so on.
+
+        Examples
+        --------
+        >>> from optlaws import smoothstep
+        >>> arm = Machine.from_modes([(8.5, 0.02)], duration=0.4, stroke=0.3, outputs=["deflection"])
+        >>> arm, round(arm.residual().value(smoothstep(3)), 6)
+        (Machine(states=2, inputs='ac', outputs=['deflection']), 0.003...)
+        """
+        return cls._driven(modal_model(modes), outputs, duration=duration, stroke=stroke)
+
+    @classmethod
+    def from_system(
+        cls,
+        system: Any,  # noqa: ANN401 - of any package
+        *,
+        inputs: str = "a",
+        outputs: Sequence[str] = (),
+        duration: float = 1.0,
+        stroke: float = 1.0,
+    ) -> Self:
+        """The machine of a system of scipy.signal or python-control, continuous in time.
+
+        Parameters
+        ----------
+        system
+            `scipy.signal.StateSpace`, `TransferFunction` or `ZerosPolesGain`, or `control.ss`, `control.tf`.
+        inputs
+            What of the law its inputs are, in their order: "a" displacement, "b" velocity, "c" acceleration.
+        outputs
+            Names of its outputs.
+        duration, stroke
+            Duration of the rise in the system's unit of time, and its stroke.
+
+        Examples
+        --------
+        >>> from scipy.signal import TransferFunction
+        >>> Machine.from_system(TransferFunction([400], [1, 2, 400]), outputs=["position"])
+        Machine(states=2, inputs='a', outputs=['position'])
+        """
+        A, B, C, D = _matrices(system)
+        return cls.from_units(A, B, C, D, duration=duration, stroke=stroke, inputs=inputs, outputs=outputs)
+
+    @classmethod
+    def from_follower(cls, follower: Follower) -> Self:
+        """The elastic follower as a machine: outputs "position", "acceleration" and "deflection" of the mass.
+
+        The deflection is that of the spring, from the cam to the mass. `Follower` itself has closed forms of its own,
+        with some more digits of the little that smooth laws leave after the motion at large nu.
+
+        Parameters
+        ----------
+        follower
+            The follower.
+
+        Examples
+        --------
+        >>> from optlaws import smoothstep
+        >>> machine = Machine.from_follower(Follower(nu=20, damping=0.05))
+        >>> machine.residual(1, "acceleration").value(smoothstep(4))
+        1.650151
+        """
+        if not isinstance(follower, Follower):
+            raise InputError(f"follower must be a Follower, got {shortened(follower)}")
+        # by its deflection, which is small: the displacements of cam and mass would cancel nu² times their rounding
+        square, drag = follower.nu**2, 2.0 * follower.n
+        bending = [-square, -drag]
+        rows, direct = [[1.0, 0.0], bending, [1.0, 0.0]], [[1.0, 0.0, 0.0], [0.0, -drag, 0.0], [0.0, 0.0, 0.0]]
+        names = ["position", "acceleration", "deflection"]
+        load = [[0.0, 0.0, 0.0], [0.0, -drag, -1.0]]
+        return cls([[0.0, 1.0], bending], load, rows, direct, inputs="abc", outputs=names)
+
+    @classmethod
+    def _driven(
+        cls,
+        given: MachineModel,
+        outputs: Mapping[str, str] | Sequence[str] | None,
+        *,
+        duration: float,
+        stroke: float,
+    ) -> Self:
+        """The machine of a model driven by a, b and c, without those that do not enter."""
+        names = given.named(outputs)
+        A, B, C, D = given.matrices(list(names.values()))
+        used = [i for i in range(3) if i == 0 or B[:, i].any() or D[:, i].any()]
+        inputs = "".join(SYMBOLS[i] for i in used)
+        return cls.from_units(
+            A, B[:, used], C, D[:, used], duration=duration, stroke=stroke, inputs=inputs, outputs=list(names)
+        )
+
     def at_speed(self, factor: float) -> Self:
         """The same machine run `factor` times as fast: the rise takes 1/factor of its duration.
-
-        Raises
-        ------
-        InputError
-            If the factor is not above 0.
 
         Examples
         --------
@@ -91,11 +251,6 @@ class Machine(MachineConstructors):
         dwell
             Duration of the dwell that is looked at, in durations of the rise.
 
-        Raises
-        ------
-        InputError
-            If `law` is no motion law or the dwell is below 0.
-
         Examples
         --------
         >>> from optlaws import smoothstep
@@ -108,18 +263,7 @@ class Machine(MachineConstructors):
     def cycle(
         self, rise: MotionLaw, fall: MotionLaw | None = None, *, dwell: float, fall_duration: float = 1.0, rest: float
     ) -> MachineCycle:
-        """The steady motion of the machine when the law rises, dwells, returns and rests again and again.
-
-        Parameters
-        ----------
-        rise
-            Law of the rise.
-        fall
-            Law of the return, run from its end of the rise as a(1) - (fall(k) - fall(0)); the rise's own unless given.
-        dwell, rest
-            Durations of the upper and of the lower dwell, in durations of the rise; 0 or more.
-        fall_duration
-            Duration of the return, in durations of the rise.
+        """The steady motion of the machine when the law rises, dwells, returns and rests, as `Follower.cycle` takes it.
 
         Raises
         ------
@@ -168,11 +312,6 @@ class Machine(MachineConstructors):
         offset
             What is added to the output, in its units: a constant load, such as the weight that the drive holds.
 
-        Raises
-        ------
-        InputError
-            If there is no such output or side, or a number is out of range.
-
         Examples
         --------
         >>> from optlaws import Chebyshev, Problem, synthesize
@@ -207,11 +346,6 @@ class Machine(MachineConstructors):
             The dwell and the rest of a cycle of rise, dwell, return and rest that repeats; then all of it counts.
         offset
             What is added to the output, in its units: a constant load.
-
-        Raises
-        ------
-        InputError
-            If there is no such output, or a number is out of range.
 
         Examples
         --------
@@ -248,11 +382,6 @@ class Machine(MachineConstructors):
         damping
             The least and the greatest damping ratio; the mode's own unless given.
 
-        Raises
-        ------
-        InputError
-            If there is no such mode or output, or a number is out of range.
-
         Examples
         --------
         >>> from optlaws import smoothstep
@@ -263,3 +392,31 @@ class Machine(MachineConstructors):
         from optlaws.mechanisms.machine.residual_boxes import mode_residual
 
         return mode_residual(of=self, mode=mode, spread=spread, damping=damping, output=output)
+
+
+def _matrices(system: Any) -> tuple[Any, Any, Any, Any]:  # noqa: ANN401 - of any package
+    """A, B, C and D of a system, continuous in time: state space, transfer function, or zeros, poles and gain."""
+    step = getattr(system, "dt", None)
+    if step is not None and step != 0:
+        raise InputError(f"a system must be continuous in time, got one with steps of {shortened(step)}")
+    try:
+        state_space = _state_space(system)
+        A, B, C, D = (getattr(state_space, name) for name in "ABCD")
+    except (AttributeError, TypeError, ValueError, NotImplementedError) as error:
+        raise InputError(
+            "a system must be one of scipy.signal (StateSpace, TransferFunction, ZerosPolesGain) or of python-control "
+            f"(ss, tf), proper and with one input for each of the law's, got {shortened(system)}: {error}"
+        ) from None
+    if not np.size(A):
+        raise InputError("the system has no state: a mere gain is no machine")
+    return A, B, C, D
+
+
+def _state_space(system: Any) -> Any:  # noqa: ANN401
+    if type(system).__module__.partition(".")[0] == "control":
+        import control
+
+        return control.ss(system)
+    if not all(hasattr(system, name) for name in "ABCD"):
+        return system.to_ss()
+    return system

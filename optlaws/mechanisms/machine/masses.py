@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar, Protocol
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -61,32 +62,51 @@ class Link:
         return f"{self.first}-{self.second}"
 
 
+class MachineModel(ABC):
+    """A model of a machine in coordinates and their velocities that a, b and c of the law drive."""
+
+    #: the name of the model in errors
+    what: ClassVar[str]
+
+    @property
+    @abstractmethod
+    def accelerations(self) -> Array:
+        """Accelerations of the coordinates, rows over coordinates, their velocities, and a, b and c."""
+
+    @property
+    @abstractmethod
+    def outputs(self) -> dict[str, Array]:
+        """The outputs that it has by their names, rows over coordinates, their velocities, and a, b and c."""
+
+    def matrices(self, outputs: Sequence[str]) -> tuple[Array, Array, Array, Array]:
+        """A, B, C and D for the inputs a, b and c."""
+        size = len(self.accelerations)
+        velocities = np.eye(size, 2 * size + 3, k=size)
+        states, rows = np.vstack([velocities, self.accelerations]), np.array([self.outputs[name] for name in outputs])
+        return states[:, : 2 * size], states[:, 2 * size :], rows[:, : 2 * size], rows[:, 2 * size :]
+
+    def named(self, outputs: Any) -> dict[str, str]:  # noqa: ANN401 - whatever users give
+        """The names of outputs for users, with those of the model; all outputs unless some are chosen."""
+        if outputs is None:
+            return {name: name for name in self.outputs}
+        given = outputs.items() if isinstance(outputs, Mapping) else ((name, name) for name in _many(outputs))
+        named = {str(name): output for name, output in given}
+        for output in named.values():
+            if output not in self.outputs:
+                raise InputError(unknown_key(output, self.outputs, f"output of {self.what}"))
+        return named
+
+
 @dataclass(frozen=True, eq=False)
-class Assembly:
-    """Masses, links and a drive: the law is the displacement of a mass, or its distance from another one.
-
-    Attributes
-    ----------
-    masses
-        Masses, or moments of inertia, by name; the driven one may have none.
-    links
-        What joins them.
-    driven, base
-        The mass that the law drives, and what its displacement is measured from.
-
-    Examples
-    --------
-    >>> axis = Assembly({"motor": 1.0, "load": 2.0}, (Link("motor", "load", 400.0),), "motor", "ground")
-    >>> axis.matrices(["position load"])[0].tolist()
-    [[0.0, 1.0], [-200.0, 0.0]]
-    """
+class Assembly(MachineModel):
+    """Masses by name, links, and the mass that a law drives: the law is its displacement from the ground or a base."""
 
     masses: Mapping[str, float]
     links: tuple[Link, ...]
     driven: str
     base: str
 
-    what: ClassVar[str] = "these masses"
+    what = "these masses"
 
     @kept_property
     def free(self) -> tuple[str, ...]:
@@ -116,8 +136,7 @@ class Assembly:
         return inertia, self._sum("damping"), self._sum("stiffness")
 
     @kept_property
-    def _accelerations(self) -> Array:
-        """Accelerations of the coordinates over coordinates, their velocities, and a, b and c."""
+    def accelerations(self) -> Array:  # noqa: D102
         size = len(self.free)
         inertia, damping, stiffness = self._parts
         right = np.zeros((size, 2 * size + 3))
@@ -125,18 +144,8 @@ class Assembly:
         right[:, 2 * size :] = np.column_stack([stiffness[:-1, -1], damping[:-1, -1], inertia[:-1, -1]])
         return -np.asarray(np.linalg.solve(inertia[:-1, :-1], right))
 
-    def matrices(self, outputs: Sequence[str]) -> tuple[Array, Array, Array, Array]:
-        """A, B, C and D for the inputs a, b and c."""
-        size = len(self.free)
-        A, B = np.zeros((2 * size, 2 * size)), np.zeros((2 * size, 3))
-        A[:size, size:] = np.eye(size)
-        A[size:], B[size:] = self._accelerations[:, : 2 * size], self._accelerations[:, 2 * size :]
-        rows = np.array([self.outputs[name] for name in outputs])
-        return A, B, rows[:, : 2 * size], rows[:, 2 * size :]
-
     @kept_property
-    def outputs(self) -> dict[str, Array]:
-        """Rows over coordinates, their velocities, and a, b and c, by the names of outputs."""
+    def outputs(self) -> dict[str, Array]:  # noqa: D102
         outputs = {DRIVE_FORCE: self._drive_force()}
         for name in self.masses:
             outputs |= {f"{what} {name}": self._moved(self._positions[name], nu) for nu, what in enumerate(_MOTIONS)}
@@ -154,7 +163,7 @@ class Assembly:
         if nu < 2:
             motion[nu * size : (nu + 1) * size] = row[:-1]
         else:
-            motion += row[:-1] @ self._accelerations
+            motion += row[:-1] @ self.accelerations
         motion[2 * size + nu] += row[-1]
         return motion
 
@@ -177,13 +186,6 @@ def assembly(
 ) -> Assembly:
     """Masses, links and a drive, checked.
 
-    Raises
-    ------
-    InputError
-        If a name is unknown or a number out of range.
-
-    Examples
-    --------
     >>> assembly({"motor": 1.0, "load": 2.0}, [("motor", "load", 400.0)], "motor").free
     ('load',)
     """
@@ -227,35 +229,6 @@ def _check_joined(masses: Mapping[str, float], links: Sequence[Link], driven: st
     alone = [name for name in masses if name not in reached]
     if alone:
         raise InputError(f"the mass {alone[0]!r} is linked to nothing that the drive moves: link it, or leave it out")
-
-
-class MachineModel(Protocol):
-    """A model of a machine that has outputs of its own."""
-
-    @property
-    def what(self) -> str:
-        """The name of the model in errors."""
-
-    @property
-    def outputs(self) -> Mapping[str, Any]:
-        """Its outputs by their names."""
-
-
-def named_outputs(given: MachineModel, outputs: Any) -> dict[str, str]:  # noqa: ANN401 - whatever users give
-    """The names of outputs for users, with those of the model; all outputs unless some are chosen.
-
-    Raises
-    ------
-    InputError
-        If there is no such output.
-    """
-    if outputs is None:
-        return {name: name for name in given.outputs}
-    named = {str(k): v for k, v in outputs.items()} if isinstance(outputs, Mapping) else {n: n for n in _many(outputs)}
-    for name in named.values():
-        if name not in given.outputs:
-            raise InputError(unknown_key(name, given.outputs, f"output of {given.what}"))
-    return named
 
 
 def _many(values: Any) -> list[Any]:  # noqa: ANN401

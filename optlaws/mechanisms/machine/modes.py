@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from math import pi
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.mechanisms.machine.masses import MachineModel
 from optlaws.mechanisms.machine.state_space import StateSpace
-from optlaws.numbers import Array, not_negative, numbers, positive
+from optlaws.numbers import Array, Complex, not_negative, numbers, positive
 from optlaws.numerics.tolerances import DEFECTIVE, SAME_ROOT
-
-Complex = NDArray[np.complex128]
 
 
 @dataclass(frozen=True)
@@ -51,29 +48,12 @@ class Mode:
 
 
 def modes(machine: StateSpace) -> tuple[Mode, ...]:
-    """The vibrations of a machine; equal roots are one.
-
-    Examples
-    --------
-    >>> modes(StateSpace([[-3.0]], [[3.0]], [[1.0]]))
-    ()
-    """
+    """The vibrations of a machine; equal roots are one."""
     return tuple(_mode(i, group) for i, group in enumerate(machine.dynamics.vibrations, 1))
 
 
 def mode(machine: StateSpace, number: object) -> Mode:
-    """The vibration of a machine with a given number.
-
-    Raises
-    ------
-    InputError
-        If the machine has no such mode.
-
-    Examples
-    --------
-    >>> mode(StateSpace([[0.0, 5.0], [-5.0, 0.0]], [[3.0], [0.0]], [[1.0, 0.0]]), 1).frequency
-    5.0
-    """
+    """The vibration of a machine with a given number."""
     vibrations = modes(machine)
     if not vibrations:
         raise InputError("the machine has no mode that vibrates: ask for peaks of its outputs in the dwell instead")
@@ -85,13 +65,7 @@ def mode(machine: StateSpace, number: object) -> Mode:
 
 
 def participation(machine: StateSpace, vibration: Mode, output: str) -> complex:
-    """The complex amplitude of a mode in an output, over the integral of exp(root (1 - k)) b(k).
-
-    Raises
-    ------
-    InputError
-        If the mode is defective: its vibration has no amplitude, but grows at first.
-    """
+    """The complex amplitude of a mode in an output, over the integral of exp(root (1 - k)) b(k)."""
     from scipy.linalg import schur, solve_sylvester
 
     dynamics = machine.dynamics
@@ -120,38 +94,21 @@ def _mode(number: int, group: Complex) -> Mode:
 
 
 @dataclass(frozen=True, eq=False)
-class ModalModel:
-    """Vibrations by their frequencies: rigid motion of the drive and what each mode adds to it.
+class ModalModel(MachineModel):
+    """Vibrations by circular frequency, damping ratio and participation: rigid motion and what each mode adds to it."""
 
-    Attributes
-    ----------
-    modes
-        Circular frequency, damping ratio and participation of each.
-
-    Examples
-    --------
-    >>> ModalModel(((20.0, 0.05, 1.0),)).matrices(["acceleration"])[2].tolist()
-    [[-400.0, -2.0]]
-    """
-
-    what: ClassVar[str] = "these modes"
+    what = "these modes"
 
     modes: tuple[tuple[float, float, float], ...]
 
-    def matrices(self, outputs: Sequence[str]) -> tuple[Array, Array, Array, Array]:
-        """A, B, C and D for the inputs a, b and c: deflections, then their velocities."""
-        size = len(self.modes)
+    @property
+    def accelerations(self) -> Array:  # noqa: D102
         frequencies, dampings, shares = np.array(self.modes).T
-        A, B = np.zeros((2 * size, 2 * size)), np.zeros((2 * size, 3))
-        A[:size, size:] = np.eye(size)
-        A[size:, :size], A[size:, size:] = np.diag(-(frequencies**2)), np.diag(-2.0 * dampings * frequencies)
-        B[size:, 2] = -shares
-        rows = np.array([self.outputs[name] for name in outputs])
-        return A, B, rows[:, : 2 * size], rows[:, 2 * size :]
+        parts = np.diag(-(frequencies**2)), np.diag(-2.0 * dampings * frequencies), np.zeros((len(shares), 2))
+        return np.column_stack([*parts, -shares])
 
     @property
-    def outputs(self) -> dict[str, Array]:
-        """Rows over deflections, their velocities, and a, b and c, by the names of outputs."""
+    def outputs(self) -> dict[str, Array]:  # noqa: D102
         size = len(self.modes)
         frequencies, dampings, shares = np.array(self.modes).T
         unit = np.eye(2 * size + 3)
@@ -164,18 +121,7 @@ class ModalModel:
 
 
 def modal_model(modes: Any) -> ModalModel:  # noqa: ANN401 - whatever users give
-    """Vibrations from frequencies in Hz, damping ratios and participations, checked.
-
-    Raises
-    ------
-    InputError
-        If a number is out of range.
-
-    Examples
-    --------
-    >>> modal_model([(8.0, 0.02)]).modes
-    ((50.26548245743669, 0.02, 1.0),)
-    """
+    """Vibrations from frequencies in Hz, damping ratios and participations, checked."""
     example = "such as [(8.5, 0.02)] or [(8.5, 0.02, 0.9), (31.0, 0.01, 0.1)]"
     if not isinstance(modes, list | tuple) or not modes:
         raise InputError(

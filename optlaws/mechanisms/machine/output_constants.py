@@ -15,11 +15,18 @@ from numpy.polynomial import legendre
 from optlaws.errors import InputError, OptlawsError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, smoothstep
-from optlaws.mechanisms.checks import motion_law
+from optlaws.laws.law import motion_law
 from optlaws.mechanisms.machine import drives
 from optlaws.mechanisms.machine.dynamics import Panel, inverse_gain
-from optlaws.mechanisms.machine.output_curve import OutputCurve
-from optlaws.mechanisms.machine.over_time import MachineCycle, MachineResponse, RepeatedMotion, around, jumps, steady
+from optlaws.mechanisms.machine.over_time import (
+    MachineCycle,
+    MachineResponse,
+    OutputCurve,
+    RepeatedMotion,
+    around,
+    jumps,
+    steady,
+)
 from optlaws.mechanisms.machine.state_space import StateSpace
 from optlaws.mechanisms.machine.texts import check_repeats, check_rest, output_entries, time_of, title_of
 from optlaws.numbers import Array, power_of_two
@@ -43,20 +50,10 @@ _SIDE = {signs: side for side, signs in SIDES.items()}
 
 @dataclass(frozen=True, repr=False)
 class OutputConstant(Functional):
-    """The common part of constants of an output.
+    """The common part of constants of an output, with an offset added to it.
 
-    Attributes
-    ----------
-    machine, output
-        Of which machine, which output.
-    within
-        The first and the last time that count, in durations of the rise; the law rests from 1 on.
-    cycle
-        The dwell and the rest of a cycle of rise, dwell, return and rest; None for one rise.
-    steady
-        Whether the law is itself a whole cycle that repeats; its duration is then the unit of time.
-    offset
-        What is added to the output.
+    Times `within` which it counts are in durations of the rise; the law rests from 1 on. A `cycle` is given by the
+    dwell and the rest of rise, dwell, return and rest; where `steady`, the law is itself a whole cycle that repeats.
     """
 
     machine: StateSpace = field(compare=False)
@@ -89,14 +86,7 @@ class OutputConstant(Functional):
 
     @property
     def title(self) -> str:
-        """A few words for it; the name has the whole machine in it.
-
-        Examples
-        --------
-        >>> from optlaws import Machine
-        >>> Machine([[-2.0]], [[2.0]], [[1.0]], outputs=["speed"]).peak(within=(0, 1.5)).title
-        "peak of 'speed' of a machine of 1 state, times 0 to 1.5"
-        """
+        """A few words for it; the name has the whole machine in it."""
         first, last = self.within
         words = [] if self.cycle is not None or self.within == (0.0, 1.0) else [f"times {first:g} to {last:g}"]
         words += [] if self.cycle is None else ["over a cycle with dwell {:g} and rest {:g}".format(*self.cycle)]
@@ -359,38 +349,17 @@ def output_peak(
     side: str = "both",
     offset: float = 0.0,
 ) -> OutputPeak:
-    """The greatest magnitude of an output of a machine, or its greatest or least value.
+    """The greatest magnitude of an output of a machine, or its greatest or least value, as `Machine.peak` has it.
 
-    Parameters
-    ----------
-    of
-        The machine, or its text with the output.
-    within
-        The first and the last time that count, in durations of the rise; the law rests from 1 on.
-    cycle
-        The dwell and the rest of a cycle that repeats; then the whole of it counts.
-    output
-        Which output; the first one unless given.
-    steady
-        Whether the law is itself a whole cycle that repeats, such as one of `PeriodicPieces`.
-    side
-        "both" for the greatest magnitude, "high" for the greatest value, "low" for the greatest opposite.
-    offset
-        What is added to the output, in its units: a constant load.
-
-    Raises
-    ------
-    InputError
-        If there is no such output or side, or a number is out of range.
+    `of` is the machine, or its text with the output; `steady` says that the law is itself a whole cycle that repeats,
+    such as one of `PeriodicPieces`.
 
     Examples
     --------
     >>> from optlaws import Machine, smoothstep
     >>> machine = Machine([[0, 1], [-400, -2]], [[0], [400]], [[-400, -2]], [[400]], outputs=["acceleration"])
-    >>> output_peak(of=machine).value(smoothstep(4)), output_peak(of=machine, within=(1, 2)).value(smoothstep(4))
-    (10.254029, 1.620669)
-    >>> output_peak(of=machine, side="low").value(smoothstep(4))
-    9.523921
+    >>> [output_peak(of=machine, **of).value(smoothstep(4)) for of in ({"within": (1, 2)}, {"side": "low"})]
+    [1.620669, 9.523921]
     """
     if side not in tuple(SIDES):
         raise InputError(unknown_key(side, SIDES, "side"))
@@ -408,27 +377,7 @@ def output_rms(
     steady: bool = False,
     offset: float = 0.0,
 ) -> OutputRms:
-    """The root mean square of an output of a machine, over the rise and a dwell after it, or over a cycle.
-
-    Parameters
-    ----------
-    of
-        The machine, or its text with the output.
-    dwell
-        How much of the dwell counts too, in durations of the rise.
-    cycle
-        The dwell and the rest of a cycle that repeats; then the whole of it counts.
-    output
-        Which output; the first one unless given.
-    steady
-        Whether the law is itself a whole cycle that repeats.
-    offset
-        What is added to the output, in its units: a constant load.
-
-    Raises
-    ------
-    InputError
-        If there is no such output, or a number is out of range.
+    """The root mean square of an output of a machine, as `Machine.rms` has it; `of` and `steady` as for `output_peak`.
 
     Examples
     --------

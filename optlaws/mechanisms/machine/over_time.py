@@ -1,98 +1,177 @@
-"""The outputs of a machine under a law: in the motion and the dwell after it, and over a cycle that repeats."""
+"""The outputs of a machine over time: in the motion and the dwell after it, and over a cycle that repeats."""
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.extras import needed
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, Peak
+from optlaws.laws.curve import Curve, Sides
 from optlaws.laws.segments.piecewise import PiecewiseLaw
-from optlaws.mechanisms.checks import leads_back
+from optlaws.mechanisms.follower.forcing import leads_back
 from optlaws.mechanisms.machine import drives
 from optlaws.mechanisms.machine.dynamics import RADIANS, DriveStretch, Panel
-from optlaws.mechanisms.machine.output_curve import OutputCurve
 from optlaws.mechanisms.machine.state_space import StateSpace
-from optlaws.numbers import Array
-from optlaws.numerics.tolerances import EPSILON, RESONANCE, SHORTEST_STRETCH
+from optlaws.numbers import Array, Complex, real_times, whole
+from optlaws.numerics import chebyshev
+from optlaws.numerics.tolerances import END_ROUNDING, EPSILON, RESONANCE, SHORTEST_STRETCH
 
-Complex = NDArray[np.complex128]
+
+@dataclass(frozen=True, eq=False, repr=False)
+class OutputCurve(Curve):
+    """An output of a machine over time, in its own units, with values, peaks, RMS and samples like a law.
+
+    Its derivative of order 0 is the output itself: `curve(k)`, `curve.peak(0)`, `curve.extrema(0)`, `curve.rms(0)`.
+
+    Examples
+    --------
+    >>> from optlaws import Machine, smoothstep
+    >>> slow = Machine([[-2.0]], [[2.0]], [[1.0]], outputs=["temperature"])
+    >>> curve = slow.response(smoothstep(3), dwell=1.0)["temperature"]
+    >>> curve(1.0), curve.peak(0), curve.interval
+    (0.605102, Peak(value=0.946556, k=2.0), (0.0, 2.0))
+    >>> curve.to_pandas(3).loc[1.0].round(6).to_dict()
+    {'temperature': 0.605102}
+    """
+
+    _over = "time"
+
+    name: str
+    starts: Array
+    lengths: Array
+    parts: tuple[Array, ...]
+    impulses: Sides
+
+    @property
+    def interval(self) -> tuple[float, float]:  # noqa: D102
+        return float(self.starts[0]), float(self.starts[-1] + self.lengths[-1])
+
+    @property
+    def _breaks(self) -> tuple[float, ...]:
+        return (*self.starts.tolist(), self.interval[1])
+
+    def _plot(self, ax: Any, style: dict[str, Any]) -> list[Any]:  # noqa: ANN401 - matplotlib's
+        from optlaws.plots.machine import draw_output
+
+        return draw_output(self, ax, **style)
+
+    def plus(self, offset: float) -> OutputCurve:
+        """The curve with a number added to it, in its units: a constant load, such as a weight that is held.
+
+        Examples
+        --------
+        >>> from optlaws import Machine, smoothstep
+        >>> curve = Machine([[-2.0]], [[2.0]], [[1.0]]).response(smoothstep(3))["output 1"]
+        >>> curve(1.0), curve.plus(-1.0)(1.0)
+        (0.605102, -0.394898)
+        """
+        added = [np.concatenate([part[:1] + offset, part[1:]]) for part in self.parts]
+        return replace(self, parts=tuple(added)) if offset else self
+
+    def _sampled(self, count: int) -> tuple[Array, dict[str, Array]]:
+        times = self.times(count)
+        return times, {self.name: self(times)}
+
+    def times(self, count: int) -> Array:
+        """Equally spaced times over the interval."""
+        return np.linspace(*self.interval, whole(count, "count", 2))
+
+    def __repr__(self) -> str:
+        low, high = self.extrema(0)
+        return f"OutputCurve({self.name!r}, from {low.value:g} to {high.value:g})"
+
+    def _times(self, k: Any) -> Array:  # noqa: ANN401 - whatever users give
+        places, (low, high) = real_times(k), self.interval
+        rounding = END_ROUNDING * max(abs(low), abs(high))
+        if places.size and not (low - rounding <= places.min() and places.max() <= high + rounding):
+            raise InputError(f"k must be in {low:g} to {high:g}, of which the motion is known, got {shortened(k)}")
+        return np.clip(places, low, high)
+
+    @kept_property
+    def _series(self) -> dict[int, list[Array]]:
+        return {0: list(self.parts)}
+
+    def _of_order(self, nu: int) -> list[Array]:
+        if nu not in self._series:
+            lower = self._of_order(nu - 1)
+            series = [
+                chebyshev.derivative(panel_series) / length
+                for panel_series, length in zip(lower, self.lengths, strict=True)
+            ]
+            self._series[nu] = series
+        return self._series[nu]
+
+    def _derivative(self, k: Array, nu: int) -> Array:
+        places = np.clip(np.searchsorted(self.starts, k, side="right") - 1, 0, len(self.starts) - 1)
+        values, series = np.empty(np.shape(k)), self._of_order(nu)
+        for i in np.unique(places):
+            here = places == i
+            x = 2.0 * (k[here] - self.starts[i]) / self.lengths[i] - 1.0
+            values[here] = chebyshev.value(series[i], np.clip(x, -1.0, 1.0))
+        return values
+
+    def _before_breaks(self, nu: int) -> Array:
+        return np.array([float(series.sum()) for series in self._of_order(nu)[:-1]])
+
+    def _impulses(self, nu: int) -> Sides:
+        places, values = self.impulses
+        return (places, values) if nu == 0 else (places[:0], values[:0])
+
+    def _sides(self, nu: int) -> Sides:
+        return self._candidates(self._of_order(nu), self._of_order(nu + 1))
+
+    def _power_sides(self) -> Sides:
+        products = [chebyshev.product(b, c) for b, c in zip(self._of_order(1), self._of_order(2), strict=True)]
+        return self._candidates(products, [chebyshev.derivative(product) for product in products])
+
+    def _candidates(self, series: list[Array], slopes: list[Array]) -> Sides:
+        places, values = [], []
+        for start, length, column, slope in zip(self.starts, self.lengths, series, slopes, strict=True):
+            x = np.concatenate([[-1.0], np.sort(chebyshev.real_parts_of_roots(slope)), [1.0]])
+            places.append(start + 0.5 * length * (x + 1.0))
+            values.append(chebyshev.value(column, x))
+        return np.concatenate(places), np.concatenate(values)
+
+    def _mean_square(self, nu: int) -> float:
+        squares = [chebyshev.mean_product(series, series) for series in self._of_order(nu)]
+        return float(self.lengths @ np.array(squares)) / float(self.lengths.sum())
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class MachineMotion(ABC):
-    """The outputs of a machine over time, by their names: each a curve.
-
-    Attributes
-    ----------
-    machine
-        The machine.
-    """
+    """The outputs of a machine over time, by their names: each a curve, an `InputError` where there is none."""
 
     machine: StateSpace
 
     def __getitem__(self, output: str) -> OutputCurve:
-        """The curve of an output.
-
-        Raises
-        ------
-        InputError
-            If there is no such output.
-        """
+        """The curve of an output."""
         self.machine.place(output)
         if output not in self._curves:
             self._curves[output] = self._curve(output)
         return self._curves[output]
 
     def peak(self, output: str) -> Peak:
-        """The greatest magnitude of an output, with its place.
-
-        Raises
-        ------
-        InputError
-            If there is no such output.
-        """
+        """The greatest magnitude of an output, with its place."""
         return self[output].peak(0)
 
     def extrema(self, output: str) -> tuple[Peak, Peak]:
-        """Minimum and maximum of an output, signed.
-
-        Raises
-        ------
-        InputError
-            If there is no such output.
-        """
+        """Minimum and maximum of an output, signed."""
         return self[output].extrema(0)
 
     def rms(self, output: str) -> float:
-        """Root mean square of an output.
-
-        Raises
-        ------
-        InputError
-            If there is no such output.
-        """
+        """Root mean square of an output."""
         return self[output].rms(0)
 
     def to_pandas(self, count: int = 201) -> Any:  # noqa: ANN401 - pandas is imported where it is asked for
-        """Samples of all outputs as a data frame over time; needs the extra `optlaws[studies]`.
-
-        Parameters
-        ----------
-        count
-            Number of equally spaced times, at least 2.
-
-        Raises
-        ------
-        InputError
-            If `count` is not an integer of at least 2, or pandas is missing.
+        """Samples of all outputs as a data frame over `count` equally spaced times; needs the extra `optlaws[studies]`.
 
         Examples
         --------
@@ -154,13 +233,7 @@ class MachineResponse(MachineMotion):
     dwell: float
 
     def rise_peak(self, output: str) -> Peak:
-        """The greatest magnitude of an output during the rise.
-
-        Raises
-        ------
-        InputError
-            If there is no such output.
-        """
+        """The greatest magnitude of an output during the rise."""
         return self._greatest(output, (0.0, 1.0))
 
     def dwell_peak(self, output: str) -> Peak:
@@ -169,7 +242,7 @@ class MachineResponse(MachineMotion):
         Raises
         ------
         InputError
-            If there is no such output, or no dwell was asked for.
+            If no dwell was asked for.
         """
         if self.dwell <= SHORTEST_STRETCH:
             raise InputError("this response has no dwell: ask for one, machine.response(law, dwell=1.0)")
@@ -252,20 +325,13 @@ class MachineCycle(MachineMotion):
 class RepeatedMotion(MachineMotion):
     """The steady outputs of a machine under a motion that repeats, whatever it is made of; made by a whole cycle.
 
-    Attributes
-    ----------
-    drives
-        The motion, stretch after stretch, in the machine's unit of time.
-    jumps
-        Where its velocity jumps inside of a stretch, and by how much.
+    `drives` are its stretches in the machine's unit of time, `jumps` where the velocity jumps inside, and by how much.
 
-    Examples
-    --------
     >>> from optlaws import Machine, smoothstep
     >>> mass = Machine([[0, 1], [-400, -2]], [[0], [400]], [[1, 0]], outputs=["position"])
     >>> there, back = drives.of_law(smoothstep(4)), drives.of_law(smoothstep(4), 1.0, 1.0, 1.0, -1.0)
-    >>> repeated, own = RepeatedMotion(mass, (*there, *back), ()), mass.cycle(smoothstep(4), dwell=0, rest=0)
-    >>> bool(abs(repeated.peak("position").value - own.peak("position").value) < 1e-12)
+    >>> repeated, cycle = RepeatedMotion(mass, (*there, *back), ()), mass.cycle(smoothstep(4), dwell=0, rest=0)
+    >>> bool(abs(repeated.peak("position").value - cycle.peak("position").value) < 1e-12)
     True
     """
 
@@ -303,13 +369,7 @@ def around(
 
 
 def steady(machine: StateSpace, cycle: Sequence[DriveStretch], radians: float = RADIANS) -> list[Panel]:
-    """The motion that comes back after a cycle, a column for each of the cycle's.
-
-    Raises
-    ------
-    InputError
-        If there is none, for the machine is in resonance with the cycle or drifts.
-    """
+    """The motion that comes back after a cycle, a column for each of the cycle's."""
     dynamics, columns = machine.dynamics, cycle[0].series.shape[2]
     size = len(dynamics.roots)
     last = cycle[-1]

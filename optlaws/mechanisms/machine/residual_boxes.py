@@ -13,7 +13,6 @@ from functools import lru_cache
 from math import asin, ceil, nan
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
@@ -22,16 +21,20 @@ from optlaws.laws import MotionLaw, Peak
 from optlaws.mechanisms.machine.modes import mode, participation
 from optlaws.mechanisms.machine.state_space import StateSpace
 from optlaws.mechanisms.machine.texts import check_rest, machine_of, text_of, title_of
-from optlaws.mechanisms.spectrum.laplace import velocity_transform_of
-from optlaws.mechanisms.spectrum.robust import cached_columns, domain_of, greatest_modulus, velocity_transforms, widened
-from optlaws.numbers import Array, not_negative, numbers, power_of_two
+from optlaws.mechanisms.spectrum.residual import (
+    cached_columns,
+    domain_of,
+    greatest_modulus,
+    velocity_transforms,
+    widened,
+)
+from optlaws.mechanisms.spectrum.transforms import velocity_transform_of
+from optlaws.numbers import Array, Complex, not_negative, numbers, power_of_two
 from optlaws.numerics import chebyshev
 from optlaws.numerics.tolerances import NEGLIGIBLE_TERM
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.problem.constants import MAKERS, Functional
 from optlaws.synthesis.spaces.space import LawSpace
-
-Complex = NDArray[np.complex128]
 
 _SPARE = 40
 _WIDEST = 1000.0
@@ -72,14 +75,8 @@ class BoxEdge:
 class ModeResidual(Functional):
     """Greatest amplitude of a mode in an output after the motion, over a box; made by `Machine.residual`.
 
-    Attributes
-    ----------
-    machine, output, mode
-        Of which machine, in which output, which mode.
-    spread
-        Share by which the mode's frequency may be off, either way.
-    dampings
-        The least and the greatest damping ratio; None for the mode's own.
+    The mode's frequency may be off by the share `spread`, either way; `dampings` are the least and the greatest ratio,
+    or None for the mode's own.
     """
 
     machine: StateSpace = field(compare=False)
@@ -98,14 +95,7 @@ class ModeResidual(Functional):
 
     @property
     def title(self) -> str:
-        """A few words for it; the name has the whole machine in it.
-
-        Examples
-        --------
-        >>> from optlaws import Machine
-        >>> Machine([[0, 1], [-400, -2]], [[0], [400]], [[1, 0]], outputs=["sway"]).residual(spread=0.1).title
-        "residual of mode 1 in 'sway' of a machine of 2 states, within 10 %"
-        """
+        """A few words for it; the name has the whole machine in it."""
         words = [f"within {100.0 * self.spread:g} %"] if self.spread else []
         words += [] if self.dampings is None else ["damping {:g} to {:g}".format(*self.dampings)]
         return title_of(self.machine, f"residual of mode {self.mode} in", self.output, *words)
@@ -194,27 +184,9 @@ def mode_residual(
     damping: tuple[float, float] | float | None = None,
     output: str | None = None,
 ) -> ModeResidual:
-    """The greatest amplitude that a mode is left with in an output, over a box of frequencies and damping ratios.
+    """The greatest amplitude that a mode is left with in an output, over a box, as `Machine.residual` has it.
 
-    In units of the output: of the free vibration at k = 1, its envelope where damped.
-
-    Parameters
-    ----------
-    of
-        The machine, or its text with the output.
-    mode
-        Number of the mode.
-    spread
-        Share by which its frequency may be off, either way: 0.1 for 10 %.
-    damping
-        The least and the greatest damping ratio, or the only one; the mode's own unless given.
-    output
-        Which output; the first one unless given.
-
-    Raises
-    ------
-    InputError
-        If there is no such mode or output, or a number is out of range.
+    `of` is the machine, or its text with the output.
 
     Examples
     --------

@@ -14,7 +14,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.mechanisms.machine.dynamics import Dynamics
-from optlaws.numbers import MAGNITUDE_LIMIT, Array, positive, real_times
+from optlaws.numbers import MAGNITUDE_LIMIT, Array, Complex, positive, real_times
 from optlaws.numerics.tolerances import SETTLED, UNSTABLE
 from optlaws.suggest import unknown_key
 
@@ -33,17 +33,7 @@ STIFFEST = 1e8  # the same for what decays
 
 @dataclass(frozen=True, init=False, repr=False)
 class StateSpace:
-    """x' = A x + B w, y = C x + D w in durations of the rise; w are those of a, b and c that `inputs` names.
-
-    Attributes
-    ----------
-    A, B, C, D
-        Matrices by rows, shapes (states, states), (states, inputs), (outputs, states) and (outputs, inputs).
-    inputs
-        What the columns of B and D belong to: "a" displacement, "b" velocity, "c" acceleration, such as "ab".
-    outputs
-        Names of the outputs.
-    """
+    """x' = A x + B w, y = C x + D w in durations of the rise; w are those of a, b and c that `inputs` names: "ab"."""
 
     A: Matrix
     B: Matrix
@@ -113,11 +103,6 @@ class StateSpace:
             Stroke of the rise, in units of the input's displacement.
         inputs, outputs
             As of `Machine`.
-
-        Raises
-        ------
-        InputError
-            If a number is out of range, or the matrices do not fit.
         """
         T, h = positive(duration, "duration"), positive(stroke, "stroke")
         _check_inputs(inputs)
@@ -142,33 +127,21 @@ class StateSpace:
         """D with a column for each of a, b and c."""
         return _spread(np.array(self.D), self.inputs)
 
-    def output_rows(self, output: str) -> tuple[NDArray[np.complex128], Array]:
+    def output_rows(self, output: str) -> tuple[Complex, Array]:
         """The rows that take the triangular form's states to an output, and those that take a, b and c to it."""
         place = self.place(output)
         return np.array(self.C[place]) @ self.dynamics.out_of, self.direct[place]
 
     def place(self, output: str | None) -> int:
-        """Which output a name is; the first where none is named.
-
-        Raises
-        ------
-        InputError
-            If there is no such output.
-        """
+        """Which output a name is; the first where none is named."""
         if output is None:
             return 0
         if output not in self.outputs:
             raise InputError(unknown_key(output, self.outputs, "output of the machine"))
         return self.outputs.index(output)
 
-    def settled(self, levels: Array) -> NDArray[np.complex128]:
-        """States at rest under displacements of the law, one column for each, in the triangular form.
-
-        Raises
-        ------
-        InputError
-            If there is none: the machine would drift.
-        """
+    def settled(self, levels: Array) -> Complex:
+        """States at rest under displacements of the law, one column for each, in the triangular form."""
         right = -np.outer(self.load[:, 0], levels)
         if not right.any():
             return np.zeros(right.shape, dtype=np.complex128)
@@ -193,13 +166,7 @@ class StateSpace:
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> Self:
-        """The machine that `to_dict` wrote.
-
-        Raises
-        ------
-        InputError
-            If an entry is missing, unknown or wrong.
-        """
+        """The machine that `to_dict` wrote."""
         if not isinstance(data, Mapping):
             raise InputError(f"a machine must be a table of A, B, C, D, inputs and outputs, got {shortened(data)}")
         for name in data:

@@ -19,8 +19,6 @@ _LATEST = 100.0
 def text_of(machine: StateSpace, output: str) -> str:
     """A machine with one of its outputs as JSON in quotes.
 
-    Examples
-    --------
     >>> print(text_of(StateSpace([[-2.0]], [[2.0]], [[1.0]], outputs=["speed"]), "speed"))
     '{"A":[[-2.0]],"B":[[2.0]],"C":[[1.0]],"D":[[0.0]],"inputs":"a","outputs":["speed"]}'
     """
@@ -31,31 +29,14 @@ def text_of(machine: StateSpace, output: str) -> str:
 
 
 def title_of(machine: StateSpace, what: str, output: str, *words: str) -> str:
-    """The title of a constant of a machine in messages.
-
-    Examples
-    --------
-    >>> title_of(StateSpace([[-2.0]], [[2.0]], [[1.0]], outputs=["speed"]), "peak of", "speed", "over a cycle")
-    "peak of 'speed' of a machine of 1 state, over a cycle"
-    """
+    """The title of a constant of a machine in messages."""
     count = len(machine.A)
     states = "1 state" if count == 1 else f"{count} states"
     return ", ".join([f"{what} {output!r} of a machine of {states}", *words])
 
 
 def machine_of(given: Any) -> StateSpace:  # noqa: ANN401 - a machine, or what text calls one
-    """The machine that is given, or that a text describes.
-
-    Raises
-    ------
-    InputError
-        If it is none.
-
-    Examples
-    --------
-    >>> machine_of('{"A": [[-2]], "B": [[2]], "C": [[1]]}').A
-    ((-2.0,),)
-    """
+    """The machine that is given, or that a text describes."""
     if isinstance(given, StateSpace):
         return given
     if not isinstance(given, str):
@@ -68,13 +49,7 @@ def machine_of(given: Any) -> StateSpace:  # noqa: ANN401 - a machine, or what t
 
 
 def check_repeats(name: str, machine: StateSpace, stroke: float) -> None:
-    """Refuse a law that ends elsewhere than it begins where the machine is driven by displacements.
-
-    Raises
-    ------
-    InputError
-        If it does.
-    """
+    """Refuse a law that ends elsewhere than it begins where the machine is driven by displacements."""
     if "a" in machine.inputs and abs(stroke) > CLOSURE:
         short = name.partition("(")[0]
         raise InputError(
@@ -84,13 +59,7 @@ def check_repeats(name: str, machine: StateSpace, stroke: float) -> None:
 
 
 def check_rest(name: str, space: LawSpace) -> None:
-    """Refuse laws that do not begin and end at rest.
-
-    Raises
-    ------
-    InputError
-        If they do not.
-    """
+    """Refuse laws that do not begin and end at rest."""
     if space.start_velocity != 0.0 or space.velocity_change != 0.0 or space.boundary.order < 2:
         short = name.partition("(")[0]
         raise InputError(f"{short} of a machine needs laws from rest to rest, of order 2 at least")
@@ -110,13 +79,7 @@ class OutputEntries(TypedDict):
 def output_entries(
     of: str | StateSpace, output: str | None, *, within: object, cycle: object, steady: object, offset: object
 ) -> tuple[OutputEntries, list[str]]:
-    """The checked entries of an output's constant, and the words for them in a text.
-
-    Raises
-    ------
-    InputError
-        If there is no such output, or a number is out of range.
-    """
+    """The checked entries of an output's constant, and the words for them in a text."""
     machine = machine_of(of)
     name = machine.outputs[machine.place(output)]
     times, pauses = _pair(within, "within"), None
@@ -155,13 +118,7 @@ def _pair(value: object, name: str) -> tuple[float, float]:
 
 
 def time_of(value: float, name: str) -> float:
-    """A time in durations of the rise.
-
-    Raises
-    ------
-    InputError
-        If it is none.
-    """
+    """A time in durations of the rise."""
     (time,) = numbers([value], name)
     if not 0.0 <= time <= _LATEST:
         raise InputError(f"{name}: times are durations of the rise, from 0 to {_LATEST:g}, got {shortened(value)}")

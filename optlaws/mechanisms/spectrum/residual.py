@@ -1,20 +1,30 @@
-"""The free vibration that a law leaves behind, in closed form and linear in the law."""
+"""The vibration that a law leaves: in closed form, linear in it, and its greatest over frequencies as a constant."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import ceil, nan
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.polynomial import legendre
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
-from optlaws.mechanisms.spectrum.bessel import legendre_from_chebyshev, moments
-from optlaws.mechanisms.spectrum.laplace import velocity_transform
-from optlaws.numbers import Array, frequency, not_negative, numbers, whole
+from optlaws.mechanisms.follower.cam_constants import check_order
+from optlaws.mechanisms.spectrum.transforms import legendre_from_chebyshev, moments, velocity_transform
+from optlaws.numbers import Array, Complex, frequency, not_negative, numbers, positive, whole
+from optlaws.numerics.chebyshev import from_values, nodes
+from optlaws.numerics.peaks import Peak
+from optlaws.synthesis.families.cone import ConeFamily, stationary_places
+from optlaws.synthesis.problem.constants import MAKERS, Functional
+from optlaws.synthesis.spaces.space import LawSpace
 
-Complex = NDArray[np.complex128]
+_WIDEST = 1000.0
+_SPARE = 40
+_MOST_POLYDYNE = 4
 
 
 def residual_phasor(law: MotionLaw, nu: Any, damping: float = 0.0) -> Complex:  # noqa: ANN401 - numbers of any kind
@@ -95,18 +105,7 @@ def residual_functional(count: int, nu: Any, damping: float = 0.0) -> tuple[Comp
 
 
 def roots(nu: Any, damping: float) -> tuple[Array, Complex, Array]:  # noqa: ANN401 - numbers of any kind
-    """Frequencies nu, roots w = -n + i lambda and lambda of followers below critical damping.
-
-    Raises
-    ------
-    InputError
-        If a frequency is not above 0 or the damping not in [0, 1).
-
-    Examples
-    --------
-    >>> roots([5.0], 0.6)
-    (array([5.]), array([-3.+4.j]), array([4.]))
-    """
+    """Frequencies nu, roots w = -n + i lambda and lambda of followers below critical damping."""
     frequencies = np.array(numbers(np.atleast_1d(np.asarray(nu)).tolist(), "nu"))
     ratio = not_negative(damping, "damping")
     if not (frequencies > 0.0).all():
@@ -120,3 +119,214 @@ def roots(nu: Any, damping: float) -> tuple[Array, Complex, Array]:  # noqa: ANN
         )
     damped = frequencies * np.sqrt((1.0 - ratio) * (1.0 + ratio))
     return frequencies, -ratio * frequencies + 1j * damped, damped
+
+
+@dataclass(frozen=True, repr=False)
+class Residual(Functional):
+    """Greatest residual acceleration over an interval of frequencies; made by `residual`.
+
+    Attributes
+    ----------
+    low, high
+        The interval of nu.
+    damping
+        Ratio zeta.
+    design
+        Frequency for which the cam is made if the law is the mass's; None if the law is the cam's own.
+    design_damping
+        The ratio for which it is made.
+    """
+
+    low: float
+    high: float
+    damping: float = 0.0
+    design: float | None = None
+    design_damping: float = 0.0
+
+    #: as of the law's acceleration, and in units of a bound where there is one
+    scale = 1.0
+    normalised = True
+
+    def value(self, law: MotionLaw) -> float:
+        """The greatest over the whole interval."""
+        return self.peak(law).value
+
+    def peak(self, law: MotionLaw) -> Peak:
+        """The greatest over the whole interval; its `k` is the frequency at which it is."""
+        value, place = greatest_modulus(lambda u: self._phasors(law, self._frequencies(u)), self._nodes)
+        return Peak(value, float(self._frequencies(np.array([place]))[0]))
+
+    def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConeFamily, ...]:
+        """One cone for each frequency. A bound becomes 1, so that residuals are measured by it."""
+        if self.design is not None:
+            check_order(self.name, space, _MOST_POLYDYNE)
+        elif space.start_velocity != 0.0 or space.velocity_change != 0.0 or space.boundary.order < 2:
+            raise InputError(f"{self.name} needs laws from rest to rest, of order 2 at least")
+        unit = bound or 1.0
+        series = widened(self._columns(space), len(slack)) / unit
+        return (ConeFamily(self.name, slack, bound / unit, domain=domain_of(self._nodes), series=series),)
+
+    def where(self, k: float) -> str:
+        """The frequency of a place."""
+        return f"nu = {self.frequency(k):.5g}"
+
+    def frequency(self, place: float) -> float:
+        """The frequency of a certificate's contact, which stands there as a number k from 0 to 1."""
+        return float(self._frequencies(np.array([2.0 * place - 1.0]))[0])
+
+    def _frequencies(self, u: Array) -> Array:
+        inner: Array = 0.5 * ((1.0 - u) * self.low + (1.0 + u) * self.high)
+        return inner
+
+    def _phasors(self, law: MotionLaw, frequencies: Array) -> Complex:
+        phasors = residual_phasor(law, frequencies, self.damping)
+        return np.asarray(frequencies**2 * self._detuning(frequencies) * phasors)
+
+    def _detuning(self, frequencies: Array) -> Complex:
+        """The share that a polydyne cam leaves of the residual of its mass law cut directly on a cam."""
+        if self.design is None:
+            return np.ones(len(frequencies), dtype=np.complex128)
+        _, w, _ = roots(frequencies, self.damping)
+        n = self.damping * frequencies
+        n0 = self.design_damping * self.design
+        ratio = frequencies / self.design
+        return np.asarray(1.0 - ratio**2 + 2.0 * (n0 - n) * w / self.design**2)
+
+    @property
+    def _nodes(self) -> Array:
+        """Chebyshev nodes, enough for functions of exponential type 1 in nu; a single place where there is no more."""
+        length = self.high - self.low
+        return nodes(ceil(0.75 * length) + _SPARE) if length else np.ones(1)
+
+    def _columns(self, space: LawSpace) -> Complex:
+        """Chebyshev series in u of nu² times the complex amplitude: free functions, then the base law."""
+        return cached_columns(space, ("residual", self.name), lambda: self._computed(space))
+
+    def _computed(self, space: LawSpace) -> Complex:
+        frequencies = self._frequencies(self._nodes)
+        _, w, damped = roots(frequencies, self.damping)
+        scale = -1j * frequencies**2 * w.conj() / damped * self._detuning(frequencies)
+        return np.ascontiguousarray(from_values(scale[:, None] * velocity_transforms(space, w, self.high)))
+
+
+def residual(
+    *,
+    nu: float | tuple[float, float],
+    damping: float = 0.0,
+    design: float | None = None,
+    design_damping: float | None = None,
+) -> Residual:
+    """The greatest residual acceleration of an elastic follower over a whole interval of frequencies.
+
+    In units of a'': nu² times the amplitude of the free vibration at k = 1, its envelope where damped, as
+    `Response.residual_acceleration`.
+
+    Parameters
+    ----------
+    nu
+        The interval (low, high) of frequencies, or one of them.
+    damping
+        Ratio zeta of the follower, below 1.
+    design
+        If given, the law is the mass's and the cam is made from it for this frequency; otherwise it is the cam's own.
+    design_damping
+        The ratio for which that cam is made; `damping` unless given.
+
+    Raises
+    ------
+    InputError
+        If a number is out of range.
+
+    Examples
+    --------
+    >>> from optlaws.laws.savin import savin
+    >>> vibration = residual(nu=18)
+    >>> round(vibration.value(savin("III", 7.2)), 6)
+    7.204401
+    >>> wide = residual(nu=(18, 22), design=20)
+    >>> wide, wide.peak(savin("III", 7.2))
+    (residual(nu=(18.0, 22.0), design=20.0), Peak(value=1.368836, k=18.0))
+    """
+    pair = tuple(nu) if isinstance(nu, list | tuple) else (nu, nu)
+    if len(pair) != 2:
+        raise InputError(f"nu must be a frequency or two, (low, high), got {shortened(nu)}")
+    low, high = (positive(number, "nu") for number in pair)
+    if low > high or high - low > _WIDEST:
+        raise InputError(f"nu must be an interval (low, high) no longer than {_WIDEST:g}, got {shortened(nu)}")
+    ratio = not_negative(damping, "damping")
+    roots(low, ratio)
+    if design is None and design_damping is not None:
+        raise InputError("design_damping belongs to a design frequency: give design too")
+    design_frequency = None if design is None else positive(design, "design")
+    made_ratio = ratio if design_damping is None else not_negative(design_damping, "design_damping")
+    parts = [f"nu={low!r}" if low == high else f"nu=({low!r}, {high!r})"]
+    parts += [f"damping={ratio!r}"] if ratio else []
+    parts += [f"design={design_frequency!r}"] if design_frequency else []
+    parts += [f"design_damping={made_ratio!r}"] if design_frequency and made_ratio != ratio else []
+    name = f"residual({', '.join(parts)})"
+    return Residual(
+        name,
+        nan,
+        convex=True,
+        low=low,
+        high=high,
+        damping=ratio,
+        design=design_frequency,
+        design_damping=made_ratio if design_frequency else 0.0,
+    )
+
+
+def greatest_modulus(amplitude: Callable[[Array], Complex], nodes: Array) -> tuple[float, float]:
+    """The greatest magnitude of an analytic amplitude from -1 to 1, by nodes that resolve it, and its place.
+
+    >>> greatest_modulus(lambda u: 1.0 + 1j * u * u, np.ones(1))
+    (1.414214, 1.0)
+    """
+    places = nodes
+    if len(nodes) > 1:
+        places = np.concatenate([[-1.0, 1.0], stationary_places(from_values(amplitude(nodes)))])
+    sizes = np.abs(amplitude(places))
+    best = int(np.argmax(sizes))
+    return float(sizes[best]), float(places[best])
+
+
+def domain_of(nodes: Array) -> tuple[float, float]:
+    """The places that nodes stand for: all from -1 to 1, or the single one."""
+    return (-1.0, 1.0) if len(nodes) > 1 else (1.0, 1.0)
+
+
+def widened(columns: Complex, count: int) -> Complex:
+    """Columns of the free functions and of the base law, with columns of 0 for further variables between them."""
+    wide = np.zeros((len(columns), count + 1), dtype=np.complex128)
+    wide[:, : columns.shape[1] - 1], wide[:, -1] = columns[:, :-1], columns[:, -1]
+    return wide
+
+
+def cached_columns(space: LawSpace, key: tuple[object, ...], computed: Callable[[], Complex]) -> Complex:
+    """Complex columns that a space keeps as the real ones that it can keep."""
+    return space.cached(key, lambda: computed().view(np.float64)).view(np.complex128)
+
+
+def velocity_transforms(space: LawSpace, w: Complex, highest: float) -> Complex:
+    """Integrals of exp(w (1 - k)) b(k), a row for each root w, for the free functions and the base law of a space.
+
+    Roots have real parts of at most 0 and magnitudes of at most `highest`.
+    """
+    k, weights = _gauss_rule(space, highest)
+    family = space.derivative(1, "b", np.zeros(space.terms))
+    # b of a symmetric law is even about 1/2, and its rows may be those of the first half
+    places = np.abs(1.0 - 2.0 * k) if space.symmetric else 1.0 - 2.0 * k
+    return np.asarray(np.exp(w[:, None] * (1.0 - k)) @ (weights[:, None] * family.columns(places)[0]))
+
+
+def _gauss_rule(space: LawSpace, highest: float) -> tuple[Array, Array]:
+    """Gauss points on every piece of the law, enough for a vibration of the highest frequency, and weights."""
+    breaks = np.array(getattr(space, "breaks", (0.0, 1.0)))
+    degree = len(space.derivative(1, "b", np.zeros(space.terms)).series)
+    x, weights = legendre.leggauss(degree + ceil(0.5 * highest) + _SPARE)
+    lengths = np.diff(breaks)
+    k = breaks[:-1, None] + lengths[:, None] * (1.0 + x) / 2.0
+    return k.ravel(), (lengths[:, None] * weights / 2.0).ravel()
+
+
+MAKERS.setdefault("residual", residual)

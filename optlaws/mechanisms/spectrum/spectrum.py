@@ -1,19 +1,137 @@
-"""Response spectrum: what a law does to followers of every frequency."""
+"""Response spectrum: what a law does to followers of every frequency, marched over short panels in closed form."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import ceil
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
-from optlaws.mechanisms.checks import motion_law
-from optlaws.mechanisms.spectrum.mass_peaks import peak_accelerations
+from optlaws.laws.law import motion_law
+from optlaws.mechanisms.follower.forcing import Forcing, forcings
 from optlaws.mechanisms.spectrum.residual import residual_phasor, roots
-from optlaws.numbers import Array
+from optlaws.mechanisms.spectrum.transforms import legendre_from_chebyshev, moments
+from optlaws.numbers import Array, Complex
+from optlaws.numerics import chebyshev
+from optlaws.numerics.tolerances import BEYOND_CUBIC, LOAD_RESOLVED
+
+RADIANS = 0.7
+TERMS = 9
+CHUNK = 400
+FINEST = 4096
+SAMPLES = np.array([0.0, 0.25, 0.5, 0.75])
+
+
+def peak_accelerations(law: MotionLaw, frequencies: Array, w: Complex) -> Array:
+    """Greatest |a_m''| of the rise for each frequency nu and its root w = -n + i lambda, to about 1e-6."""
+    pieces = forcings(law)
+    peaks = np.empty(len(frequencies))
+    order = np.argsort(frequencies)
+    for low in range(0, len(order), CHUNK):
+        some = order[low : low + CHUNK]
+        peaks[some] = _peaks(pieces, frequencies[some], w[some])
+    return peaks
+
+
+def _peaks(pieces: tuple[Forcing, ...], nu: Array, w: Complex) -> Array:
+    n, square, damped = -w.real, nu * nu, w.imag
+    state = np.zeros(len(nu), dtype=np.complex128)
+    state -= pieces[0].derivative(np.zeros(1), 1)  # the mass is at rest, so that u' = -b
+    best = np.zeros(len(nu))
+    for before, piece in zip((None, *pieces), pieces, strict=False):
+        if before is not None:
+            last = before.derivative(np.array([before.length]), 1)
+            state += last - piece.derivative(np.zeros(1), 1)
+        count, b_terms, c_terms, b, c = _panels(piece, float(nu.max()))
+        length = piece.length / count
+        basis = moments(0.5 * length * w, TERMS) * length
+        load = basis @ c_terms.T + 2.0 * n[:, None] * (basis @ b_terms.T)
+        step = np.exp(w * length)
+        states = np.empty((len(nu), count + 1), dtype=np.complex128)
+        states[:, 0] = state
+        for i in range(count):
+            state = step * state - load[:, i]
+            states[:, i + 1] = state
+        u0 = states.imag / damped[:, None]
+        u1 = states.real - n[:, None] * u0
+        twice, stiff = 2.0 * n[:, None], square[:, None]
+        y2 = -twice * (b + u1) - stiff * u0
+        y3 = -twice * y2 - stiff * u1
+        y4 = -twice * y3 - stiff * (y2 - c)
+        best = np.maximum(best, _highest(y2, length * y3, length**2 * y4))
+    return best
+
+
+def _panels(piece: Forcing, fastest: float) -> tuple[int, Array, Array, Array, Array]:
+    """Number of equal panels, Legendre series of b and c on each (rows), b and c at their ends."""
+    x = chebyshev.nodes(TERMS)
+    count = max(1, ceil(fastest * piece.length / RADIANS))
+    while True:
+        starts = np.arange(count) / count * piece.length
+        s = starts[:, None] + 0.5 * piece.length / count * (x + 1.0)
+        b, c = (chebyshev.from_values(piece.derivative(s, order).T).T for order in (1, 2))
+        size = float(np.abs(c).max())
+        if np.abs(c[:, -2:]).max() <= LOAD_RESOLVED * size and np.abs(c[:, 4:]).max() <= BEYOND_CUBIC * size:
+            break
+        if count >= FINEST:
+            break
+        count *= 2
+    ends = np.linspace(0.0, piece.length, count + 1)
+    to_legendre = legendre_from_chebyshev(TERMS).T
+    return count, b @ to_legendre, c @ to_legendre, piece.derivative(ends, 1), piece.derivative(ends, 2)
+
+
+def _highest(y: Array, y1: Array, y2: Array) -> Array:
+    """Greatest magnitude over each row of quintic Hermite interpolants through values and two derivatives."""
+    a = [part[:, :-1] for part in (y, y1, y2)]
+    z = [part[:, 1:] for part in (y, y1, y2)]
+    rise = z[0] - a[0] - a[1] - 0.5 * a[2]
+    slope, bend = z[1] - a[1] - a[2], z[2] - a[2]
+    series = np.array(
+        [
+            a[0],
+            a[1],
+            0.5 * a[2],
+            10.0 * rise - 4.0 * slope + 0.5 * bend,
+            -15.0 * rise + 7.0 * slope - bend,
+            6.0 * rise - 3.0 * slope + 0.5 * bend,
+        ]
+    )
+    samples = np.stack([np.polynomial.polynomial.polyval(t, series, tensor=False) for t in SAMPLES], axis=2)
+    rows = np.arange(len(y))
+    table = np.abs(np.hstack([samples.reshape(len(y), -1), y[:, -1:]]))
+    best = table.max(axis=1)
+    # a parabola through three samples tells which lobe is highest, Newton on the interpolant how high
+    left, middle, right = table[:, :-2], table[:, 1:-1], table[:, 2:]
+    bent = left - 2.0 * middle + right
+    top = middle - np.where(bent < 0.0, (right - left) ** 2 / (8.0 * np.where(bent < 0.0, bent, -1.0)), 0.0)
+    place = np.argmax(np.where((middle >= left) & (middle >= right), top, 0.0), axis=1) + 1
+    panel, part = np.divmod(place, len(SAMPLES))
+    first, last = np.zeros_like(panel), np.full_like(panel, a[0].shape[1] - 1)
+    # an interior sample on a panel's edge has its top on either side, and a lobe may begin or end with the piece
+    for chosen, at in (
+        (panel, SAMPLES[part]),
+        (np.maximum(panel - (part == 0), 0), np.where(part == 0, 1.0, SAMPLES[part])),
+        (first, np.zeros(len(y))),
+        (last, np.ones(len(y))),
+    ):
+        chosen_series = series[:, rows, chosen]
+        t = _polished(chosen_series, at)
+        best = np.maximum(best, np.abs(np.polynomial.polynomial.polyval(t, chosen_series, tensor=False)))
+    return np.asarray(best)
+
+
+def _polished(series: Array, t: Array) -> Array:
+    first = np.polynomial.polynomial.polyder(series)
+    second = np.polynomial.polynomial.polyder(first)
+    for _ in range(3):
+        slope = np.polynomial.polynomial.polyval(t, first, tensor=False)
+        bend = np.polynomial.polynomial.polyval(t, second, tensor=False)
+        t = np.clip(t - np.where(bend == 0.0, 0.0, slope / np.where(bend == 0.0, 1.0, bend)), 0.0, 1.0)
+    return np.asarray(t)
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,7 +160,7 @@ class ResponseSpectrum:
     law: MotionLaw
     damping: float
     nu: Array
-    phasor: NDArray[np.complex128]
+    phasor: Complex
 
     def __eq__(self, other: object) -> bool:
         return self._contents() == other._contents() if isinstance(other, ResponseSpectrum) else NotImplemented

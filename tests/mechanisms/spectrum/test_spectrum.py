@@ -22,7 +22,7 @@ from optlaws import (
     smoothstep,
 )
 from optlaws.laws.catalogue.catalogue import catalogue
-from optlaws.mechanisms.spectrum.bessel import legendre_from_chebyshev, moments
+from optlaws.mechanisms.spectrum.transforms import legendre_from_chebyshev, moments
 from tests.laws.examples import EXAMPLES, cut_power, random_law
 from tests.mechanisms.response_cases import random_case
 from tests.sampling import examples, sampled

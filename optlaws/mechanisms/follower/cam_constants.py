@@ -15,7 +15,7 @@ import numpy as np
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw, PolynomialLaw
-from optlaws.mechanisms.cam.polydyne import cam_factors, polydyne
+from optlaws.mechanisms.follower.polydyne import cam_factors, polydyne
 from optlaws.numbers import not_negative, positive
 from optlaws.numerics import chebyshev
 from optlaws.suggest import unknown_key
@@ -133,8 +133,6 @@ def gain(nu: float, damping: float) -> float:
     It is nu² times the integral over the rise of the magnitude of the response to an impulse, which is at most k,
     and exp(-n k)/lambda below critical damping; from critical damping on it has no zero and the whole is at most 1.
 
-    Examples
-    --------
     >>> gain(20.0, 0.0), gain(0.5, 0.0), gain(20.0, 1.0)
     (20.0, 0.125, 1.0)
     """
@@ -143,13 +141,7 @@ def gain(nu: float, damping: float) -> float:
 
 
 def check_order(name: str, space: LawSpace, order: int) -> None:
-    """Refuse laws that do not begin and end smoothly enough for a cam.
-
-    Raises
-    ------
-    InputError
-        If the order is too low, or a derivative that must vanish at an end does not.
-    """
+    """Refuse laws that do not begin and end smoothly enough for a cam."""
     boundary = space.boundary
     jump = "acceleration" if order > _ORDER else "velocity"
     if boundary.order < order:

@@ -5,14 +5,16 @@ from __future__ import annotations
 from fractions import Fraction
 from itertools import pairwise
 
+import numpy as np
+
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw, PolynomialLaw
+from optlaws.laws.law import motion_law
 from optlaws.laws.segments.piecewise import PiecewiseLaw
-from optlaws.mechanisms.cam.smoothness import check_mass_law
-from optlaws.mechanisms.checks import motion_law
 from optlaws.numbers import Array, not_negative, positive
 from optlaws.numerics import chebyshev
+from optlaws.numerics.tolerances import JUMP
 
 
 def polydyne(law: MotionLaw, nu: float, damping: float = 0.0) -> MotionLaw:
@@ -53,7 +55,9 @@ def polydyne(law: MotionLaw, nu: float, damping: float = 0.0) -> MotionLaw:
     law = motion_law(law)
     check_mass_law(law)
     if isinstance(law, PolynomialLaw):
-        return _from_powers(cam_powers(law.exact_powers(), frequency, ratio), law)
+        # what the checks let pass as zero at the start is rounding, and would be a step of the cam
+        powers = cam_powers(law.exact_powers(), frequency, ratio)[2:]
+        return PolynomialLaw.from_powers([Fraction(law.a0), Fraction(law.b0), *powers])
     once, twice = (float(factor) for factor in cam_factors(frequency, ratio))
     if isinstance(law, PiecewiseLaw):
         places = zip(law.segments, pairwise(law.breaks), strict=True)
@@ -108,8 +112,6 @@ def mass_law(cam: MotionLaw, nu: float, damping: float = 0.0) -> PolynomialLaw:
 def cam_powers(mass: tuple[Fraction, ...], nu: float, damping: float) -> list[Fraction]:
     """Coefficients q of the cam from Q of the mass, in ascending powers of k, exactly (1.27).
 
-    Examples
-    --------
     >>> cam_powers((Fraction(0), Fraction(0), Fraction(1)), 2.0, 0.5)
     [Fraction(1, 2), Fraction(1, 1), Fraction(1, 1)]
     """
@@ -119,13 +121,7 @@ def cam_powers(mass: tuple[Fraction, ...], nu: float, damping: float) -> list[Fr
 
 
 def mass_powers(cam: tuple[Fraction, ...], nu: float, damping: float) -> list[Fraction]:
-    """Coefficients Q of the mass's particular solution from q of the cam, exactly (1.25).
-
-    Examples
-    --------
-    >>> mass_powers((Fraction(1, 2), Fraction(1, 1), Fraction(1, 1)), 2.0, 0.5)
-    [Fraction(0, 1), Fraction(0, 1), Fraction(1, 1)]
-    """
+    """Coefficients Q of the mass's particular solution from q of the cam, exactly (1.25)."""
     once, twice = cam_factors(nu, damping)
     Q = [*cam, Fraction(0), Fraction(0)]
     for i in range(len(cam) - 1, -1, -1):
@@ -134,17 +130,41 @@ def mass_powers(cam: tuple[Fraction, ...], nu: float, damping: float) -> list[Fr
 
 
 def cam_factors(nu: float, damping: float) -> tuple[Fraction, Fraction]:
-    """Factors 2 n/nu² of b and 1/nu² of c in (1.27), exactly.
-
-    Examples
-    --------
-    >>> cam_factors(4.0, 0.25)
-    (Fraction(1, 8), Fraction(1, 16))
-    """
+    """Factors 2 n/nu² of b and 1/nu² of c in (1.27), exactly."""
     exact = Fraction(nu)
     return 2 * Fraction(damping) / exact, 1 / exact**2
 
 
-def _from_powers(powers: list[Fraction], law: PolynomialLaw) -> PolynomialLaw:
-    # what the checks let pass as zero at the start is rounding, and would be a step of the cam
-    return PolynomialLaw.from_powers([Fraction(law.a0), Fraction(law.b0), *powers[2:]])
+_NAMES = {1: ("velocity", "b"), 2: ("acceleration", "c"), 3: ("jerk", "j")}
+_REMEDY = (
+    "use a law whose b, c and j are zero at both ends, such as smoothstep(4), a member of Savin's family III or IV, "
+    "or a solution of order 4"
+)
+
+
+def check_mass_law(law: MotionLaw) -> None:
+    """Refuse a mass law whose cam would have to jump in displacement or velocity.
+
+    The cam's displacement holds the mass's b and c, and its velocity c and j; in the rests before and after the motion
+    all of them are zero.
+    """
+    for order, (name, letter) in _NAMES.items():
+        cam = "velocity" if order == 3 else "displacement"
+        for k, value in zip((0.0, 1.0), law([0.0, 1.0], order).tolist(), strict=True):
+            size = _size(law, order)
+            if not abs(value) <= JUMP * size:
+                raise InputError(
+                    f"the mass law has {name} {letter}({k:g}) = {value:.6g}, so the {cam} of the cam would jump there; "
+                    f"{_REMEDY}"
+                )
+        if leaps := law.jumps(order):
+            k, height = leaps[0]
+            raise InputError(
+                f"the mass law has a jump of its {name} {letter} by {height:.6g} at k = {k:.6g}, so the {cam} of the "
+                f"cam would jump there; {_REMEDY}"
+            )
+
+
+def _size(law: MotionLaw, order: int) -> float:
+    size = np.abs(law(np.linspace(0.0, 1.0, 33), order))
+    return max(1.0, float(size[np.isfinite(size)].max(initial=0.0)))

@@ -10,7 +10,7 @@ import numpy as np
 
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw, PolynomialLaw
-from optlaws.mechanisms.checks import motion_law
+from optlaws.laws.law import motion_law
 from optlaws.mechanisms.machine.state_space import StateSpace
 from optlaws.numbers import Array
 from optlaws.numerics import chebyshev

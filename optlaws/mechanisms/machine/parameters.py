@@ -11,7 +11,7 @@ import numpy as np
 from optlaws.errors import InputError
 from optlaws.extras import needed
 from optlaws.laws import MotionLaw
-from optlaws.mechanisms.checks import motion_law
+from optlaws.laws.law import motion_law
 from optlaws.mechanisms.machine.machine import Machine
 from optlaws.numbers import Array, not_negative, numbers
 
@@ -54,18 +54,9 @@ class MachineSpectrum:
     parameter: str = "parameter"
 
     def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
-        """Draw the output's peak and what is left in it of each mode, over the parameter.
+        """Draw the output's peak and what is left in it of each mode, over the parameter; return the lines.
 
-        Parameters
-        ----------
-        ax
-            Matplotlib axes; new ones unless given.
-        **style
-            What matplotlib takes for lines.
-
-        Returns
-        -------
-        The lines.
+        `ax` are axes of matplotlib, new ones unless given; `style` is what it takes for lines.
 
         Examples
         --------
@@ -81,11 +72,6 @@ class MachineSpectrum:
 
     def to_pandas(self) -> Any:  # noqa: ANN401 - pandas is imported where it is asked for
         """A table: peaks of all outputs, frequencies and what is left of the modes, a row for each value.
-
-        Raises
-        ------
-        NotInstalled
-            If pandas is missing.
 
         Examples
         --------

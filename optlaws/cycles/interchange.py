@@ -1,0 +1,306 @@
+"""The forms in which a cycle leaves: plain data, problem files, tables, files for controllers, pictures."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import MISSING, fields
+from typing import Any, Self, Unpack
+
+from optlaws.cycles.specification.segments import ConstantVelocity, CycleSegment, Dwell, Free, Move, Return, Rise
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.extras import needed
+from optlaws.files.reading import JsonText
+from optlaws.files.toml_text import to_toml
+from optlaws.laws import MotionLaw
+from optlaws.laws.exporting import ExportOptions
+from optlaws.mechanisms.machine.machine import Machine
+from optlaws.motion.motion import Motion, motion_of_pieces
+from optlaws.motion.piece import unit_of
+from optlaws.motion.quantities import written
+from optlaws.numbers import Quantity
+from optlaws.shown.summary import Summary
+from optlaws.suggest import keywords_of, unknown_key
+
+KINDS: dict[str, type[Any]] = {
+    "dwell": Dwell,
+    "constant velocity": ConstantVelocity,
+    "move": Move,
+    "rise": Rise,
+    "return": Return,
+    "free": Free,
+}
+FORMAT = "optlaws cycle 1"
+_ENTRIES = ("speed", "period", "minimise", "limits", "start", "advance", "drive", "load", "order", "degree")
+_CLOCK = ("speed", "period")
+_SHOWN = 6  # segments in a line
+_NAMES = ("position", "velocity", "acceleration", "jerk")
+
+
+class CycleInterchange(JsonText):
+    """The forms in which a cycle leaves, apart from how its laws are found: data, files, tables, motions, pictures."""
+
+    _json_name = "a stored cycle"
+
+    @property
+    def _cycle(self) -> Any:  # noqa: ANN401 - a Cycle
+        """The cycle itself, with its laws, peaks and proofs."""
+        return self
+
+    def to_dict(self) -> dict[str, Any]:
+        """The entries of the cycle, plain and JSON-able; its laws are looked for again when it is read.
+
+        Examples
+        --------
+        >>> from optlaws import Cycle, Return, Rise
+        >>> Cycle([Rise("35 mm", "120 deg"), Return()], speed="200 rpm").to_dict()["segments"][0]
+        {'kind': 'rise', 'by': '35 mm', 'duration': '120 deg'}
+        """
+        given = {name: _plain(getattr(self, name)) for name in _ENTRIES}
+        entries = {name: value for name, value in given.items() if value not in (None, {}, ())}
+        return {"format": FORMAT, **entries, "segments": [_segment(segment) for segment in self._cycle.segments]}
+
+    @classmethod
+    def from_dict(cls, data: Any) -> Self:  # noqa: ANN401 - it is checked here
+        """Read what `to_dict` gave."""
+        if not isinstance(data, Mapping) or not isinstance(data.get("segments"), list):
+            raise InputError("a stored cycle is a table with a list of segments, as Cycle.to_dict gives it")
+        if data.get("format", FORMAT) != FORMAT:
+            raise InputError(f"a stored cycle has format {FORMAT!r}, got {shortened(data['format'])}")
+        given = {name: value for name, value in data.items() if name not in {"format", "segments"}}
+        for name in given:
+            if name not in _ENTRIES:
+                raise InputError(f"cycle: {unknown_key(name, ('segments', *_ENTRIES))}")
+        load = given.get("load")
+        if isinstance(load, Mapping) and "A" in load:
+            given["load"] = Machine.from_dict(load)
+        segments = [_read_segment(entry, i) for i, entry in enumerate(data["segments"], start=1)]
+        return cls(**given | {"segments": segments})
+
+    def to_toml(self, title: str = "Cycle", *, axis: str = "axis") -> str:
+        """A problem file for `optlaws cycle`, with this cycle as its only axis.
+
+        Raises
+        ------
+        InputError
+            If a law is a value: a problem file names laws, or JSON files that hold them.
+
+        Examples
+        --------
+        >>> from optlaws import Cycle, Return, Rise
+        >>> print(Cycle([Rise("35 mm", "120 deg"), Return()], speed="200 rpm").to_toml("Press", axis="slide"))
+        job = "cycle"
+        title = "Press"
+        speed = "200 rpm"
+        ...
+        """
+        data = self.to_dict()
+        clock = {name: data[name] for name in _CLOCK if name in data}
+        return problem_file(title, clock, {axis: self})
+
+    def to_pandas(self) -> Any:  # noqa: ANN401 - pandas is imported where it is asked for
+        """A data frame with a row for each segment: start, duration, end, peaks, leaps; SI units.
+
+        Needs the extra `optlaws[studies]`.
+        """
+        needed("pandas", "to_pandas")
+        import pandas as pd
+
+        cycle = self._cycle
+        units = {name: unit_of(cycle.axis, nu) for nu, name in enumerate(_NAMES)}
+        rows = []
+        for peaks, joint in zip(cycle.peaks, cycle.joints, strict=True):
+            row = {"segment": peaks.name, "start, s": peaks.start, "duration, s": peaks.duration}
+            row |= {f"peak {name}, {units[name]}": peaks.peak(nu) for nu, name in enumerate(_NAMES)}
+            rows.append(row | {f"leap of {name}, {units[name]}": joint[name] for name in _NAMES[1:3]})
+        return pd.DataFrame(rows)
+
+    def __repr__(self) -> str:
+        cycle, count = self._cycle, len(self._cycle.segments)
+        names = ", ".join(segment.label for segment in cycle.segments[:_SHOWN])
+        more = f", and {count - _SHOWN} more" if count > _SHOWN else ""
+        return f"Cycle([{names}{more}], period={cycle.duration:.6g} s, minimise={cycle.minimise!r})"
+
+    def motion(self, master: Quantity | None = "360 deg", unit: str | None = None) -> Motion:
+        """The exact motion over its master in machine units, which repeats; optimal laws are looked for now.
+
+        Parameters
+        ----------
+        master
+            How far the master goes in a cycle, such as "360 deg"; None for a master that is time in seconds.
+        unit
+            Of positions; "mm" for lengths and "deg" for angles unless given.
+
+        Examples
+        --------
+        >>> from optlaws import Cycle, Return, Rise
+        >>> cycle = Cycle([Rise("35 mm", "0.1 s", law="cycloidal"), Return(law="cycloidal")], period="0.3 s")
+        >>> motion = cycle.motion()
+        >>> round(float(motion(120.0)), 12), motion.units, round(motion.peak(1), 9)
+        (35.0, Units(master='deg', slave='mm', rate=1200.0), 0.583333333)
+        """
+        cycle = self._cycle
+        return motion_of_pieces(cycle.pieces, cycle.duration, cycle.axis, master=master, unit=unit, proof=_proof(cycle))
+
+    @keywords_of(ExportOptions)
+    def export(
+        self,
+        to: str,
+        *,
+        master: Quantity | None = "360 deg",
+        unit: str | None = None,
+        **options: Unpack[ExportOptions],
+    ) -> Any:  # noqa: ANN401 - made a layer above
+        """The cycle in the format of a controller, with what the controller will run.
+
+        Parameters
+        ----------
+        to
+            The format: `optlaws export --list` names them.
+        master
+            How far the master goes in a cycle; None for a master that is time in seconds.
+        unit
+            Of positions; "mm" for lengths and "deg" for angles unless given.
+        points, counts, digits, decimal, interpolation, task, name
+            As `ExportOptions` has them: how many points, of which numbers, for which task of the drive.
+
+        Returns
+        -------
+        An `Export`: its `text`, its `report`, its `run`; `write(file)` writes it.
+
+        Raises
+        ------
+        InputError
+            If there is no such format, it takes no such option, or it cannot hold the motion.
+
+        Examples
+        --------
+        >>> from optlaws import Cycle, Return, Rise
+        >>> cycle = Cycle([Rise("35 mm", "0.1 s", law="cycloidal"), Return(law="cycloidal")], period="0.3 s")
+        >>> made = cycle.export("rockwell-cam", points=61)
+        >>> made.points, round(made.report.ratio(2), 3)
+        (61, 1.008)
+        """
+        from optlaws.exports.export import export_cycle
+
+        return export_cycle(self, to, {"master": master, "unit": unit}, **options)
+
+    def polynomials(self, *, master: Quantity | None = None, unit: str | None = None, tolerance: float = 1e-9) -> Any:  # noqa: ANN401
+        """Times and polynomial coefficients of the cycle, as a `PiecewiseMotion`: `breaks` and `coefficients`.
+
+        Over time in seconds unless a master is given; exact where laws are made of polynomials, else within
+        `tolerance`, a share of the greatest stroke, over the whole cycle.
+
+        Raises
+        ------
+        InputError
+            If a quantity is wrong, or a law's derivatives grow without limit.
+
+        Examples
+        --------
+        >>> from optlaws import Cycle, Return, Rise
+        >>> cycle = Cycle([Rise("1 m", "1 s", law="cubic"), Return(law="cubic")], period="3 s")
+        >>> pieces = cycle.polynomials(unit="m")
+        >>> pieces.breaks, [[round(coefficient, 9) for coefficient in row] for row in pieces.coefficients]
+        ((0.0, 1.0, 3.0), [[0.0, 0.0, 3.0, -2.0], [1.0, 0.0, -0.75, 0.25]])
+        """
+        from optlaws.exports.polynomial_pieces import pieces_of_motion
+
+        return pieces_of_motion(self.motion(master, unit), tolerance)
+
+    def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
+        """Draw position, velocity, acceleration and jerk over time, with segments and limits; return the artists.
+
+        `ax` are four axes of matplotlib, or one for all, where every curve is divided by its peak; a new figure unless
+        given. `style` is what `Axes.plot` takes, for the curves.
+
+        Examples
+        --------
+        >>> from optlaws import Cycle, Return, Rise
+        >>> cycle = Cycle([Rise("35 mm", "0.1 s", law="cycloidal"), Return(law="cycloidal")], period="0.3 s")
+        >>> [artist.axes.get_ylabel() for artist in cycle.plot()][2]
+        'acceleration, m/s²'
+        """
+        from optlaws.plots.cycle import draw_cycle
+
+        return draw_cycle(self._cycle, ax, **style)
+
+    def summary(self) -> Summary:
+        """The proof of the cycle, its peaks, its drive and its joints, as rows in SI units.
+
+        Examples
+        --------
+        >>> from optlaws import Cycle, Return, Rise
+        >>> cycle = Cycle([Rise("35 mm", "0.1 s", law="cycloidal"), Return(law="cycloidal")], period="0.3 s")
+        >>> [f"{row.name} {row.text(4)} {row.unit} at {row.place:g} s" for row in cycle.summary()[:2]]
+        ['peak velocity 0.7 m/s at 0.05 s', 'peak acceleration 21.99 m/s² at 0.075 s']
+        """
+        from optlaws.cycles.summary import summary
+
+        return summary(self._cycle)
+
+    def _repr_html_(self) -> str:
+        from optlaws.cycles.summary import cycle_page
+
+        return cycle_page(self._cycle)
+
+
+def problem_file(title: str, clock: Mapping[str, Any], cycles: Mapping[str, CycleInterchange]) -> str:
+    """A problem file of the job "cycle" with a clock, its speed or period, and an axis for each cycle."""
+    axes = [_axis_entries(name, cycle) for name, cycle in cycles.items()]
+    return to_toml({"job": "cycle", "title": title, **clock, "axis": axes})
+
+
+def _axis_entries(axis: str, cycle: CycleInterchange) -> dict[str, Any]:
+    data = {name: value for name, value in cycle.to_dict().items() if name not in {"format", *_CLOCK}}
+    segments = data.pop("segments")
+    for i, segment in enumerate(segments, start=1):
+        if not isinstance(segment.get("law", ""), str):
+            raise InputError(f"segment {i}: a problem file names its law: save the law as a JSON file and name that")
+    if "A" in data.get("load", {}):
+        raise InputError("load: a problem file takes a mass on a spring: a machine is kept by Cycle.to_json")
+    return {"name": axis, **data, "segment": segments}
+
+
+def _segment(segment: CycleSegment) -> dict[str, Any]:
+    kind = next(name for name, known in KINDS.items() if known is type(segment))
+    given = {each.name: _plain(getattr(segment, each.name)) for each in fields(segment)}  # type: ignore[arg-type] # dataclasses
+    defaults = {each.name: each.default for each in fields(segment)}  # type: ignore[arg-type]
+    entries = {name: value for name, value in given.items() if value not in (None, {}, (), [], defaults[name])}
+    return {"kind": kind, **entries}
+
+
+def _read_segment(data: Any, number: int) -> CycleSegment:  # noqa: ANN401 - it is checked here
+    given = dict(data) if isinstance(data, Mapping) else {}
+    kind = KINDS.get(str(given.pop("kind", "")))
+    if kind is None:
+        raise InputError(f"segment {number}: its kind must be one of {', '.join(KINDS)}, got {shortened(data)}")
+    for name in given:
+        if name not in kind.__dataclass_fields__:
+            raise InputError(f"segment {number}: {unknown_key(name, tuple(kind.__dataclass_fields__))}")
+    for each in fields(kind):
+        if each.default is MISSING and each.default_factory is MISSING and each.name not in given:
+            raise InputError(f"segment {number}: {each.name} is missing")
+    if isinstance(given.get("law"), Mapping):
+        given["law"] = MotionLaw.from_dict(given["law"])
+    segment: CycleSegment = kind(**given)
+    return segment
+
+
+def _plain(value: Any) -> Any:  # noqa: ANN401 - whatever a person gave
+    if isinstance(value, MotionLaw | Machine):
+        return value.to_dict()
+    if isinstance(value, Mapping):
+        return {str(key): _plain(part) for key, part in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(part) for part in value]
+    return value if value is None or isinstance(value, bool | int | float) else str(written(value))
+
+
+def _proof(cycle: Any) -> tuple[str, ...]:  # noqa: ANN401 - a Cycle
+    """The proof of the laws that were looked for, as files say it."""
+    if not cycle.solutions:
+        return ()
+    bound = "" if cycle.lower_bound is None else f", none below {cycle.lower_bound:.9g}"
+    least = f"least {cycle.minimise} {cycle.objective:.9g}{bound} (SI units) of {cycle.search_space}"
+    return (f"laws looked for: {len(cycle.solutions)}, status {cycle.status.value}; {least}", *cycle.remarks)

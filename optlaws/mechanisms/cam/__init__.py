@@ -1,1 +1,0 @@
-"""Cams that make an elastic follower's mass move by a given law."""

@@ -1,0 +1,151 @@
+"""The displacement of a cam as exact pieces in time: polynomials and sines, other laws as series on short stretches."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from optlaws.errors import InputError
+from optlaws.kept import kept_property
+from optlaws.laws import MotionLaw, PolynomialLaw
+from optlaws.laws.segments.piecewise import PiecewiseLaw
+from optlaws.laws.segments.segment import Segment, Wave, Waves
+from optlaws.laws.segments.sine import SineSegment
+from optlaws.numbers import Array
+from optlaws.numerics import chebyshev
+from optlaws.numerics.panels import Panels, resolved
+from optlaws.numerics.tolerances import CLOSURE, VELOCITY_ABSORBED, VELOCITY_RESOLVED
+
+
+@dataclass(frozen=True, eq=False)
+class PolynomialMotion:
+    """A polynomial over a stretch of time by the Chebyshev series of itself and of its first two derivatives."""
+
+    length: float
+    series: tuple[Array, Array, Array]
+
+    def derivative(self, s: Array, order: int) -> Array:
+        """Derivative of order `order` at s."""
+        return chebyshev.value(self._series(order), 2.0 * s / self.length - 1.0)
+
+    @kept_property
+    def _known(self) -> dict[int, Array]:
+        return dict(enumerate(self.series))
+
+    def _series(self, order: int) -> Array:
+        if order not in self._known:
+            self._known[order] = chebyshev.derivative(self._series(order - 1)) / self.length
+        return self._known[order]
+
+
+@dataclass(frozen=True, eq=False)
+class Forcing:
+    """Displacement a over one stretch of time, s = time - start in [0, length]: a polynomial and sines.
+
+    Times are in durations of the rise. `acceleration` is the Chebyshev series, in 2 s/length - 1, of what is no sine in
+    c.
+
+    >>> rise = Forcing(0.0, 1.0, 0.0, 0.0, np.zeros(1), (Wave(2 * np.pi, 2 * np.pi, 0.0),))
+    >>> rise.derivative(np.array([1.0]), 0).round(12).tolist()
+    [1.0]
+    """
+
+    start: float
+    length: float
+    a0: float
+    b0: float
+    acceleration: Array
+    sines: tuple[Wave, ...] = ()
+
+    def derivative(self, s: Array, order: int) -> Array:
+        """Derivative of order `order` of a at s."""
+        if not self.sines:
+            return self._polynomial.derivative(s, order)
+        first, *others = (motion.derivative(s, 1.0, order) for motion in self._swings)
+        swing: Array = sum(others, first)
+        return swing if order > 1 and not self.acceleration.any() else swing + self._polynomial.derivative(s, order)
+
+    @kept_property
+    def _swings(self) -> tuple[SineSegment, ...]:
+        return tuple(SineSegment(*sine) for sine in self.sines)
+
+    @kept_property
+    def _polynomial(self) -> PolynomialMotion:
+        velocity = chebyshev.integral(self.length * self.acceleration, self.b0)
+        series = chebyshev.integral(self.length * velocity, self.a0), velocity, self.acceleration
+        return PolynomialMotion(self.length, series)
+
+
+def rest(start: float, length: float, a0: float) -> Forcing:
+    """The forcing of a cam that dwells."""
+    return Forcing(start, length, a0, 0.0, np.zeros(1))
+
+
+COUNT = 41
+
+
+def forcings(
+    law: MotionLaw, start: float = 0.0, length: float = 1.0, a0: float | None = None, stroke: float = 1.0
+) -> tuple[Forcing, ...]:
+    """Pieces of a0 + stroke (law(k) - law(0)), k = (time - start) / length; a0 is the law's own unless given."""
+    return _Frame(law, start, length, float(law.a(0.0)) if a0 is None else a0, stroke).pieces()
+
+
+@dataclass(frozen=True)
+class _Frame:
+    """A law in units of time."""
+
+    law: MotionLaw
+    start: float
+    length: float
+    a0: float
+    stroke: float
+
+    def pieces(self) -> tuple[Forcing, ...]:
+        law = self.law
+        if isinstance(law, PolynomialLaw):
+            return (self._forcing(Waves(law.acceleration or (0.0,), law.b0), 0.0, 1.0),)
+        if isinstance(law, PiecewiseLaw):
+            stretches = zip(law.segments, pairwise(law.breaks), strict=True)
+            return tuple(piece for segment, (low, high) in stretches for piece in self._segment(segment, low, high))
+        return tuple(self._interpolated(lambda k: np.asarray(law.b(k)), 0.0, 1.0))
+
+    def _segment(self, segment: Segment, low: float, high: float) -> list[Forcing]:
+        if (waves := segment.waves(high - low)) is not None:
+            return [self._forcing(waves, low, high)]
+        return self._interpolated(lambda k: segment.derivative((k - low) / (high - low), high - low, 1), low, high)
+
+    def _place(self, low: float, high: float) -> tuple[float, float, float]:
+        a0 = self.a0 + self.stroke * (float(self.law.a(low)) - float(self.law.a(0.0)))
+        return self.start + self.length * low, self.length * (high - low), a0
+
+    def _forcing(self, waves: Waves, low: float, high: float) -> Forcing:
+        scale = self.stroke / self.length**2
+        sines = (Wave(scale * sine.amplitude, sine.frequency / self.length, sine.phase) for sine in waves.sines)
+        c = scale * np.array(waves.acceleration)
+        return Forcing(*self._place(low, high), self.stroke / self.length * waves.b0, c, tuple(sines))
+
+    def _interpolated(self, velocity: Callable[[Array], Array], low: float, high: float) -> list[Forcing]:
+        ends = 0.5 * (low + high) + 0.5 * (high - low) * chebyshev.nodes(COUNT)
+        size = float(np.abs(velocity(ends)).max()) or 1.0
+
+        def short(b: Array, length: float) -> bool:
+            missed = float(np.abs(b[-4:]).max()) / size
+            return missed <= VELOCITY_RESOLVED or 0.5 * missed * length <= VELOCITY_ABSORBED
+
+        panels, series = resolved(velocity, Panels((low, high), COUNT), short)
+        pieces = []
+        for (first, last), b in zip(pairwise(panels.edges), series.T, strict=True):
+            c = tuple((chebyshev.derivative(b) / (last - first)).tolist())
+            pieces.append(self._forcing(Waves(c, float(chebyshev.value(b, -1.0))), first, last))
+        return pieces
+
+
+def leads_back(rise: MotionLaw, fall: MotionLaw) -> None:
+    """Refuse a return whose stroke is not that of the rise."""
+    strokes = [float(law.a(1.0)) - float(law.a(0.0)) for law in (rise, fall)]
+    if abs(strokes[1] - strokes[0]) > CLOSURE * max(1.0, abs(strokes[0])):
+        raise InputError(f"fall must lead back over the rise's stroke {strokes[0]:g}, but has {strokes[1]:g}")
