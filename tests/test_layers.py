@@ -38,7 +38,6 @@ MAY_IMPORT = {
     "shown": set[str](),
     "suggest": {"echo"},
     "numerics": BASE,
-    "series": {"laws", "numerics"},
     "laws": KNOWN,
     "synthesis": KNOWN | {"formulas", "laws"},
     "mechanisms": KNOWN | {"formulas", "laws", "synthesis"},
