@@ -21,11 +21,6 @@ class NotInstalled(InputError, ImportError):  # noqa: N818 - as SolverFailure
 def needed(module: str, what: str, extra: str = "studies") -> None:
     """See that a library is installed.
 
-    Raises
-    ------
-    NotInstalled
-        If it is not; the error says the extra that brings it.
-
     Examples
     --------
     >>> needed("numpy", "this")

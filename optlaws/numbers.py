@@ -44,11 +44,6 @@ _DENOMINATOR_BITS = 100_000
 def whole(value: Any, name: str, least: int = 0, most: int = MOST_WHOLE) -> int:  # noqa: ANN401
     """The value as an int, if it is an integer from `least` to `most`; `name` is what an error calls it.
 
-    Raises
-    ------
-    InputError
-        If it is not.
-
     Examples
     --------
     >>> whole(3, "nu")
@@ -112,11 +107,6 @@ def power_of_two(size: float) -> float:
 def finite(value: Any, name: str) -> float:  # noqa: ANN401
     """The value as a float; `name` is what an error calls it.
 
-    Raises
-    ------
-    InputError
-        If it is not a finite real number, or above 1e100 in magnitude.
-
     Examples
     --------
     >>> finite(1, "b0")
@@ -135,11 +125,6 @@ def finite(value: Any, name: str) -> float:  # noqa: ANN401
 def positive(value: Any, name: str) -> float:  # noqa: ANN401
     """The value as a float above 0.
 
-    Raises
-    ------
-    InputError
-        If it is not one, or not finite.
-
     Examples
     --------
     >>> positive(20, "nu")
@@ -153,11 +138,6 @@ def positive(value: Any, name: str) -> float:  # noqa: ANN401
 
 def frequency(value: Any, name: str = "nu") -> float:  # noqa: ANN401
     """Radians of a free vibration in the rise, as a float above 0 and at most 100 000.
-
-    Raises
-    ------
-    InputError
-        If it is not one: beyond, a follower is as good as rigid, and its peaks are too many to be looked at.
 
     Examples
     --------
@@ -175,11 +155,6 @@ def frequency(value: Any, name: str = "nu") -> float:  # noqa: ANN401
 def derivative(value: Any, name: str = "nu") -> int:  # noqa: ANN401
     """The order of a derivative as an int, at most 50.
 
-    Raises
-    ------
-    InputError
-        If it is not one.
-
     Examples
     --------
     >>> derivative(3)
@@ -190,11 +165,6 @@ def derivative(value: Any, name: str = "nu") -> int:  # noqa: ANN401
 
 def not_negative(value: Any, name: str) -> float:  # noqa: ANN401
     """The value as a float of at least 0.
-
-    Raises
-    ------
-    InputError
-        If it is not one, or not finite.
 
     Examples
     --------
@@ -209,11 +179,6 @@ def not_negative(value: Any, name: str) -> float:  # noqa: ANN401
 
 def numbers(values: Any, name: str, most: int = MOST_VALUES) -> tuple[float, ...]:  # noqa: ANN401
     """The values as a tuple of floats; `name` is what an error calls them.
-
-    Raises
-    ------
-    InputError
-        If one is not a finite real number, or there are too many.
 
     Examples
     --------
@@ -232,11 +197,6 @@ def _plain(value: object) -> bool:
 def fractions(values: Iterable[Any], name: str, most: int = MOST_TERMS) -> list[Fraction]:
     """The exact values of ints, floats and Fractions; `name` is what an error calls them.
 
-    Raises
-    ------
-    InputError
-        If a value is not a finite real number, or so large that its square would overflow, or there are too many.
-
     Examples
     --------
     >>> fractions([1, 0.5], "z")
@@ -247,11 +207,6 @@ def fractions(values: Iterable[Any], name: str, most: int = MOST_TERMS) -> list[
 
 def listed(values: Any, name: str, most: int = MOST_TERMS) -> list[Any]:  # noqa: ANN401
     """The values as a list of at most so many.
-
-    Raises
-    ------
-    InputError
-        If they are no sequence, or too many.
 
     Examples
     --------
@@ -292,11 +247,6 @@ def _fraction(value: Any, name: str) -> Fraction:  # noqa: ANN401
 def times(k: Any) -> Array:  # noqa: ANN401
     """Dimensionless times as floats, of any shape.
 
-    Raises
-    ------
-    InputError
-        If one is outside [0, 1] or not a real number.
-
     Examples
     --------
     >>> times([0, 1])
@@ -313,11 +263,6 @@ def times(k: Any) -> Array:  # noqa: ANN401
 
 def real_times(k: Any) -> Array:  # noqa: ANN401
     """Finite times of any shape.
-
-    Raises
-    ------
-    InputError
-        If one is not a finite real number.
 
     Examples
     --------

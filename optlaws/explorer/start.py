@@ -18,11 +18,6 @@ _FIRST = {"order": 4, "degree": 9, "B": 1.7}
 def start(given: str | None) -> dict[str, Any]:
     """The page's first state for a law's name or file, a problem file or a solution; an optimal law unless given.
 
-    Raises
-    ------
-    InputError
-        If it is none of them.
-
     Examples
     --------
     >>> start("cycloidal")

@@ -18,11 +18,6 @@ _ROOTS = (_PACKAGE / "packaged", _PACKAGE.parent)
 def packaged(place: str) -> Path:
     """A file or folder that comes with optlaws, by its place in the repository.
 
-    Raises
-    ------
-    InputError
-        If it is not there.
-
     Examples
     --------
     >>> packaged("problems/optimal_table.toml").name
@@ -51,11 +46,6 @@ def problem_file(given: Path) -> tuple[Path, Path | None]:
     Returns
     -------
     The file, and the folder for its results where that is not the file's own: `results/NAME` where the user is.
-
-    Raises
-    ------
-    InputError
-        If a name is not known.
 
     Examples
     --------
@@ -106,11 +96,6 @@ class GivenProblem(NamedTuple):
 
 def problem_of_job(given: Path, job: str) -> GivenProblem:
     """A problem file, as `problem_file` finds it, of one job.
-
-    Raises
-    ------
-    InputError
-        If it cannot be read or is of another job.
 
     Examples
     --------

@@ -21,13 +21,7 @@ Spec = TypeVar("Spec", bound=msgspec.Struct)
 
 
 def convert(data: Mapping[str, Any], spec: type[Spec], file: Path) -> Spec:
-    """Entries of a problem file as a typed value.
-
-    Raises
-    ------
-    InputError
-        If a key or a word is unknown (the nearest right one is named), missing, or a value is of the wrong type.
-    """
+    """Entries of a problem file as a typed value."""
     _check_keys(data, spec, str(file))
     try:
         return typed(data, spec)

@@ -30,11 +30,6 @@ _MOST_VALUES, _MOST_BRACKETS = 3_600_000, 600_000
 def text(file: Path, largest: int = LARGEST_JSON, *, legacy: bool = False) -> str:
     """The text of a regular file in UTF-8, without its byte order mark; with `legacy` in UTF-16 or Latin-1, too.
 
-    Raises
-    ------
-    InputError
-        If it is no regular file, cannot be read, is larger than `largest` bytes or is not UTF-8.
-
     Examples
     --------
     >>> text(Path("/dev/null"))
@@ -85,13 +80,7 @@ def _named(file: Path) -> str:
 
 
 def toml(file: Path) -> dict[str, Any]:
-    """The contents of a TOML file.
-
-    Raises
-    ------
-    InputError
-        If it cannot be read, is larger than 1 MB, is not TOML, or holds what no problem needs: see `checked`.
-    """
+    """The contents of a TOML file."""
     import tomllib
 
     content = text(file, LARGEST_TOML)
@@ -106,23 +95,12 @@ def toml(file: Path) -> dict[str, Any]:
 
 
 def json_file(file: Path) -> Any:  # noqa: ANN401 - whatever it holds
-    """The contents of a JSON file.
-
-    Raises
-    ------
-    InputError
-        If it cannot be read, is larger than 64 MB, is not JSON, or holds what nothing needs: see `parsed`, `checked`.
-    """
+    """The contents of a JSON file."""
     return json_text(text(file), str(file))
 
 
 def json_text(content: Any, name: str) -> Any:  # noqa: ANN401 - it is checked here
     """The contents of a JSON text; `name` is what an error calls it.
-
-    Raises
-    ------
-    InputError
-        If it is not JSON, or holds what nothing needs: see `parsed`, `checked`.
 
     Examples
     --------
@@ -174,12 +152,6 @@ class JsonText:
 def parsed(content: Any, name: str) -> Any:  # noqa: ANN401 - it is checked here
     """The contents of a JSON text, of which only its size is checked, and that it says nothing twice.
 
-    Raises
-    ------
-    InputError
-        If it is not JSON, holds a key twice or a number that is not finite, or is larger than 64 MB, or has more than
-        3.6 million values or 0.6 million lists and objects.
-
     Examples
     --------
     >>> parsed('{"B": 1.6, "B": 1.7}', "the problem")
@@ -229,11 +201,6 @@ def _no_number(text: str) -> float:
 
 def checked(data: Any, name: str) -> Any:  # noqa: ANN401 - whatever it holds
     """The data, if it is nested at most 50 deep, its integers fit a float, and its texts hold no NUL or surrogate.
-
-    Raises
-    ------
-    InputError
-        If it is not so.
 
     Examples
     --------

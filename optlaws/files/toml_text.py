@@ -12,11 +12,6 @@ from optlaws.errors import InputError
 def to_toml(data: Mapping[str, Any]) -> str:
     """TOML that reads as the same data: text, numbers, switches, lists and tables; None is left out.
 
-    Raises
-    ------
-    InputError
-        If a value is none that TOML has.
-
     Examples
     --------
     >>> print(to_toml({"job": "cycle", "axis": [{"name": "slide", "segment": [{"kind": "dwell"}]}]}), end="")

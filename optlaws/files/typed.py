@@ -18,11 +18,6 @@ def typed(data: Any, kind: type[Kind]) -> Kind:  # noqa: ANN401 - whatever was r
 
     One at a time: two threads that met a kind for the first time have crashed in msgspec (0.22).
 
-    Raises
-    ------
-    msgspec.ValidationError
-        If the data are of no such value.
-
     Examples
     --------
     >>> typed([1, 2.5], tuple[int, float])

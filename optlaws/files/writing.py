@@ -46,13 +46,6 @@ def write(file: Path, content: str | bytes, *, digits: int | None = None, exact:
 
     Every content passed must hold the mark "made by optlaws", at the end of a line, a text or an entry; the seal is
     put behind it.
-
-    Raises
-    ------
-    InputError
-        If the name is none for a file: see `check_name`.
-    ValueError
-        If the content does not hold the mark.
     """
     check_name(file)
     try:
@@ -68,11 +61,6 @@ def write_any(file: Path, content: str) -> Path:
     """Replace a file at once by a text that may have no mark, as formats of controllers have no place for one.
 
     A file that says something else is kept as `name.orig`, unless its seal tells that optlaws made all of it.
-
-    Raises
-    ------
-    InputError
-        If the name is none for a file: see `check_name`.
     """
     if MARK in content:
         return write(file, content, exact=True)
@@ -138,11 +126,6 @@ def is_sealed(content: bytes) -> bool:
 
 def sealed(content: bytes) -> bytes:
     """The content with the seal behind its mark.
-
-    Raises
-    ------
-    ValueError
-        If it does not hold the mark.
 
     Examples
     --------
@@ -275,11 +258,6 @@ def _free_names(file: Path) -> Iterator[Path]:
 def check_place(file: Path) -> None:
     """Refuse a file that could not be written, before the work whose result it shall hold; nothing is left behind.
 
-    Raises
-    ------
-    InputError
-        If the name is none for a file (see `check_name`), it is that of a folder, or its folder takes no new file.
-
     Examples
     --------
     >>> check_place(Path("/dev/null/law.json"))
@@ -301,12 +279,6 @@ def check_place(file: Path) -> None:
 
 def check_name(file: Path) -> None:
     """Refuse a name that a system or a command would take for something else.
-
-    Raises
-    ------
-    InputError
-        If the name holds NUL, a surrogate or another control character, begins with "-", ends with a blank or a dot,
-        or is that of a device such as con, nul or com1, whatever its ending.
 
     Examples
     --------

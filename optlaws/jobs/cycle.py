@@ -32,13 +32,7 @@ _EXPORT_HEADINGS = ("file", "format", "points", *_PEAKS, "greatest deviation, un
 
 
 def exports_of(spec: CycleProblemFile, cycles: Mapping[str, Cycle], file: Path) -> Exports:
-    """The exports that the axes name, made but not yet written.
-
-    Raises
-    ------
-    InputError
-        If one is wrong or cannot hold its axis, or two have the same file; the error names file and axis.
-    """
+    """The exports that the axes name, made but not yet written."""
     exports: Exports = {}
     if len(spec.axis) > 1 and TOGETHER in {plain_name(axis.name) for axis in spec.axis}:
         raise InputError(f"{file}: an axis is called {TOGETHER}, as the picture of all is: give it another name")

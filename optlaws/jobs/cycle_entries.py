@@ -115,13 +115,7 @@ def read(data: Mapping[str, Any], file: Path) -> tuple[CycleProblemFile, dict[st
 
 
 def cycle_of(axis: AxisEntries, speed: str | None, period: str | None) -> Cycle:
-    """The cycle of an axis: that of the cam, where there is a follower.
-
-    Raises
-    ------
-    InputError
-        If durations, positions or velocities do not fit, or a quantity is wrong.
-    """
+    """The cycle of an axis: that of the cam, where there is a follower."""
     cycle = Cycle(
         [segment_of(entry, i + 1) for i, entry in enumerate(axis.segment)],
         speed=speed,
@@ -145,11 +139,6 @@ def _given(entries: msgspec.Struct) -> dict[str, Any]:
 
 def segment_of(entries: SegmentEntries, number: int) -> CycleSegment:
     """A segment of a file.
-
-    Raises
-    ------
-    InputError
-        If it has an entry that its kind does not take, or lacks one.
 
     Examples
     --------

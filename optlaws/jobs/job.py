@@ -56,11 +56,6 @@ def run(file: Path, out: Path | None = None) -> list[Path]:
         The problem file.
     out
         Folder for the results; `results/<name of the file>` beside the problem file's folder unless given.
-
-    Raises
-    ------
-    InputError
-        If the file cannot be read, is not TOML, or holds an unknown or wrong entry.
     """
     if file.suffix == ".py":
         raise InputError(

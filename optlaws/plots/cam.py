@@ -101,11 +101,6 @@ def draw_cam(cam: DiscCam, axes: Any = None, **style: Any) -> list[Artist]:  # n
     """Draw a cam with its follower around it, and displacement, pressure angle and curvature over the cam's angle.
 
     Into one pair of axes the cam alone is drawn.
-
-    Raises
-    ------
-    InputError
-        If there are neither one nor four axes.
     """
     if axes is None:
         with plot_style():

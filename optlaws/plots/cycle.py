@@ -43,13 +43,7 @@ def cycle_figure(cycle: Cycle, title: str) -> Figure:
 
 
 def draw_cycle(cycle: Cycle, axes: Any = None, **style: Any) -> list[Artist]:  # noqa: ANN401 - matplotlib's
-    """Draw position, velocity, acceleration and jerk into four axes, new ones unless given, and return the artists.
-
-    Raises
-    ------
-    InputError
-        If there are neither one nor four axes.
-    """
+    """Draw position, velocity, acceleration and jerk into four axes, new ones unless given, and return the artists."""
     if hasattr(axes, "plot"):
         return _draw_together(cycle, axes, style)
     if axes is None:
@@ -150,13 +144,7 @@ def draw_axes(
     nu: int = 0,
     **style: Any,  # noqa: ANN401 - matplotlib's
 ) -> list[Artist]:
-    """Draw a derivative of every axis over time, and return the artists.
-
-    Raises
-    ------
-    InputError
-        If there are neither one nor as many axes of matplotlib, or nu is above 3.
-    """
+    """Draw a derivative of every axis over time, and return the artists."""
     order = derivative(nu)
     if order >= len(QUANTITIES):
         raise InputError(f"nu must be at most 3, the jerk, got {order}")

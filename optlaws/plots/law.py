@@ -64,11 +64,6 @@ def draw_curve(
     """Draw a, b, c and j of a law, or of a mass, with their peaks, and return the artists.
 
     Into one pair of axes each is divided by its peak; `style` is of the curves.
-
-    Raises
-    ------
-    InputError
-        If there are neither one nor four axes.
     """
     if axes is None:
         axes = panels()
@@ -79,11 +74,6 @@ def draw_curve(
 
 def four(axes: Any) -> list[Axes]:  # noqa: ANN401 - it is checked here
     """The axes of a, b, c and j.
-
-    Raises
-    ------
-    InputError
-        If they are not four.
 
     Examples
     --------
@@ -224,11 +214,6 @@ def draw_solution(
 
     Into one pair of axes, where every curve is divided by its peak, no limits are drawn.
 
-    Raises
-    ------
-    InputError
-        If there are neither one nor four axes.
-
     Examples
     --------
     >>> from optlaws.synthesis import synthesize
@@ -263,11 +248,6 @@ _COMPARED = (
 
 def draw_comparison(comparison: Comparison, axes: Panels | None = None, **style: Any) -> list[Artist]:  # noqa: ANN401
     """Draw a, b, c and j of several laws one over the other, dimensionless, with one legend in a new figure.
-
-    Raises
-    ------
-    InputError
-        If there are not four axes.
 
     Examples
     --------

@@ -179,13 +179,7 @@ class Clutch:
 
 
 def exact_swing(mechanism: DwellMechanism, teeth: Teeth) -> DwellMechanism:
-    """The mechanism with the swing that makes a clutch exact.
-
-    Raises
-    ------
-    InputError
-        If no swing does.
-    """
+    """The mechanism with the swing that makes a clutch exact."""
     if teeth.swing is None or not isfinite(teeth.swing):
         raise InputError(f"no swing makes a clutch with p = {teeth.p} of {teeth.N} teeth exact")
     return replace(mechanism, swing=teeth.swing)

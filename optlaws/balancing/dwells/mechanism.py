@@ -203,13 +203,7 @@ class DwellMechanism:
 
 
 def _check(mechanism: DwellMechanism) -> None:
-    """Refuse what cannot be built.
-
-    Raises
-    ------
-    InputError
-        Naming the first quantity that does not fit, and the remedy.
-    """
+    """Refuse what cannot be built."""
     if mechanism.kind not in KINDS:
         raise InputError(f"kind must be one of {', '.join(KINDS)}, got {shortened(mechanism.kind)}")
     for name in (*POSITIVE, *NOT_NEGATIVE):

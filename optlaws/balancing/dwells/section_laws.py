@@ -80,13 +80,7 @@ def law_of(given: Any) -> Any:  # noqa: ANN401 - whatever the caller gave, a law
 
 
 def check_law(name: str, law: Any) -> None:  # noqa: ANN401 - whatever the caller gave
-    """Refuse what is no law from rest to rest over a stroke of 1.
-
-    Raises
-    ------
-    InputError
-        Naming the law.
-    """
+    """Refuse what is no law from rest to rest over a stroke of 1."""
     if not isinstance(law, MotionLaw):
         raise InputError(f"{name} must be a MotionLaw, or what has one in `law`, got {shortened(law)}")
     a0, b0, a1, b1 = _ends(law)

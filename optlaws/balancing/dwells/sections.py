@@ -86,13 +86,7 @@ def excursion(sections: Sequence[Section]) -> float:
 
 
 def composed(sections: Sequence[Section]) -> PiecewiseLaw:
-    """The motion over the cycle as a law of k = cam angle / angle of the cycle; displacement in S.
-
-    Raises
-    ------
-    InputError
-        If the rocker is not back after the cycle.
-    """
+    """The motion over the cycle as a law of k = cam angle / angle of the cycle; displacement in S."""
     net = sum(section.travel for section in sections)
     if abs(net) > CLOSURE:
         raise InputError(f"the rocker is {net:.6g} S off its start after the cycle; dwells or laws do not match")

@@ -37,13 +37,7 @@ class Limited(Protocol):
 
 
 def check(lever: Limited, chi02: float, chi01: float, where: str) -> None:
-    """See that the linkage keeps to its limits from chi02 to chi01, radians; `where` is what an error adds.
-
-    Raises
-    ------
-    InputError
-        If a limit is exceeded; the message names which, and by what.
-    """
+    """See that the linkage keeps to its limits from chi02 to chi01, radians; `where` is what an error adds."""
     ends = f"between {degrees(chi02):.6g} and {degrees(chi01):.6g} deg ({where})"
     low, high = lever.linkage.range
     if not low < chi02 < chi01 < high:

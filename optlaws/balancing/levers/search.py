@@ -44,13 +44,7 @@ class LengthSearch(NamedTuple):
 
 
 def along(line: LengthSearch, value: float) -> tuple[TorsionLever, ...]:
-    """The levers whose constant has a value, in order of their length.
-
-    Raises
-    ------
-    InputError
-        If there are none; the message says which values there are.
-    """
+    """The levers whose constant has a value, in order of their length."""
     from scipy.optimize import brentq
 
     lengths, values = _samples(line)
@@ -90,13 +84,7 @@ def _edge(line: LengthSearch, inside: float, outside: float) -> float:
 def within(
     make: Make, spans: Mapping[str, tuple[float, float]], goals: Mapping[str, tuple[Quantity, float]]
 ) -> tuple[TorsionLever, ...]:
-    """Levers with several constants of given values, searched from the best of a grid of lengths.
-
-    Raises
-    ------
-    InputError
-        If none is found; the message says which comes nearest.
-    """
+    """Levers with several constants of given values, searched from the best of a grid of lengths."""
     from scipy.optimize import least_squares
 
     names = list(spans)

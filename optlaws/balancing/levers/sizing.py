@@ -27,11 +27,6 @@ class Sizing(NamedTuple):
 def sized(linkage: FourBar, rho: float, nu: float, swing: float) -> Sizing:
     """The solution of (3), (12) and (13) at a given nominal swing, radians; the root chi01 nearest to half of it.
 
-    Raises
-    ------
-    InputError
-        If there is none between 0.2 and 0.8 of the swing.
-
     Examples
     --------
     >>> from math import pi

@@ -91,11 +91,6 @@ def velocity_deficit(derivative: Derivative, B: float, length: float, where: str
     """The deficit beside a top from one-sided derivatives of |b| with respect to t, `derivative(t, order)`.
 
     Either |b| is analytic there, or c is a power of t.
-
-    Raises
-    ------
-    InputError
-        If it is neither, or |b| does not fall away from the top; `where` says at which k.
     """
     taylor = _taylor(derivative, B, length)
     if taylor is not None:

@@ -41,12 +41,6 @@ def is_symmetric(law: MotionLaw) -> bool:
 def tops(law: MotionLaw) -> tuple[VelocityTop, ...]:
     """Every top of the velocity, in order.
 
-    Raises
-    ------
-    InputError
-        If b is zero or infinite throughout, or reaches its peak at k = 0 or 1, or an even number of times: the loader
-        would not be at the other end of its swing after the motion.
-
     Examples
     --------
     >>> from optlaws.laws import smoothstep

@@ -74,11 +74,6 @@ def read(text: bytes, kind: type[Struct]) -> Struct:
 def objective(weights: Mapping[str, float]) -> str:
     """The objective of weights: a constant alone, or the sum of those above 0, each by its least value over all laws.
 
-    Raises
-    ------
-    InputError
-        If no weight is above 0, or one is of another constant.
-
     Examples
     --------
     >>> objective({"C": 1.0, "D": 0.0}), objective({"C": 0.5, "J": 1.0})
@@ -97,11 +92,6 @@ def objective(weights: Mapping[str, float]) -> str:
 
 def problem_of(asked: AskedLaw) -> Problem:
     """The problem that is asked.
-
-    Raises
-    ------
-    InputError
-        If it is none, or larger than the explorer takes.
 
     Examples
     --------
@@ -157,11 +147,6 @@ def without(problem: Problem, constant: str, **asked: Any) -> Problem:  # noqa: 
 def given_law(asked: AskedLaw) -> MotionLaw:
     """The law of a name or of stored data; no file is read.
 
-    Raises
-    ------
-    InputError
-        If there is no such law.
-
     Examples
     --------
     >>> given_law(AskedLaw(name="III(7.2)")).constants.B.value
@@ -177,13 +162,6 @@ def given_law(asked: AskedLaw) -> MotionLaw:
 
 def law_of(asked: AskedLaw) -> MotionLaw:
     """The law that is asked, whichever way.
-
-    Raises
-    ------
-    InputError
-        If it cannot be read.
-    InfeasibleProblem, SolverFailure
-        If its problem has no law, or none was found.
 
     Examples
     --------

@@ -48,25 +48,13 @@ def answer(asked: AskedCam) -> dict[str, Any]:
 
 
 def cam_of(asked: AskedCam) -> tuple[schema.CamProblemFile, DiscCam]:
-    """What is wished of the cam, and the cam.
-
-    Raises
-    ------
-    InputError
-        If an entry is unknown or wrong, or there is no such mechanism.
-    """
+    """What is wished of the cam, and the cam."""
     spec, cams = cams_of(asked)
     return spec, cams.first
 
 
 def cams_of(asked: AskedCam) -> tuple[schema.CamProblemFile, schema.Cams]:
-    """The same with all that was found for it.
-
-    Raises
-    ------
-    InputError
-        As for `cam_of`.
-    """
+    """The same with all that was found for it."""
     return _made(json.dumps(asked.study, sort_keys=True))
 
 

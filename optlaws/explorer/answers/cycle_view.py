@@ -71,11 +71,6 @@ def read(asked: AskedCycle) -> tuple[CycleProblemFile, AxisEntries]:
 def check_axis(axis: AxisEntries) -> None:
     """Refuse what is larger than the explorer takes, and laws that are named by files.
 
-    Raises
-    ------
-    InputError
-        If one is.
-
     Examples
     --------
     >>> check_axis(AxisEntries(name="slide", segment=[], degree=9))
@@ -88,13 +83,7 @@ def check_axis(axis: AxisEntries) -> None:
 
 
 def cycle(asked: AskedCycle) -> Cycle:
-    """The cycle of the axis that is shown.
-
-    Raises
-    ------
-    InputError
-        If durations, positions or velocities do not fit.
-    """
+    """The cycle of the axis that is shown."""
     return _stored(*read(asked))
 
 

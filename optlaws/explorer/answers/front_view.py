@@ -42,13 +42,7 @@ PAIRS = (("B", "C"), ("B", "D"), ("B", "J"), ("C", "D"), ("J", "C"))
 
 
 def answer(asked: AskedFront) -> dict[str, Any]:
-    """The front of a problem: where B is swept, of its own objective; else of the least second constant.
-
-    Raises
-    ------
-    InputError
-        If the constants are no pair that may be exchanged.
-    """
+    """The front of a problem: where B is swept, of its own objective; else of the least second constant."""
     x, y = asked.over
     if (x, y) not in PAIRS:
         raise InputError(f"over must be one of {', '.join('-'.join(pair) for pair in PAIRS)}, got {x}-{y}")

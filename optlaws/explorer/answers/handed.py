@@ -49,13 +49,6 @@ def formats() -> list[dict[str, Any]]:
 def answer(asked: AskedExport) -> dict[str, Any]:
     """The file, and the peaks of the motion as the controller interpolates it beside those of the law.
 
-    Raises
-    ------
-    InputError
-        If the format cannot hold the motion, or a quantity is wrong.
-    InfeasibleProblem, SolverFailure
-        If there is no law to export.
-
     Examples
     --------
     >>> made = answer(AskedExport(format="codesys-xyva", laws=[AskedLaw(name="cycloidal")], points=9))

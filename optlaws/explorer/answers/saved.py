@@ -55,13 +55,6 @@ class AskedFile(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 def answer(asked: AskedFile) -> File:
     """A file: its name, its type, its text.
 
-    Raises
-    ------
-    InputError
-        If there is nothing to save.
-    InfeasibleProblem, SolverFailure
-        If the law that is to be saved does not exist.
-
     Examples
     --------
     >>> answer(AskedFile(kind="table", laws=[AskedLaw(name="cycloidal")]))["name"]
@@ -158,11 +151,6 @@ def _with_imports(lines: list[str]) -> str:
 
 def problem_file(law: AskedLaw) -> str:
     """The problem as a file for `optlaws run` and `optlaws explore`.
-
-    Raises
-    ------
-    InputError
-        If the law is of no problem.
 
     Examples
     --------

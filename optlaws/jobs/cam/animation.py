@@ -19,13 +19,7 @@ _MARGIN = 6.0
 
 
 def animated(cam: DiscCam, seconds: float = 4.0) -> str:
-    """The picture of one turn in so many seconds, over and over, in millimetres; y points up.
-
-    Raises
-    ------
-    InputError
-        If the cam's motion is not a whole turn.
-    """
+    """The picture of one turn in so many seconds, over and over, in millimetres; y points up."""
     outline = beziers(spline(cam.profile, _NEAR)) * [_MILLI, -_MILLI]
     path = (
         f"M {_pair(outline[0, 0])} " + " ".join(f"C {_pair(a)} {_pair(b)} {_pair(c)}" for _, a, b, c in outline) + " Z"

@@ -72,13 +72,7 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
 
 
 def answer(data: Mapping[str, Any], file: Path) -> dict[str, Any]:
-    """The data of the cam of a file for programs, in metres and radians.
-
-    Raises
-    ------
-    InputError
-        If an entry of the file is unknown or wrong.
-    """
+    """The data of the cam of a file for programs, in metres and radians."""
     return to_data(read(data, file)[1])
 
 

@@ -189,13 +189,7 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
 
 
 def answer(data: Mapping[str, Any], file: Path) -> dict[str, Any]:
-    """The data of the cam for programs, in metres and radians: enclosures as pairs, with the angle of the cam.
-
-    Raises
-    ------
-    InputError
-        If an entry of the file is unknown or wrong.
-    """
+    """The data of the cam for programs, in metres and radians: enclosures as pairs, with the angle of the cam."""
     if "barrel" in data:
         return barrels.answer(data, file)
     spec, cams = read(data, file)

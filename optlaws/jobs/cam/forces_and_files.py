@@ -101,13 +101,7 @@ class ForcesAndFiles(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 
 
 def check(spec: ForcesAndFiles, cam: DiscCam, cycle: Cycle) -> None:
-    """Refuse what would be refused only after the work was done.
-
-    Raises
-    ------
-    InputError
-        If an entry of a file is wrong, or forces have no drive.
-    """
+    """Refuse what would be refused only after the work was done."""
     for entry in spec.file:
         if Path(entry.name).name != entry.name:
             raise InputError(f"file: name must be that of a file in the folder of results, got {entry.name!r}")

@@ -43,11 +43,6 @@ def look_up(
         Peak velocity.
     most
         Greatest values of constants.
-
-    Raises
-    ------
-    InputError
-        If there is no atlas, it has no such objective or order, or no point of it keeps what is asked.
     """
     limits = dict(most or {})
     for name in limits:
@@ -82,11 +77,6 @@ def best_law(
 
     A point of the atlas says nothing of the best degree under a limit: its law keeps to it by chance. So every degree
     is asked, but where the greatest, among whose laws are those of all others, has answered for them with proof.
-
-    Raises
-    ------
-    InfeasibleProblem, SolverFailure
-        If no law of the greatest degree exists or none of any degree is found.
     """
     degrees = sorted({point.degree for point in read(file) if point.order == order}, reverse=True)
     solutions: list[Solution] = []

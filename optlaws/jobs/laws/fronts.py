@@ -173,13 +173,7 @@ _NEAR = 0.035  # of the axes: points nearer than this in both directions have th
 
 
 def check_beside(picture: Picture) -> None:
-    """Refuse names that are neither a family, nor "smoothstep", nor a law of the catalogue.
-
-    Raises
-    ------
-    InputError
-        If there is one.
-    """
+    """Refuse names that are neither a family, nor "smoothstep", nor a law of the catalogue."""
     for name in picture.catalogue:
         if name not in FAMILIES and name != SMOOTHSTEPS:
             try:

@@ -54,13 +54,7 @@ class MachineTable(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     stroke: float = 1.0
 
     def machine(self) -> Machine:
-        """The machine of the table, checked.
-
-        Raises
-        ------
-        InputError
-            If it is none; the message begins with the table's name.
-        """
+        """The machine of the table, checked."""
         if sum(given is not None for given in (self.masses, self.modes, self.A)) != 1:
             raise InputError("machine: give either masses with links and a drive, or modes, or matrices A, B, C and D")
         try:
@@ -101,13 +95,7 @@ class Measure(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     offset: float = 0.0
 
     def constant(self, machine: Machine) -> Functional:
-        """The constant of this machine.
-
-        Raises
-        ------
-        InputError
-            If it is none of the three, or more than one.
-        """
+        """The constant of this machine."""
         if sum(wish is not None for wish in (self.peak, self.rms, self.residual)) != 1:
             raise InputError(
                 "a constant of the machine is one of peak and rms, each of an output, and residual of a mode"
@@ -139,13 +127,7 @@ class Sought(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     problem: dict[str, Any] = {}
 
     def stated(self, machine: Machine) -> Problem:
-        """The problem of the law that is sought.
-
-        Raises
-        ------
-        InputError
-            If an entry is wrong; the message begins with the law's name.
-        """
+        """The problem of the law that is sought."""
         try:
             entries = from_entries({"order": 3, **self.problem})
             objective = self.minimise if isinstance(self.minimise, str) else self.minimise.constant(machine)
