@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from time import monotonic
-from typing import Protocol
 
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
@@ -14,8 +13,11 @@ from optlaws.shown.steps import watched
 _SECONDS = 10.0
 
 
-class Watch(Protocol):
-    """What is told of a study's progress: points done by status, at the beginning, now and then, and at the end."""
+class Watch:
+    """What is told of a study's progress: points done by status, at the beginning, now and then, and at the end.
+
+    This one shows nothing.
+    """
 
     def begin(self, total: int, counts: Mapping[str, int]) -> None:
         """A run begins; so many points are done already."""
@@ -27,20 +29,7 @@ class Watch(Protocol):
         """The run ends, finished or not."""
 
 
-class Silent:
-    """Progress that is not shown."""
-
-    def begin(self, total: int, counts: Mapping[str, int]) -> None:
-        """Show nothing."""
-
-    def advance(self, counts: Mapping[str, int]) -> None:
-        """Show nothing."""
-
-    def end(self, counts: Mapping[str, int]) -> None:
-        """Show nothing."""
-
-
-class Bar:
+class Bar(Watch):
     """A progress bar with rate, time left and counts by status."""
 
     def __init__(self, console: Console) -> None:
@@ -71,7 +60,7 @@ class Bar:
         self._progress.stop()
 
 
-class Lines:
+class Lines(Watch):
     """A line of text at the beginning, every ten seconds and at the end."""
 
     def __init__(self, console: Console) -> None:
@@ -99,7 +88,7 @@ class Lines:
 
 def watching() -> Watch:
     """A bar for whoever watches, on a terminal or in a notebook; nothing elsewhere."""
-    return Bar(Console(stderr=True)) if watched() else Silent()
+    return Bar(Console(stderr=True)) if watched() else Watch()
 
 
 class _Rate:
