@@ -136,9 +136,8 @@ def _solve(study: StudyFile, points: StudyPoints, chunks: Chunks, pool: WorkerPo
             if not done:
                 pool.check()
             lost = {under_way[future]: error for future in done if (error := _failure(future)) is not None}
-            for future in done:
-                if (number := under_way.pop(future)) not in lost:
-                    chunks.write(number, future.result())
+            solved = {number: future.result() for future in done if (number := under_way.pop(future)) not in lost}
+            chunks.write_all(solved)
             watch.advance(chunks.counts)
             for number, error in lost.items():
                 tries[number] += 1

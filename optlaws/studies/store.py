@@ -122,6 +122,11 @@ class Chunks:
             ) from error
         self._add(number, rows)
 
+    def write_all(self, chunks: Mapping[int, Sequence[bytes]]) -> None:
+        """Write chunks by their numbers."""
+        for number, rows in chunks.items():
+            self.write(number, rows)
+
     def _add(self, number: int, rows: Sequence[bytes]) -> None:
         self.counts.update(_decode(row).status for row in rows)
         self.done.add(number)

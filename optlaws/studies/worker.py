@@ -1,4 +1,4 @@
-"""A process that solves chunks: tasks as lines of JSON on its input, blocks of rows on its output; it ends with its input."""
+"""A process that solves chunks: tasks as lines of JSON on its input, blocks of rows on its output, to the input's end."""
 
 from __future__ import annotations
 
