@@ -73,6 +73,6 @@ def explore(start: dict[str, Any], port: int | None = None, *, browser: bool = T
 def _warm_up() -> None:
     """Load what solves, while the browser loads the page."""
     from optlaws import Problem
-    from optlaws.explorer.answers.asked import solved
+    from optlaws.explorer.requests import solved
 
     solved(Problem(B=1.7, order=4))

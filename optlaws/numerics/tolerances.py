@@ -51,6 +51,12 @@ WHOLE_NUMBER = 1e-6  # a number of a controller so near to a whole one is meant 
 EXACT_DIGITS = 1e-8  # of the stroke: a table whose last digit is less is taken as exact
 DECADIC_STEP = 1e-4  # the last digit that an ISG cam table has
 
+CYCLE_ROUNDING = 1e-11  # of a peak of a cycle: less is shown as 0
+FORCE_ROUNDING = 1e-7  # of the greatest force, or of a turn: less is shown as 0
+NO_MARK = 1e-9  # of the greater extreme of a curve: one that is less is rounding, and no mark stands at it
+GAP_ROUNDING = 1e-12  # of an objective: a gap below it is rounding
+BOUND_SLACK = 1e-6  # of a least value: at a bound so much above it the solver has room
+
 # --- extremes and roots ---------------------------------------------------------------------------------------------
 TIE = 1e-10  # of the greatest magnitude: extremes nearer to each other are as high, and the first of them counts
 NEAR_TIE = 1e-7  # of the greatest magnitude: an extreme that is sampled to so little may be as high

@@ -1,4 +1,4 @@
-"""A process that solves chunks: tasks as lines of JSON on its input, blocks of rows on its output, to the input's end."""
+"""A process that solves chunks: tasks as lines of JSON come in, blocks of rows go out, until its input ends."""
 
 from __future__ import annotations
 
