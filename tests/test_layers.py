@@ -49,7 +49,7 @@ MAY_IMPORT = {
     "balancing": CORE,
     "plots": CORE,
     "studies": CORE,
-    "results": {"lazy", "echo", "errors", "files", "plots"},
+    "results": {"lazy", "kept", "echo", "errors", "files", "plots"},
     "problems": {"errors", "files", "results", "suggest"},
     "jobs": CORE | {"plots", "studies", "results", "problems"},
     "explorer": CORE | {"plots", "studies", "jobs", "optlaws"},

@@ -21,7 +21,7 @@ from optlaws.echo import cut
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
 from optlaws.explorer import cam_view, cycle_view, downloads, front_view, law_view
 from optlaws.explorer.requests import LawRequest, LawsRequest, read, ready
-from optlaws.jobs.cam import schema
+from optlaws.jobs.cam_entries import CamProblemFile
 from optlaws.jobs.cycle_entries import CycleProblemFile
 
 if TYPE_CHECKING:
@@ -61,7 +61,7 @@ def application(start: dict[str, Any]) -> Starlette:
         "formats": downloads.formats(),
     }
     first = msgspec.json.encode({"state": start, **known})
-    ready(*(kind for kind, _ in QUESTIONS.values()), CycleProblemFile, schema.CamProblemFile)
+    ready(*(kind for kind, _ in QUESTIONS.values()), CycleProblemFile, CamProblemFile)
     routes = [
         Route("/api/start", lambda _: _json(first)),
         *(Route(f"/api/{name}", _asking(*question), methods=["POST"]) for name, question in QUESTIONS.items()),

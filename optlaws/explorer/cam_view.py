@@ -22,8 +22,8 @@ from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.explorer.cycle_view import check_axis
 from optlaws.explorer.law_view import digits, drawn, refusal
 from optlaws.files.problem_file import convert
-from optlaws.jobs.cam import schema
-from optlaws.jobs.cam.forces_and_files import Findings, ForcesEntries
+from optlaws.jobs.cam_entries import CamProblemFile, Cams, ForcesEntries, read
+from optlaws.jobs.cam_findings import FORCE, STIFFNESS, Findings
 from optlaws.motion.quantities import quantity
 from optlaws.numbers import Array
 from optlaws.numerics.enclosures.branch_and_bound import Extremes
@@ -53,21 +53,21 @@ def answer(request: CamRequest) -> dict[str, Any]:
         return {"refused": {"word": "no such cam", "reason": str(error), "tried": ""}}
 
 
-def cams_of(request: CamRequest) -> tuple[schema.CamProblemFile, schema.Cams]:
+def cams_of(request: CamRequest) -> tuple[CamProblemFile, Cams]:
     """The entries of the cam's problem file, and the cams that they describe."""
     return _solved(json.dumps(request.study, sort_keys=True))
 
 
 @lru_cache(maxsize=32)
-def _solved(question: str) -> tuple[schema.CamProblemFile, schema.Cams]:
+def _solved(question: str) -> tuple[CamProblemFile, Cams]:
     data = json.loads(question)
     if "barrel" in data:
         raise InputError("the explorer shows disc cams: barrel cams are made by the command `optlaws cam`")
-    check_axis(convert(data, schema.CamProblemFile, _WHERE).motion)
-    return schema.read(data, _WHERE)
+    check_axis(convert(data, CamProblemFile, _WHERE).motion)
+    return read(data, _WHERE)
 
 
-def _view(spec: schema.CamProblemFile, cams: schema.Cams) -> dict[str, Any]:
+def _view(spec: CamProblemFile, cams: Cams) -> dict[str, Any]:
     cam = cams.first
     angles = np.linspace(0.0, 2.0 * np.pi, _STEPS + 1)
     curves = {"profile": cam.profile, "pitch": cam.pitch_curve}
@@ -117,7 +117,7 @@ def _follower(cam: DiscCam) -> dict[str, Any]:
     }
 
 
-def _panels(spec: schema.CamProblemFile, cam: DiscCam, angles: Array) -> list[dict[str, Any]]:
+def _panels(spec: CamProblemFile, cam: DiscCam, angles: Array) -> list[dict[str, Any]]:
     turns = drawn(np.degrees(angles), 4)
     unit, factor = ("mm", _MILLI) if cam.follower.axis == "length" else ("deg", degrees(1.0))
     pressure = cam.extremes.greatest_pressure_angle
@@ -229,8 +229,6 @@ def followers() -> dict[str, dict[str, Any]]:
 
 
 _PER_MEGAPASCAL = 1e6
-_FORCE = {"length": "N", "angle": "N m"}
-_STIFFNESS = {"length": "N/m", "angle": "N m/rad"}
 
 
 def loads(request: CamRequest) -> dict[str, Any]:
@@ -246,7 +244,7 @@ def _loads(question: str) -> dict[str, Any]:
     spec, cams = cams_of(CamRequest(study=json.loads(question)))
     if spec.motion.drive is None:
         return {"panels": [], "facts": []}
-    findings = Findings(msgspec.structs.replace(spec, forces=spec.forces or ForcesEntries()), cams.first, cams.cycle)
+    findings = Findings(msgspec.structs.replace(spec, forces=spec.forces or ForcesEntries()), cams)
     forces = findings.forces
     assert forces is not None  # noqa: S101 - the line above asks for them
     return {"panels": _load_panels(forces), "facts": [*_load_facts(forces), *_spring(findings)]}
@@ -295,9 +293,7 @@ def _spring(findings: Findings) -> list[str]:
         return [f"no spring: {error.args[0]}"]
     if spring is None:
         return []
-    axis = findings.cam.displacement.axis
+    axis = findings.cams.first.displacement.axis
     preload = 0.0 if abs(spring.preload) <= FORCE_ROUNDING * spring.greatest else spring.preload
-    sizes = f"{digits(spring.stiffness, 6)} {_STIFFNESS[axis]}, preload {digits(preload, 6)} {_FORCE[axis]}"
-    return [
-        f"least spring without lift-off: {sizes}, up to {digits(spring.greatest, 6)} {_FORCE[axis]} on the follower"
-    ]
+    sizes = f"{digits(spring.stiffness, 6)} {STIFFNESS[axis]}, preload {digits(preload, 6)} {FORCE[axis]}"
+    return [f"least spring without lift-off: {sizes}, up to {digits(spring.greatest, 6)} {FORCE[axis]} on the follower"]

@@ -13,6 +13,7 @@ from optlaws.cycles.serialisation import KINDS
 from optlaws.cycles.specification.segments import CycleSegment
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.files.problem_file import Text, convert
+from optlaws.jobs.job import JobFile
 
 Kind = Literal["dwell", "constant velocity", "move", "rise", "return", "free"]
 
@@ -82,16 +83,13 @@ class AxisEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     degree: int = 9
 
 
-class CycleProblemFile(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+class CycleProblemFile(JobFile, kw_only=True, forbid_unknown_fields=True):
     """The problem file of a cycle with its axes."""
 
-    job: str
-    title: Text
     axis: Annotated[list[AxisEntries], msgspec.Meta(min_length=1, max_length=8)]
     speed: str | None = None
     period: str | None = None
     rows: Annotated[int, msgspec.Meta(ge=2, le=100_000)] = 361
-    text: str = ""
 
 
 def read(data: Mapping[str, Any], file: Path) -> tuple[CycleProblemFile, dict[str, Cycle]]:

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import json
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import msgspec
 
 from optlaws.files import reading, tables, writing
-from optlaws.files.problem_file import convert
+from optlaws.files.problem_file import Text, convert
+from optlaws.kept import kept_property
 from optlaws.results.page import Page
 
 if TYPE_CHECKING:
@@ -39,7 +41,7 @@ class Entries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     ['cycloidal']
     """
 
-    title: str
+    title: Text
     text: str = ""
     job: str = "script"
 
@@ -85,21 +87,28 @@ class Results:
     """
 
     def __init__(self, file: Path | str, *, digits: int | None = None) -> None:
-        self.file = Path(file).with_suffix(".toml")
+        given = Path(file)
+        self.file = given.with_suffix(".toml") if given.suffix == ".py" else given
         self.digits = digits
-        self._title = self.file.stem
+        self.title = given.stem
         self._texts: dict[str, str | Page] = {}
         self._pictures: dict[str, Figure] = {}
+        self._written: dict[str, Callable[[Path], Path]] = {}
 
     @property
     def about(self) -> str:
         """Title and file, which the first line of every table tells."""
-        return f"{self._title}; from {self.file.name}"
+        return f"{self.title}; from {self.file.name}"
+
+    @kept_property
+    def entries(self) -> dict[str, Any]:
+        """All entries of the problem file, as they stand there."""
+        return reading.toml(self.file)
 
     def read(self, entries: type[Spec]) -> Spec:
-        """Entries of the problem file, as `read` gives them; the title becomes that of the results."""
-        spec = read(self.file, entries)
-        self._title = spec.title
+        """Entries of the problem file as a typed value; the title becomes that of the results."""
+        spec = convert(self.entries, entries, self.file)
+        self.title = spec.title
         return spec
 
     def table(self, name: str, headings: Sequence[str], rows: Sequence[Sequence[tables.Cell]], note: str = "") -> None:
@@ -108,8 +117,12 @@ class Results:
 
     def page(self, name: str, title: str | None = None) -> Page:
         """A page `name`.md, to be filled, under the title of the problem file or another."""
-        page = self._texts[f"{name}.md"] = Page(self._title if title is None else title)
+        page = self._texts[f"{name}.md"] = Page(self.title if title is None else title)
         return page
+
+    def data(self, name: str, content: Mapping[str, Any]) -> None:
+        """Data as JSON, behind an entry that tells what they are of."""
+        self.text(name, json.dumps({"about": f"{self.about}; {writing.MARK}", **content}, indent=1) + "\n")
 
     def text(self, name: str, content: str) -> None:
         """A file of another format; its text must hold the mark "made by optlaws" at the end of a line or an entry."""
@@ -118,6 +131,10 @@ class Results:
     def picture(self, name: str, figure: Figure) -> None:
         """A picture `name`.svg, and the same as `name`.png."""
         self._pictures[name] = figure
+
+    def add(self, name: str, write: Callable[[Path], Path]) -> None:
+        """A file that a function writes to its place."""
+        self._written[name] = write
 
     def pictures(self) -> dict[str, str]:
         """The pictures as svg, by the names of their files."""
@@ -136,4 +153,5 @@ class Results:
         texts = [
             writing.write(folder / name, str(content), digits=self.digits) for name, content in self._texts.items()
         ]
-        return texts + save_pictures(self._pictures, folder)
+        files = [write(folder / name) for name, write in self._written.items()]
+        return texts + save_pictures(self._pictures, folder) + files

@@ -11,7 +11,7 @@ import optlaws
 from optlaws import BSplines, InputError, Problem, SolverFailure, Window, via
 from optlaws.cli.app import exit_code
 from optlaws.cli.problem_options import options_of
-from optlaws.jobs.laws import fronts, solutions
+from optlaws.jobs import fronts, solutions
 from optlaws.studies.points import StudyPoints
 from optlaws.studies.specification import entries as entries_of_point
 from optlaws.studies.specification import read_study

@@ -22,7 +22,7 @@ def cam(file: Path, /, *, out: Path | None = None, as_json: AsJson = False) -> N
         Print one JSON object on stdout and write nothing.
     """
     from optlaws.files.packaged import problem_of_job
-    from optlaws.jobs.cam.cam import answer
+    from optlaws.jobs.cam import answer
 
     source, results, data = problem_of_job(file, "cam")
     if not as_json:

@@ -34,7 +34,7 @@ def atlas(
         Print one JSON object on stdout and nothing else.
     """
     from optlaws.files.packaged import or_packaged
-    from optlaws.jobs.laws.atlas_lookup import best_law, look_up
+    from optlaws.jobs.atlas import best_law, look_up
 
     asked: dict[str, Any] = {name: entries[name] for name in ("minimise", "order")}
     asked |= {"B": entries.get("B"), "most": _greatest(entries)}
