@@ -81,13 +81,7 @@ def real(value: Any) -> float | None:  # noqa: ANN401
 
 
 def bounded(value: float) -> float | None:
-    """The value as JSON holds it, which has no infinity: None where there is no bound.
-
-    Examples
-    --------
-    >>> bounded(2.0), bounded(float("inf"))
-    (2.0, None)
-    """
+    """The value as JSON holds it, which has no infinity: None where there is no bound."""
     return value if isfinite(value) else None
 
 
@@ -123,13 +117,7 @@ def finite(value: Any, name: str) -> float:  # noqa: ANN401
 
 
 def positive(value: Any, name: str) -> float:  # noqa: ANN401
-    """The value as a float above 0.
-
-    Examples
-    --------
-    >>> positive(20, "nu")
-    20.0
-    """
+    """The value as a float above 0."""
     number = finite(value, name)
     if number <= 0.0:
         raise InputError(f"{name} must be above 0, got {shortened(value)}")
@@ -137,13 +125,7 @@ def positive(value: Any, name: str) -> float:  # noqa: ANN401
 
 
 def frequency(value: Any, name: str = "nu") -> float:  # noqa: ANN401
-    """Radians of a free vibration in the rise, as a float above 0 and at most 100 000.
-
-    Examples
-    --------
-    >>> frequency(20)
-    20.0
-    """
+    """Radians of a free vibration in the rise, as a float above 0 and at most 100 000."""
     number = positive(value, name)
     if number > MOST_FREQUENCY:
         raise InputError(
@@ -153,24 +135,12 @@ def frequency(value: Any, name: str = "nu") -> float:  # noqa: ANN401
 
 
 def derivative(value: Any, name: str = "nu") -> int:  # noqa: ANN401
-    """The order of a derivative as an int, at most 50.
-
-    Examples
-    --------
-    >>> derivative(3)
-    3
-    """
+    """The order of a derivative as an int, at most 50."""
     return whole(value, name, most=MOST_DERIVATIVE)
 
 
 def not_negative(value: Any, name: str) -> float:  # noqa: ANN401
-    """The value as a float of at least 0.
-
-    Examples
-    --------
-    >>> not_negative(0, "damping")
-    0.0
-    """
+    """The value as a float of at least 0."""
     number = finite(value, name)
     if number < 0.0:
         raise InputError(f"{name} must be at least 0, got {shortened(value)}")
@@ -178,13 +148,7 @@ def not_negative(value: Any, name: str) -> float:  # noqa: ANN401
 
 
 def numbers(values: Any, name: str, most: int = MOST_VALUES) -> tuple[float, ...]:  # noqa: ANN401
-    """The values as a tuple of floats; `name` is what an error calls them.
-
-    Examples
-    --------
-    >>> numbers([0, 1], "breaks")
-    (0.0, 1.0)
-    """
+    """The values as a tuple of floats; `name` is what an error calls them."""
     if type(values) in {tuple, list} and len(values) <= most and all(map(_plain, values)):
         return tuple(values)
     return tuple(float(value) for value in fractions(values, name, most))
@@ -206,13 +170,7 @@ def fractions(values: Iterable[Any], name: str, most: int = MOST_TERMS) -> list[
 
 
 def listed(values: Any, name: str, most: int = MOST_TERMS) -> list[Any]:  # noqa: ANN401
-    """The values as a list of at most so many.
-
-    Examples
-    --------
-    >>> listed((1, 2), "z")
-    [1, 2]
-    """
+    """The values as a list of at most so many."""
     items: list[Any] = []
     try:
         if isinstance(values, str | bytes):
@@ -262,13 +220,7 @@ def times(k: Any) -> Array:  # noqa: ANN401
 
 
 def real_times(k: Any) -> Array:  # noqa: ANN401
-    """Finite times of any shape.
-
-    Examples
-    --------
-    >>> real_times([0, 1.5]).tolist()
-    [0.0, 1.5]
-    """
+    """Finite times of any shape."""
     given = _array(k)
     if given is None or not np.isfinite(given).all():
         raise InputError(f"k must be finite real numbers, got {shortened(k)}")

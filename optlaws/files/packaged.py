@@ -16,13 +16,7 @@ _ROOTS = (_PACKAGE / "packaged", _PACKAGE.parent)
 
 
 def packaged(place: str) -> Path:
-    """A file or folder that comes with optlaws, by its place in the repository.
-
-    Examples
-    --------
-    >>> packaged("problems/optimal_table.toml").name
-    'optimal_table.toml'
-    """
+    """A file or folder that comes with optlaws, by its place in the repository."""
     for root in _ROOTS:
         if (root / place).exists():
             return root / place
@@ -30,13 +24,7 @@ def packaged(place: str) -> Path:
 
 
 def problem_names() -> list[str]:
-    """Names of the problem files that come with optlaws.
-
-    Examples
-    --------
-    >>> "optimal_table" in problem_names()
-    True
-    """
+    """Names of the problem files that come with optlaws."""
     return sorted(file.stem for file in packaged("problems").glob("*.toml"))
 
 
@@ -66,13 +54,7 @@ def problem_file(given: Path) -> tuple[Path, Path | None]:
 
 
 def is_problem(text: str) -> bool:
-    """Whether a text is taken for a problem file: it ends in .toml, or is the name of one that comes with optlaws.
-
-    Examples
-    --------
-    >>> is_problem("mine.toml"), is_problem("cam_press"), is_problem("modified sine")
-    (True, True, False)
-    """
+    """Whether a text is taken for a problem file: it ends in .toml, or is the name of one that comes with optlaws."""
     return text.lower().endswith(".toml") or (text in problem_names() and not Path(text).exists())
 
 
@@ -112,13 +94,7 @@ def problem_of_job(given: Path, job: str) -> GivenProblem:
 
 
 def or_packaged(given: Path) -> Path:
-    """A file of the user; where there is none, and one of this place comes with optlaws, that.
-
-    Examples
-    --------
-    >>> or_packaged(Path("mine.csv")).name, or_packaged(Path("results/atlas/atlas.csv")).is_file()
-    ('mine.csv', True)
-    """
+    """A file of the user; where there is none, and one of this place comes with optlaws, that."""
     if given.is_absolute() or given.exists() or ".." in given.parts:
         return given
     return next((root / given for root in _ROOTS if (root / given).is_file()), given)

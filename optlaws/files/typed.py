@@ -17,11 +17,6 @@ def typed(data: Any, kind: type[Kind]) -> Kind:  # noqa: ANN401 - whatever was r
     """The value of a kind that plain data say.
 
     One at a time: two threads that met a kind for the first time have crashed in msgspec (0.22).
-
-    Examples
-    --------
-    >>> typed([1, 2.5], tuple[int, float])
-    (1, 2.5)
     """
     with _ONE_AT_A_TIME:
         return msgspec.convert(data, kind)

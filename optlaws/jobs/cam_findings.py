@@ -177,11 +177,5 @@ def _angle(extreme: EnclosedExtreme, limit: float | None) -> float | None:
 
 
 def plain(value: float) -> float:
-    """The value, or 0 where it is rounding.
-
-    Examples
-    --------
-    >>> plain(-3e-17), plain(0.5)
-    (0.0, 0.5)
-    """
+    """The value, or 0 where it is rounding."""
     return 0.0 if abs(value) < RADIUS_ROUNDING else value

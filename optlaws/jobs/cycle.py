@@ -48,13 +48,7 @@ def exports_of(spec: CycleProblemFile, cycles: Mapping[str, Cycle], file: Path) 
 
 
 def plain_name(axis: str) -> str:
-    """The name of an axis as files have it.
-
-    Examples
-    --------
-    >>> plain_name("Weld head")
-    'weld_head'
-    """
+    """The name of an axis as files have it."""
     return "".join(letter if letter.isalnum() else "_" for letter in axis.lower())
 
 

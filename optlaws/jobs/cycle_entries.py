@@ -136,13 +136,7 @@ def _given(entries: msgspec.Struct) -> dict[str, Any]:
 
 
 def segment_of(entries: SegmentEntries, number: int) -> CycleSegment:
-    """A segment of a file.
-
-    Examples
-    --------
-    >>> segment_of(SegmentEntries(kind="dwell", duration="90 deg"), 1)
-    Dwell(duration='90 deg', name='')
-    """
+    """A segment of a file."""
     kind = KINDS[entries.kind]
     given = _given(entries)
     del given["kind"]

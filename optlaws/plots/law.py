@@ -184,13 +184,7 @@ class Mark:
 
 
 def marks(problem: Problem) -> Iterator[Mark]:
-    """The limits that a problem sets to b, c and j: bounds of B, C, J and of one-sided peaks, and windows.
-
-    Examples
-    --------
-    >>> [(mark.nu, mark.value, mark.what) for mark in marks(Problem(B=1.8, order=4))]
-    [(1, 1.8, 'B = 1.8'), (1, -1.8, 'B = 1.8')]
-    """
+    """The limits that a problem sets to b, c and j: bounds of B, C, J and of one-sided peaks, and windows."""
     for nu, name in enumerate(PEAKS):
         bounds = None if name is None else problem.range(name)
         if bounds is not None and isfinite(bounds.high):
@@ -213,13 +207,6 @@ def draw_solution(
     """Draw the law of a solution with the limits of its problem, and the limit of its order at any degree.
 
     Into one pair of axes, where every curve is divided by its peak, no limits are drawn.
-
-    Examples
-    --------
-    >>> from optlaws.synthesis import synthesize
-    >>> artists = draw_solution(synthesize(Problem(B=1.8, order=4)))
-    >>> sorted({artist.get_label() for artist in artists if artist.get_label()[0] != "_"})
-    ['B = 1.8', 'no law of order 4 with this B has a smaller C: 4.05']
     """
     if axes is None:
         axes = panels()
@@ -247,15 +234,7 @@ _COMPARED = (
 
 
 def draw_comparison(comparison: Comparison, axes: Panels | None = None, **style: Any) -> list[Artist]:  # noqa: ANN401
-    """Draw a, b, c and j of several laws one over the other, dimensionless, with one legend in a new figure.
-
-    Examples
-    --------
-    >>> from optlaws.cycles.law_comparison import compare
-    >>> artists = draw_comparison(compare("modified sine", "cycloidal"))
-    >>> [text.get_text() for text in artists[0].figure.legends[0].get_texts()]
-    ['modified sine', 'cycloidal']
-    """
+    """Draw a, b, c and j of several laws one over the other, dimensionless, with one legend in a new figure."""
     by_order = four(panels() if axes is None else axes)
     artists: list[Artist] = []
     firsts = []

@@ -223,13 +223,7 @@ def along_B(base: Mapping[str, Any], run: Run) -> bool:
 
 
 def array_along_B(base: Mapping[str, Any], run: Run, bound: str) -> ProblemArray | None:
-    """The problems of a run along B as one array; None where they are none or are better solved in turn.
-
-    Examples
-    --------
-    >>> array_along_B({"order": 4}, [(0, {"B": 1.5}), (1, {"B": 1.6})], "quick").shape
-    (2,)
-    """
+    """The problems of a run along B as one array; None where they are none or are better solved in turn."""
     try:
         fields = from_entries(entries(base, {**run[0][1], "B": 2.0}))
         problem = Problem(**fields)

@@ -109,11 +109,5 @@ class _Rate:
 
 
 def listed(counts: Mapping[str, int]) -> str:
-    """Counts by status in words.
-
-    Examples
-    --------
-    >>> listed({"optimal": 12, "infeasible": 3})
-    '12 optimal, 3 infeasible'
-    """
+    """Counts by status in words."""
     return ", ".join(f"{number} {status}" for status, number in counts.items() if number)

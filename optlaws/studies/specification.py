@@ -149,13 +149,7 @@ def _check_places(study: StudyFile, file: Path) -> None:
 
 
 def constant_of(name: str) -> str | None:
-    """The constant of which a bound varies; None where something else does.
-
-    Examples
-    --------
-    >>> constant_of("at_most.J"), constant_of("bounds.rms_c"), constant_of("degree")
-    ('J', 'rms_c', None)
-    """
+    """The constant of which a bound varies; None where something else does."""
     return next((name.removeprefix(prefix) for prefix in PREFIXES if name.startswith(prefix)), None)
 
 

@@ -21,27 +21,13 @@ def loader_of(law: MotionLaw) -> Loader:
 
 @lru_cache(maxsize=64)
 def peak_velocity(law: MotionLaw) -> float:
-    """B of a law, kept.
-
-    Examples
-    --------
-    >>> from optlaws.laws import smoothstep
-    >>> peak_velocity(smoothstep(2))
-    1.5
-    """
+    """B of a law, kept."""
     return law.peak(1).value
 
 
 @lru_cache(maxsize=64)
 def peak_power(law: MotionLaw) -> float:
-    """D of a law, kept.
-
-    Examples
-    --------
-    >>> from optlaws.laws import smoothstep
-    >>> round(peak_power(smoothstep(2)), 6)
-    3.464102
-    """
+    """D of a law, kept."""
     return law.power_peak().value
 
 
@@ -67,14 +53,7 @@ def _ends(law: MotionLaw) -> tuple[float, float, float, float]:
 
 
 def law_of(given: Any) -> Any:  # noqa: ANN401 - whatever the caller gave, a law or not
-    """The law of an entry of the catalogue or of a solution; everything else as it is.
-
-    Examples
-    --------
-    >>> from optlaws.laws.catalogue.catalogue import catalogue
-    >>> law_of(catalogue["cycloidal"]) == catalogue["cycloidal"].law
-    True
-    """
+    """The law of an entry of the catalogue or of a solution; everything else as it is."""
     law = getattr(given, "law", None)
     return law if isinstance(law, MotionLaw) and not isinstance(given, MotionLaw) else given
 
