@@ -20,7 +20,7 @@ from optlaws.explorer import cam_view, cycle_view
 from optlaws.explorer.law_view import digits, title
 from optlaws.explorer.requests import MOST_LAWS, LawRequest, law_of, problem_of, solved
 from optlaws.exports.format import FORMATS
-from optlaws.files.toml_text import to_toml
+from optlaws.files.tables import to_toml
 from optlaws.files.writing import MARK
 from optlaws.jobs.cycle import table_of_motion
 from optlaws.jobs.cycle_entries import ElasticFollowerEntries, cycle_of

@@ -28,8 +28,7 @@ from optlaws.jobs.cam_findings import EXTREMES, FORCE, STIFFNESS, Findings, Limi
 from optlaws.numerics.tolerances import FORCE_ROUNDING, SIZE_MET
 from optlaws.plots.cam import animated, cam_figure, forces_figure, pair_figure
 from optlaws.plots.cycle import UNITS
-from optlaws.results.page import Page
-from optlaws.results.results import Results
+from optlaws.results.results import Page, Results
 
 _MILLI, _MICRO = 1e3, 1e6
 _TURN = 360.0

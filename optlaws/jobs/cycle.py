@@ -19,8 +19,7 @@ from optlaws.files import tables, writing
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile, ExportEntries, read
 from optlaws.numerics.tolerances import CYCLE_ROUNDING
 from optlaws.plots.cycle import QUANTITIES, UNITS, axes_figure, cycle_figure
-from optlaws.results.page import Page
-from optlaws.results.results import Results
+from optlaws.results.results import Page, Results
 
 #: the exports of each axis by the names of their files
 Exports = dict[str, dict[str, Export]]

@@ -29,8 +29,7 @@ from optlaws.plots.style import (
     plot_style,
     shades,
 )
-from optlaws.results.page import Page
-from optlaws.results.results import Results
+from optlaws.results.results import Page, Results
 from optlaws.studies.problem_entries import Positive, ProblemEntries, gap, problem
 from optlaws.synthesis import FUNCTIONALS, Problem
 from optlaws.synthesis.front import HEADINGS, Front

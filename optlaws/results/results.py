@@ -1,4 +1,4 @@
-"""Results of a script: what it reads of its problem file, and the files that it makes of it."""
+"""Results of a problem file: tables, pictures and pages that are made of it, and written together."""
 
 from __future__ import annotations
 
@@ -12,10 +12,56 @@ import msgspec
 from optlaws.files import reading, tables, writing
 from optlaws.files.problem_file import Text, convert
 from optlaws.kept import kept_property
-from optlaws.results.page import Page
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+
+class Page:
+    """A page that is written from its top to its end.
+
+    Examples
+    --------
+    >>> print(Page("Laws").text("Two of them.").table(["law", "C"], [["K", 4.93], ["Co", 6.28]]), end="")
+    # Laws
+    <BLANKLINE>
+    <!-- made by optlaws -->
+    <BLANKLINE>
+    Two of them.
+    <BLANKLINE>
+    | law | C    |
+    |-----|------|
+    | K   | 4.93 |
+    | Co  | 6.28 |
+    """
+
+    def __init__(self, title: str) -> None:
+        self._parts = [f"# {title}\n", f"<!-- {writing.MARK} -->\n"]
+
+    def heading(self, text: str) -> Page:
+        """A heading below the title."""
+        return self._add(f"## {text}")
+
+    def text(self, text: str) -> Page:
+        """A paragraph or several; none if the text is blank."""
+        return self._add(text.strip()) if text.strip() else self
+
+    def figure(self, name: str, caption: str) -> Page:
+        """The picture `name`.svg beside the page."""
+        return self._add(f"![{caption}]({name}.svg)")
+
+    def table(self, headings: Sequence[str], rows: Sequence[Sequence[tables.Cell]], *, digits: int = 7) -> Page:
+        """A table with aligned columns, its numbers to so many digits."""
+        self._parts.append(tables.to_markdown(headings, rows, digits=digits))
+        return self
+
+    def _add(self, line: str) -> Page:
+        self._parts.append(f"{line}\n")
+        return self
+
+    def __str__(self) -> str:
+        return "\n".join(self._parts)
+
 
 Struct = TypeVar("Struct", bound=msgspec.Struct)
 Spec = TypeVar("Spec", bound="Entries")

@@ -14,7 +14,7 @@ import numpy as np
 
 from optlaws.echo import cut
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
-from optlaws.files.typed import typed
+from optlaws.files.problem_file import typed
 from optlaws.numbers import bounded
 from optlaws.studies.points import key, keys_along
 from optlaws.studies.specification import entries

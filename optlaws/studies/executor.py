@@ -24,7 +24,7 @@ from typing import IO, Any, ParamSpec, TypeVar, cast
 import msgspec
 
 from optlaws.errors import SolverFailure
-from optlaws.files.typed import typed
+from optlaws.files.problem_file import typed
 from optlaws.studies.chunk import DIED, TIME_LIMIT, Task, failed, in_process
 from optlaws.studies.worker import DONE, ERROR, READY
 

@@ -19,7 +19,7 @@ import numpy as np
 
 from optlaws.errors import InputError
 from optlaws.files import reading, writing
-from optlaws.files.typed import typed
+from optlaws.files.problem_file import typed
 from optlaws.studies.points import StudyPoints
 from optlaws.studies.specification import StudyFile, read_study
 from optlaws.studies.tables import StudyPoint, arrow, schema

@@ -21,7 +21,7 @@ from optlaws.explorer.cycle_view import CycleRequest, example
 from optlaws.explorer.downloads import FileRequest
 from optlaws.explorer.requests import LawRequest, LawsRequest, given_law, law_of, problem_of, solved
 from optlaws.explorer.start import start
-from optlaws.files.toml_text import to_toml
+from optlaws.files.tables import to_toml
 from tests.documents import ROOT
 from tests.explorer.talk import OPTIMAL
 

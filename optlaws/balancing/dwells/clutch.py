@@ -7,7 +7,7 @@ from fractions import Fraction
 from math import inf, isfinite, tau
 
 from optlaws.balancing.dwells.mechanism import DwellMechanism
-from optlaws.balancing.dwells.section_laws import peak_velocity
+from optlaws.balancing.dwells.sections import peak_velocity
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.numbers import MOST_TEETH, whole

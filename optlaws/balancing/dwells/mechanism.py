@@ -6,8 +6,17 @@ from dataclasses import dataclass
 from math import degrees, inf, tau
 from typing import Any
 
-from optlaws.balancing.dwells.section_laws import check_law, law_of, loader_of, peak_power, peak_velocity, top
-from optlaws.balancing.dwells.sections import Section, composed, excursion
+from optlaws.balancing.dwells.sections import (
+    Section,
+    check_law,
+    composed,
+    excursion,
+    law_of,
+    loader_of,
+    peak_power,
+    peak_velocity,
+    top,
+)
 from optlaws.balancing.loaders.loader import Loader
 from optlaws.echo import shortened
 from optlaws.errors import InputError

@@ -9,10 +9,9 @@ from typing import Any
 import numpy as np
 
 from optlaws.balancing.levers.exact_swing import swung, upper_extreme
-from optlaws.balancing.levers.limits import LEAST_TRANSMISSION, MOST_ROCKER_SWING, check
 from optlaws.balancing.levers.linkage import FourBar
 from optlaws.balancing.levers.motion import LeverMotion
-from optlaws.balancing.levers.sizing import Sizing, sized
+from optlaws.balancing.levers.sizing import LEAST_TRANSMISSION, MOST_ROCKER_SWING, Sizing, check, sized
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import PolynomialLaw
