@@ -205,14 +205,11 @@ def _ways(spec: CycleProblemFile, axis: AxisEntries) -> Iterator[dict[str, Any]]
             least = _stored(spec, freed).objective
         except (InfeasibleProblem, SolverFailure):
             continue
-        unit, factor = _unit(_stored(spec, freed), LIMITS[name])
+        order, cycle = LIMITS[name], _stored(spec, freed)
+        # in the unit of its limit, of which so many make one of SI
+        unit, factor = UNITS[cycle.axis][order] if order > 0 else (objective_unit(cycle), 1.0)
         text = f"{least * factor * (1.0 + BOUND_SLACK):.6g} {unit}"
         yield {"entry": name, "value": text, "text": f"raise the limit of {name} from {given} to {text}"}
-
-
-def _unit(shown: Cycle, order: int) -> tuple[str, float]:
-    """The unit in which a limit is shown, and how many of it make one of SI."""
-    return UNITS[shown.axis][order] if order > 0 else (objective_unit(shown), 1.0)
 
 
 def example() -> dict[str, Any]:

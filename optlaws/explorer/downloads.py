@@ -143,14 +143,10 @@ def _problem_text(problem: Problem) -> str:
     return text if known else f"Problem.from_dict({problem.to_dict()!r})"
 
 
-def _called(text: str) -> list[str]:
-    return sorted({name for name in _CALLED.findall(text) if name in optlaws.__all__})
-
-
 def _with_imports(lines: list[str]) -> str:
     body = "\n".join(lines)
-    names = _called(body) + (["MotionLaw"] if "MotionLaw." in body else [])
-    names += ["Problem"] if "Problem." in body and "Problem" not in names else []
+    names = {name for name in _CALLED.findall(body) if name in optlaws.__all__}
+    names |= {name for name in ("MotionLaw", "Problem") if f"{name}." in body}
     return f"from optlaws import {', '.join(sorted(names))}\n\n{body}\n"
 
 

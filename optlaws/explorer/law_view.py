@@ -48,7 +48,9 @@ def view(question: bytes) -> dict[str, Any]:
     """The view of one law, which is asked as JSON; an error is told in its place, so that the others stand."""
     request = msgspec.json.decode(question, type=LawRequest)
     try:
-        return _given(request) if request.problem is None else _optimal(request)
+        if request.problem is not None:
+            return _optimal(request)
+        return {"title": request.title or request.name or "a stored law", "trust": None} | shown(given_law(request))
     except OptlawsError as error:
         name = request.title or request.name or "a problem"
         return {"title": name, "refused": {"word": "not understood", "reason": str(error), "tried": ""}}
@@ -58,10 +60,6 @@ def refusal(error: InfeasibleProblem | SolverFailure) -> dict[str, str]:
     """Why there is no law, in words."""
     word = "no such law" if isinstance(error, InfeasibleProblem) else "no law found"
     return {"word": word, "reason": str(error.args[0]), "tried": error.tried}
-
-
-def _given(request: LawRequest) -> dict[str, Any]:
-    return {"title": request.title or request.name or "a stored law", "trust": None} | shown(given_law(request))
 
 
 def _optimal(request: LawRequest) -> dict[str, Any]:

@@ -11,7 +11,7 @@ import re
 import stat
 import struct
 from collections.abc import Iterator
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from hashlib import sha256
 from itertools import count
 from pathlib import Path
@@ -48,13 +48,14 @@ def write(file: Path, content: str | bytes, *, digits: int | None = None, exact:
     put behind it.
     """
     check_name(file)
-    try:
-        return _written(file, content, digits, exact=exact)
-    except OSError as error:
-        # the user knows the name of his file, not that of our copy beside it
-        if error.errno is not None:
-            error.filename = str(file)
-        raise
+    data = content.encode() if isinstance(content, str) else content
+    with _named(file):
+        there = _content(file)
+        plain = _unsealed(there)[0]
+        same = plain == data if exact else say_the_same(plain, data, file.suffix, digits)
+        if not (is_sealed(there) and same):
+            _put(file, sealed(data))
+    return file
 
 
 def write_any(file: Path, content: str) -> Path:
@@ -65,29 +66,21 @@ def write_any(file: Path, content: str) -> Path:
     if MARK in content:
         return write(file, content, exact=True)
     check_name(file)
+    with _named(file):
+        if _content(file) != content.encode():
+            _put(file, content.encode())
+    return file
+
+
+@contextmanager
+def _named(file: Path) -> Iterator[None]:
+    """Errors of the system name the user's file, not that of our copy beside it."""
     try:
-        return _written_bare(file, content.encode())
+        yield
     except OSError as error:
         if error.errno is not None:
             error.filename = str(file)
         raise
-
-
-def _written_bare(file: Path, data: bytes) -> Path:
-    if _content(file) != data:
-        _put(file, data)
-    return file
-
-
-def _written(file: Path, content: str | bytes, digits: int | None, *, exact: bool) -> Path:
-    data = content.encode() if isinstance(content, str) else content
-    there = _content(file)
-    same = is_sealed(there) and (
-        _unsealed(there)[0] == data if exact else say_the_same(_unsealed(there)[0], data, file.suffix, digits)
-    )
-    if not same:
-        _put(file, sealed(data))
-    return file
 
 
 def is_current(file: Path, content: bytes, *, digits: int | None = None) -> bool:

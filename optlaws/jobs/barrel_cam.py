@@ -133,15 +133,10 @@ def _unrolled(curve: SpaceCurve, angles: Array, pitch: SpaceCurve) -> tuple[Arra
 
 
 def _columns(spec: BarrelProblemFile) -> list[str]:
-    return ["cam, deg", *(f"{name} {axis}, mm" for name in _curves_of(spec) for axis in "xyz"), *_PRESSURES]
-
-
-_PRESSURES = ("pressure angle outside, deg", "pressure angle at the bottom, deg")
-
-
-def _curves_of(spec: BarrelProblemFile) -> list[str]:
     flanks = [f"{side} flank {where}" for where in ("outside", "at the bottom") for side in SIDES]
-    return ["axis of the roller", *flanks, *([f"cutter, {side} flank" for side in SIDES] if spec.cutter_radius else [])]
+    cutters = [f"cutter, {side} flank" for side in SIDES] if spec.cutter_radius else []
+    points = [f"{name} {axis}, mm" for name in ("axis of the roller", *flanks, *cutters) for axis in "xyz"]
+    return ["cam, deg", *points, "pressure angle outside, deg", "pressure angle at the bottom, deg"]
 
 
 def _rows(spec: BarrelProblemFile, cam: BarrelCam) -> list[list[tables.Cell]]:

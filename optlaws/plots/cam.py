@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
@@ -51,7 +51,8 @@ def forces_figure(forces: CamForces, title: str) -> Figure:
         panels.append(("Hertz's pressure, MPa", lambda at: 1e-6 * np.asarray(forces.contact_pressure(at)), GREEN))
     with plot_style():
         figure = new_figure(8.6, 2.2 * len(panels))
-        for axes, (label, values, colour) in zip(_column(figure, len(panels)), panels, strict=True):
+        column = np.ravel(figure.subplots(len(panels), 1, sharex=True))
+        for axes, (label, values, colour) in zip(column, panels, strict=True):
             _curve(axes, np.array(forces.cam.displacement.breaks), values, label, color=colour)
             axes.axhline(0.0, color=GREY, linewidth=0.8)
         figure.axes[-1].set(xlabel="cam, deg")
@@ -134,10 +135,6 @@ def _figure() -> tuple[Figure, list[Axes]]:
     for edge in right[:-1]:
         edge.tick_params(labelbottom=False)
     return figure, [figure.add_subplot(grid[:, 0]), *right]
-
-
-def _column(figure: Figure, count: int) -> Sequence[Axes]:
-    return list(np.ravel(figure.subplots(count, 1, sharex=True)))
 
 
 def _curve(axes: Axes, edges: Array, values: Values, label: str, **style: Any) -> list[Artist]:  # noqa: ANN401

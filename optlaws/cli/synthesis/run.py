@@ -35,13 +35,10 @@ def run(*files: Path, out: Path | None = None) -> None:
         with busy(f"{file}"):
             written = job.run(file, out or own)
         for text in (w for w in written if w.suffix == ".md"):
-            show(*_lines(text))
+            lines = text.read_text(encoding="utf-8").splitlines()
+            show(*(line for line in lines if not line.startswith("<!--")))
         for result in written:
             print(_near(result))  # noqa: T201
-
-
-def _lines(text: Path) -> list[str]:
-    return [line for line in text.read_text(encoding="utf-8").splitlines() if not line.startswith("<!--")]
 
 
 def _near(file: Path) -> Path:
