@@ -122,10 +122,10 @@ def _panel(shown: Cycle, nu: int) -> dict[str, Any]:
         {
             "from": _degrees(shown, peak.start),
             "to": _degrees(shown, peak.start + peak.duration),
-            "value": kept[nu] * factor,
+            "value": limit[nu] * factor,
         }
-        for peak, kept in zip(shown.peaks, _limits(shown), strict=True)
-        if nu in kept
+        for peak, limit in zip(shown.peaks, _limits(shown), strict=True)
+        if nu in limit
     ]
     name = QUANTITIES[nu]
     return {"name": name, "unit": unit, "at": places, "values": values, "limits": limits, "peaks": _peaks(shown, nu)}

@@ -42,8 +42,8 @@ def problem_file(given: Path) -> tuple[Path, Path | None]:
     ('optimal_table.toml', 'results/optimal_table')
     """
     if given.suffix or len(given.parts) != 1 or given.exists():
-        own = or_packaged(given)
-        return own, None if own == given else Path("results") / given.stem
+        source = or_packaged(given)
+        return source, None if source == given else Path("results") / given.stem
     names = problem_names()
     if given.name not in names:
         raise InputError(

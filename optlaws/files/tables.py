@@ -63,12 +63,12 @@ def _lines(data: Mapping[str, Any], path: tuple[str, ...]) -> Iterator[str]:
     tables = {name: value for name, value in present.items() if _has_own_lines(value)}
     yield from (f"{_key(name)} = {_value(value)}" for name, value in present.items() if name not in tables)
     for name, value in tables.items():
-        own = (*path, name)
-        heading = ".".join(map(_key, own))
+        place = (*path, name)
+        heading = ".".join(map(_key, place))
         for entry in value if isinstance(value, list) else [value]:
             yield ""
             yield f"[[{heading}]]" if isinstance(value, list) else f"[{heading}]"
-            yield from _lines(entry, own)
+            yield from _lines(entry, place)
 
 
 def _has_own_lines(value: Any) -> bool:  # noqa: ANN401

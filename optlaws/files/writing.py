@@ -211,11 +211,11 @@ def _keep(file: Path) -> None:
     try:
         if is_own(seen):
             return
-        for kept in _free_names(file):
+        for copy in _free_names(file):
             try:
-                os.link(seen, kept, follow_symlinks=False)
+                os.link(seen, copy, follow_symlinks=False)
             except FileExistsError:
-                if not os.path.samestat(kept.lstat(), seen.lstat()):
+                if not os.path.samestat(copy.lstat(), seen.lstat()):
                     continue
             return
     finally:
@@ -227,8 +227,8 @@ def _keep_copy(file: Path) -> None:
     content = file.read_bytes()
     if is_sealed(content):
         return
-    for kept in _free_names(file):
-        with suppress(FileExistsError), kept.open("xb") as stream:
+    for copy in _free_names(file):
+        with suppress(FileExistsError), copy.open("xb") as stream:
             stream.write(content)
             return
 

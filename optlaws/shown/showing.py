@@ -98,11 +98,11 @@ def drawing(name: str, x: Numbers, y: Numbers) -> str:
     ]
     runs = [" L".join(run) for drawn, run in groupby(points, key=bool) if drawn]
     curve = " ".join(f"M{run}" for run in runs)
-    said = escape(name, quote=True)
+    label = escape(name, quote=True)
     return (
-        f'<svg width="{WIDTH}" height="{HEIGHT}" viewBox="0 0 {WIDTH} {HEIGHT}" role="img" aria-label="{said}">'
+        f'<svg width="{WIDTH}" height="{HEIGHT}" viewBox="0 0 {WIDTH} {HEIGHT}" role="img" aria-label="{label}">'
         f'<line x1="{_MARGIN}" x2="{WIDTH - _MARGIN}" y1="{height(0.0)}" y2="{height(0.0)}" '
         'stroke="currentColor" stroke-opacity="0.35"/>'
         f'<path d="{curve}" fill="none" stroke="{_LINE}" stroke-width="1.6"/>'
-        f'<text x="{WIDTH - _MARGIN}" y="12" font-size="11" text-anchor="end" fill="currentColor">{said}</text></svg>'
+        f'<text x="{WIDTH - _MARGIN}" y="12" font-size="11" text-anchor="end" fill="currentColor">{label}</text></svg>'
     )

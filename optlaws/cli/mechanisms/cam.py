@@ -29,5 +29,5 @@ def cam(file: Path, /, *, out: Path | None = None, as_json: AsJson = False) -> N
         run(source, out=out or results)
         return
     with busy(f"{file}"):
-        told = answer(data, source)
-    print_json(told)
+        data_of_cam = answer(data, source)
+    print_json(data_of_cam)
