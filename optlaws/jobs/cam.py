@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from optlaws.cams.as_manufactured import AsMade
-from optlaws.cams.best_laws import BestCam
+from optlaws.cams.best_laws import BestBaseCircle, BestCam
 from optlaws.cams.curves.extremes import UNDERCUT
 from optlaws.cams.curves.plane_curve import PlaneCurve
 from optlaws.cams.disc import DiscCam
@@ -106,10 +106,13 @@ def _best_data(cams: Cams) -> dict[str, Any]:
     best = cams.best
     if best is None:
         return {}
-    of_laws = isinstance(best, BestCam)
-    entries = {"minimise": cams.cycle.minimise if of_laws else "base circle"}
-    entries |= {"objective": best.objective if isinstance(best, BestCam) else best.least.radius}
-    return {"best": entries | {"status": _status(cams), "lower_bound": best.lower_bound}}
+    name, objective = (
+        ("base circle", best.least.radius)
+        if isinstance(best, BestBaseCircle)
+        else (cams.cycle.minimise, best.objective)
+    )
+    bound = {"status": _status(cams), "lower_bound": best.lower_bound}
+    return {"best": {"minimise": name, "objective": objective, **bound}}
 
 
 def _status(cams: Cams) -> str:
@@ -180,7 +183,7 @@ def _best_rows(findings: Findings) -> list[list[tables.Cell]]:
             [f"least {name} without them", cycle.objective, cycle.lower_bound, unit, cycle.status.value],
         ]
     assert best is not None  # noqa: S101 - the caller has seen it
-    sizes = [_MILLI * best.least.radius, _MILLI * best.lower_bound, "mm", _status(cams)]
+    sizes: list[tables.Cell] = [_MILLI * best.least.radius, _MILLI * best.lower_bound, "mm", _status(cams)]
     rows: list[list[tables.Cell]] = [["least base circle of all laws", *sizes]]
     of_cycle = findings.least_of_cycle
     if of_cycle is not None:

@@ -150,8 +150,9 @@ class Cams:
         beside: dict[str, Any] = {}
         if self.first.motion is not self.cycle:
             beside = {"speed": f"{TURN / self.cycle.duration!r} rad/s", "drive": self.cycle.drive}
-        entries = {"friction": options.friction, "width": options.width, "materials": options.materials}
-        return CamForces(self.first, **entries, **beside)
+        return CamForces(
+            self.first, friction=options.friction, width=options.width, materials=options.materials, **beside
+        )
 
 
 def read(data: Mapping[str, Any], file: Path) -> tuple[CamProblemFile, Cams]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from time import monotonic
+from typing import Protocol
 
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
@@ -13,11 +14,8 @@ from optlaws.shown.steps import watched
 _SECONDS = 10.0
 
 
-class Watch:
-    """What is told of a study's progress: points done by status, at the beginning, now and then, and at the end.
-
-    This one shows nothing.
-    """
+class Watch(Protocol):
+    """What is told of a study's progress: points done by status, at the beginning, now and then, and at the end."""
 
     def begin(self, total: int, counts: Mapping[str, int]) -> None:
         """A run begins; so many points are done already."""
@@ -27,6 +25,10 @@ class Watch:
 
     def end(self, counts: Mapping[str, int]) -> None:
         """The run ends, finished or not."""
+
+
+class Silent(Watch):
+    """Progress that is not shown."""
 
 
 class Bar(Watch):
@@ -88,7 +90,7 @@ class Lines(Watch):
 
 def watching() -> Watch:
     """A bar for whoever watches, on a terminal or in a notebook; nothing elsewhere."""
-    return Bar(Console(stderr=True)) if watched() else Watch()
+    return Bar(Console(stderr=True)) if watched() else Silent()
 
 
 class _Rate:

@@ -13,7 +13,7 @@ from optlaws import Problem, ProblemArray, Solution, open_study, run_study, synt
 from optlaws.studies.chunk import Task, along_B, array_along_B, blocks
 from optlaws.studies.executor import Serial
 from optlaws.studies.points import StudyPoints, key
-from optlaws.studies.progress import Watch
+from optlaws.studies.progress import Silent
 from optlaws.studies.run import task
 from optlaws.studies.specification import entries, read_study
 from tests.sampling import sampled
@@ -26,7 +26,7 @@ ASKED: dict[str, Any] = {
 }
 
 
-class StopAfter(Watch):
+class StopAfter(Silent):
     """Ends a run by Ctrl-C when so many points are done."""
 
     def __init__(self, points: int) -> None:

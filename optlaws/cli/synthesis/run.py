@@ -28,8 +28,9 @@ def run(*files: Path, out: Path | None = None) -> None:
     if out is not None and len(files) > 1:
         raise InputError("--out takes the results of one problem file; several were named")
     sources = [problem_file(file) for file in files]
-    for place in {out or folder for _, folder in sources} - {None}:
-        writing.check_place(Path(place, "results.md"))
+    for place in (out or folder for _, folder in sources):
+        if place is not None:
+            writing.check_place(place / "results.md")
     for file, folder in sources:
         with busy(f"{file}"):
             written = job.run(file, out or folder)
