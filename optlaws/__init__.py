@@ -110,7 +110,7 @@ declare(
         "optlaws.laws.segments.constant_power": "power",
         "optlaws.laws.segments.segment": "polynomial",
         "optlaws.laws.segments.sine": "harmonics sine",
-        "optlaws.balancing.dwells.parts": "part",
+        "optlaws.balancing.dwells.sections": "part",
         "optlaws.balancing.loaders.segment": "loader",
     },
 )

@@ -19,19 +19,6 @@ class NotInstalled(InputError, ImportError):  # noqa: N818 - as SolverFailure
 
 
 def needed(module: str, what: str, extra: str = "studies") -> None:
-    """See that a library is installed.
-
-    Raises
-    ------
-    NotInstalled
-        If it is not; the error says the extra that brings it.
-
-    Examples
-    --------
-    >>> needed("numpy", "this")
-    >>> needed("no_such_library", "to_pandas")
-    Traceback (most recent call last):
-    optlaws.extras.NotInstalled: to_pandas needs no_such_library: pip install 'optlaws[studies]'
-    """
+    """See that a library is installed."""
     if find_spec(module) is None:
         raise NotInstalled(f"{what} needs {module}: pip install 'optlaws[{extra}]'")

@@ -15,12 +15,6 @@ def process_lock() -> Lock:
 
     A fork waits until no thread holds it: a child has none of its parent's other threads, so that one of them could
     neither finish its work nor give the lock back there.
-
-    Examples
-    --------
-    >>> with process_lock():
-    ...     print("one thread at a time")
-    one thread at a time
     """
     lock = RLock()
     if hasattr(os, "register_at_fork"):

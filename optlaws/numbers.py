@@ -46,11 +46,6 @@ _DENOMINATOR_BITS = 100_000
 def whole(value: Any, name: str, least: int = 0, most: int = MOST_WHOLE) -> int:  # noqa: ANN401
     """The value as an int, if it is an integer from `least` to `most`; `name` is what an error calls it.
 
-    Raises
-    ------
-    InputError
-        If it is not.
-
     Examples
     --------
     >>> whole(3, "nu")
@@ -88,13 +83,7 @@ def real(value: Any) -> float | None:  # noqa: ANN401
 
 
 def bounded(value: float) -> float | None:
-    """The value as JSON holds it, which has no infinity: None where there is no bound.
-
-    Examples
-    --------
-    >>> bounded(2.0), bounded(float("inf"))
-    (2.0, None)
-    """
+    """The value as JSON holds it, which has no infinity: None where there is no bound."""
     return value if isfinite(value) else None
 
 
@@ -114,11 +103,6 @@ def power_of_two(size: float) -> float:
 def finite(value: Any, name: str) -> float:  # noqa: ANN401
     """The value as a float; `name` is what an error calls it.
 
-    Raises
-    ------
-    InputError
-        If it is not a finite real number, or above 1e100 in magnitude.
-
     Examples
     --------
     >>> finite(1, "b0")
@@ -135,18 +119,7 @@ def finite(value: Any, name: str) -> float:  # noqa: ANN401
 
 
 def positive(value: Any, name: str) -> float:  # noqa: ANN401
-    """The value as a float above 0.
-
-    Raises
-    ------
-    InputError
-        If it is not one, or not finite.
-
-    Examples
-    --------
-    >>> positive(20, "nu")
-    20.0
-    """
+    """The value as a float above 0."""
     number = finite(value, name)
     if number <= 0.0:
         raise InputError(f"{name} must be above 0, got {shortened(value)}")
@@ -154,18 +127,7 @@ def positive(value: Any, name: str) -> float:  # noqa: ANN401
 
 
 def frequency(value: Any, name: str = "nu") -> float:  # noqa: ANN401
-    """Radians of a free vibration in the rise, as a float above 0 and at most 100 000.
-
-    Raises
-    ------
-    InputError
-        If it is not one: beyond, a follower is as good as rigid, and its peaks are too many to be looked at.
-
-    Examples
-    --------
-    >>> frequency(20)
-    20.0
-    """
+    """Radians of a free vibration in the rise, as a float above 0 and at most 100 000."""
     number = positive(value, name)
     if number > MOST_FREQUENCY:
         raise InputError(
@@ -175,34 +137,12 @@ def frequency(value: Any, name: str = "nu") -> float:  # noqa: ANN401
 
 
 def derivative(value: Any, name: str = "nu") -> int:  # noqa: ANN401
-    """The order of a derivative as an int, at most 50.
-
-    Raises
-    ------
-    InputError
-        If it is not one.
-
-    Examples
-    --------
-    >>> derivative(3)
-    3
-    """
+    """The order of a derivative as an int, at most 50."""
     return whole(value, name, most=MOST_DERIVATIVE)
 
 
 def not_negative(value: Any, name: str) -> float:  # noqa: ANN401
-    """The value as a float of at least 0.
-
-    Raises
-    ------
-    InputError
-        If it is not one, or not finite.
-
-    Examples
-    --------
-    >>> not_negative(0, "damping")
-    0.0
-    """
+    """The value as a float of at least 0."""
     number = finite(value, name)
     if number < 0.0:
         raise InputError(f"{name} must be at least 0, got {shortened(value)}")
@@ -210,18 +150,7 @@ def not_negative(value: Any, name: str) -> float:  # noqa: ANN401
 
 
 def numbers(values: Any, name: str, most: int = MOST_VALUES) -> tuple[float, ...]:  # noqa: ANN401
-    """The values as a tuple of floats; `name` is what an error calls them.
-
-    Raises
-    ------
-    InputError
-        If one is not a finite real number, or there are too many.
-
-    Examples
-    --------
-    >>> numbers([0, 1], "breaks")
-    (0.0, 1.0)
-    """
+    """The values as a tuple of floats; `name` is what an error calls them."""
     if type(values) in {tuple, list} and len(values) <= most and all(map(_plain, values)):
         return tuple(values)
     return tuple(float(value) for value in fractions(values, name, most))
@@ -234,11 +163,6 @@ def _plain(value: object) -> bool:
 def fractions(values: Iterable[Any], name: str, most: int = MOST_TERMS) -> list[Fraction]:
     """The exact values of ints, floats and Fractions; `name` is what an error calls them.
 
-    Raises
-    ------
-    InputError
-        If a value is not a finite real number, or so large that its square would overflow, or there are too many.
-
     Examples
     --------
     >>> fractions([1, 0.5], "z")
@@ -248,18 +172,7 @@ def fractions(values: Iterable[Any], name: str, most: int = MOST_TERMS) -> list[
 
 
 def listed(values: Any, name: str, most: int = MOST_TERMS) -> list[Any]:  # noqa: ANN401
-    """The values as a list of at most so many.
-
-    Raises
-    ------
-    InputError
-        If they are no sequence, or too many.
-
-    Examples
-    --------
-    >>> listed((1, 2), "z")
-    [1, 2]
-    """
+    """The values as a list of at most so many."""
     items: list[Any] = []
     try:
         if isinstance(values, str | bytes):
@@ -294,11 +207,6 @@ def _fraction(value: Any, name: str) -> Fraction:  # noqa: ANN401
 def times(k: Any) -> Array:  # noqa: ANN401
     """Dimensionless times as floats, of any shape.
 
-    Raises
-    ------
-    InputError
-        If one is outside [0, 1] or not a real number.
-
     Examples
     --------
     >>> times([0, 1])
@@ -314,18 +222,7 @@ def times(k: Any) -> Array:  # noqa: ANN401
 
 
 def real_times(k: Any) -> Array:  # noqa: ANN401
-    """Finite times of any shape.
-
-    Raises
-    ------
-    InputError
-        If one is not a finite real number.
-
-    Examples
-    --------
-    >>> real_times([0, 1.5]).tolist()
-    [0.0, 1.5]
-    """
+    """Finite times of any shape."""
     given = _array(k)
     if given is None or not np.isfinite(given).all():
         raise InputError(f"k must be finite real numbers, got {shortened(k)}")

@@ -11,7 +11,7 @@ __getattr__, __dir__, __all__ = face(
         "optlaws.balancing.dwells.sections": "Section",
         "optlaws.balancing.levers.design": "find_torsion_levers",
         "optlaws.balancing.levers.lever": "TorsionLever",
-        "optlaws.balancing.levers.limits": "LEAST_TRANSMISSION MOST_ROCKER_SWING",
+        "optlaws.balancing.levers.sizing": "LEAST_TRANSMISSION MOST_ROCKER_SWING",
         "optlaws.balancing.levers.linkage": "FourBar",
         "optlaws.balancing.levers.motion": "LeverMotion",
         "optlaws.balancing.loaders.constants": "B_loader C_loader D_loader",

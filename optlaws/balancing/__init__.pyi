@@ -8,10 +8,10 @@ from optlaws.balancing.dwells.mechanism import dwell_mechanism as dwell_mechanis
 from optlaws.balancing.dwells.sections import Section as Section
 from optlaws.balancing.levers.design import find_torsion_levers as find_torsion_levers
 from optlaws.balancing.levers.lever import TorsionLever as TorsionLever
-from optlaws.balancing.levers.limits import LEAST_TRANSMISSION as LEAST_TRANSMISSION
-from optlaws.balancing.levers.limits import MOST_ROCKER_SWING as MOST_ROCKER_SWING
 from optlaws.balancing.levers.linkage import FourBar as FourBar
 from optlaws.balancing.levers.motion import LeverMotion as LeverMotion
+from optlaws.balancing.levers.sizing import LEAST_TRANSMISSION as LEAST_TRANSMISSION
+from optlaws.balancing.levers.sizing import MOST_ROCKER_SWING as MOST_ROCKER_SWING
 from optlaws.balancing.loaders.constants import B_loader as B_loader
 from optlaws.balancing.loaders.constants import C_loader as C_loader
 from optlaws.balancing.loaders.constants import D_loader as D_loader

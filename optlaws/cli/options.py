@@ -66,13 +66,7 @@ def read_law(
 
 
 def check_files(*files: Path | None, plot: Path | None = None) -> None:
-    """Refuse, before anything is computed, files that could not be written, and a --plot that is no kind of picture.
-
-    Raises
-    ------
-    InputError
-        If one cannot be written, by its own name.
-    """
+    """Refuse, before anything is computed, files that could not be written, and a --plot that is no kind of picture."""
     from optlaws.files.writing import check_place
 
     if plot is not None and plot.suffix not in _PICTURES:

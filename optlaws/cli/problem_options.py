@@ -74,7 +74,7 @@ _KINDS: dict[Kind, tuple[Any, Callable[[Any], Any]]] = {
 }
 
 
-def _own(name: str, entry: str, about: str | None = None, read: Callable[[Any], Any] | None = None) -> Option:
+def _option(name: str, entry: str, about: str | None = None, read: Callable[[Any], Any] | None = None) -> Option:
     known = ENTRIES[entry]
     kind, plain = _KINDS[known.kind]
     return Option(name, kind, about or known.about, read or plain, signed=known.kind in {Kind.NUMBERS, Kind.WINDOWS})
@@ -82,16 +82,16 @@ def _own(name: str, entry: str, about: str | None = None, read: Callable[[Any], 
 
 #: entries whose options have names of their own, or mean less than files can say
 _OWN: dict[str, tuple[Option, ...]] = {
-    "B": (_own("--peak-velocity", "B", "B, above 1 (dimensionless; the mean velocity is 1); free unless given."),),
-    "C": (_own("--most-acceleration", "C", "C at most this.", at_most),),
-    "D": (_own("--most-power", "D", "D at most this.", at_most),),
-    "J": (_own("--most-jerk", "J", "J at most this.", at_most),),
-    "symmetric": (_own("--unsymmetric", "symmetric", "Seek among unsymmetric laws too.", lambda given: not given),),
+    "B": (_option("--peak-velocity", "B", "B, above 1 (dimensionless; the mean velocity is 1); free unless given."),),
+    "C": (_option("--most-acceleration", "C", "C at most this.", at_most),),
+    "D": (_option("--most-power", "D", "D at most this.", at_most),),
+    "J": (_option("--most-jerk", "J", "J at most this.", at_most),),
+    "symmetric": (_option("--unsymmetric", "symmetric", "Seek among unsymmetric laws too.", lambda given: not given),),
     "bounds": (
         Option("--most", list[str], "Any constant at most a value, such as rms_c=4; may be repeated."),
         Option("--least", list[str], "Any constant at least a value; may be repeated."),
     ),
-    "windows": (_own("--window", "windows"),),
+    "windows": (_option("--window", "windows"),),
 }
 
 
@@ -103,7 +103,7 @@ def options_of(entry: Entry) -> tuple[Option, ...]:
     >>> [option.name for option in options_of(ENTRIES["bounds"])], options_of(ENTRIES["degree"])[0].name
     (['--most', '--least'], '--degree')
     """
-    return _OWN.get(entry.name) or (_own(f"--{entry.name}", entry.name),)
+    return _OWN.get(entry.name) or (_option(f"--{entry.name}", entry.name),)
 
 
 def asks_for_a_problem(
@@ -119,22 +119,22 @@ def asks_for_a_problem(
         By entry: why the command does not take it.
     """
     why, defaults = refused or {}, given or {}
-    asked = [
+    parameters = [
         option.parameter(default=_default(entry, option, defaults, why), shown=entry.name not in why)
         for entry in ENTRIES.values()
         for option in options_of(entry)
     ]
 
     def decorated(command: Command) -> Command:
-        own = list(inspect.signature(command).parameters.values())[1:]
+        others = list(inspect.signature(command).parameters.values())[1:]
 
         @wraps(command)
         def called(**values: Any) -> None:  # noqa: ANN401 - whatever the parser made
-            typed = {parameter.name: values.pop(parameter.name, parameter.default) for parameter in asked}
+            typed = {parameter.name: values.pop(parameter.name, parameter.default) for parameter in parameters}
             command(_entries(typed, why), **values)
 
-        called.__signature__ = inspect.Signature([*asked, *own])  # type: ignore[attr-defined]
-        called.__annotations__ = {parameter.name: parameter.annotation for parameter in (*asked, *own)}
+        called.__signature__ = inspect.Signature([*parameters, *others])  # type: ignore[attr-defined]
+        called.__annotations__ = {parameter.name: parameter.annotation for parameter in (*parameters, *others)}
         return called
 
     return decorated

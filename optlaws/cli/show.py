@@ -7,14 +7,14 @@ from contextlib import contextmanager
 from math import inf
 from typing import TYPE_CHECKING, Any
 
+from optlaws.numerics.tolerances import VALUE_ROUNDING
+
 if TYPE_CHECKING:
     from rich.console import Console
     from rich.table import Table
 
     import optlaws
 
-#: a value below this share of its peak is what rounding leaves of 0
-NOISE = 1e-12
 _WIDEST = 10_000
 
 
@@ -34,10 +34,10 @@ def table(*headings: str) -> Table:
     """A table without lines; one without headings tells facts by their names."""
     from rich.table import Table
 
-    made = Table(*headings, show_header=bool(headings), box=None, pad_edge=False)
+    new_table = Table(*headings, show_header=bool(headings), box=None, pad_edge=False)
     if not headings:
-        made.add_column(no_wrap=True)
-    return made
+        new_table.add_column(no_wrap=True)
+    return new_table
 
 
 def show(*parts: Table | str) -> None:
@@ -85,7 +85,7 @@ def number(value: float, size: float, form: str = ".10g") -> str:
     >>> number(-6.77e-16, size=5.528), number(1.5, size=2.0)
     ('0', '1.5')
     """
-    return format(0.0 if abs(value) <= NOISE * size < inf else value, form)
+    return format(0.0 if abs(value) <= VALUE_ROUNDING * size < inf else value, form)
 
 
 def progress() -> Console:

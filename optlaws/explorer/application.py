@@ -5,34 +5,27 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import cache
 from importlib.resources import files
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import msgspec
 from starlette.applications import Starlette
 from starlette.concurrency import run_in_threadpool
+from starlette.datastructures import Headers, MutableHeaders
 from starlette.middleware import Middleware
 from starlette.requests import Request
-from starlette.responses import Response
+from starlette.responses import PlainTextResponse, Response
 from starlette.routing import Route
 
 from optlaws import catalogue
 from optlaws.echo import cut
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
-from optlaws.explorer.answers import (
-    cam_loads_view,
-    cam_view,
-    cycle_view,
-    front_view,
-    handed,
-    law_view,
-    nearest,
-    residual_view,
-    saved,
-)
-from optlaws.explorer.answers.asked import AskedLaw, AskedLaws, read, ready
-from optlaws.explorer.guard import Guard
-from optlaws.jobs.cam import schema
+from optlaws.explorer import cam_view, cycle_view, downloads, front_view, law_view
+from optlaws.explorer.requests import LawRequest, LawsRequest, read, ready
+from optlaws.jobs.cam_entries import CamProblemFile
 from optlaws.jobs.cycle_entries import CycleProblemFile
+
+if TYPE_CHECKING:
+    from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 #: no question of the page is longer
 MOST_BYTES = 400_000
@@ -44,37 +37,31 @@ _BAD, _TOO_LONG, _WRONG = 400, 413, 422
 Answer = Callable[[Any], dict[str, Any]]
 #: by the last part of the path: what a question is read as, and what answers it
 QUESTIONS: dict[str, tuple[type[msgspec.Struct], Answer]] = {
-    "laws": (AskedLaws, law_view.answer),
-    "front": (front_view.AskedFront, front_view.answer),
-    "nearest": (AskedLaw, nearest.answer),
-    "cam": (cam_view.AskedCam, cam_view.answer),
-    "cam-loads": (cam_view.AskedCam, cam_loads_view.answer),
-    "cam-sizes": (cam_view.AskedCam, cam_view.sizes),
-    "cycle": (cycle_view.AskedCycle, cycle_view.answer),
-    "cycle-nearest": (cycle_view.AskedCycle, cycle_view.nearest),
-    "export": (handed.AskedExport, handed.answer),
-    "save": (saved.AskedFile, saved.answer),
-    "residual": (residual_view.AskedResidual, residual_view.answer),
+    "laws": (LawsRequest, law_view.answer),
+    "front": (front_view.FrontRequest, front_view.answer),
+    "nearest": (LawRequest, law_view.nearest),
+    "cam": (cam_view.CamRequest, cam_view.answer),
+    "cam-loads": (cam_view.CamRequest, cam_view.loads),
+    "cam-sizes": (cam_view.CamRequest, cam_view.sizes),
+    "cycle": (cycle_view.CycleRequest, cycle_view.answer),
+    "cycle-nearest": (cycle_view.CycleRequest, cycle_view.nearest),
+    "export": (downloads.ExportRequest, downloads.exported),
+    "save": (downloads.FileRequest, downloads.answer),
+    "residual": (law_view.ResidualRequest, law_view.residuals),
 }
 
 
 def application(start: dict[str, Any]) -> Starlette:
-    """The explorer as an application of ASGI; `start` is what the page shows first.
-
-    Examples
-    --------
-    >>> sorted(route.path for route in application({}).routes)[:3]
-    ['/', '/api/cam', '/api/cam-loads']
-    """
+    """The explorer as an application of ASGI; `start` is what the page shows first."""
     known = {
         "names": [*catalogue, *_MEMBERS],
         "cycle": cycle_view.example(),
         "cam": cam_view.example(),
         "followers": cam_view.followers(),
-        "formats": handed.formats(),
+        "formats": downloads.formats(),
     }
     first = msgspec.json.encode({"state": start, **known})
-    ready(*(kind for kind, _ in QUESTIONS.values()), CycleProblemFile, schema.CamProblemFile)
+    ready(*(kind for kind, _ in QUESTIONS.values()), CycleProblemFile, CamProblemFile)
     routes = [
         Route("/api/start", lambda _: _json(first)),
         *(Route(f"/api/{name}", _asking(*question), methods=["POST"]) for name, question in QUESTIONS.items()),
@@ -87,8 +74,8 @@ def application(start: dict[str, Any]) -> Starlette:
 def page() -> dict[str, bytes]:
     """The files of the page by their names."""
     folder = files("optlaws.explorer") / "page"
-    kept = [entry for entry in folder.iterdir() if f".{entry.name.rpartition('.')[2]}" in _TYPES]
-    return {entry.name: entry.read_bytes() for entry in sorted(kept, key=lambda entry: entry.name)}
+    shown = [entry for entry in folder.iterdir() if f".{entry.name.rpartition('.')[2]}" in _TYPES]
+    return {entry.name: entry.read_bytes() for entry in sorted(shown, key=lambda entry: entry.name)}
 
 
 def _file(name: str) -> Callable[[Request], Response]:
@@ -97,17 +84,17 @@ def _file(name: str) -> Callable[[Request], Response]:
 
 
 def _asking(kind: type[msgspec.Struct], answer: Answer) -> Callable[[Request], Any]:
-    async def asked(request: Request) -> Response:
+    async def respond(request: Request) -> Response:
         if request.headers.get("content-type", "").partition(";")[0] != "application/json":
-            return _told("ask in application/json", _BAD)
+            return _message("ask in application/json", _BAD)
         body = b""
         async for part in request.stream():
             body += part
             if len(body) > MOST_BYTES:
-                return _told(f"a question is at most {MOST_BYTES} bytes long", _TOO_LONG)
+                return _message(f"a question is at most {MOST_BYTES} bytes long", _TOO_LONG)
         return await run_in_threadpool(_answered, body, kind, answer)
 
-    return asked
+    return respond
 
 
 def _answered(body: bytes, kind: type[msgspec.Struct], answer: Answer) -> Response:
@@ -115,18 +102,63 @@ def _answered(body: bytes, kind: type[msgspec.Struct], answer: Answer) -> Respon
     try:
         question = read(body, kind)
     except InputError as error:
-        return _told(str(error), _WRONG)
+        return _message(str(error), _WRONG)
     try:
         return _json(msgspec.json.encode(answer(question)))
     except (InfeasibleProblem, SolverFailure) as error:
-        return _told(str(error.args[0]))
+        return _message(str(error.args[0]))
     except OptlawsError as error:
-        return _told(str(error))
+        return _message(str(error))
 
 
-def _told(text: str, code: int = 200) -> Response:
+def _message(text: str, code: int = 200) -> Response:
     return _json(msgspec.json.encode({"error": cut(text)}), code)
 
 
 def _json(content: bytes, code: int = 200) -> Response:
     return Response(content, status_code=code, media_type="application/json")
+
+
+NAMES = ("127.0.0.1", "localhost")
+HEADERS = {
+    "Content-Security-Policy": (
+        "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self'; connect-src 'self'; "
+        "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+    ),
+    "X-Content-Type-Options": "nosniff",
+    "Referrer-Policy": "no-referrer",
+    "Cross-Origin-Opener-Policy": "same-origin",
+    "Cross-Origin-Resource-Policy": "same-origin",
+    "Cache-Control": "no-store",
+}
+
+
+class Guard:
+    """Refuse what is not asked by a page of this server; a name of another host that leads here is none of ours."""
+
+    def __init__(self, app: ASGIApp) -> None:
+        self.app = app
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Answer, or say why not."""
+        if scope["type"] != "http":
+            return
+        headers = Headers(scope=scope)
+        why = self.refusal(headers.get("host", ""), headers.get("origin", ""), scope["server"][1])
+
+        async def sent(message: Message) -> None:
+            if message["type"] == "http.response.start":
+                MutableHeaders(scope=message).update(HEADERS)
+            await send(message)
+
+        await (self.app if not why else PlainTextResponse(f"{why}\n", status_code=403))(scope, receive, sent)
+
+    @staticmethod
+    def refusal(host: str, origin: str, port: int) -> str:
+        """Why a request is refused; nothing where it is not."""
+        hosts = [f"{name}:{port}" for name in NAMES]
+        if host not in hosts:
+            return f"this server answers to {' and '.join(hosts)} only"
+        if origin and origin != f"http://{host}":
+            return "this server answers its own pages only"
+        return ""

@@ -22,11 +22,6 @@ _MOST_PORT = 65535
 def opened(port: int | None) -> socket.socket:
     """A socket that listens on this machine alone; any free port where the usual one is taken.
 
-    Raises
-    ------
-    InputError
-        If the port that is asked cannot be had.
-
     Examples
     --------
     >>> with opened(0) as listening:
@@ -46,13 +41,7 @@ def opened(port: int | None) -> socket.socket:
 
 
 def server(start: dict[str, Any]) -> uvicorn.Server:
-    """The server, ready to run on a socket.
-
-    Raises
-    ------
-    InputError
-        If what it needs is not installed.
-    """
+    """The server, ready to run on a socket."""
     try:
         import uvicorn
 
@@ -66,13 +55,7 @@ def server(start: dict[str, Any]) -> uvicorn.Server:
 
 
 def explore(start: dict[str, Any], port: int | None = None, *, browser: bool = True) -> None:
-    """Serve the page until interrupted, and show it in the user's browser.
-
-    Raises
-    ------
-    InputError
-        If what it needs is not installed, or the port cannot be had.
-    """
+    """Serve the page until interrupted, and show it in the user's browser."""
     serving = server(start)
     with opened(port) as listening:
         address = f"http://{ADDRESS}:{listening.getsockname()[1]}/"
@@ -90,6 +73,6 @@ def explore(start: dict[str, Any], port: int | None = None, *, browser: bool = T
 def _warm_up() -> None:
     """Load what solves, while the browser loads the page."""
     from optlaws import Problem
-    from optlaws.explorer.answers.asked import solved
+    from optlaws.explorer.requests import solved
 
     solved(Problem(B=1.7, order=4))

@@ -7,7 +7,7 @@ from typing import Any
 
 from optlaws import Problem
 from optlaws.errors import InputError
-from optlaws.explorer.answers.asked import MOST_LAWS, AskedLaw, problem_of
+from optlaws.explorer.requests import MOST_LAWS, LawRequest, problem_of
 from optlaws.files import reading
 from optlaws.files.packaged import is_problem, problem_file
 from optlaws.laws.catalogue.reading import is_file, is_table, read_law
@@ -17,11 +17,6 @@ _FIRST = {"order": 4, "degree": 9, "B": 1.7}
 
 def start(given: str | None) -> dict[str, Any]:
     """The page's first state for a law's name or file, a problem file or a solution; an optimal law unless given.
-
-    Raises
-    ------
-    InputError
-        If it is none of them.
 
     Examples
     --------
@@ -76,7 +71,7 @@ def _is_sweep(swept: Any) -> bool:  # noqa: ANN401 - of a file
 def _problem(entries: dict[str, Any], file: Path) -> dict[str, Any]:
     """A problem as the page keeps it: with weights where one constant is minimised."""
     try:
-        problem: Problem = problem_of(AskedLaw(problem=entries))
+        problem: Problem = problem_of(LawRequest(problem=entries))
     except InputError as error:
         raise InputError(f"{file}: {error}") from None
     plain = problem.to_dict()

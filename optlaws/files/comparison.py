@@ -7,12 +7,8 @@ import re
 from decimal import Decimal
 from typing import Any
 
-# numbers with all their digits, such as those of JSON: equal in eight digits, which tables show
-RELATIVE = 1e-8
-# what is less is noise; a gap of 1e-10 is as good as one of 1e-9
-NOISE = 1e-9
-# the place of a smooth peak is known to the root of rounding alone
-PLACE = 1e-6
+from optlaws.numerics.tolerances import FILE_NOISE, PEAK_PLACE, SHOWN_DIGITS
+
 # a printed number of so many digits was rounded, one of fewer is meant so
 ROUNDED = 6
 # in units of a picture, which is some 500 wide
@@ -54,7 +50,7 @@ def say_the_same(first: bytes, second: bytes, kind: str, digits: int | None = No
         texts = [content.decode() for content in (first, second)]
         if kind == ".json":
             values = [json.loads(text) for text in texts]
-            return _same_values(*values, relative=RELATIVE if digits is None else 10.0**-digits)
+            return _same_values(*values, relative=SHOWN_DIGITS if digits is None else 10.0**-digits)
     except ValueError:
         return False
     if kind == ".svg":
@@ -83,8 +79,8 @@ def _same_printed(first: Decimal, second: Decimal, *, picture: bool, digits: int
     off = abs(first - second)
     parts = [number.as_tuple() for number in (first, second)]
     last = min(int(part.exponent) for part in parts)
-    if off <= NOISE or last >= 0 or max(len(part.digits) for part in parts) < min(ROUNDED, digits or ROUNDED):
-        return off <= NOISE
+    if off <= FILE_NOISE or last >= 0 or max(len(part.digits) for part in parts) < min(ROUNDED, digits or ROUNDED):
+        return off <= FILE_NOISE
     allowed = Decimal(1).scaleb(last)
     if picture:
         allowed = max(allowed, Decimal(str(PICTURE)))
@@ -106,7 +102,7 @@ def _same_values(first: Any, second: Any, *, relative: float, key: str = "", sca
             _same_values(a, b, relative=relative, key=key, scale=scale) for a, b in zip(first, second, strict=True)
         )
     if _is_number(first) and _is_number(second):
-        allowed = max(NOISE, relative * max(scale, abs(first), abs(second)), PLACE if key == "k" else 0.0)
+        allowed = max(FILE_NOISE, relative * max(scale, abs(first), abs(second)), PEAK_PLACE if key == "k" else 0.0)
         return bool(first == second or abs(first - second) <= allowed)
     if isinstance(first, str) and isinstance(second, str):
         return _same_texts(first, second)

@@ -16,18 +16,7 @@ _ROOTS = (_PACKAGE / "packaged", _PACKAGE.parent)
 
 
 def packaged(place: str) -> Path:
-    """A file or folder that comes with optlaws, by its place in the repository.
-
-    Raises
-    ------
-    InputError
-        If it is not there.
-
-    Examples
-    --------
-    >>> packaged("problems/optimal_table.toml").name
-    'optimal_table.toml'
-    """
+    """A file or folder that comes with optlaws, by its place in the repository."""
     for root in _ROOTS:
         if (root / place).exists():
             return root / place
@@ -35,13 +24,7 @@ def packaged(place: str) -> Path:
 
 
 def problem_names() -> list[str]:
-    """Names of the problem files that come with optlaws.
-
-    Examples
-    --------
-    >>> "optimal_table" in problem_names()
-    True
-    """
+    """Names of the problem files that come with optlaws."""
     return sorted(file.stem for file in packaged("problems").glob("*.toml"))
 
 
@@ -52,11 +35,6 @@ def problem_file(given: Path) -> tuple[Path, Path | None]:
     -------
     The file, and the folder for its results where that is not the file's own: `results/NAME` where the user is.
 
-    Raises
-    ------
-    InputError
-        If a name is not known.
-
     Examples
     --------
     >>> file, out = problem_file(Path("optimal_table"))
@@ -64,8 +42,8 @@ def problem_file(given: Path) -> tuple[Path, Path | None]:
     ('optimal_table.toml', 'results/optimal_table')
     """
     if given.suffix or len(given.parts) != 1 or given.exists():
-        own = or_packaged(given)
-        return own, None if own == given else Path("results") / given.stem
+        source = or_packaged(given)
+        return source, None if source == given else Path("results") / given.stem
     names = problem_names()
     if given.name not in names:
         raise InputError(
@@ -76,13 +54,7 @@ def problem_file(given: Path) -> tuple[Path, Path | None]:
 
 
 def is_problem(text: str) -> bool:
-    """Whether a text is taken for a problem file: it ends in .toml, or is the name of one that comes with optlaws.
-
-    Examples
-    --------
-    >>> is_problem("mine.toml"), is_problem("cam_press"), is_problem("modified sine")
-    (True, True, False)
-    """
+    """Whether a text is taken for a problem file: it ends in .toml, or is the name of one that comes with optlaws."""
     return text.lower().endswith(".toml") or (text in problem_names() and not Path(text).exists())
 
 
@@ -107,11 +79,6 @@ class GivenProblem(NamedTuple):
 def problem_of_job(given: Path, job: str) -> GivenProblem:
     """A problem file, as `problem_file` finds it, of one job.
 
-    Raises
-    ------
-    InputError
-        If it cannot be read or is of another job.
-
     Examples
     --------
     >>> problem_of_job(Path("cam_press"), "cycle")
@@ -127,13 +94,7 @@ def problem_of_job(given: Path, job: str) -> GivenProblem:
 
 
 def or_packaged(given: Path) -> Path:
-    """A file of the user; where there is none, and one of this place comes with optlaws, that.
-
-    Examples
-    --------
-    >>> or_packaged(Path("mine.csv")).name, or_packaged(Path("results/atlas/atlas.csv")).is_file()
-    ('mine.csv', True)
-    """
+    """A file of the user; where there is none, and one of this place comes with optlaws, that."""
     if given.is_absolute() or given.exists() or ".." in given.parts:
         return given
     return next((root / given for root in _ROOTS if (root / given).is_file()), given)

@@ -11,7 +11,7 @@ import re
 import stat
 import struct
 from collections.abc import Iterator
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from hashlib import sha256
 from itertools import count
 from pathlib import Path
@@ -46,60 +46,41 @@ def write(file: Path, content: str | bytes, *, digits: int | None = None, exact:
 
     Every content passed must hold the mark "made by optlaws", at the end of a line, a text or an entry; the seal is
     put behind it.
-
-    Raises
-    ------
-    InputError
-        If the name is none for a file: see `check_name`.
-    ValueError
-        If the content does not hold the mark.
     """
     check_name(file)
-    try:
-        return _written(file, content, digits, exact=exact)
-    except OSError as error:
-        # the user knows the name of his file, not that of our copy beside it
-        if error.errno is not None:
-            error.filename = str(file)
-        raise
+    data = content.encode() if isinstance(content, str) else content
+    with _named(file):
+        there = _content(file)
+        plain = _unsealed(there)[0]
+        same = plain == data if exact else say_the_same(plain, data, file.suffix, digits)
+        if not (is_sealed(there) and same):
+            _put(file, sealed(data))
+    return file
 
 
 def write_any(file: Path, content: str) -> Path:
     """Replace a file at once by a text that may have no mark, as formats of controllers have no place for one.
 
     A file that says something else is kept as `name.orig`, unless its seal tells that optlaws made all of it.
-
-    Raises
-    ------
-    InputError
-        If the name is none for a file: see `check_name`.
     """
     if MARK in content:
         return write(file, content, exact=True)
     check_name(file)
+    with _named(file):
+        if _content(file) != content.encode():
+            _put(file, content.encode())
+    return file
+
+
+@contextmanager
+def _named(file: Path) -> Iterator[None]:
+    """Errors of the system name the user's file, not that of our copy beside it."""
     try:
-        return _written_bare(file, content.encode())
+        yield
     except OSError as error:
         if error.errno is not None:
             error.filename = str(file)
         raise
-
-
-def _written_bare(file: Path, data: bytes) -> Path:
-    if _content(file) != data:
-        _put(file, data)
-    return file
-
-
-def _written(file: Path, content: str | bytes, digits: int | None, *, exact: bool) -> Path:
-    data = content.encode() if isinstance(content, str) else content
-    there = _content(file)
-    same = is_sealed(there) and (
-        _unsealed(there)[0] == data if exact else say_the_same(_unsealed(there)[0], data, file.suffix, digits)
-    )
-    if not same:
-        _put(file, sealed(data))
-    return file
 
 
 def is_current(file: Path, content: bytes, *, digits: int | None = None) -> bool:
@@ -125,24 +106,13 @@ def _content(file: Path) -> bytes:
 
 
 def is_sealed(content: bytes) -> bool:
-    """Whether a content has the seal of what it holds.
-
-    Examples
-    --------
-    >>> is_sealed(sealed(b"# about; made by optlaws")), is_sealed(b"# about; made by optlaws a554eb6dcb07b0e5")
-    (True, False)
-    """
+    """Whether a content has the seal of what it holds."""
     plain, seal = _unsealed(content)
     return seal is not None and seal == _seal(plain)
 
 
 def sealed(content: bytes) -> bytes:
     """The content with the seal behind its mark.
-
-    Raises
-    ------
-    ValueError
-        If it does not hold the mark.
 
     Examples
     --------
@@ -241,11 +211,11 @@ def _keep(file: Path) -> None:
     try:
         if is_own(seen):
             return
-        for kept in _free_names(file):
+        for copy in _free_names(file):
             try:
-                os.link(seen, kept, follow_symlinks=False)
+                os.link(seen, copy, follow_symlinks=False)
             except FileExistsError:
-                if not os.path.samestat(kept.lstat(), seen.lstat()):
+                if not os.path.samestat(copy.lstat(), seen.lstat()):
                     continue
             return
     finally:
@@ -257,8 +227,8 @@ def _keep_copy(file: Path) -> None:
     content = file.read_bytes()
     if is_sealed(content):
         return
-    for kept in _free_names(file):
-        with suppress(FileExistsError), kept.open("xb") as stream:
+    for copy in _free_names(file):
+        with suppress(FileExistsError), copy.open("xb") as stream:
             stream.write(content)
             return
 
@@ -274,11 +244,6 @@ def _free_names(file: Path) -> Iterator[Path]:
 
 def check_place(file: Path) -> None:
     """Refuse a file that could not be written, before the work whose result it shall hold; nothing is left behind.
-
-    Raises
-    ------
-    InputError
-        If the name is none for a file (see `check_name`), it is that of a folder, or its folder takes no new file.
 
     Examples
     --------
@@ -301,12 +266,6 @@ def check_place(file: Path) -> None:
 
 def check_name(file: Path) -> None:
     """Refuse a name that a system or a command would take for something else.
-
-    Raises
-    ------
-    InputError
-        If the name holds NUL, a surrogate or another control character, begins with "-", ends with a blank or a dot,
-        or is that of a device such as con, nul or com1, whatever its ending.
 
     Examples
     --------

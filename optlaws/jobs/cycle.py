@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -18,9 +17,9 @@ from optlaws.exports.format import FORMATS, format_of
 from optlaws.exports.text import variable_names
 from optlaws.files import tables, writing
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile, ExportEntries, read
+from optlaws.numerics.tolerances import CYCLE_ROUNDING
 from optlaws.plots.cycle import QUANTITIES, UNITS, axes_figure, cycle_figure
-from optlaws.plots.style import save_pictures
-from optlaws.results.page import Page
+from optlaws.results.results import Page, Results
 
 #: the exports of each axis by the names of their files
 Exports = dict[str, dict[str, Export]]
@@ -32,13 +31,7 @@ _EXPORT_HEADINGS = ("file", "format", "points", *_PEAKS, "greatest deviation, un
 
 
 def exports_of(spec: CycleProblemFile, cycles: Mapping[str, Cycle], file: Path) -> Exports:
-    """The exports that the axes name, made but not yet written.
-
-    Raises
-    ------
-    InputError
-        If one is wrong or cannot hold its axis, or two have the same file; the error names file and axis.
-    """
+    """The exports that the axes name, made but not yet written."""
     exports: Exports = {}
     if len(spec.axis) > 1 and TOGETHER in {plain_name(axis.name) for axis in spec.axis}:
         raise InputError(f"{file}: an axis is called {TOGETHER}, as the picture of all is: give it another name")
@@ -54,21 +47,8 @@ def exports_of(spec: CycleProblemFile, cycles: Mapping[str, Cycle], file: Path) 
 
 
 def plain_name(axis: str) -> str:
-    """The name of an axis as files have it.
-
-    Examples
-    --------
-    >>> plain_name("Weld head")
-    'weld_head'
-    """
+    """The name of an axis as files have it."""
     return "".join(letter if letter.isalnum() else "_" for letter in axis.lower())
-
-
-def add_exports(page: Page, exports: Mapping[str, Export]) -> None:
-    """A table of what controllers will run, where there are exports."""
-    if exports:
-        page.text("What controllers will run: peaks of the exported files as interpolated, over the law's.")
-        page.table(_EXPORT_HEADINGS, [_export_row(name, export) for name, export in exports.items()], digits=7)
 
 
 def _of_axis(axis: AxisEntries, cycle: Cycle, variable: str, taken: set[str]) -> dict[str, Export]:
@@ -109,23 +89,23 @@ def _export_row(name: str, export: Export) -> list[tables.Cell]:
     return [name, export.format.name, export.points, *shown, deviation]
 
 
-_ROUNDING = 1e-11  # what is below this share of a peak is 0
 _SHARE = 360.0
 
 
-def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
-    """Do the job and return the files written."""
-    spec, cycles = read(data, file)
-    exports = exports_of(spec, cycles, file)
-    about = f"{spec.title}; from {file.name}"
-    texts = {"cycle.md": str(page(spec, cycles, exports)), "cycle.json": _stored(cycles, about)}
+def run(results: Results) -> None:
+    """Put the page, the motions, the pictures, the laws and the exports of all axes into results."""
+    spec, cycles = read(results.entries, results.file)
+    exports = exports_of(spec, cycles, results.file)
+    results.title = spec.title
+    results.text("cycle.md", str(page(spec, cycles, exports)))
+    results.data("cycle.json", {"unit": "SI", "axes": {name: _stored(cycle) for name, cycle in cycles.items()}})
     for name, cycle in cycles.items():
-        texts[f"{plain_name(name)}.csv"] = table_of_motion(cycle, spec.rows, about)
-    figures = {plain_name(name): cycle_figure(cycle, f"{spec.title}: {name}") for name, cycle in cycles.items()}
+        results.text(f"{plain_name(name)}.csv", table_of_motion(cycle, spec.rows, results.about))
+        results.picture(plain_name(name), cycle_figure(cycle, f"{spec.title}: {name}"))
+        for file, export in exports[name].items():
+            results.add(file, export.write)
     if len(cycles) > 1:
-        figures[TOGETHER] = axes_figure(cycles, spec.title)
-    files = [writing.write(out / name, text) for name, text in texts.items()] + save_pictures(figures, out)
-    return files + [export.write(out / name) for named in exports.values() for name, export in named.items()]
+        results.picture(TOGETHER, axes_figure(cycles, spec.title))
 
 
 def table_of_motion(cycle: Cycle, rows: int, about: str) -> str:
@@ -148,7 +128,9 @@ def page(spec: CycleProblemFile, cycles: Mapping[str, Cycle], exports: Exports) 
         result.table(_headings(cycle), [*_segment_rows(cycle), _whole_row(cycle)], digits=7)
         rows = [*proof_rows(cycle), *drive_rows(cycle), *joint_rows(cycle)]
         result.table(("what", "value", "unit"), [[row.name, row.value, row.unit or None] for row in rows], digits=9)
-        add_exports(result, exports[name])
+        if exports[name]:
+            result.text("What controllers will run: peaks of the exported files as interpolated, over the law's.")
+            result.table(_EXPORT_HEADINGS, [_export_row(*item) for item in exports[name].items()], digits=7)
     return result
 
 
@@ -199,18 +181,17 @@ def _rows(cycle: Cycle, count: int) -> list[list[tables.Cell]]:
 
 
 def _plain(value: float, size: float) -> float:
-    return 0.0 if abs(value) <= _ROUNDING * size else value
+    return 0.0 if abs(value) <= CYCLE_ROUNDING * size else value
 
 
-def _stored(cycles: Mapping[str, Cycle], about: str) -> str:
-    axes = answer(cycles)
-    for name, cycle in cycles.items():
-        axes[name]["laws"] = [
-            {"start": piece.start, "duration": piece.duration, "offset": piece.offset, "stroke": piece.stroke,
-             "law": piece.law.to_dict()}
-            for piece in cycle.pieces
-        ]  # fmt: skip
-    return json.dumps({"about": f"{about}; {writing.MARK}", "unit": "SI", "axes": axes}, indent=1) + "\n"
+def _stored(cycle: Cycle) -> dict[str, Any]:
+    """Facts of a cycle with its laws."""
+    laws = [
+        {"start": piece.start, "duration": piece.duration, "offset": piece.offset, "stroke": piece.stroke,
+         "law": piece.law.to_dict()}
+        for piece in cycle.pieces
+    ]  # fmt: skip
+    return _facts(cycle) | {"laws": laws}
 
 
 def _facts(cycle: Cycle) -> dict[str, Any]:

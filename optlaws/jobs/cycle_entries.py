@@ -13,6 +13,7 @@ from optlaws.cycles.interchange import KINDS
 from optlaws.cycles.specification.segments import CycleSegment
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.files.problem_file import Text, convert
+from optlaws.jobs.job import JobFile
 
 Kind = Literal["dwell", "constant velocity", "move", "rise", "return", "free"]
 
@@ -82,16 +83,13 @@ class AxisEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     degree: int = 9
 
 
-class CycleProblemFile(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+class CycleProblemFile(JobFile, kw_only=True, forbid_unknown_fields=True):
     """The problem file of a cycle with its axes."""
 
-    job: str
-    title: Text
     axis: Annotated[list[AxisEntries], msgspec.Meta(min_length=1, max_length=8)]
     speed: str | None = None
     period: str | None = None
     rows: Annotated[int, msgspec.Meta(ge=2, le=100_000)] = 361
-    text: str = ""
 
 
 def read(data: Mapping[str, Any], file: Path) -> tuple[CycleProblemFile, dict[str, Cycle]]:
@@ -115,13 +113,7 @@ def read(data: Mapping[str, Any], file: Path) -> tuple[CycleProblemFile, dict[st
 
 
 def cycle_of(axis: AxisEntries, speed: str | None, period: str | None) -> Cycle:
-    """The cycle of an axis: that of the cam, where there is a follower.
-
-    Raises
-    ------
-    InputError
-        If durations, positions or velocities do not fit, or a quantity is wrong.
-    """
+    """The cycle of an axis: that of the cam, where there is a follower."""
     cycle = Cycle(
         [segment_of(entry, i + 1) for i, entry in enumerate(axis.segment)],
         speed=speed,
@@ -144,18 +136,7 @@ def _given(entries: msgspec.Struct) -> dict[str, Any]:
 
 
 def segment_of(entries: SegmentEntries, number: int) -> CycleSegment:
-    """A segment of a file.
-
-    Raises
-    ------
-    InputError
-        If it has an entry that its kind does not take, or lacks one.
-
-    Examples
-    --------
-    >>> segment_of(SegmentEntries(kind="dwell", duration="90 deg"), 1)
-    Dwell(duration='90 deg', name='')
-    """
+    """A segment of a file."""
     kind = KINDS[entries.kind]
     given = _given(entries)
     del given["kind"]

@@ -5,26 +5,32 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from importlib import import_module
 from pathlib import Path
-from typing import Any
 
 from optlaws.errors import InputError
-from optlaws.files import reading
 from optlaws.files.packaged import packaged
+from optlaws.results.results import Entries, Results
 from optlaws.suggest import unknown_key
 
-Job = Callable[[Mapping[str, Any], Path, Path], list[Path]]
+#: puts what a problem file asks for into its results
+Job = Callable[[Results], None]
 
 _MODULES = {
-    "atlas": "laws.atlas",
-    "cam": "cam.cam",
+    "atlas": "atlas",
+    "cam": "cam",
     "cycle": "cycle",
-    "force loaded": "laws.force_loaded",
-    "fronts": "laws.fronts",
-    "machine laws": "laws.machine_laws",
-    "solutions": "laws.solutions",
+    "force loaded": "force_loaded",
+    "fronts": "fronts",
+    "machine laws": "machine_laws",
+    "solutions": "solutions",
 }
 #: the job of the problem files that come with optlaws and have a script beside them
 SCRIPT = "script"
+
+
+class JobFile(Entries, kw_only=True, forbid_unknown_fields=True):
+    """The entries that the problem file of every job has."""
+
+    job: str
 
 
 class _Jobs(Mapping[str, Job]):
@@ -56,19 +62,14 @@ def run(file: Path, out: Path | None = None) -> list[Path]:
         The problem file.
     out
         Folder for the results; `results/<name of the file>` beside the problem file's folder unless given.
-
-    Raises
-    ------
-    InputError
-        If the file cannot be read, is not TOML, or holds an unknown or wrong entry.
     """
     if file.suffix == ".py":
         raise InputError(
             f"{file}: optlaws runs no code but its own scripts, by name (`optlaws run {file.stem}`); "
             f"run yours by Python: `python {file}`"
         )
-    data = reading.toml(file)
-    name = data.get("job")
+    results = Results(file)
+    name = results.entries.get("job")
     if name is None:
         raise InputError(f"{file}: the entry job is missing; known jobs are {', '.join(JOBS)}")
     target = out if out is not None else file.resolve().parent.parent / "results" / file.stem
@@ -77,7 +78,8 @@ def run(file: Path, out: Path | None = None) -> list[Path]:
     if not isinstance(name, str) or name not in JOBS:
         raise InputError(f"{file}: {unknown_key(name, JOBS, 'job')}")
     try:
-        return JOBS[name](data, file, target)
+        JOBS[name](results)
+        return results.write(target)
     except InputError as error:
         text = str(error)
         raise InputError(text if str(file) in text else f"{file}: {text}") from None

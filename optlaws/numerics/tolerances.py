@@ -46,10 +46,22 @@ SHORTEST_STRETCH = 1e-12  # a shorter dwell or stretch is none: its ends would b
 RADIUS_ROUNDING = 1e-12  # m: by so much arcs of a circle are off by themselves
 ANGLE_LIMIT = 1e-9  # rad: an angle so far beyond its limit is still within
 PROGRAM_SLACK = 1e-7  # of the forces: to so much a linear program keeps its rows
+SHOWN_DIGITS = 1e-8  # numbers of two files that are equal to so much say the same: tables show eight digits
+FILE_NOISE = 1e-9  # numbers of two files that differ by less say the same: a gap of 1e-10 is as good as one of 1e-9
+PEAK_PLACE = 1e-6  # of k: the place of a smooth peak is known to the root of rounding alone
+DRAWN_GAP = 1e-4  # of an objective: a gap that no picture shows
+SHOWN_RESIDUAL = 1e-4  # of the greatest residual: what a logarithmic picture still shows
+RESIDUAL_ROUNDING = 1e-12  # of the vibration of a step: a residual that is less is rounding
 LOOKS_EQUAL = 1e-4  # of the highest peak: others so near look as high in a picture, and the first of them is marked
 WHOLE_NUMBER = 1e-6  # a number of a controller so near to a whole one is meant to be whole
 EXACT_DIGITS = 1e-8  # of the stroke: a table whose last digit is less is taken as exact
 DECADIC_STEP = 1e-4  # the last digit that an ISG cam table has
+
+CYCLE_ROUNDING = 1e-11  # of a peak of a cycle: less is shown as 0
+FORCE_ROUNDING = 1e-7  # of the greatest force, or of a turn: less is shown as 0
+NO_MARK = 1e-9  # of the greater extreme of a curve: one that is less is rounding, and no mark stands at it
+GAP_ROUNDING = 1e-12  # of an objective: a gap below it is rounding
+BOUND_SLACK = 1e-6  # of a least value: at a bound so much above it the solver has room
 
 # --- extremes and roots ---------------------------------------------------------------------------------------------
 TIE = 1e-10  # of the greatest magnitude: extremes nearer to each other are as high, and the first of them counts
@@ -100,8 +112,10 @@ FEEDTHROUGH = 1e-9  # of what a coefficient is computed from: less is rounding
 
 # --- cams and cycles ------------------------------------------------------------------------------------------------
 OUTLINE_SHARE = 1e-3  # no part of an outline is left without places, however straight it is
+OUTLINE_DRAWN = 1e-5  # m: by so much the outline of an animated cam may be off
 LIFTED = 1e-3  # of the stroke: so far up more stiffness is more force
 SIZE_BRACKET = 1e-8  # of a radius: width of the bracket of a least size
+SIZE_MET = 1e-7  # of a radius: a size that is proven to so much is the least one
 SIZE_MARGIN = 1e-10  # of a radius: by how much more than needed it grows at last
 SIZE_NUDGE = 1e-9  # of a radius: a step to where a limit is proven to be kept
 SMALLEST_BASE = 1e-6  # of the greatest length of a mechanism: the smallest base circle that is looked at
@@ -265,7 +279,6 @@ FLAT_SLOPE = 1e-9  # of a series: a slope that is less is flat
 EVEN_PART = 1e-9  # of the greatest singular value: less is no even part
 STORED_VALUE = 1e-9  # of a value or a bound: what another machine may round otherwise
 STORED_COEFFICIENT = 1e-11  # of a law's coefficient: what another machine may round otherwise
-LOOKS_EQUAL = 1e-4  # of the highest peak in a picture: others that are so near look as high
 CONTROL_POINT_BLUR = 128.0 * ROUNDOFF  # of the greatest control point: values are means of these
 LEAST_SUM = 1e-24  # under a root in IPOPT's expressions: its slope stays finite
 DEEP_LAW_EXCESS = 1e-3  # by how much a law far below all of the field may miss a bound

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
@@ -12,7 +12,9 @@ from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.contact import FollowerContact
 from optlaws.cams.forces import CamForces
 from optlaws.errors import InputError
+from optlaws.files.writing import MARK
 from optlaws.numbers import Array
+from optlaws.numerics.tolerances import OUTLINE_DRAWN
 from optlaws.plots.style import BLUES, GREEN, GREY, WARM, new_figure, plot_style, titled
 
 if TYPE_CHECKING:
@@ -49,7 +51,8 @@ def forces_figure(forces: CamForces, title: str) -> Figure:
         panels.append(("Hertz's pressure, MPa", lambda at: 1e-6 * np.asarray(forces.contact_pressure(at)), GREEN))
     with plot_style():
         figure = new_figure(8.6, 2.2 * len(panels))
-        for axes, (label, values, colour) in zip(_column(figure, len(panels)), panels, strict=True):
+        column = np.ravel(figure.subplots(len(panels), 1, sharex=True))
+        for axes, (label, values, colour) in zip(column, panels, strict=True):
             _curve(axes, np.array(forces.cam.displacement.breaks), values, label, color=colour)
             axes.axhline(0.0, color=GREY, linewidth=0.8)
         figure.axes[-1].set(xlabel="cam, deg")
@@ -101,11 +104,6 @@ def draw_cam(cam: DiscCam, axes: Any = None, **style: Any) -> list[Artist]:  # n
     """Draw a cam with its follower around it, and displacement, pressure angle and curvature over the cam's angle.
 
     Into one pair of axes the cam alone is drawn.
-
-    Raises
-    ------
-    InputError
-        If there are neither one nor four axes.
     """
     if axes is None:
         with plot_style():
@@ -137,10 +135,6 @@ def _figure() -> tuple[Figure, list[Axes]]:
     for edge in right[:-1]:
         edge.tick_params(labelbottom=False)
     return figure, [figure.add_subplot(grid[:, 0]), *right]
-
-
-def _column(figure: Figure, count: int) -> Sequence[Axes]:
-    return list(np.ravel(figure.subplots(count, 1, sharex=True)))
 
 
 def _curve(axes: Axes, edges: Array, values: Values, label: str, **style: Any) -> list[Artist]:  # noqa: ANN401
@@ -216,3 +210,73 @@ def _phase(cam: DiscCam, angle: float) -> float:
     x, y = (float(coordinate.terms[0]) for coordinate in cam.contact.point(cam.displacement.jet(np.array(angle), 2)))
     curve = cam.pitch_curve(np.array(angle))
     return float(np.arctan2(curve[1], curve[0]) - np.arctan2(y, x) + cam.contact.turning * angle)
+
+
+_FRAMES = 241
+_FACE = 0.6  # half the length of a face, in least radii
+_MARGIN = 6.0
+
+
+def animated(cam: DiscCam, seconds: float = 4.0) -> str:
+    """The picture of one turn in so many seconds, over and over, in millimetres; y points up."""
+    from optlaws.cams.cutting.spline import spline
+    from optlaws.cams.cutting.cam_files import beziers
+
+    outline = beziers(spline(cam.profile, OUTLINE_DRAWN)) * [_MILLI, -_MILLI]
+    curves = " ".join(f"C {_pair(a)} {_pair(b)} {_pair(c)}" for _, a, b, c in outline)
+    path = f"M {_pair(outline[0, 0])} {curves} Z"
+    every = f'dur="{seconds:g}s" repeatCount="indefinite"'
+    turn = -360.0 * cam.contact.turning
+    kind, values = _svg_motion(cam)
+    half = _MILLI * (_reach(cam) + 0.5 * cam.contact.roller) + _MARGIN
+    box = f"{-half:.3f} {-half:.3f} {2 * half:.3f} {2 * half:.3f}"
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="480" height="480" viewBox="{box}">\n'
+        f"<desc>a cam that turns under its follower; {MARK}</desc>\n"
+        f'<g fill="none" stroke-width="{half / 180:.3f}">\n'
+        f'<path fill="#dfe9f3" stroke="{BLUES[3]}" d="{path} M 0 0 H {half / 8:.3f}">\n'
+        f'<animateTransform attributeName="transform" type="rotate" from="0" to="{turn:g}" {every}/></path>\n'
+        f'<g stroke="{WARM}">{_svg_follower(cam)}\n'
+        f'<animateTransform attributeName="transform" type="{kind}" values="{values}" {every}/></g>\n'
+        f'<circle r="{half / 60:.3f}" stroke="{GREY}"/>\n</g>\n</svg>\n'
+    )
+
+
+def _reach(cam: DiscCam) -> float:
+    """How far from the centre anything is."""
+    angles = np.linspace(*cam.displacement.interval, _FRAMES)
+    far = float(np.linalg.norm(cam.pitch_curve(angles), axis=1).max()) + 2.0 * cam.contact.roller
+    return max(far, cam.contact.pivot or 0.0)
+
+
+def _svg_motion(cam: DiscCam) -> tuple[str, str]:
+    """How the follower moves from where it is at first: along its way, or about its pivot, clockwise as it rises."""
+    angles = np.linspace(*cam.displacement.interval, _FRAMES)
+    off = np.asarray(cam.displacement(angles)) - float(cam.displacement(float(angles[0])))
+    if cam.contact.pivot is not None:
+        pivot = f"{_MILLI * cam.contact.pivot:.3f} 0"
+        return "rotate", ";".join(f"{np.degrees(angle):.4f} {pivot}" for angle in off)
+    return "translate", ";".join(f"0 {-_MILLI * length:.4f}" for length in off)
+
+
+def _svg_follower(cam: DiscCam) -> str:
+    """The follower as it is at first."""
+    contact, first = cam.contact, np.array(cam.displacement.interval[0])
+    s = cam.displacement.jet(first, 2)
+    x, y = (_MILLI * float(coordinate.terms[0]) for coordinate in contact.point(s))
+    if not contact.roller:
+        normal = contact.normal(s)
+        along = (
+            np.array([1.0, 0.0]) if normal is None else np.array([float(n.terms[0]) for n in (normal[1], normal[0])])
+        )
+        way = _FACE * _MILLI * _reach(cam) * along * [1.0, -1.0]
+        return f'<path d="M {x - way[0]:.3f} {-(y - way[1]):.3f} L {x + way[0]:.3f} {-(y + way[1]):.3f}"/>'
+    end = f"{x:.3f} {-2.0 * y:.3f}" if contact.pivot is None else f"{_MILLI * contact.pivot:.3f} 0"
+    return (
+        f'<circle cx="{x:.3f}" cy="{-y:.3f}" r="{_MILLI * contact.roller:.3f}" fill="white"/>'
+        f'<path d="M {x:.3f} {-y:.3f} L {end}"/>'
+    )
+
+
+def _pair(point: Array) -> str:
+    return f"{point[0]:.3f},{point[1]:.3f}"

@@ -21,8 +21,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from optlaws.cycles.cycle import Cycle
-
 
 #: units of tables and pictures, and how many of them make one of SI
 UNITS = {
@@ -31,6 +29,7 @@ UNITS = {
 }
 QUANTITIES = ("position", "velocity", "acceleration", "jerk")
 _EACH = 200
+_ABOVE: Any = {"loc": "lower left", "bbox_to_anchor": (0.0, 1.0), "ncols": 2, "frameon": False, "fontsize": 8.0}
 
 
 def cycle_figure(cycle: Cycle, title: str) -> Figure:
@@ -43,13 +42,7 @@ def cycle_figure(cycle: Cycle, title: str) -> Figure:
 
 
 def draw_cycle(cycle: Cycle, axes: Any = None, **style: Any) -> list[Artist]:  # noqa: ANN401 - matplotlib's
-    """Draw position, velocity, acceleration and jerk into four axes, new ones unless given, and return the artists.
-
-    Raises
-    ------
-    InputError
-        If there are neither one nor four axes.
-    """
+    """Draw position, velocity, acceleration and jerk into four axes, new ones unless given, and return the artists."""
     if hasattr(axes, "plot"):
         return _draw_together(cycle, axes, style)
     if axes is None:
@@ -70,15 +63,19 @@ def _draw_together(cycle: Cycle, axes: Axes, style: dict[str, Any]) -> list[Arti
     """All four, each divided by its peak, with the limits that are near."""
     artists: list[Artist] = []
     for nu, colour in enumerate((GREY, GREEN, BLUES[3], WARM)):
-        unit, size = UNITS[cycle.axis][nu]
-        peak = cycle.peak(nu) or 1.0
-        name = {"label": f"{QUANTITIES[nu]} / {peak * size:.6g} {unit}", "color": colour} | style
-        artists += draw_curve(cycle, axes, nu, name, share=1.0 / (peak * size))
-        artists += _mark_limits(cycle, axes, nu, share=1.0 / (peak * size))
+        lines, share = _draw_share(cycle, axes, nu, QUANTITIES[nu], {"color": colour} | style)
+        artists += [*lines, *_mark_limits(cycle, axes, nu, share=share)]
     mark_segments(cycle, axes)
     axes.set(xlabel="time, ms", xlim=(0.0, 1e3 * cycle.duration), ylabel="share of the peak")
-    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, frameon=False, fontsize=8.0)
+    axes.legend(**_ABOVE)
     return artists
+
+
+def _draw_share(cycle: Cycle, axes: Axes, nu: int, name: str, style: dict[str, Any]) -> tuple[list[Artist], float]:
+    """One derivative divided by its peak, which the legend tells; and by how much it is divided."""
+    unit, size = UNITS[cycle.axis][nu]
+    peak = (cycle.peak(nu) or 1.0) * size
+    return draw_curve(cycle, axes, nu, {"label": f"{name} / {peak:.6g} {unit}"} | style, share=1.0 / peak), 1.0 / peak
 
 
 def name_segments(cycle: Cycle, axes: Axes) -> None:
@@ -87,10 +84,6 @@ def name_segments(cycle: Cycle, axes: Axes) -> None:
     for peaks in cycle.peaks:
         place = 1e3 * (peaks.start + 0.5 * peaks.duration)
         axes.annotate(peaks.name, (place, 1.02), color=GREY, **above)
-
-
-def _starts(cycle: Cycle) -> list[float]:
-    return [peaks.start for peaks in cycle.peaks]
 
 
 def draw_curve(cycle: Cycle, axes: Axes, nu: int, style: dict[str, Any], share: float = 1.0) -> list[Artist]:
@@ -114,8 +107,8 @@ def samples(cycle: Cycle, nu: int, count: int) -> tuple[Array, Array]:
 
 def mark_segments(cycle: Cycle, axes: Axes) -> None:
     """A line at every joint."""
-    for start in _starts(cycle)[1:]:
-        axes.axvline(1e3 * start, color=GREY, linewidth=0.7, linestyle=":")
+    for peaks in cycle.peaks[1:]:
+        axes.axvline(1e3 * peaks.start, color=GREY, linewidth=0.7, linestyle=":")
 
 
 def _mark_limits(cycle: Cycle, axes: Axes, nu: int, share: float = 1.0) -> list[Artist]:
@@ -150,13 +143,7 @@ def draw_axes(
     nu: int = 0,
     **style: Any,  # noqa: ANN401 - matplotlib's
 ) -> list[Artist]:
-    """Draw a derivative of every axis over time, and return the artists.
-
-    Raises
-    ------
-    InputError
-        If there are neither one nor as many axes of matplotlib, or nu is above 3.
-    """
+    """Draw a derivative of every axis over time, and return the artists."""
     order = derivative(nu)
     if order >= len(QUANTITIES):
         raise InputError(f"nu must be at most 3, the jerk, got {order}")
@@ -184,12 +171,9 @@ def _draw_in_one(cycles: Mapping[str, Cycle], axes: Axes, nu: int, style: dict[s
     """All axes, each divided by its peak."""
     artists: list[Artist] = []
     for i, (name, cycle) in enumerate(cycles.items()):
-        unit, size = UNITS[cycle.axis][nu]
-        peak = cycle.peak(nu) or 1.0
-        look = {"label": f"{name} / {peak * size:.6g} {unit}", "color": _COLOURS[i % len(_COLOURS)]} | style
-        artists += draw_curve(cycle, axes, nu, look, share=1.0 / (peak * size))
+        artists += _draw_share(cycle, axes, nu, name, {"color": _COLOURS[i % len(_COLOURS)]} | style)[0]
     axes.set_ylabel(f"{QUANTITIES[nu]}, share of the peak")
-    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, frameon=False, fontsize=8.0)
+    axes.legend(**_ABOVE)
     _set_time(axes, cycles)
     return artists
 

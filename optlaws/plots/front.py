@@ -24,16 +24,7 @@ def _label(name: str) -> str:
 
 
 def draw_front(front: Front, axes: Axes | None = None, **style: Any) -> list[Artist]:  # noqa: ANN401 - matplotlib's
-    """Draw a front into axes, new ones unless given, and return the artists; a third constant gives the colour.
-
-    Examples
-    --------
-    >>> from optlaws import Problem
-    >>> from optlaws.synthesis.pareto import pareto_front
-    >>> (line,) = draw_front(pareto_front(Problem(order=4), points=3), color="black")
-    >>> line.axes.get_xlabel()
-    'peak velocity B (dimensionless)'
-    """
+    """Draw a front into axes, new ones unless given, and return the artists; a third constant gives the colour."""
     axes = axes or new_axes()
     for axis, name in zip("xy", front.over, strict=False):
         axes.set(**{f"{axis}label": _label(name)})

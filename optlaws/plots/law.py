@@ -64,11 +64,6 @@ def draw_curve(
     """Draw a, b, c and j of a law, or of a mass, with their peaks, and return the artists.
 
     Into one pair of axes each is divided by its peak; `style` is of the curves.
-
-    Raises
-    ------
-    InputError
-        If there are neither one nor four axes.
     """
     if axes is None:
         axes = panels()
@@ -79,11 +74,6 @@ def draw_curve(
 
 def four(axes: Any) -> list[Axes]:  # noqa: ANN401 - it is checked here
     """The axes of a, b, c and j.
-
-    Raises
-    ------
-    InputError
-        If they are not four.
 
     Examples
     --------
@@ -194,13 +184,7 @@ class Mark:
 
 
 def marks(problem: Problem) -> Iterator[Mark]:
-    """The limits that a problem sets to b, c and j: bounds of B, C, J and of one-sided peaks, and windows.
-
-    Examples
-    --------
-    >>> [(mark.nu, mark.value, mark.what) for mark in marks(Problem(B=1.8, order=4))]
-    [(1, 1.8, 'B = 1.8'), (1, -1.8, 'B = 1.8')]
-    """
+    """The limits that a problem sets to b, c and j: bounds of B, C, J and of one-sided peaks, and windows."""
     for nu, name in enumerate(PEAKS):
         bounds = None if name is None else problem.range(name)
         if bounds is not None and isfinite(bounds.high):
@@ -223,18 +207,6 @@ def draw_solution(
     """Draw the law of a solution with the limits of its problem, and the limit of its order at any degree.
 
     Into one pair of axes, where every curve is divided by its peak, no limits are drawn.
-
-    Raises
-    ------
-    InputError
-        If there are neither one nor four axes.
-
-    Examples
-    --------
-    >>> from optlaws.synthesis import synthesize
-    >>> artists = draw_solution(synthesize(Problem(B=1.8, order=4)))
-    >>> sorted({artist.get_label() for artist in artists if artist.get_label()[0] != "_"})
-    ['B = 1.8', 'no law of order 4 with this B has a smaller C: 4.05']
     """
     if axes is None:
         axes = panels()
@@ -262,20 +234,7 @@ _COMPARED = (
 
 
 def draw_comparison(comparison: Comparison, axes: Panels | None = None, **style: Any) -> list[Artist]:  # noqa: ANN401
-    """Draw a, b, c and j of several laws one over the other, dimensionless, with one legend in a new figure.
-
-    Raises
-    ------
-    InputError
-        If there are not four axes.
-
-    Examples
-    --------
-    >>> from optlaws.cycles.law_comparison import compare
-    >>> artists = draw_comparison(compare("modified sine", "cycloidal"))
-    >>> [text.get_text() for text in artists[0].figure.legends[0].get_texts()]
-    ['modified sine', 'cycloidal']
-    """
+    """Draw a, b, c and j of several laws one over the other, dimensionless, with one legend in a new figure."""
     by_order = four(panels() if axes is None else axes)
     artists: list[Artist] = []
     firsts = []

@@ -26,13 +26,6 @@ def draw_spectrum(
     """Draw residual or peak acceleration over nu into axes, new ones unless given, and return the artists.
 
     `over` divides the acceleration, for example by C of the law meant for the mass.
-
-    Examples
-    --------
-    >>> from optlaws import response_spectrum, savin
-    >>> (line,) = draw_spectrum(response_spectrum(savin("III", 7.2), [18.0, 19.0, 20.0]), color="black")
-    >>> line.axes.get_ylabel()
-    'residual acceleration'
     """
     axes = axes or new_axes()
     values = spectrum.residual_acceleration if what == "residual" else spectrum.peak_acceleration
@@ -47,16 +40,7 @@ def draw_output(
     count: int = 801,
     **style: Any,  # noqa: ANN401 - matplotlib's
 ) -> list[Artist]:
-    """Draw an output of a machine over time into axes, new ones unless given.
-
-    Examples
-    --------
-    >>> from optlaws import Machine, smoothstep
-    >>> machine = Machine([[0, 1], [-400, 0]], [[0], [400]], [[1, 0]], outputs=["position"])
-    >>> (line,) = draw_output(machine.response(smoothstep(4), dwell=0.5)["position"])
-    >>> line.axes.get_xlabel(), line.axes.get_ylabel()
-    ('time, durations of the rise', 'position')
-    """
+    """Draw an output of a machine over time into axes, new ones unless given."""
     axes = axes or new_axes()
     axes.set(xlabel="time, durations of the rise", ylabel=curve.name)
     return list(axes.plot(*curve.samples(count), **{"color": DISTINCT[0], **style}))

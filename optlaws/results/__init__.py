@@ -7,9 +7,8 @@ __getattr__, __dir__, __all__ = face(
     {
         "optlaws.files.tables": "Cell",
         "optlaws.files.writing": "MARK",
-        "optlaws.results.page": "Page",
         "optlaws.results.printed": "MISPRINT ON_GRID REPRODUCED PrintedNumber compared number rows same_digits",
-        "optlaws.results.results": "Entries Results read",
+        "optlaws.results.results": "Entries Page Results read",
         "optlaws.suggest": "unknown_key",
     },
 )

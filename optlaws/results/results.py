@@ -1,19 +1,67 @@
-"""Results of a script: what it reads of its problem file, and the files that it makes of it."""
+"""Results of a problem file: tables, pictures and pages that are made of it, and written together."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import json
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import msgspec
 
 from optlaws.files import reading, tables, writing
-from optlaws.files.problem_file import convert
-from optlaws.results.page import Page
+from optlaws.files.problem_file import Text, convert
+from optlaws.kept import kept_property
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+
+class Page:
+    """A page that is written from its top to its end.
+
+    Examples
+    --------
+    >>> print(Page("Laws").text("Two of them.").table(["law", "C"], [["K", 4.93], ["Co", 6.28]]), end="")
+    # Laws
+    <BLANKLINE>
+    <!-- made by optlaws -->
+    <BLANKLINE>
+    Two of them.
+    <BLANKLINE>
+    | law | C    |
+    |-----|------|
+    | K   | 4.93 |
+    | Co  | 6.28 |
+    """
+
+    def __init__(self, title: str) -> None:
+        self._parts = [f"# {title}\n", f"<!-- {writing.MARK} -->\n"]
+
+    def heading(self, text: str) -> Page:
+        """A heading below the title."""
+        return self._add(f"## {text}")
+
+    def text(self, text: str) -> Page:
+        """A paragraph or several; none if the text is blank."""
+        return self._add(text.strip()) if text.strip() else self
+
+    def figure(self, name: str, caption: str) -> Page:
+        """The picture `name`.svg beside the page."""
+        return self._add(f"![{caption}]({name}.svg)")
+
+    def table(self, headings: Sequence[str], rows: Sequence[Sequence[tables.Cell]], *, digits: int = 7) -> Page:
+        """A table with aligned columns, its numbers to so many digits."""
+        self._parts.append(tables.to_markdown(headings, rows, digits=digits))
+        return self
+
+    def _add(self, line: str) -> Page:
+        self._parts.append(f"{line}\n")
+        return self
+
+    def __str__(self) -> str:
+        return "\n".join(self._parts)
+
 
 Struct = TypeVar("Struct", bound=msgspec.Struct)
 Spec = TypeVar("Spec", bound="Entries")
@@ -39,7 +87,7 @@ class Entries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     ['cycloidal']
     """
 
-    title: str
+    title: Text
     text: str = ""
     job: str = "script"
 
@@ -85,21 +133,28 @@ class Results:
     """
 
     def __init__(self, file: Path | str, *, digits: int | None = None) -> None:
-        self.file = Path(file).with_suffix(".toml")
+        given = Path(file)
+        self.file = given.with_suffix(".toml") if given.suffix == ".py" else given
         self.digits = digits
-        self._title = self.file.stem
+        self.title = given.stem
         self._texts: dict[str, str | Page] = {}
         self._pictures: dict[str, Figure] = {}
+        self._written: dict[str, Callable[[Path], Path]] = {}
 
     @property
     def about(self) -> str:
         """Title and file, which the first line of every table tells."""
-        return f"{self._title}; from {self.file.name}"
+        return f"{self.title}; from {self.file.name}"
+
+    @kept_property
+    def entries(self) -> dict[str, Any]:
+        """All entries of the problem file, as they stand there."""
+        return reading.toml(self.file)
 
     def read(self, entries: type[Spec]) -> Spec:
-        """Entries of the problem file, as `read` gives them; the title becomes that of the results."""
-        spec = read(self.file, entries)
-        self._title = spec.title
+        """Entries of the problem file as a typed value; the title becomes that of the results."""
+        spec = convert(self.entries, entries, self.file)
+        self.title = spec.title
         return spec
 
     def table(self, name: str, headings: Sequence[str], rows: Sequence[Sequence[tables.Cell]], note: str = "") -> None:
@@ -108,8 +163,12 @@ class Results:
 
     def page(self, name: str, title: str | None = None) -> Page:
         """A page `name`.md, to be filled, under the title of the problem file or another."""
-        page = self._texts[f"{name}.md"] = Page(self._title if title is None else title)
+        page = self._texts[f"{name}.md"] = Page(self.title if title is None else title)
         return page
+
+    def data(self, name: str, content: Mapping[str, Any]) -> None:
+        """Data as JSON, behind an entry that tells what they are of."""
+        self.text(name, json.dumps({"about": f"{self.about}; {writing.MARK}", **content}, indent=1) + "\n")
 
     def text(self, name: str, content: str) -> None:
         """A file of another format; its text must hold the mark "made by optlaws" at the end of a line or an entry."""
@@ -118,6 +177,10 @@ class Results:
     def picture(self, name: str, figure: Figure) -> None:
         """A picture `name`.svg, and the same as `name`.png."""
         self._pictures[name] = figure
+
+    def add(self, name: str, write: Callable[[Path], Path]) -> None:
+        """A file that a function writes to its place."""
+        self._written[name] = write
 
     def pictures(self) -> dict[str, str]:
         """The pictures as svg, by the names of their files."""
@@ -136,4 +199,5 @@ class Results:
         texts = [
             writing.write(folder / name, str(content), digits=self.digits) for name, content in self._texts.items()
         ]
-        return texts + save_pictures(self._pictures, folder)
+        files = [write(folder / name) for name, write in self._written.items()]
+        return texts + save_pictures(self._pictures, folder) + files

@@ -29,13 +29,7 @@ class Html(str):
 
 
 def cell(value: object) -> str:
-    """A number to seven digits, nothing for None, everything else as its text, escaped.
-
-    Examples
-    --------
-    >>> cell(5.527957070544), cell(None), cell("a < b")
-    ('5.527957', '', 'a &lt; b')
-    """
+    """A number to seven digits, nothing for None, everything else as its text, escaped."""
     if value is None:
         return ""
     if isinstance(value, Html):
@@ -69,13 +63,7 @@ def facts(named: Mapping[str, object]) -> str:
 
 
 def table(headings: Iterable[object], rows: Iterable[Iterable[object]]) -> str:
-    """A table with headings.
-
-    Examples
-    --------
-    >>> table(["B"], [[1.5]])
-    '<table><tr><th>B</th></tr><tr><td>1.5</td></tr></table>'
-    """
+    """A table with headings."""
     head = "".join(f"<th>{cell(heading)}</th>" for heading in headings)
     body = "".join(f"<tr>{''.join(f'<td>{cell(entry)}</td>' for entry in row)}</tr>" for row in rows)
     return f"<table><tr>{head}</tr>{body}</table>"
@@ -110,11 +98,11 @@ def drawing(name: str, x: Numbers, y: Numbers) -> str:
     ]
     runs = [" L".join(run) for drawn, run in groupby(points, key=bool) if drawn]
     curve = " ".join(f"M{run}" for run in runs)
-    said = escape(name, quote=True)
+    label = escape(name, quote=True)
     return (
-        f'<svg width="{WIDTH}" height="{HEIGHT}" viewBox="0 0 {WIDTH} {HEIGHT}" role="img" aria-label="{said}">'
+        f'<svg width="{WIDTH}" height="{HEIGHT}" viewBox="0 0 {WIDTH} {HEIGHT}" role="img" aria-label="{label}">'
         f'<line x1="{_MARGIN}" x2="{WIDTH - _MARGIN}" y1="{height(0.0)}" y2="{height(0.0)}" '
         'stroke="currentColor" stroke-opacity="0.35"/>'
         f'<path d="{curve}" fill="none" stroke="{_LINE}" stroke-width="1.6"/>'
-        f'<text x="{WIDTH - _MARGIN}" y="12" font-size="11" text-anchor="end" fill="currentColor">{said}</text></svg>'
+        f'<text x="{WIDTH - _MARGIN}" y="12" font-size="11" text-anchor="end" fill="currentColor">{label}</text></svg>'
     )

@@ -21,14 +21,7 @@ _said_otherwise = False
 
 
 def watched() -> bool:
-    """Whether someone sees a bar: stderr is a terminal, or this is a notebook that can show one.
-
-    Examples
-    --------
-    >>> with said_otherwise():
-    ...     watched()
-    False
-    """
+    """Whether someone sees a bar: stderr is a terminal, or this is a notebook that can show one."""
     if _said_otherwise or current_thread() is not main_thread():
         return False
     notebook = "ipykernel" in sys.modules and find_spec("ipywidgets") is not None

@@ -77,9 +77,9 @@ class Summary(tuple[Row, ...]):  # noqa: SLOT001 - what places are is kept besid
 
     def __new__(cls, rows: Iterable[Row], at: str = "") -> Self:
         """A summary of rows."""
-        made = super().__new__(cls, rows)
-        made.at = at
-        return made
+        summary = super().__new__(cls, rows)
+        summary.at = at
+        return summary
 
     def cells(self, digits: int = 10) -> list[list[str]]:
         """Headings and rows as texts, without the columns that are empty."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import importlib
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import groupby
+from itertools import chain, groupby
 from math import isfinite
 from time import perf_counter
 from typing import Any
@@ -14,10 +14,11 @@ import numpy as np
 
 from optlaws.echo import cut
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
-from optlaws.files.typed import typed
+from optlaws.files.problem_file import typed
 from optlaws.numbers import bounded
 from optlaws.studies.points import key, keys_along
 from optlaws.studies.specification import entries
+from optlaws.studies.tables import CONSTANTS, StudyPoint
 from optlaws.synthesis import Problem, ProblemArray, Solution, SolutionArray, synthesize
 from optlaws.synthesis.arrays.lines import least_count, lines_of
 from optlaws.synthesis.arrays.powers import least_power
@@ -28,42 +29,14 @@ from optlaws.synthesis.solve_array import solved
 INFEASIBLE, WRONG_INPUT, NOT_FOUND = "infeasible", "wrong input", "not found"
 TIME_LIMIT, DIED, ERROR = "time limit", "worker died", "error"
 STATUSES = ("optimal", "local", "inaccurate", INFEASIBLE, NOT_FOUND, WRONG_INPUT, TIME_LIMIT, DIED, ERROR)
-_CONSTANTS = ("B", "C", "D", "J")
 #: numbers of a row that the solutions of an array have as arrays
-_NUMBERS = ("objective", "lower_bound", "gap", "limit", *_CONSTANTS, "rms_c")
+_NUMBERS = ("objective", "lower_bound", "gap", "limit", *CONSTANTS)
 #: of the points of a run: so many must be on lines, else each is solved from the one before it
 _MOSTLY = 0.75
 
 Inputs = Mapping[str, Any]
 Run = Sequence[tuple[int, Inputs]]
 _encode = msgspec.json.encode
-
-
-class StudyRow(msgspec.Struct, kw_only=True):
-    """A point of a study and what came out at it; a law stays the JSON text that it is."""
-
-    index: int
-    key: str
-    inputs: dict[str, Any]
-    status: str = ERROR
-    objective: float | None = None
-    lower_bound: float | None = None
-    gap: float | None = None
-    limit: float | None = None
-    B: float | None = None
-    C: float | None = None
-    D: float | None = None
-    J: float | None = None
-    rms_c: float | None = None
-    iterations: int | None = None
-    seconds: float = 0.0
-    law: msgspec.Raw = msgspec.Raw(b"null")
-    error: str | None = None
-
-    def stored_law(self) -> dict[str, Any] | None:
-        """The law as plain data; None where there is none."""
-        law: dict[str, Any] | None = msgspec.json.decode(self.law)
-        return law
 
 
 class Task(msgspec.Struct, kw_only=True):
@@ -80,13 +53,7 @@ class Task(msgspec.Struct, kw_only=True):
 
 def in_process(task: Mapping[str, Any]) -> list[bytes]:
     """The rows of a chunk, solved here: for executors that need no watch over them, such as a serial one."""
-    return list(rows(typed(task, Task)))
-
-
-def rows(task: Task, begin: int = 0) -> Iterator[bytes]:
-    """The rows of a chunk from one of its points on, one JSON text each."""
-    for block in blocks(task, begin):
-        yield from block
+    return list(chain.from_iterable(blocks(typed(task, Task))))
 
 
 def blocks(task: Task, begin: int = 0) -> Iterator[list[bytes]]:
@@ -112,7 +79,7 @@ def failed(task: Task, place: int, status: str, error: str, seconds: float) -> b
 
 def _row(task: Task, index: int, inputs: Inputs, results: Mapping[str, Any]) -> bytes:
     """The row of one point."""
-    return _encode(StudyRow(index=index, key=key(entries(task.problem, inputs)), inputs=dict(inputs), **results))
+    return _encode(StudyPoint(index=index, key=key(entries(task.problem, inputs)), inputs=dict(inputs), **results))
 
 
 def _in_turn(task: Task, run: Run) -> Iterator[list[bytes]]:
@@ -148,10 +115,10 @@ def _of_solution(solution: Solution) -> dict[str, Any]:
         "lower_bound": bounded(solution.lower_bound),
         "gap": bounded(solution.gap),
         "limit": solution.limit,
-        **{name: bounded(getattr(constants, name).value) for name in _CONSTANTS},
+        **{name: bounded(getattr(constants, name).value) for name in "BCDJ"},
         "rms_c": bounded(constants.rms_c),
         "iterations": solution.iterations,
-        "law": _raw(solution.law.to_dict()),
+        "stored": _raw(solution.law.to_dict()),
     }
 
 
@@ -212,7 +179,7 @@ def _as_array(task: Task, run: Run) -> list[bytes] | None:
     else:
         keys = (key(entries(task.problem, inputs)) for _, inputs in run)
     return [
-        _encode(StudyRow(index=index, key=name, inputs=dict(inputs), seconds=seconds, **result))
+        _encode(StudyPoint(index=index, key=name, inputs=dict(inputs), seconds=seconds, **result))
         for (index, inputs), name, result in zip(run, keys, results, strict=True)
     ]
 
@@ -227,7 +194,7 @@ def _of_solutions(laws: SolutionArray) -> list[dict[str, Any]]:
     columns: dict[str, list[Any]] = {
         name: [value if isfinite(value) else None for value in getattr(laws, name).tolist()] for name in _NUMBERS
     }
-    columns["status"], columns["law"] = laws.status.tolist(), list(map(_raw, laws.stored_laws()))
+    columns["status"], columns["stored"] = laws.status.tolist(), list(map(_raw, laws.stored_laws()))
     columns["iterations"] = [0] * laws.size
     for place, result in laws.others.items():
         columns["iterations"][place] = getattr(result, "iterations", 0)
@@ -256,13 +223,7 @@ def along_B(base: Mapping[str, Any], run: Run) -> bool:
 
 
 def array_along_B(base: Mapping[str, Any], run: Run, bound: str) -> ProblemArray | None:
-    """The problems of a run along B as one array; None where they are none or are better solved in turn.
-
-    Examples
-    --------
-    >>> array_along_B({"order": 4}, [(0, {"B": 1.5}), (1, {"B": 1.6})], "quick").shape
-    (2,)
-    """
+    """The problems of a run along B as one array; None where they are none or are better solved in turn."""
     try:
         fields = from_entries(entries(base, {**run[0][1], "B": 2.0}))
         problem = Problem(**fields)

@@ -12,7 +12,7 @@ import signal
 import subprocess
 import sys
 import tempfile
-from collections import Counter, deque
+from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from contextlib import contextmanager, suppress
@@ -24,7 +24,7 @@ from typing import IO, Any, ParamSpec, TypeVar, cast
 import msgspec
 
 from optlaws.errors import SolverFailure
-from optlaws.files.typed import typed
+from optlaws.files.problem_file import typed
 from optlaws.studies.chunk import DIED, TIME_LIMIT, Task, failed, in_process
 from optlaws.studies.worker import DONE, ERROR, READY
 
@@ -43,6 +43,7 @@ _THREADS = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_TH
 _P = ParamSpec("_P")
 _T = TypeVar("_T")
 Rows = list[bytes]
+_decode = msgspec.json.Decoder(list[msgspec.Raw]).decode
 
 
 class Serial(Executor):
@@ -179,10 +180,10 @@ class Processes:
         seen = begin
         try:
             with self._process() as process:
-                for row in process.rows(task, begin):
+                for block in process.blocks(task, begin):
                     if seen == len(rows):
-                        rows.append(row)
-                    seen += 1
+                        rows += block
+                    seen += len(block)
         except Lost as lost:
             # a row that came in time before is not to blame for a machine that has become slow
             return Lost("slow") if lost.late and seen < len(rows) else lost
@@ -251,8 +252,7 @@ class SolverProcess:
         )
         self._input, self._output = cast("tuple[IO[bytes], IO[bytes]]", (self._process.stdin, self._process.stdout))
         self._cleared = False
-        self._lines: SimpleQueue[list[bytes]] = SimpleQueue()
-        self._waiting: deque[bytes] = deque()
+        self._lines: SimpleQueue[bytes] = SimpleQueue()
         self._reader = Thread(target=self._read, daemon=True)
         self._reader.start()
 
@@ -271,8 +271,8 @@ class SolverProcess:
         if first != READY:
             raise SolverFailure(f"a solver process did not start: it wrote {first!r}")
 
-    def rows(self, task: Task, begin: int) -> Iterator[bytes]:
-        """The rows of a chunk from a point on, as they come; SolverFailure where more than a point fails."""
+    def blocks(self, task: Task, begin: int) -> Iterator[Rows]:
+        """The rows of a chunk from a point on, in blocks as they come; SolverFailure where more than a point fails."""
         try:
             self._input.write(msgspec.json.encode((begin, task)) + b"\n")
             self._input.flush()
@@ -281,7 +281,7 @@ class SolverProcess:
         while (line := self._line(task.time_limit)) != DONE:
             if line.startswith(ERROR):
                 raise SolverFailure(line.removeprefix(ERROR).decode())
-            yield line
+            yield list(map(bytes, _decode(line)))
 
     def kill(self) -> None:
         """End it at once, with all that it started; whoever waits for a row meets `Lost`."""
@@ -307,30 +307,30 @@ class SolverProcess:
 
     def _read(self) -> None:
         # without the stream's buffer, whose lock would keep `clear` from closing it
-        text = b""
+        parts: Rows = []
         while not self._cleared and (more := os.read(self._output.fileno(), _READ_BYTES)):
-            *lines, text = (text + more).split(b"\n")
-            if lines:
-                self._lines.put(lines)
-        self._lines.put([b""])
+            *lines, rest = more.split(b"\n")
+            for line in lines:
+                self._lines.put(b"".join([*parts, line]))
+                parts.clear()
+            parts.append(rest)
+        self._lines.put(b"")
 
     def _line(self, seconds: float) -> bytes:
         until = monotonic() + seconds
-        while not self._waiting:
+        while True:
             gone = self._process.poll() is not None
             left = until - monotonic()
             try:
-                self._waiting.extend(self._lines.get(timeout=min(max(left, 0.0), _LOOK_SECONDS)))
+                if line := self._lines.get(timeout=min(max(left, 0.0), _LOOK_SECONDS)):
+                    return line
+                raise self._end()
             except Empty:
                 if gone:
                     # its pipe is held open by a process that it started
                     raise self._end() from None
                 if left <= _LOOK_SECONDS:
                     raise Lost(late=True) from None
-        line = self._waiting.popleft()
-        if not line:
-            raise self._end()
-        return line
 
     def _end(self) -> Lost:
         try:

@@ -74,11 +74,6 @@ else:
 def problem(where: str, *parts: Mapping[str, Any]) -> Problem:
     """The problem of entries of which later ones replace earlier ones; `where` is what an error calls it.
 
-    Raises
-    ------
-    InputError
-        If the order is missing or a value is out of range.
-
     Examples
     --------
     >>> problem("row 1", {"order": 4, "B": 1.641}, {"B": "free", "minimise": "D"})

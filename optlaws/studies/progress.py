@@ -27,20 +27,11 @@ class Watch(Protocol):
         """The run ends, finished or not."""
 
 
-class Silent:
+class Silent(Watch):
     """Progress that is not shown."""
 
-    def begin(self, total: int, counts: Mapping[str, int]) -> None:
-        """Show nothing."""
 
-    def advance(self, counts: Mapping[str, int]) -> None:
-        """Show nothing."""
-
-    def end(self, counts: Mapping[str, int]) -> None:
-        """Show nothing."""
-
-
-class Bar:
+class Bar(Watch):
     """A progress bar with rate, time left and counts by status."""
 
     def __init__(self, console: Console) -> None:
@@ -71,7 +62,7 @@ class Bar:
         self._progress.stop()
 
 
-class Lines:
+class Lines(Watch):
     """A line of text at the beginning, every ten seconds and at the end."""
 
     def __init__(self, console: Console) -> None:
@@ -120,11 +111,5 @@ class _Rate:
 
 
 def listed(counts: Mapping[str, int]) -> str:
-    """Counts by status in words.
-
-    Examples
-    --------
-    >>> listed({"optimal": 12, "infeasible": 3})
-    '12 optimal, 3 infeasible'
-    """
+    """Counts by status in words."""
     return ", ".join(f"{number} {status}" for status, number in counts.items() if number)

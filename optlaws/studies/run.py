@@ -1,4 +1,4 @@
-"""Running a study: chunks out, rows into the journal, the table at the end."""
+"""Running a study: chunks out, their rows into files, the table at the end."""
 
 from __future__ import annotations
 
@@ -6,20 +6,17 @@ import importlib
 from collections import Counter
 from collections.abc import Mapping
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
-from contextlib import closing
 from pathlib import Path
 from typing import Any
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError, SolverFailure
 from optlaws.numbers import whole
-from optlaws.studies import tables
 from optlaws.studies.executor import WorkerPool
-from optlaws.studies.journal import Journal
 from optlaws.studies.points import StudyPoints
 from optlaws.studies.progress import Watch, watching
 from optlaws.studies.specification import StudyFile, entries, read_study
-from optlaws.studies.store import StudyDirectory
+from optlaws.studies.store import Chunks, StudyDirectory
 from optlaws.studies.study import Study
 from optlaws.synthesis import Problem
 
@@ -82,32 +79,16 @@ def run_study(
     directory, seen = StudyDirectory(Path(out)), watch or watching()
     with directory.locked():
         points = StudyPoints.of(study, directory.claim(study, points))
-        if not _finished(directory, points):
-            with closing(Journal(directory.journal)) as journal:
-                journal.open()
-                seen.begin(len(points), journal.counts)
-                try:
-                    _solve(study, points, journal, WorkerPool(executor, workers), seen)
-                finally:
-                    seen.end(journal.counts)
-            tables.compact(directory, points)
-        if directory.table.exists():
-            # it is whole, and a run may have been killed between the two
-            directory.journal.unlink(missing_ok=True)
+        if not directory.finished(len(points)):
+            chunks = Chunks(directory.chunks)
+            seen.begin(len(points), chunks.counts)
+            try:
+                _solve(study, points, chunks, WorkerPool(executor, workers), seen)
+            finally:
+                seen.end(chunks.counts)
+            directory.write_table(points)
+        directory.remove_chunks()
     return Study(directory.path)
-
-
-def _finished(directory: StudyDirectory, points: StudyPoints) -> bool:
-    """Whether the table is there and whole; one that is damaged is made again where the journal still has its rows."""
-    if not directory.table.exists():
-        return False
-    try:
-        tables.check(directory, len(points))
-    except tables.DamagedTable:
-        if directory.journal.exists():
-            return False
-        raise
-    return True
 
 
 def task(study: StudyFile, points: StudyPoints, number: int) -> dict[str, Any]:
@@ -137,8 +118,8 @@ def check(study: StudyFile, points: StudyPoints) -> None:
         raise InputError(f"the first point, {shown}, is no problem: {error}") from None
 
 
-def _solve(study: StudyFile, points: StudyPoints, journal: Journal, pool: WorkerPool, watch: Watch) -> None:
-    waiting = (number for number in range(points.chunks) if number not in journal.done)
+def _solve(study: StudyFile, points: StudyPoints, chunks: Chunks, pool: WorkerPool, watch: Watch) -> None:
+    waiting = (number for number in range(points.chunks) if number not in chunks.done)
     under_way: dict[Future[list[bytes]], int] = {}
     tries: Counter[int] = Counter()
 
@@ -155,9 +136,9 @@ def _solve(study: StudyFile, points: StudyPoints, journal: Journal, pool: Worker
             if not done:
                 pool.check()
             lost = {under_way[future]: error for future in done if (error := _failure(future)) is not None}
-            whole = [(number, answer.result()) for answer in done if (number := under_way.pop(answer)) not in lost]
-            journal.append(whole)
-            watch.advance(journal.counts)
+            solved = {number: future.result() for future in done if (number := under_way.pop(future)) not in lost}
+            chunks.write_all(solved)
+            watch.advance(chunks.counts)
             for number, error in lost.items():
                 tries[number] += 1
                 if isinstance(error, SolverFailure | BrokenExecutor) or tries[number] == _TRIES:

@@ -97,12 +97,6 @@ class StudyFile(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 def read_study(source: Path | str | Mapping[str, Any]) -> StudyFile:
     """A study from its file, or from the same as a dict.
 
-    Raises
-    ------
-    InputError
-        If the file cannot be read, an entry is unknown (the nearest right one is named) or of the wrong type, or an
-        entry varies twice.
-
     Examples
     --------
     >>> read_study({"problem": {"order": 4}, "vary": {"B": {"from": 1.5, "to": 2.5, "steps": 11}}}).names()
@@ -155,13 +149,7 @@ def _check_places(study: StudyFile, file: Path) -> None:
 
 
 def constant_of(name: str) -> str | None:
-    """The constant of which a bound varies; None where something else does.
-
-    Examples
-    --------
-    >>> constant_of("at_most.J"), constant_of("bounds.rms_c"), constant_of("degree")
-    ('J', 'rms_c', None)
-    """
+    """The constant of which a bound varies; None where something else does."""
     return next((name.removeprefix(prefix) for prefix in PREFIXES if name.startswith(prefix)), None)
 
 

@@ -1,25 +1,135 @@
-"""The directory of a study: what it is, who writes in it, and where its parts are."""
+"""The directory of a study: what it is, who writes in it, its chunks under way and its table when all are done."""
 
 from __future__ import annotations
 
 import hashlib
 import json
 import os
-from collections.abc import Iterator
+import shutil
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
+from functools import lru_cache
+from itertools import islice
 from pathlib import Path
 from typing import IO, Annotated, Any
 
 import msgspec
+import numpy as np
 
 from optlaws.errors import InputError
 from optlaws.files import reading, writing
-from optlaws.files.typed import typed
+from optlaws.files.problem_file import typed
 from optlaws.studies.points import StudyPoints
 from optlaws.studies.specification import StudyFile, read_study
+from optlaws.studies.tables import StudyPoint, arrow, schema
 from optlaws.synthesis.solution import versions
 
 FORMAT = 1
+#: rows of one group in the Parquet file
+GROUP = 4096
+#: rows of chunks that are in memory at a time
+_IN_MEMORY = 1024
+_decode = msgspec.json.Decoder(StudyPoint).decode
+
+
+class StoreFailure(InputError, OSError):  # noqa: N818 - beside SolverFailure
+    """The store of a study cannot be written; what was written before stands.
+
+    Examples
+    --------
+    >>> raise StoreFailure("no space left on device")
+    Traceback (most recent call last):
+    optlaws.studies.store.StoreFailure: no space left on device
+    """
+
+
+class DamagedTable(InputError):  # noqa: N818 - as SolverFailure
+    """The table of a study is not what was written.
+
+    Examples
+    --------
+    >>> raise DamagedTable(Path("rows.parquet"), "it is empty")
+    Traceback (most recent call last):
+    optlaws.studies.store.DamagedTable: rows.parquet is damaged: it is empty; put a whole copy in its place, or
+    remove it and rows.sha256 and run the same study again: its points are then solved anew
+    """
+
+    def __init__(self, file: Path, reason: str) -> None:
+        super().__init__(
+            f"{file} is damaged: {reason}; put a whole copy in its place, or remove it and rows.sha256 "
+            "and run the same study again: its points are then solved anew"
+        )
+
+
+class Chunks:
+    """The chunks of a study under way, a file each: `done` has the numbers of those that are whole.
+
+    A file is there whole or not at all: its first line is the checksum of the others, one line of JSON a point. One
+    whose checksum does not fit is no part of the study, and its chunk is solved again.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self.done: set[int] = set()
+        self.counts: Counter[str] = Counter()
+        self.refresh()
+
+    def refresh(self) -> None:
+        """Take in the chunks that were added since."""
+        names = [entry.name for entry in os.scandir(self.folder)] if self.folder.exists() else []
+        for number in sorted({int(name) for name in names if name.isdecimal()} - self.done):
+            with suppress(ValueError, FileNotFoundError):
+                self._add(number, self.lines(number))
+
+    def lines(self, number: int) -> list[bytes]:
+        """The rows of a chunk as JSON; ValueError where they are not as they were written."""
+        checksum, _, text = (self.folder / str(number)).read_bytes().partition(b"\n")
+        if checksum.decode(errors="replace") != hashlib.sha256(text).hexdigest():
+            raise ValueError(f"chunk {number} is damaged")
+        return text.split(b"\n")
+
+    def rows(self, number: int) -> dict[int, StudyPoint]:
+        """The rows of a chunk that is done, by their indices."""
+        return {row.index: row for row in map(_decode, self.lines(number))}
+
+    def in_order(self, points: StudyPoints) -> Iterator[StudyPoint]:
+        """The rows that are there, in the order of the points; a few chunks are in memory at a time."""
+        rows = lru_cache(maxsize=max(3, _IN_MEMORY // points.chunk))(self.rows)
+        for begin in range(0, len(points), GROUP):
+            indices = np.arange(begin, min(begin + GROUP, len(points)))
+            for index, number in zip(indices.tolist(), points.chunks_of(indices).tolist(), strict=True):
+                if number in self.done:
+                    yield rows(number)[index]
+
+    def write(self, number: int, rows: Sequence[bytes]) -> None:
+        """Write a chunk and have it on the disk when this returns."""
+        text = b"\n".join(rows)
+        copy = self.folder / f".{number}"
+        try:
+            self.folder.mkdir(exist_ok=True)
+            with copy.open("wb") as stream:
+                stream.write(hashlib.sha256(text).hexdigest().encode() + b"\n" + text)
+            _flush(copy)
+            copy.replace(self.folder / str(number))
+            _flush(self.folder)
+        except OSError as error:
+            with suppress(OSError):
+                copy.unlink(missing_ok=True)
+            raise StoreFailure(
+                f"cannot write {self.folder}: {error.strerror or error}; {len(self.done)} chunks are safe: "
+                "make room and run the same command again"
+            ) from error
+        self._add(number, rows)
+
+    def write_all(self, chunks: Mapping[int, Sequence[bytes]]) -> None:
+        """Write chunks by their numbers."""
+        for number, rows in chunks.items():
+            self.write(number, rows)
+
+    def _add(self, number: int, rows: Sequence[bytes]) -> None:
+        self.counts.update(_decode(row).status for row in rows)
+        self.done.add(number)
 
 
 class _About(msgspec.Struct):
@@ -34,12 +144,12 @@ class _About(msgspec.Struct):
 
 
 class StudyDirectory:
-    """The parts of a study's directory: `study.json`, the journal, the table in Parquet, and the lock."""
+    """The parts of a study's directory: `study.json`, the lock, the chunks under way, the table in Parquet."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
         self.about = path / "study.json"
-        self.journal = path / "journal"
+        self.chunks = path / "chunks"
         self.table = path / "rows.parquet"
         self.checksum = path / "rows.sha256"
         self.lock = path / "lock"
@@ -115,6 +225,64 @@ class StudyDirectory:
                 return not _lock(stream)
         return False
 
+    def write_table(self, points: StudyPoints) -> None:
+        """Write the table of a finished study, whole or not at all; without pyarrow its chunks stay the store."""
+        try:
+            import pyarrow.parquet as pq
+        except ImportError:
+            return
+        shape = schema(points, about={"optlaws": self.about.read_bytes()})
+        copy, chunks = self.table.with_suffix(".unfinished"), Chunks(self.chunks)
+        try:
+            with pq.ParquetWriter(copy, shape, compression="zstd", write_page_checksum=True) as writer:
+                rows = chunks.in_order(points)
+                while group := list(islice(rows, GROUP)):
+                    writer.write_table(arrow(group, shape))
+            _flush(copy)
+            # read again before the chunks go
+            _check_rows(copy, len(points), chunks.counts)
+            writing.write(self.checksum, f"{_digest(copy)}  {self.table.name}\n# {writing.MARK}\n")
+            copy.replace(self.table)
+        except OSError as error:
+            copy.unlink(missing_ok=True)
+            raise StoreFailure(
+                f"cannot write {self.table}: {error.strerror or error}; every row is safe in {self.chunks}: "
+                "make room and run the same command again"
+            ) from error
+
+    def check_table(self, points: int) -> None:
+        """Refuse a table that is not what was written: by its checksum, or one without by reading all of it."""
+        file = self.checksum
+        try:
+            stated = file.read_text(encoding="utf-8").split()[:1] if file.exists() else []
+            file = self.table
+            changed = bool(stated) and stated[0] != _digest(file)
+        except (OSError, ValueError) as error:
+            raise DamagedTable(file, f"it cannot be read: {getattr(error, 'strerror', error)}") from None
+        if changed:
+            raise DamagedTable(self.table, f"its content is not what {self.checksum.name} says was written")
+        if not stated:
+            # without pyarrow there is nothing to read it with, which whoever reads it is told
+            with suppress(ImportError):
+                _check_rows(self.table, points)
+
+    def finished(self, points: int) -> bool:
+        """Whether the table is there and whole; a damaged one is made again where chunks are left of it."""
+        if not self.table.exists():
+            return False
+        try:
+            self.check_table(points)
+        except DamagedTable:
+            if self.chunks.exists():
+                return False
+            raise
+        return True
+
+    def remove_chunks(self) -> None:
+        """Remove what the table has made needless; a run may have been killed between the two."""
+        if self.table.exists():
+            shutil.rmtree(self.chunks, ignore_errors=True)
+
     def _lock_file(self) -> IO[bytes]:
         writing.check_name(self.path)
         try:
@@ -131,6 +299,17 @@ class StudyDirectory:
     def _begun(self, file: Path) -> bool:
         # a run may have been killed while it wrote the first of its files
         return file.name == self.lock.name or file.name.startswith(f".{self.about.name}")
+
+
+def _flush(file: Path) -> None:
+    """Have a file, or the names in a folder, on the disk."""
+    if os.name == "nt" and file.is_dir():
+        return
+    place = os.open(file, os.O_RDONLY if file.is_dir() else os.O_RDWR)
+    try:
+        os.fsync(place)
+    finally:
+        os.close(place)
 
 
 def _owner(stream: IO[bytes]) -> str:
@@ -163,3 +342,33 @@ def digest(study: StudyFile) -> str:
 
 def _listed(numbers: dict[str, str]) -> str:
     return ", ".join(f"{name} {number}" for name, number in numbers.items())
+
+
+def _check_rows(file: Path, points: int, counts: Mapping[str, int] | None = None) -> None:
+    """Refuse a table without every point, in order, or without as many of each status as were counted."""
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    counted: Counter[str] = Counter()
+    count = 0
+    try:
+        with pq.ParquetFile(file, page_checksum_verification=True) as table:
+            missing = [name for name in ("index", "key", "status", "law", "error") if name not in table.schema.names]
+            if missing:
+                raise DamagedTable(file, f"it has no column {missing[0]!r}")
+            for batch in table.iter_batches(batch_size=GROUP):
+                if batch["index"].to_pylist() != list(range(count, count + len(batch))):
+                    raise DamagedTable(file, f"its rows from {count} on are not in the order of the points")
+                counted.update(batch["status"].to_pylist())
+                count += len(batch)
+    except (pa.ArrowException, OSError, ValueError, TypeError) as error:
+        if isinstance(error, DamagedTable):
+            raise
+        raise DamagedTable(file, f"it cannot be read: {' '.join(str(error).split())[:200]}") from None
+    if count != points or (counts is not None and counted != counts):
+        raise DamagedTable(file, f"it has {count} rows of {points} points, {dict(counted)}")
+
+
+def _digest(file: Path) -> str:
+    with file.open("rb") as stream:
+        return hashlib.file_digest(stream, "sha256").hexdigest()

@@ -4,81 +4,28 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
 from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+import msgspec
 
 from optlaws.errors import InputError
 from optlaws.extras import needed
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
-from optlaws.studies import tables
-from optlaws.studies.chunk import STATUSES, StudyRow
-from optlaws.studies.journal import Journal
+from optlaws.studies.chunk import STATUSES
 from optlaws.studies.points import StudyPoints
-from optlaws.studies.specification import entries
-from optlaws.studies.store import StudyDirectory
+from optlaws.studies.store import GROUP, Chunks, StudyDirectory
+from optlaws.studies.tables import CONSTANTS, StudyPoint, arrow, dataset, row_of, schema
 from optlaws.suggest import unknown_key
-from optlaws.synthesis import Problem
 
 if TYPE_CHECKING:
     import pandas as pd
     import pyarrow as pa
     import xarray as xr
 
-CONSTANTS = ("B", "C", "D", "J", "rms_c")
 _SHOWN = 12
-
-
-@dataclass(frozen=True)
-class StudyPoint:
-    """One row of a study, with its law and its problem.
-
-    Attributes
-    ----------
-    index, key
-        Its number in the study, and a hash of its problem.
-    inputs
-        What varies, at this point.
-    problem
-        The whole problem.
-    status
-        "optimal", "local" or "inaccurate" where there is a law (see `Status`); otherwise "infeasible", "not found",
-        "wrong input", "time limit", "worker died" or "error", and `error` says more.
-    objective, lower_bound, gap, limit
-        As in `Solution`; None where there is no law.
-    constants
-        B, C, D, J and rms_c of the law; empty where there is none, None for one without bound.
-    law
-        The law; None where there is none.
-    seconds
-        Wall time.
-    """
-
-    index: int
-    key: str
-    inputs: Mapping[str, Any]
-    status: str
-    objective: float | None
-    lower_bound: float | None
-    gap: float | None
-    limit: float | None
-    constants: Mapping[str, float | None]
-    seconds: float
-    error: str | None
-    entries: Mapping[str, Any] = field(repr=False)
-    stored: Mapping[str, Any] | None = field(repr=False)
-
-    @kept_property
-    def law(self) -> MotionLaw | None:
-        """The law."""
-        return None if self.stored is None else MotionLaw.from_dict(self.stored)
-
-    @kept_property
-    def problem(self) -> Problem:
-        """The problem; InputError where the point asks for none."""
-        return Problem.from_dict(self.entries)
 
 
 class Study:
@@ -98,8 +45,8 @@ class Study:
     def __init__(self, path: Path | str) -> None:
         self._directory = StudyDirectory(Path(path))
         self._about, self.file = self._directory.read()
+        self._shared = self.file.problem.given()
         self._checked: tuple[int, ...] = ()
-        self._scanned: tuple[tuple[int, ...], Journal] | None = None
 
     @property
     def path(self) -> Path:
@@ -127,7 +74,7 @@ class Study:
         if self._tabled:
             counts = Counter(self._parquet().read(columns=["status"])["status"].to_pylist())
         else:
-            counts = self._journal().counts
+            counts = self._chunks().counts
         return {status: counts[status] for status in STATUSES if counts[status]}
 
     @property
@@ -145,19 +92,22 @@ class Study:
 
     def __iter__(self) -> Iterator[StudyPoint]:
         """The points that are done, in their order; few of them are in memory at a time."""
-        return map(self._point, self._rows())
+        if not self._tabled:
+            yield from map(self._whole, self._chunks().in_order(self._points))
+            return
+        for batch in self._parquet().iter_batches(batch_size=GROUP):
+            yield from map(self._of_line, batch.to_pylist())
 
     def __getitem__(self, index: int) -> StudyPoint:
         """One point, by its index."""
         if not 0 <= index < len(self):
             raise IndexError(f"{self.path} has the points 0 to {len(self) - 1}, not {index}")
         if self._tabled:
-            group = self._parquet().read_row_group(index // tables.GROUP)
-            return self._point(tables.row_of(group.slice(index % tables.GROUP, 1).to_pylist()[0], self._points))
-        number, journal = self._points.chunk_of(index), self._journal()
-        if number not in journal.done:
+            return self._of_line(self._parquet().read_row_group(index // GROUP).slice(index % GROUP, 1).to_pylist()[0])
+        number, chunks = self._points.chunk_of(index), self._chunks()
+        if number not in chunks.done:
             raise InputError(f"point {index} of {self.path} is not solved yet")
-        return self._point(tables.rows_of_chunk(journal, number)[index])
+        return self._whole(chunks.rows(number)[index])
 
     def law(self, index: int) -> MotionLaw:
         """The law of one point.
@@ -193,16 +143,16 @@ class Study:
         for name in condition:
             if name not in self.file.names():
                 raise InputError(unknown_key(name, self.file.names(), "entry that varies"))
-        rows = (
-            row
-            for row in self._rows()
-            if getattr(row, constant) is not None
-            and all(row.inputs[name] == value for name, value in condition.items())
+        points = (
+            point
+            for point in self
+            if getattr(point, constant) is not None
+            and all(point.inputs[name] == value for name, value in condition.items())
         )
-        best = min(rows, key=lambda row: (getattr(row, constant), row.index), default=None)
+        best = min(points, key=lambda point: (getattr(point, constant), point.index), default=None)
         if best is None:
             raise InputError(f"{self.path} has no law{f' with {condition}' if condition else ''}")
-        return self._point(best)
+        return best
 
     def to_arrow(self) -> pa.Table:
         """All rows that are done as an Arrow table.
@@ -213,7 +163,7 @@ class Study:
             If pyarrow is missing.
         """
         needed("pyarrow", "to_arrow")
-        return self._parquet().read() if self._tabled else tables.arrow(list(self._rows()), tables.schema(self._points))
+        return self._parquet().read() if self._tabled else arrow(list(self), schema(self._points))
 
     def to_pandas(self) -> pd.DataFrame:
         """All rows that are done as a data frame.
@@ -235,14 +185,14 @@ class Study:
             If xarray is missing.
         """
         needed("xarray", "to_xarray")
-        return tables.dataset(self._rows(), self._points, self.about)
+        return dataset(self, self._points, self.about)
 
     def _repr_html_(self) -> str:
         from optlaws.shown.showing import facts, page, table
 
         lines = [
-            [*row.inputs.values(), row.status, *(getattr(row, name) for name in CONSTANTS)]
-            for row in islice(self._rows(), _SHOWN)
+            [*point.inputs.values(), point.status, *(getattr(point, name) for name in CONSTANTS)]
+            for point in islice(self, _SHOWN)
         ]
         done = {"done": f"{sum(self.counts.values())} of {len(self)}", **self.counts}
         return page(self.about["title"], facts(done), table((*self.file.names(), "status", *CONSTANTS), lines))
@@ -256,25 +206,14 @@ class Study:
         """Whether the rows are in the table, as those of a finished study are."""
         return self._directory.table.exists()
 
-    def _rows(self) -> Iterator[StudyRow]:
-        if not self._tabled:
-            yield from tables.rows_in_order(self._journal(), self._points)
-            return
-        for batch in self._parquet().iter_batches(batch_size=tables.GROUP):
-            for line in batch.to_pylist():
-                yield tables.row_of(line, self._points)
+    @kept_property
+    def _known_chunks(self) -> Chunks:
+        return Chunks(self._directory.chunks)
 
-    def _journal(self) -> Journal:
-        """The journal as far as it is written; it is read again when it has grown."""
-        file = self._directory.journal
-        try:
-            there = file.stat()
-        except FileNotFoundError:
-            return Journal(file)
-        state = (there.st_ino, there.st_mtime_ns, there.st_size)
-        if self._scanned is None or self._scanned[0] != state:
-            self._scanned = (state, Journal(file))
-        return self._scanned[1]
+    def _chunks(self) -> Chunks:
+        """The chunks as far as they are there."""
+        self._known_chunks.refresh()
+        return self._known_chunks
 
     def _parquet(self) -> Any:  # noqa: ANN401 - pyarrow has no types
         needed("pyarrow", f"reading {self._directory.table}")
@@ -283,19 +222,16 @@ class Study:
         there = self._directory.table.stat()
         state = (there.st_mtime_ns, there.st_size)
         if state != self._checked:
-            tables.check(self._directory, len(self))
+            self._directory.check_table(len(self))
             self._checked = state
         return pq.ParquetFile(self._directory.table)
 
-    def _point(self, row: StudyRow) -> StudyPoint:
-        law = row.stored_law()
-        names = ("index", "key", "inputs", "status", "objective", "lower_bound", "gap", "limit", "seconds", "error")
-        return StudyPoint(
-            **{name: getattr(row, name) for name in names},
-            constants={} if law is None else {name: getattr(row, name) for name in CONSTANTS},
-            entries=entries(self.file.problem.given(), row.inputs),
-            stored=law,
-        )
+    def _of_line(self, line: Mapping[str, Any]) -> StudyPoint:
+        return self._whole(row_of(line, self._points.inputs(line["index"])))
+
+    def _whole(self, row: StudyPoint) -> StudyPoint:
+        """A row with what all points share."""
+        return msgspec.structs.replace(row, shared=self._shared)
 
 
 def open_study(path: Path | str) -> Study:

@@ -1,4 +1,4 @@
-"""A process that solves chunks: tasks as lines of JSON on its input, rows on its output; it ends with its input."""
+"""A process that solves chunks: tasks as lines of JSON come in, blocks of rows go out, until its input ends."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def main() -> None:
         last = DONE
         try:
             for block in blocks(task, begin):
-                output.write(b"\n".join([*block, b""]))
+                output.write(b"[" + b",".join(block) + b"]\n")
                 output.flush()
         except Exception as error:  # noqa: BLE001 - whoever asked must hear of it
             last = ERROR + " ".join(f"{type(error).__name__}: {error}".split()).encode()

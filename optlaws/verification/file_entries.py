@@ -14,7 +14,7 @@ from typing import Any, Literal
 import msgspec
 
 from optlaws.errors import InputError
-from optlaws.files.typed import typed
+from optlaws.files.problem_file import typed
 from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.proof.data import problem_of
 from optlaws.synthesis.proof.no_law import ground_of

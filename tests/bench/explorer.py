@@ -26,8 +26,8 @@ def measured(degree: int) -> tuple[list[float], list[float]]:
     """Milliseconds from each input to its paint, and of the server's answer alone."""
     from playwright.sync_api import sync_playwright
 
-    from optlaws.explorer.answers.asked import AskedLaw, AskedLaws
-    from optlaws.explorer.answers.law_view import answer
+    from optlaws.explorer.law_view import answer
+    from optlaws.explorer.requests import LawRequest, LawsRequest
     from optlaws.explorer.server import opened, server
     from optlaws.explorer.start import start
 
@@ -53,7 +53,7 @@ def measured(degree: int) -> tuple[list[float], list[float]]:
             spent.append(painted - began)
             entries = {"order": 4, "degree": degree, "B": FIRST + 0.00123 + 0.01 * step}
             start_of = perf_counter()
-            answer(AskedLaws(laws=[AskedLaw(problem=entries, weights={"C": 1.0})]))
+            answer(LawsRequest(laws=[LawRequest(problem=entries, weights={"C": 1.0})]))
             answered.append(1e3 * (perf_counter() - start_of))
         browser.close()
         running.should_exit = True

@@ -20,7 +20,7 @@ import msgspec
 from rich.console import Console
 from rich.table import Table
 
-from optlaws.studies.chunk import Task, rows
+from optlaws.studies.chunk import Task, blocks
 from optlaws.studies.points import StudyPoints
 from optlaws.studies.run import run_study, task
 from optlaws.studies.specification import read_study
@@ -95,7 +95,7 @@ def shares(points: int, degree: int) -> dict[str, float]:
     study = read_study(asked(points, degree))
     grid = StudyPoints.of(study)
     tasks = [msgspec.convert(task(study, grid, number), Task) for number in range(grid.chunks)]
-    list(rows(tasks[0]))
+    list(blocks(tasks[0]))
     spent: dict[str, float] = {}
     with ExitStack() as stack:
         for name, functions in PARTS.items():
@@ -104,7 +104,7 @@ def shares(points: int, degree: int) -> dict[str, float]:
                 stack.enter_context(patch(function, side_effect=_timed(name, resolve_name(function), spent)))
         began = process_time()
         for one in tasks[1:]:
-            list(rows(one))
+            list(blocks(one))
         whole = process_time() - began
     found = {name: seconds / whole for name, seconds in spent.items()}
     synthesis = found.pop("synthesis")

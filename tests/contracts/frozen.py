@@ -22,6 +22,7 @@ from cyclopts import App
 import optlaws
 from optlaws.cli.app import app
 from optlaws.jobs.job import JOBS
+from optlaws.results import Results
 
 FROZEN = Path(__file__).with_name("frozen.json")
 Table = dict[str, dict[str, str]]
@@ -108,7 +109,7 @@ def spec_of(job: str) -> Any:
         file = Path(folder, "problem.toml")
         file.write_text(f'job = "{job}"\n', "utf-8")
         try:
-            JOBS[job]({"job": job}, file, Path(folder))
+            JOBS[job](Results(file))
         except Asked as asked:
             return asked.spec
     raise AssertionError(f"the job {job!r} reads no problem file")

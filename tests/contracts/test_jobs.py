@@ -85,11 +85,11 @@ def test_what_another_machine_rounds_otherwise_changes_no_file(
     def noisy(noise: float) -> None:
         monkeypatch.setattr(
             tables,
-            "_text",
+            "_cell",
             lambda cell, digits: shown(cell * (1.0 + noise) if isinstance(cell, float) else cell, digits),
         )
 
-    shown = tables._text
+    shown = tables._cell
     first = {file: file.read_bytes() for file in done(tmp_path, name)}
     # a unit in the tenth digit, which the page shows
     noisy(3e-11)

@@ -31,7 +31,7 @@ from optlaws import (
     smoothstep,
     with_end_velocity,
 )
-from optlaws.balancing.dwells.parts import PartSegment
+from optlaws.balancing.dwells.sections import PartSegment
 from optlaws.balancing.loaders.law import LoaderLaw
 from optlaws.laws.curve import Curve
 from optlaws.laws.segments import FractionalSegment, HarmonicSegment, PolynomialSegment, PowerSegment, SineSegment

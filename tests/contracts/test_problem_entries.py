@@ -11,7 +11,8 @@ import optlaws
 from optlaws import BSplines, InputError, Problem, SolverFailure, Window, via
 from optlaws.cli.app import exit_code
 from optlaws.cli.problem_options import options_of
-from optlaws.jobs.laws import fronts, solutions
+from optlaws.jobs import fronts, solutions
+from optlaws.results import Results
 from optlaws.studies.points import StudyPoints
 from optlaws.studies.specification import entries as entries_of_point
 from optlaws.studies.specification import read_study
@@ -77,8 +78,15 @@ def from_a_dict(base: Mapping[str, Any], one: Mapping[str, Any], asked: list[Pro
     asked.append(Problem.from_dict({**base, **one}))
 
 
-def solved(data: Mapping[str, Any], asked: list[Problem], out: Path) -> None:
-    solutions.run({"job": "solutions", "title": "t", **data}, Path("a.toml"), out)
+def results_of(data: Mapping[str, Any]) -> Results:
+    """Results of a problem file that holds these entries."""
+    results = Results("a.toml")
+    vars(results)["entries"] = data
+    return results
+
+
+def solved(data: Mapping[str, Any], asked: list[Problem], _: Path) -> None:
+    solutions.run(results_of({"job": "solutions", "title": "t", **data}))
     assert asked
 
 
@@ -90,10 +98,10 @@ def in_a_sweep(base: Mapping[str, Any], one: Mapping[str, Any], asked: list[Prob
     solved({"problem": base, "sweep": [{name: [value] for name, value in one.items()}]}, asked, out)
 
 
-def in_a_front(base: Mapping[str, Any], one: Mapping[str, Any], asked: list[Problem], out: Path) -> None:
+def in_a_front(base: Mapping[str, Any], one: Mapping[str, Any], asked: list[Problem], _: Path) -> None:
     figure = {"name": "f", "title": "t", "over": ["B", "C"], "front": [{"label": "l", **one}]}
     with pytest.raises(SolverFailure):
-        fronts.run({"job": "fronts", "title": "t", "problem": base, "figure": [figure]}, Path("a.toml"), out)
+        fronts.run(results_of({"job": "fronts", "title": "t", "problem": base, "figure": [figure]}))
     assert asked
 
 

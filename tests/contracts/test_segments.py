@@ -28,7 +28,7 @@ from optlaws import (
     smoothstep,
     with_end_velocity,
 )
-from optlaws.balancing.dwells.parts import PartSegment
+from optlaws.balancing.dwells.sections import PartSegment
 from optlaws.balancing.loaders.segment import LoaderSegment
 from optlaws.laws.making.trapezoids import from_half
 from optlaws.laws.segments import (

@@ -15,31 +15,31 @@ from optlaws import Problem, Range, Solution, at_most, between, synthesize
 from optlaws.cams.cutting import cam_files
 from optlaws.cams.forces import CamForces
 from optlaws.errors import InputError
-from optlaws.explorer.answers import cam_loads_view, cam_view, cycle_view, front_view, law_view, nearest, saved
-from optlaws.explorer.answers.asked import AskedLaw, AskedLaws, given_law, law_of, problem_of, solved
-from optlaws.explorer.answers.cam_view import AskedCam
-from optlaws.explorer.answers.cycle_view import AskedCycle, example
-from optlaws.explorer.answers.saved import AskedFile
+from optlaws.explorer import cam_view, cycle_view, downloads, front_view, law_view
+from optlaws.explorer.cam_view import CamRequest
+from optlaws.explorer.cycle_view import CycleRequest, example
+from optlaws.explorer.downloads import FileRequest
+from optlaws.explorer.requests import LawRequest, LawsRequest, given_law, law_of, problem_of, solved
 from optlaws.explorer.start import start
-from optlaws.files.toml_text import to_toml
+from optlaws.files.tables import to_toml
 from tests.documents import ROOT
 from tests.explorer.talk import OPTIMAL
 
-STORED = {"law": given_law(AskedLaw(name="cubic")).to_dict()}
+STORED = {"law": given_law(LawRequest(name="cubic")).to_dict()}
 FORMULA = {"problem": {"order": 3, "B": 1.8, "degree": 7, "minimise": "max(C/4, J/32)", "bounds": {"rms_c": [0, 4.5]}}}
 WINDOWS_ASKED = ["b <= 1.2 @ 0.1..0.3", "c + 2*b <= 7 @ 0.6..0.9"]
 WINDOWS = {"problem": {"order": 4, "B": 1.7, "windows": WINDOWS_ASKED, "symmetric": False}}
 ENDS = {"problem": {"start": [0, 0], "end": [1, 0.5], "degree": 7, "symmetric": False}}
 
 
-def law(entries: dict[str, Any]) -> AskedLaw:
-    return AskedLaw(**entries)
+def law(entries: dict[str, Any]) -> LawRequest:
+    return LawRequest(**entries)
 
 
-def cycle_of(**changed: Any) -> AskedCycle:  # noqa: ANN401 - entries of an axis
+def cycle_of(**changed: Any) -> CycleRequest:  # noqa: ANN401 - entries of an axis
     study = example()
     study["axis"][0] |= changed
-    return AskedCycle(study=study)
+    return CycleRequest(study=study)
 
 
 def with_law(name: str) -> list[dict[str, str]]:
@@ -98,7 +98,7 @@ def test_a_front_without_any_law_says_so() -> None:
 )
 def test_the_way_back_is_as_short_as_can_be(entries: dict[str, Any], entry: str) -> None:
     question = law({"problem": {"order": 4, "degree": 9} | entries})
-    (way,) = (one for one in nearest.answer(question)["ways"] if one["entry"] == entry)
+    (way,) = (one for one in law_view.nearest(question)["ways"] if one["entry"] == entry)
     problem = problem_of(question)
 
     def changed(value: float) -> Problem:
@@ -112,12 +112,12 @@ def test_the_way_back_is_as_short_as_can_be(entries: dict[str, Any], entry: str)
 
 
 def test_a_problem_with_a_law_needs_no_way_back() -> None:
-    assert nearest.answer(law(OPTIMAL)) == {"ways": []}
+    assert law_view.nearest(law(OPTIMAL)) == {"ways": []}
 
 
 @pytest.mark.parametrize("entries", [{"order": 13}, {"order": 4, "degree": 42}, {"order": 4, "minimize": "C"}])
 def test_what_is_too_large_or_unknown_is_refused_in_its_place(entries: dict[str, Any]) -> None:
-    views = law_view.answer(AskedLaws(laws=[law({"problem": entries}), law({"name": "cubic"})]))["laws"]
+    views = law_view.answer(LawsRequest(laws=[law({"problem": entries}), law({"name": "cubic"})]))["laws"]
     assert views[0]["refused"]["word"] == "not understood"
     assert views[1]["constants"][0]["text"] == "1.5"
 
@@ -126,13 +126,13 @@ def test_the_page_reads_no_file(tmp_path: Path) -> None:
     file = tmp_path / "law.json"
     file.write_text(json.dumps(STORED["law"]), "utf-8")
     with pytest.raises(InputError, match="reads none"):
-        given_law(AskedLaw(name=str(file)))
+        given_law(LawRequest(name=str(file)))
     with pytest.raises(InputError, match="reads none"):
         cycle_view.read(cycle_of(segment=with_law(str(file))))
 
 
 def test_a_peak_without_bound_is_said_to_be() -> None:
-    view = law_view.answer(AskedLaws(laws=[law({"name": "constant acceleration"})]))["laws"][0]
+    view = law_view.answer(LawsRequest(laws=[law({"name": "constant acceleration"})]))["laws"][0]
     assert view["constants"][3] == {"name": "J", "text": "∞", "value": None, "k": "k = 0.5"}
 
 
@@ -143,7 +143,7 @@ def test_a_peak_without_bound_is_said_to_be() -> None:
 def test_problem_files_are_shown(file: str) -> None:
     found = start(str(ROOT / "problems" / file))
     if found["view"] == "cycle":
-        assert "trust" in cycle_view.answer(AskedCycle(study=found["cycle"]))
+        assert "trust" in cycle_view.answer(CycleRequest(study=found["cycle"]))
     else:
         assert isinstance(solved(problem_of(law(found["laws"][0]))), Solution)
 
@@ -153,7 +153,7 @@ def test_a_solution_is_shown_as_its_problem_and_a_law_as_itself(tmp_path: Path) 
     file.write_text(json.dumps(synthesize(Problem(order=4, B=1.7)).to_dict()), "utf-8")
     assert problem_of(law(start(str(file))["laws"][0])) == Problem(order=4, B=1.7)
     file.write_text(json.dumps(STORED["law"]), "utf-8")
-    assert law_of(law(start(str(file))["laws"][0])) == given_law(AskedLaw(name="cubic"))
+    assert law_of(law(start(str(file))["laws"][0])) == given_law(LawRequest(name="cubic"))
 
 
 @pytest.mark.parametrize(
@@ -177,7 +177,7 @@ def run(code: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> dict[str, A
 
 def test_python_makes_the_same_laws_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     laws = [law(OPTIMAL), law(FORMULA), law(STORED), law({"name": "III(7.2)"})]
-    code = saved.answer(AskedFile(kind="python", laws=laws))["text"]
+    code = downloads.answer(FileRequest(kind="python", laws=laws))["text"]
     made = run(code, tmp_path, monkeypatch)["comparison"]
     assert list(made.laws.values()) == [law_of(one) for one in laws]
     assert (tmp_path / "laws.png").stat().st_size > 1000
@@ -185,7 +185,7 @@ def test_python_makes_the_same_laws_again(tmp_path: Path, monkeypatch: pytest.Mo
 
 @pytest.mark.parametrize("entries", [OPTIMAL, FORMULA, ENDS, WINDOWS])
 def test_a_problem_is_written_as_python_that_is_the_same_problem(entries: dict[str, Any]) -> None:
-    text = saved.python([law(entries)])
+    text = downloads.python([law(entries)])
     (line,) = (one for one in text.splitlines() if one.startswith("a = synthesize("))
     names: dict[str, Any] = {}
     exec(f"{text.splitlines()[0]}\nproblem = {line[len('a = synthesize(') : -1]}", names)  # noqa: S102 - our own
@@ -195,10 +195,10 @@ def test_a_problem_is_written_as_python_that_is_the_same_problem(entries: dict[s
 @pytest.mark.parametrize("entries", [OPTIMAL, FORMULA, ENDS])
 def test_a_problem_file_is_the_same_problem(entries: dict[str, Any], tmp_path: Path) -> None:
     file = tmp_path / "problem.toml"
-    file.write_text(saved.answer(AskedFile(kind="problem", laws=[law(entries)]))["text"], "utf-8")
+    file.write_text(downloads.answer(FileRequest(kind="problem", laws=[law(entries)]))["text"], "utf-8")
     assert problem_of(law(start(str(file))["laws"][0])) == problem_of(law(entries))
     with pytest.raises(InputError, match="of no problem"):
-        saved.answer(AskedFile(kind="problem", laws=[law(STORED)]))
+        downloads.answer(FileRequest(kind="problem", laws=[law(STORED)]))
 
 
 def test_a_law_that_is_dragged_is_the_one_that_is_solved_alone() -> None:
@@ -215,10 +215,10 @@ def test_a_law_that_is_dragged_is_the_one_that_is_solved_alone() -> None:
 
 
 def test_laws_and_tables_are_those_of_the_command() -> None:
-    text = saved.answer(AskedFile(kind="law", laws=[law(OPTIMAL)]))["text"]
+    text = downloads.answer(FileRequest(kind="law", laws=[law(OPTIMAL)]))["text"]
     assert json.loads(text)["problem"] == Problem(order=4, B=1.7).to_dict()
-    assert json.loads(saved.answer(AskedFile(kind="law", laws=[law(STORED)]))["text"]) == STORED["law"]
-    table = saved.answer(AskedFile(kind="table", laws=[law({"name": "cubic"})]))["text"].splitlines()
+    assert json.loads(downloads.answer(FileRequest(kind="law", laws=[law(STORED)]))["text"]) == STORED["law"]
+    table = downloads.answer(FileRequest(kind="table", laws=[law({"name": "cubic"})]))["text"].splitlines()
     assert table[1] == "k,a,b,c,j,d"
     assert len(table) == 203
 
@@ -248,8 +248,8 @@ def test_toml_has_no_other_values() -> None:
 @pytest.mark.parametrize("file", ["cam_press", "cam_rocker", "cam_flat_face"])
 def test_a_cam_is_drawn_where_its_follower_touches_it(file: str) -> None:
     study = start(str(ROOT / "problems" / f"{file}.toml"))["cam"]
-    view = cam_view.answer(AskedCam(study=study))
-    _, cam = cam_view.cam_of(AskedCam(study=study))
+    view = cam_view.answer(CamRequest(study=study))
+    cam = cam_view.cams_of(CamRequest(study=study))[1].first
     frames, roller = view["frames"], view["follower"]["roller"]
     for centre, contact in zip(frames["centre"], frames["contact"], strict=True):
         assert hypot(centre[0] - contact[0], centre[1] - contact[1]) == pytest.approx(roller or 0.0, abs=1e-3)
@@ -267,8 +267,8 @@ def test_a_cam_is_drawn_where_its_follower_touches_it(file: str) -> None:
 
 def test_the_loads_of_a_cam_are_those_of_the_library() -> None:
     study = start(str(ROOT / "problems" / "cam_press.toml"))["cam"]
-    told = cam_loads_view.answer(AskedCam(study=study))
-    _, cam = cam_view.cam_of(AskedCam(study=study))
+    told = cam_view.loads(CamRequest(study=study))
+    cam = cam_view.cams_of(CamRequest(study=study))[1].first
     forces = CamForces(cam, width="20 mm", friction=study["forces"]["friction"])
     contact, torque, pressure = told["panels"]
     assert [one["name"] for one in told["panels"]] == ["contact force", "torque at the shaft", "Hertz's pressure"]
@@ -278,38 +278,40 @@ def test_the_loads_of_a_cam_are_those_of_the_library() -> None:
     assert f"root mean square {forces.rms_torque[1]:.6g} N m" in told["facts"][1]
     assert "least spring without lift-off" in told["facts"][3]
     light = study | {"motion": study["motion"] | {"drive": {"mass": "20 kg"}}}
-    assert "the follower lifts off at" in cam_loads_view.answer(AskedCam(study=light))["facts"][0]
+    assert "the follower lifts off at" in cam_view.loads(CamRequest(study=light))["facts"][0]
     jammed = light | {"forces": {"friction": {"contact": 0, "guide": 0.9, "overhang": "90 mm", "length": "20 mm"}}}
-    (why,) = cam_loads_view.answer(AskedCam(study=jammed))["facts"]
+    (why,) = cam_view.loads(CamRequest(study=jammed))["facts"]
     assert "the follower jams in its guide" in why
 
 
 def test_a_cam_that_is_undercut_says_so_and_one_that_is_none_why() -> None:
     study = cam_view.example()
-    (told,) = cam_view.sizes(AskedCam(study=study))["facts"]
+    (told,) = cam_view.sizes(CamRequest(study=study))["facts"]
     least = float(told.split(": ")[1].split()[0])
     for radius, beyond in ((least, False), (least * 0.999, True)):
-        view = cam_view.answer(AskedCam(study=study | {"base_radius": f"{radius + 1e-5} mm"}))
+        view = cam_view.answer(CamRequest(study=study | {"base_radius": f"{radius + 1e-5} mm"}))
         assert view["panels"][1]["beyond"] == beyond
     large = study["follower"] | {"radius": "59 mm"}
-    small = cam_view.answer(AskedCam(study=study | {"follower": large}))
+    small = cam_view.answer(CamRequest(study=study | {"follower": large}))
     assert small["trust"]["word"] == "undercut"
     assert "base circle larger" in small["trust"]["advice"]
     assert not small["panels"][1]["beyond"]
-    assert cam_view.answer(AskedCam(study=study | {"base_radius": "50 mm"}))["panels"][1]["beyond"]
+    assert cam_view.answer(CamRequest(study=study | {"base_radius": "50 mm"}))["panels"][1]["beyond"]
     for changed in ({"base_radius": "18 kg"}, {"follower": {"kind": "translating roller"}}, {"base": "18 mm"}):
-        assert cam_view.answer(AskedCam(study=study | changed))["refused"]["word"] == "no such cam"
+        assert cam_view.answer(CamRequest(study=study | changed))["refused"]["word"] == "no such cam"
 
 
 @pytest.mark.sample(4)
 @pytest.mark.parametrize("name", sorted(cam_files.FORMATS))
 def test_a_cam_is_saved_in_every_format(name: str) -> None:
-    asked = AskedFile(kind="cut", view="cam", laws=[law(OPTIMAL)], cam=AskedCam(study=cam_view.example()), format=name)
-    made = saved.answer(asked)
+    asked = FileRequest(
+        kind="cut", view="cam", laws=[law(OPTIMAL)], cam=CamRequest(study=cam_view.example()), format=name
+    )
+    made = downloads.answer(asked)
     assert len(made["text"]) > 1000
     assert made["name"].startswith("cam.")
     asked.kind = "problem"
-    assert tomllib.loads(saved.answer(asked)["text"]) == cam_view.example()
+    assert tomllib.loads(downloads.answer(asked)["text"]) == cam_view.example()
 
 
 # --- cycles ---
@@ -340,18 +342,18 @@ def test_a_cycle_that_cannot_keep_its_limit_says_how_far_to_go_back() -> None:
 
 @pytest.mark.parametrize("file", ["cycle_press", "cycle_flying_shear", "cycle_savin_design"])
 def test_python_and_files_make_the_same_cycle(file: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    asked = AskedCycle(study=start(str(ROOT / "problems" / f"{file}.toml"))["cycle"])
-    one = AskedFile(kind="problem", view="cycle", laws=[law(OPTIMAL)], cycle=asked)
-    assert tomllib.loads(saved.answer(one)["text"]) == asked.study
+    asked = CycleRequest(study=start(str(ROOT / "problems" / f"{file}.toml"))["cycle"])
+    one = FileRequest(kind="problem", view="cycle", laws=[law(OPTIMAL)], cycle=asked)
+    assert tomllib.loads(downloads.answer(one)["text"]) == asked.study
     one.kind = "python"
-    made = run(saved.answer(one)["text"], tmp_path, monkeypatch)["cycle"]
+    made = run(downloads.answer(one)["text"], tmp_path, monkeypatch)["cycle"]
     assert made.peak(2) == cycle_view.cycle(asked).peak(2)
     one.kind = "table"
-    assert len(saved.answer(one)["text"].splitlines()) == 363
+    assert len(downloads.answer(one)["text"].splitlines()) == 363
 
 
 def test_how_far_a_law_is_above_the_limit_is_told() -> None:
-    view = law_view.answer(AskedLaws(laws=[law(OPTIMAL)]))["laws"][0]
+    view = law_view.answer(LawsRequest(laws=[law(OPTIMAL)]))["laws"][0]
     solution = synthesize(Problem(order=4, B=1.7))
     assert solution.limit is not None
     told = view["trust"]["facts"][-1]

@@ -8,7 +8,7 @@ from xml.etree import ElementTree as ET
 
 import pytest
 
-from optlaws.explorer.answers import cam_view
+from optlaws.explorer import cam_view
 from tests.explorer.conftest import Watch
 from tests.explorer.talk import OPTIMAL, Server
 

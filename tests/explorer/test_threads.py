@@ -5,7 +5,7 @@ import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
 
-from optlaws.explorer.answers.cycle_view import example
+from optlaws.explorer.cycle_view import example
 from tests.explorer.talk import OPTIMAL, Server
 
 QUESTIONS = {

@@ -11,9 +11,8 @@ import pytest
 
 from optlaws import Chebyshev, InfeasibleProblem, InputError, Problem, Solution, at_most, sweep, synthesize
 from optlaws.cli.app import exit_code
+from optlaws.jobs.atlas import COLUMNS, best_law, look_up, read
 from optlaws.jobs.job import run
-from optlaws.jobs.laws.atlas import COLUMNS
-from optlaws.jobs.laws.atlas_lookup import best_law, look_up, read
 from optlaws.studies.specification import read_study
 from tests.documents import ROOT
 from tests.jobs import examples

@@ -4,11 +4,13 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from msgspec.structs import asdict
+import msgspec
 
+from optlaws.studies.chunk import Task, blocks
 from optlaws.studies.executor import Serial
 from optlaws.studies.run import run_study
 from optlaws.studies.study import Study
+from optlaws.studies.tables import StudyPoint
 
 SMALL: dict[str, Any] = {
     "problem": {"order": 4, "degree": 5},
@@ -17,8 +19,17 @@ SMALL: dict[str, Any] = {
 }
 
 
+def plain(row: StudyPoint) -> dict[str, Any]:
+    return {**msgspec.structs.asdict(row), "law": msgspec.json.decode(row.stored), "stored": None}
+
+
 def rows(study: Study) -> list[dict[str, Any]]:
-    return [{**asdict(row), "law": row.stored_law(), "seconds": None} for row in study._rows()]
+    return [{**plain(row), "seconds": None} for row in study]
+
+
+def solved(task: Task) -> list[dict[str, Any]]:
+    """The rows of a chunk, solved in this process."""
+    return [plain(msgspec.json.decode(row, type=StudyPoint)) for block in blocks(task) for row in block]
 
 
 def serially(asked: Mapping[str, Any], out: Path) -> Study:

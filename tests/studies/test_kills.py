@@ -71,11 +71,14 @@ class Run:
         self.process = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
 
     def size(self) -> int:
-        journal = StudyDirectory(self.out).journal
-        return journal.stat().st_size if journal.exists() else 0
+        chunks = StudyDirectory(self.out).chunks
+        # the last ones may go while they are looked at
+        with suppress(FileNotFoundError):
+            return sum(file.stat().st_size for file in chunks.iterdir() if file.name.isdecimal())
+        return 0
 
     def wait_for_rows(self, more: int) -> bool:
-        """Whether the journal grew by so many bytes before the run ended."""
+        """Whether the chunks grew by so many bytes before the run ended."""
         before = self.size()
         while self.process.poll() is None:
             if self.size() >= before + more:

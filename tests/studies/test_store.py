@@ -1,4 +1,4 @@
-"""The journal: what is torn, damaged or cut short is solved again, and nothing else."""
+"""The store of a study: what is torn, damaged or cut short is solved again, and nothing else."""
 
 import errno
 import fcntl
@@ -15,76 +15,58 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 import pytest
-from hypothesis import HealthCheck, example, given, settings
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from optlaws import InputError, open_study, run_study
-from optlaws.studies.journal import Journal, StoreFailure
-from optlaws.studies.store import StudyDirectory
+from optlaws.studies.store import Chunks, DamagedTable, StoreFailure, StudyDirectory
 from optlaws.studies.study import Study
-from optlaws.studies.tables import DamagedTable
 from tests.documents import ROOT
 from tests.sampling import examples
 from tests.studies.sweeping import SMALL, rows, serially
 
 
-def written(file: Path, chunks: int = 4) -> Journal:
-    journal = Journal(file)
-    journal.open()
-    for number in range(chunks):
-        one = [b'{"index":%d,"status":"optimal","law":"%s"}' % (i, b"x" * i) for i in range(3 * number, 3 * number + 3)]
-        journal.append([(number, one)])
-    journal.close()
-    return journal
+def written(folder: Path, count: int = 4) -> Chunks:
+    chunks = Chunks(folder)
+    for number in range(count):
+        rows = [
+            b'{"index":%d,"key":"","inputs":{},"status":"optimal","error":"%s"}' % (i, b"x" * i)
+            for i in range(3 * number, 3 * number + 3)
+        ]
+        chunks.write(number, rows)
+    return chunks
 
 
 def test_what_was_written_is_read(tmp_path: Path) -> None:
-    first = written(tmp_path / "journal")
-    second = Journal(tmp_path / "journal")
-    assert second.done == first.done
-    assert second.counts == {"optimal": 12}
-    assert [second.rows(number) for number in second.done] == [first.rows(number) for number in first.done]
+    first = written(tmp_path / "chunks")
+    second = Chunks(tmp_path / "chunks")
+    assert second.done == first.done == {0, 1, 2, 3}
+    assert second.counts == first.counts == {"optimal": 12}
+    assert [row.error for number in range(4) for row in second.rows(number).values()] == ["x" * i for i in range(12)]
+
+
+DAMAGES: dict[str, Callable[[bytes, int, int], bytes]] = {
+    "cut": lambda data, place, _: data[:place],
+    "changed": lambda data, place, bits: data[:place] + bytes([data[place] ^ bits]) + data[place + 1 :],
+    "longer": lambda data, place, _: data + data[place:],
+}
 
 
 @settings(examples(60), suppress_health_check=[HealthCheck.function_scoped_fixture])
-@given(share=st.floats(0.0, 1.0))
-def test_a_journal_cut_anywhere_keeps_its_whole_chunks(tmp_path: Path, share: float) -> None:
-    file = tmp_path / "journal"
-    file.unlink(missing_ok=True)
-    ends = [*[place for place, _ in written(file).done.values()][1:], file.stat().st_size]
-    cut = round(share * file.stat().st_size)
-    os.truncate(file, cut)
-    whole = sum(end <= cut for end in ends)
-    torn = Journal(file)
-    assert list(torn.done) == list(range(whole))
-    torn.open()
-    torn.append([(9, [b'{"index":99,"status":"local"}'])])
-    torn.close()
-    again = Journal(file)
-    assert list(again.done) == [*range(whole), 9]
-    assert again.rows(9) == [b'{"index":99,"status":"local"}']
-
-
-@settings(examples(60), suppress_health_check=[HealthCheck.function_scoped_fixture])
-@example(share=0.47371880884884826, change=1)  # the end of a chunk's last line
-@given(share=st.floats(0.0, 1.0, exclude_max=True), change=st.integers(1, 255))
-def test_a_changed_byte_costs_its_chunk_alone(tmp_path: Path, share: float, change: int) -> None:
-    file = tmp_path / "journal"
-    file.unlink(missing_ok=True)
-    whole = written(file)
-    data = bytearray(file.read_bytes())
-    place = int(share * len(data))
-    data[place] ^= change
-    file.write_bytes(data)
-    hit = max(number for number, (begin, _) in whole.done.items() if begin <= place)
-    journal = Journal(file)
-    assert set(journal.done) == {0, 1, 2, 3} - {hit}
-    journal.open()
-    journal.append([(hit, [b'{"index":99,"status":"local"}'])])
-    journal.close()
-    mended = Journal(file)
-    assert set(mended.done) == {0, 1, 2, 3}
-    assert mended.counts == {"optimal": 9, "local": 1}
+@given(damage=st.sampled_from(sorted(DAMAGES)), share=st.floats(0.0, 1.0, exclude_max=True), bits=st.integers(1, 255))
+def test_damage_anywhere_costs_its_chunk_alone(tmp_path: Path, damage: str, share: float, bits: int) -> None:
+    written(tmp_path / "chunks")
+    file = tmp_path / "chunks" / "2"
+    data = file.read_bytes()
+    file.write_bytes(DAMAGES[damage](data, int(share * len(data)), bits))
+    chunks = Chunks(tmp_path / "chunks")
+    assert chunks.done == {0, 1, 3}
+    assert chunks.counts == {"optimal": 9}
+    chunks.write(2, [b'{"index":99,"key":"","inputs":{},"status":"local"}'])
+    again = Chunks(tmp_path / "chunks")
+    assert again.done == {0, 1, 2, 3}
+    assert again.counts == chunks.counts == {"optimal": 9, "local": 1}
+    assert list(again.rows(2)) == [99]
 
 
 @pytest.fixture(scope="module")
@@ -126,7 +108,8 @@ def interrupted(out: Path, chunks: int) -> None:
 def test_a_torn_record_is_solved_again(small: Study, tmp_path: Path) -> None:
     interrupted(tmp_path, 3)
     assert sum(open_study(tmp_path).counts.values()) == 15
-    os.truncate(tmp_path / "journal", (tmp_path / "journal").stat().st_size - 7)
+    last = tmp_path / "chunks" / "2"
+    os.truncate(last, last.stat().st_size - 7)
     study = open_study(tmp_path)
     assert sum(study.counts.values()) == 10
     assert not study.finished
@@ -134,19 +117,19 @@ def test_a_torn_record_is_solved_again(small: Study, tmp_path: Path) -> None:
     with pytest.raises(InputError, match="is not solved yet"):
         study[20]
     assert rows(serially(SMALL, tmp_path)) == rows(small)
-    assert not (tmp_path / "journal").exists()
+    assert not (tmp_path / "chunks").exists()
 
 
-def test_a_run_killed_between_table_and_journal_is_finished(small: Study, tmp_path: Path) -> None:
+def test_a_run_killed_between_table_and_chunks_is_finished(small: Study, tmp_path: Path) -> None:
     interrupted(tmp_path, 2)
-    kept = (tmp_path / "journal").read_bytes()
+    shutil.copytree(tmp_path / "chunks", tmp_path / "before")
     serially(SMALL, tmp_path)
-    (tmp_path / "journal").write_bytes(kept)
+    (tmp_path / "before").rename(tmp_path / "chunks")
     assert rows(serially(SMALL, tmp_path)) == rows(small)
-    assert not (tmp_path / "journal").exists()
+    assert not (tmp_path / "chunks").exists()
 
 
-def test_without_pyarrow_the_journal_is_the_store(
+def test_without_pyarrow_the_chunks_are_the_store(
     small: Study, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setitem(sys.modules, "pyarrow", None)
@@ -213,35 +196,33 @@ def test_another_user_who_may_only_read_sees_that_a_run_is_under_way() -> None:
     assert done.stdout == "True\n", done.stderr
 
 
-def test_a_journal_is_read_again_only_when_it_has_grown(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_chunks_are_read_once_and_new_ones_are_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     interrupted(tmp_path, 3)
     study = open_study(tmp_path)
-    scans: list[Path] = []
-    scan = Journal._scan
+    added: list[int] = []
+    add = Chunks._add
 
-    def counted(journal: Journal) -> None:
-        scans.append(journal.file)
-        scan(journal)
+    def counted(chunks: Chunks, number: int, rows: list[bytes]) -> None:
+        added.append(number)
+        add(chunks, number, rows)
 
-    monkeypatch.setattr(Journal, "_scan", counted)
-    for index in range(10):
-        assert study[index].index == index
-    assert sum(study.counts.values()) == 15
-    assert len(scans) == 1
-    journal = Journal(tmp_path / "journal")
-    journal.open()
-    journal.append([(4, [b'{"index":27,"status":"local"}'])])
-    journal.close()
+    with monkeypatch.context() as patch:
+        patch.setattr(Chunks, "_add", counted)
+        for index in range(10):
+            assert study[index].index == index
+        assert sum(study.counts.values()) == 15
+    assert added == [0, 1, 2]
+    Chunks(tmp_path / "chunks").write(4, [b'{"index":27,"key":"","inputs":{},"status":"local"}'])
     assert study.counts["local"] == 1
 
 
-@pytest.fixture
-def small_disk() -> Iterator[int]:
-    """No file may grow beyond 6000 bytes: a full disk, as far as a write can tell."""
+@pytest.fixture(params=[2600, 6000], ids=["at a chunk", "at the table"])
+def small_disk(request: pytest.FixtureRequest) -> Iterator[int]:
+    """No file may grow beyond so many bytes: a full disk, as far as a write can tell."""
     before = resource.getrlimit(resource.RLIMIT_FSIZE)
     handler = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-    resource.setrlimit(resource.RLIMIT_FSIZE, (6000, before[1]))
-    yield 6000
+    resource.setrlimit(resource.RLIMIT_FSIZE, (request.param, before[1]))
+    yield request.param
     resource.setrlimit(resource.RLIMIT_FSIZE, before)
     signal.signal(signal.SIGXFSZ, handler)
 
@@ -249,9 +230,11 @@ def small_disk() -> Iterator[int]:
 def test_a_full_disk_is_said_and_nothing_is_lost(small: Study, tmp_path: Path, small_disk: int) -> None:
     with pytest.raises(StoreFailure, match=r"File too large.*make room and run the same command again"):
         serially(SMALL, tmp_path)
-    assert 0 < (tmp_path / "journal").stat().st_size <= small_disk
+    sizes = [file.stat().st_size for file in (tmp_path / "chunks").iterdir()]
+    assert 0 < max(sizes) <= small_disk
     done = sum(open_study(tmp_path).counts.values())
-    assert 0 < done < 28
+    assert done == (5 if len(sizes) == 1 else 28)
+    assert not (tmp_path / "rows.parquet").exists()
     resource.setrlimit(resource.RLIMIT_FSIZE, resource.getrlimit(resource.RLIMIT_FSIZE)[1:] * 2)
     assert rows(serially(SMALL, tmp_path)) == rows(small)
 
@@ -289,11 +272,11 @@ def test_a_damaged_table_is_refused_by_name(
     assert rows(serially(SMALL, out)) == rows(small)
 
 
-def test_a_damaged_table_is_made_again_from_its_journal(small: Study, tmp_path: Path) -> None:
+def test_a_damaged_table_is_made_again_from_its_chunks(small: Study, tmp_path: Path) -> None:
     interrupted(tmp_path, 2)
-    kept = (tmp_path / "journal").read_bytes()
+    shutil.copytree(tmp_path / "chunks", tmp_path / "before")
     serially(SMALL, tmp_path)
-    (tmp_path / "journal").write_bytes(kept)
+    (tmp_path / "before").rename(tmp_path / "chunks")
     (tmp_path / "rows.parquet").write_bytes(b"PAR1")
     assert rows(serially(SMALL, tmp_path)) == rows(small)
 

@@ -10,13 +10,14 @@ import numpy as np
 import pytest
 
 from optlaws import Problem, ProblemArray, Solution, open_study, run_study, synthesize_array
-from optlaws.studies.chunk import Task, along_B, array_along_B, blocks, rows
+from optlaws.studies.chunk import Task, along_B, array_along_B, blocks
 from optlaws.studies.executor import Serial
 from optlaws.studies.points import StudyPoints, key
 from optlaws.studies.progress import Silent
 from optlaws.studies.run import task
 from optlaws.studies.specification import entries, read_study
 from tests.sampling import sampled
+from tests.studies.sweeping import solved
 
 ASKED: dict[str, Any] = {
     "problem": {"basis": "chebyshev"},
@@ -44,8 +45,8 @@ def tasks(asked: dict[str, Any], **changes: Any) -> list[Task]:  # noqa: ANN401
 
 def test_rows_are_those_of_each_alone() -> None:
     asked = ASKED | {"chunk": 10}
-    many = [msgspec.json.decode(row) for task in tasks(asked) for row in rows(task)]
-    alone = [msgspec.json.decode(row) for task in tasks(asked, alone=True) for row in rows(task)]
+    many = [row for task in tasks(asked) for row in solved(task)]
+    alone = [row for task in tasks(asked, alone=True) for row in solved(task)]
     assert len(many) == len(alone) == 20
     assert {row["status"] for row in many} == {"optimal", "infeasible", "wrong input"}
     for one, other in zip(many, alone, strict=True):
@@ -105,7 +106,7 @@ def test_an_error_of_all_spoils_no_more_than_its_own_row(monkeypatch: pytest.Mon
 
     monkeypatch.setattr("optlaws.studies.chunk.solved_rows", broken)
     (one,) = tasks({"problem": {"order": 4}, "vary": {"B": [1.5, 1.6]}, "chunk": 2})
-    assert [msgspec.json.decode(row)["status"] for row in rows(one)] == ["optimal", "optimal"]
+    assert [row["status"] for row in solved(one)] == ["optimal", "optimal"]
 
 
 def test_text_with_a_place_for_B_is_no_line_along_it() -> None:
@@ -134,11 +135,11 @@ def test_any_number_may_run_and_the_rows_are_those_of_each_alone(weights: list[f
     asked["problem"] |= {"B": 1.7}  # type: ignore[operator]
     (one,) = tasks(asked)
     assert [len(block) for block in blocks(one)] == [length, length]
-    many = [msgspec.json.decode(row) for row in rows(one)]
+    many = solved(one)
     (alone,) = tasks(asked, alone=True)
     picked = [0, 129, length, length + 40, 2 * length - 1]
     turned = msgspec.structs.replace(alone, points=[alone.points[i] for i in picked])
-    for i, row in zip(picked, map(msgspec.json.decode, rows(turned)), strict=True):
+    for i, row in zip(picked, solved(turned), strict=True):
         assert all(many[i][name] == row[name] for name in ("index", "key", "inputs", "status"))
         assert (many[i]["error"] is None) == (row["error"] is None)
         for name in ("objective", "lower_bound", "limit", "B", "C", "J") if row["law"] else ():

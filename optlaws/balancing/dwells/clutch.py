@@ -7,7 +7,7 @@ from fractions import Fraction
 from math import inf, isfinite, tau
 
 from optlaws.balancing.dwells.mechanism import DwellMechanism
-from optlaws.balancing.dwells.section_laws import peak_velocity
+from optlaws.balancing.dwells.sections import peak_velocity
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.numbers import MOST_TEETH, whole
@@ -179,13 +179,7 @@ class Clutch:
 
 
 def exact_swing(mechanism: DwellMechanism, teeth: Teeth) -> DwellMechanism:
-    """The mechanism with the swing that makes a clutch exact.
-
-    Raises
-    ------
-    InputError
-        If no swing does.
-    """
+    """The mechanism with the swing that makes a clutch exact."""
     if teeth.swing is None or not isfinite(teeth.swing):
         raise InputError(f"no swing makes a clutch with p = {teeth.p} of {teeth.N} teeth exact")
     return replace(mechanism, swing=teeth.swing)

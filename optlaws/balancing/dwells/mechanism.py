@@ -6,8 +6,17 @@ from dataclasses import dataclass
 from math import degrees, inf, tau
 from typing import Any
 
-from optlaws.balancing.dwells.section_laws import check_law, law_of, loader_of, peak_power, peak_velocity, top
-from optlaws.balancing.dwells.sections import Section, composed, excursion
+from optlaws.balancing.dwells.sections import (
+    Section,
+    check_law,
+    composed,
+    excursion,
+    law_of,
+    loader_of,
+    peak_power,
+    peak_velocity,
+    top,
+)
 from optlaws.balancing.loaders.loader import Loader
 from optlaws.echo import shortened
 from optlaws.errors import InputError
@@ -203,13 +212,7 @@ class DwellMechanism:
 
 
 def _check(mechanism: DwellMechanism) -> None:
-    """Refuse what cannot be built.
-
-    Raises
-    ------
-    InputError
-        Naming the first quantity that does not fit, and the remedy.
-    """
+    """Refuse what cannot be built."""
     if mechanism.kind not in KINDS:
         raise InputError(f"kind must be one of {', '.join(KINDS)}, got {shortened(mechanism.kind)}")
     for name in (*POSITIVE, *NOT_NEGATIVE):

@@ -1,18 +1,152 @@
-"""The motion of a balancing rocker section by section, and the whole cycle as one piecewise law."""
+"""The motion of a balancing rocker section by section: laws on sections, their parts, the cycle as one law."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import accumulate, pairwise
+from math import inf
+from typing import Any
 
-from optlaws.balancing.dwells.parts import PartSegment
+import numpy as np
+
+from optlaws.balancing.loaders.loader import Loader
+from optlaws.balancing.loaders.tops import tops
+from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment, Segment
-from optlaws.numerics.tolerances import CLOSURE
+from optlaws.numbers import Array
+from optlaws.numerics.tolerances import AGREEMENT, CLOSURE
+
+
+@lru_cache(maxsize=64)
+def loader_of(law: MotionLaw) -> Loader:
+    """The loader of a law, kept."""
+    return Loader(law)
+
+
+@lru_cache(maxsize=64)
+def peak_velocity(law: MotionLaw) -> float:
+    """B of a law, kept."""
+    return law.peak(1).value
+
+
+@lru_cache(maxsize=64)
+def peak_power(law: MotionLaw) -> float:
+    """D of a law, kept."""
+    return law.power_peak().value
+
+
+@lru_cache(maxsize=64)
+def top(law: MotionLaw) -> float:
+    """The place where a law is cut into a run-up and a run-out: the middle of the top of its velocity.
+
+    Examples
+    --------
+    >>> from optlaws.laws import smoothstep
+    >>> top(smoothstep(2))
+    0.5
+    """
+    places = tops(law)
+    middle = places[len(places) // 2]
+    return 0.5 * (middle.first + middle.last)
+
+
+@lru_cache(maxsize=64)
+def _ends(law: MotionLaw) -> tuple[float, float, float, float]:
+    (a0, b0), (a1, b1) = law.boundary_values(2)
+    return a0, b0, a1, b1
+
+
+def law_of(given: Any) -> Any:  # noqa: ANN401 - whatever the caller gave, a law or not
+    """The law of an entry of the catalogue or of a solution; everything else as it is."""
+    law = getattr(given, "law", None)
+    return law if isinstance(law, MotionLaw) and not isinstance(given, MotionLaw) else given
+
+
+def check_law(name: str, law: Any) -> None:  # noqa: ANN401 - whatever the caller gave
+    """Refuse what is no law from rest to rest over a stroke of 1."""
+    if not isinstance(law, MotionLaw):
+        raise InputError(f"{name} must be a MotionLaw, or what has one in `law`, got {shortened(law)}")
+    a0, b0, a1, b1 = _ends(law)
+    if max(abs(b0), abs(b1)) > AGREEMENT * peak_velocity(law) or abs(a1 - a0 - 1.0) > AGREEMENT:
+        raise InputError(
+            f"{name} must run from rest to rest over a stroke of 1; it begins with a = {a0:g}, b = {b0:g}, ends with "
+            f"a = {a1:g}, b = {b1:g}"
+        )
+    tops(law)
+
+
+@dataclass(frozen=True)
+class PartSegment(Segment, kind="part"):
+    """A law from one k to another, without a break of its own in between, as a segment of any length.
+
+    Parameters
+    ----------
+    law
+        The law, or its plain data.
+    start, end
+        The two k.
+    scale
+        Stroke of the whole law in the composed motion; negative for a motion back.
+
+    Examples
+    --------
+    >>> from optlaws.laws import smoothstep
+    >>> half = PartSegment(smoothstep(2), 0.0, 0.5, scale=-4.0)
+    >>> half.derivative(np.array([0.0, 1.0]), 0.25, 0), half.derivative(np.array([0.0, 1.0]), 0.25, 1)
+    (array([-0., -2.]), array([ -0., -12.]))
+    """
+
+    law: MotionLaw
+    start: float
+    end: float
+    scale: float
+
+    def __post_init__(self) -> None:
+        given: Any = self.law
+        if not isinstance(given, MotionLaw):
+            object.__setattr__(self, "law", MotionLaw.from_dict(given))
+
+    def derivative(self, u: Array, length: float, nu: int) -> Array:  # noqa: D102
+        span = self.end - self.start
+        k = np.clip(self.start + span * u, self.start, self.end)
+        values = self.law(k, nu)
+        if self.end < 1.0:
+            # at a break a law has its right-hand value; what grows without limit there does so on both sides
+            inner = self.law(np.minimum(k, np.nextafter(self.end, self.start)), nu)
+            values = np.where(np.isfinite(values), inner, values)
+        if nu == 0:
+            return np.asarray(self.scale * (values - self.law.a(self.start)))
+        return np.asarray(self.scale * (span / length) ** nu * values)
+
+    def candidates(self, length: float, nu: int) -> Array:  # noqa: ARG002, D102
+        return self._places(np.array([extreme.k for extreme in self.law.extrema(nu, (self.start, self.end))]))
+
+    def power_candidates(self, length: float) -> Array:  # noqa: ARG002, D102
+        return self._places(np.array([extreme.k for extreme in self.law.power_extrema((self.start, self.end))]))
+
+    def scaled(self, length: float, scale: float, drift: float = 0.0) -> Segment:  # noqa: D102
+        return super().scaled(length, scale, drift) if drift else replace(self, scale=scale * self.scale)
+
+    def square(self, length: float, nu: int) -> float:  # noqa: D102
+        from scipy.integrate import quad
+
+        # with the full output it says what is wrong there and warns nobody: filters of warnings are the process's
+        whole, _, _, *wrong = quad(
+            lambda k: self.law(k, nu) ** 2, self.start, self.end, epsabs=0.0, epsrel=1e-12, full_output=1
+        )
+        if wrong:
+            return inf
+        span = self.end - self.start
+        return float(self.scale**2 * (span / length) ** (2 * nu - 1) * whole)
+
+    def _places(self, k: Array) -> Array:
+        return np.clip((k - self.start) / (self.end - self.start), 0.0, 1.0)
+
 
 Pair = tuple[float, float]
 
@@ -86,13 +220,7 @@ def excursion(sections: Sequence[Section]) -> float:
 
 
 def composed(sections: Sequence[Section]) -> PiecewiseLaw:
-    """The motion over the cycle as a law of k = cam angle / angle of the cycle; displacement in S.
-
-    Raises
-    ------
-    InputError
-        If the rocker is not back after the cycle.
-    """
+    """The motion over the cycle as a law of k = cam angle / angle of the cycle; displacement in S."""
     net = sum(section.travel for section in sections)
     if abs(net) > CLOSURE:
         raise InputError(f"the rocker is {net:.6g} S off its start after the cycle; dwells or laws do not match")

@@ -34,11 +34,6 @@ def upper_extreme(potential: Function, swing: float, reach: tuple[float, float],
         The deviations chi between which the linkage can move, radians.
     guess
         Which one, where there are several: that nearest to the guess.
-
-    Raises
-    ------
-    InputError
-        If no such extremes are within reach.
     """
     from scipy.optimize import brentq
 
@@ -73,13 +68,6 @@ def swung(
         Potential energy, and the moment M_R with its derivative, as functions of chi.
     chi01, swing
         Radians.
-
-    Raises
-    ------
-    InputError
-        If the link comes to rest between the extremes.
-    SolverFailure
-        If the amplitudes cannot be resolved.
     """
     for points in POINTS:
         amplitudes, frequency = _integrated(potential, chi01, swing, points)

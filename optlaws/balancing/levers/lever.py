@@ -9,14 +9,14 @@ from typing import Any
 import numpy as np
 
 from optlaws.balancing.levers.exact_swing import swung, upper_extreme
-from optlaws.balancing.levers.limits import LEAST_TRANSMISSION, MOST_ROCKER_SWING, check
 from optlaws.balancing.levers.linkage import FourBar
 from optlaws.balancing.levers.motion import LeverMotion
-from optlaws.balancing.levers.sizing import Sizing, sized
+from optlaws.balancing.levers.sizing import LEAST_TRANSMISSION, MOST_ROCKER_SWING, Sizing, sized
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import PolynomialLaw
 from optlaws.numbers import Array, finite
+from optlaws.numerics.tolerances import ANGLE_LIMIT
 
 
 @dataclass(frozen=True)
@@ -85,7 +85,35 @@ class TorsionLever:
                 )
         n, p = self.n, self.p
         chi02 = self.chi01 - self.swing - p * self.swing**3 / (768.0 * n)
-        check(self, chi02, self.chi01, "by eq. (9), (10)")
+        self._check_limits(chi02, self.chi01, "by eq. (9), (10)")
+
+    def _check_limits(self, chi02: float, chi01: float, where: str) -> None:
+        """Refuse a motion from chi02 to chi01, radians, beyond the linkage's limits; `where` is what an error adds."""
+        ends = f"between {degrees(chi02):.6g} and {degrees(chi01):.6g} deg ({where})"
+        low, high = self.linkage.range
+        if not low < chi02 < chi01 < high:
+            raise InputError(
+                f"the linkage passes a dead point {ends}: it can move from {degrees(low):.6g} to {degrees(high):.6g} "
+                "deg; reduce swing or change lam"
+            )
+        least = self.least_transmission
+        angles = self.linkage.transmission(chi02, chi01)
+        for (smallest, greatest), link in zip(angles, ("rocker", "driven link"), strict=True):
+            for angle, beyond, limit in (
+                (smallest, least - smallest, least),
+                (greatest, greatest - pi + least, pi - least),
+            ):
+                if beyond > ANGLE_LIMIT:
+                    raise InputError(
+                        f"the angle between coupler and {link} is {degrees(angle):.6g} deg {ends}, the limit is "
+                        f"{degrees(limit):.6g} deg (least_transmission); reduce swing or change beta or lam"
+                    )
+        swing = float(np.diff(self.linkage.rocker(np.array([chi02, chi01])))[0])
+        if swing - self.most_rocker_swing > ANGLE_LIMIT:
+            raise InputError(
+                f"the rocker swings by {degrees(swing):.6g} deg {ends}, the limit is "
+                f"{degrees(self.most_rocker_swing):.6g} deg (most_rocker_swing); reduce swing or beta"
+            )
 
     @kept_property
     def linkage(self) -> FourBar:
@@ -171,7 +199,7 @@ class TorsionLever:
             If the exact extremes exceed a limit, or the link does not swing so far.
         """
         chi01 = upper_extreme(self.potential, self.swing, self.linkage.range, self.chi01)
-        check(self, chi01 - self.swing, chi01, "in the exact motion")
+        self._check_limits(chi01 - self.swing, chi01, "in the exact motion")
         return swung(self.potential, self._moment, chi01, self.swing)
 
     @kept_property

@@ -1,8 +1,8 @@
-"""Stiffness ratio and extremes of a torsion lever from the asymptotic formulas, eq. (3), (9), (12), (13)."""
+"""What sizes a torsion lever: limits of its linkage, and the asymptotic formulas, eq. (3), (9), (12), (13)."""
 
 from __future__ import annotations
 
-from math import degrees
+from math import degrees, pi
 from typing import NamedTuple
 
 import numpy as np
@@ -12,6 +12,11 @@ from optlaws.balancing.levers.linkage import FourBar
 from optlaws.errors import InputError
 from optlaws.numerics.peaks import polished
 from optlaws.numerics.tolerances import REAL_ROOT
+
+#: least transmission angle that is allowed unless another is given, radians
+LEAST_TRANSMISSION = pi / 6.0
+#: greatest swing of the rocker that is allowed unless another is given, radians
+MOST_ROCKER_SWING = pi / 3.0
 
 LEAST_SHARE, GREATEST_SHARE = 0.2, 0.8  # of the swing, between which chi01 is looked for
 
@@ -26,11 +31,6 @@ class Sizing(NamedTuple):
 
 def sized(linkage: FourBar, rho: float, nu: float, swing: float) -> Sizing:
     """The solution of (3), (12) and (13) at a given nominal swing, radians; the root chi01 nearest to half of it.
-
-    Raises
-    ------
-    InputError
-        If there is none between 0.2 and 0.8 of the swing.
 
     Examples
     --------

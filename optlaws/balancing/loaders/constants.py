@@ -153,11 +153,6 @@ PLAIN.update({functional.name: functional for functional in (B_loader, C_loader,
 def objective(minimise: str | Term | Expression) -> Expression:
     """The objective to minimise: a sum of C and peaks of the loader, one of the loader's among them.
 
-    Raises
-    ------
-    InputError
-        If it is something else.
-
     Examples
     --------
     >>> objective("0.5*C/4 + 0.5*C_loader/4")

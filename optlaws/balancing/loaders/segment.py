@@ -1,17 +1,182 @@
-"""The inertial loader's law on a stretch of the executive law, as a segment of a piecewise law."""
+"""The inertial loader's law on a stretch of the executive law: sqrt(B² - b²), as a segment of a piecewise law."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
+from math import comb, inf
 from typing import Any
 
 import numpy as np
 
-from optlaws.balancing.loaders.stretch import LoaderStretch, stretch
+from optlaws.balancing.loaders.tops import VelocityDeficit, velocity_deficit
+from optlaws.errors import SolverFailure
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.segments.segment import Segment
 from optlaws.numbers import Array
+from optlaws.numerics import panels
+from optlaws.numerics.tolerances import LEAST_ROOT, PANEL_ROUNDING, SHORTEST_PANEL
+
+
+@dataclass(frozen=True)
+class LoaderStretch:
+    """g(t) = sqrt(B² - b²) for 0 <= t <= length, at k = origin + t or, going back, at k = origin - t.
+
+    Parameters
+    ----------
+    executive
+        The executive law.
+    B
+        Its peak velocity, unsigned.
+    origin
+        Where t = 0.
+    end
+        Where t is greatest, on either side of the origin.
+    top
+        Whether |b| = B at the origin.
+    """
+
+    executive: MotionLaw
+    B: float
+    origin: float
+    end: float
+    top: bool
+
+    @property
+    def length(self) -> float:
+        """The length of the stretch, the greatest t."""
+        return abs(self.end - self.origin)
+
+    def value(self, t: Array, order: int) -> Array:
+        """Derivative of some order of g with respect to t."""
+        values = np.empty(t.shape)
+        near, between = t <= self._root_reach, (t > self._root_reach) & (t <= self._reach)
+        far = ~(near | between)
+        if self._deficit is not None:
+            if near.any():
+                values[near] = self._deficit.root.derivative(t[near], order)
+            if between.any():
+                values[between] = _root(self._deficit.energy(t[between], self.B, order))
+        if far.any():
+            values[far] = _root(self._energy(t[far], order))
+        return values
+
+    def integral(self, t: Array) -> Array:
+        """Integral of g from 0 to t."""
+        if self._deficit is None:
+            return self._far_integral(t)
+        close = self._deficit.root.integral(np.minimum(t, self._root_reach))
+        return close + self._far_integral(np.maximum(t, self._root_reach)) if self._panels.edges else close
+
+    def roots(self, order: int) -> Array:
+        """Every t among which is each root of the derivative of some order."""
+        far = self._panels.roots(lambda t: self.value(t, order), lambda t: self.value(t, order + 1))
+        return far if self._deficit is None else np.concatenate([self._deficit.root.roots(order), far])
+
+    def power_roots(self) -> Array:
+        """Every t among which is each extreme of b c of the executive law."""
+
+        def slope(t: Array) -> Array:
+            b, c, j = (self._executive(t, order) for order in range(3))
+            return c * c + b * j
+
+        def curvature(t: Array) -> Array:
+            b, c, j, s = (self._executive(t, order) for order in range(4))
+            return 3.0 * c * j + b * s
+
+        least = 0.0 if self._deficit is None or self._deficit.deficit.step == 1.0 else 1e-6 * self.length
+        edges = (least, *(t for t in self._panels.edges if t > least)) if self._panels.edges else (least, self.length)
+        return panels.Panels(edges).roots(slope, curvature)
+
+    def square(self, order: int) -> float:
+        """Integral over the stretch of the square of the derivative of some order."""
+        near = 0.0 if self._deficit is None else self._deficit.root.square(order)
+        return near if near == inf else near + self._panels.square(lambda t: self.value(t, order))
+
+    @kept_property
+    def _deficit(self) -> VelocityDeficit | None:
+        if not self.top:
+            return None
+        return velocity_deficit(self._one, self.B, self.length, f"{self.origin:.6g}")
+
+    @kept_property
+    def _root_reach(self) -> float:
+        return -1.0 if self._deficit is None else self._deficit.root.reach
+
+    @kept_property
+    def _reach(self) -> float:
+        return -1.0 if self._deficit is None else self._deficit.deficit.reach
+
+    @kept_property
+    def _panels(self) -> panels.Panels:
+        return _panels_of_root(lambda t: self.value(t, 0), max(self._root_reach, 0.0), self.length, self.B)
+
+    @kept_property
+    def _far_integral(self) -> panels.Integral:
+        return panels.integral(lambda t: self.value(t, 0), self._panels)
+
+    def _one(self, t: float, order: int) -> float:
+        return float(self._executive(np.array([t]), order)[0])
+
+    def _executive(self, t: Array, order: int) -> Array:
+        """Derivative of some order of |b| with respect to t, one-sided at both ends."""
+        forward = self.end > self.origin
+        low, high = min(self.origin, self.end), max(self.origin, self.end)
+        k = self.origin + t if forward else self.origin - t
+        # at a break a law has its right-hand value
+        last = high if high == 1.0 else np.nextafter(high, low)
+        values = self.executive(np.clip(k, low, last), order + 1)
+        return values * (1.0 if forward else -1.0) ** order * self._sign
+
+    @kept_property
+    def _sign(self) -> float:
+        middle = 0.5 * (self.origin + self.end)
+        return 1.0 if self.executive.b(self.origin if self.top else middle) >= 0.0 else -1.0
+
+    def _energy(self, t: Array, order: int) -> list[Array]:
+        """Derivatives 0 to `order` of B² - b² with respect to t."""
+        b = [self._executive(t, i) for i in range(order + 1)]
+        energies = [(self.B - np.abs(b[0])) * (self.B + np.abs(b[0]))]
+        energies[0] = np.maximum(energies[0], 0.0)
+        for n in range(1, order + 1):
+            square = sum((comb(n, i) * b[i] * b[n - i] for i in range(n + 1)), np.zeros_like(t))
+            energies.append(-square)
+        return energies
+
+
+@lru_cache(maxsize=256)
+def stretch(executive: MotionLaw, B: float, origin: float, end: float, *, top: bool) -> LoaderStretch:
+    """The stretch of these data, kept with what has been computed of it."""
+    return LoaderStretch(executive, B, origin, end, top)
+
+
+def _root(energy: list[Array]) -> Array:
+    """The highest derivative of g = sqrt(energy) from the derivatives of g², by Leibniz's rule."""
+    g = [np.sqrt(energy[0])]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        for n in range(1, len(energy)):
+            cross = sum((comb(n, i) * g[i] * g[n - i] for i in range(1, n)), np.zeros_like(g[0]))
+            g.append((energy[n] - cross) / (2.0 * g[0]))
+    return g[-1]
+
+
+def _panels_of_root(f: panels.Function, low: float, high: float, scale: float) -> panels.Panels:
+    """Panels from low to high on which f = sqrt(scale² - b²) is resolved to rounding; none where low = high.
+
+    Where f is small next to its scale, rounding of b is all the larger in it, and nothing finer is needed.
+    """
+    if not low < high:
+        return panels.Panels(())
+    if not np.isfinite(f(np.linspace(low, high, panels.TERMS))).all():
+        raise SolverFailure(f"the velocity of the loader is not finite between t = {low:g} and {high:g}")
+
+    def short(series: Array, length: float) -> bool:
+        values = np.abs(series)
+        rounding = PANEL_ROUNDING * scale * max(1.0, scale / max(float(values[0]), LEAST_ROOT * scale))
+        return bool(values[-3:].max() <= rounding) or length < SHORTEST_PANEL
+
+    return panels.resolved(f, panels.Panels((low, high)), short)[0]
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from optlaws.balancing.dwells.parts import PartSegment
+from optlaws.balancing.dwells.sections import PartSegment
 from optlaws.balancing.loaders.loader import Loader
 from optlaws.cams.curves.motion_by_angle import CamMotion, CamStretch
 from optlaws.cycles.cycle import Cycle

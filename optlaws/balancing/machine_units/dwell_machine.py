@@ -9,7 +9,7 @@ from math import tau
 from typing import Any
 
 from optlaws.balancing.dwells.mechanism import DwellMechanism, dwell_mechanism
-from optlaws.balancing.dwells.section_laws import peak_power
+from optlaws.balancing.dwells.sections import peak_power
 from optlaws.cams.curves.motion_by_angle import CamMotion, CamStretch
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.oscillating_roller import OscillatingRoller

@@ -153,7 +153,8 @@ class LeverCam:
     def at(self, k: Array, speed_ratio: float) -> Array:
         """The torque at k of the stroke: the inertia that the bars do not balance, times the velocity of the link."""
         moment = self.stiffness * self.lever.moment(self._chi(k, 0))
-        return np.asarray((speed_ratio**2 * self._inertia(k) + moment) * self._velocity(k))
+        inertia = self.moved * self.rate**2 * self._chi(k, 2)
+        return np.asarray((speed_ratio**2 * inertia + moment) * self._chi(k, 1))
 
     def _inertia_torque(self, share: float) -> Extremes:
         """A share of the inertia's torque at the bars' own speed."""
@@ -170,9 +171,3 @@ class LeverCam:
         """Derivatives of the link's deviation by the cam's angle."""
         half = 0.5 * self.lever.exact.period
         return self.lever.exact.chi(np.asarray(k) * half, nu) * (half / self.angle) ** nu
-
-    def _inertia(self, k: Array) -> Array:
-        return self.moved * self.rate**2 * self._chi(k, 2)
-
-    def _velocity(self, k: Array) -> Array:
-        return self._chi(k, 1)

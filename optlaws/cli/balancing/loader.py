@@ -41,18 +41,18 @@ def loader(
         Write the loader's law to this JSON file.
     """
     check_files(output)
-    made = optlaws.loader(read_law(name))
-    machine = _machine(made, executive_mass, executive_stroke, mass, stroke)
+    balancer = optlaws.loader(read_law(name))
+    machine = _machine(balancer, executive_mass, executive_stroke, mass, stroke)
     if output is not None:
-        save(output, {"law": made.law.to_dict()})
+        save(output, {"law": balancer.law.to_dict()})
     if as_json:
-        print_json(made.to_dict() | machine)
+        print_json(balancer.to_dict() | machine)
     else:
-        _show(made, machine)
+        _show(balancer, machine)
 
 
 def _machine(
-    made: optlaws.Loader,
+    balancer: optlaws.Loader,
     executive_mass: float | None,
     executive_stroke: float | None,
     mass: float | None,
@@ -64,26 +64,26 @@ def _machine(
         raise InputError("--executive-mass and --executive-stroke go together with either --mass or --stroke")
     given = {"executive_mass": executive_mass, "executive_stroke": executive_stroke}
     if stroke is not None:
-        return {"mass": made.mass(**given, stroke=stroke), "stroke": stroke}
+        return {"mass": balancer.mass(**given, stroke=stroke), "stroke": stroke}
     if mass is None:  # the check above leaves nothing else
         return {}
-    return {"mass": mass, "stroke": made.stroke(**given, mass=mass)}
+    return {"mass": mass, "stroke": balancer.stroke(**given, mass=mass)}
 
 
-def _show(made: optlaws.Loader, machine: dict[str, float]) -> None:
+def _show(balancer: optlaws.Loader, machine: dict[str, float]) -> None:
     head = table()
-    head.add_row("Y", f"{made.Y:.10g}")
+    head.add_row("Y", f"{balancer.Y:.10g}")
     for name, value in machine.items():
         head.add_row(f"{name} of the loader", f"{value:.8g}")
-    if not made.peaks_at_turn:
+    if not balancer.peaks_at_turn:
         head.add_row(
-            "C at the turn", f"{made.C_at_turn:.10g}, which the paper's formula gives: the peak lies elsewhere"
+            "C at the turn", f"{balancer.C_at_turn:.10g}, which the paper's formula gives: the peak lies elsewhere"
         )
-    if not made.symmetric:
+    if not balancer.symmetric:
         head.add_row("", "unsymmetric: the loader closes its swing if the return runs the same law")
     constants = table("constant", "loader", "at k", "executive", "at k")
-    own, other = made.law.constants, made.executive.constants
+    loader_peaks, executive_peaks = balancer.law.constants, balancer.executive.constants
     for name in ("B", "C", "D", "J"):
-        peaks = getattr(own, name), getattr(other, name)
+        peaks = getattr(loader_peaks, name), getattr(executive_peaks, name)
         constants.add_row(name, *(cell for peak in peaks for cell in (f"{peak.value:.10g}", f"{peak.k:.6g}")))
     show(head, constants)

@@ -6,8 +6,9 @@ from pathlib import Path
 
 import optlaws
 from optlaws.cli.options import AsJson, Duration, check_files, save_picture
-from optlaws.cli.show import NOISE, number, print_json, show, table
+from optlaws.cli.show import number, print_json, show, table
 from optlaws.errors import InputError
+from optlaws.numerics.tolerances import VALUE_ROUNDING
 
 _ONE, _INTERVAL = 1, 2
 
@@ -48,8 +49,8 @@ def compare(
     check_files(csv, plot=plot)
     if nu is not None and len(nu) > _INTERVAL:
         raise InputError(f"--nu is given once for a frequency or twice for an interval, got {len(nu)} times")
-    asked = None if nu is None else nu[0] if len(nu) == _ONE else (nu[0], nu[1])
-    comparison = optlaws.compare(*laws, stroke=stroke, duration=duration, nu=asked, damping=damping)
+    frequency = None if nu is None else nu[0] if len(nu) == _ONE else (nu[0], nu[1])
+    comparison = optlaws.compare(*laws, stroke=stroke, duration=duration, nu=frequency, damping=damping)
     if csv is not None:
         _save(comparison, csv)
     if plot is not None:
@@ -59,7 +60,7 @@ def compare(
         return
     rows = table(*comparison.rows[0])
     for row in comparison.rows:
-        rows.add_row(*(cell if isinstance(cell, str) else number(cell, NOISE, ".7g") for cell in row.values()))
+        rows.add_row(*(cell if isinstance(cell, str) else number(cell, VALUE_ROUNDING, ".7g") for cell in row.values()))
     show(rows, *comparison.remarks)
 
 

@@ -22,12 +22,12 @@ def cam(file: Path, /, *, out: Path | None = None, as_json: AsJson = False) -> N
         Print one JSON object on stdout and write nothing.
     """
     from optlaws.files.packaged import problem_of_job
-    from optlaws.jobs.cam.cam import answer
+    from optlaws.jobs.cam import answer
 
     source, results, data = problem_of_job(file, "cam")
     if not as_json:
         run(source, out=out or results)
         return
     with busy(f"{file}"):
-        told = answer(data, source)
-    print_json(told)
+        data_of_cam = answer(data, source)
+    print_json(data_of_cam)

@@ -31,5 +31,5 @@ def cycle(file: Path, /, *, out: Path | None = None, as_json: AsJson = False) ->
         return
     with busy(f"{file}"):
         _, cycles = read(data, source)
-        told = answer(cycles)
-    print_json(told)
+        data_of_cycles = answer(cycles)
+    print_json(data_of_cycles)

@@ -34,13 +34,13 @@ def atlas(
         Print one JSON object on stdout and nothing else.
     """
     from optlaws.files.packaged import or_packaged
-    from optlaws.jobs.laws.atlas_lookup import best_law, look_up
+    from optlaws.jobs.atlas import best_law, look_up
 
-    asked: dict[str, Any] = {name: entries[name] for name in ("minimise", "order")}
-    asked |= {"B": entries.get("B"), "most": _greatest(entries)}
+    query: dict[str, Any] = {name: entries[name] for name in ("minimise", "order")}
+    query |= {"B": entries.get("B"), "most": _greatest(entries)}
     table_of_laws = or_packaged(file)
-    point = look_up(table_of_laws, **asked)
-    solution = best_law(table_of_laws, **asked)
+    point = look_up(table_of_laws, **query)
+    solution = best_law(table_of_laws, **query)
     exact = {name: getattr(solution.constants, name).value for name in ("B", "C", "D", "J")}
     exact["rms_c"] = solution.constants.rms_c
     if as_json:
@@ -57,10 +57,10 @@ def atlas(
 def _greatest(entries: Mapping[str, Any]) -> dict[str, float]:
     """The greatest values that are asked, by constant."""
     bounds: Mapping[str, optlaws.Range] = entries.get("bounds", {})
-    own = {name: entries[name].high for name in CONSTANTS if name in entries and name != "B"}
-    for name, asked in bounds.items():
-        if name in own or (name == "B" and "B" in entries):
+    greatest = {name: entries[name].high for name in CONSTANTS if name in entries and name != "B"}
+    for name, bound in bounds.items():
+        if name in greatest or (name == "B" and "B" in entries):
             raise InputError(f"{name} is given twice: by its own option and by --most {name}=...")
-        if asked.low > 0.0:
+        if bound.low > 0.0:
             raise InputError("--least is not for this command: the atlas is searched by greatest values")
-    return own | {name: asked.high for name, asked in bounds.items()}
+    return greatest | {name: bound.high for name, bound in bounds.items()}

@@ -84,8 +84,10 @@ def _table(front: optlaws.Front | optlaws.ProvenFront, points: int) -> tuple[tup
 def _show(front: optlaws.Front | optlaws.ProvenFront, headings: tuple[str, ...], lines: Rows) -> None:
     rows = table(*headings)
     for line in lines:
+        forms = (".0e" if name == "gap" else ".7g" for name in headings)
+        cells = ("" if cell is None else cell for cell in line)
         rows.add_row(
-            *(_cell(cell, ".0e" if name == "gap" else ".7g") for cell, name in zip(line, headings, strict=True))
+            *(cell if isinstance(cell, str) else format(cell, form) for cell, form in zip(cells, forms, strict=True))
         )
     show(rows)
     if isinstance(front, optlaws.ProvenFront):
@@ -94,10 +96,6 @@ def _show(front: optlaws.Front | optlaws.ProvenFront, headings: tuple[str, ...],
     if front.failed:
         values = ", ".join(f"{value:.6g}" for value in front.failed)
         show(f"no law was found at {front.over[0]} = {values}")
-
-
-def _cell(cell: float | str | None, form: str) -> str:
-    return "" if cell is None else cell if isinstance(cell, str) else format(cell, form)
 
 
 def _save_table(front: optlaws.Front | optlaws.ProvenFront, file: Path, headings: tuple[str, ...], lines: Rows) -> None:

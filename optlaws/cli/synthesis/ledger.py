@@ -72,7 +72,7 @@ def _show(judged: Sequence[Any]) -> None:
             computed,
             str(judgement.verdict),
         )
-    told = [
+    reasons = [
         f"{judgement.item.id}: {why}" for judgement in judged if (why := judgement.item.reason or judgement.item.lost)
     ]
-    show(rows, *told, f"{len(judged)} items")
+    show(rows, *reasons, f"{len(judged)} items")

@@ -27,21 +27,18 @@ def run(*files: Path, out: Path | None = None) -> None:
         raise InputError(f"name at least one problem file, or one of those packaged: {', '.join(problem_names())}")
     if out is not None and len(files) > 1:
         raise InputError("--out takes the results of one problem file; several were named")
-    asked = [problem_file(file) for file in files]
-    for _, own in asked:
-        if (folder := out or own) is not None:
-            writing.check_place(folder / "results.md")
-    for file, own in asked:
+    sources = [problem_file(file) for file in files]
+    for place in (out or folder for _, folder in sources):
+        if place is not None:
+            writing.check_place(place / "results.md")
+    for file, folder in sources:
         with busy(f"{file}"):
-            written = job.run(file, out or own)
+            written = job.run(file, out or folder)
         for text in (w for w in written if w.suffix == ".md"):
-            show(*_lines(text))
+            lines = text.read_text(encoding="utf-8").splitlines()
+            show(*(line for line in lines if not line.startswith("<!--")))
         for result in written:
             print(_near(result))  # noqa: T201
-
-
-def _lines(text: Path) -> list[str]:
-    return [line for line in text.read_text(encoding="utf-8").splitlines() if not line.startswith("<!--")]
 
 
 def _near(file: Path) -> Path:

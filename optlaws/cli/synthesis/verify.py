@@ -31,7 +31,9 @@ def verify(*files: Path, as_json: AsJson = False) -> None:
     if not files:
         raise InputError("name at least one file that `optlaws solve --output FILE` wrote")
     verifications = {
-        _name(file, place): verification for file in files for place, verification in verify_all(file).items()
+        f"{file}: {place}" if place else str(file): verification
+        for file in files
+        for place, verification in verify_all(file).items()
     }
     if as_json:
         print_json({name: verification.to_dict() for name, verification in verifications.items()})
@@ -48,10 +50,6 @@ def verify(*files: Path, as_json: AsJson = False) -> None:
     ]
     if failed:
         raise NotProven("\n".join(failed))
-
-
-def _name(file: Path, place: str) -> str:
-    return f"{file}: {place}" if place else str(file)
 
 
 def _line(name: str, word: str, verification: Verification) -> str:

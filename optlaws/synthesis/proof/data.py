@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 import msgspec
 
 from optlaws.errors import InputError
-from optlaws.files.typed import typed
+from optlaws.files.problem_file import typed
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.nodes import Contact, Leaf, Node, PlaceRange, Split, Tightening
 

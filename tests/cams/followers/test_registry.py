@@ -16,7 +16,7 @@ FOLDER = PACKAGE / "cams" / "followers"
 #: modules that make a follower of one kind, and ask of no other: arms with rollers, and the cam that is shown first
 MAKERS = {
     "balancing/machine_units/dwell_machine.py": {"OscillatingRoller"},
-    "explorer/answers/cam_view.py": {"translating roller"},
+    "explorer/cam_view.py": {"translating roller"},
 }
 
 

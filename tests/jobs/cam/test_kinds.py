@@ -24,7 +24,7 @@ from optlaws.cams.disc import DiscCam
 from optlaws.errors import InputError
 from optlaws.files import reading
 from optlaws.jobs import job
-from optlaws.jobs.cam.cam import answer
+from optlaws.jobs.cam import answer
 
 MOTION = """
 [motion]
@@ -59,9 +59,8 @@ def cycle() -> Cycle:
 @pytest.fixture(autouse=True)
 def drawn(monkeypatch: pytest.MonkeyPatch) -> None:
     """Pictures are made, but the contract of jobs writes them."""
-    for module in ("cam", "barrels"):
-        saved = f"optlaws.jobs.cam.{module}.save_pictures"
-        monkeypatch.setattr(saved, lambda figures, out: [out / f"{name}.svg" for name in figures])
+    saved = "optlaws.plots.style.save_pictures"
+    monkeypatch.setattr(saved, lambda figures, out: [out / f"{name}.svg" for name in figures])
 
 
 def done(folder: Path, text: str) -> tuple[str, dict[str, Any], set[str]]:

@@ -5,8 +5,7 @@ import pytest
 
 from optlaws.cams.forces import CamForces
 from optlaws.errors import InputError
-from optlaws.jobs.cam.animation import animated
-from optlaws.plots.cam import forces_figure
+from optlaws.plots.cam import animated, forces_figure
 from tests.cams.placed import FOLLOWERS, cam_of
 
 

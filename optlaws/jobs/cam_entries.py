@@ -11,16 +11,78 @@ import msgspec
 
 from optlaws.cams.best_laws import BestBaseCircle, BestCam, best_base_circle, best_cam
 from optlaws.cams.conjugate import conjugate_cam
+from optlaws.cams.cutting.cam_files import format_of
+from optlaws.cams.cutting.file_options import Cutting
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.follower import read_follower
+from optlaws.cams.forces import CamForces
 from optlaws.cycles.cycle import Cycle
 from optlaws.errors import InputError
+from optlaws.files import writing
 from optlaws.files.problem_file import Text, convert
-from optlaws.jobs.cam.forces_and_files import ForcesAndFiles, check
 from optlaws.jobs.cycle_entries import AxisEntries, cycle_of
+from optlaws.jobs.job import JobFile
+from optlaws.motion.quantities import TURN
 
 #: its kind, and the entries that this kind takes
 FollowerEntries: TypeAlias = dict[str, str]
+Several = Annotated[tuple[int, ...], msgspec.Meta(max_length=10)]
+
+
+class ForcesEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """Forces of the cam under the drive of its motion."""
+
+    friction: dict[str, float | str] = {}
+    width: str | None = None
+    materials: tuple[str, str] = ("steel", "steel")
+
+
+class SpringEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """A spring that keeps the follower on the cam over a range of speeds."""
+
+    speeds: tuple[str, str]
+    force: str | None = None
+    stiffness: str | None = None
+    preload: str | None = None
+
+
+class AsManufacturedEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """The files that are run against the follower: tables of so many points and decimals, and errors of the profile."""
+
+    points: Several = (361, 721)
+    decimals: Several = (3, 4, 6)
+    curve: str = "profile"
+    error: str | None = None
+    waves: Several = (3, 12)
+
+
+class FileEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """A file that cuts the cam; what is not given is as in `DiscCam.export`."""
+
+    name: Text
+    format: str | None = None
+    curve: str | None = None
+    cutter_radius: str | None = None
+    tolerance: str | None = None
+    decimals: int | None = None
+    points: int | None = None
+    degree: int | None = None
+    feed: str | None = None
+
+    def options(self) -> dict[str, Any]:
+        """Entries of the export that are given."""
+        given = msgspec.structs.asdict(self)
+        return {key: value for key, value in given.items() if key not in {"name", "format"} and value is not None}
+
+    def check(self, cam: DiscCam) -> None:
+        """Refuse before the work is done what would be refused when the file is written."""
+        if Path(self.name).name != self.name:
+            raise InputError(f"file: name must be that of a file in the folder of results, got {self.name!r}")
+        writing.check_name(Path(self.name))
+        format_of(Path(self.name), self.format)
+        entries = self.options()
+        cam.outline(entries.pop("curve", None), entries.pop("cutter_radius", None))
+        Cutting(**entries)
 
 
 class PairEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
@@ -31,11 +93,9 @@ class PairEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     follower: FollowerEntries | None = None
 
 
-class CamProblemFile(ForcesAndFiles, kw_only=True, forbid_unknown_fields=True):
+class CamProblemFile(JobFile, kw_only=True, forbid_unknown_fields=True):
     """The problem file of a disc cam."""
 
-    job: str
-    title: Text
     motion: AxisEntries
     follower: FollowerEntries
     base_radius: str | None = None
@@ -48,7 +108,11 @@ class CamProblemFile(ForcesAndFiles, kw_only=True, forbid_unknown_fields=True):
     pressure_angle: str | None = None
     radius_of_curvature: str | None = None
     rows: Annotated[int, msgspec.Meta(ge=2, le=100_000)] = 361
-    text: str = ""
+    forces: ForcesEntries | None = None
+    spring: SpringEntries | None = None
+    as_made: AsManufacturedEntries | None = None
+    file: Annotated[list[FileEntries], msgspec.Meta(max_length=50)] = msgspec.field(default_factory=list)
+    animation: bool = False
 
     @property
     def limits(self) -> dict[str, Any]:
@@ -78,21 +142,29 @@ class Cams:
     best: BestCam | BestBaseCircle | None = None
     second: DiscCam | None = None
 
+    def forces(self, options: ForcesEntries | None) -> CamForces | None:
+        """The cam's forces at the speed of its cycle; None without options."""
+        if options is None:
+            return None
+        # laws that were found for a cam are no cycle, but go as fast
+        beside: dict[str, Any] = {}
+        if self.first.motion is not self.cycle:
+            beside = {"speed": f"{TURN / self.cycle.duration!r} rad/s", "drive": self.cycle.drive}
+        return CamForces(
+            self.first, friction=options.friction, width=options.width, materials=options.materials, **beside
+        )
+
 
 def read(data: Mapping[str, Any], file: Path) -> tuple[CamProblemFile, Cams]:
-    """The entries of a file, and the cams.
-
-    Raises
-    ------
-    InputError
-        If an entry is unknown or wrong; the error names the file.
-    """
+    """The entries of a file, and the cams; an error names the file."""
     spec = convert(data, CamProblemFile, file)
     try:
         cams = _cams(spec)
         if spec.cutter_radius is not None:
             cams.first.cutter_path(spec.cutter_radius)
-        check(spec, cams.first, cams.cycle)
+        for entry in spec.file:
+            entry.check(cams.first)
+        cams.forces(spec.forces)
     except InputError as error:
         raise InputError(f"{file}: {error}") from None
     return spec, cams
@@ -106,14 +178,16 @@ def _cams(spec: CamProblemFile) -> Cams:
         raise InputError("base_radius is what best = 'base circle' looks for: leave it out, or ask for best = 'laws'")
     cycle = cycle_of(spec.motion, spec.speed, spec.period)
     radius: Any = spec.base_radius
+    best: BestCam | BestBaseCircle | None = None
     if spec.best is None:
         cam = DiscCam(cycle, radius, follower, turning=spec.limits["turning"])
-        return Cams(cycle, cam, None, _second(spec.pair, cam))
-    if spec.best == "laws":
+    elif spec.best == "laws":
         best = best_cam(cycle, radius, follower, **spec.limits)
-        return Cams(cycle, best.cam, best, _second(spec.pair, best.cam))
-    least = best_base_circle(cycle, follower, **spec.limits)
-    return Cams(cycle, least.least.cam, least, _second(spec.pair, least.least.cam))
+        cam = best.cam
+    else:
+        best = best_base_circle(cycle, follower, **spec.limits)
+        cam = best.least.cam
+    return Cams(cycle, cam, best, _second(spec.pair, cam))
 
 
 def _second(entries: PairEntries | None, cam: DiscCam) -> DiscCam | None:

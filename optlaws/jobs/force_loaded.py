@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Annotated
 
 import msgspec
 import numpy as np
 
 from optlaws.errors import InputError
-from optlaws.files import tables, writing
-from optlaws.files.problem_file import Text, convert
+from optlaws.files import tables
+from optlaws.files.problem_file import Text
 from optlaws.formulas.of_motion import of_text
+from optlaws.jobs.job import JobFile
 from optlaws.laws import MotionLaw
 from optlaws.laws.catalogue.catalogue import catalogue
-from optlaws.plots.style import BLUES, GREY, empty_figure, plot_style, save_picture
-from optlaws.results.page import Page
+from optlaws.plots.style import BLUES, GREY, empty_figure, plot_style
+from optlaws.results.results import Results
 from optlaws.studies.problem_entries import ProblemEntries, gap, problem
 from optlaws.synthesis import Solution, synthesize
 from optlaws.synthesis.functionals.loads import drive_torque
@@ -43,39 +43,29 @@ class Case(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
         return drive_torque(inertia=self.inertia, friction=self.friction, load=self.load)
 
 
-class ForceLoadedProblemFile(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+class ForceLoadedProblemFile(JobFile, kw_only=True, forbid_unknown_fields=True):
     """The problem file of laws under loads."""
 
-    job: str
-    title: Text
     problem: ProblemEntries
     case: Annotated[list[Case], msgspec.Meta(min_length=1, max_length=4)]
-    catalogue: Annotated[list[Text], msgspec.Meta(max_length=4)] = []
-    text: str = ""
+    catalogue: Annotated[list[Text], msgspec.Meta(max_length=4)] = msgspec.field(default_factory=list)
 
 
 Laws = dict[str, tuple[MotionLaw, Solution | None]]
 
 
-def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
-    """Do the job and return the files written."""
-    spec = convert(data, ForceLoadedProblemFile, file)
+def run(results: Results) -> None:
+    """Put the table, its page and the picture into results."""
+    spec = results.read(ForceLoadedProblemFile)
     cases = {case.name: (case, _laws(spec, case)) for case in spec.case}
     if len(cases) < len(spec.case):
         raise InputError("case: names must differ")
     lines = [_line(case, name, *of_law) for case, laws in cases.values() for name, of_law in laws.items()]
-    about = f"{spec.title}; from {file.name}"
-    page = Page(spec.title).text(spec.text).figure("figure", spec.title).table(HEADINGS, lines, digits=7)
-    page.text("\n".join(f"{case.name}: torque = {case.torque}; peak {_convexity(case)}" for case in spec.case))
-    return [
-        writing.write(out / "table.csv", tables.to_csv(HEADINGS, lines, about=about)),
-        writing.write(out / "table.md", str(page)),
-        *save_picture(draw(spec.title, list(cases.values())), out / "figure"),
-    ]
-
-
-def _convexity(case: Case) -> str:
-    return peak(case.torque).convexity
+    results.table("table", HEADINGS, lines)
+    page = results.page("table").text(spec.text).figure("figure", spec.title).table(HEADINGS, lines, digits=7)
+    texts = (f"{case.name}: torque = {case.torque}; peak {peak(case.torque).convexity}" for case in spec.case)
+    page.text("\n".join(texts))
+    results.picture("figure", draw(spec.title, list(cases.values())))
 
 
 def _laws(spec: ForceLoadedProblemFile, case: Case) -> Laws:

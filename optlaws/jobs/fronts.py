@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from math import inf
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import msgspec
@@ -14,10 +13,12 @@ import numpy as np
 
 from optlaws.errors import InputError
 from optlaws.files import tables, writing
-from optlaws.files.problem_file import Text, convert
+from optlaws.files.problem_file import Text
+from optlaws.jobs.job import JobFile
 from optlaws.laws import MotionLaw, smoothstep
 from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.laws.savin import FAMILIES, alpha_range, savin
+from optlaws.numerics.tolerances import DRAWN_GAP
 from optlaws.plots.front import draw_front, draw_proven_front
 from optlaws.plots.style import (
     GREEN,
@@ -26,10 +27,9 @@ from optlaws.plots.style import (
     empty_figure,
     name_point,
     plot_style,
-    save_picture,
     shades,
 )
-from optlaws.results.page import Page
+from optlaws.results.results import Page, Results
 from optlaws.studies.problem_entries import Positive, ProblemEntries, gap, problem
 from optlaws.synthesis import FUNCTIONALS, Problem
 from optlaws.synthesis.front import HEADINGS, Front
@@ -73,45 +73,37 @@ class Picture(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     y: Pair | None = None
 
 
-class FrontsProblemFile(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+class FrontsProblemFile(JobFile, kw_only=True, forbid_unknown_fields=True):
     """The problem file of fronts between constants."""
 
-    job: str
-    title: Text
     problem: ProblemEntries
     figure: Annotated[list[Picture], msgspec.Meta(min_length=1)]
     points: Points = 50
-    text: str = ""
 
 
 Fronts = list[tuple[Picture, list[Front]]]
 
 
-def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
-    """Do the job and return the files written."""
-    spec = convert(data, FrontsProblemFile, file)
+def run(results: Results) -> None:
+    """Put the table, the page, the laws and the pictures of all fronts into results."""
+    spec = results.read(FrontsProblemFile)
     names = [picture.name for picture in spec.figure]
     if len(set(names)) != len(names):
         raise InputError(f"figure: names must differ, got {', '.join(names)}")
     for picture in spec.figure:
         check_beside(picture)
     drawn: Fronts = [(picture, [_front(spec, picture, curve) for curve in picture.front]) for picture in spec.figure]
-    about = f"{spec.title}; from {file.name}"
     lines = [
         [picture.name, *line]
         for picture, fronts in drawn
         for curve, front in zip(picture.front, fronts, strict=True)
         for line in _lines(curve, front)
     ]
-    written = [
-        writing.write(out / "fronts.csv", tables.to_csv(("figure", "front", *HEADINGS), lines, about=about)),
-        writing.write(out / "fronts.md", str(_page(spec, drawn))),
-        writing.write(out / "fronts.json", _json(about, drawn)),
-    ]
+    results.table("fronts", ("figure", "front", *HEADINGS), lines)
+    _fill(results.page("fronts").text(spec.text), drawn)
+    results.text("fronts.json", _json(results.about, drawn))
     for picture, fronts in drawn:
-        figure = draw(picture, fronts)
-        written += save_picture(figure, out / picture.name)
-    return written
+        results.picture(picture.name, draw(picture, fronts))
 
 
 def _front(spec: FrontsProblemFile, picture: Picture, curve: FrontEntries) -> Front:
@@ -131,8 +123,7 @@ def _lines(curve: FrontEntries, front: Front) -> list[list[tables.Cell]]:
     return [[curve.label, *row[:5], gap(point), *row[6:]] for row, point in zip(rows, front, strict=True)]
 
 
-def _page(spec: FrontsProblemFile, drawn: Fronts) -> Page:
-    page = Page(spec.title).text(spec.text)
+def _fill(page: Page, drawn: Fronts) -> None:
     for picture, fronts in drawn:
         few = []
         for curve, front in zip(picture.front, fronts, strict=True):
@@ -140,7 +131,6 @@ def _page(spec: FrontsProblemFile, drawn: Fronts) -> Page:
             last = len(lines) - 1
             few += [lines[i] for i in sorted({round(last * step / (_FEW - 1)) for step in range(_FEW)})]
         page.heading(picture.title).figure(picture.name, picture.title).table(("front", *HEADINGS), few)
-    return page
 
 
 def _json(about: str, drawn: Fronts) -> str:
@@ -173,13 +163,7 @@ _NEAR = 0.035  # of the axes: points nearer than this in both directions have th
 
 
 def check_beside(picture: Picture) -> None:
-    """Refuse names that are neither a family, nor "smoothstep", nor a law of the catalogue.
-
-    Raises
-    ------
-    InputError
-        If there is one.
-    """
+    """Refuse names that are neither a family, nor "smoothstep", nor a law of the catalogue."""
     for name in picture.catalogue:
         if name not in FAMILIES and name != SMOOTHSTEPS:
             try:
@@ -241,8 +225,6 @@ def _point(law: MotionLaw, picture: Picture) -> Ends:
 
 
 _MARGIN = 0.06
-#: a gap that no picture shows
-_DRAWN = 1e-4
 
 
 def draw(picture: Picture, fronts: Sequence[Front]) -> Figure:
@@ -282,7 +264,7 @@ def _exact(front: Front) -> ProvenFront | None:
     if not front[0].problem.convex or not ends[0] < ends[1]:
         return None
     free = _freed(front[0].problem, name)
-    return proven_front(free, (name, minimised), between=(ends[0], ends[1]), gap=_DRAWN)
+    return proven_front(free, (name, minimised), between=(ends[0], ends[1]), gap=DRAWN_GAP)
 
 
 def _upper_end(problem: Problem, name: str) -> float:

@@ -1,4 +1,4 @@
-"""What the page asks, read from JSON with its limits: laws, fronts, followers."""
+"""What the page asks, read from JSON with its limits: laws by a problem, by a name or as stored."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ Struct = TypeVar("Struct", bound=msgspec.Struct)
 Weight = Annotated[float, msgspec.Meta(ge=0.0, le=100.0)]
 
 
-class AskedLaw(msgspec.Struct, kw_only=True, forbid_unknown_fields=True, frozen=True):
+class LawRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True, frozen=True):
     """One law: a problem with weights for its objective, the name of a standard law, or a stored law."""
 
     problem: dict[str, Any] | None = None
@@ -35,19 +35,14 @@ class AskedLaw(msgspec.Struct, kw_only=True, forbid_unknown_fields=True, frozen=
     title: Annotated[str, msgspec.Meta(max_length=200)] | None = None
 
 
-class AskedLaws(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+class LawsRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     """Laws side by side."""
 
-    laws: Annotated[list[AskedLaw], msgspec.Meta(min_length=1, max_length=MOST_LAWS)]
+    laws: Annotated[list[LawRequest], msgspec.Meta(min_length=1, max_length=MOST_LAWS)]
 
 
 def ready(*kinds: type[msgspec.Struct]) -> None:
-    """Make msgspec know kinds before threads do: two that met one for the first time have crashed in it (0.22).
-
-    Examples
-    --------
-    >>> ready(AskedLaw, AskedLaws)
-    """
+    """Make msgspec know kinds before threads do: two that met one for the first time have crashed in it (0.22)."""
     for kind in kinds:
         msgspec.json.Decoder(kind)
 
@@ -62,7 +57,7 @@ def read(text: bytes, kind: type[Struct]) -> Struct:
 
     Examples
     --------
-    >>> read(b'{"laws": [{"name": "cycloidal"}]}', AskedLaws).laws[0].name
+    >>> read(b'{"laws": [{"name": "cycloidal"}]}', LawsRequest).laws[0].name
     'cycloidal'
     """
     try:
@@ -73,11 +68,6 @@ def read(text: bytes, kind: type[Struct]) -> Struct:
 
 def objective(weights: Mapping[str, float]) -> str:
     """The objective of weights: a constant alone, or the sum of those above 0, each by its least value over all laws.
-
-    Raises
-    ------
-    InputError
-        If no weight is above 0, or one is of another constant.
 
     Examples
     --------
@@ -95,26 +85,15 @@ def objective(weights: Mapping[str, float]) -> str:
     return " + ".join(f"{weight:.{_FIGURES}g}*{name}/{UNITS[name]:.{_FIGURES}g}" for name, weight in heavy.items())
 
 
-def problem_of(asked: AskedLaw) -> Problem:
-    """The problem that is asked.
-
-    Raises
-    ------
-    InputError
-        If it is none, or larger than the explorer takes.
-
-    Examples
-    --------
-    >>> problem_of(AskedLaw(problem={"order": 4, "B": 1.7}, weights={"J": 1.0}))
-    Problem(B=1.7, order=4, basis=Chebyshev(degree=9), minimise='J')
-    """
-    entries = dict(asked.problem or {})
+def problem_of(request: LawRequest) -> Problem:
+    """The problem that is asked."""
+    entries = dict(request.problem or {})
     if entries.get("order") is not None:
         whole(entries["order"], "order", least=1, most=MOST_ORDER)
     if entries.get("degree") is not None:
         whole(entries["degree"], "degree", most=MOST_DEGREE)
-    if asked.weights:
-        entries["minimise"] = objective(asked.weights)
+    if request.weights:
+        entries["minimise"] = objective(request.weights)
     return Problem.from_dict(entries)
 
 
@@ -123,13 +102,7 @@ _LAST: dict[int, Solution] = {}
 
 @lru_cache(maxsize=512)
 def solved(problem: Problem) -> Solution | InfeasibleProblem | SolverFailure:
-    """The solution of a problem, or why there is none.
-
-    Examples
-    --------
-    >>> solved(Problem(B=1.7, order=4)).status.value
-    'optimal'
-    """
+    """The solution of a problem, or why there is none."""
     # while a law is dragged each problem is next to the last one: a convex one has the same optimum from wherever
     start = _LAST.get(0) if problem.convex else None
     try:
@@ -139,7 +112,7 @@ def solved(problem: Problem) -> Solution | InfeasibleProblem | SolverFailure:
     return solution
 
 
-def without(problem: Problem, constant: str, **asked: Any) -> Problem:  # noqa: ANN401 - entries of a problem
+def without(problem: Problem, constant: str, **changes: Any) -> Problem:  # noqa: ANN401 - entries of a problem
     """The problem that asks nothing of a constant, and else what is given here.
 
     Examples
@@ -149,50 +122,32 @@ def without(problem: Problem, constant: str, **asked: Any) -> Problem:  # noqa: 
     """
     if hasattr(problem, constant):
         free: dict[str, Any] = {constant: None}
-        return replace(problem, **free, **asked)
+        return replace(problem, **free, **changes)
     others = {name: bound for name, bound in problem.bounds.items() if name.name != constant}
-    return replace(problem, bounds=others, **asked)
+    return replace(problem, bounds=others, **changes)
 
 
-def given_law(asked: AskedLaw) -> MotionLaw:
+def given_law(request: LawRequest) -> MotionLaw:
     """The law of a name or of stored data; no file is read.
-
-    Raises
-    ------
-    InputError
-        If there is no such law.
 
     Examples
     --------
-    >>> given_law(AskedLaw(name="III(7.2)")).constants.B.value
+    >>> given_law(LawRequest(name="III(7.2)")).constants.B.value
     1.859375
     """
-    if asked.law is not None:
-        return MotionLaw.from_dict(asked.law)
-    name = asked.name or ""
+    if request.law is not None:
+        return MotionLaw.from_dict(request.law)
+    name = request.name or ""
     if reading.is_file(name):
         raise InputError(f"{name} names a file, and the page reads none: start `optlaws explore` with it")
     return reading.read_law(name)
 
 
-def law_of(asked: AskedLaw) -> MotionLaw:
-    """The law that is asked, whichever way.
-
-    Raises
-    ------
-    InputError
-        If it cannot be read.
-    InfeasibleProblem, SolverFailure
-        If its problem has no law, or none was found.
-
-    Examples
-    --------
-    >>> round(law_of(AskedLaw(problem={"order": 4, "B": 1.7})).constants.C.value, 6)
-    4.819774
-    """
-    if asked.problem is None:
-        return given_law(asked)
-    answer = solved(problem_of(asked))
+def law_of(request: LawRequest) -> MotionLaw:
+    """The law that is asked, whichever way."""
+    if request.problem is None:
+        return given_law(request)
+    answer = solved(problem_of(request))
     if isinstance(answer, Solution):
         return answer.law
     raise answer
@@ -203,7 +158,7 @@ def value(law: MotionLaw, constant: str) -> float:
 
     Examples
     --------
-    >>> value(given_law(AskedLaw(name="cubic")), "C")
+    >>> value(given_law(LawRequest(name="cubic")), "C")
     6.0
     """
     number: float = FUNCTIONALS[constant].value(law)

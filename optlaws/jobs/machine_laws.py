@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import msgspec
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.errors import InputError
 from optlaws.files import tables, writing
-from optlaws.files.problem_file import Text, convert
+from optlaws.files.problem_file import Text
+from optlaws.jobs.job import JobFile
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.catalogue.catalogue import catalogue
@@ -22,8 +21,10 @@ from optlaws.laws.making.input_shaping import Shaper, shaped_law
 from optlaws.mechanisms.machine.machine import Machine
 from optlaws.mechanisms.machine.modes import mode
 from optlaws.mechanisms.spectrum.transforms import velocity_transform
-from optlaws.plots.style import BLUES, GREEN, GREY, WARM, empty_figure, plot_style, save_picture
-from optlaws.results.page import Page
+from optlaws.numbers import Array, bounded
+from optlaws.numerics.tolerances import RESIDUAL_ROUNDING, SHOWN_RESIDUAL
+from optlaws.plots.style import BLUES, GREEN, GREY, WARM, empty_figure, plot_style
+from optlaws.results.results import Results
 from optlaws.studies.problem_entries import gap, record
 from optlaws.synthesis import Functional, Problem, Solution, at_most, synthesize
 from optlaws.synthesis.problem.fields import from_entries
@@ -54,13 +55,7 @@ class MachineTable(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     stroke: float = 1.0
 
     def machine(self) -> Machine:
-        """The machine of the table, checked.
-
-        Raises
-        ------
-        InputError
-            If it is none; the message begins with the table's name.
-        """
+        """The machine of the table, checked."""
         if sum(given is not None for given in (self.masses, self.modes, self.A)) != 1:
             raise InputError("machine: give either masses with links and a drive, or modes, or matrices A, B, C and D")
         try:
@@ -101,13 +96,7 @@ class Measure(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     offset: float = 0.0
 
     def constant(self, machine: Machine) -> Functional:
-        """The constant of this machine.
-
-        Raises
-        ------
-        InputError
-            If it is none of the three, or more than one.
-        """
+        """The constant of this machine."""
         if sum(wish is not None for wish in (self.peak, self.rms, self.residual)) != 1:
             raise InputError(
                 "a constant of the machine is one of peak and rms, each of an output, and residual of a mode"
@@ -139,13 +128,7 @@ class Sought(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     problem: dict[str, Any] = {}
 
     def stated(self, machine: Machine) -> Problem:
-        """The problem of the law that is sought.
-
-        Raises
-        ------
-        InputError
-            If an entry is wrong; the message begins with the law's name.
-        """
+        """The problem of the law that is sought."""
         try:
             entries = from_entries({"order": 3, **self.problem})
             objective = self.minimise if isinstance(self.minimise, str) else self.minimise.constant(machine)
@@ -158,8 +141,6 @@ class Sought(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 
 SHAPERS: tuple[Shaper, ...] = ("ZV", "ZVD")
 _POINTS = 401
-_FLOOR = 1e-4  # of the greatest residual: what the logarithmic picture still shows
-_NOTHING = 1e-12  # of the vibration of a step: a residual that is rounding
 
 
 class Vibration(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
@@ -180,19 +161,16 @@ class Pictured(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     spread: Spread = 0.25
 
 
-class MachineLawsProblemFile(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+class MachineLawsProblemFile(JobFile, kw_only=True, forbid_unknown_fields=True):
     """The problem file of laws for a machine."""
 
-    job: str
-    title: Text
     machine: MachineTable
     vibration: Vibration
     report: list[Text]
     standard: Annotated[list[Text], msgspec.Meta(min_length=1, max_length=8)]
     sought: Annotated[list[Sought], msgspec.Meta(min_length=1, max_length=8)]
     figure: Pictured
-    units: dict[str, Text] = {}
-    text: str = ""
+    units: dict[str, Text] = msgspec.field(default_factory=dict)
 
     def titled(self, output: str) -> str:
         """An output with its unit, where that is given."""
@@ -209,14 +187,14 @@ class Compared:
     law: MotionLaw | None
     solution: Solution | None = None
 
-    def left(self, number: int, factors: NDArray[np.float64]) -> NDArray[np.float64]:
+    def left(self, number: int, factors: Array) -> Array:
         """Amplitudes that a mode is left with where all frequencies are so many times as high."""
         assert self.law is not None  # noqa: S101 - only laws that are there are asked
         vibration = self.machine.residual(number, self.vibration.output)
         roots = np.asarray(mode(self.machine, number).root * factors, dtype=np.complex128)
         amplitudes = np.abs(velocity_transform(self.law, roots))
         # the mode's share in the output is the same at every speed
-        return np.where(amplitudes > _NOTHING, vibration.share * amplitudes, 0.0)
+        return np.where(amplitudes > RESIDUAL_ROUNDING, vibration.share * amplitudes, 0.0)
 
     @kept_property
     def residuals(self) -> list[float]:
@@ -230,20 +208,19 @@ class Compared:
         return residuals
 
 
-def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
-    """Do the job and return the files written."""
-    spec = convert(data, MachineLawsProblemFile, file)
+def run(results: Results) -> None:
+    """Put the table, its page, the laws and the picture into results."""
+    spec = results.read(MachineLawsProblemFile)
     machine = spec.machine.machine()
     _check(spec, machine)
     laws = list(compared(spec, machine))
     headings, lines = _headings(spec), [_line(spec, law) for law in laws]
-    about = f"{spec.title}; from {file.name}"
-    written = [
-        writing.write(out / "table.csv", tables.to_csv(headings, lines, about=about)),
-        writing.write(out / "table.md", str(_page(spec, machine, headings, lines))),
-        writing.write(out / "laws.json", _laws(about, laws)),
-    ]
-    return written + save_picture(draw(spec, machine, laws), out / "figure")
+    results.table("table", headings, lines)
+    page = results.page("table").text(spec.text).figure("figure", spec.title)
+    page.heading("The machine's modes").table(*_modes(machine, spec.machine.duration))
+    page.heading("Laws").text(_about(spec)).table(headings, lines, digits=5)
+    results.text("laws.json", _laws(results.about, laws))
+    results.picture("figure", draw(spec, machine, laws))
 
 
 def _check(spec: MachineLawsProblemFile, machine: Machine) -> None:
@@ -308,12 +285,8 @@ def _line(spec: MachineLawsProblemFile, law: Compared) -> list[tables.Cell]:
     proof: list[tables.Cell] = [None, None, None]
     if law.solution is not None:
         proof = [law.solution.lower_bound, gap(law.solution), law.solution.status.value]
-    shown = [constants.B.value, constants.C.value, _finite(constants.J.value)]
+    shown = [constants.B.value, constants.C.value, bounded(constants.J.value)]
     return [law.name, *shown, *peaks, *law.residuals, *proof]
-
-
-def _finite(value: float) -> float | None:
-    return value if np.isfinite(value) else None
 
 
 def _laws(about: str, laws: Sequence[Compared]) -> str:
@@ -323,17 +296,14 @@ def _laws(about: str, laws: Sequence[Compared]) -> str:
     return f'{{{head}, "laws": {{\n' + ",\n".join(lines) + "\n}}\n"
 
 
-def _page(
-    spec: MachineLawsProblemFile, machine: Machine, headings: Sequence[str], lines: list[list[tables.Cell]]
-) -> Page:
-    page = Page(spec.title).text(spec.text).figure("figure", spec.title)
-    page.heading("The machine's modes").table(*_modes(machine, spec.machine.duration))
-    about = (
+def _about(spec: MachineLawsProblemFile) -> str:
+    """What the columns of the laws' table are, in words."""
+    unit = f" ({spec.units[spec.vibration.output]})" if spec.vibration.output in spec.units else ""
+    return (
         f"{_in_machine_units(spec.machine)} "
-        f"What is left of a mode is its amplitude in {spec.vibration.output!r}{_unit(spec)} after the motion, "
+        f"What is left of a mode is its amplitude in {spec.vibration.output!r}{unit} after the motion, "
         "with all frequencies as they are and off by the share that is named. A law without a finite J has jumps of c."
     )
-    return page.heading("Laws").text(about).table(headings, lines, digits=5)
 
 
 def _modes(machine: Machine, duration: float) -> tuple[list[str], list[list[tables.Cell]]]:
@@ -345,12 +315,6 @@ def _modes(machine: Machine, duration: float) -> tuple[list[str], list[list[tabl
         hertz = [periods / duration] if duration != 1.0 else []
         lines.append([vibration.number, vibration.frequency, periods, vibration.damping, *hertz])
     return [*headings, *(["frequency, Hz"] if duration != 1.0 else [])], lines
-
-
-def _unit(spec: MachineLawsProblemFile) -> str:
-    """The unit of what is left, in brackets."""
-    unit = spec.units.get(spec.vibration.output)
-    return f" ({unit})" if unit else ""
 
 
 def _in_machine_units(machine: MachineTable) -> str:
@@ -385,7 +349,7 @@ def _residuals(axes: Axes, spec: MachineLawsProblemFile, number: int, laws: Sequ
     spread = spec.figure.spread
     factors = np.linspace(1.0 - spread, 1.0 + spread, _POINTS)
     courses = [law.left(number, factors) for law in laws]
-    least = _FLOOR * max(float(values.max()) for values in courses)
+    least = SHOWN_RESIDUAL * max(float(values.max()) for values in courses)
     for course, style in zip(courses, _styles(laws), strict=True):
         axes.semilogy(100.0 * (factors - 1.0), np.maximum(course, least), **style)
     band = 100.0 * spec.vibration.spread

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from math import degrees
 from pathlib import Path
@@ -13,13 +12,14 @@ import numpy as np
 
 from optlaws.cams.barrel import SIDES, BarrelCam, SpaceCurve
 from optlaws.errors import InputError
-from optlaws.files import tables, writing
-from optlaws.files.problem_file import Text, convert
-from optlaws.jobs.cam.extreme_rows import EXTREMES, enclosure, extreme_row, plain
+from optlaws.files import tables
+from optlaws.files.problem_file import convert
+from optlaws.jobs.cam_findings import EXTREMES, enclosure, extreme_row, plain
 from optlaws.jobs.cycle_entries import AxisEntries, cycle_of
+from optlaws.jobs.job import JobFile
 from optlaws.numbers import Array
-from optlaws.plots.style import BLUES, GREY, WARM, new_figure, plot_style, save_pictures, titled
-from optlaws.results.page import Page
+from optlaws.plots.style import BLUES, GREY, WARM, new_figure, plot_style, titled
+from optlaws.results.results import Results
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 _MILLI = 1e3
 _TURN = 360.0
 _SAMPLES = 721
-_SAID = {
+_TITLES = {
     "free": "no flank has a cusp, at any depth",
     "undercut": "a flank has a cusp: make the roller smaller, the cylinder larger or the motion slower",
     "undecided": "whether a flank has a cusp is not decided",
@@ -43,11 +43,9 @@ class BarrelEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     roller_radius: str
 
 
-class BarrelProblemFile(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+class BarrelProblemFile(JobFile, kw_only=True, forbid_unknown_fields=True):
     """The problem file of a barrel cam."""
 
-    job: str
-    title: Text
     motion: AxisEntries
     barrel: BarrelEntries
     speed: str | None = None
@@ -55,41 +53,32 @@ class BarrelProblemFile(msgspec.Struct, kw_only=True, forbid_unknown_fields=True
     turning: str = "counterclockwise"
     cutter_radius: str | None = None
     rows: Annotated[int, msgspec.Meta(ge=2, le=100_000)] = 361
-    text: str = ""
 
 
-def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
-    """Do the job and return the files written."""
-    spec, cam = read(data, file)
-    about = f"{spec.title}; from {file.name}"
-    texts = {
-        "cam.md": str(page(spec, cam)),
-        "cam.json": json.dumps({"about": f"{about}; {writing.MARK}", **to_data(cam)}, indent=1) + "\n",
-        "cam.csv": tables.to_csv(_columns(spec), _rows(spec, cam), about=about),
-    }
-    figures = {"cam": draw(cam, spec.title)}
-    return [*(writing.write(out / name, text) for name, text in texts.items()), *save_pictures(figures, out)]
+def run(results: Results) -> None:
+    """Put the cam's page, data, table and picture into results."""
+    spec, cam = read(results.entries, results.file)
+    results.title = spec.title
+    page = results.page("cam").text(spec.text).figure("cam", spec.title)
+    page.text(f"Undercut: {_TITLES[cam.undercut]}.")
+    rows = [
+        extreme_row("pressure angle at the bottom, least", cam.pressure_angles[0], degrees(1.0), "deg"),
+        extreme_row("pressure angle at the bottom, greatest", cam.pressure_angles[1], degrees(1.0), "deg"),
+        extreme_row("way of a flank a radian, least", cam.margin, _MILLI, "mm"),
+    ]
+    page.table(EXTREMES, rows, digits=7)
+    results.data("cam.json", to_data(cam))
+    results.table("cam", _columns(spec), _rows(spec, cam))
+    results.picture("cam", draw(cam, spec.title))
 
 
 def answer(data: Mapping[str, Any], file: Path) -> dict[str, Any]:
-    """The data of the cam of a file for programs, in metres and radians.
-
-    Raises
-    ------
-    InputError
-        If an entry of the file is unknown or wrong.
-    """
+    """The data of the cam of a file for programs, in metres and radians."""
     return to_data(read(data, file)[1])
 
 
 def read(data: Mapping[str, Any], file: Path) -> tuple[BarrelProblemFile, BarrelCam]:
-    """The entries of a file, and the cam.
-
-    Raises
-    ------
-    InputError
-        If an entry is unknown or wrong; the error names the file.
-    """
+    """The entries of a file, and the cam; an error names the file."""
     spec = convert(data, BarrelProblemFile, file)
     try:
         cycle = cycle_of(spec.motion, spec.speed, spec.period)
@@ -111,18 +100,6 @@ def to_data(cam: BarrelCam) -> dict[str, Any]:
         "margin": enclosure(cam.margin),
         "undercut": {"status": cam.undercut},
     }
-
-
-def page(spec: BarrelProblemFile, cam: BarrelCam) -> Page:
-    """The page of results."""
-    result = Page(spec.title).text(spec.text).figure("cam", spec.title)
-    result.text(f"Undercut: {_SAID[cam.undercut]}.")
-    rows = [
-        extreme_row("pressure angle at the bottom, least", cam.pressure_angles[0], degrees(1.0), "deg"),
-        extreme_row("pressure angle at the bottom, greatest", cam.pressure_angles[1], degrees(1.0), "deg"),
-        extreme_row("way of a flank a radian, least", cam.margin, _MILLI, "mm"),
-    ]
-    return result.table(EXTREMES, rows, digits=7)
 
 
 def draw(cam: BarrelCam, title: str) -> Figure:
@@ -156,15 +133,10 @@ def _unrolled(curve: SpaceCurve, angles: Array, pitch: SpaceCurve) -> tuple[Arra
 
 
 def _columns(spec: BarrelProblemFile) -> list[str]:
-    return ["cam, deg", *(f"{name} {axis}, mm" for name in _curves_of(spec) for axis in "xyz"), *_PRESSURES]
-
-
-_PRESSURES = ("pressure angle outside, deg", "pressure angle at the bottom, deg")
-
-
-def _curves_of(spec: BarrelProblemFile) -> list[str]:
     flanks = [f"{side} flank {where}" for where in ("outside", "at the bottom") for side in SIDES]
-    return ["axis of the roller", *flanks, *([f"cutter, {side} flank" for side in SIDES] if spec.cutter_radius else [])]
+    cutters = [f"cutter, {side} flank" for side in SIDES] if spec.cutter_radius else []
+    points = [f"{name} {axis}, mm" for name in ("axis of the roller", *flanks, *cutters) for axis in "xyz"]
+    return ["cam, deg", *points, "pressure angle outside, deg", "pressure angle at the bottom, deg"]
 
 
 def _rows(spec: BarrelProblemFile, cam: BarrelCam) -> list[list[tables.Cell]]:

@@ -1,4 +1,4 @@
-"""Files that the page offers: what is seen as Python, as a problem file, as laws and tables."""
+"""Files that the page offers: what is seen as Python, as a problem file, as laws and tables, for a controller."""
 
 from __future__ import annotations
 
@@ -16,10 +16,11 @@ from optlaws import Cycle, Problem, Solution
 from optlaws.cams.cutting import cam_files
 from optlaws.cams.cutting.file_options import Cutting
 from optlaws.errors import InputError
-from optlaws.explorer.answers import cam_view, cycle_view
-from optlaws.explorer.answers.asked import MOST_LAWS, AskedLaw, law_of, problem_of, solved
-from optlaws.explorer.answers.law_view import title
-from optlaws.files.toml_text import to_toml
+from optlaws.explorer import cam_view, cycle_view
+from optlaws.explorer.law_view import digits, title
+from optlaws.explorer.requests import MOST_LAWS, LawRequest, law_of, problem_of, solved
+from optlaws.exports.format import FORMATS
+from optlaws.files.tables import to_toml
 from optlaws.files.writing import MARK
 from optlaws.jobs.cycle import table_of_motion
 from optlaws.jobs.cycle_entries import ElasticFollowerEntries, cycle_of
@@ -40,69 +41,66 @@ _PLAIN = (
 File = dict[str, str]
 
 
-class AskedFile(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+class SeenRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """What is seen on the page: laws, of which one is active, and a cycle."""
+
+    laws: Annotated[list[LawRequest], msgspec.Meta(min_length=1, max_length=MOST_LAWS)]
+    active: Annotated[int, msgspec.Meta(ge=0, lt=MOST_LAWS)] = 0
+    cycle: cycle_view.CycleRequest | None = None
+
+    @property
+    def law(self) -> LawRequest:
+        """The law that is active."""
+        return self.laws[min(self.active, len(self.laws) - 1)]
+
+
+class FileRequest(SeenRequest, kw_only=True, forbid_unknown_fields=True):
     """A file of what is seen."""
 
     kind: Literal["python", "problem", "law", "table", "cut"]
     view: Literal["laws", "cycle", "cam"] = "laws"
-    laws: Annotated[list[AskedLaw], msgspec.Meta(min_length=1, max_length=MOST_LAWS)]
-    active: Annotated[int, msgspec.Meta(ge=0, lt=MOST_LAWS)] = 0
-    cycle: cycle_view.AskedCycle | None = None
-    cam: cam_view.AskedCam | None = None
+    cam: cam_view.CamRequest | None = None
     format: Annotated[str, msgspec.Meta(max_length=40)] = "dxf spline"
 
 
-def answer(asked: AskedFile) -> File:
-    """A file: its name, its type, its text.
-
-    Raises
-    ------
-    InputError
-        If there is nothing to save.
-    InfeasibleProblem, SolverFailure
-        If the law that is to be saved does not exist.
-
-    Examples
-    --------
-    >>> answer(AskedFile(kind="table", laws=[AskedLaw(name="cycloidal")]))["name"]
-    'cycloidal.csv'
-    """
-    if asked.view == "cycle":
-        return _of_cycle(asked)
-    if asked.view == "cam":
-        return _of_cam(asked)
-    law = asked.laws[min(asked.active, len(asked.laws) - 1)]
+def answer(request: FileRequest) -> File:
+    """A file: its name, its type, its text."""
+    if request.view == "cycle":
+        return _of_cycle(request)
+    if request.view == "cam":
+        return _of_cam(request)
+    law = request.law
     makers: Mapping[str, Callable[[], File]] = {
-        "python": lambda: _file("study.py", "text/x-python", python(asked.laws)),
+        "python": lambda: _file("study.py", "text/x-python", python(request.laws)),
         "problem": lambda: _file("problem.toml", "application/toml", problem_file(law)),
         "law": lambda: _file(f"{_stem(law)}.json", "application/json", stored(law)),
         "table": lambda: _file(f"{_stem(law)}.csv", "text/csv", table_of_values(law_of(law), _title(law))),
     }
-    if asked.kind not in makers:
+    if request.kind not in makers:
         raise InputError("a law is cut by no tool: make a cam of it")
-    return makers[asked.kind]()
+    return makers[request.kind]()
 
 
 def _file(name: str, kind: str, text: str) -> File:
     return {"name": name, "type": kind, "text": text}
 
 
-def _title(law: AskedLaw) -> str:
+def _title(law: LawRequest) -> str:
     if law.problem is None:
         return law.title or law.name or "a stored law"
     return law.title or title(problem_of(law))
 
 
-def _stem(law: AskedLaw) -> str:
+def _stem(law: LawRequest) -> str:
     return "_".join(re.findall(r"[A-Za-z0-9.]+", _title(law)))[:60].strip("._") or "law"
 
 
-def python(laws: list[AskedLaw]) -> str:
+def python(laws: list[LawRequest]) -> str:
     """Lines that make the same laws with the same digits, and draw them.
 
     Examples
     --------
-    >>> print(python([AskedLaw(name="cycloidal")]), end="")
+    >>> print(python([LawRequest(name="cycloidal")]), end="")
     from optlaws import compare
     <BLANKLINE>
     comparison = compare('cycloidal')
@@ -110,14 +108,14 @@ def python(laws: list[AskedLaw]) -> str:
         print(row)
     comparison.plot()[0].figure.savefig("laws.png")
     """
-    made, given = [], []
+    lines, given = [], []
     for name, law in zip(_NAMES, laws, strict=False):
         text = _expression(law)
         given.append(text if law.name is not None and law.problem is None else name)
         if given[-1] == name:
-            made.append(f"{name} = {text}")
+            lines.append(f"{name} = {text}")
     lines = [
-        *made,
+        *lines,
         f"comparison = compare({', '.join(given)})",
         "for row in comparison.rows:",
         "    print(row)",
@@ -126,7 +124,7 @@ def python(laws: list[AskedLaw]) -> str:
     return _with_imports(lines)
 
 
-def _expression(law: AskedLaw) -> str:
+def _expression(law: LawRequest) -> str:
     if law.problem is not None:
         return f"synthesize({_problem_text(problem_of(law))})"
     if law.law is not None:
@@ -145,28 +143,19 @@ def _problem_text(problem: Problem) -> str:
     return text if known else f"Problem.from_dict({problem.to_dict()!r})"
 
 
-def _called(text: str) -> list[str]:
-    return sorted({name for name in _CALLED.findall(text) if name in optlaws.__all__})
-
-
 def _with_imports(lines: list[str]) -> str:
     body = "\n".join(lines)
-    names = _called(body) + (["MotionLaw"] if "MotionLaw." in body else [])
-    names += ["Problem"] if "Problem." in body and "Problem" not in names else []
+    names = {name for name in _CALLED.findall(body) if name in optlaws.__all__}
+    names |= {name for name in ("MotionLaw", "Problem") if f"{name}." in body}
     return f"from optlaws import {', '.join(sorted(names))}\n\n{body}\n"
 
 
-def problem_file(law: AskedLaw) -> str:
+def problem_file(law: LawRequest) -> str:
     """The problem as a file for `optlaws run` and `optlaws explore`.
-
-    Raises
-    ------
-    InputError
-        If the law is of no problem.
 
     Examples
     --------
-    >>> print(problem_file(AskedLaw(problem={"order": 4, "B": 1.7, "J": [0, 60]})), end="")
+    >>> print(problem_file(LawRequest(problem={"order": 4, "B": 1.7, "J": [0, 60]})), end="")
     job = "solutions"
     title = "least C, J ≤ 60, B = 1.7, order 4, degree 9"
     <BLANKLINE>
@@ -201,56 +190,51 @@ def _bounds(value: Any) -> Any:  # noqa: ANN401 - an entry
     return {name: _bounds(entry) for name, entry in value.items()} if isinstance(value, dict) else value
 
 
-def stored(law: AskedLaw) -> str:
+def stored(law: LawRequest) -> str:
     """The law as JSON; a solution with its problem and its proof, for `optlaws verify`."""
     solution = solved(problem_of(law)) if law.problem is not None else None
     data = solution.to_dict() if isinstance(solution, Solution) else law_of(law).to_dict()
     return json.dumps({"about": MARK, **data} if isinstance(solution, Solution) else data, indent=1) + "\n"
 
 
-def _of_cycle(asked: AskedFile) -> File:
-    if asked.cycle is None:
+def _of_cycle(request: FileRequest) -> File:
+    if request.cycle is None:
         raise InputError("there is no cycle to save")
-    if asked.kind == "problem":
-        cycle_view.read(asked.cycle)
-        return _file("cycle.toml", "application/toml", to_toml(asked.cycle.study))
-    spec, axis = cycle_view.read(asked.cycle)
-    cycle = cycle_view.cycle(asked.cycle)
-    if asked.kind == "table":
+    if request.kind == "problem":
+        cycle_view.read(request.cycle)
+        return _file("cycle.toml", "application/toml", to_toml(request.cycle.study))
+    spec, axis = cycle_view.read(request.cycle)
+    cycle = cycle_view.cycle(request.cycle)
+    if request.kind == "table":
         about = f"{spec.title}: {axis.name}; SI units but for mm and deg"
         return _file(f"{axis.name}.csv", "text/csv", table_of_motion(cycle, _ROWS, about))
-    if asked.kind == "python":
+    if request.kind == "python":
         free = msgspec.structs.replace(axis, follower=None)
         return _file("cycle.py", "text/x-python", cycle_python(cycle_of(free, spec.speed, spec.period), axis.follower))
     raise InputError("a cycle has several laws: save it as a problem file or a table")
 
 
-def _of_cam(asked: AskedFile) -> File:
-    if asked.cam is None:
+def _of_cam(request: FileRequest) -> File:
+    if request.cam is None:
         raise InputError("there is no cam to save")
-    spec, cam = cam_view.cam_of(asked.cam)
-    if asked.kind == "problem":
-        return _file("cam.toml", "application/toml", to_toml(asked.cam.study))
-    if asked.kind != "cut":
+    spec, cams = cam_view.cams_of(request.cam)
+    if request.kind == "problem":
+        return _file("cam.toml", "application/toml", to_toml(request.cam.study))
+    if request.kind != "cut":
         raise InputError("a cam is saved as a problem file or as a file that cuts it")
-    if asked.format not in cam_files.FORMATS:
-        raise InputError(f"format: {unknown_key(asked.format, cam_files.FORMATS, 'format')}")
-    ending = next(end for end, name in cam_files.ENDINGS.items() if name.split()[0] == asked.format.split()[0])
-    return _file(f"cam{ending}", "text/plain", cam_files.text(cam.profile, asked.format, Cutting(about=spec.title)))
+    if request.format not in cam_files.FORMATS:
+        raise InputError(f"format: {unknown_key(request.format, cam_files.FORMATS, 'format')}")
+    ending = next(end for end, name in cam_files.ENDINGS.items() if name.split()[0] == request.format.split()[0])
+    return _file(
+        f"cam{ending}", "text/plain", cam_files.text(cams.first.profile, request.format, Cutting(about=spec.title))
+    )
 
 
 def cycle_python(cycle: Cycle, follower: ElasticFollowerEntries | None = None) -> str:
-    """Lines that make the same cycle, or that of the cam whose follower moves so.
-
-    Examples
-    --------
-    >>> from optlaws.explorer.answers.cycle_view import AskedCycle, example
-    >>> cycle_python(cycle_view.cycle(AskedCycle(study=example()))).splitlines()[0]
-    'from optlaws import Cycle, Dwell, Return, Rise'
-    """
-    asked = {name: getattr(cycle, name) for name in ("speed", "period", "minimise", "limits", "start", "advance")}
-    asked |= {"drive": cycle.drive, "order": cycle.order, "degree": cycle.degree}
-    given = ", ".join(f"{name}={value!r}" for name, value in asked.items() if value not in (None, {}))
+    """Lines that make the same cycle, or that of the cam whose follower moves so."""
+    entries = {name: getattr(cycle, name) for name in ("speed", "period", "minimise", "limits", "start", "advance")}
+    entries |= {"drive": cycle.drive, "order": cycle.order, "degree": cycle.degree}
+    given = ", ".join(f"{name}={value!r}" for name, value in entries.items() if value not in (None, {}))
     segments = "\n".join(f"    {segment!r}," for segment in cycle.segments)
     lines = [
         f"segments = [\n{segments}\n]",
@@ -260,3 +244,61 @@ def cycle_python(cycle: Cycle, follower: ElasticFollowerEntries | None = None) -
         'cycle.plot()[0].figure.savefig("cycle.png")',
     ]
     return _with_imports(lines)
+
+
+Text = Annotated[str, msgspec.Meta(max_length=60)]
+_MOST_POINTS = 10_000
+
+
+class ExportRequest(SeenRequest, kw_only=True, forbid_unknown_fields=True):
+    """A law or a cycle in a format, with the machine it moves."""
+
+    format: Text
+    view: Literal["laws", "cycle"] = "laws"
+    stroke: Text = "35 mm"
+    time: Text = "0.1 s"
+    master: Text = "120 deg"
+    points: Annotated[int, msgspec.Meta(ge=2, le=_MOST_POINTS)] | None = None
+    counts: Annotated[int, msgspec.Meta(ge=2, le=2**53)] | None = None
+
+
+def formats() -> list[dict[str, Any]]:
+    """The formats, with who takes each and what may be asked of it."""
+    return [
+        {"name": name, "target": FORMATS[name].target, "takes": list(FORMATS[name].takes)} for name in sorted(FORMATS)
+    ]
+
+
+def exported(request: ExportRequest) -> dict[str, Any]:
+    """The file, and the peaks of the motion as the controller interpolates it beside those of the law.
+
+    Examples
+    --------
+    >>> file = exported(ExportRequest(format="codesys-xyva", laws=[LawRequest(name="cycloidal")], points=9))
+    >>> file["name"], file["rows"][1][0]
+    ('Cam.st', 'peak of acceleration, mm/s²')
+    """
+    export = _export(request)
+    written = export.written
+    return {
+        "name": f"Cam{export.format.extension}",
+        "type": "text/plain",
+        "text": export.text,
+        "words": f"{export.format.target}: {written.points} {written.counted}, {written.model}",
+        "notes": list(written.notes),
+        "rows": [[name, *map(_cell, numbers)] for name, *numbers in export.rows()],
+    }
+
+
+def _export(request: ExportRequest) -> Any:  # noqa: ANN401 - an Export
+    given: dict[str, Any] = {"points": request.points, "counts": request.counts}
+    if request.view == "cycle":
+        if request.cycle is None:
+            raise InputError("there is no cycle to export")
+        return cycle_view.cycle(request.cycle).export(request.format, **given)
+    given |= {"stroke": request.stroke, "duration": request.time, "master": request.master or None}
+    return law_of(request.law).export(request.format, **given)
+
+
+def _cell(number: float | None) -> str:
+    return "—" if number is None else digits(number, 6)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from copy import deepcopy
 from functools import lru_cache
 from math import inf
 from pathlib import Path
@@ -15,44 +14,43 @@ from optlaws import Cycle, Status
 from optlaws.cycles.optimisation.objectives import LIMITS, read_limits
 from optlaws.cycles.summary import drive_rows, joint_rows, objective_unit
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
-from optlaws.explorer.answers.asked import MOST_DEGREE, MOST_ORDER
-from optlaws.explorer.answers.law_view import HEARD, digits, drawn, gap_text, refusal
+from optlaws.explorer.law_view import TITLES, digits, drawn, gap_text, refusal
+from optlaws.explorer.requests import MOST_DEGREE, MOST_ORDER
+from optlaws.files.problem_file import convert
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile, cycle_of
 from optlaws.laws.catalogue import reading
+from optlaws.numerics.tolerances import AGREEMENT, BOUND_SLACK, CYCLE_ROUNDING
 from optlaws.plots.cycle import QUANTITIES, UNITS, samples
 
 _EACH = 100
 _TURN = 360.0
-_KEPT = 1.0 + 1e-9
-_ROUNDING = 1e-11
-_ROOM = 1e-6
 _WHERE = Path("the cycle")
 
 
-class AskedCycle(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+class CycleRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     """A cycle as its problem file says it, and which of its axes is shown."""
 
     study: dict[str, Any]
     axis: Annotated[int, msgspec.Meta(ge=0, le=7)] = 0
 
 
-def answer(asked: AskedCycle) -> dict[str, Any]:
+def answer(request: CycleRequest) -> dict[str, Any]:
     """The view of an axis, or why there is none."""
     try:
-        return _view(cycle(asked))
+        return _view(cycle(request))
     except (InfeasibleProblem, SolverFailure) as error:
         return {"refused": refusal(error)}
     except InputError as error:
         return {"refused": {"word": "not understood", "reason": str(error), "tried": ""}}
 
 
-def nearest(asked: AskedCycle) -> dict[str, Any]:
+def nearest(request: CycleRequest) -> dict[str, Any]:
     """How far limits must go back so that there is a motion again: one limit at a time, the others as they are."""
-    spec, axis = read(asked)
+    spec, axis = read(request)
     return {"ways": list(_ways(spec, axis))}
 
 
-def read(asked: AskedCycle) -> tuple[CycleProblemFile, AxisEntries]:
+def read(request: CycleRequest) -> tuple[CycleProblemFile, AxisEntries]:
     """The programme that is asked, and the axis that is shown.
 
     Raises
@@ -60,26 +58,14 @@ def read(asked: AskedCycle) -> tuple[CycleProblemFile, AxisEntries]:
     InputError
         If an entry is unknown or wrong, or larger than the explorer takes, or a law is named by a file.
     """
-    from optlaws.files.problem_file import convert
-
-    spec = convert(asked.study, CycleProblemFile, _WHERE)
-    axis = spec.axis[min(asked.axis, len(spec.axis) - 1)]
+    spec = convert(request.study, CycleProblemFile, _WHERE)
+    axis = spec.axis[min(request.axis, len(spec.axis) - 1)]
     check_axis(axis)
     return spec, axis
 
 
 def check_axis(axis: AxisEntries) -> None:
-    """Refuse what is larger than the explorer takes, and laws that are named by files.
-
-    Raises
-    ------
-    InputError
-        If one is.
-
-    Examples
-    --------
-    >>> check_axis(AxisEntries(name="slide", segment=[], degree=9))
-    """
+    """Refuse what is larger than the explorer takes, and laws that are named by files."""
     if axis.order > MOST_ORDER or axis.degree > MOST_DEGREE:
         raise InputError(f"the explorer takes cycles of order up to {MOST_ORDER} and degree up to {MOST_DEGREE}")
     for segment in axis.segment:
@@ -87,27 +73,21 @@ def check_axis(axis: AxisEntries) -> None:
             raise InputError(f"law: {segment.law} names a file, and the page reads none: take a law of the catalogue")
 
 
-def cycle(asked: AskedCycle) -> Cycle:
-    """The cycle of the axis that is shown.
-
-    Raises
-    ------
-    InputError
-        If durations, positions or velocities do not fit.
-    """
-    return _stored(*read(asked))
+def cycle(request: CycleRequest) -> Cycle:
+    """The cycle of the axis that is shown."""
+    return _stored(*read(request))
 
 
 def _stored(spec: CycleProblemFile, axis: AxisEntries) -> Cycle:
-    return _made(msgspec.json.encode((axis, spec.speed, spec.period)))
+    return _solved(msgspec.json.encode((axis, spec.speed, spec.period)))
 
 
 @lru_cache(maxsize=64)
-def _made(question: bytes) -> Cycle:
+def _solved(question: bytes) -> Cycle:
     axis, speed, period = msgspec.json.decode(question, type=tuple[AxisEntries, str | None, str | None])
-    made = cycle_of(axis, speed, period)
-    _ = made.peaks  # what cannot be found is told here
-    return made
+    cycle_of_axis = cycle_of(axis, speed, period)
+    _ = cycle_of_axis.peaks  # what cannot be found is told here
+    return cycle_of_axis
 
 
 def _view(shown: Cycle) -> dict[str, Any]:
@@ -128,8 +108,8 @@ def _limits(shown: Cycle) -> list[dict[int, float]]:
     """What each segment must keep: its own limits and those of the axis, in SI units by order."""
     whole = read_limits(shown.limits, shown.axis, "limits")
     return [
-        {nu: min(whole.get(nu, inf), own.get(nu, inf)) for nu in sorted({*whole, *own})}
-        for own in shown.limits_of_segments
+        {nu: min(whole.get(nu, inf), limits.get(nu, inf)) for nu in sorted({*whole, *limits})}
+        for limits in shown.limits_of_segments
     ]
 
 
@@ -142,10 +122,10 @@ def _panel(shown: Cycle, nu: int) -> dict[str, Any]:
         {
             "from": _degrees(shown, peak.start),
             "to": _degrees(shown, peak.start + peak.duration),
-            "value": own[nu] * factor,
+            "value": limit[nu] * factor,
         }
-        for peak, own in zip(shown.peaks, _limits(shown), strict=True)
-        if nu in own
+        for peak, limit in zip(shown.peaks, _limits(shown), strict=True)
+        if nu in limit
     ]
     name = QUANTITIES[nu]
     return {"name": name, "unit": unit, "at": places, "values": values, "limits": limits, "peaks": _peaks(shown, nu)}
@@ -156,7 +136,7 @@ def _peaks(shown: Cycle, nu: int) -> list[dict[str, Any]]:
     factor = UNITS[shown.axis][nu][1]
     low = min((peak.extremes[nu][0] for peak in shown.peaks), key=lambda pair: pair[0])
     high = max((peak.extremes[nu][1] for peak in shown.peaks), key=lambda pair: pair[0])
-    seen = [pair for pair in (low, high) if abs(pair[0]) > _ROUNDING * shown.peak(nu)]
+    seen = [pair for pair in (low, high) if abs(pair[0]) > CYCLE_ROUNDING * shown.peak(nu)]
     return [
         {"at": _degrees(shown, time), "value": value * factor, "text": digits(value * factor, 6)}
         for value, time in seen
@@ -165,11 +145,11 @@ def _peaks(shown: Cycle, nu: int) -> list[dict[str, Any]]:
 
 def _segments(shown: Cycle) -> Iterator[dict[str, Any]]:
     units = UNITS[shown.axis]
-    for peak, own, stretch in zip(shown.peaks, _limits(shown), shown.programme.stretches, strict=True):
+    for peak, limits, stretch in zip(shown.peaks, _limits(shown), shown.programme.stretches, strict=True):
         peaks = [
             {
                 "text": _plain(peak.peak(nu) * units[nu][1], shown.peak(nu) * units[nu][1]),
-                "beyond": peak.peak(nu) > own.get(nu, inf) * _KEPT,
+                "beyond": peak.peak(nu) > limits.get(nu, inf) * (1.0 + AGREEMENT),
             }
             for nu in (1, 2, 3)
         ]
@@ -185,7 +165,7 @@ def _segments(shown: Cycle) -> Iterator[dict[str, Any]]:
 
 
 def _plain(value: float, size: float) -> str:
-    return digits(0.0 if abs(value) <= _ROUNDING * size else value, 6)
+    return digits(0.0 if abs(value) <= CYCLE_ROUNDING * size else value, 6)
 
 
 def _trust(shown: Cycle) -> dict[str, Any] | None:
@@ -202,7 +182,7 @@ def _trust(shown: Cycle) -> dict[str, Any] | None:
     status = shown.status
     return {
         "status": status.value,
-        "word": HEARD[status],
+        "word": TITLES[status],
         "advice": advice.get(status, status.advice),
         "gap": gap,
         "facts": facts,
@@ -225,43 +205,30 @@ def _ways(spec: CycleProblemFile, axis: AxisEntries) -> Iterator[dict[str, Any]]
             least = _stored(spec, freed).objective
         except (InfeasibleProblem, SolverFailure):
             continue
-        unit, factor = _unit(_stored(spec, freed), LIMITS[name])
-        text = f"{least * factor * (1.0 + _ROOM):.6g} {unit}"
+        order, cycle = LIMITS[name], _stored(spec, freed)
+        # in the unit of its limit, of which so many make one of SI
+        unit, factor = UNITS[cycle.axis][order] if order > 0 else (objective_unit(cycle), 1.0)
+        text = f"{least * factor * (1.0 + BOUND_SLACK):.6g} {unit}"
         yield {"entry": name, "value": text, "text": f"raise the limit of {name} from {given} to {text}"}
 
 
-def _unit(shown: Cycle, order: int) -> tuple[str, float]:
-    """The unit in which a limit is shown, and how many of it make one of SI."""
-    return UNITS[shown.axis][order] if order > 0 else (objective_unit(shown), 1.0)
-
-
-#: what the page shows where no cycle was given
-EXAMPLE: dict[str, Any] = {
-    "job": "cycle",
-    "title": "Rise, dwell, return, dwell",
-    "speed": "200 rpm",
-    "axis": [
-        {
-            "name": "slide",
-            "minimise": "acceleration",
-            "limits": {"velocity": "616 mm/s"},
-            "segment": [
-                {"kind": "rise", "by": "35 mm", "duration": "120 deg"},
-                {"kind": "dwell", "duration": "90 deg"},
-                {"kind": "return", "by": "35 mm", "duration": "100 deg"},
-                {"kind": "dwell"},
-            ],
-        }
-    ],
-}
-
-
 def example() -> dict[str, Any]:
-    """The cycle that is shown where none was given.
-
-    Examples
-    --------
-    >>> answer(AskedCycle(study=example()))["trust"]["word"]
-    'proven optimal'
-    """
-    return deepcopy(EXAMPLE)
+    """The cycle that the page shows where none was given."""
+    return {
+        "job": "cycle",
+        "title": "Rise, dwell, return, dwell",
+        "speed": "200 rpm",
+        "axis": [
+            {
+                "name": "slide",
+                "minimise": "acceleration",
+                "limits": {"velocity": "616 mm/s"},
+                "segment": [
+                    {"kind": "rise", "by": "35 mm", "duration": "120 deg"},
+                    {"kind": "dwell", "duration": "90 deg"},
+                    {"kind": "return", "by": "35 mm", "duration": "100 deg"},
+                    {"kind": "dwell"},
+                ],
+            }
+        ],
+    }

@@ -13,9 +13,10 @@ import msgspec
 
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.files import tables, writing
-from optlaws.files.problem_file import Text, convert
+from optlaws.files.problem_file import Text
+from optlaws.jobs.job import JobFile
 from optlaws.results import printed
-from optlaws.results.page import Page
+from optlaws.results.results import Results
 from optlaws.studies.problem_entries import EntryLists, ProblemEntries, Some, gap, problem, record, shown
 from optlaws.suggest import unknown_key
 from optlaws.synthesis import FUNCTIONALS, Certificate, Problem, Solution, synthesize
@@ -42,17 +43,14 @@ class Beside(msgspec.Struct, forbid_unknown_fields=True):
     columns: Annotated[list[str], Some]
 
 
-class SolutionsProblemFile(msgspec.Struct, forbid_unknown_fields=True):
+class SolutionsProblemFile(JobFile, kw_only=True, forbid_unknown_fields=True):
     """The problem file of a table of solutions."""
 
-    job: str
-    title: Text
     problem: ProblemEntries
     sweep: Annotated[list[EntryLists], Some]
-    text: str = ""
     bound: Literal["quick", "tight"] = "quick"
     columns: Annotated[list[str], Some] = msgspec.field(default_factory=lambda: ["B", "C", "D", "J", *RESULTS[1:]])
-    compare: list[Compare] = []
+    compare: list[Compare] = msgspec.field(default_factory=list)
     beside: Beside | None = None
 
 
@@ -68,23 +66,20 @@ class SolvedRow:
     proof: Certificate | None
 
 
-def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
-    """Do the job and return the files written."""
-    spec = convert(data, SolutionsProblemFile, file)
+def run(results: Results) -> None:
+    """Put the table, its page and the laws with their proofs into results."""
+    spec = results.read(SolutionsProblemFile)
     for name in [*spec.columns, *(name for compared in spec.compare for name in compared.columns)]:
         if name not in COLUMNS:
             raise InputError(unknown_key(name, COLUMNS, "column"))
     entries = list(_entries(spec))
-    beside = _beside(spec, file, entries)
+    beside = _beside(spec, results.file, entries)
     problems = [_problems(spec, i, entry) for i, entry in enumerate(entries, 1)]
     rows = [_solved(spec, entry, *stated) for entry, stated in zip(entries, problems, strict=True)]
     headings, cells = _cells(spec, rows, beside)
-    about = f"{spec.title}; from {file.name}"
-    return [
-        writing.write(out / "table.csv", tables.to_csv(headings, cells, about=about)),
-        writing.write(out / "table.md", str(Page(spec.title).text(spec.text).table(headings, cells))),
-        writing.write(out / "laws.json", _laws(about, rows)),
-    ]
+    results.table("table", headings, cells)
+    results.page("table").text(spec.text).table(headings, cells)
+    results.text("laws.json", _laws(results.about, rows))
 
 
 def _entries(spec: SolutionsProblemFile) -> Iterator[dict[str, Any]]:

@@ -1,9 +1,9 @@
-"""Cams as the page shows them: profile and follower at every angle, pressure angle and curvature, words of proof."""
+"""Cams as the page shows them: profile and follower at every angle, what is enclosed, forces, a spring."""
 
 from __future__ import annotations
 
 import json
-from copy import deepcopy
+from collections.abc import Callable
 from functools import lru_cache
 from math import degrees
 from pathlib import Path
@@ -15,73 +15,60 @@ import numpy as np
 from optlaws.cams.curves.extremes import EnclosedExtreme
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.follower import follower_kinds
+from optlaws.cams.forces import CamForces
 from optlaws.cams.least_sizes import least_base_circle
+from optlaws.cams.summary import Labelled, named_forces
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
-from optlaws.explorer.answers.cycle_view import check_axis
-from optlaws.explorer.answers.law_view import digits, drawn, refusal
-from optlaws.jobs.cam import schema
+from optlaws.explorer.cycle_view import check_axis
+from optlaws.explorer.law_view import digits, drawn, refusal
+from optlaws.files.problem_file import convert
+from optlaws.jobs.cam_entries import CamProblemFile, Cams, ForcesEntries, read
+from optlaws.jobs.cam_findings import FORCE, STIFFNESS, Findings
 from optlaws.motion.quantities import quantity
 from optlaws.numbers import Array
+from optlaws.numerics.enclosures.branch_and_bound import Extremes
+from optlaws.numerics.tolerances import FORCE_ROUNDING
 
 _MILLI = 1e3
 _TURN = 360.0
 _STEPS = 360
 _WHERE = Path("the cam")
 _FAR = 4.0  # a radius of curvature beyond so many base circles is a straight edge
-_HEARD = {"free": ("no undercut", "optimal"), "undercut": ("undercut", "refused"), "undecided": ("undecided", "local")}
+_TITLES = {"free": ("no undercut", "optimal"), "undercut": ("undercut", "refused"), "undecided": ("undecided", "local")}
 
 
-class AskedCam(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+class CamRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     """A cam as its problem file says it."""
 
     study: dict[str, Any]
 
 
-def answer(asked: AskedCam) -> dict[str, Any]:
+def answer(request: CamRequest) -> dict[str, Any]:
     """The view of a cam, or why there is none."""
     try:
-        return _view(*cam_of(asked))
+        return _view(*cams_of(request))
     except (InfeasibleProblem, SolverFailure) as error:
         return {"refused": refusal(error)}
     except InputError as error:
         return {"refused": {"word": "no such cam", "reason": str(error), "tried": ""}}
 
 
-def cam_of(asked: AskedCam) -> tuple[schema.CamProblemFile, DiscCam]:
-    """What is wished of the cam, and the cam.
-
-    Raises
-    ------
-    InputError
-        If an entry is unknown or wrong, or there is no such mechanism.
-    """
-    spec, cams = cams_of(asked)
-    return spec, cams.first
-
-
-def cams_of(asked: AskedCam) -> tuple[schema.CamProblemFile, schema.Cams]:
-    """The same with all that was found for it.
-
-    Raises
-    ------
-    InputError
-        As for `cam_of`.
-    """
-    return _made(json.dumps(asked.study, sort_keys=True))
+def cams_of(request: CamRequest) -> tuple[CamProblemFile, Cams]:
+    """The entries of the cam's problem file, and the cams that they describe."""
+    return _solved(json.dumps(request.study, sort_keys=True))
 
 
 @lru_cache(maxsize=32)
-def _made(question: str) -> tuple[schema.CamProblemFile, schema.Cams]:
-    from optlaws.files.problem_file import convert
-
+def _solved(question: str) -> tuple[CamProblemFile, Cams]:
     data = json.loads(question)
     if "barrel" in data:
         raise InputError("the explorer shows disc cams: barrel cams are made by the command `optlaws cam`")
-    check_axis(convert(data, schema.CamProblemFile, _WHERE).motion)
-    return schema.read(data, _WHERE)
+    check_axis(convert(data, CamProblemFile, _WHERE).motion)
+    return read(data, _WHERE)
 
 
-def _view(spec: schema.CamProblemFile, cam: DiscCam) -> dict[str, Any]:
+def _view(spec: CamProblemFile, cams: Cams) -> dict[str, Any]:
+    cam = cams.first
     angles = np.linspace(0.0, 2.0 * np.pi, _STEPS + 1)
     curves = {"profile": cam.profile, "pitch": cam.pitch_curve}
     if spec.cutter_radius is not None:
@@ -130,7 +117,7 @@ def _follower(cam: DiscCam) -> dict[str, Any]:
     }
 
 
-def _panels(spec: schema.CamProblemFile, cam: DiscCam, angles: Array) -> list[dict[str, Any]]:
+def _panels(spec: CamProblemFile, cam: DiscCam, angles: Array) -> list[dict[str, Any]]:
     turns = drawn(np.degrees(angles), 4)
     unit, factor = ("mm", _MILLI) if cam.follower.axis == "length" else ("deg", degrees(1.0))
     pressure = cam.extremes.greatest_pressure_angle
@@ -166,38 +153,38 @@ def _mark(extreme: EnclosedExtreme, factor: float, signed_by: DiscCam | None = N
 def _trust(cam: DiscCam) -> dict[str, Any]:
     """What is proven of the cam, in words; extremes are enclosed over the whole turn."""
     extremes = cam.extremes
-    word, status = _HEARD[extremes.undercut.status]
+    word, status = _TITLES[extremes.undercut.status]
     facts = [
-        f"greatest pressure angle {_told(extremes.greatest_pressure_angle, degrees(1.0), 'deg')}",
-        f"least radius of curvature {_told(extremes.least_convex_radius, _MILLI, 'mm')}",
+        f"greatest pressure angle {_located(extremes.greatest_pressure_angle, degrees(1.0), 'deg')}",
+        f"least radius of curvature {_located(extremes.least_convex_radius, _MILLI, 'mm')}",
     ]
     if extremes.least_concave_radius is not None:
         facts.append(
-            f"hollow with a radius of {_told(extremes.least_concave_radius, _MILLI, 'mm')}: a cutter must be smaller"
+            f"hollow with a radius of {_located(extremes.least_concave_radius, _MILLI, 'mm')}: a cutter must be smaller"
         )
     text = str(extremes.undercut)
     return {"status": status, "word": word, "advice": f"{text[0].upper()}{text[1:]}.", "gap": "", "facts": facts}
 
 
-def _told(extreme: EnclosedExtreme, factor: float, unit: str) -> str:
+def _located(extreme: EnclosedExtreme, factor: float, unit: str) -> str:
     return f"{digits(extreme.value * factor)} {unit} at {digits(degrees(extreme.angle), 5)} deg"
 
 
-def sizes(asked: AskedCam) -> dict[str, Any]:
+def sizes(request: CamRequest) -> dict[str, Any]:
     """The least base circle that keeps the limits, where some are given: it takes longer than the view.
 
     Examples
     --------
-    >>> sizes(AskedCam(study=example()))["facts"]
+    >>> sizes(CamRequest(study=example()))["facts"]
     ['least base circle that keeps these limits: 58.60757 mm, by the pressure angle']
     """
-    others = {name: value for name, value in asked.study.items() if name not in {"cutter_radius", "title", "text"}}
+    others = {name: value for name, value in request.study.items() if name not in {"cutter_radius", "title", "text"}}
     return {"facts": list(_least(json.dumps(others | {"title": "a cam"}, sort_keys=True)))}
 
 
 @lru_cache(maxsize=32)
 def _least(question: str) -> tuple[str, ...]:
-    spec, cams = _made(question)
+    spec, cams = _solved(question)
     cam = cams.first
     if spec.pressure_angle is None and spec.radius_of_curvature is None:
         return ()
@@ -208,36 +195,26 @@ def _least(question: str) -> tuple[str, ...]:
     return (f"least base circle that keeps these limits: {digits(_MILLI * least.radius)} mm, by the {least.limit}",)
 
 
-#: what the page shows where no cam was given
-EXAMPLE: dict[str, Any] = {
-    "job": "cam",
-    "title": "A slide on a disc cam with a roller",
-    "speed": "200 rpm",
-    "base_radius": "60 mm",
-    "pressure_angle": "30 deg",
-    "radius_of_curvature": "15 mm",
-    "follower": {"kind": "translating roller", "radius": "12 mm", "offset": "6 mm"},
-    "motion": {
-        "name": "slide",
-        "segment": [
-            {"kind": "rise", "by": "35 mm", "duration": "120 deg"},
-            {"kind": "dwell", "duration": "90 deg"},
-            {"kind": "return", "by": "35 mm", "duration": "100 deg"},
-            {"kind": "dwell"},
-        ],
-    },
-}
-
-
 def example() -> dict[str, Any]:
-    """The cam that is shown where none was given.
-
-    Examples
-    --------
-    >>> answer(AskedCam(study=example()))["trust"]["word"]
-    'no undercut'
-    """
-    return deepcopy(EXAMPLE)
+    """The cam that the page shows where none was given."""
+    return {
+        "job": "cam",
+        "title": "A slide on a disc cam with a roller",
+        "speed": "200 rpm",
+        "base_radius": "60 mm",
+        "pressure_angle": "30 deg",
+        "radius_of_curvature": "15 mm",
+        "follower": {"kind": "translating roller", "radius": "12 mm", "offset": "6 mm"},
+        "motion": {
+            "name": "slide",
+            "segment": [
+                {"kind": "rise", "by": "35 mm", "duration": "120 deg"},
+                {"kind": "dwell", "duration": "90 deg"},
+                {"kind": "return", "by": "35 mm", "duration": "100 deg"},
+                {"kind": "dwell"},
+            ],
+        },
+    }
 
 
 def followers() -> dict[str, dict[str, Any]]:
@@ -249,3 +226,74 @@ def followers() -> dict[str, dict[str, Any]]:
     {'axis': 'length', 'entries': {'inclination': '10 deg'}}
     """
     return {name: {"axis": kind.axis, "entries": kind.examples} for name, kind in follower_kinds().items()}
+
+
+_PER_MEGAPASCAL = 1e6
+
+
+def loads(request: CamRequest) -> dict[str, Any]:
+    """Panels and words of a cam whose motion has a drive; none where it has none."""
+    try:
+        return _loads(json.dumps(request.study, sort_keys=True))
+    except (InfeasibleProblem, InputError, SolverFailure) as error:
+        return {"panels": [], "facts": [str(error.args[0])]}
+
+
+@lru_cache(maxsize=32)
+def _loads(question: str) -> dict[str, Any]:
+    spec, cams = cams_of(CamRequest(study=json.loads(question)))
+    if spec.motion.drive is None:
+        return {"panels": [], "facts": []}
+    findings = Findings(msgspec.structs.replace(spec, forces=spec.forces or ForcesEntries()), cams)
+    forces = findings.forces
+    assert forces is not None  # noqa: S101 - the line above asks for them
+    return {"panels": _load_panels(forces), "facts": [*_load_facts(forces), *_spring(findings)]}
+
+
+def _load_panels(forces: CamForces) -> list[dict[str, Any]]:
+    values = (forces.contact_force, forces.shaft_torque, forces.contact_pressure)
+    panels = [_load_panel(force, curve) for force, curve in zip(named_forces(forces), values, strict=False)]
+    for pressed in panels[2:]:
+        pressed["peaks"] = pressed["peaks"][-1:]
+    return panels
+
+
+def _load_panel(force: Labelled[Extremes], values: Callable[[Array], Any]) -> dict[str, Any]:
+    """A curve over the turn with its least and greatest value."""
+    name, extremes, unit, factor = force
+    angles = np.linspace(0.0, 2.0 * np.pi, _STEPS + 1)
+    ends = [(extremes.least, extremes.least_at), (extremes.most, extremes.most_at)]
+    marks = [
+        {"at": round(degrees(at), 4), "value": value * factor, "text": digits(value * factor, 6)}
+        for value, at in ends
+        if abs(value) > FORCE_ROUNDING * extremes.peak
+    ]
+    return panel(name, unit, drawn(np.degrees(angles), 4), factor * np.asarray(values(angles)), marks)
+
+
+def _load_facts(forces: CamForces) -> list[str]:
+    """What is enclosed over the whole turn, in words."""
+    contact, torque = forces.contact, forces.torque
+    lifted = f"the follower lifts off at {digits(degrees(contact.least_at), 5)} deg: " if forces.lifts_off else ""
+    turned = f"torque at the shaft {digits(torque.least, 6)} to {digits(torque.most, 6)} N m"
+    facts = [
+        f"{lifted}contact force {digits(contact.least, 6)} to {digits(contact.most, 6)} N",
+        f"{turned}, root mean square {digits(forces.rms_torque[1], 6)} N m",
+    ]
+    if forces.width is not None:
+        facts.append(f"Hertz's pressure up to {digits(forces.pressure.most / _PER_MEGAPASCAL, 6)} MPa")
+    return facts
+
+
+def _spring(findings: Findings) -> list[str]:
+    """The least spring, where a range of speeds is asked; or why there is none."""
+    try:
+        spring = findings.spring
+    except (InfeasibleProblem, InputError) as error:
+        return [f"no spring: {error.args[0]}"]
+    if spring is None:
+        return []
+    axis = findings.cams.first.displacement.axis
+    preload = 0.0 if abs(spring.preload) <= FORCE_ROUNDING * spring.greatest else spring.preload
+    sizes = f"{digits(spring.stiffness, 6)} {STIFFNESS[axis]}, preload {digits(preload, 6)} {FORCE[axis]}"
+    return [f"least spring without lift-off: {sizes}, up to {digits(spring.greatest, 6)} {FORCE[axis]} on the follower"]

@@ -1,19 +1,34 @@
-"""Fronts as the page draws them: optimal laws along one constant, made as arrays, with the limit and known laws."""
+"""Fronts as the page draws them: optimal laws along one constant, the limit of all laws, and known laws."""
 
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import lru_cache
+from functools import cache, lru_cache
 from typing import Annotated, Any
 
 import msgspec
 import numpy as np
 
-from optlaws import Problem, ProblemArray, Range, Solution, SolutionArray, Status, each, limit, synthesize_array
+from optlaws import (
+    MotionLaw,
+    Problem,
+    ProblemArray,
+    SavinFamily,
+    Solution,
+    SolutionArray,
+    Status,
+    at_most,
+    catalogue,
+    each,
+    limit,
+    synthesize_array,
+)
 from optlaws.errors import InputError, OptlawsError
-from optlaws.explorer.answers import known_laws
-from optlaws.explorer.answers.asked import AskedLaw, problem_of, solved, without
-from optlaws.explorer.answers.law_view import wanted
+from optlaws.explorer.law_view import digits, drawn, objective_title
+from optlaws.explorer.requests import LawRequest, problem_of, solved, value, without
+from optlaws.laws.savin import FAMILIES
+from optlaws.numbers import bounded
+from optlaws.numerics.tolerances import BOUND_SLACK
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.proof.infeasible import possible_velocities
 
@@ -22,18 +37,17 @@ RANGES = {"B": (1.1, 2.5), "C": (3.5, 10.0), "D": (2.0, 11.0), "J": (20.0, 140.0
 _POINTS, _LIMITS = 57, 61
 #: sums with D in them are solved one by one
 _POINTS_ALONE = 25
-_ROOM = 1e-6
-_SAID = 80
+_LONGEST = 80
 #: laws of lower order may have jumps of c at their ends, beside which no limit of J is known
 _JERK_ORDER = 2
 
 Place = list[float]
 
 
-class AskedFront(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+class FrontRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     """The front of a problem over two constants."""
 
-    law: AskedLaw
+    law: LawRequest
     over: Annotated[list[str], msgspec.Meta(min_length=2, max_length=2)]
 
 
@@ -41,25 +55,19 @@ class AskedFront(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 PAIRS = (("B", "C"), ("B", "D"), ("B", "J"), ("C", "D"), ("J", "C"))
 
 
-def answer(asked: AskedFront) -> dict[str, Any]:
-    """The front of a problem: where B is swept, of its own objective; else of the least second constant.
-
-    Raises
-    ------
-    InputError
-        If the constants are no pair that may be exchanged.
-    """
-    x, y = asked.over
+def answer(request: FrontRequest) -> dict[str, Any]:
+    """The front of a problem: where B is swept, of its own objective; else of the least second constant."""
+    x, y = request.over
     if (x, y) not in PAIRS:
         raise InputError(f"over must be one of {', '.join('-'.join(pair) for pair in PAIRS)}, got {x}-{y}")
-    given = known_laws.points(x, y), known_laws.families(x, y)
+    given = known_points(x, y), families(x, y)
     beside = {"x": x, "y": y, "ranges": [RANGES[x], RANGES[y]], "known": given[0], "families": given[1]}
-    if asked.law.problem is None:
+    if request.law.problem is None:
         return beside | {"line": [], "words": "", "limit": [], "swept": False, "proven": False}
     try:
-        return beside | {"swept": True} | front(swept_problem(problem_of(asked.law), x, y), x, y)
+        return beside | {"swept": True} | front(swept_problem(problem_of(request.law), x, y), x, y)
     except OptlawsError as error:  # the view of the law says why at length
-        words = f"no front: {str(error.args[0])[:_SAID]}"
+        words = f"no front: {str(error.args[0])[:_LONGEST]}"
         return beside | {"line": [], "words": words, "limit": [], "swept": False, "proven": False}
 
 
@@ -90,8 +98,8 @@ def front(problem: Problem, x: str, y: str) -> dict[str, Any]:
         return {"line": [], "words": words, "limit": _limits(problem, x, y), "proven": False}
     alone = not problem.convex and problem.minimise != "D"
     laws = along(problem, x, np.linspace(*span, _POINTS_ALONE if alone else _POINTS))
-    told = {"line": _places(laws, x, y), "words": _words(problem, x, laws), "proven": _proven(laws)}
-    return told | {"limit": _limits(problem, x, y)}
+    line = {"line": _places(laws, x, y), "words": _words(problem, x, laws), "proven": _proven(laws)}
+    return line | {"limit": _limits(problem, x, y)}
 
 
 def _span(problem: Problem, x: str) -> tuple[float, float] | None:
@@ -106,19 +114,15 @@ def _span(problem: Problem, x: str) -> tuple[float, float] | None:
         optimum = solved(replace(problem, minimise=x))
         if not isinstance(optimum, Solution):
             return None
-        ends = max(low, optimum.objective * (1.0 + _ROOM)), high
+        ends = max(low, optimum.objective * (1.0 + BOUND_SLACK)), high
     return ends if ends[0] < ends[1] else None
 
 
 def along(problem: Problem, x: str, values: Any) -> SolutionArray:  # noqa: ANN401 - an array
     """The laws of a problem whose constant x takes many values: B as it is, the others as their greatest."""
     entries = {name: getattr(problem, name) for name in problem.__dataclass_fields__}
-    entries[x] = values if x == "B" else each(_at_most, values)
+    entries[x] = values if x == "B" else each(at_most, values)
     return synthesize_array(ProblemArray(**entries))
-
-
-def _at_most(value: float) -> Range:
-    return Range(0.0, float(value))
 
 
 def _places(laws: SolutionArray, x: str, y: str) -> list[Place]:
@@ -142,7 +146,7 @@ def _room(laws: SolutionArray) -> str:
 def _words(problem: Problem, x: str, laws: SolutionArray) -> str:
     proven = "proven at every point" if _proven(laws) else f"local optima, not proven least{_room(laws)}"
     at = "at each B" if x == "B" else f"for each bound of {x}"
-    return f"least {wanted(problem)} {at}: {proven}"
+    return f"least {objective_title(problem)} {at}: {proven}"
 
 
 def _limits(problem: Problem, x: str, y: str) -> list[Place]:
@@ -155,7 +159,43 @@ def _limits(problem: Problem, x: str, y: str) -> list[Place]:
 
 
 def _jerk_allows(problem: Problem, B: float) -> bool:
-    asked = problem.range("J")
-    if asked is None or problem.order < _JERK_ORDER:
+    bound = problem.range("J")
+    if bound is None or problem.order < _JERK_ORDER:
         return True
-    return limit("J", B, order=problem.order, monotone=problem.monotone) <= asked.high
+    return limit("J", B, order=problem.order, monotone=problem.monotone) <= bound.high
+
+
+#: those that the picture names without being asked
+NAMED = {"cycloidal", "modified sine", "modified trapezoid", "3-4-5 polynomial", "4-5-6-7 polynomial", "cubic"}
+_MEMBERS = 33
+
+
+@cache
+def known_points(x: str, y: str) -> list[dict[str, Any]]:
+    """Each standard law whose two constants are finite, with what a reader is told of it."""
+    points = []
+    for name in catalogue:
+        law = catalogue[name].law
+        place = _place(law, x, y)
+        if place is not None:
+            text = f"{name}: {x} = {digits(place[0], 6)}, {y} = {digits(place[1], 6)}"
+            points.append({"name": name, "at": place, "text": text, "named": name in NAMED})
+    return points
+
+
+def _place(law: MotionLaw, x: str, y: str) -> tuple[float, float] | None:
+    pair = value(law, x), value(law, y)
+    return pair if all(bounded(number) is not None for number in pair) and pair[1] > 0.0 else None
+
+
+@cache
+def families(x: str, y: str) -> list[dict[str, Any]]:
+    """Savin's families I to IV over their alpha; family I begins where its J is finite."""
+    lines = []
+    for name in FAMILIES:
+        family = SavinFamily.of(name)
+        low, high = map(float, family.range)
+        laws = [family.law(alpha) for alpha in np.linspace(low, high, _MEMBERS).tolist()]
+        columns = [drawn(np.array([value(law, constant) for law in laws]), 5) for constant in (x, y)]
+        lines.append({"name": name, "line": [list(column) for column in zip(*columns, strict=True)]})
+    return lines

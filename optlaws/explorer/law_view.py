@@ -1,0 +1,307 @@
+"""Laws as the page shows them: curves, peaks, constants, residuals, how far they can be trusted, and the way back."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import lru_cache
+from math import ceil, floor, isfinite, log10
+from typing import Annotated, Any
+
+import msgspec
+import numpy as np
+
+from optlaws import Chebyshev, MotionLaw, Peak, Problem, Solution, Status, residual, response_spectrum
+from optlaws.errors import InfeasibleProblem, OptlawsError, SolverFailure
+from optlaws.explorer.requests import (
+    MOST_DEGREE,
+    MOST_LAWS,
+    LawRequest,
+    LawsRequest,
+    given_law,
+    law_of,
+    problem_of,
+    solved,
+    without,
+)
+from optlaws.numbers import Array, bounded
+from optlaws.numerics.tolerances import BOUND_SLACK, GAP_ROUNDING, NO_MARK
+from optlaws.synthesis.limits.of_problem import limited_laws
+from optlaws.synthesis.proof.infeasible import possible_velocities
+
+LETTERS = ("a", "b", "c", "d", "j")
+_ORDERS = {"a": 0, "b": 1, "c": 2, "j": 3}
+_SAMPLES = 161
+_DRAWN = 6  # decimals of what is drawn; what is read is a text of its own
+TITLES = {Status.OPTIMAL: "proven optimal", Status.LOCAL: "local", Status.INACCURATE: "bound not met"}
+_LONG_NUMBER = re.compile(r"\d+\.\d{4,}")
+
+
+def answer(request: LawsRequest) -> dict[str, Any]:
+    """A view of each law, or why there is none."""
+    return {"laws": [view(msgspec.json.encode(law)) for law in request.laws]}
+
+
+@lru_cache(maxsize=256)
+def view(question: bytes) -> dict[str, Any]:
+    """The view of one law, which is asked as JSON; an error is told in its place, so that the others stand."""
+    request = msgspec.json.decode(question, type=LawRequest)
+    try:
+        if request.problem is not None:
+            return _optimal(request)
+        return {"title": request.title or request.name or "a stored law", "trust": None} | shown(given_law(request))
+    except OptlawsError as error:
+        name = request.title or request.name or "a problem"
+        return {"title": name, "refused": {"word": "not understood", "reason": str(error), "tried": ""}}
+
+
+def refusal(error: InfeasibleProblem | SolverFailure) -> dict[str, str]:
+    """Why there is no law, in words."""
+    word = "no such law" if isinstance(error, InfeasibleProblem) else "no law found"
+    return {"word": word, "reason": str(error.args[0]), "tried": error.tried}
+
+
+def _optimal(request: LawRequest) -> dict[str, Any]:
+    problem = problem_of(request)
+    solution = solved(problem)
+    name = {"title": request.title or title(problem)}
+    if not isinstance(solution, Solution):
+        return name | {"refused": refusal(solution)}
+    return name | {"trust": trust(solution)} | shown(solution.law)
+
+
+def title(problem: Problem) -> str:
+    """What a problem asks, in a few words.
+
+    Examples
+    --------
+    >>> title(Problem(B=1.7, order=4, minimise="J"))
+    'least J, B = 1.7, order 4, degree 9'
+    """
+    bounds = [f"{name} = {r.high:g}" if r.fixed else _range(name, r.low, r.high) for name, r in _ranges(problem)]
+    size = problem.basis.to_dict().get("degree")
+    return ", ".join([f"least {objective_title(problem)}", *bounds, f"order {problem.order}", f"degree {size}"])
+
+
+def objective_title(problem: Problem) -> str:
+    """What a problem minimises, with numbers that can be read.
+
+    Examples
+    --------
+    >>> objective_title(Problem(order=4, minimise="C/4 + D/2.25"))
+    '0.25*C + 0.4444*D'
+    """
+    return _LONG_NUMBER.sub(lambda match: f"{float(match[0]):.4g}", problem.titled(str(problem.minimise)))
+
+
+def _ranges(problem: Problem) -> list[tuple[str, Any]]:
+    bounds = [(constant.title, bound) for constant, bound in problem.bounds.items()]
+    peaks = [(name, problem.range(name)) for name in ("J", "D", "C", "B")]
+    return [(name, bound) for name, bound in (*bounds, *peaks) if bound is not None]
+
+
+def _range(name: str, low: float, high: float) -> str:
+    upper = "" if bounded(high) is None else f"{name} ≤ {high:g}"
+    lower = f"{name} ≥ {low:g}" if low > 0.0 else ""
+    return " and ".join(part for part in (lower, upper) if part)
+
+
+def shown(law: MotionLaw) -> dict[str, Any]:
+    """Constants, curves and peaks of a law."""
+    return {"constants": constants(law), "curves": curves(law), "peaks": peaks(law)}
+
+
+def constants(law: MotionLaw) -> list[dict[str, Any]]:
+    """B, C, D, J and the root mean square of c, each as text and as a number, with its place."""
+    return [
+        {
+            "name": "rms_c" if row.place is None else row.name,
+            "text": digits(row.value),
+            "value": bounded(row.value),
+            "k": "" if row.place is None else f"k = {row.place:.6g}",
+        }
+        for row in law.constants.summary()
+    ]
+
+
+def digits(number: float, count: int = 7) -> str:
+    """A number as the page prints it.
+
+    Examples
+    --------
+    >>> digits(1.7), digits(float("inf")), digits(-0.25)
+    ('1.7', '∞', '−0.25')
+    """
+    if bounded(number) is None:
+        return "∞"
+    return f"{number:.{count}g}".replace("-", "−")
+
+
+def curves(law: MotionLaw) -> dict[str, list[float | None]]:
+    """Values of a, b, c, d and j over k, as they are drawn; None where there is no finite value."""
+    k = law.samples(_SAMPLES)[0]
+    values = {letter: law.samples(_SAMPLES, nu)[1] for letter, nu in _ORDERS.items()}
+    values["d"] = values["b"] * values["c"]
+    return {"k": drawn(k)} | {letter: drawn(values[letter]) for letter in LETTERS}
+
+
+def drawn(values: Array, decimals: int = _DRAWN) -> list[float | None]:
+    """Values to draw: rounded, None where there is none.
+
+    Examples
+    --------
+    >>> drawn(np.array([1.23456789, np.inf]))
+    [1.234568, None]
+    """
+    return [value if isfinite(value) else None for value in np.round(values, decimals).tolist()]
+
+
+def peaks(law: MotionLaw) -> dict[str, list[dict[str, Any]]]:
+    """The least and the greatest value of each curve but a, where they are finite and not 0."""
+    extremes = {letter: law.extrema(nu) for letter, nu in _ORDERS.items() if nu}
+    extremes["d"] = law.power_extrema()
+    return {letter: [_mark(extreme) for extreme in pair if _seen(extreme, pair)] for letter, pair in extremes.items()}
+
+
+def _seen(extreme: Peak, pair: tuple[Peak, Peak]) -> bool:
+    size = max(abs(other.value) for other in pair)
+    return bounded(extreme.value) is not None and abs(extreme.value) > NO_MARK * size
+
+
+def _mark(peak: Peak) -> dict[str, Any]:
+    return {"k": peak.k, "value": peak.value, "text": digits(peak.value, 6)}
+
+
+def trust(solution: Solution) -> dict[str, Any]:
+    """The status and the bounds of a solution as words."""
+    name = objective_title(solution.problem)
+    below = f"no law of this problem is below {digits(solution.lower_bound)}"
+    facts = [f"{name} = {digits(solution.objective)}", below]
+    if solution.limit is not None:
+        above = 100.0 * (solution.objective / solution.limit - 1.0)
+        facts.append(
+            f"no {limited_laws(solution.problem)}, of any degree, is below {digits(solution.limit)}: this one is "
+            f"{digits(above, 3)} % above"
+        )
+    return {
+        "status": solution.status.value,
+        "word": TITLES[solution.status],
+        "advice": solution.status.advice,
+        "gap": gap_text(solution.gap),
+        "facts": facts,
+    }
+
+
+def gap_text(gap: float) -> str:
+    """The gap in words; what is below 1e-12 is rounding.
+
+    Examples
+    --------
+    >>> gap_text(0.07), gap_text(3e-14)
+    ('gap 7.0e-02', 'gap below 1e-12')
+    """
+    if bounded(gap) is None:
+        return "no bound is known"
+    return f"gap {gap:.1e}" if gap > GAP_ROUNDING else "gap below 1e-12"
+
+
+_FIGURES = 5
+_STEPS = (2, 4, 8)
+
+
+def nearest(request: LawRequest) -> dict[str, Any]:
+    """What to change, and to what, so that there is a law again: one change at a time, the others left as they are."""
+    problem = problem_of(request)
+    return {"ways": [] if isinstance(solved(problem), Solution) else list(ways(problem))}
+
+
+def ways(problem: Problem) -> Iterator[dict[str, Any]]:
+    """Each way back: the entry to change, its nearest value that has a law, and both in words.
+
+    Examples
+    --------
+    >>> from optlaws import at_most
+    >>> for way in ways(Problem(B=1.7, order=4, J=at_most(20.0))):
+    ...     print(way["entry"], way["text"])
+    J raise the bound of J from 20 to 47.504
+    """
+    if isinstance(problem.B, float):
+        yield from _velocity(problem, problem.B)
+    for name in ("C", "D", "J", "rms_c"):
+        yield from _bound(problem, name)
+    if isinstance(problem.basis, Chebyshev):
+        yield from _degree(problem, problem.basis.degree)
+
+
+def _velocity(problem: Problem, B: float) -> Iterator[dict[str, Any]]:
+    least, greatest = possible_velocities(problem)
+    if least is not None and least > B and _has_law(replace(problem, B=least)):
+        yield _way("B", least, f"raise B from {digits(B)} to {digits(least)}")
+    elif greatest is not None and greatest < B and _has_law(replace(problem, B=greatest)):
+        yield _way("B", greatest, f"lower B from {digits(B)} to {digits(greatest)}")
+
+
+def _bound(problem: Problem, name: str) -> Iterator[dict[str, Any]]:
+    """The least value that the rest of the problem leaves a bounded constant."""
+    bound = problem.range(name)
+    if bound is None or bound.low > 0.0:
+        return
+    least = solved(without(problem, name, minimise=name))
+    if isinstance(least, Solution) and least.objective > bound.high:
+        value = _rounded_up(least.objective * (1.0 + BOUND_SLACK))
+        yield _way(name, value, f"raise the bound of {name} from {digits(bound.high)} to {digits(value)}")
+
+
+def _degree(problem: Problem, degree: int) -> Iterator[dict[str, Any]]:
+    for higher in (degree + step for step in _STEPS if degree + step <= MOST_DEGREE):
+        if _has_law(replace(problem, basis=Chebyshev(higher))):
+            yield _way("degree", higher, f"raise the degree from {degree} to {higher}")
+            return
+
+
+def _has_law(problem: Problem) -> bool:
+    """Whether there is one; which B are possible is asked first, ten times as fast as a proof that there is none."""
+    if isinstance(problem.B, float):
+        least, greatest = possible_velocities(problem)
+        if least is None or least > problem.B or (greatest is not None and greatest < problem.B):
+            return False
+    return isinstance(solved(problem), Solution)
+
+
+def _rounded_up(value: float) -> float:
+    unit = 10.0 ** (floor(log10(value)) + 1 - _FIGURES)
+    return float(f"{ceil(value / unit) * unit:.{_FIGURES}g}")
+
+
+def _way(entry: str, value: float, text: str) -> dict[str, Any]:
+    return {"entry": entry, "value": value, "text": text}
+
+
+_COUNT = 241
+_LOW = 2.0
+
+
+class ResidualRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """Laws, and the follower whose mass they drive: nu up to which is drawn, the nu that is read, the damping ratio."""
+
+    laws: Annotated[list[LawRequest], msgspec.Meta(min_length=1, max_length=MOST_LAWS)]
+    nu: Annotated[float, msgspec.Meta(gt=0.0, le=1000.0)] = 20.0
+    most: Annotated[float, msgspec.Meta(ge=10.0, le=1000.0)] = 80.0
+    damping: Annotated[float, msgspec.Meta(ge=0.0, lt=1.0)] = 0.0
+
+
+def residuals(request: ResidualRequest) -> dict[str, Any]:
+    """Residual acceleration over nu for each law, in units of a'', and its value at one nu; None without a law."""
+    nu = np.linspace(_LOW, request.most, _COUNT)
+    return {"nu": drawn(nu), "laws": [_spectrum(law, nu, request) for law in request.laws], "at": request.nu}
+
+
+def _spectrum(request: LawRequest, nu: Any, follower: ResidualRequest) -> dict[str, Any] | None:  # noqa: ANN401 - an array
+    try:
+        law = law_of(request)
+    except OptlawsError:  # the view of the law says why
+        return None
+    values = response_spectrum(law, nu, follower.damping).residual_acceleration
+    here = residual(nu=follower.nu, damping=follower.damping).value(law)
+    return {"values": drawn(values), "value": here, "text": digits(here, 6)}

@@ -1,0 +1,247 @@
+"""The job "atlas": a study over objective, order, degree and B, as one table and drawn; laws looked up in it."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import cycle, pairwise
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
+from optlaws.files import reading, tables
+from optlaws.plots.style import DISTINCT, GREY, empty_figure, plot_style
+from optlaws.results.results import Page, Results
+from optlaws.studies.run import run_study
+from optlaws.studies.specification import read_study
+from optlaws.studies.tables import StudyPoint
+from optlaws.suggest import unknown_key
+from optlaws.synthesis import Chebyshev, Problem, Solution, Status, at_most, synthesize
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+AXES = ("minimise", "order", "degree", "B")
+CONSTANTS = ("B", "C", "D", "J", "rms_c")
+COLUMNS = ("minimise", "order", "degree", "B asked", "status", "lower bound", *CONSTANTS)
+_ROWS = 8
+
+
+def run(results: Results) -> None:
+    """Put the table of all points, the page and the pictures into results."""
+    study = read_study(results.file)
+    if tuple(study.vary) != AXES or study.together or study.sample or results.entries.get("job") != "atlas":
+        raise InputError(f"{results.file}: an atlas varies {', '.join(AXES)}, in this order, and nothing else")
+    with TemporaryDirectory() as folder:
+        points = list(run_study(results.file, folder))
+    results.title = study.title
+    results.table("atlas", COLUMNS, [_cells(point) for point in points])
+    _fill(results.page("atlas"), points)
+    for name, figure in draw(points).items():
+        results.picture(name, figure)
+
+
+def _cells(point: StudyPoint) -> list[tables.Cell]:
+    inputs: list[tables.Cell] = [point.inputs[name] for name in AXES]
+    return [*inputs, point.status, point.lower_bound, *(point.constants.get(name) for name in CONSTANTS)]
+
+
+def _fill(page: Page, points: Sequence[StudyPoint]) -> None:
+    laws = sum(point.law is not None for point in points)
+    summary = (
+        f"{len(points)} points, of which {laws} have a law; all of them are in `atlas.csv`. Each order l asks for one "
+        "more derivative that vanishes at the ends: below is what that costs at the highest degree of Z; it "
+        "pays where the number is below 0, for with the order the degree of the law grows too."
+    )
+    page.text(summary)
+    for constant in ("C", "D"):
+        page.heading(f"Least {constant}").figure(f"least-{constant.lower()}", f"Least {constant} over B")
+        page.table(*_costs(points, constant))
+
+
+def _costs(points: Sequence[StudyPoint], constant: str) -> tuple[list[str], list[list[tables.Cell]]]:
+    """The least constant of each order by B, and what each order costs over the one below it."""
+    degree = max(point.inputs["degree"] for point in points)
+    objectives = {
+        (point.inputs["B"], point.inputs["order"]): point.constants.get(constant)
+        for point in points
+        if point.inputs["minimise"] == constant and point.inputs["degree"] == degree
+    }
+    velocities, orders = (sorted({key[i] for key in objectives}) for i in (0, 1))
+    headings = ["B", *(f"l = {order}" for order in orders)]
+    headings += [f"l = {order} over {below}, %" for below, order in pairwise(orders)]
+    rows: list[list[tables.Cell]] = []
+    for B in velocities[:: max(1, len(velocities) // _ROWS)]:
+        values = [objectives[B, order] for order in orders]
+        steps = [
+            None if objective is None or other is None else f"{100.0 * (other / objective - 1.0):.1f}"
+            for objective, other in pairwise(values)
+        ]
+        rows.append([B, *values, *steps])
+    return headings, rows
+
+
+#: by order, so that curves are told apart without colours too
+_STROKES = ((0, (1, 1.2)), (0, (4, 1.5)), "-.", "-")
+_ROOM = 2.5
+
+
+def draw(points: Sequence[StudyPoint]) -> dict[str, Figure]:
+    """The figures by name."""
+    return {
+        f"least-{constant.lower()}": _draw_least(
+            [point for point in points if point.inputs["minimise"] == constant], constant, word
+        )
+        for constant, word in (("C", "acceleration"), ("D", "power"))
+    }
+
+
+def _draw_least(points: Sequence[StudyPoint], constant: str, word: str) -> Figure:
+    """A panel for each degree of Z, in it a curve for each order."""
+    degrees = sorted({point.inputs["degree"] for point in points})
+    with plot_style():
+        figure = empty_figure(1.6 + 3.2 * len(degrees), 4.8)
+        panels = figure.subplots(1, len(degrees), sharex=True, sharey=True, squeeze=False)[0]
+        for axes, degree in zip(panels, degrees, strict=True):
+            _curves(axes, [point for point in points if point.inputs["degree"] == degree])
+            axes.set(title=f"degree of Z: {degree}", xlabel="peak velocity B (dimensionless)")
+        panels[0].set(ylabel=f"peak {word} {constant} (dimensionless)", ylim=_heights(points))
+        figure.suptitle(f"Least {constant} at given B by order l of the end conditions", x=0.01, ha="left", fontsize=11)
+        figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=5)
+        return figure
+
+
+def _curves(axes: Axes, points: Sequence[StudyPoint]) -> None:
+    orders = sorted({point.inputs["order"] for point in points})
+    for order, colour, stroke in zip(orders, DISTINCT, cycle(_STROKES), strict=False):
+        curve = [point for point in points if point.inputs["order"] == order]
+        values = [np.nan if point.objective is None else point.objective for point in curve]
+        style: dict[str, Any] = {"color": colour, "linestyle": stroke}
+        axes.plot([point.inputs["B"] for point in curve], values, label=f"l = {order}", **style)
+    limits = _limits(points)
+    if limits:
+        axes.plot(list(limits), list(limits.values()), color=GREY, linewidth=1.0, label="limit of all laws")
+
+
+def _limits(points: Sequence[StudyPoint]) -> dict[float, float]:
+    return {point.inputs["B"]: point.limit for point in points if point.limit is not None}
+
+
+def _heights(points: Sequence[StudyPoint]) -> tuple[float, float]:
+    objectives = [point.objective for point in points if point.objective is not None]
+    low = min([*_limits(points).values(), *objectives])
+    return 0.95 * low, min(1.03 * max(objectives), _ROOM * float(np.median(objectives)))
+
+
+@dataclass(frozen=True)
+class AtlasPoint:
+    """A point of the atlas: what was asked there, and the constants of its law; J is missing where c jumps."""
+
+    minimise: str
+    order: int
+    degree: int
+    B: float
+    constants: Mapping[str, float]
+
+
+def look_up(
+    file: Path, *, minimise: str, order: int, B: float | None = None, most: Mapping[str, float] | None = None
+) -> AtlasPoint:
+    """The point with the nearest B or, where B is free, the best one; among equals the one with the least objective.
+
+    Laws that were made for another objective count too: with a limit they may be the better ones.
+
+    Parameters
+    ----------
+    file
+        The atlas, `atlas.csv`.
+    minimise, order
+        What is minimised, and l, as in the atlas.
+    B
+        Peak velocity.
+    most
+        Greatest values of constants.
+    """
+    limits = dict(most or {})
+    for name in limits:
+        if name not in CONSTANTS:
+            raise InputError(unknown_key(name, CONSTANTS, "constant"))
+    points = read(file)
+    for name, value in (("minimise", minimise), ("order", order)):
+        known = sorted({getattr(point, name) for point in points})
+        if value not in known:
+            raise InputError(f"the atlas has {name} = {', '.join(map(str, known))}, not {value}")
+    some = [point for point in points if point.order == order and minimise in point.constants]
+    if B is not None:
+        low, high = min(point.B for point in some), max(point.B for point in some)
+        if not low <= B <= high:
+            raise InputError(f"the atlas has B from {low:g} to {high:g}, not {B:g}")
+    candidates = [
+        p for p in some if all(p.constants.get(name, float("inf")) <= value for name, value in limits.items())
+    ]
+    if not candidates:
+        least = {name: min(p.constants.get(name, float("inf")) for p in some) for name in limits}
+        in_words = ", ".join(
+            f"{name} <= {value:g} (the least there is {least[name]:g})" for name, value in limits.items()
+        )
+        raise InputError(f"no law of order {order} in the atlas keeps {in_words}; optlaws solve may find one between")
+    return min(candidates, key=lambda p: (0.0 if B is None else abs(p.B - B), p.constants[minimise]))
+
+
+def best_law(
+    file: Path, *, minimise: str, order: int, B: float | None = None, most: Mapping[str, float] | None = None
+) -> Solution:
+    """The best law as asked, of whichever degree the atlas has; the arguments are those of `look_up`.
+
+    A point of the atlas says nothing of the best degree under a limit: its law keeps to it by chance. So every degree
+    is asked, but where the greatest, among whose laws are those of all others, has answered for them with proof.
+    """
+    degrees = sorted({point.degree for point in read(file) if point.order == order}, reverse=True)
+    solutions: list[Solution] = []
+    failed: list[SolverFailure] = []
+    for degree in degrees:
+        try:
+            solutions.append(synthesize(_problem(degree, minimise, order, B, most or {})))
+        except InfeasibleProblem:
+            if not solutions and not failed:
+                raise
+        except SolverFailure as error:
+            failed.append(error)
+        if solutions and solutions[0].status is Status.OPTIMAL:
+            break
+    if not solutions:
+        raise failed[0]
+    return min(solutions, key=lambda solution: solution.objective)
+
+
+def _problem(degree: int, minimise: str, order: int, B: float | None, most: Mapping[str, float]) -> Problem:
+    bounds: dict[str, Any] = {name: at_most(value) for name, value in most.items()}
+    if B is not None:
+        bounds.pop("B", None)
+    return Problem(B=B, order=order, basis=Chebyshev(degree), minimise=minimise, bounds=bounds)
+
+
+def read(file: Path) -> list[AtlasPoint]:
+    """The points of an atlas that have a law."""
+    if not file.exists():
+        raise InputError(f"there is no atlas {file}; `optlaws run problems/atlas.toml` makes one")
+    lines = [line for line in reading.text(file).splitlines() if not line.startswith("#")]
+    rows = list(csv.DictReader(lines))
+    if not rows or tuple(rows[0]) != COLUMNS:
+        raise InputError(f"{file} is no atlas: its columns are not {', '.join(COLUMNS)}")
+    return [
+        AtlasPoint(
+            minimise=row["minimise"],
+            order=int(row["order"]),
+            degree=int(row["degree"]),
+            B=float(row["B asked"]),
+            constants={name: float(row[name]) for name in CONSTANTS if row[name]},
+        )
+        for row in rows
+        if row["C"]
+    ]

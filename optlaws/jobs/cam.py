@@ -1,0 +1,279 @@
+"""The job "cam": a cam with enclosed pressure angles and curvatures, proof of no undercut, least sizes, its curves."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import partial
+from math import degrees
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from optlaws.cams.as_manufactured import AsMade
+from optlaws.cams.best_laws import BestBaseCircle, BestCam
+from optlaws.cams.curves.extremes import UNDERCUT
+from optlaws.cams.curves.plane_curve import PlaneCurve
+from optlaws.cams.disc import DiscCam
+from optlaws.cams.followers.follower import positive
+from optlaws.cams.forces import CamForces
+from optlaws.cams.least_sizes import LeastBaseCircle
+from optlaws.cams.springs import Spring
+from optlaws.cams.summary import named_forces
+from optlaws.cycles.summary import objective_unit
+from optlaws.files import tables, writing
+from optlaws.jobs import barrel_cam
+from optlaws.jobs.cam_entries import CamProblemFile, Cams, FileEntries, read
+from optlaws.jobs.cam_findings import EXTREMES, FORCE, STIFFNESS, Findings, Limits, enclosure, extreme_rows, plain
+from optlaws.numerics.tolerances import FORCE_ROUNDING, SIZE_MET
+from optlaws.plots.cam import animated, cam_figure, forces_figure, pair_figure
+from optlaws.plots.cycle import UNITS
+from optlaws.results.results import Page, Results
+
+_MILLI, _MICRO = 1e3, 1e6
+_TURN = 360.0
+_HEADINGS = ("what", "value", "no laws are below", "unit", "status")
+#: before the names of the files of the return cam
+_RETURN = "return-"
+
+
+def run(results: Results) -> None:
+    """Put the cam's page, data, table, pictures and files into results."""
+    if "barrel" in results.entries:
+        barrel_cam.run(results)
+        return
+    spec, cams = read(results.entries, results.file)
+    results.title = spec.title
+    findings, first, second = Findings(spec, cams), cams.first, cams.second
+    results.text("cam.md", str(page(findings)))
+    results.data("cam.json", _to_data(findings))
+    results.table("cam", _columns(spec, cams), _rows(spec, cams))
+    results.picture("cam", cam_figure(first, spec.title))
+    if findings.forces is not None:
+        results.picture("forces", forces_figure(findings.forces, spec.title))
+    for entry in spec.file:
+        results.add(entry.name, partial(_cut, first, entry, results.about))
+    if spec.animation:
+        results.add("animation.svg", partial(writing.write, content=animated(first)))
+    if second is None:
+        return
+    results.picture("pair", pair_figure(first, second, spec.title))
+    for entry in spec.file:
+        results.add(f"{_RETURN}{entry.name}", partial(_cut, second, entry, results.about))
+
+
+def _cut(cam: DiscCam, entry: FileEntries, about: str, file: Path) -> Path:
+    """The file that cuts a cam."""
+    form: Any = entry.format
+    return cam.export(file, form, about=about, **entry.options())
+
+
+def answer(data: Mapping[str, Any], file: Path) -> dict[str, Any]:
+    """The data of the cam for programs, in metres and radians: enclosures as pairs, with the angle of the cam."""
+    if "barrel" in data:
+        return barrel_cam.answer(data, file)
+    return _to_data(Findings(*read(data, file)))
+
+
+def _to_data(findings: Findings) -> dict[str, Any]:
+    extremes, limits = findings.cams.first.extremes, findings.limits
+    data: dict[str, Any] = {
+        "unit": "SI",
+        **_best_data(findings.cams),
+        "greatest_pressure_angle": enclosure(extremes.greatest_pressure_angle, limits.pressure),
+        "least_pressure_angle": enclosure(extremes.pressure_angles[0], limits.pressure),
+        "largest_pressure_angle": enclosure(extremes.pressure_angles[1], limits.pressure),
+        "bulging_radius": enclosure(extremes.least_convex_radius, limits.radius),
+        "hollow_radius": None if extremes.least_concave_radius is None else enclosure(extremes.least_concave_radius),
+        "undercut": {"status": extremes.undercut.status, "simple": extremes.undercut.simple},
+    }
+    least, roller = findings.least, findings.roller
+    if isinstance(least, LeastBaseCircle):
+        data["least_base_circle"] = {
+            "radius": least.radius, "too_small": least.too_small, "proven": least.proven, "limit": least.limit,
+            "angle": findings.angle(least.angle),
+        }  # fmt: skip
+    elif least is not None:
+        data["least_base_circle"] = None
+    if roller is not None:
+        angle = findings.angle(roller.angle)
+        data["greatest_roller"] = {"radius": roller.radius, "too_large": roller.too_large, "angle": angle}
+    return data | _pair_data(findings.cams.second) | findings.to_data()
+
+
+def _best_data(cams: Cams) -> dict[str, Any]:
+    """How good the laws for the cam are; nothing where the laws are those of the cycle."""
+    best = cams.best
+    if best is None:
+        return {}
+    name, objective = (
+        ("base circle", best.least.radius)
+        if isinstance(best, BestBaseCircle)
+        else (cams.cycle.minimise, best.objective)
+    )
+    bound = {"status": _status(cams), "lower_bound": best.lower_bound}
+    return {"best": {"minimise": name, "objective": objective, **bound}}
+
+
+def _status(cams: Cams) -> str:
+    """Whether the best laws, or the least base circle, are proven optimal."""
+    best = cams.best
+    assert best is not None  # noqa: S101 - the callers have seen it
+    if isinstance(best, BestCam):
+        return best.status.value
+    return "optimal" if best.least.radius - best.lower_bound <= SIZE_MET * best.least.radius else "local"
+
+
+def _pair_data(cam: DiscCam | None) -> dict[str, Any]:
+    """The data of the return cam; nothing where there is none."""
+    if cam is None:
+        return {}
+    return {
+        "return_cam": {
+            "base_radius": positive(cam.base_radius, "base_radius"),
+            "greatest_pressure_angle": enclosure(cam.extremes.greatest_pressure_angle),
+            "bulging_radius": enclosure(cam.extremes.least_convex_radius),
+            "undercut": {"status": cam.extremes.undercut.status, "simple": cam.extremes.undercut.simple},
+        }
+    }
+
+
+def page(findings: Findings) -> Page:
+    """The page of results."""
+    spec, cams, least = findings.spec, findings.cams, findings.least
+    result = Page(spec.title).text(spec.text).figure("cam", spec.title)
+    if cams.best is not None:
+        result.heading("Laws for the cam").table(_HEADINGS, _best_rows(findings), digits=6)
+    result.text(f"Undercut: {cams.first.extremes.undercut}.")
+    result.table(EXTREMES, extreme_rows(cams.first, findings.limits), digits=7)
+    if rows := _size_rows(findings):
+        result.heading("Sizes").table(("what", "kept with", "broken with", "unit", "at, deg"), rows, digits=7)
+    if isinstance(least, str):
+        result.text(f"{least[0].upper()}{least[1:]}.")
+    if cams.second is not None:
+        result.heading("Return cam").figure("pair", "Both cams on one shaft, with their followers at the start")
+        result.text(f"Undercut: {cams.second.extremes.undercut}.")
+        result.table(EXTREMES, extreme_rows(cams.second, Limits()), digits=7)
+        result.text(_links(spec, _RETURN))
+    _add_forces(result, findings)
+    if findings.spring is not None:
+        result.heading("Spring")
+        result.table(("what", "value", "unit"), _spring_rows(findings.spring, cams.first), digits=6)
+    if findings.as_made:
+        unit = "um" if cams.first.displacement.axis == "length" else "urad"
+        headings = ("what", f"deviation, {unit}", "peak acceleration, ratio", "peak jerk, ratio")
+        result.heading("As made").table(headings, [_made_row(*item) for item in findings.as_made.items()], digits=5)
+        if None in findings.as_made.values():
+            result.text("Where nothing stands the follower does not reach all of the cam: it has hollows.")
+    if spec.animation:
+        result.heading("Turning").figure("animation", "The cam turns under its follower")
+    return result.heading("Files").text(_links(spec)) if spec.file else result
+
+
+def _links(spec: CamProblemFile, prefix: str = "") -> str:
+    return "\n".join(f"- [{prefix}{entry.name}]({prefix}{entry.name})" for entry in spec.file)
+
+
+def _best_rows(findings: Findings) -> list[list[tables.Cell]]:
+    cams, cycle = findings.cams, findings.cams.cycle
+    best, name, unit = cams.best, cycle.minimise, objective_unit(cycle)
+    if isinstance(best, BestCam):
+        return [
+            [f"least {name} under the limits of the cam", best.objective, best.lower_bound, unit, best.status.value],
+            [f"least {name} without them", cycle.objective, cycle.lower_bound, unit, cycle.status.value],
+        ]
+    assert best is not None  # noqa: S101 - the caller has seen it
+    sizes: list[tables.Cell] = [_MILLI * best.least.radius, _MILLI * best.lower_bound, "mm", _status(cams)]
+    rows: list[list[tables.Cell]] = [["least base circle of all laws", *sizes]]
+    of_cycle = findings.least_of_cycle
+    if of_cycle is not None:
+        rows.append([f"of the laws of least {name}", _MILLI * of_cycle.radius, None, "mm", None])
+    return rows
+
+
+def _size_rows(findings: Findings) -> list[list[tables.Cell]]:
+    least, roller = findings.least, findings.roller
+    rows: list[list[tables.Cell]] = []
+    if isinstance(least, LeastBaseCircle):
+        name, at = f"least base circle, by the {least.limit}", findings.angle(degrees(least.angle))
+        rows.append([name, _MILLI * least.radius, _MILLI * least.too_small, "mm", at])
+    if roller is not None:
+        at = findings.angle(degrees(roller.angle))
+        rows.append(["greatest roller", _MILLI * roller.radius, _MILLI * roller.too_large, "mm", at])
+    return rows
+
+
+def _add_forces(result: Page, findings: Findings) -> None:
+    forces = findings.forces
+    if forces is None:
+        return
+    result.heading("Forces").figure("forces", "Forces over the turn")
+    result.table(("what", "least", "at, deg", "greatest", "at, deg", "unit"), _force_rows(forces), digits=6)
+    result.text(
+        f"Torque at the shaft: root mean square {forces.rms_torque[1]:.6g} N m, mean "
+        f"{_rounded(0.5 * sum(forces.mean_torque), forces.torque.peak):.6g} N m. "
+        + ("The follower lifts off." if forces.lifts_off else "The follower stays on the cam.")
+    )
+    if findings.cams.first.extremes.undercut.status == UNDERCUT:
+        result.text("That is so if the follower moves as asked, which it cannot on a cam that is undercut.")
+
+
+def _force_rows(forces: CamForces) -> list[list[tables.Cell]]:
+    rows: list[list[tables.Cell]] = []
+    for name, curve, unit, factor in named_forces(forces):
+        low, high = (_rounded(value * factor, curve.peak * factor) for value in (curve.least, curve.most))
+        first, last = (_rounded(degrees(at), _TURN) for at in (curve.least_at, curve.most_at))
+        rows.append([name, low, first, high, last, unit])
+    return rows
+
+
+def _spring_rows(spring: Spring, cam: DiscCam) -> list[list[tables.Cell]]:
+    force, stiffness = FORCE[cam.displacement.axis], STIFFNESS[cam.displacement.axis]
+    bound = stiffness if spring.objective == "stiffness" else force
+    sought = {"greatest": "greatest force on the follower"}.get(spring.objective, spring.objective)
+    return [
+        ["stiffness", spring.stiffness, stiffness],
+        ["preload", _rounded(spring.preload, spring.greatest), force],
+        ["greatest force on the follower, any speed", spring.greatest, force],
+        [f"lower bound of the {sought}", _rounded(spring.lower_bound, spring.greatest), bound],
+        ["least force left along the follower's way", _rounded(spring.margin, spring.greatest), force],
+        ["it is left at", _rounded(spring.critical[0], _TURN), "deg"],
+    ]
+
+
+def _made_row(name: str, peaks: AsMade | None) -> list[tables.Cell]:
+    if peaks is None:
+        return [name, None, None, None]
+    return [name, _MICRO * peaks.deviation, peaks.acceleration_ratio, peaks.jerk_ratio]
+
+
+def _rounded(value: float, size: float) -> float:
+    """The value, or 0 where it is next to nothing beside a size."""
+    return 0.0 if abs(value) <= FORCE_ROUNDING * abs(size) else value
+
+
+def _columns(spec: CamProblemFile, cams: Cams) -> list[str]:
+    curves = ["pitch", "profile", *(["cutter"] if spec.cutter_radius else [])]
+    if cams.second is not None:
+        curves += [f"return {name}" for name in curves]
+    points = [f"{name} {axis}, mm" for name in curves for axis in "xy"]
+    displacement = f"displacement, {UNITS[cams.first.displacement.axis][0][0]}"
+    return ["cam, deg", displacement, *points, "pressure angle, deg", "curvature, 1/mm"]
+
+
+def _rows(spec: CamProblemFile, cams: Cams) -> list[list[tables.Cell]]:
+    cam, turns = cams.first, np.linspace(0.0, _TURN, spec.rows)
+    angles = np.radians(turns)
+    curves: list[PlaneCurve] = []
+    for disc in (cam, cams.second):
+        if disc is not None:
+            curves += [disc.pitch_curve, disc.profile]
+            curves += [disc.cutter_path(spec.cutter_radius)] if spec.cutter_radius else []
+    columns = [
+        turns,
+        UNITS[cam.displacement.axis][0][1] * cam.displacement(angles),
+        *(column for curve in curves for column in (_MILLI * curve(angles)).T),
+        np.degrees(cam.pressure_angle(angles)),
+        cam.profile.curvature(angles) / _MILLI,
+    ]
+    return [[plain(value) for value in row] for row in np.array(columns).T.tolist()]

@@ -1,1 +1,0 @@
-"""The job "cam": cams of cycles, analysed with enclosed extremes."""

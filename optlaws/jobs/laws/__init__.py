@@ -1,1 +1,0 @@
-"""Jobs about laws: tables, fronts, families, an atlas."""

@@ -1,1 +1,0 @@
-"""The former room of `optlaws.numerics`: pickles made before name it."""
