@@ -20,8 +20,8 @@ from optlaws.synthesis.problem.windows import Window
 from optlaws.synthesis.spaces.bases import Basis, Pieces, PolynomialBasis
 from optlaws.synthesis.spaces.pieces.periodic import PeriodicPieces
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
-from optlaws.verification.enclosing.balls import ball, rational, upper
-from optlaws.verification.enclosing.pieces import Extremes, PolynomialPiece, between, least_and_greatest
+from optlaws.verification.enclosing.balls import Extremes, ball, rational, upper
+from optlaws.verification.enclosing.pieces import PolynomialPiece, between, least_and_greatest
 from optlaws.verification.exact.law import ExactLaw
 from optlaws.verification.exact.of_basis import unknown_basis
 

@@ -23,11 +23,10 @@ from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
 from optlaws.synthesis.proof.nodes import Contact
 from optlaws.verification.enclosing.balls import ball, lower, upper
-from optlaws.verification.enclosing.row import BallRow
-from optlaws.verification.exact.power import tree_holds
+from optlaws.verification.exact.boxes import tree_holds
 from optlaws.verification.exact.rows import ExactRows
 from optlaws.verification.exact.sublevel_bounds import greatest_values, least_objective, least_values, means
-from optlaws.verification.machines.certificate_rows import together
+from optlaws.verification.machines.certificate_rows import BallRow, together
 
 Vector = list[arb]
 

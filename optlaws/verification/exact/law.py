@@ -17,18 +17,60 @@ from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment, Segment
 from optlaws.laws.segments.sine import HarmonicSegment, SineSegment
 from optlaws.synthesis.functionals.curved_rows import split, squared
-from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaPeak, FormulaRms
+from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaPeak, FormulaRms, FormulaValue
 from optlaws.synthesis.problem.combined import CombinedPeak, CombinedPower
-from optlaws.synthesis.problem.constants import PeakConstant, PowerConstant, RootMeanSquare
+from optlaws.synthesis.problem.constants import PeakConstant, PeakJerk, PowerConstant, RootMeanSquare
 from optlaws.synthesis.problem.expression import Expression, Maximum, Term
-from optlaws.verification.enclosing.ball_pieces import PowerPiece, SinePiece
+from optlaws.synthesis.problem.named_constants import is_named
 from optlaws.verification.enclosing.balls import ball, enclosed, rational
-from optlaws.verification.enclosing.pieces import ExactPiece, Extremes, PolynomialPiece, least_and_greatest
-from optlaws.verification.exact.formula_values import extremes_of, integral_of
-from optlaws.verification.exact.known_constants import Known, OfFormula, OfMachine, known
-from optlaws.verification.machines.mode_residuals import ExactModeResidual, ModeConstant
-from optlaws.verification.machines.outputs import ExactOutput, KnownOutputRms
-from optlaws.verification.machines.residuals import ExactResidual, ResidualConstant
+from optlaws.verification.enclosing.pieces import (
+    ExactPiece,
+    Extremes,
+    PolynomialPiece,
+    PowerPiece,
+    SinePiece,
+    least_and_greatest,
+)
+from optlaws.verification.exact.motion_formulas import extremes_of, integral_of
+from optlaws.verification.machines.outputs import ExactOutput, KnownOutput, KnownOutputRms
+from optlaws.verification.machines.residuals import ExactModeResidual, ExactResidual, ModeConstant, ResidualConstant
+
+OfFormula = FormulaIntegral | FormulaPeak | FormulaRms | FormulaValue
+_OF_FORMULAS = {FormulaIntegral, FormulaPeak, FormulaRms, FormulaValue}
+OfMachine = ResidualConstant | ModeConstant | KnownOutput
+Known = PeakConstant | PowerConstant | RootMeanSquare | CombinedPeak | OfMachine | OfFormula
+
+_OF_CAMS = tuple(f"{name}_cam(" for name in ("B", "C", "C_plus", "C_minus", "D", "J"))
+_TOLD = (*_OF_CAMS, "residual(", "mode_residual(", "output_peak(", "output_rms(")
+
+
+def known(term: Term) -> Known:
+    """The constant, if it is one of a law, of its cam, of a machine, or of a formula, as optlaws itself defines them.
+
+    Raises
+    ------
+    InputError
+        If it is any other: what a subclass means, nobody has put into exact arithmetic.
+
+    Examples
+    --------
+    >>> from optlaws.synthesis.problem.constants import C
+    >>> known(C).nu
+    2
+    """
+    if type(term) in {PeakConstant, PeakJerk, RootMeanSquare} and isinstance(term, PeakConstant | RootMeanSquare):
+        return term
+    if type(term) is PowerConstant and tuple(term.weights) == (Fraction(1),):
+        return term
+    if isinstance(term, CombinedPeak | CombinedPower | OfMachine) and repr(term).startswith(_TOLD) and is_named(term):
+        return term
+    if type(term) in _OF_FORMULAS and isinstance(term, OfFormula) and is_named(term):
+        return term
+    raise InputError(
+        "exact verification knows peaks, power and RMS of derivatives, constants of cams, of machines and "
+        f"of formulas as optlaws defines them, not {term!r}: what bounds it is checked with numpy alone, by "
+        "Certificate.bound"
+    )
 
 
 class ExactLaw:

@@ -11,7 +11,7 @@ from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.expression import Expression, Maximum, Term, leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.verification.enclosing.balls import ball, lower
-from optlaws.verification.exact.known_constants import known
+from optlaws.verification.exact.law import known
 from optlaws.verification.machines.floors import floor
 
 _BITS = 192

@@ -35,21 +35,28 @@ from optlaws.synthesis.spaces.of_basis import space_of
 from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.verification.enclosing.balls import ball
 from optlaws.verification.enclosing.pieces import PolynomialPiece
-from optlaws.verification.enclosing.row import BallRow, Maker, Names, UpperLimit
-from optlaws.verification.exact.formula_rows import (
+from optlaws.verification.exact.law import ExactLaw, OfFormula, OfMachine, known
+from optlaws.verification.exact.motion_formulas import (
     formula_columns,
     norm_columns,
     straight_integral,
     tangent_columns,
     tangent_integral,
 )
-from optlaws.verification.exact.known_constants import OfFormula, OfMachine, known
-from optlaws.verification.exact.law import ExactLaw
 from optlaws.verification.exact.of_basis import exact_space
-from optlaws.verification.machines.certificate_rows import Corner, cone, mean, mode_edges, peak
-from optlaws.verification.machines.mode_residuals import ModeConstant
+from optlaws.verification.machines.certificate_rows import (
+    BallRow,
+    Corner,
+    Maker,
+    Names,
+    UpperLimit,
+    cone,
+    mean,
+    mode_edges,
+    peak,
+)
 from optlaws.verification.machines.outputs import KnownOutput, KnownOutputRms, OutputRows
-from optlaws.verification.machines.residuals import ExactResidual, ResidualConstant
+from optlaws.verification.machines.residuals import ExactResidual, ModeConstant, ResidualConstant
 
 _NEAR = Fraction(1, 10**9)
 

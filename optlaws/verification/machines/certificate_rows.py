@@ -1,9 +1,9 @@
-"""Rows of certificates that machines ask for: outputs at a time, their mean squares, and amplitudes of modes."""
+"""Rows of certificates in balls, and those of machines: outputs at a time, their mean squares, amplitudes of modes."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import partial
 from math import hypot
@@ -14,10 +14,44 @@ from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.verification.enclosing.balls import ball
 from optlaws.verification.enclosing.pieces import PolynomialPiece
-from optlaws.verification.enclosing.row import BallRow, Maker, UpperLimit
 from optlaws.verification.machines.driving import Space
-from optlaws.verification.machines.mode_residuals import ExactModeResidual, ModeConstant
 from optlaws.verification.machines.outputs import OutputRows
+from optlaws.verification.machines.residuals import ExactModeResidual, ModeConstant
+
+Names = Mapping[str, float | arb]
+
+
+@dataclass(frozen=True, eq=False)
+class BallRow:
+    """functions . (z, 1) + sum of constants + right; at most 0, or 0 for an equation, in every law of the problem."""
+
+    functions: list[arb]
+    constants: Names = field(default_factory=dict)
+    right: arb | float = 0.0
+
+    def vector(self, variables: list[str]) -> list[arb]:
+        """Coefficients of z and of the named constants, then what is constant."""
+        *free, base = self.functions
+        return [*free, *(arb(self.constants.get(name, 0.0)) for name in variables), base + self.right]
+
+
+@dataclass(frozen=True, eq=False)
+class UpperLimit:
+    """A sum of named constants, their signs turned, and a number, which a function of the law is at most."""
+
+    constants: Names = field(default_factory=dict)
+    high: float | arb = 0.0
+
+    def row(self, functions: Iterable[arb], unit: arb | None = None) -> BallRow:
+        """The row of a function of the law, in a unit if one is given."""
+        if unit is None:
+            return BallRow(list(functions), self.constants, -arb(self.high))
+        constants = {name: arb(value) / unit for name, value in self.constants.items()}
+        return BallRow([value / unit for value in functions], constants, -arb(self.high) / unit)
+
+
+Maker = Callable[[Contact, Fraction], BallRow]
+
 
 #: a law's pieces by the direction of a contact; LookupError where there is none
 LawAlong = Callable[[Sequence[float]], Sequence[PolynomialPiece]]

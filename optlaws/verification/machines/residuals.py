@@ -1,22 +1,28 @@
-"""The residual vibration of a follower that a law leaves, in complex balls."""
+"""The residual vibration that a law leaves in a follower or in a mode of a machine, in complex balls."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from fractions import Fraction
+from functools import partial
 from typing import Protocol, TypeVar, runtime_checkable
 
 from flint import acb, acb_series, arb
 
+from optlaws.errors import InputError
+from optlaws.kept import kept_property
+from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.verification.enclosing.balls import ball
 from optlaws.verification.enclosing.pieces import PolynomialPiece
 from optlaws.verification.machines.driving import Space
-from optlaws.verification.machines.velocity_transforms import (
+from optlaws.verification.machines.transfer import MachineConstant, Rational, roots, transforms
+from optlaws.verification.machines.velocities import (
     Ends,
     ends_of,
     ends_of_law,
     greatest_modulus,
-    transforms,
+    velocity_transforms,
 )
 
 Number = TypeVar("Number", acb, acb_series)
@@ -55,7 +61,7 @@ class ExactResidual:
         root = acb(ball(-self.damping), sine)
         w = nu * root
         scale = nu * nu * self._detuning(nu, w) * (-_I * acb(ball(-self.damping), -sine) / sine)
-        return [scale * transform for transform in transforms(w, breaks, columns)]
+        return [scale * transform for transform in velocity_transforms(w, breaks, columns)]
 
     def _detuning(self, nu: Number, w: Number) -> Number:
         """What the cam made for the design frequency leaves."""
@@ -74,3 +80,148 @@ class ExactResidual:
         """A ball that holds the greatest magnitude over the interval of frequencies, at the precision at work."""
         breaks, ends = ends_of_law(pieces)
         return greatest_modulus([lambda nu: self.amplitudes(nu, breaks, ends)[0]], self.low, self.high)
+
+
+Corner = tuple[arb, arb]
+#: of a root's size: what vibrates less is a decay, what is no further away is the same vibration, and what differs no
+#: more in size has no number of its own
+_VIBRATING, _SAME, _APART = 1e-6, 1e-6, 1e-9
+
+
+@runtime_checkable
+class ModeConstant(MachineConstant, Protocol):
+    """What the residual of a mode is made of (optlaws.mechanisms defines it)."""
+
+    @property
+    def mode(self) -> int:
+        """The number of the mode, the slowest one's being 1."""
+
+    @property
+    def spread(self) -> float:
+        """Share by which its frequency may be off, either way."""
+
+    @property
+    def dampings(self) -> tuple[float, float] | None:
+        """The least and the greatest damping ratio; None for the mode's own."""
+
+    def unit(self, space: LawSpace, edge: int, bound: float, *, sought: bool) -> float:
+        """What the rows of the certificate are divided by: any number above 0 will do."""
+
+
+@dataclass(frozen=True)
+class ExactEdge:
+    """Roots i nu exp(i angle) between two corners (nu, angle), sin(angle) being the damping ratio."""
+
+    first: Corner
+    last: Corner
+    single: bool = False
+
+    def root(self, place: Number) -> Number:
+        """The root at a place from 0 to 1."""
+        nu, angle = (acb(a) + place * acb(b - a) for a, b in zip(self.first, self.last, strict=True))
+        return _I * nu * (_I * angle).exp()
+
+
+class ExactModeResidual:
+    """The greatest amplitude over the box, at the precision at work when it is first asked.
+
+    Parameters
+    ----------
+    constant
+        Which mode of which machine, in which output, over which box.
+    """
+
+    def __init__(self, constant: ModeConstant) -> None:
+        self.constant = constant
+
+    @kept_property
+    def mode(self) -> list[tuple[acb, int]]:
+        """The roots that are the mode, nearly the same, with their multiplicities.
+
+        Raises
+        ------
+        InputError
+            If the machine has no such mode, or its number is none that can be told.
+        """
+        below, _ = transforms(self.constant.machine, self.constant.output)
+        groups = vibrations(roots(below))
+        if not 1 <= self.constant.mode <= len(groups):
+            raise InputError(f"the machine has no mode {self.constant.mode}")
+        return groups[self.constant.mode - 1]
+
+    @kept_property
+    def root(self) -> acb:
+        """The mean of the roots that are the mode."""
+        whole = sum(count for _, count in self.mode)
+        return sum((root * count for root, count in self.mode), acb(0)) / whole
+
+    @kept_property
+    def share(self) -> arb:
+        """The mode's amplitude in the output over the magnitude of the integral of exp(root (1 - k)) b(k).
+
+        Raises
+        ------
+        InputError
+            If the mode is defective.
+        """
+        below, parts = transforms(self.constant.machine, self.constant.output)
+        total = acb(0)
+        for i, part in enumerate(parts):
+            for pole in Rational(part, below).poles():
+                if not any(bool(pole.root.overlaps(root)) for root, _ in self.mode):
+                    continue
+                if len(pole.shares) > 1:
+                    raise InputError(f"mode {self.constant.mode} is defective: it has no amplitude")
+                total += pole.shares[0] * self.root ** (i - 1)
+        return abs(2 * total)
+
+    @kept_property
+    def edges(self) -> list[ExactEdge]:
+        """The edges of the box, one where it is thin, as optlaws.mechanisms numbers them."""
+        own = (-self.root.real / abs(self.root)).asin()
+        spread, dampings = Fraction(self.constant.spread), self.constant.dampings
+        low, high = abs(self.root) * ball(1 - spread), abs(self.root) * ball(1 + spread)
+        least, most = (own, own) if dampings is None else (ball(damping).asin() for damping in dampings)
+        if dampings is None or dampings[0] == dampings[1]:
+            return [ExactEdge((low, least), (high, least), single=not spread)]
+        if not spread:
+            return [ExactEdge((low, least), (low, most))]
+        lower, upper = ((low, least), (high, least)), ((low, most), (high, most))
+        return [ExactEdge(*lower), ExactEdge(lower[1], upper[1]), ExactEdge(*upper), ExactEdge(lower[0], upper[0])]
+
+    def rows(self, space: Space, edge: int, place: Fraction) -> list[acb]:
+        """Amplitudes of a space's free functions and of its base law, at a place of an edge from 0 to 1."""
+        transforms = velocity_transforms(self.edges[edge].root(acb(ball(place))), space.breaks, ends_of(space))
+        return [self.share * transform for transform in transforms]
+
+    def peak(self, pieces: Sequence[PolynomialPiece]) -> arb:
+        """A ball that holds the greatest over the box, at the precision at work."""
+        breaks, ends = ends_of_law(pieces)
+
+        def amplitude(edge: ExactEdge, place: Number) -> Number:
+            return velocity_transforms(edge.root(place), breaks, ends)[0]
+
+        along = [partial(amplitude, edge) for edge in self.edges]
+        return self.share * greatest_modulus(along, Fraction(0), Fraction(0 if self.edges[0].single else 1))
+
+
+def vibrations(poles: Sequence[tuple[acb, int]]) -> list[list[tuple[acb, int]]]:
+    """Roots of vibrations above the real line, the slowest first, those that are nearly the same together.
+
+    Raises
+    ------
+    InputError
+        If two of them differ, but not in size: their numbers are then none.
+    """
+    upper = [pole for pole in poles if pole[0].imag > ball(_VIBRATING) * abs(pole[0])]
+    groups: list[list[tuple[acb, int]]] = []
+    for pole in sorted(upper, key=lambda pole: float(abs(pole[0]).mid())):
+        size = abs(pole[0])
+        near = [group for group in groups if abs(group[0][0] - pole[0]) <= ball(_SAME) * size.max(arb(1))]
+        if near:
+            near[0].append(pole)
+            continue
+        if groups and not size > abs(groups[-1][0][0]) * ball(1 + _APART):
+            raise InputError("two modes of the machine have the same frequency: which is the first cannot be told")
+        groups.append([pole])
+    return groups

@@ -10,8 +10,8 @@ from math import comb, factorial
 from flint import acb, acb_mat, arb, arb_mat, arb_poly
 
 from optlaws.errors import InputError
-from optlaws.verification.enclosing.ball_extremes import greatest_magnitude
 from optlaws.verification.enclosing.balls import ball
+from optlaws.verification.enclosing.taylor_models import greatest_magnitude
 from optlaws.verification.machines.output_motion import OutputMotion, OutputStretch
 from optlaws.verification.machines.transfer import Pole
 

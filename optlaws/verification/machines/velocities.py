@@ -13,9 +13,9 @@ from typing import Any, TypeVar
 
 from flint import acb, acb_series, arb, arb_poly, fmpq
 
-from optlaws.verification.enclosing.ball_extremes import Taylor, cells, greatest_magnitude
 from optlaws.verification.enclosing.balls import ball
 from optlaws.verification.enclosing.pieces import PolynomialPiece
+from optlaws.verification.enclosing.taylor_models import Taylor, cells, greatest_magnitude
 from optlaws.verification.machines.driving import Space
 from optlaws.verification.machines.taylor_cells import root
 
@@ -54,7 +54,7 @@ def ends_of_law(pieces: Sequence[PolynomialPiece]) -> tuple[list[Fraction], list
     return breaks, [ends]
 
 
-def transforms(w: Number, breaks: Sequence[Fraction], columns: Sequence[Sequence[Ends]]) -> list[Number]:
+def velocity_transforms(w: Number, breaks: Sequence[Fraction], columns: Sequence[Sequence[Ends]]) -> list[Number]:
     """Integrals of exp(w (1-k)) b(k); where the breaks end at 1/2, b(1-k) = b(k)."""
     total = _between_breaks(w, breaks, columns)
     if breaks[-1] == _HALF:
