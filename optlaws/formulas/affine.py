@@ -12,17 +12,9 @@ from optlaws.formulas.tree import Call, Exponentiation, Formula, Name, Negative,
 
 @dataclass(frozen=True)
 class Affine:
-    """The sum of factors times names, plus what is left; neither has any of the names.
+    """The sum of factors times names, plus what is left; neither has any of the names."""
 
-    Attributes
-    ----------
-    factors
-        By name, those that are not 0.
-    rest
-        What is left.
-    """
-
-    factors: tuple[tuple[str, Formula], ...]
+    factors: tuple[tuple[str, Formula], ...]  #: by name, those that are not 0
     rest: Formula
 
 

@@ -74,17 +74,10 @@ class Verdict:
 
 @dataclass(frozen=True)
 class Judge:
-    """The rules for formulas in some names, the other name `k` being between two values.
+    """The rules for formulas in some names, the other name `k` being between two values."""
 
-    Attributes
-    ----------
-    names
-        In which the curvature is asked.
-    start, stop
-        Between which values k is.
-    """
-
-    names: frozenset[str]
+    names: frozenset[str]  #: in which the curvature is asked
+    #: start, stop: between which values k is
     start: float = 0.0
     stop: float = 1.0
 

@@ -51,13 +51,6 @@ _MIRRORED: dict[str, Formula] = {
 class MotionFormula:
     """A formula of a motion, over a part of the interval of k.
 
-    Attributes
-    ----------
-    formula
-        In a, b, c, j and k.
-    start, stop
-        The part.
-
     Examples
     --------
     >>> motion = of_text("c + 0.2*b")
@@ -65,7 +58,7 @@ class MotionFormula:
     ('affine', {2: '1', 1: '0.2'})
     """
 
-    formula: Formula
+    formula: Formula  #: in a, b, c, j and k
     start: float = 0.0
     stop: float = 1.0
 
@@ -231,11 +224,6 @@ def _along(motion: MotionFormula, x: Array) -> Array:
 def of_text(text: str, start: float = 0.0, stop: float = 1.0) -> MotionFormula:
     """The formula of a text, over a part of the interval.
 
-    Raises
-    ------
-    InputError
-        If it says none, has unknown names, or divides by what may be 0 whatever the law is.
-
     Examples
     --------
     >>> of_text("d + 1/(k - 0.5)")
@@ -248,13 +236,7 @@ def of_text(text: str, start: float = 0.0, stop: float = 1.0) -> MotionFormula:
 
 
 def checked(motion: MotionFormula, text: str) -> MotionFormula:
-    """The formula with d written as b c, if it has a value for every k.
-
-    Raises
-    ------
-    InputError
-        If it divides by what is 0 at some k, or takes roots and logarithms of what has none; `text` is shown.
-    """
+    """The formula with d written as b c, if it has a value for every k."""
     for part in motion.formula.walk():
         if (
             isinstance(part, Product)

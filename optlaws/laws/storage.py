@@ -126,11 +126,6 @@ def contents(value: Any) -> dict[str, Any]:  # noqa: ANN401 - any frozen datacla
 def known_fields(kind: type, fields: Mapping[str, Any], what: str) -> dict[str, Any]:
     """Contents whose keys are the fields of a dataclass; `what` is what an error calls it.
 
-    Raises
-    ------
-    InputError
-        If a key is unknown or missing.
-
     Examples
     --------
     >>> from optlaws.laws.segments import PowerSegment

@@ -22,15 +22,6 @@ def series_between(
 ) -> Array | None:
     """Chebyshev series of a function in what runs from -1 to 1 between two places; None where it is not smooth.
 
-    Parameters
-    ----------
-    function
-        Of an array of places.
-    ends
-        The two places.
-    count
-        How many coefficients it has, where that is known.
-
     Examples
     --------
     >>> series_between(lambda x: x * x, (0.0, 2.0)).round(12)
@@ -95,13 +86,6 @@ def _parts(
 
 def cut_at_roots(function: Callable[[float, float], Callable[[Array], Array]], edges: list[float]) -> list[float]:
     """The edges, and between them the places where functions change their sign, but for those next to another one.
-
-    Parameters
-    ----------
-    function
-        What to take between two edges.
-    edges
-        Ascending.
 
     Examples
     --------

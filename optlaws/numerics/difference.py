@@ -32,11 +32,6 @@ def greatest_difference(first: Function, second: Function, places: Array) -> tup
     places
         Increasing: both ends, and where one of the two is not smooth.
 
-    Raises
-    ------
-    InputError
-        If a value of the second is not finite, or the difference is not smooth.
-
     Examples
     --------
     >>> value, x = greatest_difference(np.sin, lambda x: x, np.array([0.0, 1.0]))

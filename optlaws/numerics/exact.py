@@ -20,16 +20,6 @@ Polynomial = list[Fraction]  # ascending powers
 def chebyshev_from_powers(coefficients: Iterable[Any]) -> tuple[float, ...]:
     """Chebyshev series in 2k - 1 of a polynomial given by ascending powers of k, rounded once.
 
-    Parameters
-    ----------
-    coefficients
-        Ints, floats or Fractions, dimensionless, shape (n,).
-
-    Raises
-    ------
-    InputError
-        If a coefficient is not a finite real number.
-
     Examples
     --------
     >>> chebyshev_from_powers([-3, 6])
@@ -40,16 +30,6 @@ def chebyshev_from_powers(coefficients: Iterable[Any]) -> tuple[float, ...]:
 
 def powers_from_chebyshev(coefficients: Iterable[Any]) -> tuple[float, ...]:
     """Ascending powers of k of a polynomial given by its Chebyshev series in 2k - 1, rounded once.
-
-    Parameters
-    ----------
-    coefficients
-        Ints, floats or Fractions, dimensionless, shape (n,).
-
-    Raises
-    ------
-    InputError
-        If a coefficient is not a finite real number.
 
     Examples
     --------

@@ -174,13 +174,7 @@ def plain_alone(solution: Solution) -> Plain:
 
 
 def read_solutions(data: object) -> StoredSolutions:
-    """Read what `SolutionArray.to_dict` wrote, and check all that is taken from it.
-
-    Raises
-    ------
-    InputError
-        If an entry is missing or wrong, or states what does not follow from the problems, the laws and the proofs.
-    """
+    """Read what `SolutionArray.to_dict` wrote, and check all that is taken from it."""
     entries = stated(data, StatedSolutions, "stored array of solutions")
     size, shape = prod(entries.shape), tuple(entries.shape)
     if min(shape, default=0) < 0 or size != len(entries.solutions):

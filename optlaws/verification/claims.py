@@ -260,13 +260,7 @@ def _shown(gap: float | None) -> str:
 
 
 def claims_in_context(entry: FileEntry, verification: Verification) -> Iterator[Claim]:
-    """Status, problem, peak velocity and constants that stand around an entry, as claims.
-
-    Raises
-    ------
-    InputError
-        If a problem around it is none, or a constant is unknown.
-    """
+    """Status, problem, peak velocity and constants that stand around an entry, as claims."""
     around, problem = entry.around, verification.problem
     if around.status is not None:
         own = "infeasible" if _no_law(verification, around.above) else entry.data.get("status")

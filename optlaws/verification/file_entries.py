@@ -87,27 +87,13 @@ class SolutionArrayFile(msgspec.Struct, forbid_unknown_fields=True):
 
 @dataclass(frozen=True)
 class Around:
-    """What the objects around an entry say of it.
+    """What the objects around an entry say of it."""
 
-    Attributes
-    ----------
-    status
-        The status of its row.
-    asked
-        The problem of its row, as plain data.
-    B
-        The peak velocity of its row.
-    values
-        Constants by name, in a front.
-    above
-        What the entry's bound has to exceed, if its row is to have no law.
-    """
-
-    status: str | None = None
-    asked: Any = None
-    B: float | None = None
-    values: Mapping[str, float] = field(default_factory=dict)
-    above: float | None = None
+    status: str | None = None  #: the status of its row
+    asked: Any = None  #: the problem of its row, as plain data
+    B: float | None = None  #: the peak velocity of its row
+    values: Mapping[str, float] = field(default_factory=dict)  #: constants by name, in a front
+    above: float | None = None  #: what the entry's bound has to exceed, if its row is to have no law
 
 
 @dataclass(frozen=True)
@@ -120,11 +106,6 @@ class FileEntry:
 
 def entries(data: Data) -> dict[str, FileEntry]:
     """What can be verified, by where it is.
-
-    Raises
-    ------
-    InputError
-        If anything else is said.
 
     Examples
     --------
@@ -155,13 +136,7 @@ def is_proven_front(data: Data) -> bool:
 
 
 def check_keys(data: Data) -> None:
-    """Refuse an entry that says what no entry of its kind says.
-
-    Raises
-    ------
-    InputError
-        If a key is unknown, or a value that is not checked by its own proof is of a wrong type.
-    """
+    """Refuse an entry that says what no entry of its kind says."""
     if "certificate" in data:
         _stated(data, SolutionFile, "the solution")
     elif "law" in data:

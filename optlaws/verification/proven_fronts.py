@@ -36,13 +36,7 @@ class _Known:
 
 
 def proven_front(front: ProvenFront, stated: float) -> Verification:
-    """Check every law and certificate of a front, and its gap at every value between.
-
-    Raises
-    ------
-    InputError
-        As `verify` of a solution.
-    """
+    """Check every law and certificate of a front, and its gap at every value between."""
     number, (low, high) = front.number, front.between
     points = list(front)
     laws = [ExactLaw(point.law) for point in points]

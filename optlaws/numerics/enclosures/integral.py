@@ -32,11 +32,6 @@ def integral(function: Function, edges: Any, *, share: float = 1e-9, scale: floa
     scale
         Of what the function is a difference.
 
-    Raises
-    ------
-    SolverFailure
-        If the function has no bound.
-
     Examples
     --------
     >>> from optlaws.numerics.enclosures.taylor import variable

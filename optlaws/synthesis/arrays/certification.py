@@ -28,35 +28,19 @@ from optlaws.synthesis.program.writer import Model
 
 @dataclass(frozen=True, eq=False)
 class Certification:
-    """Objectives, lower bounds and what is broken of many laws.
+    """Objectives, lower bounds and what is broken of many laws."""
 
-    Attributes
-    ----------
-    objective, bound
-        What each law is worth, and what is proven that no law is below.
-    excess
-        By how much a row may be broken anywhere, relative to its right side or 1.
-    pull
-        How far the least multiplier is below 0, relative to the greatest; negative above it.
-    inward
-        How fast a residual grows from a contact that is held at an end; negative where it falls.
-    best
-        Whether no law beside it is better, where that does not follow from the bound: of problems that are not convex
-        the bound is that of their rows' planes at the law.
-    affine
-        Whether all rows are affine, so that a gap that is left is one of rounding.
-    scale
-        Of the objective.
-    """
-
+    #: objective, bound: what each law is worth, and what is proven that no law is below
     objective: Array
     bound: Array
-    excess: Array
-    pull: Array
-    inward: Array
+    excess: Array  #: by how much a row may be broken anywhere, relative to its right side or 1
+    pull: Array  #: how far the least multiplier is below 0, relative to the greatest; negative above it
+    inward: Array  #: how fast a residual grows from a contact that is held at an end; negative where it falls
+    #: whether no law beside it is better, where that does not follow from the bound: of problems that are not convex
+    #: the bound is that of their rows' planes at the law
     best: NDArray[np.bool_]
-    affine: bool
-    scale: float
+    affine: bool  #: whether all rows are affine, so that a gap that is left is one of rounding
+    scale: float  #: of the objective
 
     @property
     def broken(self) -> Array:
@@ -158,15 +142,7 @@ class RowChecks:
         return shortfalls
 
     def excess(self, point: Array, room: Array, touching: Sequence[Array]) -> Array:
-        """By how much each law may break the rows of any family, relative to the right side or 1.
-
-        Parameters
-        ----------
-        point, room
-            The laws' variables and 1, and the right sides of the families, shape (laws, families).
-        touching
-            For each family the places of contacts whose own residuals are accounted for elsewhere.
-        """
+        """By how much each law may break the rows of any family, relative to the right side or 1."""
         shortfalls = np.zeros(len(point))
         if self._wide:
             shortfalls = excess(self._cells, point, room[:, list(self._wide)], [touching[i] for i in self._wide])

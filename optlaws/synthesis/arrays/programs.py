@@ -20,21 +20,11 @@ from optlaws.synthesis.program.writer import Model, model_of
 
 @dataclass(frozen=True, eq=False)
 class Numbers:
-    """What a stack of programs does not share.
+    """What a stack of programs does not share."""
 
-    Attributes
-    ----------
-    right
-        Right sides of the equations, shape (programs, equations).
-    bounds
-        Bounds of the families, shape (programs, families).
-    cost
-        What is minimised, shape (programs, variables).
-    """
-
-    right: Array
-    bounds: Array
-    cost: Array
+    right: Array  #: right sides of the equations, shape (programs, equations)
+    bounds: Array  #: bounds of the families, shape (programs, families)
+    cost: Array  #: what is minimised, shape (programs, variables)
 
     def __len__(self) -> int:
         return len(self.right)
@@ -46,27 +36,16 @@ class Numbers:
 
 @dataclass(frozen=True, eq=False)
 class Path:
-    """Programs along a straight path: their numbers are affine in t, all else is that of the model.
+    """Programs along a straight path: their numbers are affine in t, all else is that of the model."""
 
-    Attributes
-    ----------
-    model
-        The program of one of them.
-    problems
-        The problems at its ends.
-    begin, slope
-        The numbers at t = 0, and what they change by as t does; each for one program.
-    measured
-        Families whose programs have them in units of their own bound; on the path they are in one unit.
-    kept
-        What is known of laws below a claim, computed once.
-    """
-
-    model: Model
-    problems: tuple[Problem, ...]
+    model: Model  #: the program of one of them
+    problems: tuple[Problem, ...]  #: the problems at its ends
+    #: begin, slope: the numbers at t = 0, and what they change by as t does; each for one program
     begin: Numbers
     slope: Numbers
+    #: families whose programs have them in units of their own bound; on the path they are in one unit
     measured: tuple[int, ...] = ()
+    #: what is known of laws below a claim, computed once
     kept: dict[int | None, Any] = field(default_factory=dict, repr=False)
 
     @property
@@ -95,15 +74,7 @@ def numbers_of(program: Program) -> Numbers:
 
 
 def between(first: Problem, last: Problem, model: Callable[[Problem], Model] = model_of) -> Path | None:
-    """The path from one problem at t = 0 to another at t = 1; None where their programs differ in more than numbers.
-
-    Parameters
-    ----------
-    first, last
-        The problems.
-    model
-        What makes their programs.
-    """
+    """The path from one problem at t = 0 to another at t = 1; None where their programs differ in more than numbers."""
     begin, end = model(first), model(last)
     one, other = begin.program, in_units_of(begin.program, end.program)
     families = len(one.families) == len(other.families) and all(map(_alike, one.families, other.families))

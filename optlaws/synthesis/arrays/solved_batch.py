@@ -20,28 +20,19 @@ FOLLOWING = ("objective", "excess")
 
 @dataclass(frozen=True, eq=False)
 class SolvedBatch:
-    """Optima of programs that differ in numbers alone, one a row; NaN in the rows of programs that were not solved.
+    """Optima of programs that differ in numbers alone, one a row; NaN in the rows of programs that were not solved."""
 
-    Attributes
-    ----------
-    x
-        The programs' variables, shape (programs, variables).
-    family, u, sign, free, multiplier
-        Contacts, shape (programs, most contacts): `NO_CONTACT` is the family of none.
-    equations
-        Multipliers of the equations, shape (programs, equations).
-    objective, bound, excess
-        The objective, what is proven that no law is below, and the most by which a row is broken (NaN of laws that were
-        read from a file, which keep their rows as every `Solution` does); shape (programs,).
-    """
-
-    x: Array
+    x: Array  #: the programs' variables, shape (programs, variables)
+    #: family, u, sign, free, multiplier: contacts, shape (programs, most contacts): `NO_CONTACT` is the family of none
     family: NDArray[np.int16]
     u: Array
     sign: Array
     free: NDArray[np.bool_]
     multiplier: Array
-    equations: Array
+    equations: Array  #: multipliers of the equations, shape (programs, equations)
+    #: objective, bound, excess: the objective, what is proven that no law is below, and the most by which a row is
+    #: broken (NaN of laws that were read from a file, which keep their rows as every `Solution` does); shape
+    #: (programs,)
     objective: Array
     bound: Array
     excess: Array

@@ -37,21 +37,11 @@ class Combined(Functional):
 
 @dataclass(frozen=True, repr=False)
 class CombinedPeak(Combined):
-    """Peak of w0 a^(nu) + w1 a^(nu+1) + ..., magnitude or one sign only.
+    """Peak of w0 a^(nu) + w1 a^(nu+1) + ..., magnitude or one sign only."""
 
-    Attributes
-    ----------
-    nu
-        Order of the lowest derivative.
-    weights
-        The w, exact.
-    signs
-        Which signs count.
-    """
-
-    nu: int
-    weights: tuple[Fraction, ...]
-    signs: tuple[float, ...] = (1.0, -1.0)
+    nu: int  #: order of the lowest derivative
+    weights: tuple[Fraction, ...]  #: the w, exact
+    signs: tuple[float, ...] = (1.0, -1.0)  #: which signs count
 
     @kept_property
     def scale(self) -> float:

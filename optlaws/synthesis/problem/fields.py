@@ -44,27 +44,13 @@ class Kind(Enum):
 
 @dataclass(frozen=True)
 class Entry:
-    """One entry as files, studies and commands call it.
+    """One entry as files, studies and commands call it."""
 
-    Attributes
-    ----------
-    name
-        What it is called.
-    kind
-        What its values are.
-    about
-        What it asks, in a sentence.
-    heading
-        What a column of its values is called.
-    default
-        Its value unless given; None where nothing is asked, or where there is none to give.
-    """
-
-    name: str
-    kind: Kind
-    about: str
-    heading: str
-    default: Any
+    name: str  #: what it is called
+    kind: Kind  #: what its values are
+    about: str  #: what it asks, in a sentence
+    heading: str  #: what a column of its values is called
+    default: Any  #: its value unless given; None where nothing is asked, or where there is none to give
 
 
 def _entry(name: str, kind: Kind, about: str, heading: str | None = None, *, default: Any = None) -> Entry:  # noqa: ANN401
@@ -73,36 +59,17 @@ def _entry(name: str, kind: Kind, about: str, heading: str | None = None, *, def
 
 @dataclass(frozen=True)
 class Field:
-    """One field of `Problem`, with the entries that make it up.
+    """One field of `Problem`, with the entries that make it up."""
 
-    Attributes
-    ----------
-    name
-        The name of the field.
-    check
-        Whatever was given -> what the problem keeps; its error names the field.
-    entries
-        One or more; a field left out of all of them has the default of `Problem`.
-    near
-        Whether a warm start leads from one value to another: equal values, or values that differ in numbers.
-    compared
-        The attribute of `Problem` that `near` compares.
-    joined
-        Entries, by keywords -> what `check` takes.
-    plain
-        What the problem keeps -> JSON-able entries, none where nothing is asked.
-    optional
-        Whether it may ask nothing.
-    """
-
-    name: str
-    check: Callable[[Any], Any]
-    entries: tuple[Entry, ...]
+    name: str  #: the name of the field
+    check: Callable[[Any], Any]  #: whatever was given -> what the problem keeps; its error names the field
+    entries: tuple[Entry, ...]  #: one or more; a field left out of all of them has the default of `Problem`
+    #: whether a warm start leads from one value to another: equal values, or values that differ in numbers
     near: Callable[[Any, Any], bool]
-    compared: str
-    joined: Callable[..., Any]
-    plain: Callable[[Any], dict[str, Any]]
-    optional: bool = False
+    compared: str  #: the attribute of `Problem` that `near` compares
+    joined: Callable[..., Any]  #: entries, by keywords -> what `check` takes
+    plain: Callable[[Any], dict[str, Any]]  #: what the problem keeps -> JSON-able entries, none where nothing is asked
+    optional: bool = False  #: whether it may ask nothing
 
 
 def _single(
@@ -289,11 +256,6 @@ CONSTANTS = tuple(entry.name for entry in ENTRIES.values() if entry.kind is Kind
 
 def from_entries(data: Mapping[str, Any]) -> dict[str, Any]:
     """The fields that entries ask for.
-
-    Raises
-    ------
-    InputError
-        If an entry is unknown (the nearest right one is named), the order is missing, or an entry cannot be read.
 
     Examples
     --------

@@ -38,20 +38,6 @@ Makers = Mapping[str, Callable[..., Term]]
 def parse(text: str, names: Mapping[str, Term], makers: Makers | None = None) -> Expression:
     """Read an objective such as `0.6*C/4 + 0.4*D/2.25` or `max(C/4, D/2.25)`.
 
-    Parameters
-    ----------
-    text
-        The objective.
-    names
-        The terms by name.
-    makers
-        What makes a term from arguments, by name: `C_cam(nu=20, damping=0.05)`.
-
-    Raises
-    ------
-    InputError
-        If the text is not an objective; the message shows it and points at the character.
-
     Examples
     --------
     >>> from optlaws.synthesis import FUNCTIONALS

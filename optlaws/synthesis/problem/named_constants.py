@@ -14,11 +14,6 @@ from optlaws.synthesis.problem.grammar import parse
 def expression(text: str) -> Expression:
     """The objective that a text says.
 
-    Raises
-    ------
-    InputError
-        If it says none; the message points at the character.
-
     Examples
     --------
     >>> expression("0.5*C/4 + C_cam(nu=20)")
@@ -29,11 +24,6 @@ def expression(text: str) -> Expression:
 
 def named(text: str) -> Functional:
     """The constant that a text names.
-
-    Raises
-    ------
-    InputError
-        If it names none.
 
     Examples
     --------

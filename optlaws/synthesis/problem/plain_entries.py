@@ -36,13 +36,7 @@ def plain_entries(entries: Mapping[str, Any]) -> dict[str, Any] | None:
 
 
 def read_entries(data: Mapping[str, Any]) -> dict[str, Any]:
-    """The entries that `plain_entries` wrote.
-
-    Raises
-    ------
-    InputError
-        If one is of no such kind.
-    """
+    """The entries that `plain_entries` wrote."""
     return {name: _read(value) for name, value in data.items()}
 
 

@@ -103,11 +103,6 @@ def at_least(low: float) -> Range:
 def as_range(value: Any, name: str) -> Range | None:  # noqa: ANN401 - it is checked here
     """A number, a Range, a pair [low, high] or None as a Range or None; `name` is what an error calls it.
 
-    Raises
-    ------
-    InputError
-        If it is none of these.
-
     Examples
     --------
     >>> as_range(2, "B")
@@ -135,11 +130,6 @@ def _named_range(low: Any, high: Any, name: str) -> Range:  # noqa: ANN401 - the
 
 class Bounds(Mapping[Functional, Range]):
     """What is asked of constants, by constant; frozen and hashable. Names find the known ones.
-
-    Raises
-    ------
-    InputError
-        If a name is unknown, a constant is named twice, or a value is no number, range or pair.
 
     Examples
     --------
@@ -194,11 +184,6 @@ def _constant(key: Any) -> Functional:  # noqa: ANN401 - it is checked here
 
 def read_bounds(most: Sequence[str], least: Sequence[str] = ()) -> dict[str, Range]:
     """Bounds from texts such as "rms_c=4": the greatest and the least values.
-
-    Raises
-    ------
-    InputError
-        If a text is not a name and a number, or a name comes twice on one side.
 
     Examples
     --------

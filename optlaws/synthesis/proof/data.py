@@ -85,11 +85,6 @@ class StatedPlaces(msgspec.Struct, forbid_unknown_fields=True):
 def stated(data: object, kind: type[Stated], name: str) -> Stated:
     """Plain data as a value of which every key is known and of its type; `name` is what an error calls it.
 
-    Raises
-    ------
-    InputError
-        If a key is unknown or missing, or a value is of another type or beyond double precision.
-
     Examples
     --------
     >>> stated({"constraint": "C", "sign": 1, "k": 0.25, "multiplier": 0.5}, StatedContact, "contact").k
@@ -105,13 +100,7 @@ def stated(data: object, kind: type[Stated], name: str) -> Stated:
 
 
 def stated_certificate(data: object) -> StatedLeaf | StatedBoxes | StatedPlaces:
-    """The entries of a certificate, in whichever of three ways its tree is written.
-
-    Raises
-    ------
-    InputError
-        As `stated`.
-    """
+    """The entries of a certificate, in whichever of three ways its tree is written."""
     keys = data.keys() if isinstance(data, Mapping) else ()
     if "steps" in keys:
         return stated(data, StatedBoxes, "certificate")
@@ -139,11 +128,6 @@ def as_json(data: object) -> Any:  # noqa: ANN401 - JSON
 def problem_of(data: dict[str, Any]) -> Problem:
     """The problem that plain data describe.
 
-    Raises
-    ------
-    InputError
-        If they describe none.
-
     Examples
     --------
     >>> problem_of({"order": 4, "B": 10**400})
@@ -157,13 +141,7 @@ def problem_of(data: dict[str, Any]) -> Problem:
 
 
 def contact_of(entries: StatedContact) -> Contact:
-    """The contact that entries of a file describe.
-
-    Raises
-    ------
-    InputError
-        If its k, sign, multiplier or direction is none.
-    """
+    """The contact that entries of a file describe."""
     return Contact(entries.constraint, entries.sign, entries.k, entries.multiplier, entries.direction)
 
 
@@ -187,13 +165,7 @@ def _step(node: Leaf) -> dict[str, Any]:
 
 
 def tree_of_steps(entries: Sequence[StatedStep]) -> tuple[Node, ...]:
-    """The tree whose nodes were stated.
-
-    Raises
-    ------
-    InputError
-        If an entry is no leaf, no tightening and no split.
-    """
+    """The tree whose nodes were stated."""
     return tuple(map(_node, entries))
 
 
@@ -223,13 +195,7 @@ def cells(tree: Sequence[Node], roots: Sequence[PlaceRange]) -> list[dict[str, A
 
 
 def tree_of_cells(entries: Sequence[StatedCell], roots: Sequence[PlaceRange]) -> tuple[Node, ...]:
-    """The tree whose leaves were stated with their ranges.
-
-    Raises
-    ------
-    InputError
-        If their ranges are not those into which splits can divide the places of the peak.
-    """
+    """The tree whose leaves were stated with their ranges."""
     left = [(PlaceRange(cell.sign, cell.k - cell.reach, cell.k + cell.reach), cell) for cell in entries]
     nodes: list[Node] = []
     for root in reversed(roots):

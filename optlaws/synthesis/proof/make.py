@@ -186,15 +186,7 @@ def lower_bound(proof: Certificate, limit: float | None) -> float:
 
 
 def _balanced(model: Model, proof: Certificate) -> Certificate:
-    """The certificate with the least change of its directions that balances it; the better of both.
-
-    Parameters
-    ----------
-    found
-        The program that the certificate speaks of.
-    proof
-        A certificate, whose multipliers nearly balance.
-    """
+    """The certificate with the least change of its directions that balances it; the better of both."""
     if not any(contact.direction for contact in proof.contacts):
         return proof
     images = [_image(model, contact) for contact in proof.contacts]

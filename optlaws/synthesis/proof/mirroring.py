@@ -21,13 +21,6 @@ def unfolded(model: Model, half: Model, optimum: ActiveSet) -> ActiveSet:
 
     Each contact is there twice, at k and at 1 - k, with half its multiplier. The equations' multipliers are those that
     leave least of the sum of rows; what the whole proves is for a certificate to say.
-
-    Parameters
-    ----------
-    model
-        The program of the unsymmetric problem.
-    half, optimum
-        The program of the same problem with symmetric laws, and its optimum.
     """
     names = {family.name: i for i, family in enumerate(model.program.families)}
     odd = {peak.name for peak in model.problem.constants if isinstance(peak, PeakConstant) and peak.nu % 2 == 0}

@@ -17,18 +17,11 @@ from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
 
 
 class Ground(NamedTuple):
-    """Why a problem has no law: what a proof has to speak of, and what its lower bound has to exceed.
+    """Why a problem has no law: what a proof has to speak of, and what its lower bound has to exceed."""
 
-    Attributes
-    ----------
-    problem
-        What the proof is of.
-    above
-        A bound that is asked of a constant, which no law keeps whose least value is greater; None where the
-        constraints themselves contradict each other.
-    """
-
-    problem: Problem
+    problem: Problem  #: what the proof is of
+    #: a bound that is asked of a constant, which no law keeps whose least value is greater; None where the constraints
+    #: themselves contradict each other
     above: float | None
 
 

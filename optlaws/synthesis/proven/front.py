@@ -374,13 +374,7 @@ class ProvenFront:
 
 
 def front_of(stated_front: StatedFront) -> ProvenFront:
-    """The front that was stated.
-
-    Raises
-    ------
-    InputError
-        If it is none.
-    """
+    """The front that was stated."""
     number = SweptParameter(problem_of(stated_front.problem), stated_front.runs)
     proofs = [
         Certificate.of_leaf(number.at(point.at), tuple(map(contact_of, point.contacts)), point.equations)

@@ -265,15 +265,7 @@ def _least_known(number: SweptParameter) -> str:
 
 
 def lower_lines(part: SolvedPart, values: Array, number: SweptParameter, ends: tuple[float, float]) -> Array | None:
-    """Value and slope of what the certificates of a part prove between the ends; None where a row is not linear.
-
-    Parameters
-    ----------
-    part, values
-        Laws that were found together, and the B of each.
-    number, ends
-        B, and between which values.
-    """
+    """Value and slope of what the certificates of a part prove between the ends; None where a row is not linear."""
     families = part.model.program.families
     if number.name != "B" or not all(isinstance(family, LinearFamily) for family in families):
         return None

@@ -78,13 +78,7 @@ class SweptParameter:
         return self.name.startswith(WEIGHT)
 
     def at(self, value: float) -> Problem:
-        """The problem at a value of the number.
-
-        Raises
-        ------
-        InputError
-            If it can have no such value.
-        """
+        """The problem at a value of the number."""
         if self.concave:
             return replace(self.problem, minimise=self._weighted(value))
         if self.name == "B":

@@ -15,11 +15,6 @@ from optlaws.numerics.tolerances import MIRROR
 def places(breaks: int | Sequence[float]) -> tuple[float, ...]:
     """Breaks as floats; a number asks for so many pieces of equal length.
 
-    Raises
-    ------
-    InputError
-        If they do not increase from 0 to 1.
-
     Examples
     --------
     >>> places(4), places([0, 0.3, 1])
@@ -48,11 +43,6 @@ def mirrored(breaks: Sequence[float]) -> bool:
 def order_of_continuity(continuity: int, degree: int) -> int:
     """The order up to which derivatives are continuous at the breaks, checked.
 
-    Raises
-    ------
-    InputError
-        If it is not an integer from 1 to degree - 1.
-
     Examples
     --------
     >>> order_of_continuity(2, 3)
@@ -66,11 +56,6 @@ def order_of_continuity(continuity: int, degree: int) -> int:
 
 def read_breaks(text: str) -> int | list[float]:
     """Breaks from text: a number of equal pieces, or the places separated by blanks.
-
-    Raises
-    ------
-    InputError
-        If it is neither.
 
     Examples
     --------

@@ -17,13 +17,7 @@ from optlaws.verification.enclosing.taylor_models import extremes
 
 
 class ExactPiece(ABC):
-    """A law between two k, at the precision at work.
-
-    Parameters
-    ----------
-    start, stop
-        Where it begins and ends.
-    """
+    """A law between two k, at the precision at work."""
 
     def __init__(self, start: Fraction, stop: Fraction) -> None:
         self.start, self.stop = start, stop
@@ -170,15 +164,7 @@ Ball = TypeVar("Ball", arb, acb, arb_series)
 
 
 class SinePiece(ExactPiece):
-    """A sum of sine segments.
-
-    Parameters
-    ----------
-    start, stop
-        Where it begins and ends.
-    sines
-        The segments.
-    """
+    """A sum of sine segments."""
 
     def __init__(self, start: Fraction, stop: Fraction, sines: tuple[SineSegment, ...]) -> None:
         super().__init__(start, stop)
@@ -236,15 +222,7 @@ def _factor(i: int, nu: int) -> Fraction:
 
 
 class PowerPiece(ExactPiece):
-    """A segment of constant power; c is infinite where b is 0.
-
-    Parameters
-    ----------
-    start, stop
-        Where it begins and ends.
-    segment
-        The segment.
-    """
+    """A segment of constant power; c is infinite where b is 0."""
 
     def __init__(self, start: Fraction, stop: Fraction, segment: PowerSegment) -> None:
         super().__init__(start, stop)

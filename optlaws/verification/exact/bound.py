@@ -44,28 +44,18 @@ _NEAR, _SHARE = Fraction(1, 2**20), Fraction(1, 2**22)
 
 @dataclass(frozen=True)
 class Proof:
-    """The bound that a certificate proves, and what it took.
+    """The bound that a certificate proves, and what it took."""
 
-    Attributes
-    ----------
-    value
-        The lower bound; of a proof that no law exists, by how much the constraints contradict each other. None if
-        nothing is proven.
-    charge
-        What was taken off for moments that had to join in; 0 where corrected multipliers do without.
-    correction
-        The greatest change of a multiplier, in units of the greatest one.
-    negative, unknown
-        Numbers of contacts with a negative multiplier, and of those the problem does not ask for: they do not count.
-    slope
-        By how much the bound rises with a number on the right side of rows, between two floats, where that was asked.
-    """
-
+    #: the lower bound; of a proof that no law exists, by how much the constraints contradict each other. None if
+    #: nothing is proven
     value: Fraction | None
-    charge: float = 0.0
-    correction: float = 0.0
+    charge: float = 0.0  #: what was taken off for moments that had to join in; 0 where corrected multipliers do without
+    correction: float = 0.0  #: the greatest change of a multiplier, in units of the greatest one
+    #: negative, unknown: numbers of contacts with a negative multiplier, and of those the problem does not ask for:
+    #: they do not count
     negative: int = 0
     unknown: int = 0
+    #: by how much the bound rises with a number on the right side of rows, between two floats, where that was asked
     slope: tuple[Fraction, Fraction] = (Fraction(0), Fraction(0))
 
 
@@ -73,11 +63,6 @@ def prove(certificate: Certificate) -> Proof:
     """The greatest bound that a certificate proves: of one leaf with corrected multipliers, of boxes its claim.
 
     Places of a peak are not checked: such a tree proves nothing here.
-
-    Raises
-    ------
-    InputError
-        If the laws are of an unknown kind, or a constant that is minimised or bounded is none that is known.
 
     Examples
     --------
@@ -100,34 +85,17 @@ def prove(certificate: Certificate) -> Proof:
 
 @dataclass(frozen=True)
 class Along:
-    """A number on the right side of rows, or a weight of the objective, along which a bound is asked.
+    """A number on the right side of rows, or a weight of the objective, along which a bound is asked."""
 
-    Attributes
-    ----------
-    step
-        The problem with the number greater by `width`; None for a weight, along which bounds are averaged.
-    width
-        By how much.
-    widest
-        The problem, of all that are asked about, whose laws may be greatest.
-    claim
-        The greatest objective that is asked about.
-    """
-
+    #: the problem with the number greater by `width`; None for a weight, along which bounds are averaged
     step: Problem | None
-    width: Fraction
-    widest: Problem
-    claim: float
+    width: Fraction  #: by how much
+    widest: Problem  #: the problem, of all that are asked about, whose laws may be greatest
+    claim: float  #: the greatest objective that is asked about
 
 
 def prove_along(certificate: Certificate, along: Along) -> Proof:
-    """What the certificate's contacts prove wherever the number is between its ends: a value here, and its slope.
-
-    Raises
-    ------
-    InputError
-        As `prove`.
-    """
+    """What the certificate's contacts prove wherever the number is between its ends: a value here, and its slope."""
     return _proof(certificate, along)
 
 

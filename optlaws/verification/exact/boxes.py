@@ -63,18 +63,7 @@ class BallBox:
 
 
 class BoxSteps(ABC):
-    """The nodes of a certificate's tree, applied again.
-
-    Parameters
-    ----------
-    certificate
-        Whose tree.
-
-    Raises
-    ------
-    ZeroDivisionError
-        If the points do not determine the law.
-    """
+    """The nodes of a certificate's tree, applied again."""
 
     def __init__(self, certificate: Certificate) -> None:
         self.tree, self.problem, self.claim = certificate.tree, certificate.problem, certificate.claim or 0.0
@@ -183,11 +172,6 @@ _DEEPEST = 5
 
 def tree_holds(certificate: Certificate) -> bool:
     """Whether the tree of a certificate over boxes leaves none with every rounding enclosed.
-
-    Raises
-    ------
-    InputError
-        If the problem has a constant that nobody has put into exact arithmetic, such as one of a loader.
 
     Examples
     --------

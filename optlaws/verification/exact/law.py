@@ -78,16 +78,6 @@ class ExactLaw:
 
     Where a derivative jumps by more than rounding, as `PiecewiseLaw.jumps` tells, those above it are infinite.
 
-    Parameters
-    ----------
-    law
-        The law.
-
-    Raises
-    ------
-    InputError
-        If the law is neither polynomial nor made of polynomials, sines and constant power.
-
     Examples
     --------
     >>> from optlaws.laws import smoothstep
@@ -126,26 +116,14 @@ class ExactLaw:
 
     @property
     def polynomials(self) -> list[PolynomialPiece]:
-        """The pieces of a law that is made of polynomials alone.
-
-        Raises
-        ------
-        InputError
-            If one is not.
-        """
+        """The pieces of a law that is made of polynomials alone."""
         polynomials = [piece for piece in self.pieces if isinstance(piece, PolynomialPiece)]
         if len(polynomials) < len(self.pieces):
             raise InputError("the law of a solution must be made of polynomials")
         return polynomials
 
     def value(self, nu: int, k: Fraction) -> fmpq:
-        """The derivative of order nu at k, exact; at a break that of the later piece.
-
-        Raises
-        ------
-        InputError
-            If a piece is no polynomial.
-        """
+        """The derivative of order nu at k, exact; at a break that of the later piece."""
         return [piece for piece in self.polynomials if piece.start <= k][-1].exact(nu, k)
 
     def extremes(self, nu: int, start: Fraction = Fraction(0), stop: Fraction = Fraction(1)) -> Extremes:
@@ -196,13 +174,7 @@ class ExactLaw:
         return {**peaks, "rms_c": self.rms(2)}
 
     def combined_peak(self, constant: CombinedPeak) -> arb:
-        """A ball that holds the peak of a combination of derivatives.
-
-        Raises
-        ------
-        InputError
-            If a piece is no polynomial.
-        """
+        """A ball that holds the peak of a combination of derivatives."""
         nu, weights = constant.nu, constant.weights
         if self._impulses(nu + len(weights) - 1):
             return arb.pos_inf()
@@ -212,13 +184,7 @@ class ExactLaw:
             return reduce(arb.max, (greatest if sign > 0 else -least for sign in constant.signs))
 
     def combined_power(self, constant: CombinedPower) -> arb:
-        """A ball that holds the peak of the power of a combination of derivatives.
-
-        Raises
-        ------
-        InputError
-            If a piece is no polynomial.
-        """
+        """A ball that holds the peak of the power of a combination of derivatives."""
         weights = constant.weights
         if self._impulses(len(weights) + 1):
             return arb.pos_inf()
@@ -231,13 +197,7 @@ class ExactLaw:
         return {name: enclosed(value) for name, value in self.constants().items()}
 
     def of_machine(self, constant: OfMachine) -> arb:
-        """A ball that holds a constant of a machine: a residual over frequencies, of a mode over a box, or an output's.
-
-        Raises
-        ------
-        InputError
-            If a piece is no polynomial, or the machine has no such mode or motion.
-        """
+        """A ball that holds a constant of a machine: the residual of a follower or of a mode, or one of an output."""
         with ctx.workprec(2 * self.precision):
             if isinstance(constant, ResidualConstant):
                 return ExactResidual(constant).peak(self.polynomials)
@@ -249,13 +209,7 @@ class ExactLaw:
             return (exact.rms if isinstance(constant, KnownOutputRms) else exact.peak)(self.polynomials)
 
     def of_formula(self, constant: OfFormula) -> arb:
-        """A ball that holds a constant of a formula.
-
-        Raises
-        ------
-        InputError
-            If a piece is no polynomial, or the formula has no exact form.
-        """
+        """A ball that holds a constant of a formula."""
         motion = constant.motion
         if self._impulses(max(motion.orders, default=0)):
             return arb.pos_inf()
@@ -266,13 +220,7 @@ class ExactLaw:
             return reduce(arb.max, [self.greatest_of(motion, sign) for sign in signs])
 
     def greatest_of(self, motion: MotionFormula, sign: float) -> arb:
-        """A ball that holds the greatest value of a formula, times a sign, over its part.
-
-        Raises
-        ------
-        InputError
-            If a piece is no polynomial, or the formula has no exact form.
-        """
+        """A ball that holds the greatest value of a formula, times a sign, over its part."""
         with ctx.workprec(self.precision):
             tops = []
             for branch in split(motion, sign, "") or []:
@@ -287,13 +235,7 @@ class ExactLaw:
         return (integral_of(squared(constant.motion), self.polynomials) / whole).sqrt()
 
     def term(self, term: Term) -> arb:
-        """A ball that holds the value of a constant or a maximum.
-
-        Raises
-        ------
-        InputError
-            If it is no constant that exact arithmetic knows, nor a maximum of sums of these.
-        """
+        """A ball that holds the value of a constant or a maximum."""
         if isinstance(term, Maximum):
             with ctx.workprec(self.precision):
                 return reduce(arb.max, map(self.sum, term.parts))

@@ -26,11 +26,6 @@ _ZERO = fmpq_poly([0])
 def exact_space(problem: Problem) -> ExactSpace:
     """The laws of a problem as a space in exact numbers.
 
-    Raises
-    ------
-    InputError
-        If the basis is of a kind that nobody has put into exact arithmetic.
-
     Examples
     --------
     >>> from optlaws.synthesis import Chebyshev

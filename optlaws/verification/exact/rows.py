@@ -75,18 +75,7 @@ class WindowPart:
 
 
 class ExactRows:
-    """The rows that a certificate may use. The constants are variables that every law meets with its own values.
-
-    Parameters
-    ----------
-    certificate
-        Which problem, and which program: with D relaxed, or for a proof that no law exists.
-
-    Raises
-    ------
-    InputError
-        If the laws are of an unknown kind, or a constant that is minimised or bounded is none that is known.
-    """
+    """The rows that a certificate may use. The constants are variables that every law meets with its own values."""
 
     def __init__(self, certificate: Certificate) -> None:
         self.problem = problem = certificate.problem

@@ -63,17 +63,10 @@ _FIRST = {(1, 0.0): (0, 1.0), (2, 1.0): (1, 1.0), (3, 0.0): (0, 0.0), (3, 1.0): 
 
 @dataclass(frozen=True)
 class ModeEdges:
-    """What the edges of a box ask for.
+    """What the edges of a box ask for."""
 
-    Attributes
-    ----------
-    makers
-        Rows of each edge, by its name.
-    corners
-        Corners that an earlier edge has too: that one's, and the ratio of its unit to this one's.
-    """
-
-    makers: Mapping[str, Maker]
+    makers: Mapping[str, Maker]  #: rows of each edge, by its name
+    #: corners that an earlier edge has too: that one's, and the ratio of its unit to this one's
     corners: Mapping[Corner, tuple[Corner, float]]
 
 

@@ -19,19 +19,12 @@ _HALF = Fraction(1, 2)
 
 @dataclass(frozen=True)
 class DrivenStretch:
-    """Displacements on one stretch of time, as polynomials of the time since it began.
+    """Displacements on one stretch of time, as polynomials of the time since it began."""
 
-    Attributes
-    ----------
-    start, length
-        Where it begins and how long it is, in durations of the rise.
-    columns
-        One polynomial for each law.
-    """
-
+    #: start, length: where it begins and how long it is, in durations of the rise
     start: Fraction
     length: Fraction
-    columns: Columns
+    columns: Columns  #: one polynomial for each law
 
     @property
     def stop(self) -> Fraction:

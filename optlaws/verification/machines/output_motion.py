@@ -19,41 +19,22 @@ States = list[acb_mat]
 
 @dataclass(frozen=True, eq=False)
 class OutputStretch:
-    """The output on a stretch: polynomials of the time since it began, and for each pole s^l/l! exp(root s) times rows.
+    """The output on a stretch: polynomials of the time s since it began, and s^l/l! exp(root s) of each pole."""
 
-    Attributes
-    ----------
-    start, length
-        When, in durations of the rise.
-    polynomials
-        Coefficients, a row for each power, a column for each law.
-    free
-        For each pole the rows of l = 0, 1, ....
-    """
-
+    #: start, length: when, in durations of the rise
     start: Fraction
     length: Fraction
-    polynomials: arb_mat
-    free: list[acb_mat]
+    polynomials: arb_mat  #: coefficients, a row for each power, a column for each law
+    free: list[acb_mat]  #: for each pole factors of s^l/l! exp(root s), a row for each l, a column for each law
 
 
 @dataclass(frozen=True, eq=False)
 class OutputMotion:
-    """Outputs of several laws over consecutive stretches.
-
-    Attributes
-    ----------
-    poles
-        Those of the machine.
-    stretches
-        The stretches.
-    laws
-        How many there are.
-    """
+    """Outputs of several laws over consecutive stretches."""
 
     poles: Sequence[Pole]
     stretches: Sequence[OutputStretch]
-    laws: int
+    laws: int  #: how many there are
 
     def raised(self, by: arb, columns: Sequence[int]) -> OutputMotion:
         """The motion with a number added to some of the outputs."""
@@ -81,22 +62,7 @@ class OutputMotion:
 
 
 def response(transfer: Transfer, drives: Sequence[DrivenStretch], *, repeats: bool = False) -> OutputMotion:
-    """The output over consecutive drives, at the precision at work.
-
-    Parameters
-    ----------
-    transfer
-        From the law to the output.
-    drives
-        The laws.
-    repeats
-        Whether they are a cycle that comes back, whose steady output is meant; else the machine rests before.
-
-    Raises
-    ------
-    InputError
-        If there is no such motion, or it is not the only one: the machine drifts.
-    """
+    """The output over consecutive drives from rest, or the steady one where they are a cycle that `repeats`."""
     chains = _Chains(transfer, len(drives[0].columns))
     driven = [_driving(drive, transfer.order) for drive in drives]
     states = chains.returned(driven) if repeats else chains.settled(drives[0])

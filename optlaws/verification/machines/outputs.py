@@ -66,13 +66,7 @@ class KnownOutputRms(KnownOutput, Protocol):
 
 
 class ExactOutput:
-    """An output over all the time that counts, and what is before it.
-
-    Parameters
-    ----------
-    constant
-        Which output, of which machine, when.
-    """
+    """An output over all the time that counts, and what is before it."""
 
     def __init__(self, constant: KnownOutput) -> None:
         self.constant = constant
@@ -118,15 +112,7 @@ class ExactOutput:
 
 
 class OutputRows:
-    """An output under all laws of a problem, at the precision at work when it is first asked.
-
-    Parameters
-    ----------
-    constant
-        Which output, of which machine, when.
-    space
-        The laws.
-    """
+    """An output under all laws of a problem, at the precision at work when it is first asked."""
 
     def __init__(self, constant: KnownOutput, space: Space) -> None:
         self.exact, self.space = ExactOutput(constant), space

@@ -42,13 +42,7 @@ class ResidualConstant(Protocol):
 
 
 class ExactResidual:
-    """The complex amplitude, times nu², as a function of the frequency.
-
-    Parameters
-    ----------
-    constant
-        Which residual.
-    """
+    """The complex amplitude, times nu², as a function of the frequency."""
 
     def __init__(self, constant: ResidualConstant) -> None:
         self.low, self.high = Fraction(constant.low), Fraction(constant.high)
@@ -123,26 +117,14 @@ class ExactEdge:
 
 
 class ExactModeResidual:
-    """The greatest amplitude over the box, at the precision at work when it is first asked.
-
-    Parameters
-    ----------
-    constant
-        Which mode of which machine, in which output, over which box.
-    """
+    """The greatest amplitude over the box, at the precision at work when it is first asked."""
 
     def __init__(self, constant: ModeConstant) -> None:
         self.constant = constant
 
     @kept_property
     def mode(self) -> list[tuple[acb, int]]:
-        """The roots that are the mode, nearly the same, with their multiplicities.
-
-        Raises
-        ------
-        InputError
-            If the machine has no such mode, or its number is none that can be told.
-        """
+        """The roots that are the mode, nearly the same, with their multiplicities."""
         below, _ = transforms(self.constant.machine, self.constant.output)
         groups = vibrations(roots(below))
         if not 1 <= self.constant.mode <= len(groups):
@@ -157,13 +139,7 @@ class ExactModeResidual:
 
     @kept_property
     def share(self) -> arb:
-        """The mode's amplitude in the output over the magnitude of the integral of exp(root (1 - k)) b(k).
-
-        Raises
-        ------
-        InputError
-            If the mode is defective.
-        """
+        """The mode's amplitude in the output over the magnitude of the integral of exp(root (1 - k)) b(k)."""
         below, parts = transforms(self.constant.machine, self.constant.output)
         total = acb(0)
         for i, part in enumerate(parts):
@@ -206,13 +182,7 @@ class ExactModeResidual:
 
 
 def vibrations(poles: Sequence[tuple[acb, int]]) -> list[list[tuple[acb, int]]]:
-    """Roots of vibrations above the real line, the slowest first, those that are nearly the same together.
-
-    Raises
-    ------
-    InputError
-        If two of them differ, but not in size: their numbers are then none.
-    """
+    """Roots of vibrations above the real line, the slowest first, those that are nearly the same together."""
     upper = [pole for pole in poles if pole[0].imag > ball(_VIBRATING) * abs(pole[0])]
     groups: list[list[tuple[acb, int]]] = []
     for pole in sorted(upper, key=lambda pole: float(abs(pole[0]).mid())):

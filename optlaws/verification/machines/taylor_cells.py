@@ -24,22 +24,14 @@ _MOST = 20000
 
 @dataclass(frozen=True, eq=False)
 class Cell:
-    """Outputs of several laws on a stretch of time that is short enough.
+    """Outputs of several laws on a stretch of time that is short enough."""
 
-    Attributes
-    ----------
-    start, stop
-        When, in durations of the rise.
-    series
-        Coefficients of u^i, a row for each power, a column for each law; u runs from -1 at the start to 1 at the stop.
-    off
-        For each law, how far the output may be from its polynomial.
-    """
-
+    #: start, stop: when, in durations of the rise
     start: Fraction
     stop: Fraction
+    #: coefficients of u^i, a row for each power, a column for each law; u runs from -1 at the start to 1 at the stop
     series: arb_mat
-    off: list[arb]
+    off: list[arb]  #: for each law, how far the output may be from its polynomial
 
     @property
     def half(self) -> arb:
@@ -52,13 +44,7 @@ class Cell:
 
 
 def cells(motion: OutputMotion, start: Fraction, stop: Fraction) -> Iterator[Cell]:
-    """Cells from one time to another.
-
-    Raises
-    ------
-    InputError
-        If there would be too many of them.
-    """
+    """Cells from one time to another."""
     count = 0
     for stretch in motion.stretches:
         low, high = max(start, stretch.start), min(stop, stretch.start + stretch.length)

@@ -65,18 +65,10 @@ class MachineConstant(Protocol):
 
 @dataclass(frozen=True)
 class Pole:
-    """A root of the denominator, real or above the real line, with what it does to the output.
+    """A root of the denominator, real or above the real line, with what it does to the output."""
 
-    Attributes
-    ----------
-    root
-        Where it is; the imaginary part of a real one is exactly 0.
-    shares
-        Factors of 1/(s - root), 1/(s - root)², ..., as many as the root is multiple.
-    """
-
-    root: acb
-    shares: tuple[acb, ...]
+    root: acb  #: where it is; the imaginary part of a real one is exactly 0
+    shares: tuple[acb, ...]  #: factors of 1/(s - root), 1/(s - root)², ..., as many as the root is multiple
 
     @property
     def count(self) -> int:
@@ -86,11 +78,6 @@ class Pole:
 
 class Rational:
     """A quotient of polynomials in s, without what cancels.
-
-    Parameters
-    ----------
-    above, below
-        The polynomials.
 
     Examples
     --------
@@ -141,13 +128,6 @@ class Transfer(Rational):
     """The output's transform over that of the law's derivative `order`: 0 where the machine sees the displacement.
 
     Where it does not, it is driven by the velocity, which need not come back after a cycle.
-
-    Parameters
-    ----------
-    machine
-        The machine.
-    output
-        Which output.
     """
 
     def __init__(self, machine: StateSpaceMatrices, output: str) -> None:
@@ -160,13 +140,7 @@ class Transfer(Rational):
 
 
 def transforms(machine: StateSpaceMatrices, output: str) -> tuple[fmpq_poly, list[fmpq_poly]]:
-    """The characteristic polynomial p, and for each of a, b and c what is to be divided by p: C (s - A)^-1 B + D.
-
-    Raises
-    ------
-    InputError
-        If there is no such output.
-    """
+    """The characteristic polynomial p, and for each of a, b and c what is to be divided by p: C (s - A)^-1 B + D."""
     if output not in machine.outputs:
         raise InputError(f"the machine has no output {output!r}")
     place, size = machine.outputs.index(output), len(machine.A)

@@ -51,17 +51,7 @@ def roots_of(problem: Problem, name: str) -> list[PlaceRange]:
 
 
 class PeakRows:
-    """What laws below a claim can have as the values of a derivative.
-
-    Parameters
-    ----------
-    problem
-        The problem; laws of it are spoken of.
-    peak
-        A peak of the derivative that the problem bounds from below.
-    claim
-        Laws with an objective below it are spoken of.
-    """
+    """What laws below a claim can have as the values of a derivative."""
 
     def __init__(self, problem: Problem, peak: PeakConstant, claim: float) -> None:
         self.problem, self.peak, self.claim = problem, peak, claim

@@ -99,19 +99,12 @@ def _own_sides(model: Model, claim: float) -> Array:
 
 @dataclass(frozen=True, eq=False)
 class Plane:
-    """Where planes touch that sign times a family's formula is nowhere below, less what is taken from them.
+    """Where planes touch that sign times a family's formula is nowhere below, less what is taken from them."""
 
-    Attributes
-    ----------
-    family, sign
-        The rows of a formula.
-    way
-        None for the middle of the ranges; for a corner -1 or 1 by which end of each.
-    """
-
+    #: family, sign: the rows of a formula
     family: CurvedFamily
     sign: float
-    way: Way
+    way: Way  #: None for the middle of the ranges; for a corner -1 or 1 by which end of each
 
     def touching(self, low: Array, high: Array) -> Array:
         """The derivatives there, from their least and greatest values; shape (names, places) each."""

@@ -64,24 +64,14 @@ def searched(problem: Problem, claim: float, x: Array, budget: int, explore: Exp
 
 @dataclass(eq=False)
 class BoxSearch:
-    """A search for the proof of one claim.
-
-    Attributes
-    ----------
-    left
-        How many linear programs it may still solve.
-    certificate
-        The certificate; None before, and where they do not suffice.
-    overtaken
-        Whether a law was found that makes the claim worthless.
-    """
+    """A search for the proof of one claim."""
 
     rows: BoxRows
     grid: Grid
-    left: int
+    left: int  #: how many linear programs it may still solve
     explore: Explore
-    certificate: Certificate | None = None
-    overtaken: bool = False
+    certificate: Certificate | None = None  #: None before it is found, and where the programs do not suffice
+    overtaken: bool = False  #: whether a law was found that makes the claim worthless
 
     def __post_init__(self) -> None:
         root = self.rows.root()

@@ -18,18 +18,10 @@ from optlaws.synthesis.spaces.space import LawSpace, Quadrature
 
 
 class PiecewiseSpace(LawSpace):
-    """A space given by the piecewise series of every derivative, on the first half only where `symmetric`.
+    """A space given by the piecewise series of every derivative, on the first half only where `symmetric`."""
 
-    Attributes
-    ----------
-    breaks
-        All breaks of the laws, of both halves.
-    continuity
-        Order up to which the derivatives of every law are continuous at the breaks.
-    """
-
-    breaks: tuple[float, ...]
-    continuity: int
+    breaks: tuple[float, ...]  #: all breaks of the laws, of both halves
+    continuity: int  #: order up to which the derivatives of every law are continuous at the breaks
 
     def __init__(self, breaks: tuple[float, ...], continuity: int, *, symmetric: bool) -> None:
         super().__init__()
