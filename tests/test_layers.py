@@ -119,7 +119,7 @@ CHECKERS = (
     "optlaws.synthesis.proof.sublevel_bounds",
     "optlaws.synthesis.proof.duality",
     "optlaws.synthesis.proof.farkas",
-    "optlaws.synthesis.proof.peaks.rows",
+    "optlaws.synthesis.proof.peak_rows",
     "optlaws.synthesis.proof.power.box",
     "optlaws.synthesis.proof.nodes",
 )

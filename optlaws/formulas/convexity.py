@@ -14,10 +14,9 @@ from itertools import pairwise
 
 import numpy as np
 
-from optlaws.formulas.affine import affine
+from optlaws.formulas.affine import affine, semidefinite
 from optlaws.formulas.arithmetic import pieces
 from optlaws.formulas.intervals import Endpoints, enclosed
-from optlaws.formulas.quadratic import semidefinite
 from optlaws.formulas.slopes import constant
 from optlaws.formulas.tree import Call, Exponentiation, Formula, Negative, Product, Reciprocal, Sum, Table
 

@@ -18,6 +18,8 @@ from optlaws.formulas.convexity import Curvature, Judge, Verdict
 from optlaws.formulas.reading import read, refused
 from optlaws.formulas.slopes import added, constant, opposite, scaled
 from optlaws.formulas.tree import (
+    ORDERS,
+    VOCABULARY,
     Call,
     Exponentiation,
     Formula,
@@ -30,7 +32,6 @@ from optlaws.formulas.tree import (
     Table,
     substituted,
 )
-from optlaws.formulas.vocabulary import ORDERS, VOCABULARY
 from optlaws.kept import kept_property
 from optlaws.numbers import Array, power_of_two
 from optlaws.numerics.chebyshev import interpolated, real_parts_of_roots

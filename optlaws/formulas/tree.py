@@ -1,9 +1,15 @@
-"""Formulas as trees: frozen values that print themselves as the text they are read from again."""
+"""Formulas as trees: frozen values that print themselves as the text they are read from again, and their names."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
+
+#: orders of the derivatives of the law, by name
+ORDERS = {"a": 0, "b": 1, "c": 2, "j": 3}
+#: these, the power d = b c and the dimensionless time k
+VOCABULARY = ("a", "b", "c", "d", "j", "k")
+
 
 _SUM, _PRODUCT, _SIGNED, _ATOM = range(4)
 

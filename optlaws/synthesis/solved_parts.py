@@ -24,7 +24,7 @@ from optlaws.synthesis.proof.make import certificate, certify
 from optlaws.synthesis.search import status_of
 from optlaws.synthesis.solution import Solution, Status, measure, partly_known
 from optlaws.synthesis.spaces.bases import PolynomialBasis
-from optlaws.synthesis.spaces.polynomials.space import PolynomialSpace
+from optlaws.synthesis.spaces.polynomial_space import PolynomialSpace
 from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
 

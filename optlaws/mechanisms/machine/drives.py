@@ -55,7 +55,7 @@ def of_space(space: LawSpace) -> list[DriveStretch]:
     Examples
     --------
     >>> from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
-    >>> from optlaws.synthesis.spaces.polynomials.space import polynomial_space
+    >>> from optlaws.synthesis.spaces.polynomial_space import polynomial_space
     >>> (drive,) = of_space(polynomial_space(BoundaryConditions.rest(2), 3, symmetric=True))
     >>> drive.ends[1][0].round(12).tolist()
     [0.0, 0.0, 1.0]

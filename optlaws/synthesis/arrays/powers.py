@@ -22,7 +22,7 @@ from optlaws.synthesis.families.peaks import power_peaks
 from optlaws.synthesis.problem.constants import D
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import relaxed
-from optlaws.synthesis.spaces.polynomials.space import PolynomialSpace
+from optlaws.synthesis.spaces.polynomial_space import PolynomialSpace
 
 #: laws sought from all starts: at least and at most on a path, and of how many one
 _LEAST, _MOST, _EACH = 5, 13, 12

@@ -10,8 +10,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.formulas.reading import LONGEST
 from optlaws.formulas.slopes import added, multiplied, opposite
-from optlaws.formulas.tree import Call, Exponentiation, Formula, Name, Number, Reciprocal, number
-from optlaws.formulas.vocabulary import VOCABULARY
+from optlaws.formulas.tree import VOCABULARY, Call, Exponentiation, Formula, Name, Number, Reciprocal, number
 from optlaws.locks import casadi_lock
 
 _MOST = 2000

@@ -12,8 +12,7 @@ from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.reading import read
 from optlaws.formulas.scanner import FormulaError
 from optlaws.formulas.slopes import constant
-from optlaws.formulas.tree import Call, Exponentiation, Formula, Reciprocal
-from optlaws.formulas.vocabulary import ORDERS
+from optlaws.formulas.tree import ORDERS, Call, Exponentiation, Formula, Reciprocal
 from optlaws.numbers import Array
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 

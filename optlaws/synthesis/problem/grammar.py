@@ -16,7 +16,7 @@ from collections.abc import Callable, Mapping
 from optlaws.errors import InputError
 from optlaws.formulas.reading import parse as parse_formula
 from optlaws.formulas.scanner import FormulaError, Scanner, Token
-from optlaws.formulas.vocabulary import VOCABULARY
+from optlaws.formulas.tree import VOCABULARY
 from optlaws.suggest import CONSTANTS, unknown_key
 from optlaws.synthesis.problem.expression import Expression, Term, maximum
 

@@ -26,9 +26,9 @@ from optlaws.synthesis.proof import data as stored
 from optlaws.synthesis.proof.duality import Line, lines_of, row_of, sum_of_rows
 from optlaws.synthesis.proof.farkas import farkas_margin
 from optlaws.synthesis.proof.nodes import Contact, Leaf, Node
-from optlaws.synthesis.proof.peaks.rows import PeakRows, peak_of, roots_of
+from optlaws.synthesis.proof.peak_rows import PeakRows, peak_of, roots_of
 from optlaws.synthesis.proof.power.box import BoxRows
-from optlaws.synthesis.proof.power.rows_of_problem import rows_of
+from optlaws.synthesis.proof.power.rows import rows_of
 
 OBJECTIVE, RELAXED, VIOLATION = "objective", "relaxed", "violation"
 

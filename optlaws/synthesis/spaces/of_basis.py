@@ -15,7 +15,7 @@ from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 from optlaws.synthesis.spaces.pieces.free import PieceSpace, piece_space
 from optlaws.synthesis.spaces.pieces.periodic import PeriodicPieces, PeriodicSpace, periodic_space
 from optlaws.synthesis.spaces.pieces.splines import SplineSpace, spline_space
-from optlaws.synthesis.spaces.polynomials.space import PolynomialSpace, polynomial_space
+from optlaws.synthesis.spaces.polynomial_space import PolynomialSpace, polynomial_space
 from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
 

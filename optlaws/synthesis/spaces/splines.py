@@ -17,8 +17,7 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.numbers import MOST_PIECE_DEGREE, Array, fractions, whole
 from optlaws.numerics.exact import chebyshev_from_powers
-from optlaws.synthesis.spaces.bases import Basis
-from optlaws.synthesis.spaces.breaks import mirrored, order_of_continuity, places
+from optlaws.synthesis.spaces.bases import Basis, mirrored, order_of_continuity, places
 
 
 @dataclass(frozen=True, init=False)

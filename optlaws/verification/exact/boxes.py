@@ -14,8 +14,7 @@ from flint import arb, arb_mat, ctx
 
 from optlaws.formulas.arithmetic import evaluate
 from optlaws.formulas.slopes import derivative
-from optlaws.formulas.tree import Formula, Reciprocal
-from optlaws.formulas.vocabulary import ORDERS
+from optlaws.formulas.tree import ORDERS, Formula, Reciprocal
 from optlaws.kept import kept_property
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.names import RowName

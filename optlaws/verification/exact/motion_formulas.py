@@ -16,8 +16,7 @@ from optlaws.formulas.affine import degree
 from optlaws.formulas.arithmetic import evaluate
 from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.slopes import derivative
-from optlaws.formulas.tree import Call, Formula, Table
-from optlaws.formulas.vocabulary import ORDERS
+from optlaws.formulas.tree import ORDERS, Call, Formula, Table
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
 from optlaws.synthesis.families.kinked import KinkedIntegralFamily

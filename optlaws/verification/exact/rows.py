@@ -15,7 +15,7 @@ from flint import arb
 from optlaws.errors import InputError
 from optlaws.formulas.branches import switches
 from optlaws.formulas.of_motion import MotionFormula
-from optlaws.formulas.vocabulary import ORDERS
+from optlaws.formulas.tree import ORDERS
 from optlaws.kept import kept_property
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.names import RowName, VariableName

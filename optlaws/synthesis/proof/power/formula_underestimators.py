@@ -15,7 +15,7 @@ from math import inf, isfinite
 import numpy as np
 
 from optlaws.formulas.intervals import Endpoints, enclosed
-from optlaws.formulas.vocabulary import ORDERS
+from optlaws.formulas.tree import ORDERS
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
 from optlaws.numerics.tolerances import BENEATH_ROUNDING, TINY
@@ -32,7 +32,7 @@ from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.proof.power.box import Box, BoxRows, Places
 from optlaws.synthesis.proof.power.integral_underestimators import ConvexUnderestimator
 from optlaws.synthesis.proof.sublevel_bounds import asked_or_claimed, means
-from optlaws.synthesis.spaces.polynomials.space import PolynomialSpace
+from optlaws.synthesis.spaces.polynomial_space import PolynomialSpace
 
 #: constants whose bound is one of a derivative's magnitude everywhere
 PEAKS = {"b": "B", "c": "C", "j": "J"}

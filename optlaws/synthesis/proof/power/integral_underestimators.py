@@ -18,8 +18,7 @@ import numpy as np
 from optlaws.formulas.intervals import Endpoints, enclosed
 from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.slopes import derivative
-from optlaws.formulas.tree import Formula
-from optlaws.formulas.vocabulary import ORDERS
+from optlaws.formulas.tree import ORDERS, Formula
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import gauss

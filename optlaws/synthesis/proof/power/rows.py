@@ -20,9 +20,10 @@ from optlaws.synthesis.problem.constants import D, PeakConstant
 from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, model_of
+from optlaws.synthesis.proof.power import formula_underestimators, shared_energy
 from optlaws.synthesis.proof.power.box import Box, BoxRows, Places
 from optlaws.synthesis.proof.sublevel_bounds import asked_or_claimed
-from optlaws.synthesis.spaces.polynomials.space import PolynomialSpace
+from optlaws.synthesis.spaces.polynomial_space import PolynomialSpace
 
 POWER_ROWS = (RowName.POWER, RowName.POWER_FROM_LEAST)
 
@@ -172,3 +173,15 @@ def velocity_brackets(anchors: Anchors, D: float, k: Array) -> tuple[Array, Arra
 def _signed_root(square: Array) -> Array:
     root: Array = np.copysign(np.sqrt(np.abs(square)), square)
     return root
+
+
+_KINDS = (
+    (shared_energy.applies, shared_energy.EnergyRows),
+    (applies, PowerRows),
+    (formula_underestimators.applies, formula_underestimators.FormulaRows),
+)
+
+
+def rows_of(problem: Problem, claim: float, points: Sequence[float]) -> BoxRows | None:
+    """The rows of a problem under a claim; None where nothing of it can be bounded by boxes."""
+    return next((kind(problem, claim, points) for fits, kind in _KINDS if fits(problem)), None)

@@ -16,7 +16,7 @@ from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.proof.nodes import Node, Split
 from optlaws.synthesis.proof.power.box import Box, BoxRows
 from optlaws.synthesis.proof.power.grid import Grid
-from optlaws.synthesis.proof.power.rows_of_problem import rows_of
+from optlaws.synthesis.proof.power.rows import rows_of
 
 #: tells from the variables of some law whether its neighbourhood has a better one than the best known
 Explore = Callable[[Array], bool]
