@@ -21,7 +21,7 @@ from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFa
 from optlaws.laws import MotionLaw, smoothstep
 from optlaws.numerics.tolerances import STORED_COEFFICIENT, STORED_VALUE
 from optlaws.synthesis.arrays.problems import ProblemArray
-from optlaws.synthesis.arrays.solved_batch import FOLLOWING, NO_CONTACT, SolvedBatch
+from optlaws.synthesis.arrays.programs import FOLLOWING, NO_CONTACT, SolvedBatch
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Program
 from optlaws.synthesis.limits.of_problem import known_limit

@@ -25,7 +25,7 @@ from optlaws.verification.conditions import excesses
 from optlaws.verification.enclosing.balls import enclosed
 from optlaws.verification.exact.bound import Proof, prove
 from optlaws.verification.exact.law import ExactLaw
-from optlaws.verification.exact.limits import exact_limit
+from optlaws.verification.exact.sublevel_bounds import exact_limit
 from optlaws.verification.file_entries import (
     NO_FILE,
     FileEntry,

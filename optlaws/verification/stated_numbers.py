@@ -19,7 +19,7 @@ from optlaws.synthesis.spaces.splines import PiecewiseBasis
 from optlaws.verification.enclosing.balls import at, enclosed, rational
 from optlaws.verification.enclosing.pieces import between, least_and_greatest
 from optlaws.verification.exact.law import ExactLaw
-from optlaws.verification.exact.limits import exact_limit
+from optlaws.verification.exact.sublevel_bounds import exact_limit
 from optlaws.verification.reading import number
 from optlaws.verification.result import Claim
 

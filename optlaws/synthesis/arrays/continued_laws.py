@@ -19,8 +19,7 @@ from optlaws.synthesis.arrays.certification import Certification, certification_
 from optlaws.synthesis.arrays.continuation import ParametricContinuation, StructureSegment
 from optlaws.synthesis.arrays.dual_bounds import lower_bounds
 from optlaws.synthesis.arrays.newton_steps import States, Structure, clipped, converged, step
-from optlaws.synthesis.arrays.programs import Numbers, Path
-from optlaws.synthesis.arrays.solved_batch import SolvedBatch
+from optlaws.synthesis.arrays.programs import Numbers, Path, SolvedBatch
 
 _NODES = 16
 _DEEPEST = 12

@@ -16,8 +16,7 @@ from optlaws.numbers import Array
 from optlaws.numerics.tolerances import AGREEMENT, TANGENT_SETTLED
 from optlaws.synthesis.arrays.continued_laws import laws_along
 from optlaws.synthesis.arrays.newton_steps import with_one
-from optlaws.synthesis.arrays.programs import Path, between
-from optlaws.synthesis.arrays.solved_batch import SolvedBatch
+from optlaws.synthesis.arrays.programs import Path, SolvedBatch, between
 from optlaws.synthesis.families.peaks import power_peaks
 from optlaws.synthesis.problem.constants import D
 from optlaws.synthesis.problem.problem import Problem

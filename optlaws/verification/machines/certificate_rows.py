@@ -14,7 +14,7 @@ from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.verification.enclosing.balls import ball
 from optlaws.verification.enclosing.pieces import PolynomialPiece
-from optlaws.verification.machines.driving import Space
+from optlaws.verification.machines.output_motion import Space
 from optlaws.verification.machines.outputs import OutputRows
 from optlaws.verification.machines.residuals import ExactModeResidual, ModeConstant
 
