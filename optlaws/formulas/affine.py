@@ -21,8 +21,6 @@ _MOST = 2
 def quadratic(formula: Formula, names: Collection[str], most: int = _MOST) -> Terms | None:
     """The factors of products of up to `most` names; None where the formula has others, or is no polynomial of them.
 
-    Examples
-    --------
     >>> from optlaws.formulas.reading import read
     >>> quadratic(read("(c + k*b)*b - 3"), "bc")
     {('b', 'c'): 1, ('b', 'b'): k, (): -3}
@@ -49,8 +47,6 @@ def quadratic(formula: Formula, names: Collection[str], most: int = _MOST) -> Te
 def semidefinite(formula: Formula, names: Collection[str], within: Mapping[str, Endpoints], sign: int) -> bool:
     """Whether the formula, times the sign, is a quadratic form that is nowhere negative, at every k.
 
-    Examples
-    --------
     >>> from optlaws.formulas.reading import read
     >>> semidefinite(read("c^2 + 2*b*c + b^2"), "bc", {}, 1), semidefinite(read("c^2 + 3*b*c + b^2"), "bc", {}, 1)
     (True, False)
@@ -146,8 +142,6 @@ class Affine:
 def affine(formula: Formula, names: Collection[str]) -> Affine | None:
     """The formula as an affine one of these names; None where it is not.
 
-    Examples
-    --------
     >>> from optlaws.formulas.reading import read
     >>> affine(read("2*(c + k*b) - c + k^2"), "bc")
     Affine(factors=(('c', 2 - 1), ('b', 2*k)), rest=k^2)
@@ -166,8 +160,6 @@ def degree(formula: Formula, names: Mapping[str, int]) -> int | None:
     Tables, and sizes and maxima of what depends on k alone, count as what they are on each of their pieces. None where
     the formula is no polynomial.
 
-    Examples
-    --------
     >>> from optlaws.formulas.reading import read
     >>> degree(read("k^2*c + b"), {"k": 1, "c": 5, "b": 6}), degree(read("sin(k)"), {"k": 1})
     (7, None)

@@ -26,8 +26,6 @@ _PARTS = 256
 class Curvature(Enum):
     """The curvature of a formula in its names.
 
-    Examples
-    --------
     >>> Curvature.CONVEX.opposite
     <Curvature.CONCAVE: 'concave'>
     """
@@ -58,8 +56,6 @@ class Curvature(Enum):
 class Verdict:
     """The curvature of a formula, the rule that shows it, and the part to which the rule applies.
 
-    Examples
-    --------
     >>> from optlaws.formulas.reading import read
     >>> verdict = judge(read("c^2 + b*c"), "bc")
     >>> verdict.curvature.value, verdict.why, verdict.part
@@ -210,8 +206,6 @@ class Judge:
 def judge(formula: Formula, names: Collection[str]) -> Verdict:
     """The verdict on a formula in some of its names, k being between 0 and 1.
 
-    Examples
-    --------
     >>> from optlaws.formulas.reading import read
     >>> judge(read("c^2 + (1 + k)*b^2"), "bc").curvature, judge(read("c^2 + b*c + b^2"), "bc").why
     (<Curvature.CONVEX: 'convex'>, 'c^2 + b*c + b^2 is a convex quadratic form at every k')

@@ -64,8 +64,6 @@ def between(value: float) -> Endpoints:
 def enclosed(formula: Formula, names: Mapping[str, Endpoints]) -> Endpoints:
     """Bounds of a formula over boxes; NaN where it has no value in a part of one.
 
-    Examples
-    --------
     >>> from optlaws.formulas.reading import read
     >>> values = enclosed(read("(1 + k)^2"), {"k": Endpoints(np.array(0.0), np.array(1.0))})
     >>> round(float(values.low), 9), round(float(values.high), 9)
@@ -95,8 +93,6 @@ def enclosed(formula: Formula, names: Mapping[str, Endpoints]) -> Endpoints:
 def over_parts(formula: Formula, name: str, start: float, stop: float) -> tuple[float, float]:
     """Bounds of a formula of one name between two of its values, over many parts of the way.
 
-    Examples
-    --------
     >>> from optlaws.formulas.reading import read
     >>> over_parts(read("k*(1 - k)"), "k", 0.0, 1.0)[0]
     0.0

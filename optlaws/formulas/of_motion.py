@@ -52,8 +52,6 @@ _MIRRORED: dict[str, Formula] = {
 class MotionFormula:
     """A formula of a motion, over a part of the interval of k.
 
-    Examples
-    --------
     >>> motion = of_text("c + 0.2*b")
     >>> motion.curvature.value, {nu: str(weight) for nu, weight in motion.weights.items()}
     ('affine', {2: '1', 1: '0.2'})
@@ -136,8 +134,6 @@ class MotionFormula:
     def scale(self) -> float:
         """The size of the formula in smooth laws: a power of 2 near its parts there, never 0.
 
-        Examples
-        --------
         >>> of_text("c").scale, of_text("2^-40*c").scale * 2.0**40, of_text("c - j").scale
         (4.0, 4.0, 64.0)
         """
@@ -225,8 +221,6 @@ def _along(motion: MotionFormula, x: Array) -> Array:
 def of_text(text: str, start: float = 0.0, stop: float = 1.0) -> MotionFormula:
     """The formula of a text, over a part of the interval.
 
-    Examples
-    --------
     >>> of_text("d + 1/(k - 0.5)")
     Traceback (most recent call last):
     optlaws.formulas.scanner.FormulaError: k - 0.5 is 0 within k = 0..1, and it is divided by

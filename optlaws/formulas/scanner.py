@@ -59,8 +59,6 @@ class FormulaError(InputError):
 class Scanner:
     """The tokens of a text, one after the other; what reads a grammar derives from it.
 
-    Examples
-    --------
     >>> scanner = Scanner("c + 2")
     >>> scanner.take().text, scanner.token.text, scanner.following.text
     ('c', '+', '2')

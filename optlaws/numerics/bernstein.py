@@ -31,8 +31,6 @@ class GreatestValue(NamedTuple):
 def from_powers(powers: Array) -> Array:
     """Bernstein coefficients of polynomials given by ascending powers of u, a row each.
 
-    Examples
-    --------
     >>> from_powers(np.array([[0.0, 0.0, 1.0]]))
     array([[0., 0., 1.]])
     """
@@ -42,8 +40,6 @@ def from_powers(powers: Array) -> Array:
 def from_values(values: Array) -> Array:
     """Bernstein coefficients of polynomials given by their values at (x + 1)/2 of the Chebyshev nodes x, a row each.
 
-    Examples
-    --------
     >>> from_values((nodes(3)[None] + 1.0) ** 2).round(12) + 0.0
     array([[0., 0., 4.]])
     """
@@ -56,8 +52,6 @@ def top(control: Array) -> GreatestValue:
     What can still be higher than the highest value met is cut in eight, to rounding; of places as high as one another
     the first is told.
 
-    Examples
-    --------
     >>> top(from_powers(np.array([[0.0, 1.0, -1.0]])))
     GreatestValue(value=0.25, above=0.25, row=0, u=0.5)
     """
@@ -87,8 +81,6 @@ def top(control: Array) -> GreatestValue:
 def in_parts(control: Array) -> Array:
     """Bernstein coefficients of the same polynomials on eight equal parts of [0, 1], one row after the other.
 
-    Examples
-    --------
     >>> in_parts(np.array([[0.0, 8.0]]))[[0, 7]].tolist()
     [[0.0, 1.0], [7.0, 8.0]]
     """

@@ -107,8 +107,6 @@ class FileEntry:
 def entries(data: Data) -> dict[str, FileEntry]:
     """What can be verified, by where it is.
 
-    Examples
-    --------
     >>> list(entries({"rows": [{"solution": {"law": {}, "constants": {}}}, {"about": "none"}]}))
     ['rows[0].solution']
     >>> entries({"rows": [{"solution": {"law": {}, "constants": {}}}, {"limit": 4.0}]})

@@ -24,8 +24,6 @@ _GREATEST = 1e100
 def read(source: Mapping[str, Any] | Path | str) -> Mapping[str, Any]:
     """A JSON object, or data that could be one.
 
-    Examples
-    --------
     >>> read({"order": 4, "B": float("inf")})
     Traceback (most recent call last):
     optlaws.errors.InputError: B must be a finite number, got inf

@@ -116,8 +116,6 @@ def _on(path: Path, t: float, problem: Problem) -> bool:
 def form_of(problem: Problem) -> Form:
     """A problem's form and its numbers; no form where it is not known here, or a constant is bounded from below.
 
-    Examples
-    --------
     >>> first, second = (form_of(Problem(B=B, order=4)) for B in (1.6, 1.7))
     >>> first.key == second.key, first.numbers, second.numbers
     (True, (1.0, 1.6), (1.0, 1.7))

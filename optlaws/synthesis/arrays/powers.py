@@ -31,8 +31,6 @@ _PLACES = 256
 def least_power(problem: Problem) -> bool:
     """Whether a problem asks for the least D alone, among laws that are a convex set.
 
-    Examples
-    --------
     >>> least_power(Problem(B=1.7, order=4, minimise="D")), least_power(Problem(B=1.7, order=4, D=(0.0, 6.0)))
     (True, False)
     """

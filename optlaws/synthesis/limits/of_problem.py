@@ -23,8 +23,6 @@ def known_limit(problem: Problem) -> float | None:
 
     For a sum it is the sum of the parts' limits, which no one law need reach together. It is rounded down.
 
-    Examples
-    --------
     >>> known_limit(Problem(B=1.5, order=4, minimise="D"))
     2.25
     """
@@ -41,8 +39,6 @@ def known_limit(problem: Problem) -> float | None:
 def limited_laws(problem: Problem) -> str:
     """Which laws the limit of a problem holds for, in words.
 
-    Examples
-    --------
     >>> limited_laws(Problem(B=1.5, order=3)), limited_laws(Problem(order=4))
     ('law of order 3 with this B', 'law of order 4')
     >>> limited_laws(Problem(order=3, B=(1.5, 1.8), J=(0, 70)))

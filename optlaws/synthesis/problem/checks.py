@@ -87,8 +87,6 @@ def boundary(given: Any) -> BoundaryConditions | None:  # noqa: ANN401 - it is c
 class NotGiven(int):
     """The order that nobody gave: another value than a 0 that somebody did.
 
-    Examples
-    --------
     >>> NotGiven() == 0, type(NotGiven()) is int
     (True, False)
     """

@@ -87,8 +87,6 @@ class CombinedPower(Combined, PowerConstant):
 def facing(weights: tuple[Fraction, ...]) -> tuple[Fraction, ...]:
     """The weights that say on the first half what these say on the second, in symmetric laws.
 
-    Examples
-    --------
     >>> facing((Fraction(1), Fraction(2), Fraction(3)))
     (Fraction(1, 1), Fraction(-2, 1), Fraction(3, 1))
     """
@@ -98,8 +96,6 @@ def facing(weights: tuple[Fraction, ...]) -> tuple[Fraction, ...]:
 def floats(weights: tuple[Fraction, ...]) -> tuple[float, ...]:
     """The weights rounded.
 
-    Examples
-    --------
     >>> floats((Fraction(1), Fraction(1, 200)))
     (1.0, 0.005)
     """

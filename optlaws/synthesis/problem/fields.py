@@ -24,8 +24,6 @@ from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 class Kind(Enum):
     """What the values of an entry are; each door knows how it reads and writes a kind.
 
-    Examples
-    --------
     >>> ENTRIES["degree"].kind
     <Kind.WHOLE: 'a whole number'>
     """
@@ -257,8 +255,6 @@ CONSTANTS = tuple(entry.name for entry in ENTRIES.values() if entry.kind is Kind
 def from_entries(data: Mapping[str, Any]) -> dict[str, Any]:
     """The fields that entries ask for.
 
-    Examples
-    --------
     >>> from_entries({"order": 4, "degree": 5})
     {'order': 4, 'basis': Chebyshev(degree=5)}
     """

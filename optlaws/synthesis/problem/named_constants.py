@@ -40,8 +40,6 @@ Makers = Mapping[str, Callable[..., Term]]
 def parse(text: str, names: Mapping[str, Term], makers: Makers | None = None) -> Expression:
     """Read an objective such as `0.6*C/4 + 0.4*D/2.25` or `max(C/4, D/2.25)`.
 
-    Examples
-    --------
     >>> from optlaws.synthesis import FUNCTIONALS
     >>> parse("0.5*C/4 + 0.5*D/2", FUNCTIONALS)
     0.125*C + 0.25*D
@@ -251,8 +249,6 @@ class _Reader(Scanner):
 def expression(text: str) -> Expression:
     """The objective that a text says.
 
-    Examples
-    --------
     >>> expression("0.5*C/4 + C_cam(nu=20)")
     0.125*C + C_cam(nu=20.0)
     """
@@ -262,8 +258,6 @@ def expression(text: str) -> Expression:
 def named(text: str) -> Functional:
     """The constant that a text names.
 
-    Examples
-    --------
     >>> named("rms_c"), named("residual(nu=(18, 22))")
     (rms_c, residual(nu=(18.0, 22.0)))
     """
@@ -277,8 +271,6 @@ def named(text: str) -> Functional:
 def title_of(name: str) -> str:
     """What messages and tables call the constant of a name.
 
-    Examples
-    --------
     >>> title_of("rms_c"), title_of("peak(c + 3*b)")
     ('rms_c', 'peak(c + 3*b)')
     """
@@ -293,8 +285,6 @@ def title_of(name: str) -> str:
 def is_named(term: Term) -> bool:
     """Whether its name alone tells what it is, so that text can stand for it.
 
-    Examples
-    --------
     >>> from optlaws.synthesis import C
     >>> is_named(C)
     True
@@ -313,8 +303,6 @@ def is_named(term: Term) -> bool:
 def apart(text: str) -> list[str]:
     """What stands between the commas that are in no bracket.
 
-    Examples
-    --------
     >>> apart("residual(nu=(18, 22)), C")
     ['residual(nu=(18, 22))', 'C']
     """

@@ -24,8 +24,6 @@ _NUMBERS = "fiub"
 def plain_entries(entries: Mapping[str, Any]) -> dict[str, Any] | None:
     """Entries as plain data; None where one is of a kind that cannot be read back.
 
-    Examples
-    --------
     >>> plain_entries({"B": np.array([1.5, 1.6]), "order": 4})
     {'B': {'array': [1.5, 1.6], 'shape': [2], 'type': 'float64'}, 'order': 4}
     """

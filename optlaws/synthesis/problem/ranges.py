@@ -103,8 +103,6 @@ def at_least(low: float) -> Range:
 def as_range(value: Any, name: str) -> Range | None:  # noqa: ANN401 - it is checked here
     """A number, a Range, a pair [low, high] or None as a Range or None; `name` is what an error calls it.
 
-    Examples
-    --------
     >>> as_range(2, "B")
     between(2.0, 2.0)
     """
@@ -131,8 +129,6 @@ def _named_range(low: Any, high: Any, name: str) -> Range:  # noqa: ANN401 - the
 class Bounds(Mapping[Functional, Range]):
     """What is asked of constants, by constant; frozen and hashable. Names find the known ones.
 
-    Examples
-    --------
     >>> Bounds({"rms_c": at_most(4), "jounce": None})
     {'rms_c': at_most(4)}
     """
@@ -185,8 +181,6 @@ def _constant(key: Any) -> Functional:  # noqa: ANN401 - it is checked here
 def read_bounds(most: Sequence[str], least: Sequence[str] = ()) -> dict[str, Range]:
     """Bounds from texts such as "rms_c=4": the greatest and the least values.
 
-    Examples
-    --------
     >>> read_bounds(["rms_c=4", "jounce=900"], ["rms_c=3.5"])
     {'rms_c': between(3.5, 4.0), 'jounce': at_most(900.0)}
     """

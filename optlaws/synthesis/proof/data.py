@@ -85,8 +85,6 @@ class StatedPlaces(msgspec.Struct, forbid_unknown_fields=True):
 def stated(data: object, kind: type[Stated], name: str) -> Stated:
     """Plain data as a value of which every key is known and of its type; `name` is what an error calls it.
 
-    Examples
-    --------
     >>> stated({"constraint": "C", "sign": 1, "k": 0.25, "multiplier": 0.5}, StatedContact, "contact").k
     0.25
     >>> stated({"constraint": "C", "sign": 1, "k": "a", "multiplier": 0.5}, StatedContact, "contact")
@@ -128,8 +126,6 @@ def as_json(data: object) -> Any:  # noqa: ANN401 - JSON
 def problem_of(data: dict[str, Any]) -> Problem:
     """The problem that plain data describe.
 
-    Examples
-    --------
     >>> problem_of({"order": 4, "B": 10**400})
     Traceback (most recent call last):
     optlaws.errors.InputError: problem: ...

@@ -229,8 +229,6 @@ def possible_velocities(problem: Problem) -> tuple[float | None, float | None]:
 
     None where there is no such end, or where no B has a law; of a problem that D bounds, for the rest of it.
 
-    Examples
-    --------
     >>> possible_velocities(Problem(B=1.2, order=6))
     (1.221697, None)
     """

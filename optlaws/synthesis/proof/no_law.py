@@ -28,8 +28,6 @@ class Ground(NamedTuple):
 def convex_part(problem: Problem) -> Problem:
     """The problem without the bounds that are not convex: what contradicts itself there does so with them too.
 
-    Examples
-    --------
     >>> convex_part(Problem(B=1.7, order=4, D=(0.0, 6.0)))
     Problem(B=1.7, order=4, basis=Chebyshev(degree=9), minimise='C')
     """
@@ -42,8 +40,6 @@ def convex_part(problem: Problem) -> Problem:
 def least_of(problem: Problem, constant: Functional) -> Problem:
     """The problem of the least value of a bounded constant under all other constraints.
 
-    Examples
-    --------
     >>> from optlaws.synthesis.problem.constants import D
     >>> least_of(Problem(B=1.7, order=4, D=(0.0, 2.0)), D)
     Problem(B=1.7, order=4, basis=Chebyshev(degree=9), minimise='D')
@@ -75,8 +71,6 @@ def proof_of_no_law(problem: Problem, proof: object) -> Certificate | None:
 
     Multipliers that prove it of one problem mostly prove it of those beyond: what they prove is affine in the numbers.
 
-    Examples
-    --------
     >>> import optlaws
     >>> try:
     ...     optlaws.synthesize(Problem(B=1.05, order=3, basis=optlaws.Chebyshev(3)))
@@ -102,8 +96,6 @@ def proof_of_no_law(problem: Problem, proof: object) -> Certificate | None:
 def beyond_limit(problem: Problem) -> str:
     """Which constant is asked to be below what no law of any degree can beat; empty if none is.
 
-    Examples
-    --------
     >>> beyond_limit(Problem(B=1.7, order=4, C=(0.0, 3.0)))
     'no law of any degree has C <= 3 with the other constraints: its limit is 4.128571 (optlaws.limit). ...'
     """

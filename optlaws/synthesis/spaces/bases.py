@@ -39,8 +39,6 @@ from optlaws.numerics.tolerances import MIRROR
 def places(breaks: int | Sequence[float]) -> tuple[float, ...]:
     """Breaks as floats; a number asks for so many pieces of equal length.
 
-    Examples
-    --------
     >>> places(4), places([0, 0.3, 1])
     ((0.0, 0.25, 0.5, 0.75, 1.0), (0.0, 0.3, 1.0))
     """
@@ -56,8 +54,6 @@ def places(breaks: int | Sequence[float]) -> tuple[float, ...]:
 def mirrored(breaks: Sequence[float]) -> bool:
     """Whether the breaks are symmetric about 1/2.
 
-    Examples
-    --------
     >>> mirrored((0.0, 0.3, 0.7, 1.0)), mirrored((0.0, 0.3, 1.0))
     (True, False)
     """
@@ -67,8 +63,6 @@ def mirrored(breaks: Sequence[float]) -> bool:
 def order_of_continuity(continuity: int, degree: int) -> int:
     """The order up to which derivatives are continuous at the breaks, checked.
 
-    Examples
-    --------
     >>> order_of_continuity(2, 3)
     2
     """
@@ -81,8 +75,6 @@ def order_of_continuity(continuity: int, degree: int) -> int:
 def read_breaks(text: str) -> int | list[float]:
     """Breaks from text: a number of equal pieces, or the places separated by blanks.
 
-    Examples
-    --------
     >>> read_breaks("8"), read_breaks("0 0.3 1")
     (8, [0.0, 0.3, 1.0])
     """

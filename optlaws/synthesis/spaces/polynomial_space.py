@@ -57,8 +57,6 @@ def chord(jerk: Callable[[Array], Array], u: Array, centre: float, degree: int) 
 def kink(acceleration: Callable[[Array], Array], u: Array, centre: float, degree: int) -> Array:
     """(b - b0) / |u - u0| on one side of u0 where b has a kink; otherwise as `chord`.
 
-    Examples
-    --------
     >>> kink(lambda u: np.full((len(u), 1), -4.0), np.array([0.75]), 0.5, 1)  # b = 1 + 2 (u - 0.5)
     array([[2.]])
     """
@@ -308,8 +306,6 @@ class PolynomialSpace(LawSpace):
 def polynomial_space(boundary: BoundaryConditions, degree: int, *, symmetric: bool) -> PolynomialSpace:
     """The space, kept for the next call.
 
-    Examples
-    --------
     >>> polynomial_space(BoundaryConditions.rest(2), 3, symmetric=False).terms
     4
     """

@@ -113,8 +113,6 @@ def _on_pieces(table: Table, at: Any) -> Any:  # noqa: ANN401 - a ball or a seri
 def exact_pieces(table: Table) -> list[list[fmpq]]:
     """On each piece of a table powers of (x - start); straight lines exactly, a spline as its rounded coefficients say.
 
-    Examples
-    --------
     >>> from optlaws.formulas.tree import Name
     >>> exact_pieces(Table(Name("k"), (0.0, 0.5, 1.0), (0.0, 1.0, 0.0)))
     [[0, 2], [1, -2]]
@@ -173,8 +171,6 @@ POLYNOMIALS = Arithmetic(
 def series_of(formula: Formula, names: Mapping[str, arb_series]) -> arb_series:
     """The Taylor series of a formula where its names have theirs; of no number where a divisor may be 0.
 
-    Examples
-    --------
     >>> from optlaws.formulas.tree import Name, Number, Exponentiation
     >>> series = series_of(Exponentiation(Name("k"), Number(2.0)), {"k": arb_series([arb(3), arb(1)])})
     >>> [float(series[i]) for i in range(3)]
@@ -190,8 +186,6 @@ def series_of(formula: Formula, names: Mapping[str, arb_series]) -> arb_series:
 def composed(polynomial: fmpq_poly, x: arb_series) -> arb_series:
     """The Taylor series of a polynomial of what is affine; about the middle of a ball first, which hardly widens it.
 
-    Examples
-    --------
     >>> float(composed(fmpq_poly([0, -1, 1]), arb_series([arb(1, 2.0**-20), arb(1)]))[0].rad()) < 1.01 * 2.0**-20
     True
     """

@@ -21,8 +21,6 @@ _PLACES, _EXACT = 128, 4096
 def rational(value: float | Fraction) -> fmpq:
     """The exact value of a float or Fraction.
 
-    Examples
-    --------
     >>> rational(0.25)
     1/4
     """

@@ -42,8 +42,6 @@ class ExactPiece(ABC):
 class PolynomialPiece(ExactPiece):
     """A polynomial in y from -1 at the start to 1 at the end, with rational coefficients.
 
-    Examples
-    --------
     >>> piece = PolynomialPiece(Fraction(0), Fraction(1), PolynomialSegment([0.0, -6.0]))
     >>> piece.derivative(1)
     (-3/2)*x^2 + 3/2

@@ -29,8 +29,6 @@ Taylor = tuple[list[Any], arb]
 def extremes(function: Smooth, start: Fraction, stop: Fraction) -> Extremes:
     """Balls that hold the least and the greatest value of a function between two places.
 
-    Examples
-    --------
     >>> least, greatest = extremes(lambda s: s.sin(), Fraction(0), Fraction(3))
     >>> greatest.contains(1), float(greatest.rad()) < 1e-12
     (True, True)

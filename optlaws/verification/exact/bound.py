@@ -64,8 +64,6 @@ def prove(certificate: Certificate) -> Proof:
 
     Places of a peak are not checked: such a tree proves nothing here.
 
-    Examples
-    --------
     >>> from optlaws import Chebyshev, Problem, synthesize
     >>> solution = synthesize(Problem(B=1.859, order=4, basis=Chebyshev(9)))
     >>> proof = prove(solution.certificate)

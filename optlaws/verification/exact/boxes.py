@@ -172,8 +172,6 @@ _DEEPEST = 5
 def tree_holds(certificate: Certificate) -> bool:
     """Whether the tree of a certificate over boxes leaves none with every rounding enclosed.
 
-    Examples
-    --------
     >>> from optlaws import Problem, synthesize
     >>> solution = synthesize(Problem(B=1.641, order=4, minimise="D"), bound="tight")
     >>> tree_holds(solution.power_certificate)

@@ -78,8 +78,6 @@ class ExactLaw:
 
     Where a derivative jumps by more than rounding, as `PiecewiseLaw.jumps` tells, those above it are infinite.
 
-    Examples
-    --------
     >>> from optlaws.laws import smoothstep
     >>> ExactLaw(smoothstep(2)).polynomials[0].derivative(1)
     (-3/2)*x^2 + 3/2

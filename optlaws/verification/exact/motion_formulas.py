@@ -300,8 +300,6 @@ def _through(values: Sequence[float], length: Fraction) -> fmpq_poly:
 def fitted(values: Array, degree: int) -> fmpq_poly:
     """The polynomial of a degree nearest to values at the places of Gauss's rule, of what runs from -1 to 1.
 
-    Examples
-    --------
     >>> [float(coefficient) for coefficient in fitted(np.array([1.0, 1.0, 1.0]), 0).coeffs()]
     [1.0]
     """

@@ -161,8 +161,6 @@ def exact_limit(problem: Problem) -> Fraction | None:
 
     Only C and D count, the law's and its cam's; every other constant is to be at least 0.
 
-    Examples
-    --------
     >>> exact_limit(Problem(B=1.5, order=4, minimise="D"))
     Fraction(9, 4)
     """

@@ -79,8 +79,6 @@ class Pole:
 class Rational:
     """A quotient of polynomials in s, without what cancels.
 
-    Examples
-    --------
     >>> fraction = Rational(fmpq_poly([2, 2]), fmpq_poly([2, 3, 1]))
     >>> fraction.numerator, fraction.denominator, fraction.laurent(3)
     (2, x + 2, {0: 1, 1: -1/2, 2: 1/4, 3: -1/8})
@@ -163,8 +161,6 @@ def transforms(machine: StateSpaceMatrices, output: str) -> tuple[fmpq_poly, lis
 def roots(polynomial: fmpq_poly) -> list[tuple[acb, int]]:
     """Balls around all roots with their multiplicities; of a real root the imaginary part is exactly 0.
 
-    Examples
-    --------
     >>> [(root.real.mid(), count) for root, count in roots(fmpq_poly([1, 2, 1]))]
     [(-1.00000000000000, 2)]
     """

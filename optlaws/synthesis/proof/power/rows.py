@@ -158,8 +158,6 @@ class Anchors:
 def velocity_brackets(anchors: Anchors, D: float, k: Array) -> tuple[Array, Array]:
     """Least and greatest velocity at the places k of a law with peak power D (dimensionless).
 
-    Examples
-    --------
     >>> rest = Anchors(np.array([0.0]), np.zeros(1), np.zeros(1))
     >>> velocity_brackets(rest, 2.0, np.array([0.25]))[1].tolist()
     [1.0]

@@ -51,8 +51,6 @@ class SecantOverestimator:
 def secant_over_inverse(low: Array, high: Array) -> SecantOverestimator:
     """The chord of 1/b between positive numbers.
 
-    Examples
-    --------
     >>> line = secant_over_inverse(np.ones(1), np.full(1, 2.0))
     >>> line.slope.tolist(), line.height.tolist()
     ([-0.5], [1.5])

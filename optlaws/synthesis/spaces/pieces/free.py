@@ -62,8 +62,6 @@ class PieceSpace(PiecewiseSpace):
     Coordinates are the coefficients of the acceleration in B-splines, which makes them local and well conditioned.
     Where `symmetric` they describe the first half only.
 
-    Examples
-    --------
     >>> space = piece_space(BoundaryConditions.rest(2), (0.0, 0.5, 1.0), 2, 1, symmetric=False)
     >>> space.terms
     2

@@ -103,8 +103,6 @@ class PieceMirroredFamily(MirroredFamily, PieceRootFamily):
 def mirrored(pieces: PieceSeries) -> PieceSeries:
     """The same functions of -u.
 
-    Examples
-    --------
     >>> series = PieceSeries(np.array([1.0, 0.5, -1.0]), np.arange(4.0).reshape(2, 2, 1))
     >>> bool(np.allclose(mirrored(series).values(np.array([0.7, -0.7])), series.values(np.array([-0.7, 0.7]))))
     True
