@@ -20,7 +20,6 @@ from optlaws.formulas.tree import Call, Exponentiation, Formula, Name, Negative,
 from optlaws.numbers import Array
 from optlaws.numerics.tolerances import OPERATIONS_ROUNDING
 
-_PARTS = 256
 _MOST_ANGLE = 2.0**24
 
 
@@ -88,18 +87,6 @@ def enclosed(formula: Formula, names: Mapping[str, Endpoints]) -> Endpoints:
         return _table(formula, parts[0]).outward()
     assert isinstance(formula, Call)  # noqa: S101 - there are no others
     return _call(formula.function, parts).outward()
-
-
-def over_parts(formula: Formula, name: str, start: float, stop: float) -> tuple[float, float]:
-    """Bounds of a formula of one name between two of its values, over many parts of the way.
-
-    >>> from optlaws.formulas.reading import read
-    >>> over_parts(read("k*(1 - k)"), "k", 0.0, 1.0)[0]
-    0.0
-    """
-    edges = np.linspace(start, stop, _PARTS + 1)
-    values = enclosed(formula, {name: Endpoints(edges[:-1], edges[1:])})
-    return float(np.min(values.low)), float(np.max(values.high))
 
 
 def _reciprocal(of: Endpoints) -> Endpoints:

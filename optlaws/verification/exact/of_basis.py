@@ -138,12 +138,8 @@ class _FreePieces(ExactSpace):
         if self.breaks[-1] == 1:
             ways[-1] = ((1 - _K) / rational(1 - self.breaks[-2])) ** power
         return [
-            [-_quotient(velocity, way) for velocity in part] for part, way in zip(self.derivative(1), ways, strict=True)
+            [-divmod(velocity, way)[0] for velocity in part] for part, way in zip(self.derivative(1), ways, strict=True)
         ]
-
-
-def _quotient(polynomial: fmpq_poly, way: fmpq_poly) -> fmpq_poly:
-    return divmod(polynomial, way)[0]
 
 
 def _splines(breaks: list[Fraction], degree: int, continuity: int, lowest: int = 0) -> list[Functions]:

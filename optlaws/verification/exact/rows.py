@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
@@ -34,7 +34,6 @@ from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.spaces.of_basis import space_of
 from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.verification.enclosing.balls import ball
-from optlaws.verification.enclosing.pieces import PolynomialPiece
 from optlaws.verification.exact.law import ExactLaw, OfFormula, OfMachine, known
 from optlaws.verification.exact.motion_formulas import (
     formula_columns,
@@ -51,9 +50,7 @@ from optlaws.verification.machines.certificate_rows import (
     Names,
     UpperLimit,
     cone,
-    mean,
     mode_edges,
-    peak,
 )
 from optlaws.verification.machines.outputs import KnownOutput, KnownOutputRms, OutputRows
 from optlaws.verification.machines.residuals import ExactResidual, ModeConstant, ResidualConstant
@@ -166,8 +163,10 @@ class ExactRows:
         elif self.relaxed and limit.constants:
             self._single(names.at_least(constant.name), limit.constants, 0.0)
 
-    def _everywhere(self, name: str, values: Place, signs: tuple[float, ...], limit: UpperLimit) -> None:
-        self._add(name, lambda contact, k: limit.row(value * contact.sign for value in values(k)), signs)
+    def _everywhere(
+        self, name: str, values: Place, signs: tuple[float, ...], limit: UpperLimit, unit: arb | None = None
+    ) -> None:
+        self._add(name, lambda contact, k: limit.row((value * contact.sign for value in values(k)), unit), signs)
 
     def _of_formula(self, constant: OfFormula, limit: UpperLimit) -> None:
         symmetric = self.problem.symmetric
@@ -208,7 +207,10 @@ class ExactRows:
     def _integral(self, constant: FormulaRms | FormulaIntegral, limit: UpperLimit) -> None:
         motion, name = constant.motion, constant.name
         if isinstance(constant, FormulaRms) and constant.affine:
-            self._add(name, lambda contact, _: self._norm_of(constant, contact, limit))
+            whole = ball(Fraction(motion.stop) - Fraction(motion.start)).sqrt()
+            parts = constant.parts(symmetric=self.problem.symmetric)
+            columns = partial(norm_columns, self.space, parts)
+            self._add(name, lambda contact, _: limit.row(value / whole for value in columns(contact.direction)))
             return
         root = isinstance(constant, FormulaRms)
         unit = ball(constant.length).sqrt() if isinstance(constant, FormulaRms) else arb(1)
@@ -230,12 +232,6 @@ class ExactRows:
             return formula_columns(self.space, motion, _clamped(k, start, stop))
 
         self._everywhere(name, values, signs, limit)
-
-    def _norm_of(self, constant: FormulaRms, contact: Contact, limit: UpperLimit) -> BallRow:
-        """As `_norm`, with the values of a formula."""
-        whole = ball(Fraction(constant.motion.stop) - Fraction(constant.motion.start))
-        columns = norm_columns(self.space, constant.parts(symmetric=self.problem.symmetric), contact.direction)
-        return limit.row(value / whole.sqrt() for value in columns)
 
     def _single(self, name: str, constants: Names, high: float | arb) -> None:
         row = UpperLimit(constants, high).row([arb(0)] * (self.space.terms + 1))
@@ -278,22 +274,15 @@ class ExactRows:
 
     def _of_machine(self, constant: OfMachine, limit: UpperLimit) -> None:
         if isinstance(constant, ResidualConstant):
-            self._residual(constant, limit)
+            amplitudes = partial(ExactResidual(constant).rows, self.space)
+            makers = {constant.name: cone(amplitudes, limit, arb(limit.high or 1.0))}
         elif isinstance(constant, ModeConstant):
-            self._mode(constant, limit)
+            makers, corners = mode_edges(constant, self.space, self._solved, limit)
+            self.corners.update(corners)
         else:
             self._output(constant, limit)
-
-    def _residual(self, constant: ResidualConstant, limit: UpperLimit) -> None:
-        """Rows of a residual at each frequency, in units of the bound."""
-        amplitudes = partial(ExactResidual(constant).rows, self.space)
-        self.cones.add(constant.name)
-        self._add(constant.name, cone(amplitudes, limit, arb(limit.high or 1.0)))
-
-    def _mode(self, constant: ModeConstant, limit: UpperLimit) -> None:
-        edges = mode_edges(constant, self.space, self._solved, limit)
-        self.corners.update(edges.corners)
-        for name, maker in edges.makers.items():
+            return
+        for name, maker in makers.items():
             self.cones.add(name)
             self._add(name, maker)
 
@@ -301,16 +290,16 @@ class ExactRows:
         output = self.outputs[constant.name] = OutputRows(constant, self.space)
         unit = ball(constant.unit(self._solved))
         if not isinstance(constant, KnownOutputRms):
-            self._add(constant.name, peak(output, unit, limit), (1.0, -1.0))
+            self._everywhere(constant.name, output.at, (1.0, -1.0), limit, unit)
             return
 
-        def law_along(direction: Sequence[float]) -> Sequence[PolynomialPiece]:
-            law = constant.along(self._solved, direction)
+        def beside_another_law(contact: Contact, _: Fraction) -> BallRow:
+            law = constant.along(self._solved, contact.direction)
             if law is None:
                 raise LookupError
-            return ExactLaw(law).polynomials
+            return limit.row(output.beside(ExactLaw(law).polynomials), unit)
 
-        self._add(constant.name, mean(output, law_along, unit, limit))
+        self._add(constant.name, beside_another_law)
 
     def _constraints(self) -> None:
         problem = self.problem

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import partial
@@ -13,9 +13,7 @@ from flint import acb, arb
 from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.verification.enclosing.balls import ball
-from optlaws.verification.enclosing.pieces import PolynomialPiece
 from optlaws.verification.machines.output_motion import Space
-from optlaws.verification.machines.outputs import OutputRows
 from optlaws.verification.machines.residuals import ExactModeResidual, ModeConstant
 
 Names = Mapping[str, float | arb]
@@ -53,21 +51,10 @@ class UpperLimit:
 Maker = Callable[[Contact, Fraction], BallRow]
 
 
-#: a law's pieces by the direction of a contact; LookupError where there is none
-LawAlong = Callable[[Sequence[float]], Sequence[PolynomialPiece]]
 #: the name of a cone, and a place of it
 Corner = tuple[str, float]
 #: corners of a box by edge and end, and where they stand first
 _FIRST = {(1, 0.0): (0, 1.0), (2, 1.0): (1, 1.0), (3, 0.0): (0, 0.0), (3, 1.0): (2, 0.0)}
-
-
-@dataclass(frozen=True)
-class ModeEdges:
-    """What the edges of a box ask for."""
-
-    makers: Mapping[str, Maker]  #: rows of each edge, by its name
-    #: corners that an earlier edge has too: that one's, and the ratio of its unit to this one's
-    corners: Mapping[Corner, tuple[Corner, float]]
 
 
 def cone(amplitudes: Callable[[Fraction], list[acb]], limit: UpperLimit, unit: arb) -> Maker:
@@ -86,8 +73,13 @@ def cone(amplitudes: Callable[[Fraction], list[acb]], limit: UpperLimit, unit: a
     return make
 
 
-def mode_edges(constant: ModeConstant, space: Space, solved: LawSpace, limit: UpperLimit) -> ModeEdges:
-    """A cone for each edge of the box, in the units of the certificate."""
+def mode_edges(
+    constant: ModeConstant, space: Space, solved: LawSpace, limit: UpperLimit
+) -> tuple[dict[str, Maker], dict[Corner, tuple[Corner, float]]]:
+    """A cone for each edge of a box by its name, in the units of the certificate; and corners that two edges have.
+
+    Beside a corner stand the same one of an earlier edge, and the ratio of that edge's unit to this one's.
+    """
     exact = ExactModeResidual(constant)
     count, sought = len(exact.edges), bool(limit.constants)
     units = [constant.unit(solved, i, float(limit.high), sought=sought) for i in range(count)]
@@ -101,17 +93,7 @@ def mode_edges(constant: ModeConstant, space: Space, solved: LawSpace, limit: Up
         for (i, end), (j, other) in _FIRST.items()
         if count > 2
     }
-    return ModeEdges(makers, corners)
-
-
-def peak(output: OutputRows, unit: arb, limit: UpperLimit) -> Maker:
-    """An output at a time."""
-    return lambda contact, k: limit.row((contact.sign * value for value in output.at(k)), unit)
-
-
-def mean(output: OutputRows, law_along: LawAlong, unit: arb, limit: UpperLimit) -> Maker:
-    """An output times that of another law, which a direction says."""
-    return lambda contact, _: limit.row(output.beside(law_along(contact.direction)), unit)
+    return makers, corners
 
 
 def together(contacts: Iterable[Contact], corners: Mapping[Corner, tuple[Corner, float]]) -> list[Contact]:
