@@ -11,7 +11,7 @@ from tests.documents import ROOT
 
 MOST_ARGUMENTS = 8
 #: rooms whose functions take no more; what belongs together is one value, or the entries of a `TypedDict`
-FEW_ARGUMENTS = ("cams", "cycles", "exports", "jobs", "laws", "motion", "plots")
+FEW_ARGUMENTS = ("cams", "cycles", "exports", "jobs", "laws", "motion", "plots", "verification")
 
 
 def nodes(folder: Path) -> Iterator[tuple[Path, ast.AST]]:
@@ -62,6 +62,7 @@ WITHOUT_TOLERANCES = (
     "shown",
     "studies",
     "synthesis",
+    "verification",
 )
 
 

@@ -377,6 +377,7 @@ FREE_OF_VAGUE_NAMES = (
     "motion",
     "plots",
     "numerics",
+    "verification",
 )
 
 

@@ -119,9 +119,9 @@ def between(polynomial: fmpq_poly, start: fmpq, stop: fmpq) -> Extremes:
             continue
         value = at(polynomial, x)
         # a root that may lie beyond an end says no more than that end
-        for end, held in zip(ends, values[:2], strict=True):
+        for end, value_there in zip(ends, values[:2], strict=True):
             if x.overlaps(end):
-                value = value.union(held)
+                value = value.union(value_there)
         values.append(value)
     return least_and_greatest(values)
 

@@ -9,15 +9,14 @@ from typing import Any
 
 from flint import arb, arb_poly, arb_series, ctx, fmpq_poly
 
+from optlaws.numerics.tolerances import GREATEST_ENCLOSED, GREATEST_NEGLIGIBLE, TAYLOR_REST
 from optlaws.verification.enclosing.balls import Extremes, ball, series_length
 
-#: bits with which it is looked for; how narrow the value must be, of itself and of what the polynomials are made of;
-#: and how short a part is cut no further
-_BITS, _NARROW, _NOTHING, _SHORTEST = 192, 2.0**-70, 2.0**-110, Fraction(1, 2**60)
+#: bits with which the greatest value is searched, and how short a part is cut no further
+_BITS, _SHORTEST = 192, Fraction(1, 2**60)
 _WHOLE = (Fraction(-1), Fraction(1))
-#: terms of Taylor polynomials; how little may be left of a function, of itself; how short a cell is cut no further, and
-#: after how many none is
-_TERMS, _LEFT, _LEAST, _MOST = 24, 2.0**-80, Fraction(1, 2**70), 1 << 12
+#: terms of Taylor polynomials; how short a cell is cut no further, and after how many none is
+_TERMS, _LEAST, _MOST = 24, Fraction(1, 2**70), 1 << 12
 
 #: a function by its Taylor series; coefficients beyond what it is smooth to are not finite
 Smooth = Callable[[arb_series], arb_series]
@@ -37,7 +36,7 @@ def extremes(function: Smooth, start: Fraction, stop: Fraction) -> Extremes:
     size = 1 + abs(first).max(abs(last)).upper()
     if not size.is_finite():
         return arb.nan(), arb.nan()
-    most = size * max(_LEFT, 2.0 ** (8 - ctx.prec))
+    most = size * max(TAYLOR_REST, 2.0 ** (8 - ctx.prec))
 
     def enough(parts: Sequence[Taylor], _: Fraction) -> bool:
         return bool(parts[0][1] <= most)
@@ -130,7 +129,7 @@ class _BranchAndBound:
     """Bounds of the greatest value so far, from below and from above."""
 
     def __init__(self, signs: Sequence[float], size: arb) -> None:
-        self.signs, self.nothing = signs, size * _NOTHING
+        self.signs, self.nothing = signs, size * GREATEST_NEGLIGIBLE
         self.least = self.greatest = -size
 
     def _counted(self, value: arb) -> arb:
@@ -159,7 +158,7 @@ class _BranchAndBound:
             if others and sizes[0] > sum((m * size for m, size in enumerate(sizes[1:], 2)), arb(0)):
                 # it rises or falls throughout
                 self.greatest = reduce(arb.max, ((end + off).upper() for end in ends), self.greatest)
-            elif width < (_NARROW * abs(self.least)).max(self.nothing) or half < _SHORTEST or not others:
+            elif width < (GREATEST_ENCLOSED * abs(self.least)).max(self.nothing) or half < _SHORTEST or not others:
                 self.greatest = self.greatest.max(top)
             else:
                 left += [(low, middle), (middle, high)]

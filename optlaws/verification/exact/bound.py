@@ -18,6 +18,7 @@ from math import inf, isfinite
 from flint import arb, arb_mat, ctx
 
 from optlaws.errors import InputError
+from optlaws.numerics.tolerances import BOUND_ENCLOSED, ROUNDED_MULTIPLIER
 from optlaws.synthesis.limits.rounding import rounded_up
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
@@ -30,14 +31,11 @@ from optlaws.verification.machines.certificate_rows import BallRow, together
 
 Vector = list[arb]
 
-_WIDE = 2.0**-80
 _TRIES = 3
 #: how readily moments take part, beside the squares of the multipliers
 _READINESS = (2.0**-60, 1.0)
 #: bounds that differ by less are one bound
 _SAME = Fraction(1, 10**13)
-#: a correction of multipliers, in shares of the greatest, that needs no other explanation than rounding
-_LITTLE = 1e-7
 #: how far from a contact its neighbours are, and how much of its multiplier each takes
 _NEAR, _SHARE = Fraction(1, 2**20), Fraction(1, 2**22)
 
@@ -250,7 +248,7 @@ class _System:
         proof = Proof(
             proven, rounded_up(upper(charge) * self.unit) + 0.0, moved / greatest, self.negative, self.unknown, bounds
         )
-        return proof, bool(value.rad() < _WIDE)
+        return proof, bool(value.rad() < BOUND_ENCLOSED)
 
     def _slopes(self) -> Vector:
         slopes = list(self.cost)
@@ -295,9 +293,9 @@ def _better(proof: Proof, than: Proof, scale: Fraction) -> bool:
     if proof.value is None or than.value is None:
         return proof.value is not None
     rounding = _SAME * max(scale, abs(than.value))
-    if proof.correction <= _LITTLE < than.correction:
+    if proof.correction <= ROUNDED_MULTIPLIER < than.correction:
         return proof.value > than.value - rounding
-    if than.correction <= _LITTLE < proof.correction:
+    if than.correction <= ROUNDED_MULTIPLIER < proof.correction:
         return proof.value > than.value + rounding
     return proof.value > than.value
 

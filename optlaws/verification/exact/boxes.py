@@ -118,10 +118,10 @@ class BoxSteps(ABC):
     def root(self) -> BallBox:
         """The box of all laws of the problem whose objective is below the claim."""
         brackets = [self.outer(k) for k in self.points]
-        asked = self.problem.range("B")
-        of_B = ball(0 if asked is None else asked.low), self.B
-        own = [of_B if name == "B" else self.own_sides(name) for name in self.rows.names]
-        sides = [*brackets, *own]
+        limits = self.problem.range("B")
+        of_B = ball(0 if limits is None else limits.low), self.B
+        constants = [of_B if name == "B" else self.own_sides(name) for name in self.rows.names]
+        sides = [*brackets, *constants]
         return BallBox([low.lower() for low, _ in sides], [high.upper() for _, high in sides])
 
     def moved(self, box: BallBox, node: Leaf) -> list[BallBox]:
@@ -215,9 +215,9 @@ class _PowerProof(BoxSteps):
     def anchors(self) -> list[tuple[Fraction, arb, arb]]:
         """Places at which the velocity is known to lie between two values."""
         known_at = [(Fraction(i), end, end) for i, end in enumerate(self.ends)]
-        asked, peak = self.problem.range("B"), self.problem.peak_at
-        if asked is not None and asked.low > 0.0 and peak is not None:
-            known_at.append((Fraction(peak), ball(asked.low), self.B))
+        limits, peak = self.problem.range("B"), self.problem.peak_at
+        if limits is not None and limits.low > 0.0 and peak is not None:
+            known_at.append((Fraction(peak), ball(limits.low), self.B))
         return known_at
 
     def own_sides(self, name: str) -> tuple[arb, arb]:
@@ -318,10 +318,10 @@ class _FormulaProof(BoxSteps):
     def _branches(self) -> dict[tuple[str, float], tuple[Branch, Way, dict[str, float], float]]:
         """Formulas with where their planes touch and what they are at most, by the names and signs of rows."""
         sought = (leaf for _, leaf in leaves(self.problem.objective) if isinstance(leaf, Functional))
-        asked: list[tuple[Functional, dict[str, float], float]] = [(leaf, {leaf.name: -1.0}, 0.0) for leaf in sought]
-        asked += [(constant, {}, limits.high) for constant, limits in self.problem.bounded if isfinite(limits.high)]
+        bounded: list[tuple[Functional, dict[str, float], float]] = [(leaf, {leaf.name: -1.0}, 0.0) for leaf in sought]
+        bounded += [(constant, {}, limits.high) for constant, limits in self.problem.bounded if isfinite(limits.high)]
         branches = {}
-        for constant, slack, high in asked:
+        for constant, slack, high in bounded:
             if not isinstance(constant, FormulaPeak | FormulaValue):
                 continue
             for branch in constant.branches(symmetric=self.problem.symmetric):
@@ -355,11 +355,11 @@ def _plane(branch: Branch, way: Way, ranges: dict[str, tuple[arb, arb]], k: Frac
     slopes = [sign * evaluate(slope, at, BALLS) for slope in first.values()]
     height = sign * evaluate(formula, at, BALLS) - _dot(slopes, touch)
     if not branch.convex:
-        for one, other in combinations_with_replacement(ranges, 2):
-            bend = sign * _over(derivative(first[one], other), ranges, k)
-            away = [[end - at[name] for end in ranges[name]] for name in (one, other)]
+        for left, right in combinations_with_replacement(ranges, 2):
+            bend = sign * _over(derivative(first[left], right), ranges, k)
+            away = [[end - at[name] for end in ranges[name]] for name in (left, right)]
             # products of ends, for balls around products of ranges that begin at 0 would be wider by a half
-            ends = [x * y for x, y in product(*away)] if one != other else [arb(0), *(x * x / 2 for x in away[0])]
+            ends = [x * y for x, y in product(*away)] if left != right else [arb(0), *(x * x / 2 for x in away[0])]
             height += _least([bend.lower() * end for end in ends] + [bend.upper() * end for end in ends])
     finite = height.is_finite() and all(slope.is_finite() for slope in slopes)
     return (slopes, height) if finite else None
@@ -377,7 +377,7 @@ def _over(formula: Formula, ranges: dict[str, tuple[arb, arb]], k: Fraction, dep
     low, high = ranges[widest]
     middle = ((low + high) / 2).mid()
     halves = (_over(formula, ranges | {widest: half}, k, depth + 1) for half in ((low, middle), (middle, high)))
-    return reduce(lambda one, other: one.union(other), halves)
+    return reduce(arb.union, halves)
 
 
 def _least(values: Sequence[arb]) -> arb:

@@ -126,11 +126,11 @@ class ExactLaw:
 
     def extremes(self, nu: int, start: Fraction = Fraction(0), stop: Fraction = Fraction(1)) -> Extremes:
         """Balls that hold the least and the greatest value of the derivative of order nu between two k."""
-        asked = (nu, start, stop)
-        if asked not in self._extremes:
+        key = (nu, start, stop)
+        if key not in self._extremes:
             with ctx.workprec(self.precision):
-                self._extremes[asked] = self._enclosed(nu, start, stop)
-        return self._extremes[asked]
+                self._extremes[key] = self._enclosed(nu, start, stop)
+        return self._extremes[key]
 
     def _enclosed(self, nu: int, start: Fraction, stop: Fraction) -> Extremes:
         if start == stop:

@@ -309,10 +309,10 @@ class ExactRows:
             self._everywhere(RowName.FORWARD, partial(self.space.values, 1), (-1.0,), UpperLimit())
             if self.space.divided:
                 self._everywhere(RowName.RATIO, self.space.ratio, (1.0,), UpperLimit())
-        for constant, wanted in problem.bounded:
-            self._range(constant, wanted)
-        for asked in self.space.conditions:
-            self._equal(BallRow(self.space.condition(asked), {}, -ball(asked.value)))
+        for constant, limits in problem.bounded:
+            self._range(constant, limits)
+        for condition in self.space.conditions:
+            self._equal(BallRow(self.space.condition(condition), {}, -ball(condition.value)))
         for i, window in enumerate(problem.windows, 1):
             halves = (names.window(i), names.mirrored(names.window(i)))
             if window.motion is not None:
@@ -321,21 +321,21 @@ class ExactRows:
             for part, name in zip(parts(window, symmetric=problem.symmetric), halves, strict=False):
                 self._window(name, window, part)
 
-    def _range(self, constant: Functional, wanted: Range) -> None:
+    def _range(self, constant: Functional, limits: Range) -> None:
         name = constant.name
-        if name in self.names and wanted.low > 0.0:
-            self._single(names.at_least(name), {name: -1.0}, -wanted.low)
-        if not isfinite(wanted.high):
+        if name in self.names and limits.low > 0.0:
+            self._single(names.at_least(name), {name: -1.0}, -limits.low)
+        if not isfinite(limits.high):
             return
         if name in self.names:
-            self._single(names.at_most(name), {name: 1.0}, wanted.high)
+            self._single(names.at_most(name), {name: 1.0}, limits.high)
         else:
-            self._bounded(constant, UpperLimit(high=wanted.high))
+            self._bounded(constant, UpperLimit(high=limits.high))
 
     def _peak(self) -> None:
         """What makes b greatest at one k, and B its value there."""
-        problem, space, wanted = self.problem, self.space, self.problem.range("B")
-        fixed = wanted.high if wanted is not None and wanted.fixed else None
+        problem, space, limits = self.problem, self.space, self.problem.range("B")
+        fixed = limits.high if limits is not None and limits.fixed else None
         if fixed is not None and not problem.symmetric:
             self._equal(BallRow([arb(0)] * (space.terms + 1), {"B": 1.0}, -ball(fixed)))
         if problem.peak_at is None:
@@ -351,20 +351,20 @@ class ExactRows:
 
     def _velocity(self) -> None:
         """Rows |b| <= B and the bounds of B."""
-        problem, wanted = self.problem, self.problem.range("B")
-        if wanted is None:
+        problem, limits = self.problem, self.problem.range("B")
+        if limits is None:
             return
         if problem.peak_is_variable:
             self._everywhere(RowName.VELOCITY, partial(self.space.values, 1), (1.0, -1.0), UpperLimit({"B": -1.0}))
-        elif wanted.fixed:
+        elif limits.fixed:
             self._add(RowName.VELOCITY, self._below_middle, (1.0, -1.0))
         else:
-            self._range(B, wanted)
+            self._range(B, limits)
             return
-        if not wanted.fixed:
-            if isfinite(wanted.high):
-                self._single(names.at_most("B"), {"B": 1.0}, wanted.high)
-            self._single(names.at_least("B"), {"B": -1.0}, -wanted.low)
+        if not limits.fixed:
+            if isfinite(limits.high):
+                self._single(names.at_most("B"), {"B": 1.0}, limits.high)
+            self._single(names.at_least("B"), {"B": -1.0}, -limits.low)
 
     def _below_middle(self, contact: Contact, k: Fraction) -> BallRow:
         pairs = zip(self.space.values(1, k), self.space.values(1, Fraction(1, 2)), strict=True)
@@ -418,7 +418,7 @@ def parts(window: Window, *, symmetric: bool) -> Iterator[WindowPart]:
 
 def _is_bounded(power: PowerConstant, problem: Problem) -> bool:
     """Whether it is bounded from above, by the objective or by a number: only then do rows have its root."""
-    high = (constant for constant, wanted in problem.bounded if isfinite(wanted.high))
+    high = (constant for constant, limits in problem.bounded if isfinite(limits.high))
     return any(constant == power for constant in (*(leaf for _, leaf in leaves(problem.objective)), *high))
 
 

@@ -86,12 +86,12 @@ class ExactSpace:
         """Values of the derivatives of order nu at k."""
         return values(self.derivative(nu)[self.piece(k)], x_of(k))
 
-    def condition(self, asked: Condition) -> list[arb]:
+    def condition(self, condition: Condition) -> list[arb]:
         """The row of a condition: what each function has of it, the base law last."""
-        row = self.values(asked.nu, asked.k)
-        if asked.less is None:
+        row = self.values(condition.nu, condition.k)
+        if condition.less is None:
             return row
-        return [entry - other for entry, other in zip(row, self.values(asked.nu, asked.less), strict=True)]
+        return [entry - other for entry, other in zip(row, self.values(condition.nu, condition.less), strict=True)]
 
     def on_piece(self, nu: int, piece: int, x: arb) -> list[arb]:
         """Values of the derivatives of order nu at x = 2k - 1, by the polynomials of a piece."""

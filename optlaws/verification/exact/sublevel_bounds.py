@@ -79,9 +79,9 @@ def greatest_values(certificate: Certificate, rows: ExactRows, claim: float) -> 
     if certificate.program != VIOLATION:
         _spread(problem.objective, Fraction(claim), least_values(problem, rows), greatest)
     for name in ("B", *(constant.name for constant, _ in problem.bounded)):
-        asked = problem.range(name)
-        if asked is not None:
-            greatest[name] = min(greatest.get(name, inf), asked.high)
+        limits = problem.range(name)
+        if limits is not None:
+            greatest[name] = min(greatest.get(name, inf), limits.high)
     if rows.power is not None and isfinite(greatest.get(rows.power.name, inf)):
         greatest[VariableName.POWER_ROOT] = rounded_up(upper(ball(greatest[rows.power.name]).sqrt()))
     start = rows.space.bounds.start_velocity
@@ -184,12 +184,12 @@ def _term(problem: Problem, term: Term) -> Fraction:
     if name.startswith(tuple(_LEAST_OF_CAMS)):
         known(term)
         return _LEAST_OF_CAMS[name[: name.index("(") + 1]]
-    wanted = problem.range("B")
+    limits = problem.range("B")
     if name not in {"C", "D"}:
         return Fraction(0)
-    if wanted is None or not wanted.fixed or problem.inflexion is not None:
+    if limits is None or not limits.fixed or problem.inflexion is not None:
         return Fraction(4) if name == "C" else Fraction(9, 4)
-    B = Fraction(wanted.high)
+    B = Fraction(limits.high)
     return _acceleration(B, monotone=problem.monotone) if name == "C" else _power(B, monotone=problem.monotone)
 
 

@@ -59,16 +59,16 @@ _FIRST = {(1, 0.0): (0, 1.0), (2, 1.0): (1, 1.0), (3, 0.0): (0, 0.0), (3, 1.0): 
 
 def cone(amplitudes: Callable[[Fraction], list[acb]], limit: UpperLimit, unit: arb) -> Maker:
     """A direction times a complex amplitude is at most its magnitude."""
-    kept: dict[Fraction, list[acb]] = {}
+    known: dict[Fraction, list[acb]] = {}
 
     def make(contact: Contact, k: Fraction) -> BallRow:
         if len(contact.direction) != 2:
             raise LookupError
-        if k not in kept:
-            kept[k] = amplitudes(k)
+        if k not in known:
+            known[k] = amplitudes(k)
         real, imaginary = (ball(value) for value in contact.direction)
         length = (real**2 + imaginary**2).sqrt().max(arb(1))
-        return limit.row(((value.real * real + value.imag * imaginary) / length for value in kept[k]), unit)
+        return limit.row(((value.real * real + value.imag * imaginary) / length for value in known[k]), unit)
 
     return make
 

@@ -13,6 +13,7 @@ from flint import acb, acb_series, arb, arb_poly, fmpq
 
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
+from optlaws.numerics.tolerances import SAME_FREQUENCY, SAME_ROOT, TAYLOR_REST, VIBRATING
 from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.verification.enclosing.balls import ball
 from optlaws.verification.enclosing.pieces import PolynomialPiece
@@ -25,8 +26,8 @@ from optlaws.verification.machines.transfer import MachineConstant, Rational, ro
 Ends = tuple[list[fmpq], list[fmpq]]
 Number = TypeVar("Number", acb, acb_series)
 _HALF = Fraction(1, 2)
-#: how little what is left of Taylor polynomials may be, of the function, and the shortest stretch
-_NOTHING, _SHORTEST = 2.0**-80, Fraction(1, 2**20)
+#: no stretch with a Taylor polynomial of its own is shorter
+_SHORTEST = Fraction(1, 2**20)
 
 
 def ends_of(space: Space) -> list[list[Ends]]:
@@ -105,7 +106,7 @@ def _parts(
 
 def _next_to_nothing(parts: Sequence[Taylor], _: Fraction) -> bool:
     centre, rest = parts[0]
-    return bool(rest <= _NOTHING * sum(map(abs, centre[:2]), arb(0)))
+    return bool(rest <= TAYLOR_REST * sum(map(abs, centre[:2]), arb(0)))
 
 
 def _squared(series: list[acb]) -> arb_poly:
@@ -165,9 +166,6 @@ class ExactResidual:
 
 
 Corner = tuple[arb, arb]
-#: of a root's size: what vibrates less is a decay, what is no further away is the same vibration, and what differs no
-#: more in size has no number of its own
-_VIBRATING, _SAME, _APART = 1e-6, 1e-6, 1e-9
 
 
 @runtime_checkable
@@ -242,10 +240,10 @@ class ExactModeResidual:
     @kept_property
     def edges(self) -> list[ExactEdge]:
         """The edges of the box, one where it is thin, as optlaws.mechanisms numbers them."""
-        own = (-self.root.real / abs(self.root)).asin()
+        angle = (-self.root.real / abs(self.root)).asin()
         spread, dampings = Fraction(self.constant.spread), self.constant.dampings
         low, high = abs(self.root) * ball(1 - spread), abs(self.root) * ball(1 + spread)
-        least, most = (own, own) if dampings is None else (ball(damping).asin() for damping in dampings)
+        least, most = (angle, angle) if dampings is None else (ball(damping).asin() for damping in dampings)
         if dampings is None or dampings[0] == dampings[1]:
             return [ExactEdge((low, least), (high, least), single=not spread)]
         if not spread:
@@ -271,15 +269,15 @@ class ExactModeResidual:
 
 def vibrations(poles: Sequence[tuple[acb, int]]) -> list[list[tuple[acb, int]]]:
     """Roots of vibrations above the real line, the slowest first, those that are nearly the same together."""
-    upper = [pole for pole in poles if pole[0].imag > ball(_VIBRATING) * abs(pole[0])]
+    upper = [pole for pole in poles if pole[0].imag > ball(VIBRATING) * abs(pole[0])]
     groups: list[list[tuple[acb, int]]] = []
     for pole in sorted(upper, key=lambda pole: float(abs(pole[0]).mid())):
         size = abs(pole[0])
-        near = [group for group in groups if abs(group[0][0] - pole[0]) <= ball(_SAME) * size.max(arb(1))]
+        near = [group for group in groups if abs(group[0][0] - pole[0]) <= ball(SAME_ROOT) * size.max(arb(1))]
         if near:
             near[0].append(pole)
             continue
-        if groups and not size > abs(groups[-1][0][0]) * ball(1 + _APART):
+        if groups and not size > abs(groups[-1][0][0]) * ball(1 + SAME_FREQUENCY):
             raise InputError("two modes of the machine have the same frequency: which is the first cannot be told")
         groups.append([pole])
     return groups

@@ -10,6 +10,7 @@ from math import comb, factorial
 from flint import acb, acb_mat, arb, arb_mat, arb_poly
 
 from optlaws.errors import InputError
+from optlaws.numerics.tolerances import OUTPUT_REST
 from optlaws.verification.enclosing.balls import ball
 from optlaws.verification.enclosing.taylor_models import greatest_magnitude
 from optlaws.verification.machines.output_motion import OutputMotion, OutputStretch
@@ -17,8 +18,6 @@ from optlaws.verification.machines.transfer import Pole
 
 #: terms of the polynomials, beside those that the law itself needs
 _TERMS = 48
-#: what is next to nothing, of what the output is made of
-_NOTHING = 2.0**-150
 _MOST = 20000
 
 
@@ -73,7 +72,7 @@ def _cell(motion: OutputMotion, stretch: OutputStretch, low: Fraction, high: Fra
             size += sum(map(abs, row), arb(0))
     size += sum((abs(value) for value in stretch.polynomials.entries()), arb(0))
     # what only rounding is made of needs no smaller cells
-    if any(not distance < _NOTHING * size for distance in off) and any(bool(distance > 0) for distance in off):
+    if any(not distance < OUTPUT_REST * size for distance in off) and any(bool(distance > 0) for distance in off):
         return None
     series = _shifted(stretch.polynomials, centre, half, count)
     for pole, free in zip(motion.poles, stretch.free, strict=True):
