@@ -18,7 +18,7 @@ from optlaws.numerics.tolerances import (
     SMALL_OBJECTIVE,
     WIDE_GAP,
 )
-from optlaws.synthesis.arrays.cells import Cells, excess, excess_at
+from optlaws.synthesis.arrays.cells import Cells, Residuals, excess_at
 from optlaws.synthesis.arrays.dual_bounds import lower_bounds, sharp_bounds
 from optlaws.synthesis.arrays.newton_steps import States, Structure, batch_families, locally_optimal, product, with_one
 from optlaws.synthesis.arrays.programs import Numbers, Path
@@ -145,7 +145,8 @@ class RowChecks:
         """By how much each law may break the rows of any family, relative to the right side or 1."""
         shortfalls = np.zeros(len(point))
         if self._wide:
-            shortfalls = excess(self._cells, point, room[:, list(self._wide)], [touching[i] for i in self._wide])
+            wide = room[:, list(self._wide)], [touching[i] for i in self._wide]
+            shortfalls = Residuals(self._cells, point, *wide).excess()
         for i, family in enumerate(self.families):
             if isinstance(family, NonlinearFamily):
                 over = np.maximum(family.greatest(point) - room[:, i], 0.0) / np.maximum(1.0, np.abs(room[:, i]))

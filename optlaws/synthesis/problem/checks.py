@@ -9,7 +9,7 @@ from optlaws.errors import InputError
 from optlaws.numbers import MOST_ORDER, MOST_VELOCITY, real, whole
 from optlaws.synthesis.problem.expression import Expression, Term, leaves
 from optlaws.synthesis.problem.named_constants import expression, is_named
-from optlaws.synthesis.problem.ranges import Bounds, Range, as_range
+from optlaws.synthesis.problem.ranges import Range, as_range
 from optlaws.synthesis.problem.windows import Window
 from optlaws.synthesis.spaces.bases import Basis
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
@@ -55,11 +55,6 @@ def windows(given: Any) -> tuple[Window, ...]:  # noqa: ANN401 - they are checke
         if not isinstance(window, Window):
             raise InputError(f"windows must be Window values such as via('a', 0.3, at=0.4), got {shortened(window)}")
     return several
-
-
-def bounds(given: Any) -> Bounds:  # noqa: ANN401 - it is checked here
-    """What is asked of constants by name."""
-    return Bounds(given)
 
 
 def inflexion(k: Any) -> float | None:  # noqa: ANN401 - it is checked here

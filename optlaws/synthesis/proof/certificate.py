@@ -216,10 +216,10 @@ class Certificate:
         entries = stored.stated_certificate(data)
         problem = stored.problem_of(entries.problem)
         if isinstance(entries, stored.StatedLeaf):
-            contacts = tuple(map(stored.contact_of, entries.contacts))
+            contacts = stored.contacts_of(entries.contacts)
             return cls.of_leaf(problem, contacts, entries.equations, entries.program, entries.tangent)
         if isinstance(entries, stored.StatedBoxes):
-            return cls(problem, entries.claim, stored.tree_of_steps(entries.steps), points=entries.points)
+            return cls(problem, entries.claim, tuple(map(stored.node_of, entries.steps)), points=entries.points)
         tree = stored.tree_of_cells(entries.cells, roots_of(problem, entries.constant))
         return cls(problem, entries.claim, tree, peak=entries.constant)
 

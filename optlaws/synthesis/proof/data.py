@@ -136,9 +136,9 @@ def problem_of(data: dict[str, Any]) -> Problem:
         raise InputError(f"problem: {error}") from None
 
 
-def contact_of(entries: StatedContact) -> Contact:
-    """The contact that entries of a file describe."""
-    return Contact(entries.constraint, entries.sign, entries.k, entries.multiplier, entries.direction)
+def contacts_of(entries: Sequence[StatedContact]) -> tuple[Contact, ...]:
+    """The contacts that entries of a file describe."""
+    return tuple(Contact(*msgspec.structs.astuple(contact)) for contact in entries)
 
 
 def sum_of(leaf: Leaf) -> dict[str, Any]:
@@ -160,18 +160,14 @@ def _step(node: Leaf) -> dict[str, Any]:
     return {"variable": moved[0], "side": moved[1], **own, "claim": node.claim}
 
 
-def tree_of_steps(entries: Sequence[StatedStep]) -> tuple[Node, ...]:
-    """The tree whose nodes were stated."""
-    return tuple(map(_node, entries))
-
-
-def _node(entries: StatedStep) -> Node:
+def node_of(entries: StatedStep) -> Node:
+    """The node of a tree over boxes that a step describes."""
     own = (entries.side, entries.contacts, entries.equations, entries.claim)
     if entries.at is not None and own == (None, None, None, None):
         return Split(entries.variable, entries.at)
     if entries.at is not None or None in own:
         raise InputError("this is not a certificate: a step has side, contacts, equations and claim, a split has at")
-    contacts, equations, claim = tuple(map(contact_of, entries.contacts or ())), entries.equations or (), entries.claim
+    contacts, equations, claim = contacts_of(entries.contacts or ()), entries.equations or (), entries.claim
     tightening = Tightening(contacts, equations, claim or 0.0, variable=entries.variable, side=entries.side or 0)
     return tightening if entries.variable != -1 else Leaf(contacts, equations, claim or 0.0)
 
@@ -209,7 +205,7 @@ def _divided(root: PlaceRange, leaves: list[tuple[PlaceRange, StatedCell]]) -> I
         here, inside = ranges.pop()
         if len(inside) == 1 and inside[0][0] == here:
             cell = inside[0][1]
-            yield Leaf(tuple(map(contact_of, cell.contacts)), cell.equations)
+            yield Leaf(contacts_of(cell.contacts), cell.equations)
             continue
         edges = [place.high for place, _ in inside[:-1]]
         if not edges or not here.low < edges[0] <= edges[-1] < here.high:

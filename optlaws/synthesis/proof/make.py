@@ -97,7 +97,7 @@ def _of_convex(model: Model, optimum: ActiveSet, objective: float) -> Certificat
         return proof
     # constants that are nowhere below 0 bound their sum without a contact
     proof = max(proof, Certificate.of_leaf(model.problem), key=lambda known: known.bound)
-    several = by_tangents(model, optimum, objective) if needs_tangents(model) else None
+    several = _Tangents(model, optimum).certificate(objective) if _needs_tangents(model) else None
     several = None if several is None else _held(model, several)
     return several if several is not None and several.bound > proof.bound else proof
 
@@ -256,17 +256,12 @@ _AROUND = 10.0
 _MOST_TANGENTS = 600
 
 
-def needs_tangents(model: Model) -> bool:
+def _needs_tangents(model: Model) -> bool:
     """Whether the program has convex integrals with kinks, and else rows that are straight."""
     families = model.program.families
     kinked = [family for family in families if isinstance(family, KinkedIntegralFamily)]
     others = [family for family in families if not isinstance(family, KinkedIntegralFamily | LinearFamily)]
     return bool(kinked) and not others and all(family.convex for family in kinked)
-
-
-def by_tangents(model: Model, optimum: ActiveSet, objective: float) -> Certificate | None:
-    """The best certificate that tangents around an optimum lead to; None where there is none."""
-    return _Tangents(model, optimum).certificate(objective)
 
 
 class _Tangents:
@@ -297,7 +292,7 @@ class _Tangents:
                 self.rows.append((family, point, row))
 
     def certificate(self, objective: float) -> Certificate | None:
-        """Of the vertices, each of which shows where the next tangents touch."""
+        """The best certificate of vertices, each of which shows where the next tangents touch; None where none is."""
         best: Certificate | None = None
         for _ in range(_ROUNDS):
             families, points = self._families()

@@ -20,7 +20,7 @@ from optlaws.numbers import Array, bounded, real
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.evaluation import worth
 from optlaws.synthesis.proof.certificate import OBJECTIVE, Certificate
-from optlaws.synthesis.proof.data import StatedContact, contact_of, problem_of, stated
+from optlaws.synthesis.proof.data import StatedContact, contacts_of, problem_of, stated
 from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.proven.swept_parameter import SweptParameter, gap_bounds, lower_line
 from optlaws.synthesis.solution import measure
@@ -377,7 +377,7 @@ def front_of(stated_front: StatedFront) -> ProvenFront:
     """The front that was stated."""
     number = SweptParameter(problem_of(stated_front.problem), stated_front.runs)
     proofs = [
-        Certificate.of_leaf(number.at(point.at), tuple(map(contact_of, point.contacts)), point.equations)
+        Certificate.of_leaf(number.at(point.at), contacts_of(point.contacts), point.equations)
         for point in stated_front.points
     ]
     laws = tuple(MotionLaw.from_dict(point.law) for point in stated_front.points)

@@ -206,7 +206,7 @@ class _Chains:
             free = [acb_mat(_weighted(pole, rows)) for pole, rows in zip(self.poles, away, strict=True)]
             yield OutputStretch(drive.start, drive.length, self._polynomials(drive), free)
             states = [
-                part + _propagated(pole, ball(drive.length), rows)
+                part + _chain(pole, ball(drive.length)) * rows
                 for pole, rows, (_, part) in zip(self.poles, away, forced, strict=True)
             ]
         self.last = states
@@ -284,12 +284,8 @@ def _weighted(pole: Pole, away: acb_mat) -> acb_mat:
     return acb_mat(turn) * away
 
 
-def _propagated(pole: Pole, length: arb, away: acb_mat) -> acb_mat:
-    """The chain's free motion after a time."""
-    return _chain(pole, length) * away
-
-
 def _chain(pole: Pole, length: arb) -> acb_mat:
+    """The matrix that takes a chain's states to those of its free motion after a time."""
     wave, count = (pole.root * length).exp(), len(pole.shares)
     terms = [wave * length**i / factorial(i) for i in range(count)]
     return acb_mat([[terms[i - j] if j <= i else acb(0) for j in range(count)] for i in range(count)])
