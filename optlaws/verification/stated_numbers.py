@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from math import inf
-from numbers import Real
 from typing import Any
 
 from flint import arb, ctx, fmpq, fmpq_poly
 
 from optlaws.errors import InputError
+from optlaws.numbers import real
 from optlaws.numerics.tolerances import COEFFICIENT_ROUNDING, STATED_BOUND, STATED_CONSTANT, STATED_PLACE
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.limits.rounding import rounded_down
@@ -106,7 +106,7 @@ def _of_z(z: object, problem: Problem, law: ExactLaw) -> Claim:
     basis, order, conditions = problem.basis, problem.order, problem.conditions
     if not isinstance(basis, PolynomialBasis | PiecewiseBasis):
         raise InputError(f"z is given, but laws in {basis!r} have no Z")
-    if not isinstance(z, list | tuple) or not all(map(_is_number, z)):
+    if not isinstance(z, list | tuple) or any(real(coefficient) is None for coefficient in z):
         raise InputError(f"z must be a list of numbers, got {z!r}")
     if len(z) != basis.size:
         return Claim("Z", proven=False, detail=f"it has {len(z)} coefficients, {basis!r} has {basis.size}")
@@ -136,7 +136,3 @@ def _small(name: str, off: list[fmpq_poly], law: ExactLaw, allowed: float) -> Cl
             return Claim(name, proven=False, detail=f"off by {least:.1e} or more, {allowed:.1e} is allowed")
         by = enclosed(law.magnitude(least_and_greatest([value for part in off for value in between(part, *_WHOLE)])))[1]
     return Claim(name, by <= allowed, f"off by at most {by:.1e}, {allowed:.1e} is allowed")
-
-
-def _is_number(value: object) -> bool:
-    return isinstance(value, Real) and not isinstance(value, bool)

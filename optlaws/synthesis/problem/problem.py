@@ -291,7 +291,8 @@ class Problem:
     @property
     def _said(self) -> list[str]:
         """The entries that the problem says: some always, others where they are given."""
-        return [field.name for field in fields(self) if field.name in _ALWAYS or _given(self, field)]
+        given = {entry.name for entry in fields(self) if getattr(self, entry.name) != entry.default}
+        return [entry.name for entry in fields(self) if entry.name in _ALWAYS or entry.name in given]
 
 
 #: what a problem always says
@@ -311,10 +312,6 @@ def _as_code(code: str, short: Mapping[str, str]) -> str:
     for name, text in short.items():
         code = code.replace(repr(name), text).replace(repr(name)[1:-1], f"{{{text}}}")
     return f"f{code}" if code.startswith(("'", '"')) and "{" in code else code
-
-
-def _given(problem: Problem, entry: Any) -> bool:  # noqa: ANN401 - a dataclass field
-    return bool(getattr(problem, entry.name) != entry.default)
 
 
 @lru_cache(maxsize=MOST_ORDER)

@@ -146,18 +146,21 @@ def sum_of(leaf: Leaf) -> dict[str, Any]:
     return {"contacts": [asdict(contact) for contact in leaf.contacts], "equations": list(leaf.equations)}
 
 
+def brief_sum_of(leaf: Leaf) -> dict[str, Any]:
+    """The same without directions of contacts that have none."""
+    plain = sum_of(leaf)
+    contacts = [{name: value for name, value in contact.items() if value != ()} for contact in plain["contacts"]]
+    return {**plain, "contacts": contacts}
+
+
 def steps(tree: Sequence[Node]) -> list[dict[str, Any]]:
     """The nodes of a tree over boxes as plain data; a leaf is a step of the variable -1."""
     return [asdict(node) if isinstance(node, Split) else _step(node) for node in tree]
 
 
 def _step(node: Leaf) -> dict[str, Any]:
-    moved = (node.variable, node.side) if isinstance(node, Tightening) else (-1, 1)
-    own = sum_of(node)
-    for contact in own["contacts"]:
-        if not contact["direction"]:
-            del contact["direction"]
-    return {"variable": moved[0], "side": moved[1], **own, "claim": node.claim}
+    variable, side = (node.variable, node.side) if isinstance(node, Tightening) else (-1, 1)
+    return {"variable": variable, "side": side, **brief_sum_of(node), "claim": node.claim}
 
 
 def node_of(entries: StatedStep) -> Node:

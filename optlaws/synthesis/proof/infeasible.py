@@ -83,19 +83,16 @@ def failure(problem: Problem, outcome: Outcome) -> InfeasibleProblem | SolverFai
             tried=tried,
         )
     if _falls_for_ever(problem):
+        scale = problem.objective.scale
+        deep = f"{-DEPTH:.0f}" if scale == 1.0 else f"{-DEPTH * scale:g}"
         msg = (
-            f"{problem.minimise} has no least value: there are laws with {_deep(problem)} and less. A bound on C, J or "
+            f"{problem.minimise} has no least value: there are laws with {deep} and less. A bound on C, J or "
             "B from above, or end conditions of a higher order, help"
         )
         return SolverFailure(msg, problem=problem, tried=tried)
     msg = "no law was found, and none was shown not to exist; try a degree higher or lower by 2, or other numbers"
     remarks = [remark for constant in problem.constants for remark in constant.remarks]
     return SolverFailure("; mind that ".join([msg, *remarks]), problem=problem, tried=tried)
-
-
-def _deep(problem: Problem) -> str:
-    scale = problem.objective.scale
-    return f"{-DEPTH:.0f}" if scale == 1.0 else f"{-DEPTH * scale:g}"
 
 
 def _falls_for_ever(problem: Problem) -> bool:

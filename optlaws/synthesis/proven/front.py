@@ -20,7 +20,7 @@ from optlaws.numbers import Array, bounded, real
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.evaluation import worth
 from optlaws.synthesis.proof.certificate import OBJECTIVE, Certificate
-from optlaws.synthesis.proof.data import StatedContact, contacts_of, problem_of, stated
+from optlaws.synthesis.proof.data import StatedContact, brief_sum_of, contacts_of, problem_of, stated
 from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.proven.swept_parameter import SweptParameter, gap_bounds, lower_line
 from optlaws.synthesis.solution import measure
@@ -351,12 +351,7 @@ class ProvenFront:
             "problem": self.problem.to_dict(),
             "gap": self.gap,
             "points": [
-                {
-                    "at": value,
-                    "law": law.to_dict(),
-                    "contacts": [_plain(contact) for contact in proof.contacts],
-                    "equations": list(proof.equations),
-                }
+                {"at": value, "law": law.to_dict(), **brief_sum_of(proof.leaf)}
                 for value, law, proof in zip(self.values, self.laws, self.certificates, strict=True)
             ],
         }
@@ -392,8 +387,3 @@ def front_of(stated_front: StatedFront) -> ProvenFront:
 def weighted_value(number: SweptParameter, law: MotionLaw) -> float:
     """What the term whose weight runs is of a law, before it is weighted."""
     return worth(replace(number.problem, minimise=number.weighted), law).objective
-
-
-def _plain(contact: Contact) -> dict[str, Any]:
-    plain = {"constraint": contact.constraint, "sign": contact.sign, "k": contact.k, "multiplier": contact.multiplier}
-    return plain | ({"direction": list(contact.direction)} if contact.direction else {})

@@ -323,17 +323,13 @@ def basis(name: str, degree: int, **parameters: Any) -> Basis:  # noqa: ANN401 -
     >>> basis("chebyshev", 9)
     Chebyshev(degree=9)
     """
-    if not _known(name):
+    if not isinstance(name, str) or name not in Basis.kinds:
         raise InputError(f"basis {shortened(name)} is unknown; known are {', '.join(sorted(Basis.kinds))}")
     kind: Any = Basis.kinds[name]
     try:
         return cast("Basis", kind(degree=degree, **parameters))
     except TypeError as error:
         raise InputError(f"basis {name!r} does not take these parameters: {error}") from None
-
-
-def _known(name: object) -> bool:
-    return isinstance(name, str) and name in Basis.kinds
 
 
 def _sized(z: Sequence[float], chosen: PolynomialBasis) -> Sequence[float]:

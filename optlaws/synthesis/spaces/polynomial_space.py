@@ -144,7 +144,7 @@ class PolynomialSpace(LawSpace):
                 if len(lower) > 1:
                     series = -2.0 * np.asarray(chebyshev.chebder(lower), dtype=np.float64)
             else:
-                base = self.base(self._k, nu)
+                base = self.base((1.0 - self._u) / 2.0, nu)
                 values = np.column_stack([(self._shapes[nu] * self.scale[:, None]).T, base])
                 # what lies beyond the degree is rounding
                 series = from_values(values)[: 2 * self.order + self.degree + 1 - nu]
@@ -154,10 +154,6 @@ class PolynomialSpace(LawSpace):
             series.setflags(write=False)
             self._series[nu] = series
         return self._series[nu]
-
-    @property
-    def _k(self) -> Array:
-        return np.asarray((1.0 - self._u) / 2.0)
 
     def law(self, coordinates: Array) -> PolynomialLaw:
         """The law with the given coordinates (one for each free function)."""
@@ -258,11 +254,6 @@ class PolynomialSpace(LawSpace):
         """b(1/2) as a row: free functions, then the base law."""
         return self.row(1, 0.5)
 
-    @kept_property
-    def base_ratio(self) -> float:
-        """b / (k(1-k))^(l-1) of the base law S_l."""
-        return 4.0 ** (self.order - 1) * float(self.base.b(0.5))
-
     def below(self, slack: Array, peak: float = 0.5) -> ConstraintFamily:
         """Rows b <= b(peak) of laws with c(peak) = 0, divided by (2k - 2 peak)²: else they were ill posed."""
         if self.symmetric:
@@ -299,7 +290,9 @@ class PolynomialSpace(LawSpace):
 
     @kept_property
     def _ratio_scale(self) -> Array:
-        return self.scale * 4.0 ** (self.order - 1) / self.base_ratio
+        """The scale of the free functions in units of b / (k(1-k))^(l-1) of the base law S_l."""
+        power = 4.0 ** (self.order - 1)
+        return self.scale * power / (power * float(self.base.b(0.5)))
 
 
 @lru_cache(maxsize=128)

@@ -168,7 +168,8 @@ class ExactSpace:
     @kept_property
     def bounds(self) -> EndValues:
         """What the end conditions say."""
-        start, end = ([rational(Fraction(v)) for v in part] for part in _ends(self.problem))
+        conditions = self.problem.conditions
+        start, end = ([rational(Fraction(v)) for v in part] for part in (conditions.start, conditions.end))
         stroke = end[0] - start[0]
         if len(start) == 1:
             return EndValues(None, None, stroke)
@@ -220,7 +221,3 @@ def values(polynomials: Functions, x: arb) -> list[arb]:
 def x_of(k: Fraction) -> arb:
     """The place x = 2k - 1 of a k."""
     return ball(2 * k - 1)
-
-
-def _ends(problem: Problem) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    return problem.conditions.start, problem.conditions.end

@@ -53,14 +53,11 @@ def applies(problem: Problem) -> bool:
     )
     if not known or not any(open_ones):
         return False
-    sides, integrals = _own_sides(model, 1.0), {family.name for family in model.program.families if _summed(family)}
+    sides = _own_sides(model, 1.0)
+    integrals = {family.name for family in model.program.families if isinstance(family, IntegralFamily)}
     # an integral is no less than its formula is in the first box
     low = [name in integrals or isfinite(end) for name, end in zip(_own_names(model), sides[:, 0], strict=True)]
     return all(low) and bool(np.isfinite(sides[:, 1]).all()) and "B" in _greatest(model, 1.0)
-
-
-def _summed(family: ConstraintFamily) -> bool:
-    return isinstance(family, IntegralFamily)
 
 
 def _own_names(model: Model) -> list[str]:

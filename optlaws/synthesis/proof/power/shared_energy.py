@@ -19,7 +19,6 @@ from optlaws.numbers import Array
 from optlaws.numerics.tolerances import AWAY_FROM_REST, ENERGY_OUTWARD, FLAT_SECANT, MIDDLE, SECANT_SERIES
 from optlaws.synthesis.families.energy import Energy, EnergyFamily
 from optlaws.synthesis.families.family import ConstraintFamily
-from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import model_of
@@ -145,7 +144,7 @@ class EnergyRows(BoxRows):
         self.peaks = {family.name: family for family in self.shared if len(family.factors) > 1}
         self.energy: Energy = self.shared[0].energy
         self.greatest = asked_or_claimed(self.model, claim)
-        self.least = {constant.name: _limit(constant, problem) for constant in problem.constants}
+        self.least = {constant.name: float(constant.limit(problem) or 0.0) for constant in problem.constants}
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -345,11 +344,6 @@ class EnergyRows(BoxRows):
 
     def _greatest(self, name: str) -> float:
         return self.greatest[name]
-
-
-def _limit(constant: Functional, problem: Problem) -> float:
-    least = constant.limit(problem)
-    return 0.0 if least is None else float(least)
 
 
 def _named(peak: str, planes: str) -> str:
