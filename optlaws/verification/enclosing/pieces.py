@@ -47,7 +47,7 @@ class PolynomialPiece(ExactPiece):
     (-3/2)*x^2 + 3/2
     """
 
-    def __init__(self, start: Fraction, stop: Fraction, segment: PolynomialSegment, a0: float = 0.0) -> None:
+    def __init__(self, start: Fraction, stop: Fraction, segment: PolynomialSegment) -> None:
         super().__init__(start, stop)
         #: as they are stored: what rounding is judged by
         self.stored = segment.acceleration
@@ -56,7 +56,7 @@ class PolynomialPiece(ExactPiece):
         for n, value in enumerate(segment.acceleration):
             c += rational(value) * fmpq_poly(fmpz_poly.chebyshev_t(n))
         b = self._risen(c, rational(segment.b0))
-        self._derivatives = [self._risen(b, rational(a0)), b, c]
+        self._derivatives = [self._risen(b, fmpq(0)), b, c]
 
     def _risen(self, slope: fmpq_poly, start: fmpq) -> fmpq_poly:
         integral = slope.integral() / self.rate
