@@ -41,11 +41,7 @@ _FACTORS = 24
 
 _POWER = Product((Name("b"), Name("c")))
 _LATER = added([Number(1.0), opposite(Name("k"))])
-_MIRRORED: dict[str, Formula] = {
-    "k": _LATER,
-    "a": added([Number(1.0), opposite(Name("a"))]),
-    "c": opposite(Name("c")),
-}
+_MIRRORED: dict[str, Formula] = {"k": _LATER, "a": added([Number(1.0), opposite(Name("a"))]), "c": opposite(Name("c"))}
 
 
 @dataclass(frozen=True)

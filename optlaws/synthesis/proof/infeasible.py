@@ -30,10 +30,7 @@ from optlaws.synthesis.spaces.bases import Basis, PolynomialBasis
 
 _ROUNDS = 6
 _PLAIN = 2  # so few equations contradict each other whatever freedom the law has
-_MORE_FREEDOM = {
-    PolynomialBasis: "A higher degree of Z",
-    Basis: "More pieces, a higher degree, a lower continuity",
-}
+_MORE_FREEDOM = {PolynomialBasis: "A higher degree of Z", Basis: "More pieces, a higher degree, a lower continuity"}
 
 _TEXT = {
     RowName.BELOW_PEAK: "b <= B",

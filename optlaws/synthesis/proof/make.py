@@ -34,13 +34,7 @@ from optlaws.synthesis.method.exchange import solve
 from optlaws.synthesis.problem.constants import D
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, relaxed, relaxed_power
-from optlaws.synthesis.proof.certificate import (
-    OBJECTIVE,
-    RELAXED,
-    VIOLATION,
-    Certificate,
-    weighted_rows,
-)
+from optlaws.synthesis.proof.certificate import OBJECTIVE, RELAXED, VIOLATION, Certificate, weighted_rows
 from optlaws.synthesis.proof.duality import row_of, summed
 from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.proof.sublevel_bounds import least_values
@@ -110,10 +104,7 @@ def _by_the_peak(problem: Problem) -> Certificate | None:
         return None
     loose = relaxed(problem, problem.B)
     pull = 2.0 * weight * problem.B
-    contacts = (
-        Contact(RowName.TANGENT, 1.0, 0.0, weight),
-        Contact(RowName.FROM_START, 1.0, 0.5, pull),
-    )
+    contacts = (Contact(RowName.TANGENT, 1.0, 0.0, weight), Contact(RowName.FROM_START, 1.0, 0.5, pull))
     equations = [0.0] * len(loose.program.right)
     equations[loose.equation_names.index(velocity_at_peak(0.5))] = -pull
     return Certificate.of_leaf(problem, contacts, equations, RELAXED, problem.B)

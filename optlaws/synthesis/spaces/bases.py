@@ -27,12 +27,7 @@ from optlaws.numbers import (
     positive,
     whole,
 )
-from optlaws.numerics.exact import (
-    chebyshev_from_powers,
-    exact_powers,
-    powers_from_chebyshev,
-    rounded,
-)
+from optlaws.numerics.exact import chebyshev_from_powers, exact_powers, powers_from_chebyshev, rounded
 from optlaws.numerics.tolerances import MIRROR
 
 

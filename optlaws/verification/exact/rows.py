@@ -43,15 +43,7 @@ from optlaws.verification.exact.motion_formulas import (
     tangent_integral,
 )
 from optlaws.verification.exact.of_basis import exact_space
-from optlaws.verification.machines.certificate_rows import (
-    BallRow,
-    Corner,
-    Maker,
-    Names,
-    UpperLimit,
-    cone,
-    mode_edges,
-)
+from optlaws.verification.machines.certificate_rows import BallRow, Corner, Maker, Names, UpperLimit, cone, mode_edges
 from optlaws.verification.machines.outputs import KnownOutput, KnownOutputRms, OutputRows
 from optlaws.verification.machines.residuals import ExactResidual, ModeConstant, ResidualConstant
 
