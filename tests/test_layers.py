@@ -377,6 +377,10 @@ FREE_OF_VAGUE_NAMES = (
     "motion",
     "plots",
     "numerics",
+    "synthesis/limits",
+    "synthesis/problem",
+    "synthesis/proof",
+    "synthesis/spaces",
     "verification",
 )
 

@@ -33,9 +33,9 @@ def constant(value: Any, name: str) -> float | Range | None:  # noqa: ANN401 - i
     return limits.high if limits.fixed else limits
 
 
-def constant_of_bounds(value: Any, asked: Range, name: str) -> float | Range | None:  # noqa: ANN401
+def constant_of_bounds(value: Any, limits: Range, name: str) -> float | Range | None:  # noqa: ANN401
     """What `bounds` ask of a constant that has an entry of its own, where that asks nothing."""
-    plain = asked.high if asked.fixed else asked
+    plain = limits.high if limits.fixed else limits
     if value is not None:
         raise InputError(f"{name} is given twice: as {value!r} and in bounds as {plain!r}")
     return constant(plain, name)

@@ -105,12 +105,12 @@ def _read(value: Any) -> Any:  # noqa: ANN401
         kind = np.dtype(str(value["type"]))
         if kind.kind not in _NUMBERS:
             raise InputError(f"an array of entries is one of numbers, got {shortened(value['type'])}")
-        numbers = [float(one) if isinstance(one, str) else one for one in value["array"]]
+        numbers = [float(number) if isinstance(number, str) else number for number in value["array"]]
         return np.array(numbers, dtype=kind).reshape(value["shape"])
     if "objects" in value:
         objects = np.empty(len(value["objects"]), dtype=object)
-        for i, one in enumerate(value["objects"]):
-            objects[i] = _read_object(one)
+        for i, stored in enumerate(value["objects"]):
+            objects[i] = _read_object(stored)
         return objects.reshape(value["shape"])
     if "basis" in value:
         entries = dict(value["basis"])

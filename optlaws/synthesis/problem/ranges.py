@@ -133,11 +133,11 @@ class Bounds(Mapping[Functional, Range]):
     {'rms_c': at_most(4)}
     """
 
-    def __init__(self, asked: Any = ()) -> None:  # noqa: ANN401 - it is checked here
-        if not isinstance(asked, Mapping) and asked != ():
-            raise InputError(f"bounds must be a dict such as {{'rms_c': at_most(5)}}, got {shortened(asked)}")
+    def __init__(self, given: Any = ()) -> None:  # noqa: ANN401 - it is checked here
+        if not isinstance(given, Mapping) and given != ():
+            raise InputError(f"bounds must be a dict such as {{'rms_c': at_most(5)}}, got {shortened(given)}")
         self._ranges: dict[Functional, Range] = {}
-        for key, value in dict(asked).items():
+        for key, value in dict(given).items():
             constant = _constant(key)
             if constant.name in {bounded.name for bounded in self._ranges}:
                 raise InputError(f"bounds name {shortened(constant.title)} twice")

@@ -145,11 +145,11 @@ class Certificate:
         >>> proof.with_leaf(contacts=()).contacts
         ()
         """
-        own = self.leaf
+        leaf = self.leaf
         changed = replace(
-            own,
-            contacts=own.contacts if contacts is None else tuple(contacts),
-            equations=own.equations if equations is None else tuple(equations),
+            leaf,
+            contacts=leaf.contacts if contacts is None else tuple(contacts),
+            equations=leaf.equations if equations is None else tuple(equations),
         )
         return replace(self, tree=(*self.tree[:-1], changed))
 
@@ -194,15 +194,15 @@ class Certificate:
 
     def to_dict(self) -> dict[str, Any]:
         """Plain JSON-able dict with the recomputed bound (None where there is none): docs/reference/proof-format.md."""
-        own: dict[str, Any]
+        entries: dict[str, Any]
         if self.points is not None:
-            own = {"claim": self.claim, "points": list(self.points), "steps": stored.steps(self.tree)}
+            entries = {"claim": self.claim, "points": list(self.points), "steps": stored.steps(self.tree)}
         elif self.peak:
             cells = stored.cells(self.tree, roots_of(self.problem, self.peak))
-            own = {"constant": self.peak, "claim": self.claim, "cells": cells}
+            entries = {"constant": self.peak, "claim": self.claim, "cells": cells}
         else:
-            own = {"program": self.program, "tangent": self.tangent or 0.0, **stored.sum_of(self.leaf)}
-        return {"problem": self.problem.to_dict(), **own, "bound": bounded(self.bound)}
+            entries = {"program": self.program, "tangent": self.tangent or 0.0, **stored.sum_of(self.leaf)}
+        return {"problem": self.problem.to_dict(), **entries, "bound": bounded(self.bound)}
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> Certificate:

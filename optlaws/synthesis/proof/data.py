@@ -165,10 +165,10 @@ def _step(node: Leaf) -> dict[str, Any]:
 
 def node_of(entries: StatedStep) -> Node:
     """The node of a tree over boxes that a step describes."""
-    own = (entries.side, entries.contacts, entries.equations, entries.claim)
-    if entries.at is not None and own == (None, None, None, None):
+    of_leaf = (entries.side, entries.contacts, entries.equations, entries.claim)
+    if entries.at is not None and of_leaf == (None, None, None, None):
         return Split(entries.variable, entries.at)
-    if entries.at is not None or None in own:
+    if entries.at is not None or None in of_leaf:
         raise InputError("this is not a certificate: a step has side, contacts, equations and claim, a split has at")
     contacts, equations, claim = contacts_of(entries.contacts or ()), entries.equations or (), entries.claim
     tightening = Tightening(contacts, equations, claim or 0.0, variable=entries.variable, side=entries.side or 0)

@@ -125,11 +125,11 @@ def certificate(model: Model, optimum: ActiveSet, program: str, tangent: float =
     """Contacts and multipliers of an optimum in terms of k."""
     contacts = []
     for i, family in enumerate(model.program.families):
-        own = np.flatnonzero(optimum.family == i)
+        places = np.flatnonzero(optimum.family == i)
         direction: tuple[float, ...] = ()
         if isinstance(family, NormFamily):
             direction = _direction(family, np.append(optimum.x, 1.0))
-        for j, k in zip(own, family.k(optimum.u[own]), strict=True):
+        for j, k in zip(places, family.k(optimum.u[places]), strict=True):
             if isinstance(family, ConeFamily):
                 direction = family.direction(optimum.x, float(optimum.u[j]))
             if isinstance(family, FormulaFamily):
@@ -166,22 +166,22 @@ def _held(model: Model, proof: Certificate) -> Certificate:
     rows = [row_of(model.program, contact)[0] for contact in contacts]
     for name, place in model.places.items():
         # its rows may be several, with names of their own
-        own = [i for i, contact in enumerate(contacts) if contact.multiplier > 0.0 and rows[i][place] < 0.0]
-        if own and (slope[place] > 0.0 if name in falling else slope[place] < 0.0):
-            most = max(own, key=lambda i: contacts[i].multiplier)
+        rows_of_name = [i for i, contact in enumerate(contacts) if contact.multiplier > 0.0 and rows[i][place] < 0.0]
+        if rows_of_name and (slope[place] > 0.0 if name in falling else slope[place] < 0.0):
+            most = max(rows_of_name, key=lambda i: contacts[i].multiplier)
             pull = -float(rows[most][place])
             greater = contacts[most].multiplier + _MORE * float(slope[place]) / pull
             contacts[most] = replace(contacts[most], multiplier=nextafter(greater, np.copysign(np.inf, slope[place])))
-    held = proof.with_leaf(contacts=contacts)
-    return held if held.bound > proof.bound else proof
+    bounding = proof.with_leaf(contacts=contacts)
+    return bounding if bounding.bound > proof.bound else proof
 
 
 def violation_certificate(model: Model, optimum: ActiveSet) -> Certificate:
     """The certificate that no law exists, without multipliers that are mere rounding."""
     sizes = (optimum.multipliers, optimum.equality_multipliers)
     least = PROOF_WEIGHTLESS * max((float(np.abs(size).max(initial=0.0)) for size in sizes), default=0.0)
-    kept = [np.where(np.abs(size) < least, 0.0, size) for size in sizes]
-    plain = replace(optimum, multipliers=kept[0], equality_multipliers=kept[1])
+    sizeable = [np.where(np.abs(size) < least, 0.0, size) for size in sizes]
+    plain = replace(optimum, multipliers=sizeable[0], equality_multipliers=sizeable[1])
     return certificate(model, plain, VIOLATION)
 
 
@@ -291,7 +291,7 @@ class _Tangents:
             vertex = vertex_on_points(program, points)
             if vertex is None:
                 return best
-            table, ends = LinearTable(program, points), np.cumsum([len(held.u) for held in points])
+            table, ends = LinearTable(program, points), np.cumsum([len(touching.u) for touching in points])
             weights = np.concatenate(vertex.multipliers[:-1]) * table.length
             binding = weights > 0.0
             balanced = table.balanced(binding, weights, vertex.multipliers[-1])
@@ -328,13 +328,13 @@ class _Tangents:
 
     def _stated(self, weights: list[Array], points: list[Points], equations: Array) -> Certificate:
         contacts, unit = [], self.model.unit
-        for family, held, own in zip(self.straight, points, weights, strict=False):
-            for u, s, weight in zip(held.u, held.s, own, strict=True):
+        for family, touching, weights_there in zip(self.straight, points, weights, strict=False):
+            for u, s, weight in zip(touching.u, touching.s, weights_there, strict=True):
                 if weight > 0.0:
                     k = float(min(max(family.k(np.array([u]))[0], 0.0), 1.0))
                     contacts.append(Contact(family.name, float(s), k, float(weight) * (unit / family.unit)))
-        for (kinked, point, _), own in zip(self.rows, weights[len(self.straight) :], strict=False):
-            if own[0] > 0.0:
-                contacts.append(Contact(kinked.name, 1.0, 0.0, float(own[0]) * (unit / kinked.unit), point))
+        for (kinked, point, _), weights_there in zip(self.rows, weights[len(self.straight) :], strict=False):
+            if weights_there[0] > 0.0:
+                contacts.append(Contact(kinked.name, 1.0, 0.0, float(weights_there[0]) * (unit / kinked.unit), point))
         stated = self.model.program.stated_multipliers(np.asarray(equations))
         return Certificate.of_leaf(self.model.problem, contacts, stated.tolist())

@@ -71,9 +71,9 @@ def _with_equations(program: Program, x: Array, contacts: list[Contact]) -> Acti
     u, s, multipliers = (np.asarray(column, dtype=np.float64) for column in (u, s, multipliers))
     slope = program.objective.copy()
     for i, rows in enumerate(program.families):
-        own = np.flatnonzero(family == i)
-        if len(own):
-            slope += multipliers[own] @ rows.jet(x, u[own], s[own]).gradient
+        places = np.flatnonzero(family == i)
+        if len(places):
+            slope += multipliers[places] @ rows.jet(x, u[places], s[places]).gradient
     weights = np.linalg.lstsq(program.equalities.T, -slope, rcond=None)[0] if len(program.right) else np.empty(0)
     return ActiveSet(
         x=x,

@@ -31,10 +31,10 @@ def convex_part(problem: Problem) -> Problem:
     >>> convex_part(Problem(B=1.7, order=4, D=(0.0, 6.0)))
     Problem(B=1.7, order=4, basis=Chebyshev(degree=9), minimise='C')
     """
-    kept = {constant: limits for constant, limits in problem.bounded if constant.convex}
-    if len(kept) == len(problem.bounded):
+    convex_bounds = {constant: limits for constant, limits in problem.bounded if constant.convex}
+    if len(convex_bounds) == len(problem.bounded):
         return problem
-    return replace(problem, C=None, D=None, J=None, bounds=kept)
+    return replace(problem, C=None, D=None, J=None, bounds=convex_bounds)
 
 
 def least_of(problem: Problem, constant: Functional) -> Problem:
@@ -99,11 +99,11 @@ def beyond_limit(problem: Problem) -> str:
     >>> beyond_limit(Problem(B=1.7, order=4, C=(0.0, 3.0)))
     'no law of any degree has C <= 3 with the other constraints: its limit is 4.128571 (optlaws.limit). ...'
     """
-    for constant, asked in problem.bounded:
+    for constant, limits in problem.bounded:
         least = known_limit(replace(problem, minimise=constant.expression()))
-        if least is not None and asked.high < least * (1.0 - VALUE_ROUNDING):
+        if least is not None and limits.high < least * (1.0 - VALUE_ROUNDING):
             return (
-                f"no law of any degree has {constant!r} <= {asked.high:g} with the other constraints: "
+                f"no law of any degree has {constant!r} <= {limits.high:g} with the other constraints: "
                 f"its limit is {least:.7g} (optlaws.limit). A higher bound of {constant!r} helps, or another B"
             )
     return ""

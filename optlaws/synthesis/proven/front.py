@@ -196,9 +196,9 @@ class ProvenFront:
         sides: Array,
     ) -> ProvenFront:
         """A front whose laws are made when they are asked for, with what is known at each already."""
-        made = cls(number, tuple(values.tolist()), laws, certificates)
-        made.__dict__["sides"] = sides
-        return made
+        front = cls(number, tuple(values.tolist()), laws, certificates)
+        front.__dict__["sides"] = sides
+        return front
 
     @property
     def problem(self) -> Problem:
@@ -264,14 +264,14 @@ class ProvenFront:
         return self._bounds(values)[0]
 
     def _bounds(self, values: Many) -> tuple[Array, Array]:
-        asked = np.asarray(values, dtype=np.float64)
+        places = np.asarray(values, dtype=np.float64)
         low, high = self.between
-        wrong = asked[~((asked >= low) & (asked <= high))]
+        wrong = places[~((places >= low) & (places <= high))]
         if wrong.size:
             raise self._outside(float(wrong.flat[0]))
         t = np.array(self.values)
-        i = np.clip(np.searchsorted(t, asked, side="right") - 1, 0, len(t) - 2)
-        away = (asked - t[i], asked - t[i + 1])
+        i = np.clip(np.searchsorted(t, places, side="right") - 1, 0, len(t) - 2)
+        away = (places - t[i], places - t[i + 1])
         share = away[0] / (t[i + 1] - t[i])
         tops, lows, slopes = self.sides.T
         if self.number.concave:

@@ -335,5 +335,5 @@ def _sized(z: Sequence[float], chosen: PolynomialBasis) -> Sequence[float]:
 
 
 def _fitted(values: Sequence[float] | Array, size: int) -> tuple[float, ...]:
-    kept = [float(v) for v in values[:size]]
-    return tuple(kept + [0.0] * (size - len(kept)))
+    known = [float(v) for v in values[:size]]
+    return tuple(known + [0.0] * (size - len(known)))

@@ -119,9 +119,9 @@ class BoundaryConditions:
         """
         order = self.order
         end = [value / factorial(i) for i, value in enumerate(fractions(self.end, "end"))]
-        wanted = [e - a for e, a in zip(end, shifted(self.a0(), 1), strict=True)]
+        missing = [e - a for e, a in zip(end, shifted(self.a0(), 1), strict=True)]
         inverse = [Fraction((-1) ** i * comb(order + i - 1, i)) for i in range(order)]
-        return shifted(times(wanted, inverse)[:order], -1)
+        return shifted(times(missing, inverse)[:order], -1)
 
 
 @overload

@@ -204,8 +204,8 @@ class PolynomialSpace(LawSpace):
             return self.series(nu)
         total = np.zeros_like(self.series(nu))
         for i, weight in enumerate(weights):
-            own = self.series(nu + i)
-            total[: len(own)] += weight * own[: len(total)]
+            terms = self.series(nu + i)
+            total[: len(terms)] += weight * terms[: len(total)]
         return total
 
     def backward(self, slack: Array, bound: float) -> LinearFamily:

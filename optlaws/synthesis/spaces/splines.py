@@ -50,8 +50,8 @@ class PiecewiseBasis(Basis):
     def __init__(self, breaks: int | Sequence[float], degree: int = 3, continuity: int | None = None) -> None:
         object.__setattr__(self, "breaks", places(breaks))
         object.__setattr__(self, "degree", whole(degree, "degree of Z", least=2, most=MOST_PIECE_DEGREE))
-        asked = self.degree - 1 if continuity is None else continuity
-        object.__setattr__(self, "continuity", order_of_continuity(asked, self.degree))
+        order = self.degree - 1 if continuity is None else continuity
+        object.__setattr__(self, "continuity", order_of_continuity(order, self.degree))
 
     @property
     @abstractmethod
@@ -83,8 +83,8 @@ class PiecewiseBasis(Basis):
 
     def coefficients(self, series: Array) -> tuple[float, ...]:
         """The z_i of a Z given by its Chebyshev series on each piece, in least squares."""
-        wanted = np.reshape(np.asarray(series, dtype=np.float64), -1)
-        return tuple(np.linalg.lstsq(self.functions.reshape(self.size, -1).T, wanted, rcond=None)[0].tolist())
+        values = np.reshape(np.asarray(series, dtype=np.float64), -1)
+        return tuple(np.linalg.lstsq(self.functions.reshape(self.size, -1).T, values, rcond=None)[0].tolist())
 
     @kept_property
     def functions(self) -> Array:

@@ -84,12 +84,12 @@ def _greatest(model: Model, claim: float) -> dict[str, float]:
 def _own_sides(model: Model, claim: float) -> Array:
     """Least and greatest values of the program's own variables, in their order, a row each."""
     constants = {leaf.name: leaf for _, leaf in leaves(model.problem.objective) if isinstance(leaf, Functional)}
-    greatest, asked = _greatest(model, claim), model.problem.range("B")
+    greatest, limits = _greatest(model, claim), model.problem.range("B")
     sides = []
     for name in _own_names(model):
         least = constants[name].floor(model.space.boundary) if name in constants else -inf
         if name == "B":
-            least = asked.low if asked is not None else 0.0
+            least = limits.low if limits is not None else 0.0
         sides.append((least, greatest.get(name, inf)))
     return np.array(sides, dtype=np.float64).reshape(-1, 2)
 
@@ -139,14 +139,14 @@ class FormulaRows(BoxRows):
         families = self.model.program.families
         self.families = [family for family in families if isinstance(family, CurvedFamily)]
         self._orders = sorted({ORDERS[name] for family in self.families for name in family.names})
-        self._laws = {nu: self.space.derivative(nu, "", np.zeros(self.own)) for nu in self._orders}
+        self._laws = {nu: self.space.derivative(nu, "", np.zeros(self.variables)) for nu in self._orders}
         self._near: list[Array] = []
 
     def root(self) -> Box:
         """The box of all laws of the problem whose objective is below the claim."""
         low, high = self.brackets_at(self.points)
-        own = _own_sides(self.model, self.claim)
-        box = Box(np.append(low, own[:, 0]), np.append(high, own[:, 1]))
+        sides = _own_sides(self.model, self.claim)
+        box = Box(np.append(low, sides[:, 0]), np.append(high, sides[:, 1]))
         for beneath in self.integrals.values():
             place = self.model.places.get(beneath.family.name)
             if place is not None and not isfinite(box.low[place]):

@@ -82,7 +82,7 @@ class ConvexUnderestimator:
     def _taylor(self, nu: int) -> Array:
         space, planes, factor = self.rows.space, [], np.ones_like(self.reach)
         for i in range(space.degree_of(nu) + 1):
-            columns = space.widened(columns_of(space, nu + i, self.middle), self.rows.own)
+            columns = space.widened(columns_of(space, nu + i, self.middle), self.rows.variables)
             mapped = self.rows.mapped(columns)
             if i:
                 # what is given has no derivative

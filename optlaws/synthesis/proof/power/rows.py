@@ -89,17 +89,17 @@ class PowerRows(BoxRows):
     def _anchors(self) -> Anchors:
         ends = self.space.start_velocity, self.space.start_velocity + self.space.velocity_change
         anchors = Anchors(np.array([0.0, 1.0]), np.array(ends), np.array(ends))
-        asked, peak = self.problem.range("B"), self.problem.peak_at
-        if asked is not None and asked.low > 0.0 and peak is not None:
-            anchors = anchors.joined(np.array([peak]), np.array([asked.low]), np.array([self.greatest["B"]]))
+        limits, peak = self.problem.range("B"), self.problem.peak_at
+        if limits is not None and limits.low > 0.0 and peak is not None:
+            anchors = anchors.joined(np.array([peak]), np.array([limits.low]), np.array([self.greatest["B"]]))
         return anchors
 
     def root(self) -> Box:
         """The box of all laws of the problem whose objective is below the claim."""
         low, high = self.brackets_at(self.points)
         others = sorted(self.model.places, key=self.model.places.__getitem__)
-        asked = self.problem.range("B")
-        least = [asked.low if name == "B" and asked is not None else 0.0 for name in others]
+        limits = self.problem.range("B")
+        least = [limits.low if name == "B" and limits is not None else 0.0 for name in others]
         return Box(np.append(low, least), np.append(high, [self.greatest[name] for name in others]))
 
     def brackets_at(self, k: Array) -> tuple[Array, Array]:

@@ -134,7 +134,7 @@ class BoxSearch:
         return moved
 
     def _variables_of(self, values: Array) -> Array:
-        return np.append(self.rows.coordinates(values), values[self.rows.terms : self.rows.own])
+        return np.append(self.rows.coordinates(values), values[self.rows.terms : self.rows.variables])
 
 
 def _points(problem: Problem, claim: float) -> list[float]:

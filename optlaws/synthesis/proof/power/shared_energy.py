@@ -265,13 +265,13 @@ class EnergyRows(BoxRows):
         if family.divided:
             square = (1.0 - 2.0 * places.k) ** 2
             line = secant_over_root(self.B, square, *self._below_range(box, square, below, (low, high)))
-            own, shape, share = fall, below, 0.5
+            bounded, shape, share = fall, below, 0.5
         else:
-            line, own, shape, share = secant_over_inverse(low, high), acceleration, velocity, 4.0
+            line, bounded, shape, share = secant_over_inverse(low, high), acceleration, velocity, 4.0
         good &= np.isfinite(line.greatest)
         line = line.where(good)
         product, bounds = self._product(box, family, planes[1])
-        bounding = signs[:, None] * own
+        bounding = signs[:, None] * bounded
         # (M I) h <= top h + bottom (M I) - top bottom, and the other way round
         flank, corner = (bounds[1], line.least) if planes[0] == "+" else (bounds[0], line.greatest)
         over = flank * line.slope[:, None] * shape + corner[:, None] * product
@@ -311,7 +311,7 @@ class EnergyRows(BoxRows):
 
     def beside(self, box: Box) -> list[tuple[Contact, Array]]:
         """I at most its tangent at a law in the box, and M I >= B/2 by its own."""
-        middle = np.zeros(self.own)
+        middle = np.zeros(self.variables)
         middle[: self.terms] = self.coordinates(0.5 * (box.low + box.high))
         above = -self.mapped(self.energy.majorant(middle)[None])[0]
         above[self.place] += 1.0

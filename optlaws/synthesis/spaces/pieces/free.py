@@ -72,16 +72,16 @@ class PieceSpace(PiecewiseSpace):
     ) -> None:
         super().__init__(breaks, continuity, symmetric=symmetric)
         self.boundary = boundary
-        kept = np.array([k for k in breaks if not symmetric or k <= 0.5])
-        self.k = kept
+        places = np.array([k for k in breaks if not symmetric or k <= 0.5])
+        self.k = places
         self._order = degree - 2
-        self._acceleration = self._splines(kept, self._order, self._order - (continuity - 2))
+        self._acceleration = self._splines(places, self._order, self._order - (continuity - 2))
         self._free_start = boundary.order == 1
         if self._free_start:
             # one more coordinate: the velocity at the start, beyond that of a = a(0) + stroke k
             self._acceleration = np.insert(self._acceleration, -1, 0.0, axis=2)
         self.terms = self._acceleration.shape[2] - 1
-        self._pieces[2] = PieceSeries(1.0 - 2.0 * kept, self._acceleration)
+        self._pieces[2] = PieceSeries(1.0 - 2.0 * places, self._acceleration)
         self.stroke = float(boundary.end[0]) - float(boundary.start[0])
         self.start_velocity = self.stroke if self._free_start else float(boundary.start[1])
         end_velocity = self.stroke if self._free_start else float(boundary.end[1])

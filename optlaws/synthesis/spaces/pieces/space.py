@@ -164,8 +164,8 @@ class PiecewiseSpace(LawSpace):
             return lowest
         series = weights[0] * lowest.series
         for i, weight in enumerate(weights[1:], 1):
-            own = self.pieces(nu + i).series
-            series[:, : own.shape[1]] += weight * own[:, : series.shape[1]]
+            terms = self.pieces(nu + i).series
+            series[:, : terms.shape[1]] += weight * terms[:, : series.shape[1]]
         return PieceSeries(lowest.breaks, series)
 
     def power(
