@@ -23,6 +23,7 @@ FEW_ARGUMENTS = (
     "plots",
     "results",
     "studies",
+    "verification",
 )
 
 
@@ -78,6 +79,7 @@ WITHOUT_TOLERANCES = (
     "shown",
     "studies",
     "synthesis",
+    "verification",
 )
 
 

@@ -118,7 +118,7 @@ CHECKERS = (
     "optlaws.synthesis.proof.sublevel_bounds",
     "optlaws.synthesis.proof.duality",
     "optlaws.synthesis.proof.farkas",
-    "optlaws.synthesis.proof.peaks.rows",
+    "optlaws.synthesis.proof.peak_rows",
     "optlaws.synthesis.proof.power.box",
     "optlaws.synthesis.proof.nodes",
 )
@@ -381,6 +381,11 @@ FREE_OF_VAGUE_NAMES = (
     "results",
     "shown",
     "studies",
+    "synthesis/limits",
+    "synthesis/problem",
+    "synthesis/proof",
+    "synthesis/spaces",
+    "verification",
 )
 
 

@@ -16,7 +16,7 @@ from optlaws.errors import InputError
 from optlaws.synthesis import Basis, BoundaryConditions, at_most
 from optlaws.synthesis.problem.fields import ENTRIES, Entry, Kind
 from optlaws.synthesis.problem.ranges import read_bounds
-from optlaws.synthesis.spaces.breaks import read_breaks
+from optlaws.synthesis.spaces.bases import read_breaks
 
 Command = Callable[..., None]
 

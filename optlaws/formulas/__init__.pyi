@@ -4,9 +4,4 @@ from optlaws.formulas.arithmetic import evaluate as evaluate
 from optlaws.formulas.reading import read as read
 from optlaws.formulas.tree import Formula as Formula
 
-__all__ = [
-    "NUMPY",
-    "Formula",
-    "evaluate",
-    "read",
-]
+__all__ = ["NUMPY", "Formula", "evaluate", "read"]

@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
+from optlaws.formulas.functions import SMOOTH_FUNCTIONS
 from optlaws.formulas.tree import Call, Exponentiation, Formula, Name, Negative, Number, Product, Reciprocal, Sum, Table
-from optlaws.formulas.vocabulary import SMOOTH_FUNCTIONS
 from optlaws.numbers import Array
 from optlaws.numerics.tolerances import NORM_OFFSET
 

@@ -9,6 +9,7 @@ from itertools import combinations
 from itertools import product as every
 
 from optlaws.formulas.arithmetic import NUMPY, evaluate, pieces
+from optlaws.formulas.functions import SMOOTH_FUNCTIONS
 from optlaws.formulas.slopes import added, multiplied, opposite
 from optlaws.formulas.tree import (
     Call,
@@ -23,7 +24,6 @@ from optlaws.formulas.tree import (
     number,
     rebuilt,
 )
-from optlaws.formulas.vocabulary import SMOOTH_FUNCTIONS
 
 _MOST = 16
 _RISING = frozenset(name for name, function in SMOOTH_FUNCTIONS.items() if function.rising)
@@ -35,8 +35,6 @@ Sign = Callable[[Formula], int]
 def branches(formula: Formula, names: Collection[str], sign: Sign) -> list[Formula] | None:
     """Smooth formulas of which it is the greatest; itself where it is smooth, None where it is no such maximum.
 
-    Examples
-    --------
     >>> from optlaws.formulas.reading import read
     >>> branches(read("abs(c) + 2*max(b, 0)"), "bc", lambda part: 1)
     [c + 2*b, c, -c + 2*b, -c]
@@ -50,8 +48,6 @@ def branches(formula: Formula, names: Collection[str], sign: Sign) -> list[Formu
 def smooth(formula: Formula, names: Collection[str]) -> bool:
     """Whether it has no kinks in these names.
 
-    Examples
-    --------
     >>> from optlaws.formulas.reading import read
     >>> smooth(read("b*c + abs(k)"), "bc"), smooth(read("abs(b)"), "bc")
     (True, False)
@@ -70,8 +66,6 @@ def smooth_itself(part: Formula) -> bool:
 def switches(formula: Formula, names: Collection[str]) -> list[Formula]:
     """Formulas between whose changes of sign it is as often differentiable as they are; those of inner parts first.
 
-    Examples
-    --------
     >>> from optlaws.formulas.reading import read
     >>> switches(read("max(abs(b) - 1, c, 0)"), "bc")
     [b, abs(b) - 1 - c, abs(b) - 1, c]
@@ -94,8 +88,6 @@ def switches(formula: Formula, names: Collection[str]) -> list[Formula]:
 def knots(formula: Formula, names: Collection[str]) -> tuple[list[Formula], list[Formula]]:
     """The switches that have none themselves, and the others.
 
-    Examples
-    --------
     >>> from optlaws.formulas.reading import read
     >>> knots(read("max(abs(b) - 1, c, 0)"), "bc")
     ([b, c], [abs(b) - 1 - c, abs(b) - 1])
@@ -108,8 +100,6 @@ def knots(formula: Formula, names: Collection[str]) -> tuple[list[Formula], list
 def branch_at(formula: Formula, names: Mapping[str, float]) -> Formula:
     """The smooth formula that it is where its names, all of them, have these values.
 
-    Examples
-    --------
     >>> from optlaws.formulas.reading import read
     >>> branch_at(read("abs(b) + max(c, 2*b)"), {"b": -1.0, "c": 3.0})
     -b + c
@@ -133,8 +123,6 @@ def branch_at(formula: Formula, names: Mapping[str, float]) -> Formula:
 def together(formula: Formula) -> Formula:
     """A formula of the degree that the smooth ones which it is somewhere have at most.
 
-    Examples
-    --------
     >>> from optlaws.formulas.reading import read
     >>> together(read("max(b^2, c) + abs(k)"))
     b^2 + c + k
@@ -156,8 +144,6 @@ def _in_powers(coefficients: Sequence[float], of: Formula) -> Formula:
 def rounded(formula: Formula, radius: float) -> Formula:
     """A smooth formula near it: hyperbolas of this radius in place of the kinks of sizes, maxima and minima.
 
-    Examples
-    --------
     >>> from optlaws.formulas.reading import read
     >>> rounded(read("abs(b)"), 0.5), rounded(read("max(b, c)"), 0.5)
     (sqrt(b^2 + 0.25), 0.5*(b + c + sqrt((b - c)^2 + 0.25)))

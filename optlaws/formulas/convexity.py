@@ -14,13 +14,12 @@ from itertools import pairwise
 
 import numpy as np
 
-from optlaws.formulas.affine import affine
+from optlaws.formulas.affine import affine, semidefinite
 from optlaws.formulas.arithmetic import pieces
+from optlaws.formulas.functions import SMOOTH_FUNCTIONS
 from optlaws.formulas.intervals import Endpoints, enclosed
-from optlaws.formulas.quadratic import semidefinite
 from optlaws.formulas.slopes import constant
 from optlaws.formulas.tree import Call, Exponentiation, Formula, Negative, Product, Reciprocal, Sum, Table
-from optlaws.formulas.vocabulary import SMOOTH_FUNCTIONS
 
 _PARTS = 256
 
@@ -28,8 +27,6 @@ _PARTS = 256
 class Curvature(Enum):
     """The curvature of a formula in its names.
 
-    Examples
-    --------
     >>> Curvature.CONVEX.opposite
     <Curvature.CONCAVE: 'concave'>
     """
@@ -60,8 +57,6 @@ class Curvature(Enum):
 class Verdict:
     """The curvature of a formula, the rule that shows it, and the part to which the rule applies.
 
-    Examples
-    --------
     >>> from optlaws.formulas.reading import read
     >>> verdict = judge(read("c^2 + b*c"), "bc")
     >>> verdict.curvature.value, verdict.why, verdict.part
@@ -75,17 +70,10 @@ class Verdict:
 
 @dataclass(frozen=True)
 class Judge:
-    """The rules for formulas in some names, the other name `k` being between two values.
+    """The rules for formulas in some names, the other name `k` being between two values."""
 
-    Attributes
-    ----------
-    names
-        In which the curvature is asked.
-    start, stop
-        Between which values k is.
-    """
-
-    names: frozenset[str]
+    names: frozenset[str]  #: in which the curvature is asked
+    #: start, stop: between which values k is
     start: float = 0.0
     stop: float = 1.0
 
@@ -221,8 +209,6 @@ class Judge:
 def judge(formula: Formula, names: Collection[str]) -> Verdict:
     """The verdict on a formula in some of its names, k being between 0 and 1.
 
-    Examples
-    --------
     >>> from optlaws.formulas.reading import read
     >>> judge(read("c^2 + (1 + k)*b^2"), "bc").curvature, judge(read("c^2 + b*c + b^2"), "bc").why
     (<Curvature.CONVEX: 'convex'>, 'c^2 + b*c + b^2 is a convex quadratic form at every k')

@@ -15,13 +15,12 @@ from math import pi
 import numpy as np
 
 from optlaws.formulas.arithmetic import pieces
+from optlaws.formulas.functions import SMOOTH_FUNCTIONS
 from optlaws.formulas.slopes import constant
 from optlaws.formulas.tree import Call, Exponentiation, Formula, Name, Negative, Number, Product, Reciprocal, Sum, Table
-from optlaws.formulas.vocabulary import SMOOTH_FUNCTIONS
 from optlaws.numbers import Array
 from optlaws.numerics.tolerances import OPERATIONS_ROUNDING
 
-_PARTS = 256
 _MOST_ANGLE = 2.0**24
 
 
@@ -65,8 +64,6 @@ def between(value: float) -> Endpoints:
 def enclosed(formula: Formula, names: Mapping[str, Endpoints]) -> Endpoints:
     """Bounds of a formula over boxes; NaN where it has no value in a part of one.
 
-    Examples
-    --------
     >>> from optlaws.formulas.reading import read
     >>> values = enclosed(read("(1 + k)^2"), {"k": Endpoints(np.array(0.0), np.array(1.0))})
     >>> round(float(values.low), 9), round(float(values.high), 9)
@@ -91,20 +88,6 @@ def enclosed(formula: Formula, names: Mapping[str, Endpoints]) -> Endpoints:
         return _table(formula, parts[0]).outward()
     assert isinstance(formula, Call)  # noqa: S101 - there are no others
     return _call(formula.function, parts).outward()
-
-
-def over_parts(formula: Formula, name: str, start: float, stop: float) -> tuple[float, float]:
-    """Bounds of a formula of one name between two of its values, over many parts of the way.
-
-    Examples
-    --------
-    >>> from optlaws.formulas.reading import read
-    >>> over_parts(read("k*(1 - k)"), "k", 0.0, 1.0)[0]
-    0.0
-    """
-    edges = np.linspace(start, stop, _PARTS + 1)
-    values = enclosed(formula, {name: Endpoints(edges[:-1], edges[1:])})
-    return float(np.min(values.low)), float(np.max(values.high))
 
 
 def _reciprocal(of: Endpoints) -> Endpoints:

@@ -18,6 +18,8 @@ from optlaws.formulas.convexity import Curvature, Judge, Verdict
 from optlaws.formulas.reading import read, refused
 from optlaws.formulas.slopes import added, constant, opposite, scaled
 from optlaws.formulas.tree import (
+    ORDERS,
+    VOCABULARY,
     Call,
     Exponentiation,
     Formula,
@@ -30,7 +32,6 @@ from optlaws.formulas.tree import (
     Table,
     substituted,
 )
-from optlaws.formulas.vocabulary import ORDERS, VOCABULARY
 from optlaws.kept import kept_property
 from optlaws.numbers import Array, power_of_two
 from optlaws.numerics.chebyshev import interpolated, real_parts_of_roots
@@ -40,32 +41,19 @@ _FACTORS = 24
 
 _POWER = Product((Name("b"), Name("c")))
 _LATER = added([Number(1.0), opposite(Name("k"))])
-_MIRRORED: dict[str, Formula] = {
-    "k": _LATER,
-    "a": added([Number(1.0), opposite(Name("a"))]),
-    "c": opposite(Name("c")),
-}
+_MIRRORED: dict[str, Formula] = {"k": _LATER, "a": added([Number(1.0), opposite(Name("a"))]), "c": opposite(Name("c"))}
 
 
 @dataclass(frozen=True)
 class MotionFormula:
     """A formula of a motion, over a part of the interval of k.
 
-    Attributes
-    ----------
-    formula
-        In a, b, c, j and k.
-    start, stop
-        The part.
-
-    Examples
-    --------
     >>> motion = of_text("c + 0.2*b")
     >>> motion.curvature.value, {nu: str(weight) for nu, weight in motion.weights.items()}
     ('affine', {2: '1', 1: '0.2'})
     """
 
-    formula: Formula
+    formula: Formula  #: in a, b, c, j and k
     start: float = 0.0
     stop: float = 1.0
 
@@ -142,8 +130,6 @@ class MotionFormula:
     def scale(self) -> float:
         """The size of the formula in smooth laws: a power of 2 near its parts there, never 0.
 
-        Examples
-        --------
         >>> of_text("c").scale, of_text("2^-40*c").scale * 2.0**40, of_text("c - j").scale
         (4.0, 4.0, 64.0)
         """
@@ -231,13 +217,6 @@ def _along(motion: MotionFormula, x: Array) -> Array:
 def of_text(text: str, start: float = 0.0, stop: float = 1.0) -> MotionFormula:
     """The formula of a text, over a part of the interval.
 
-    Raises
-    ------
-    InputError
-        If it says none, has unknown names, or divides by what may be 0 whatever the law is.
-
-    Examples
-    --------
     >>> of_text("d + 1/(k - 0.5)")
     Traceback (most recent call last):
     optlaws.formulas.scanner.FormulaError: k - 0.5 is 0 within k = 0..1, and it is divided by
@@ -248,13 +227,7 @@ def of_text(text: str, start: float = 0.0, stop: float = 1.0) -> MotionFormula:
 
 
 def checked(motion: MotionFormula, text: str) -> MotionFormula:
-    """The formula with d written as b c, if it has a value for every k.
-
-    Raises
-    ------
-    InputError
-        If it divides by what is 0 at some k, or takes roots and logarithms of what has none; `text` is shown.
-    """
+    """The formula with d written as b c, if it has a value for every k."""
     for part in motion.formula.walk():
         if (
             isinstance(part, Product)

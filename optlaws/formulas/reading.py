@@ -17,6 +17,7 @@ from itertools import pairwise
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.formulas.functions import SMOOTH_FUNCTIONS
 from optlaws.formulas.scanner import FormulaError, Scanner
 from optlaws.formulas.tree import (
     Call,
@@ -30,7 +31,6 @@ from optlaws.formulas.tree import (
     product,
     total,
 )
-from optlaws.formulas.vocabulary import SMOOTH_FUNCTIONS
 from optlaws.numbers import MAGNITUDE_LIMIT
 from optlaws.suggest import unknown_key
 

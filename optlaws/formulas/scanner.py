@@ -59,20 +59,6 @@ class FormulaError(InputError):
 class Scanner:
     """The tokens of a text, one after the other; what reads a grammar derives from it.
 
-    Parameters
-    ----------
-    text
-        What is read.
-    signs
-        The signs that the grammar has; others are not understood.
-
-    Raises
-    ------
-    FormulaError
-        If a character belongs to no token.
-
-    Examples
-    --------
     >>> scanner = Scanner("c + 2")
     >>> scanner.take().text, scanner.token.text, scanner.following.text
     ('c', '+', '2')

@@ -121,8 +121,6 @@ def _of_table(formula: Table) -> Formula:
 def constant(formula: Formula) -> float | None:
     """The value of a formula without names; None where it has some, or tables.
 
-    Examples
-    --------
     >>> from optlaws.formulas.reading import read
     >>> constant(read("-1/2")), constant(read("b"))
     (-0.5, None)
@@ -149,8 +147,6 @@ def added(terms: list[Formula]) -> Formula:
 def scaled(formula: Formula, factor: float) -> Formula:
     """A factor above 0 times a formula, taken into its sums, absolute values, maxima, minima and norms.
 
-    Examples
-    --------
     >>> from optlaws.formulas.reading import read
     >>> scaled(read("max(c, 2*b) - sqrt(k)"), 4.0)
     max(4*c, 8*b) - 4*sqrt(k)

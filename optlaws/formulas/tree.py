@@ -1,9 +1,15 @@
-"""Formulas as trees: frozen values that print themselves as the text they are read from again."""
+"""Formulas as trees: frozen values that print themselves as the text they are read from again, and their names."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
+
+#: orders of the derivatives of the law, by name
+ORDERS = {"a": 0, "b": 1, "c": 2, "j": 3}
+#: these, the power d = b c and the dimensionless time k
+VOCABULARY = ("a", "b", "c", "d", "j", "k")
+
 
 _SUM, _PRODUCT, _SIGNED, _ATOM = range(4)
 
@@ -197,8 +203,6 @@ class Table(OfOnePart):
 def plain(value: float) -> str:
     """A number as formulas print it.
 
-    Examples
-    --------
     >>> plain(3.0), plain(-0.25)
     ('3', '-0.25')
     """
@@ -208,8 +212,6 @@ def plain(value: float) -> str:
 def number(value: float, place: int = 0) -> Formula:
     """A number of either sign.
 
-    Examples
-    --------
     >>> number(-2.0)
     -2
     """
@@ -219,8 +221,6 @@ def number(value: float, place: int = 0) -> Formula:
 def total(terms: list[Formula], place: int = 0) -> Formula:
     """The sum of terms; sums within it are taken apart.
 
-    Examples
-    --------
     >>> total([Name("c"), Negative(Name("b"))])
     c - b
     """
@@ -231,8 +231,6 @@ def total(terms: list[Formula], place: int = 0) -> Formula:
 def product(factors: list[Formula], place: int = 0) -> Formula:
     """The product of factors; products within it are taken apart.
 
-    Examples
-    --------
     >>> product([Name("c"), Reciprocal(Name("b"))])
     c/b
     """
@@ -243,8 +241,6 @@ def product(factors: list[Formula], place: int = 0) -> Formula:
 def substituted(formula: Formula, by: Mapping[str, Formula]) -> Formula:
     """The formula with other formulas for some of its names.
 
-    Examples
-    --------
     >>> from optlaws.formulas.reading import read
     >>> substituted(read("c + k*b"), {"k": read("1 - k")})
     c + (1 - k)*b
@@ -260,8 +256,6 @@ def substituted(formula: Formula, by: Mapping[str, Formula]) -> Formula:
 def rebuilt(formula: Formula, parts: list[Formula]) -> Formula:
     """The formula with other parts.
 
-    Examples
-    --------
     >>> from optlaws.formulas.reading import read
     >>> rebuilt(read("c + b"), [read("c"), read("2*b")])
     c + 2*b

@@ -17,8 +17,6 @@ _SAMPLES = 121
 def drawings(curve: Curve) -> str:
     """Small drawings of a, b, c and j over the whole interval; what grows without limit is cut at the highest sample.
 
-    Examples
-    --------
     >>> from optlaws.laws import smoothstep
     >>> drawings(smoothstep(3)).count("<svg")
     4

@@ -121,13 +121,7 @@ class MotionLaw(Curve, LawExport, StoredLaw):
         >>> smoothstep(2).constants.J
         Peak(value=12.0, k=0.0)
         """
-        return Constants(
-            B=self.peak(1),
-            C=self.peak(2),
-            D=self.power_peak(),
-            J=self.peak(3),
-            rms_c=self.rms(2),
-        )
+        return Constants(B=self.peak(1), C=self.peak(2), D=self.power_peak(), J=self.peak(3), rms_c=self.rms(2))
 
     def pieces(
         self,

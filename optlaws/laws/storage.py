@@ -20,8 +20,6 @@ FORMAT = 1
 class StoredLaw(JsonText, ABC):
     """A value that turns into plain data and back without loss; each kind is a subclass that names itself.
 
-    Examples
-    --------
     >>> from optlaws.laws import PolynomialLaw
     >>> StoredLaw.kinds["polynomial"] is PolynomialLaw
     True
@@ -42,8 +40,6 @@ class StoredLaw(JsonText, ABC):
     def to_dict(self) -> dict[str, Any]:
         """The law as plain data (numbers, strings, lists), from which `from_dict` makes an equal one.
 
-        Examples
-        --------
         >>> from optlaws.laws import MotionLaw, smoothstep
         >>> smoothstep(1).to_dict()
         {'format': 1, 'kind': 'polynomial', 'acceleration': [], 'a0': 0.0, 'b0': 1.0}
@@ -82,8 +78,6 @@ class StoredLaw(JsonText, ABC):
 class PlainNumbers(JsonText):
     """Frozen dataclasses of numbers and texts as plain data, where what is infinite is None.
 
-    Examples
-    --------
     >>> from optlaws.cycles.specification.drive import Effort
     >>> Effort.from_json(Effort(1.0, 0.5, 2.0, 0.0).to_json())
     Effort(peak_force=1.0, rms_force=0.5, peak_power=2.0, mean_power=0.0)
@@ -114,8 +108,6 @@ class PlainNumbers(JsonText):
 def contents(value: Any) -> dict[str, Any]:  # noqa: ANN401 - any frozen dataclass
     """The fields of a dataclass as plain data: tuples as lists, what is stored itself as its own dict.
 
-    Examples
-    --------
     >>> from optlaws.laws.segments import PolynomialSegment
     >>> contents(PolynomialSegment((1.0, 2.0)))
     {'acceleration': [1.0, 2.0], 'b0': 0.0}
@@ -126,13 +118,6 @@ def contents(value: Any) -> dict[str, Any]:  # noqa: ANN401 - any frozen datacla
 def known_fields(kind: type, fields: Mapping[str, Any], what: str) -> dict[str, Any]:
     """Contents whose keys are the fields of a dataclass; `what` is what an error calls it.
 
-    Raises
-    ------
-    InputError
-        If a key is unknown or missing.
-
-    Examples
-    --------
     >>> from optlaws.laws.segments import PowerSegment
     >>> known_fields(PowerSegment, {"b0": 0.0, "b2": 1.0}, "a power segment")
     Traceback (most recent call last):

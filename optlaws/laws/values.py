@@ -25,8 +25,6 @@ def sizes(law: MotionLaw) -> tuple[float, ...]:
 def values(law: MotionLaw, k: NDArray[np.float64]) -> list[NDArray[np.float64]]:
     """The values of a, b, c, j and d; what is rounding beside the greatest is 0.
 
-    Examples
-    --------
     >>> from optlaws.laws import smoothstep
     >>> [float(column[0]) for column in values(smoothstep(3), np.array([0.5]))]
     [0.5, 1.875, 0.0, -30.0, 0.0]

@@ -1,16 +1,19 @@
-"""Polynomials on [0, 1] by their Bernstein coefficients, many at once: between these every value lies."""
+"""Polynomials on [0, 1] by their Bernstein coefficients, many at once, between which every value lies; differences."""
 
 from __future__ import annotations
 
-from functools import lru_cache
+from collections.abc import Callable
+from functools import lru_cache, partial
 from math import comb
 from typing import NamedTuple
 
 import numpy as np
 
+from optlaws.errors import InputError
 from optlaws.numbers import Array
+from optlaws.numerics import chebyshev
 from optlaws.numerics.chebyshev import nodes
-from optlaws.numerics.tolerances import OPERATIONS_ROUNDING, TIE, TOP_WIDTH
+from optlaws.numerics.tolerances import DIFFERENCE_ROUNDING, DIFFERENCE_SHARE, OPERATIONS_ROUNDING, TIE, TOP_WIDTH
 
 PARTS = 8
 _ROUNDS = 20
@@ -28,8 +31,6 @@ class GreatestValue(NamedTuple):
 def from_powers(powers: Array) -> Array:
     """Bernstein coefficients of polynomials given by ascending powers of u, a row each.
 
-    Examples
-    --------
     >>> from_powers(np.array([[0.0, 0.0, 1.0]]))
     array([[0., 0., 1.]])
     """
@@ -39,8 +40,6 @@ def from_powers(powers: Array) -> Array:
 def from_values(values: Array) -> Array:
     """Bernstein coefficients of polynomials given by their values at (x + 1)/2 of the Chebyshev nodes x, a row each.
 
-    Examples
-    --------
     >>> from_values((nodes(3)[None] + 1.0) ** 2).round(12) + 0.0
     array([[0., 0., 4.]])
     """
@@ -53,8 +52,6 @@ def top(control: Array) -> GreatestValue:
     What can still be higher than the highest value met is cut in eight, to rounding; of places as high as one another
     the first is told.
 
-    Examples
-    --------
     >>> top(from_powers(np.array([[0.0, 1.0, -1.0]])))
     GreatestValue(value=0.25, above=0.25, row=0, u=0.5)
     """
@@ -84,8 +81,6 @@ def top(control: Array) -> GreatestValue:
 def in_parts(control: Array) -> Array:
     """Bernstein coefficients of the same polynomials on eight equal parts of [0, 1], one row after the other.
 
-    Examples
-    --------
     >>> in_parts(np.array([[0.0, 8.0]]))[[0, 7]].tolist()
     [[0.0, 1.0], [7.0, 8.0]]
     """
@@ -127,3 +122,65 @@ def _cuts(degree: int) -> Array:
     joined = np.concatenate(matrices, axis=1)
     joined.setflags(write=False)
     return joined
+
+
+Function = Callable[[Array], Array]
+
+_NODES = 10
+_CUTS = 30
+
+
+def greatest_difference(first: Function, second: Function, places: Array) -> tuple[float, float]:
+    """An estimate of the greatest |first - second| and of where it is, between places among which both are smooth.
+
+    Parts between the places are halved until a series of ten terms resolves the difference to rounding, or to 1e-10 of
+    its greatest value; of the series the extremes are taken. It is an estimate: functions are asked at the nodes of
+    parts alone, and a bump between these, narrower than any part, is not seen.
+
+    Parameters
+    ----------
+    first, second
+        Functions of arrays of places.
+    places
+        Increasing: both ends, and where one of the two is not smooth.
+
+    Examples
+    --------
+    >>> value, x = greatest_difference(np.sin, lambda x: x, np.array([0.0, 1.0]))
+    >>> round(value, 12) == round(1.0 - float(np.sin(1.0)), 12), x
+    (True, 1.0)
+    """
+    low, high = places[:-1], places[1:]
+    control: list[Array] = []
+    lows: list[Array] = []
+    highs: list[Array] = []
+    size, greatest = 0.0, 0.0  # of all that has been met: what is rounding beside them is resolved
+    for _ in range(_CUTS):
+        values, met = _differences(first, second, low, high)
+        size, greatest = max(size, met), max(greatest, float(np.abs(values).max()))
+        tail = np.abs(chebyshev.from_values(values.T)[-2:]).max(axis=0)
+        done = tail <= max(DIFFERENCE_ROUNDING * size, DIFFERENCE_SHARE * greatest)
+        for gathered, fresh in ((control, from_values(values)), (lows, low), (highs, high)):
+            gathered.append(fresh[done])
+        if done.all():
+            return _top(*map(partial(np.concatenate, axis=0), (control, lows, highs)))
+        low, high = low[~done], high[~done]
+        middle = (low + high) / 2.0
+        low, high = np.concatenate([low, middle]), np.concatenate([middle, high])
+    raise InputError(f"the motion is not smooth near x = {float(low[0])!r}: name its breaks")
+
+
+def _differences(first: Function, second: Function, low: Array, high: Array) -> tuple[Array, float]:
+    """The difference at the nodes of parts, a row each, and the size of the second."""
+    x = low[:, None] + (high - low)[:, None] * (nodes(_NODES) + 1.0) / 2.0
+    theirs = np.asarray(second(x.ravel()), dtype=np.float64).reshape(x.shape)
+    if not np.isfinite(theirs).all():
+        raise InputError("the motion to compare with must have finite values on the whole interval")
+    return first(x.ravel()).reshape(x.shape) - theirs, float(np.abs(theirs).max())
+
+
+def _top(table: Array, start: Array, stop: Array) -> tuple[float, float]:
+    order = np.argsort(start)
+    highest = top(np.stack([table[order], -table[order]], axis=1).reshape(-1, table.shape[1]))
+    row = order[highest.row // 2]
+    return highest.value, float(start[row] + (stop[row] - start[row]) * highest.u)

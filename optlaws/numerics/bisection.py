@@ -16,8 +16,6 @@ def bisect(holds: Callable[[float], bool], inside: float, outside: float, halvin
 
     For conditions; where a function's sign changes and scipy is at hand, `scipy.optimize.brentq` needs fewer steps.
 
-    Examples
-    --------
     >>> last, first = bisect(lambda x: x * x <= 2.0, 0.0, 2.0)
     >>> last * last <= 2.0 < first * first, first - last < 1e-15
     (True, True)
@@ -38,8 +36,6 @@ def bisect_each(
 ) -> tuple[Array, Array]:
     """Pairs of places many at once: a condition on arrays holds at the first of each pair, not at the second.
 
-    Examples
-    --------
     >>> bisect_each(lambda x: x * x <= np.array([2.0, 9.0]), np.zeros(2), np.full(2, 4.0))[0].round(12)
     array([1.41421356, 3.        ])
     """

@@ -22,17 +22,6 @@ def series_between(
 ) -> Array | None:
     """Chebyshev series of a function in what runs from -1 to 1 between two places; None where it is not smooth.
 
-    Parameters
-    ----------
-    function
-        Of an array of places.
-    ends
-        The two places.
-    count
-        How many coefficients it has, where that is known.
-
-    Examples
-    --------
     >>> series_between(lambda x: x * x, (0.0, 2.0)).round(12)
     array([1.5, 2. , 0.5])
     """
@@ -52,8 +41,6 @@ def series_between(
 def candidates(function: Callable[[Array], Array], ends: tuple[float, float], count: int | None = None) -> Array:
     """Places among which every stationary point of a function is; parts that are not smooth are cut in two.
 
-    Examples
-    --------
     >>> candidates(lambda x: (x - 0.25) ** 2, (0.0, 1.0)).round(12)
     array([0.25])
     """
@@ -67,8 +54,6 @@ def candidates(function: Callable[[Array], Array], ends: tuple[float, float], co
 def roots_between(function: Callable[[Array], Array], ends: tuple[float, float]) -> Array:
     """Places strictly between two among which every change of sign of a function is; kinks are cut at.
 
-    Examples
-    --------
     >>> roots_between(lambda x: x * x - 0.25, (0.0, 2.0)).round(12)
     array([0.5])
     """
@@ -96,15 +81,6 @@ def _parts(
 def cut_at_roots(function: Callable[[float, float], Callable[[Array], Array]], edges: list[float]) -> list[float]:
     """The edges, and between them the places where functions change their sign, but for those next to another one.
 
-    Parameters
-    ----------
-    function
-        What to take between two edges.
-    edges
-        Ascending.
-
-    Examples
-    --------
     >>> cut_at_roots(lambda low, high: np.cos, [0.0, 2.0, 3.0])
     [0.0, 1.570796..., 2.0, 3.0]
     """
@@ -118,8 +94,6 @@ def cut_at_roots(function: Callable[[float, float], Callable[[Array], Array]], e
 def cut_at_all(functions: Iterable[Callable[[Array], Array]], edges: list[float]) -> list[float]:
     """The edges, and between them the places where any of several functions, smooth there, changes its sign.
 
-    Examples
-    --------
     >>> cut_at_all([np.cos, np.sin], [1.0, 4.0])
     [1.0, 1.570796..., 3.141592..., 4.0]
     """

@@ -29,8 +29,6 @@ _CUT = -0.004849834917525  # no place that anybody would choose for a root
 def nodes(count: int) -> Array:
     """The Chebyshev nodes in (-1, 1), falling, where values fix a series of so many terms.
 
-    Examples
-    --------
     >>> nodes(3).round(6) + 0.0
     array([ 0.866025,  0.      , -0.866025])
     """
@@ -42,8 +40,6 @@ def nodes(count: int) -> Array:
 def from_values(values: Values) -> Values:
     """Series of functions known at as many nodes as they have terms; a row a node, and a column a function if several.
 
-    Examples
-    --------
     >>> from_values(3.0 * nodes(2)).round(12) + 0.0
     array([0., 3.])
     """
@@ -101,8 +97,6 @@ def interpolated(function: Callable[[Array], Array], name: str, blur: float = SE
 def gauss(count: int) -> tuple[Array, Array]:
     """Places in [-1, 1] and weights of Gauss's rule, exact for polynomials of degree 2 count - 1.
 
-    Examples
-    --------
     >>> places, weights = gauss(2)
     >>> float(weights @ places**2)
     0.666666666...
@@ -116,8 +110,6 @@ def gauss(count: int) -> tuple[Array, Array]:
 def shortened(series: Array, noise: float) -> Array:
     """The series without what is at most noise at its end.
 
-    Examples
-    --------
     >>> shortened(np.array([1.0, 0.0, 2.0, 1e-17]), 1e-16)
     array([1., 0., 2.])
     """
@@ -128,8 +120,6 @@ def shortened(series: Array, noise: float) -> Array:
 def value(series: Array, x: Place) -> Place:
     """Values of a series at x, |x| <= 1, by Clenshaw's recurrence; float in, float out.
 
-    Examples
-    --------
     >>> value(np.array([1.0, 2.0, 3.0]), 0.5)
     0.5
     """
@@ -143,8 +133,6 @@ def value(series: Array, x: Place) -> Place:
 def basis_values(x: Array, count: int) -> Array:
     """T_0, ..., T_(count-1) at x, shape (len(x), count); quick, and good to about count ulp.
 
-    Examples
-    --------
     >>> basis_values(np.array([1.0]), 3)
     array([[1., 1., 1.]])
     """
@@ -155,8 +143,6 @@ def basis_values(x: Array, count: int) -> Array:
 def derivative(series: Array) -> Array:
     """Series of the derivative with respect to k (twice that with respect to x).
 
-    Examples
-    --------
     >>> derivative(np.array([0.0, 0.0, 1.0]))
     array([0., 8.])
     """
@@ -175,8 +161,6 @@ def derivative(series: Array) -> Array:
 def integral(series: Array, start: float) -> Array:
     """Series of the integral with respect to k from 0, plus its value `start` at k = 0.
 
-    Examples
-    --------
     >>> integral(np.array([2.0]), 0.0)
     array([1., 1.])
     """
@@ -193,8 +177,6 @@ def integral(series: Array, start: float) -> Array:
 def mean_product(first: Array, second: Array) -> float:
     """Integral over k in [0, 1] of the product of two series, exact but for rounding.
 
-    Examples
-    --------
     >>> mean_product(np.array([0.0, 1.0]), np.array([0.0, 3.0]))
     1.0
     """
@@ -206,8 +188,6 @@ def mean_product(first: Array, second: Array) -> float:
 def product(first: Array, second: Array) -> Array:
     """Series of the product, by 2 T_m T_n = T_(m+n) + T_|m-n|.
 
-    Examples
-    --------
     >>> product(np.array([0.0, 1.0]), np.array([0.0, 1.0]))
     array([0.5, 0. , 0.5])
     """
@@ -227,8 +207,6 @@ def real_parts_of_roots(series: Array) -> Array:
     coefficients that are negligible relative to the largest are left out, for they would carry rounding errors of
     the eigenvalues into the rest. Even and odd series are halved: they are one in t = 2x² - 1, or x times one.
 
-    Examples
-    --------
     >>> real_parts_of_roots(np.array([-0.5, 1.0]))
     array([0.5])
     >>> real_parts_of_roots(np.array([-0.5, 0.0, 1.0])).round(3)

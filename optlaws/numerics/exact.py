@@ -20,18 +20,6 @@ Polynomial = list[Fraction]  # ascending powers
 def chebyshev_from_powers(coefficients: Iterable[Any]) -> tuple[float, ...]:
     """Chebyshev series in 2k - 1 of a polynomial given by ascending powers of k, rounded once.
 
-    Parameters
-    ----------
-    coefficients
-        Ints, floats or Fractions, dimensionless, shape (n,).
-
-    Raises
-    ------
-    InputError
-        If a coefficient is not a finite real number.
-
-    Examples
-    --------
     >>> chebyshev_from_powers([-3, 6])
     (0.0, 3.0)
     """
@@ -41,18 +29,6 @@ def chebyshev_from_powers(coefficients: Iterable[Any]) -> tuple[float, ...]:
 def powers_from_chebyshev(coefficients: Iterable[Any]) -> tuple[float, ...]:
     """Ascending powers of k of a polynomial given by its Chebyshev series in 2k - 1, rounded once.
 
-    Parameters
-    ----------
-    coefficients
-        Ints, floats or Fractions, dimensionless, shape (n,).
-
-    Raises
-    ------
-    InputError
-        If a coefficient is not a finite real number.
-
-    Examples
-    --------
     >>> powers_from_chebyshev([0.0, 3.0])
     (-3.0, 6.0)
     """
@@ -62,8 +38,6 @@ def powers_from_chebyshev(coefficients: Iterable[Any]) -> tuple[float, ...]:
 def exact_chebyshev(powers: Sequence[Fraction]) -> list[Fraction]:
     """Chebyshev series of sum powers[n] k^n, by 4^n k^n = C(2n, n) + 2 sum_m C(2n, n-m) T_m(2k - 1).
 
-    Examples
-    --------
     >>> exact_chebyshev([Fraction(0), Fraction(0), Fraction(8)])
     [Fraction(3, 1), Fraction(4, 1), Fraction(1, 1)]
     """
@@ -73,8 +47,6 @@ def exact_chebyshev(powers: Sequence[Fraction]) -> list[Fraction]:
 def exact_powers(series: Sequence[Fraction]) -> list[Fraction]:
     """Powers of k of sum series[n] T_n(2k - 1).
 
-    Examples
-    --------
     >>> exact_powers([Fraction(0), Fraction(0), Fraction(1)])
     [Fraction(1, 1), Fraction(-8, 1), Fraction(8, 1)]
     """
@@ -84,8 +56,6 @@ def exact_powers(series: Sequence[Fraction]) -> list[Fraction]:
 def rounded(values: Iterable[Fraction]) -> tuple[float, ...]:
     """The floats nearest to fractions.
 
-    Examples
-    --------
     >>> rounded([Fraction(1, 4)])
     (0.25,)
     """
@@ -95,8 +65,6 @@ def rounded(values: Iterable[Fraction]) -> tuple[float, ...]:
 def times(first: Polynomial, second: Polynomial) -> Polynomial:
     """The product of two polynomials.
 
-    Examples
-    --------
     >>> times([Fraction(1), Fraction(1)], [Fraction(-1), Fraction(1)])
     [Fraction(-1, 1), Fraction(0, 1), Fraction(1, 1)]
     """
@@ -112,8 +80,6 @@ def times(first: Polynomial, second: Polynomial) -> Polynomial:
 def plus(first: Polynomial, second: Polynomial) -> Polynomial:
     """The sum of two polynomials.
 
-    Examples
-    --------
     >>> plus([Fraction(1)], [Fraction(1), Fraction(2)])
     [Fraction(2, 1), Fraction(2, 1)]
     """
@@ -127,8 +93,6 @@ def plus(first: Polynomial, second: Polynomial) -> Polynomial:
 def shifted(polynomial: Polynomial, by: Fraction | int) -> Polynomial:
     """Powers of h of p(h + by).
 
-    Examples
-    --------
     >>> shifted([Fraction(0), Fraction(0), Fraction(1)], 1)
     [Fraction(1, 1), Fraction(2, 1), Fraction(1, 1)]
     """
@@ -142,8 +106,6 @@ def shifted(polynomial: Polynomial, by: Fraction | int) -> Polynomial:
 def edge(order: int) -> Polynomial:
     """k^l (k-1)^l, by which eq. 8 multiplies Z.
 
-    Examples
-    --------
     >>> edge(1)
     [Fraction(0, 1), Fraction(-1, 1), Fraction(1, 1)]
     """

@@ -10,8 +10,6 @@ from optlaws.numbers import Array
 def gegenbauer(index: float, degree: int, x: Array) -> Array:
     """Gegenbauer polynomials of the given index, degrees 0 to `degree`, one row each, by their recurrence.
 
-    Examples
-    --------
     >>> gegenbauer(0.5, 2, np.array([1.0]))[:, 0].tolist()
     [1.0, 1.0, 1.0]
     """

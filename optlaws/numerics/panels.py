@@ -25,8 +25,6 @@ RADIANS, WAVE_TERMS = 10.0, 41  # so many terms resolve so many radians of a sin
 class Panels:
     """Edges of panels, and how many terms of a series resolve a function on each of them.
 
-    Examples
-    --------
     >>> waves = Panels((0.0, 1.0, 2.0, 3.0))
     >>> bool(np.abs(waves.roots(np.cos, lambda t: -np.sin(t)) - np.pi / 2).min() < 1e-15)
     True
@@ -91,8 +89,6 @@ class Integral:
 def equal(low: float, high: float, count: int, terms: int = TERMS) -> Panels:
     """A number of panels of equal length.
 
-    Examples
-    --------
     >>> equal(0.0, 1.0, 2).edges
     (0.0, 0.5, 1.0)
     """
@@ -102,8 +98,6 @@ def equal(low: float, high: float, count: int, terms: int = TERMS) -> Panels:
 def of_waves(frequency: float, length: float) -> Panels:
     """Panels of u = s / length on which waves of at most this frequency in s are resolved, and their squares.
 
-    Examples
-    --------
     >>> of_waves(20.0, 1.0).edges
     (0.0, 0.5, 1.0)
     """
@@ -113,8 +107,6 @@ def of_waves(frequency: float, length: float) -> Panels:
 def resolved(f: Function, first: Panels, short: Short) -> tuple[Panels, Array]:
     """Panels halved until each is short enough for the series that f has there; and these series, a column each.
 
-    Examples
-    --------
     >>> halves, series = resolved(np.exp, Panels((0.0, 4.0), 9), lambda series, length: length <= 1.0)
     >>> halves.edges, series.shape
     ((0.0, 1.0, 2.0, 3.0, 4.0), (9, 4))

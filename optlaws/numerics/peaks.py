@@ -43,8 +43,6 @@ class Peak:
 def highest(k: Array, values: Array, tie: float) -> Peak:
     """The largest of `values`, with the smallest k whose value is within `tie` of it.
 
-    Examples
-    --------
     >>> highest(np.array([0.75, 0.25, 0.5]), np.array([2.0, 2.0, 1.0]), 1e-10)
     Peak(value=2.0, k=0.25)
     """
@@ -55,8 +53,6 @@ def highest(k: Array, values: Array, tie: float) -> Peak:
 def extremes(k: Array, values: Array) -> tuple[Peak, Peak]:
     """Minimum and maximum, signed, of values at candidate points; infinite where a value is.
 
-    Examples
-    --------
     >>> extremes(np.array([0.0, 1.0]), np.array([-6.0, 6.0]))
     (Peak(value=-6.0, k=0.0), Peak(value=6.0, k=1.0))
     """
@@ -68,8 +64,6 @@ def extremes(k: Array, values: Array) -> tuple[Peak, Peak]:
 def peak(k: Array, values: Array) -> Peak:
     """Peak magnitude of values at candidate points; infinite where a value is.
 
-    Examples
-    --------
     >>> peak(np.array([0.0, 1.0]), np.array([-6.0, 6.0]))
     Peak(value=6.0, k=0.0)
     """
@@ -88,8 +82,6 @@ def polished(x: Array, residual: Callable[[Array], tuple[Array, Array]]) -> Arra
     `residual(x)` gives the residual and its derivative with respect to x. A step is short and stays only
     where the residual shrinks, so that a candidate that is already good cannot be lost.
 
-    Examples
-    --------
     >>> polished(np.array([0.4995]), lambda x: (x * x - 0.25, 2 * x)).round(12)
     array([0.5])
     """

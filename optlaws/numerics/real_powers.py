@@ -18,8 +18,6 @@ Sum = Mapping[float, float]  # exponent: coefficient
 def gathered(terms: Iterable[tuple[float, float]]) -> dict[float, float]:
     """A sum of its terms, pairs of exponent and coefficient; exponents that differ by rounding are one.
 
-    Examples
-    --------
     >>> gathered([(1.5, 2.0), (0.0, 1.0), (1.5, -2.0)])
     {0.0: 1.0}
     """
@@ -34,8 +32,6 @@ def gathered(terms: Iterable[tuple[float, float]]) -> dict[float, float]:
 def value(powers: Sum, v: Array) -> Array:
     """Values at v >= 0; a negative power of zero is infinite, with the sign of its coefficient.
 
-    Examples
-    --------
     >>> value({0.0: 1.0, 1.5: 2.0}, np.array([0.0, 4.0]))
     array([ 1., 17.])
     """
@@ -50,8 +46,6 @@ def value(powers: Sum, v: Array) -> Array:
 def derivative(powers: Sum) -> dict[float, float]:
     """Derivative with respect to v.
 
-    Examples
-    --------
     >>> derivative({0.0: 1.0, 1.5: 2.0})
     {0.5: 3.0}
     """
@@ -61,8 +55,6 @@ def derivative(powers: Sum) -> dict[float, float]:
 def product(first: Sum, second: Sum) -> dict[float, float]:
     """The product of two sums of powers.
 
-    Examples
-    --------
     >>> product({0.5: 2.0}, {0.5: 1.0, -0.5: 3.0})
     {0.0: 6.0, 1.0: 2.0}
     """
@@ -72,8 +64,6 @@ def product(first: Sum, second: Sum) -> dict[float, float]:
 def integral(powers: Sum, low: float, high: float) -> float:
     """Integral from low to high, both >= 0; infinite where it diverges.
 
-    Examples
-    --------
     >>> integral({-0.5: 1.0}, 0.0, 4.0)
     4.0
     """
@@ -93,8 +83,6 @@ def roots(powers: Sum, low: float, high: float) -> list[float]:
     Divided by its lowest power and differentiated, a sum of n terms becomes one of n - 1 terms whose roots separate
     those of the first (Rolle); halving finds them one by one.
 
-    Examples
-    --------
     >>> [round(v, 12) for v in roots({0.0: 1.0, 0.5: -3.0, 1.0: 2.0}, 0.0, 4.0)]
     [0.25, 1.0]
     """

@@ -284,3 +284,20 @@ LEAST_SUM = 1e-24  # under a root in IPOPT's expressions: its slope stays finite
 DEEP_LAW_EXCESS = 1e-3  # by how much a law far below all of the field may miss a bound
 NEARLY_BINDING = 1e-2  # of a right side, or 1: extrema within this of binding join the points that are held
 LOST = 1e7  # coordinates beyond this are no law of the field: the solver has lost its way
+
+# --- verification, in exact arithmetic and balls ---------------------------------------------------------------------
+COEFFICIENT_ROUNDING = 2.0**-44  # of what a derivative is made of: what rounding of the coefficients can do to it
+BREAK_ROUNDING = 2.0**-50  # of k: by so much rounding moves a break to its mirror image
+CORRECTED_MULTIPLIER = 1e-6  # of the greatest multiplier: the greatest correction that rounding explains
+ROUNDED_MULTIPLIER = 1e-7  # of the greatest multiplier: a correction that nothing but rounding need explain
+NEGATIVE_MULTIPLIER = 1e-9  # of the greatest multiplier: one so little below 0 is none
+STATED_BOUND = 1e-9  # of a bound: by so much one that was computed in doubles may be above the proven one
+STATED_CONSTANT = 1e-11  # of a constant: what one that was computed in doubles may be off
+STATED_PLACE = 1e-7  # of a constant: what its value may be less at a place that was computed in doubles
+STATED_GAP = 1e-12  # by how much a gap that was computed in doubles may be below the proven one
+SAME_FREQUENCY = 1e-9  # of a root's size: vibrations that differ by no more have no numbers of their own
+TAYLOR_REST = 2.0**-80  # of a function: what a Taylor polynomial may leave of it
+OUTPUT_REST = 2.0**-150  # of what an output is made of: what a Taylor polynomial may leave of it
+GREATEST_ENCLOSED = 2.0**-70  # of a greatest value: how narrow its ball must be
+GREATEST_NEGLIGIBLE = 2.0**-110  # of what a function is made of: a greatest value that is less is enclosed well enough
+BOUND_ENCLOSED = 2.0**-80  # of the objective's scale: in a wider ball a bound gains from more bits

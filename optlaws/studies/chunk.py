@@ -22,8 +22,8 @@ from optlaws.studies.tables import CONSTANTS, StudyPoint
 from optlaws.synthesis import Problem, ProblemArray, Solution, SolutionArray, synthesize
 from optlaws.synthesis.arrays.lines import least_count, lines_of
 from optlaws.synthesis.arrays.powers import least_power
+from optlaws.synthesis.problem.constants import meant
 from optlaws.synthesis.problem.fields import from_entries
-from optlaws.synthesis.problem.mixtures import meant
 from optlaws.synthesis.solve_array import solved
 
 INFEASIBLE, WRONG_INPUT, NOT_FOUND = "infeasible", "wrong input", "not found"

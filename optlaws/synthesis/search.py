@@ -30,11 +30,11 @@ from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.evaluation import Worth, shortfalls, worth
 from optlaws.synthesis.program.writer import Model, model_of
 from optlaws.synthesis.proof import mirroring
+from optlaws.synthesis.proof import peak_search as places
 from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.proof.infeasible import failure
 from optlaws.synthesis.proof.make import certify, lower_bound
-from optlaws.synthesis.proof.peaks import search as places
-from optlaws.synthesis.proof.peaks.rows import peak_of
+from optlaws.synthesis.proof.peak_rows import peak_of
 from optlaws.synthesis.proof.power.search import tightened
 from optlaws.synthesis.solution import Solution, Status, measure
 

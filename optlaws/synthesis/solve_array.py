@@ -25,8 +25,7 @@ from optlaws.synthesis.arrays.continued_laws import laws_along, laws_on, segment
 from optlaws.synthesis.arrays.lines import ProblemLine, along_velocities, form_of, least_count, lines_of
 from optlaws.synthesis.arrays.powers import on_global_branch, with_quick_bounds
 from optlaws.synthesis.arrays.problems import ProblemArray
-from optlaws.synthesis.arrays.programs import Path, between
-from optlaws.synthesis.arrays.solved_batch import SolvedBatch
+from optlaws.synthesis.arrays.programs import Path, SolvedBatch, between
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import model_of

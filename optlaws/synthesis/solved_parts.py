@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from optlaws.laws import MotionLaw
 from optlaws.numbers import Array
 from optlaws.numerics.tolerances import OPTIMALITY_GAP
-from optlaws.synthesis.arrays.solved_batch import NO_CONTACT, SolvedBatch
+from optlaws.synthesis.arrays.programs import NO_CONTACT, SolvedBatch
 from optlaws.synthesis.families.peaks import constant_of_series
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.problem.fields import CONSTANTS
@@ -24,7 +24,7 @@ from optlaws.synthesis.proof.make import certificate, certify
 from optlaws.synthesis.search import status_of
 from optlaws.synthesis.solution import Solution, Status, measure, partly_known
 from optlaws.synthesis.spaces.bases import PolynomialBasis
-from optlaws.synthesis.spaces.polynomials.space import PolynomialSpace
+from optlaws.synthesis.spaces.polynomial_space import PolynomialSpace
 from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
 

@@ -21,7 +21,7 @@ from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFa
 from optlaws.laws import MotionLaw, smoothstep
 from optlaws.numerics.tolerances import STORED_COEFFICIENT, STORED_VALUE
 from optlaws.synthesis.arrays.problems import ProblemArray
-from optlaws.synthesis.arrays.solved_batch import FOLLOWING, NO_CONTACT, SolvedBatch
+from optlaws.synthesis.arrays.programs import FOLLOWING, NO_CONTACT, SolvedBatch
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Program
 from optlaws.synthesis.limits.of_problem import known_limit
@@ -174,13 +174,7 @@ def plain_alone(solution: Solution) -> Plain:
 
 
 def read_solutions(data: object) -> StoredSolutions:
-    """Read what `SolutionArray.to_dict` wrote, and check all that is taken from it.
-
-    Raises
-    ------
-    InputError
-        If an entry is missing or wrong, or states what does not follow from the problems, the laws and the proofs.
-    """
+    """Read what `SolutionArray.to_dict` wrote, and check all that is taken from it."""
     entries = stated(data, StatedSolutions, "stored array of solutions")
     size, shape = prod(entries.shape), tuple(entries.shape)
     if min(shape, default=0) < 0 or size != len(entries.solutions):

@@ -12,6 +12,7 @@ from typing import Any
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
+from optlaws.numerics.tolerances import CORRECTED_MULTIPLIER, NEGATIVE_MULTIPLIER, OPTIMALITY_GAP
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.limits.rounding import rounded_down, rounded_up
 from optlaws.synthesis.problem.constants import FUNCTIONALS
@@ -25,7 +26,7 @@ from optlaws.verification.conditions import excesses
 from optlaws.verification.enclosing.balls import enclosed
 from optlaws.verification.exact.bound import Proof, prove
 from optlaws.verification.exact.law import ExactLaw
-from optlaws.verification.exact.limits import exact_limit
+from optlaws.verification.exact.sublevel_bounds import exact_limit
 from optlaws.verification.file_entries import (
     NO_FILE,
     FileEntry,
@@ -40,8 +41,6 @@ from optlaws.verification.reading import built, number, read
 from optlaws.verification.result import Claim, Verification
 from optlaws.verification.stated_numbers import at_most, near, stated_constants, stated_numbers
 
-#: an optimum's greatest gap, the greatest correction that rounding explains, and the share that is no multiplier
-_GAP, _CORRECTION, _NOTHING = 1e-8, 1e-6, 1e-9
 #: where further certificates of a solution are
 _BESIDE = ("power_certificate", "peak_certificate")
 
@@ -211,9 +210,9 @@ def _proof_claims(
 ) -> Iterator[Claim]:
     """What a certificate says by its leaves, and by its bound."""
     if certificate.peak:
-        held = "holds" if certificate.proven else "does not hold"
+        verdict = "holds" if certificate.proven else "does not hold"
         unchecked = "proofs over the places of a peak are not checked in exact arithmetic yet"
-        yield Claim(name, proven=False, detail=f"it {held} in double precision; {unchecked}")
+        yield Claim(name, proven=False, detail=f"it {verdict} in double precision; {unchecked}")
         return
     if certificate.points is None:
         yield from _leaf_claims(proof, certificate, accurate=accurate)
@@ -231,27 +230,27 @@ def _proof_claims(
 def _leaf_claims(proof: Proof, certificate: Certificate, *, accurate: bool) -> Iterator[Claim]:
     count = len(certificate.contacts)
     greatest = max((abs(contact.multiplier) for contact in certificate.contacts), default=0.0)
-    negative = [contact for contact in certificate.contacts if contact.multiplier < -_NOTHING * greatest]
+    negative = [contact for contact in certificate.contacts if contact.multiplier < -NEGATIVE_MULTIPLIER * greatest]
     shown = f"{len(negative)} of {count} negative" if negative else f"{count}, none negative"
     yield Claim("multipliers", not negative, shown)
     if proof.unknown:
         detail = f"{proof.unknown} of {count} are not of constraints that this problem has"
         yield Claim("contacts", proven=False, detail=detail)
     detail = f"corrected by at most {proof.correction:.1e} of the greatest so that nothing depends on the law"
-    small = proof.correction <= _CORRECTION or not accurate
+    small = proof.correction <= CORRECTED_MULTIPLIER or not accurate
     yield Claim("sum of the rows", proof.value is not None and small, detail)
 
 
 def _of_gap(data: Mapping[str, Any], gap: float | None) -> Iterator[Claim]:
     if data.get("gap") is not None:
         value = number(data, "gap")
-        holds = gap is not None and value >= gap - _GAP
+        holds = gap is not None and value >= gap - OPTIMALITY_GAP
         yield Claim("the gap", holds, f"{value:.1e} stated, {_shown(gap)} proven")
     if data.get("status") == "optimal":
-        yield Claim("optimal", gap is not None and gap <= _GAP, f"the proven gap is {_shown(gap)}")
+        yield Claim("optimal", gap is not None and gap <= OPTIMALITY_GAP, f"the proven gap is {_shown(gap)}")
     elif data.get("status") is not None:
         # what is as good as optimal is called so
-        far = gap is None or gap > _GAP / 2.0
+        far = gap is None or gap > OPTIMALITY_GAP / 2.0
         yield Claim("the status", far, f"{data['status']!r} stated, the proven gap is {_shown(gap)}")
 
 
@@ -260,20 +259,14 @@ def _shown(gap: float | None) -> str:
 
 
 def claims_in_context(entry: FileEntry, verification: Verification) -> Iterator[Claim]:
-    """Status, problem, peak velocity and constants that stand around an entry, as claims.
-
-    Raises
-    ------
-    InputError
-        If a problem around it is none, or a constant is unknown.
-    """
+    """Status, problem, peak velocity and constants that stand around an entry, as claims."""
     around, problem = entry.around, verification.problem
     if around.status is not None:
-        own = "infeasible" if _no_law(verification, around.above) else entry.data.get("status")
-        yield Claim("the row's status", own == around.status, f"{around.status!r} stated, {own!r} inside")
-    if around.asked is not None:
-        asked = problem_of(around.asked)
-        yield Claim("the row's problem", asked == problem, f"{asked!r}")
+        inside = "infeasible" if _no_law(verification, around.above) else entry.data.get("status")
+        yield Claim("the row's status", inside == around.status, f"{around.status!r} stated, {inside!r} inside")
+    if around.problem is not None:
+        stated = problem_of(around.problem)
+        yield Claim("the row's problem", stated == problem, f"{stated!r}")
     if around.B is not None and problem is not None:
         yield Claim("the row's B", around.B == problem.B, f"{around.B!r} stated, {problem.B!r} in the problem")
     yield from _constants(entry)

@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 from flint import arb, ctx, fmpq_poly, fmpz_poly
 
+from optlaws.numerics.tolerances import BOUND_FEASIBILITY, BREAK_ROUNDING, COEFFICIENT_ROUNDING
 from optlaws.synthesis.families import names
 from optlaws.synthesis.limits.rounding import rounded_up
 from optlaws.synthesis.problem.constants import Functional
@@ -20,17 +21,10 @@ from optlaws.synthesis.problem.windows import Window
 from optlaws.synthesis.spaces.bases import Basis, Pieces, PolynomialBasis
 from optlaws.synthesis.spaces.pieces.periodic import PeriodicPieces
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
-from optlaws.verification.enclosing.balls import ball, rational, upper
-from optlaws.verification.enclosing.pieces import Extremes, PolynomialPiece, between, least_and_greatest
+from optlaws.verification.enclosing.balls import Extremes, ball, rational, upper
+from optlaws.verification.enclosing.pieces import PolynomialPiece, between, least_and_greatest
 from optlaws.verification.exact.law import ExactLaw
 from optlaws.verification.exact.of_basis import unknown_basis
-
-#: what an optimum may break a constraint by, in units of the constraint's bound
-_TOLERANCE = 1e-9
-#: what rounding of the law's coefficients can do, relative to what the derivative is made of
-_ROUNDING = 2.0**-44
-#: by how much rounding moves a break to its mirror image
-_APART = 2.0**-50
 
 
 @dataclass(frozen=True)
@@ -55,12 +49,12 @@ def excesses(problem: Problem, law: ExactLaw) -> list[Excess]:
             *_ends(problem, law),
             *_repeated(problem, law),
             *_velocity(problem, law),
-            *(excess for constant, wanted in problem.bounded for excess in _constant(law, constant, wanted)),
+            *(excess for constant, limits in problem.bounded for excess in _constant(law, constant, limits)),
             *_windows(problem, law),
         ]
 
 
-def _of(name: str, value: arb, scale: float = 1.0, tolerance: float = _TOLERANCE, least: float = 1.0) -> Excess:
+def _of(name: str, value: arb, scale: float = 1.0, tolerance: float = BOUND_FEASIBILITY, least: float = 1.0) -> Excess:
     """`scale` is of the condition's numbers; `least` of its quantity in smooth laws, for numbers that are 0."""
     by = rounded_up(upper(value)) + 0.0 if value.is_finite() else inf
     return Excess(name, by, tolerance * max(least, scale))
@@ -68,14 +62,14 @@ def _of(name: str, value: arb, scale: float = 1.0, tolerance: float = _TOLERANCE
 
 def _ends(problem: Problem, law: ExactLaw) -> Iterator[Excess]:
     conditions = problem.conditions
-    for k, wanted in ((0, conditions.start), (1, conditions.end)):
-        for nu, value in enumerate(wanted):
+    for k, values in ((0, conditions.start), (1, conditions.end)):
+        for nu, value in enumerate(values):
             off = arb(abs(law.value(nu, Fraction(k)) - rational(Fraction(value))))
-            yield _of(f"derivative {nu} at k = {k}", off, _size(law, nu), _ROUNDING)
+            yield _of(f"derivative {nu} at k = {k}", off, _size(law, nu), COEFFICIENT_ROUNDING)
     if problem.symmetric:
         a = law.polynomials
         low, high = least_and_greatest([extreme for pair in _facing(a) for extreme in _uneven(*pair)])
-        yield _of("a(k) + a(1-k) = 1", law.magnitude((low, high)), _size(law, 0), _ROUNDING)
+        yield _of("a(k) + a(1-k) = 1", law.magnitude((low, high)), _size(law, 0), COEFFICIENT_ROUNDING)
 
 
 def _repeated(problem: Problem, law: ExactLaw) -> Iterator[Excess]:
@@ -85,16 +79,18 @@ def _repeated(problem: Problem, law: ExactLaw) -> Iterator[Excess]:
         return
     for nu in range(1, basis.continuity + 1):
         jump = abs(pieces[-1].exact(nu, pieces[-1].stop) - pieces[0].exact(nu, pieces[0].start))
-        yield _of(f"derivative {nu} at the end as at the start", arb(jump), _size(law, nu), _ROUNDING)
+        yield _of(f"derivative {nu} at the end as at the start", arb(jump), _size(law, nu), COEFFICIENT_ROUNDING)
     for i in basis.straight:
-        yield _of(f"acceleration on piece {i}", ball(sum(map(abs, pieces[i].stored))), _size(law, 2), _ROUNDING)
+        yield _of(
+            f"acceleration on piece {i}", ball(sum(map(abs, pieces[i].stored))), _size(law, 2), COEFFICIENT_ROUNDING
+        )
 
 
 def _shape(problem: Problem, law: ExactLaw) -> Iterator[Excess]:
     """The law's degree, and where it is piecewise its breaks and how smooth it is there."""
     shape = _shape_of(problem.basis, problem.order)
     beyond = [abs(term) for piece in law.polynomials for term in piece.stored[max(shape.degree - 1, 0) :]]
-    yield _of("terms beyond the degree", arb(sum(beyond)), _size(law, 0), _ROUNDING)
+    yield _of("terms beyond the degree", arb(sum(beyond)), _size(law, 0), COEFFICIENT_ROUNDING)
     if len(shape.breaks) != len(law.breaks):
         detail = f"{len(law.breaks) - 1} pieces instead of {len(shape.breaks) - 1}"
         yield Excess(detail, inf, 0.0)
@@ -103,11 +99,11 @@ def _shape(problem: Problem, law: ExactLaw) -> Iterator[Excess]:
         return
     breaks = _folded(shape.breaks) if problem.symmetric else shape.breaks
     apart = max(abs(place - other) for place, other in zip(breaks, law.breaks, strict=True))
-    yield _of("breaks", ball(apart), 1.0, _APART)
+    yield _of("breaks", ball(apart), 1.0, BREAK_ROUNDING)
     for nu in range(1, shape.continuity + 1):
         sides = ((left.exact(nu, left.stop), right.exact(nu, right.start)) for left, right in pairwise(law.polynomials))
         jump = max(abs(after - before) for before, after in sides)
-        yield _of(f"continuity of derivative {nu}", arb(jump), _size(law, nu), _ROUNDING)
+        yield _of(f"continuity of derivative {nu}", arb(jump), _size(law, nu), COEFFICIENT_ROUNDING)
 
 
 def _folded(breaks: list[Fraction]) -> list[Fraction]:
@@ -147,7 +143,7 @@ def _size_of(piece: PolynomialPiece, nu: int) -> float:
 
 
 def _velocity(problem: Problem, law: ExactLaw) -> Iterator[Excess]:
-    wanted = problem.range("B")
+    limits = problem.range("B")
     least, greatest = law.extremes(1)
     speed, reached = (-least).max(greatest), (-least).max(greatest)
     if problem.peak_at is not None:
@@ -159,23 +155,23 @@ def _velocity(problem: Problem, law: ExactLaw) -> Iterator[Excess]:
             yield _of(names.acceleration_at_peak(problem.peak_at), arb(abs(law.value(2, peak))), scale)
         if problem.peak_is_variable:
             yield _of(f"-b <= {names.at('b', problem.peak_at)}", -least - reached, scale)
-    if wanted is not None:
-        if isfinite(wanted.high):
-            yield _of("|b| <= B", speed - ball(wanted.high), wanted.high)
-        if wanted.fixed and problem.peak_at is not None:
-            yield _of(names.velocity_at_peak(problem.peak_at), abs(reached - ball(wanted.high)), wanted.high)
-        elif wanted.low > 0.0:
-            yield _of(names.at_least("B"), ball(wanted.low) - reached, wanted.low)
+    if limits is not None:
+        if isfinite(limits.high):
+            yield _of("|b| <= B", speed - ball(limits.high), limits.high)
+        if limits.fixed and problem.peak_at is not None:
+            yield _of(names.velocity_at_peak(problem.peak_at), abs(reached - ball(limits.high)), limits.high)
+        elif limits.low > 0.0:
+            yield _of(names.at_least("B"), ball(limits.low) - reached, limits.low)
     if problem.monotone:
         yield _of("b >= 0", -least)
 
 
-def _constant(law: ExactLaw, constant: Functional, wanted: Range) -> Iterator[Excess]:
+def _constant(law: ExactLaw, constant: Functional, limits: Range) -> Iterator[Excess]:
     value, scale = law.term(constant), constant.scale
-    if isfinite(wanted.high):
-        yield _of(names.at_most(constant.name), value - ball(wanted.high), wanted.high, least=scale)
-    if wanted.low > 0.0:
-        yield _of(names.at_least(constant.name), ball(wanted.low) - value, wanted.low, least=scale)
+    if isfinite(limits.high):
+        yield _of(names.at_most(constant.name), value - ball(limits.high), limits.high, least=scale)
+    if limits.low > 0.0:
+        yield _of(names.at_least(constant.name), ball(limits.low) - value, limits.low, least=scale)
 
 
 def _extremes(window: Window, law: ExactLaw) -> Extremes:
@@ -189,13 +185,13 @@ def _extremes(window: Window, law: ExactLaw) -> Extremes:
 
 def _windows(problem: Problem, law: ExactLaw) -> Iterator[Excess]:
     for i, window in enumerate(problem.windows, 1):
-        (least, greatest), own = _extremes(window, law), window.scale
+        (least, greatest), scale = _extremes(window, law), window.scale
         if isfinite(window.high):
             yield _of(
-                names.window_side(names.window(i), 1.0), greatest - ball(window.high), abs(window.high), least=own
+                names.window_side(names.window(i), 1.0), greatest - ball(window.high), abs(window.high), least=scale
             )
         if isfinite(window.low):
-            yield _of(names.window_side(names.window(i), -1.0), ball(window.low) - least, abs(window.low), least=own)
+            yield _of(names.window_side(names.window(i), -1.0), ball(window.low) - least, abs(window.low), least=scale)
 
 
 class _Shape(NamedTuple):

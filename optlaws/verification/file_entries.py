@@ -58,7 +58,7 @@ class TableRow(msgspec.Struct, forbid_unknown_fields=True):
     """A row of a table of solutions."""
 
     solution: Any = None
-    asked: Any = None
+    problem: Any = msgspec.field(default=None, name="asked")
     status: Literal["optimal", "local", "inaccurate", "infeasible", "not found"] | None = None
     proof: Any = None
 
@@ -87,27 +87,13 @@ class SolutionArrayFile(msgspec.Struct, forbid_unknown_fields=True):
 
 @dataclass(frozen=True)
 class Around:
-    """What the objects around an entry say of it.
+    """What the objects around an entry say of it."""
 
-    Attributes
-    ----------
-    status
-        The status of its row.
-    asked
-        The problem of its row, as plain data.
-    B
-        The peak velocity of its row.
-    values
-        Constants by name, in a front.
-    above
-        What the entry's bound has to exceed, if its row is to have no law.
-    """
-
-    status: str | None = None
-    asked: Any = None
-    B: float | None = None
-    values: Mapping[str, float] = field(default_factory=dict)
-    above: float | None = None
+    status: str | None = None  #: the status of its row
+    problem: Any = None  #: the problem of its row, as plain data
+    B: float | None = None  #: the peak velocity of its row
+    values: Mapping[str, float] = field(default_factory=dict)  #: constants by name, in a front
+    above: float | None = None  #: what the entry's bound has to exceed, if its row is to have no law
 
 
 @dataclass(frozen=True)
@@ -121,13 +107,6 @@ class FileEntry:
 def entries(data: Data) -> dict[str, FileEntry]:
     """What can be verified, by where it is.
 
-    Raises
-    ------
-    InputError
-        If anything else is said.
-
-    Examples
-    --------
     >>> list(entries({"rows": [{"solution": {"law": {}, "constants": {}}}, {"about": "none"}]}))
     ['rows[0].solution']
     >>> entries({"rows": [{"solution": {"law": {}, "constants": {}}}, {"limit": 4.0}]})
@@ -155,13 +134,7 @@ def is_proven_front(data: Data) -> bool:
 
 
 def check_keys(data: Data) -> None:
-    """Refuse an entry that says what no entry of its kind says.
-
-    Raises
-    ------
-    InputError
-        If a key is unknown, or a value that is not checked by its own proof is of a wrong type.
-    """
+    """Refuse an entry that says what no entry of its kind says."""
     if "certificate" in data:
         _stated(data, SolutionFile, "the solution")
     elif "law" in data:
@@ -203,12 +176,12 @@ def _members(data: Data, path: str, around: Around) -> Iterator[tuple[str, FileE
 
 
 def _row(row: TableRow, path: str, around: Around) -> Iterator[tuple[str, FileEntry]]:
-    if row.asked is not None:
-        problem_of(_stated(row.asked, dict[str, Any], f"{path}.asked"))
-    said = Around(row.status, row.asked, around.B, around.values)
-    inside = [entry for name in ("solution", "proof") for entry in _walk(getattr(row, name), f"{path}.{name}", said)]
+    if row.problem is not None:
+        problem_of(_stated(row.problem, dict[str, Any], f"{path}.asked"))
+    context = Around(row.status, row.problem, around.B, around.values)
+    inside = [entry for name in ("solution", "proof") for entry in _walk(getattr(row, name), f"{path}.{name}", context)]
     if not inside and row.status not in {None, "not found"}:
-        inside = [(path, FileEntry({}, said))]
+        inside = [(path, FileEntry({}, context))]
     yield from inside
 
 
@@ -249,9 +222,9 @@ def _front(front: FrontFile, path: str) -> Iterator[tuple[str, FileEntry]]:
     if len(set(front.over)) < len(front.over):
         raise InputError(f"{path or 'the front'}: it is over the same constant twice: {front.over}")
     for i, (values, point) in enumerate(zip(front.values, front.points, strict=True)):
-        said = Around(values=dict(zip(front.over, values, strict=True)))
+        context = Around(values=dict(zip(front.over, values, strict=True)))
         place = f"{path}.points[{i}]" if path else f"points[{i}]"
-        inside = list(_walk(point, place, said))
+        inside = list(_walk(point, place, context))
         if not inside:
             raise InputError(f"{NO_FILE}: {place} has no law, but its values claim one")
         yield from inside
@@ -260,11 +233,11 @@ def _front(front: FrontFile, path: str) -> Iterator[tuple[str, FileEntry]]:
 def _of_velocity(data: Data, path: str) -> Iterator[tuple[str, FileEntry]]:
     """The row of a table whose laws have a peak velocity."""
     # printed numbers are kept as they are printed
-    said = data["B"]
+    printed = data["B"]
     try:
-        B = float(said) if isinstance(said, str) else _stated(said, float, f"{path}.B")
+        B = float(printed) if isinstance(printed, str) else _stated(printed, float, f"{path}.B")
     except ValueError:
-        raise InputError(f"{path}.B must be a number, got {said!r:.40}") from None
+        raise InputError(f"{path}.B must be a number, got {printed!r:.40}") from None
     inside = list(_members({key: value for key, value in data.items() if key != "B"}, path, Around(B=B)))
     if not any("problem" in entry.data for _, entry in inside):
         raise InputError(f"{NO_FILE}: {path}.B claims something without a certificate: {B!r}")

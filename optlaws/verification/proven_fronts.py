@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
 
-from optlaws.numerics.tolerances import NO_OBJECTIVE
+from optlaws.numerics.tolerances import CORRECTED_MULTIPLIER, NO_OBJECTIVE, STATED_GAP
 from optlaws.synthesis.limits.rounding import rounded_up
 from optlaws.synthesis.proven.front import FrontPoint, ProvenFront
 from optlaws.synthesis.proven.swept_parameter import SweptParameter
@@ -16,11 +16,6 @@ from optlaws.verification.enclosing.balls import enclosed
 from optlaws.verification.exact.bound import Along, Proof, prove_along
 from optlaws.verification.exact.law import ExactLaw
 from optlaws.verification.result import Claim, Verification
-
-#: by how much a stated gap, computed in doubles, may be below the proven one
-_ROUNDING = 1e-12
-#: the greatest correction of multipliers that rounding explains
-_CORRECTION = 1e-6
 
 
 @dataclass(frozen=True)
@@ -36,13 +31,7 @@ class _Known:
 
 
 def proven_front(front: ProvenFront, stated: float) -> Verification:
-    """Check every law and certificate of a front, and its gap at every value between.
-
-    Raises
-    ------
-    InputError
-        As `verify` of a solution.
-    """
+    """Check every law and certificate of a front, and its gap at every value between."""
     number, (low, high) = front.number, front.between
     points = list(front)
     laws = [ExactLaw(point.law) for point in points]
@@ -52,7 +41,7 @@ def proven_front(front: ProvenFront, stated: float) -> Verification:
     claims = [*_laws(number, known), *_certificates(number, known)]
     where = f"the gap at every {number.name} from {low!r} to {high!r}"
     shown = "not known" if gap is None else f"{gap:.3e}"
-    claims.append(Claim(where, gap is not None and gap <= stated + _ROUNDING, f"{stated:.3e} stated, {shown} proven"))
+    claims.append(Claim(where, gap is not None and gap <= stated + STATED_GAP, f"{stated:.3e} stated, {shown} proven"))
     return Verification(problem=number.at(low), bound=None, gap=gap, claims=tuple(claims))
 
 
@@ -98,7 +87,7 @@ def _certificates(number: SweptParameter, known: list[_Known]) -> Iterator[Claim
             f"{number.name} = {float(wrong[0].at)!r}"
         )
     )
-    yield Claim("certificates", not wrong and changed <= _CORRECTION, detail)
+    yield Claim("certificates", not wrong and changed <= CORRECTED_MULTIPLIER, detail)
 
 
 def _gap(known: list[_Known], number: SweptParameter) -> float | None:

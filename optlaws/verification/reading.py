@@ -24,13 +24,6 @@ _GREATEST = 1e100
 def read(source: Mapping[str, Any] | Path | str) -> Mapping[str, Any]:
     """A JSON object, or data that could be one.
 
-    Raises
-    ------
-    InputError
-        If it cannot be read, is no JSON object, names a key twice, or has numbers that are not finite or too large.
-
-    Examples
-    --------
     >>> read({"order": 4, "B": float("inf")})
     Traceback (most recent call last):
     optlaws.errors.InputError: B must be a finite number, got inf
@@ -90,13 +83,7 @@ def _check_size(key: str, value: object, path: str) -> None:
 
 
 def built(make: Callable[[Any], Kind], data: object, name: str) -> Kind:
-    """What `make` makes of data that may be anything.
-
-    Raises
-    ------
-    InputError
-        If it makes nothing of it.
-    """
+    """What `make` makes of data that may be anything."""
     try:
         return make(data)
     except InputError as error:

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from math import inf
-from numbers import Real
 from typing import Any
 
 from flint import arb, ctx, fmpq, fmpq_poly
 
 from optlaws.errors import InputError
+from optlaws.numbers import real
+from optlaws.numerics.tolerances import COEFFICIENT_ROUNDING, STATED_BOUND, STATED_CONSTANT, STATED_PLACE
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.limits.rounding import rounded_down
 from optlaws.synthesis.problem.problem import Problem
@@ -19,14 +20,10 @@ from optlaws.synthesis.spaces.splines import PiecewiseBasis
 from optlaws.verification.enclosing.balls import at, enclosed, rational
 from optlaws.verification.enclosing.pieces import between, least_and_greatest
 from optlaws.verification.exact.law import ExactLaw
-from optlaws.verification.exact.limits import exact_limit
+from optlaws.verification.exact.sublevel_bounds import exact_limit
 from optlaws.verification.reading import number
 from optlaws.verification.result import Claim
 
-#: how far stated numbers, computed in doubles, may be from the proven ones, relative; a place k moves a value more
-_BOUND, _VALUE, _PLACE = 1e-9, 1e-11, 1e-7
-#: what rounding of the coefficients of Z can do, relative to the greatest
-_ROUNDING = 2.0**-44
 _WHOLE = (fmpq(-1), fmpq(1))
 _ORDERS = {"B": 1, "C": 2, "J": 3}
 
@@ -35,7 +32,7 @@ def at_most(name: str, stated: float, proven: Fraction | None, scale: float, sou
     """That a stated bound is proven, but for the rounding of doubles; a bound near 0 is measured by its scale."""
     if proven is None:
         return Claim(name, proven=False, detail=f"{stated!r} stated, nothing proven")
-    holds = Fraction(stated) <= proven + Fraction(_BOUND) * max(Fraction(scale), abs(proven))
+    holds = Fraction(stated) <= proven + Fraction(STATED_BOUND) * max(Fraction(scale), abs(proven))
     return Claim(name, holds, f"{stated!r} stated, {rounded_down(proven)!r} proven{source}")
 
 
@@ -58,7 +55,7 @@ def _limit(value: float, problem: Problem) -> Claim:
     known = known_limit(problem)
     if claim.proven or known is None:
         return claim
-    agrees = value <= known + _BOUND * max(scale, known)
+    agrees = value <= known + STATED_BOUND * max(scale, known)
     return Claim("the limit", proven=False, detail=f"{value!r} stated, {known!r} in doubles", recomputed=agrees)
 
 
@@ -82,7 +79,7 @@ def stated_constants(data: Mapping[str, Any], law: ExactLaw) -> Iterator[Claim]:
 def near(name: str, stated: float, pair: tuple[float, float], scale: float = 1.0) -> Claim:
     """That a stated value is the proven one, but for the rounding of doubles; one near 0 is measured by its scale."""
     low, high = pair
-    room = _VALUE * max(scale, abs(high)) if high < inf else 0.0
+    room = STATED_CONSTANT * max(scale, abs(high)) if high < inf else 0.0
     return Claim(name, low - room <= stated <= high + room, f"{stated!r} stated, in [{low!r}, {high!r}]")
 
 
@@ -98,7 +95,9 @@ def _reached(name: str, value: float, k: float, law: ExactLaw) -> Claim:
                 magnitudes.append(abs(b * others[0]) if name == "D" else abs(others[0]))
     highest = max((enclosed(magnitude)[1] for magnitude in magnitudes), default=0.0)
     # a constant power is the same everywhere, and 0 times infinity at its end
-    holds = highest >= value - _PLACE * max(1.0, value) or not all(magnitude.is_finite() for magnitude in magnitudes)
+    holds = highest >= value - STATED_PLACE * max(1.0, value) or not all(
+        magnitude.is_finite() for magnitude in magnitudes
+    )
     return Claim(f"place of {name}", holds, f"{highest!r} at k = {k!r}")
 
 
@@ -107,7 +106,7 @@ def _of_z(z: object, problem: Problem, law: ExactLaw) -> Claim:
     basis, order, conditions = problem.basis, problem.order, problem.conditions
     if not isinstance(basis, PolynomialBasis | PiecewiseBasis):
         raise InputError(f"z is given, but laws in {basis!r} have no Z")
-    if not isinstance(z, list | tuple) or not all(map(_is_number, z)):
+    if not isinstance(z, list | tuple) or any(real(coefficient) is None for coefficient in z):
         raise InputError(f"z must be a list of numbers, got {z!r}")
     if len(z) != basis.size:
         return Claim("Z", proven=False, detail=f"it has {len(z)} coefficients, {basis!r} has {basis.size}")
@@ -125,7 +124,7 @@ def _of_z(z: object, problem: Problem, law: ExactLaw) -> Claim:
         a = a0 + k**order * (a1 + (k - 1) ** order * whole)
         at_k = fmpq_poly([rational((piece.start + piece.stop) / 2), 1 / piece.rate])
         off.append(a(at_k) - piece.derivative(0))
-    return _small("Z", off, law, _ROUNDING * (1.0 + float(sum(map(abs, exact))) / 4.0**order))
+    return _small("Z", off, law, COEFFICIENT_ROUNDING * (1.0 + float(sum(map(abs, exact))) / 4.0**order))
 
 
 def _small(name: str, off: list[fmpq_poly], law: ExactLaw, allowed: float) -> Claim:
@@ -137,7 +136,3 @@ def _small(name: str, off: list[fmpq_poly], law: ExactLaw, allowed: float) -> Cl
             return Claim(name, proven=False, detail=f"off by {least:.1e} or more, {allowed:.1e} is allowed")
         by = enclosed(law.magnitude(least_and_greatest([value for part in off for value in between(part, *_WHOLE)])))[1]
     return Claim(name, by <= allowed, f"off by at most {by:.1e}, {allowed:.1e} is allowed")
-
-
-def _is_number(value: object) -> bool:
-    return isinstance(value, Real) and not isinstance(value, bool)

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from optlaws import BoundaryConditions, BSplines, Chebyshev, Functional, InputError, Machine, MotionLaw, Pieces
 from optlaws.balancing.loaders.constants import LoaderPeak
-from optlaws.formulas.vocabulary import ORDERS
+from optlaws.formulas.tree import ORDERS
 from optlaws.mechanisms.follower.cam_constants import CamPeak, CamPower
 from optlaws.mechanisms.machine.output_constants import OutputConstant
 from optlaws.mechanisms.machine.residual_boxes import ModeResidual

@@ -10,10 +10,9 @@ from flint import arb
 from scipy.interpolate import CubicSpline
 
 from optlaws import InputError
-from optlaws.formulas.affine import affine, degree
+from optlaws.formulas.affine import affine, degree, quadratic
 from optlaws.formulas.arithmetic import NUMPY, casadi_arithmetic, evaluate, mpmath_arithmetic
 from optlaws.formulas.intervals import Endpoints, enclosed
-from optlaws.formulas.quadratic import quadratic
 from optlaws.formulas.reading import read
 from optlaws.formulas.slopes import derivative
 from optlaws.formulas.tree import Formula

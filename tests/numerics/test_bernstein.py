@@ -9,8 +9,8 @@ import pytest
 
 from optlaws import InputError
 from optlaws.numerics import bernstein
+from optlaws.numerics.bernstein import greatest_difference
 from optlaws.numerics.chebyshev import nodes
-from optlaws.numerics.difference import greatest_difference
 
 
 @pytest.mark.parametrize("degree", [0, 1, 5, 9])

@@ -23,8 +23,8 @@ from optlaws.synthesis.families.energy import Energy, EnergyFamily
 from optlaws.synthesis.families.family import ConstraintFamily, EvenFamily, LinearFamily
 from optlaws.synthesis.problem.constants import PLAIN, Asked, C, Functional
 from optlaws.synthesis.problem.expression import Expression, Term
-from optlaws.synthesis.problem.grammar import parse
-from optlaws.synthesis.spaces.polynomials.space import PolynomialSpace
+from optlaws.synthesis.problem.named_constants import parse
+from optlaws.synthesis.spaces.polynomial_space import PolynomialSpace
 
 if TYPE_CHECKING:
     from optlaws.synthesis.spaces.space import LawSpace

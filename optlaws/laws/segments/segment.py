@@ -44,7 +44,8 @@ class Segment(JsonText, ABC):
     A kind is a frozen dataclass of numbers and tuples of numbers, declared with its name, for example
     ``class SplineSegment(Segment, kind="spline")``. Where it lies is known to the law alone, so every method is
     told the length; derivatives are with respect to k. A kind supplies the abstract methods; storage follows, and by a
-    polynomial interpolant all that is made from segments, unless it has a closed form of its own for that.
+    polynomial interpolant all that is made from segments, unless it has a closed form of its own for that. An
+    acceleration that is not smooth has no such interpolant: InputError.
 
     Examples
     --------
@@ -85,34 +86,17 @@ class Segment(JsonText, ABC):
         return self.derivative(u, length, 1) * self.derivative(u, length, 2)
 
     def scaled(self, length: float, scale: float, drift: float = 0.0) -> Segment:
-        """The segment whose velocity is scale b + drift; an interpolating polynomial unless the kind knows better.
-
-        Raises
-        ------
-        InputError
-            If it becomes a polynomial and its acceleration is not smooth.
-        """
+        """The segment whose velocity is scale b + drift; an interpolating polynomial unless the kind knows better."""
         return self.interpolated(length).scaled(length, scale, drift)
 
     def backwards(self, length: float) -> Segment:
-        """The segment whose velocity is b(length - s); an interpolating polynomial unless the kind knows better.
-
-        Raises
-        ------
-        InputError
-            If it becomes a polynomial and its acceleration is not smooth.
-        """
+        """The segment whose velocity is b(length - s); an interpolating polynomial unless the kind knows better."""
         return self.interpolated(length).backwards(length)
 
     def times(self, length: float, y: Array) -> Segment:
         """The segment whose acceleration is c times the Chebyshev series y in 2u - 1, with the same velocity at first.
 
         An interpolating polynomial unless the kind knows better.
-
-        Raises
-        ------
-        InputError
-            If it becomes a polynomial and its acceleration is not smooth.
         """
 
         def c(x: Array) -> Array:
@@ -125,11 +109,6 @@ class Segment(JsonText, ABC):
         """The segment with displacement a + once b + twice c, for the cam of an elastic follower (1.27).
 
         An interpolating polynomial unless the kind knows better.
-
-        Raises
-        ------
-        InputError
-            If it becomes a polynomial and its acceleration is not smooth.
         """
 
         def c(x: Array) -> Array:

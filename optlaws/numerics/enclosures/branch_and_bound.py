@@ -78,7 +78,6 @@ def extremes(
     edges: Any,  # noqa: ANN401 - numbers
     *,
     share: float = 1e-9,
-    scale: float = 0.0,
     parts: int = 1,
     order: int = 2,
     enough: float = np.inf,
@@ -94,9 +93,7 @@ def extremes(
     edges
         Increasing, shape (n + 1,). At an inner edge the function may leap.
     share
-        How near bounds come to values reached, relative to the greatest magnitude, or to the scale.
-    scale
-        Of what the function is a difference: where it is next to nothing beside that, it is rounding.
+        How near bounds come to values reached, relative to the greatest magnitude.
     parts
         Into how many cells each interval is cut at first.
     order
@@ -122,7 +119,7 @@ def extremes(
     low, high = search.first(parts)
     for _ in range(_ROUNDS):
         cells = search.look(low, high)
-        slack = max(share * max(_finite(search.least), _finite(search.most), scale), SMALLEST_SIZE) + cells.rounding
+        slack = max(share * max(_finite(search.least), _finite(search.most)), SMALLEST_SIZE) + cells.rounding
         least, most = search.least, search.most
         if magnitude:
             least, most = min(least, -most), max(most, -least)

@@ -18,7 +18,7 @@ _DEEPEST = 60
 _MOST = 200_000
 
 
-def integral(function: Function, edges: Any, *, share: float = 1e-9, scale: float = 0.0) -> tuple[float, float]:  # noqa: ANN401 - numbers
+def integral(function: Function, edges: Any, *, share: float = 1e-9) -> tuple[float, float]:  # noqa: ANN401 - numbers
     """Between which values the integral of a function is, from the first of some edges to the last.
 
     Parameters
@@ -28,14 +28,7 @@ def integral(function: Function, edges: Any, *, share: float = 1e-9, scale: floa
     edges
         Increasing, shape (n + 1,); at inner ones it may leap.
     share
-        By how much cells may be off, relative to the mean magnitude or the scale.
-    scale
-        Of what the function is a difference.
-
-    Raises
-    ------
-    SolverFailure
-        If the function has no bound.
+        By how much cells may be off, relative to the mean magnitude.
 
     Examples
     --------
@@ -52,7 +45,7 @@ def integral(function: Function, edges: Any, *, share: float = 1e-9, scale: floa
         sizes = np.abs(part.middle)
         size += float(sizes[np.isfinite(part.radius)].sum())
         with np.errstate(invalid="ignore"):
-            near = np.maximum(0.5 * share * max(size / whole, scale, SMALLEST_SIZE), _BLUR * rounding)
+            near = np.maximum(0.5 * share * max(size / whole, SMALLEST_SIZE), _BLUR * rounding)
             open_ones = ~(part.radius <= near * (high - low))
         total = total + Interval(*(np.array([values[~open_ones].sum()]) for values in (part.middle, part.radius)))
         total = total + Interval(np.zeros(1), len(low) * ROUNDOFF * sizes[~open_ones].sum(keepdims=True))

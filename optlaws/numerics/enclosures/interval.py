@@ -18,8 +18,6 @@ _FEW = 2  # products whose sum is taken one by one
 class Interval:
     """Every number from middle - radius to middle + radius; arrays of one shape.
 
-    Examples
-    --------
     >>> third = Interval(np.array([1.0]), np.array([0.0])) / Interval(np.array([3.0]), np.array([0.0]))
     >>> bool(third.low[0] <= 1 / 3 <= third.high[0]), bool(third.radius[0] < 1e-15)
     (True, True)
@@ -114,8 +112,6 @@ class Interval:
 def between(low: Array, high: Array) -> Interval:
     """The interval from low to high; all numbers where one of them is not finite.
 
-    Examples
-    --------
     >>> interval = between(np.array([1.0]), np.array([2.0]))
     >>> bool(interval.low[0] <= 1.0), bool(interval.high[0] >= 2.0)
     (True, True)
@@ -130,8 +126,6 @@ def between(low: Array, high: Array) -> Interval:
 def bearing(y: Interval, x: Interval) -> Interval:
     """The direction of the vectors (x, y) around that of their middle, rad; nothing is known where one may vanish.
 
-    Examples
-    --------
     >>> turn = bearing(exact(np.array([2.0])), exact(np.array([0.0])))
     >>> bool(turn.low[0] <= 0.5 * np.pi <= turn.high[0])
     True
@@ -146,8 +140,6 @@ def bearing(y: Interval, x: Interval) -> Interval:
 def dot(first: Sequence[Any], second: Sequence[Any]) -> Any:  # noqa: ANN401 - numbers, arrays or intervals
     """The sum of products, of as many as the shorter of two has.
 
-    Examples
-    --------
     >>> dot([1.0, 2.0], [3.0, 4.0])
     11.0
     """
@@ -171,8 +163,6 @@ def dot(first: Sequence[Any], second: Sequence[Any]) -> Any:  # noqa: ANN401 - n
 def hull(first: Interval, second: Interval) -> Interval:
     """The least interval that holds two.
 
-    Examples
-    --------
     >>> both = hull(exact(np.array([1.0])), exact(np.array([3.0])))
     >>> bool(both.low[0] <= 1.0), bool(both.high[0] >= 3.0), round(float(both.radius[0]), 12)
     (True, True, 1.0)
@@ -183,8 +173,6 @@ def hull(first: Interval, second: Interval) -> Interval:
 def highest(value: Any) -> Array:  # noqa: ANN401 - numbers or intervals
     """The greatest that numbers may be.
 
-    Examples
-    --------
     >>> float(highest(2.0)), bool(highest(exact(2.0)) >= 2.0)
     (2.0, True)
     """
@@ -194,8 +182,6 @@ def highest(value: Any) -> Array:  # noqa: ANN401 - numbers or intervals
 def middle(value: Any) -> Array:  # noqa: ANN401 - numbers or intervals
     """Numbers themselves, or the middles of intervals.
 
-    Examples
-    --------
     >>> float(middle(2.0)), float(middle(exact(2.0)))
     (2.0, 2.0)
     """
@@ -205,8 +191,6 @@ def middle(value: Any) -> Array:  # noqa: ANN401 - numbers or intervals
 def chosen(where: Any, first: Interval, second: Interval) -> Interval:  # noqa: ANN401 - an array of truths
     """The first where a condition holds, else the second.
 
-    Examples
-    --------
     >>> chosen(np.array([True, False]), exact(np.array([1.0, 1.0])), exact(np.array([2.0, 2.0]))).middle
     array([1., 2.])
     """
@@ -216,8 +200,6 @@ def chosen(where: Any, first: Interval, second: Interval) -> Interval:  # noqa: 
 def exact(value: Any) -> Interval:  # noqa: ANN401 - a number or an array
     """Intervals without width around exact numbers.
 
-    Examples
-    --------
     >>> exact(2.0).high - exact(2.0).low < 2e-15
     np.True_
     """

@@ -21,8 +21,6 @@ class Jet:
     Sums, products, quotients and roots of jets are jets of the sums, products, quotients and roots. Terms may also be
     intervals that hold the numbers: then all that comes out holds what it should.
 
-    Examples
-    --------
     >>> square = Jet((np.array([3.0]), np.array([1.0]), np.array([0.0])))
     >>> square = square * square
     >>> [square.derivative(nu).tolist() for nu in range(3)]
@@ -149,8 +147,6 @@ Pair: TypeAlias = tuple[Jet, Jet]
 def variable(at: Term, order: int) -> Jet:
     """The jet of the angle itself.
 
-    Examples
-    --------
     >>> [float(term) for term in variable(np.float64(2.0), 2).terms]
     [2.0, 1.0, 0.0]
     """
@@ -160,8 +156,6 @@ def variable(at: Term, order: int) -> Jet:
 def turned(pair: Pair, by: Jet) -> Pair:
     """Two coordinates turned by an angle, counterclockwise.
 
-    Examples
-    --------
     >>> quarter = turned((Jet((1.0,)), Jet((0.0,))), Jet((np.pi / 2,)))
     >>> [round(float(jet.terms[0]), 12) for jet in quarter]
     [0.0, 1.0]

@@ -133,21 +133,6 @@ def _upward(family: LinearFamily, edges: Array) -> Array:
     return np.asarray((upward * back @ values).reshape(count, len(middle), -1))
 
 
-def excess(cells: Cells, point: Array, room: Array, touching: Sequence[Array]) -> Array:
-    """By how much each law may break rows of the families anywhere, relative to the right side or 1; 0 where none.
-
-    Parameters
-    ----------
-    cells
-        Of the families.
-    point, room
-        The laws' variables and 1, and the right sides of the families in each law, shape (laws, families).
-    touching
-        For each family the places of contacts whose own residuals are accounted for elsewhere, shape (laws, contacts).
-    """
-    return _Residuals(cells, point, room, touching).broken()
-
-
 def excess_at(family: LinearFamily, point: Array, room: Array) -> Array:
     """The excess of a family whose domain is one place."""
     value = point @ family.columns(np.array(family.domain[:1]))[0, 0]
@@ -156,16 +141,17 @@ def excess_at(family: LinearFamily, point: Array, room: Array) -> Array:
 
 
 @dataclass(frozen=True, eq=False)
-class _Residuals:
-    """The room that many laws leave on cells: their variables and 1, their right sides, their contacts."""
+class Residuals:
+    """The room that many laws leave on cells of some families."""
 
     cells: Cells
-    point: Array
-    room: Array
+    point: Array  #: the laws' variables and 1
+    room: Array  #: the right sides of the families in each law, shape (laws, families)
+    #: for each family the places of contacts whose own residuals are accounted for elsewhere, shape (laws, contacts)
     touching: Sequence[Array]
 
-    def broken(self) -> Array:
-        """By how much each law may break the rows."""
+    def excess(self) -> Array:
+        """By how much each law may break rows anywhere, relative to the right side or 1; 0 where none."""
         shortfalls = np.zeros(len(self.point))
         law, cell, sign = self._doubtful()
         if len(law):

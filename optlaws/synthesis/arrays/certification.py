@@ -18,7 +18,7 @@ from optlaws.numerics.tolerances import (
     SMALL_OBJECTIVE,
     WIDE_GAP,
 )
-from optlaws.synthesis.arrays.cells import Cells, excess, excess_at
+from optlaws.synthesis.arrays.cells import Cells, Residuals, excess_at
 from optlaws.synthesis.arrays.dual_bounds import lower_bounds, sharp_bounds
 from optlaws.synthesis.arrays.newton_steps import States, Structure, batch_families, locally_optimal, product, with_one
 from optlaws.synthesis.arrays.programs import Numbers, Path
@@ -28,35 +28,19 @@ from optlaws.synthesis.program.writer import Model
 
 @dataclass(frozen=True, eq=False)
 class Certification:
-    """Objectives, lower bounds and what is broken of many laws.
+    """Objectives, lower bounds and what is broken of many laws."""
 
-    Attributes
-    ----------
-    objective, bound
-        What each law is worth, and what is proven that no law is below.
-    excess
-        By how much a row may be broken anywhere, relative to its right side or 1.
-    pull
-        How far the least multiplier is below 0, relative to the greatest; negative above it.
-    inward
-        How fast a residual grows from a contact that is held at an end; negative where it falls.
-    best
-        Whether no law beside it is better, where that does not follow from the bound: of problems that are not convex
-        the bound is that of their rows' planes at the law.
-    affine
-        Whether all rows are affine, so that a gap that is left is one of rounding.
-    scale
-        Of the objective.
-    """
-
+    #: objective, bound: what each law is worth, and what is proven that no law is below
     objective: Array
     bound: Array
-    excess: Array
-    pull: Array
-    inward: Array
+    excess: Array  #: by how much a row may be broken anywhere, relative to its right side or 1
+    pull: Array  #: how far the least multiplier is below 0, relative to the greatest; negative above it
+    inward: Array  #: how fast a residual grows from a contact that is held at an end; negative where it falls
+    #: whether no law beside it is better, where that does not follow from the bound: of problems that are not convex
+    #: the bound is that of their rows' planes at the law
     best: NDArray[np.bool_]
-    affine: bool
-    scale: float
+    affine: bool  #: whether all rows are affine, so that a gap that is left is one of rounding
+    scale: float  #: of the objective
 
     @property
     def broken(self) -> Array:
@@ -158,18 +142,11 @@ class RowChecks:
         return shortfalls
 
     def excess(self, point: Array, room: Array, touching: Sequence[Array]) -> Array:
-        """By how much each law may break the rows of any family, relative to the right side or 1.
-
-        Parameters
-        ----------
-        point, room
-            The laws' variables and 1, and the right sides of the families, shape (laws, families).
-        touching
-            For each family the places of contacts whose own residuals are accounted for elsewhere.
-        """
+        """By how much each law may break the rows of any family, relative to the right side or 1."""
         shortfalls = np.zeros(len(point))
         if self._wide:
-            shortfalls = excess(self._cells, point, room[:, list(self._wide)], [touching[i] for i in self._wide])
+            wide = room[:, list(self._wide)], [touching[i] for i in self._wide]
+            shortfalls = Residuals(self._cells, point, *wide).excess()
         for i, family in enumerate(self.families):
             if isinstance(family, NonlinearFamily):
                 over = np.maximum(family.greatest(point) - room[:, i], 0.0) / np.maximum(1.0, np.abs(room[:, i]))

@@ -117,20 +117,13 @@ class StructureSegment:
 
 @dataclass(eq=False)
 class ParametricContinuation:
-    """Where a path was walked so far.
+    """The segments of a path that are known so far."""
 
-    Attributes
-    ----------
-    path, least, greatest
-        Along what, and between which t.
-    segments
-        In the order in which they were found.
-    """
-
+    #: path, least, greatest: along what, and between which t
     path: Path
     least: float
     greatest: float
-    segments: list[StructureSegment] = field(default_factory=list)
+    segments: list[StructureSegment] = field(default_factory=list)  #: in the order in which they were found
 
     @property
     def reach(self) -> float:

@@ -19,8 +19,7 @@ from optlaws.synthesis.arrays.certification import Certification, certification_
 from optlaws.synthesis.arrays.continuation import ParametricContinuation, StructureSegment
 from optlaws.synthesis.arrays.dual_bounds import lower_bounds
 from optlaws.synthesis.arrays.newton_steps import States, Structure, clipped, converged, step
-from optlaws.synthesis.arrays.programs import Numbers, Path
-from optlaws.synthesis.arrays.solved_batch import SolvedBatch
+from optlaws.synthesis.arrays.programs import Numbers, Path, SolvedBatch
 
 _NODES = 16
 _DEEPEST = 12
@@ -35,8 +34,6 @@ _STARTS = np.array([0.5, 0.25, 0.75, 0.0, 1.0])
 def laws_along(path: Path, t: Array) -> SolvedBatch:
     """The optima at ascending t, as far as they are proven here.
 
-    Examples
-    --------
     >>> from optlaws.synthesis.arrays.programs import between
     >>> from optlaws.synthesis.problem.problem import Problem
     >>> path = between(Problem(B=1.6, order=4), Problem(B=1.7, order=4))

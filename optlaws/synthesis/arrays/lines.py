@@ -17,7 +17,6 @@ from optlaws.synthesis.problem.constants import RootMeanSquare
 from optlaws.synthesis.problem.expression import Maximum
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
-from optlaws.synthesis.problem.windows import Window
 from optlaws.synthesis.program.writer import model_of
 from optlaws.synthesis.spaces.bases import PolynomialBasis
 
@@ -116,8 +115,6 @@ def _on(path: Path, t: float, problem: Problem) -> bool:
 def form_of(problem: Problem) -> Form:
     """A problem's form and its numbers; no form where it is not known here, or a constant is bounded from below.
 
-    Examples
-    --------
     >>> first, second = (form_of(Problem(B=B, order=4)) for B in (1.6, 1.7))
     >>> first.key == second.key, first.numbers, second.numbers
     (True, (1.0, 1.6), (1.0, 1.7))
@@ -138,13 +135,10 @@ def form_of(problem: Problem) -> Form:
     numbers += [limits.high for _, limits in bounded if isfinite(limits.high)]
     windows = []
     for window in problem.windows:
-        windows.append(_form_of_window(window))
+        ends = (isfinite(window.low), isfinite(window.high))
+        windows.append((window.quantity, window.start, window.stop, *ends, window.value))
         numbers += [value for value in (window.low, window.high) if isfinite(value)]
     kinds = tuple((constant, isfinite(limits.high)) for constant, limits in bounded)
     key = (objective, type(velocity), kinds, tuple(windows), problem.order, problem.basis)
     rest = (problem.monotone, problem.symmetric, problem.boundary, problem.inflexion)
     return Form((*key, *rest), tuple(numbers))
-
-
-def _form_of_window(window: Window) -> Hashable:
-    return window.quantity, window.start, window.stop, isfinite(window.low), isfinite(window.high), window.value

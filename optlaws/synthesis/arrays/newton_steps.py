@@ -27,17 +27,10 @@ _FAR = 1.05
 
 @dataclass(frozen=True, eq=False)
 class Structure:
-    """Which constraints bind: the family and the sign of each contact, and whether it may move; the same for many laws.
+    """Which constraints bind in many laws: the family and the sign of each contact, and whether it may move."""
 
-    Attributes
-    ----------
-    model
-        The program, but for its numbers.
-    family, sign, free
-        Of the contacts, by family.
-    """
-
-    model: Model
+    model: Model  #: the program, but for its numbers
+    #: family, sign, free: of the contacts, by family
     family: NDArray[np.intp]
     sign: Array
     free: NDArray[np.bool_]
@@ -156,13 +149,7 @@ def weighted(weights: Array, rows: Array) -> Array:
 
 
 def batch_families(model: Model) -> list[BatchFamily]:
-    """The families of a model's program, which many laws are continued by.
-
-    Raises
-    ------
-    TypeError
-        If one is of a kind that is not solved in arrays.
-    """
+    """The families of a model's program, which many laws are continued by."""
     families: list[BatchFamily] = []
     for family in model.program.families:
         if not isinstance(family, BatchFamily) or not family.continuable:

@@ -16,13 +16,12 @@ from optlaws.numbers import Array
 from optlaws.numerics.tolerances import AGREEMENT, TANGENT_SETTLED
 from optlaws.synthesis.arrays.continued_laws import laws_along
 from optlaws.synthesis.arrays.newton_steps import with_one
-from optlaws.synthesis.arrays.programs import Path, between
-from optlaws.synthesis.arrays.solved_batch import SolvedBatch
+from optlaws.synthesis.arrays.programs import Path, SolvedBatch, between
 from optlaws.synthesis.families.peaks import power_peaks
 from optlaws.synthesis.problem.constants import D
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import relaxed
-from optlaws.synthesis.spaces.polynomials.space import PolynomialSpace
+from optlaws.synthesis.spaces.polynomial_space import PolynomialSpace
 
 #: laws sought from all starts: at least and at most on a path, and of how many one
 _LEAST, _MOST, _EACH = 5, 13, 12
@@ -32,8 +31,6 @@ _PLACES = 256
 def least_power(problem: Problem) -> bool:
     """Whether a problem asks for the least D alone, among laws that are a convex set.
 
-    Examples
-    --------
     >>> least_power(Problem(B=1.7, order=4, minimise="D")), least_power(Problem(B=1.7, order=4, D=(0.0, 6.0)))
     (True, False)
     """

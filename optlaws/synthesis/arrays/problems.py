@@ -168,7 +168,11 @@ class ProblemArray:
         if self.velocities is not None and not np.isnan(self.velocities[place]) and self._first is not None:
             return self._first.at_velocity(float(self.velocities[place]))
         at = np.unravel_index(place, self._shape)
-        return Problem(**{name: _at(value, self._shape, at) for name, value in self._entries.items()})
+
+        def there(array: NDArray[Any]) -> Any:  # noqa: ANN401
+            return _plain(np.broadcast_to(array, self._shape)[at])
+
+        return Problem(**{name: _mapped(value, there) for name, value in self._entries.items()})
 
     @kept_property
     def _first(self) -> Problem | None:
@@ -281,10 +285,6 @@ def _mapped(value: Any, change: Callable[[NDArray[Any]], Any]) -> Any:  # noqa: 
     if isinstance(value, list | tuple) and any(True for _ in _arrays(value)):
         return tuple(_mapped(entry, change) for entry in value)
     return value
-
-
-def _at(value: Any, shape: tuple[int, ...], at: tuple[Any, ...]) -> Any:  # noqa: ANN401
-    return _mapped(value, lambda array: _plain(np.broadcast_to(array, shape)[at]))
 
 
 def _plain(value: Any) -> Any:  # noqa: ANN401

@@ -1,17 +1,18 @@
-"""Programs that differ in right sides, bounds and costs alone, as stacks of arrays along a path."""
+"""Programs that differ in right sides, bounds and costs alone, as arrays along a path, and their optima as arrays."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, fields, replace
 from itertools import starmap
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.numbers import Array
 from optlaws.numerics.tolerances import UNITS_ROUNDING
+from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.family import ConstraintFamily, Program
 from optlaws.synthesis.problem.problem import Problem
@@ -20,21 +21,11 @@ from optlaws.synthesis.program.writer import Model, model_of
 
 @dataclass(frozen=True, eq=False)
 class Numbers:
-    """What a stack of programs does not share.
+    """What a stack of programs does not share."""
 
-    Attributes
-    ----------
-    right
-        Right sides of the equations, shape (programs, equations).
-    bounds
-        Bounds of the families, shape (programs, families).
-    cost
-        What is minimised, shape (programs, variables).
-    """
-
-    right: Array
-    bounds: Array
-    cost: Array
+    right: Array  #: right sides of the equations, shape (programs, equations)
+    bounds: Array  #: bounds of the families, shape (programs, families)
+    cost: Array  #: what is minimised, shape (programs, variables)
 
     def __len__(self) -> int:
         return len(self.right)
@@ -46,27 +37,16 @@ class Numbers:
 
 @dataclass(frozen=True, eq=False)
 class Path:
-    """Programs along a straight path: their numbers are affine in t, all else is that of the model.
+    """Programs along a straight path: their numbers are affine in t, all else is that of the model."""
 
-    Attributes
-    ----------
-    model
-        The program of one of them.
-    problems
-        The problems at its ends.
-    begin, slope
-        The numbers at t = 0, and what they change by as t does; each for one program.
-    measured
-        Families whose programs have them in units of their own bound; on the path they are in one unit.
-    kept
-        What is known of laws below a claim, computed once.
-    """
-
-    model: Model
-    problems: tuple[Problem, ...]
+    model: Model  #: the program of one of them
+    problems: tuple[Problem, ...]  #: the problems at its ends
+    #: begin, slope: the numbers at t = 0, and what they change by as t does; each for one program
     begin: Numbers
     slope: Numbers
+    #: families whose programs have them in units of their own bound; on the path they are in one unit
     measured: tuple[int, ...] = ()
+    #: what is known of laws below a claim, computed once
     kept: dict[int | None, Any] = field(default_factory=dict, repr=False)
 
     @property
@@ -95,15 +75,7 @@ def numbers_of(program: Program) -> Numbers:
 
 
 def between(first: Problem, last: Problem, model: Callable[[Problem], Model] = model_of) -> Path | None:
-    """The path from one problem at t = 0 to another at t = 1; None where their programs differ in more than numbers.
-
-    Parameters
-    ----------
-    first, last
-        The problems.
-    model
-        What makes their programs.
-    """
+    """The path from one problem at t = 0 to another at t = 1; None where their programs differ in more than numbers."""
     begin, end = model(first), model(last)
     one, other = begin.program, in_units_of(begin.program, end.program)
     families = len(one.families) == len(other.families) and all(map(_alike, one.families, other.families))
@@ -146,3 +118,88 @@ def _alike(first: ConstraintFamily, other: ConstraintFamily) -> bool:
         return False
     plain = (first.name, first.signs, first.domain, first.held) == (other.name, other.signs, other.domain, other.held)
     return plain and np.array_equal(first.slack, other.slack) and (first is other or first.same_rows(other))
+
+
+NO_CONTACT = -1
+
+#: what is computed from the laws when they are read
+FOLLOWING = ("objective", "excess")
+
+
+@dataclass(frozen=True, eq=False)
+class SolvedBatch:
+    """Optima of programs that differ in numbers alone, one a row; NaN in the rows of programs that were not solved."""
+
+    x: Array  #: the programs' variables, shape (programs, variables)
+    #: family, u, sign, free, multiplier: contacts, shape (programs, most contacts): `NO_CONTACT` is the family of none
+    family: NDArray[np.int16]
+    u: Array
+    sign: Array
+    free: NDArray[np.bool_]
+    multiplier: Array
+    equations: Array  #: multipliers of the equations, shape (programs, equations)
+    #: objective, bound, excess: the objective, what is proven that no law is below, and the most by which a row is
+    #: broken (NaN of laws that were read from a file, which keep their rows as every `Solution` does); shape
+    #: (programs,)
+    objective: Array
+    bound: Array
+    excess: Array
+
+    @classmethod
+    def none(cls, count: int, variables: int, contacts: int, equations: int) -> Self:
+        """No optimum of any of `count` programs."""
+        shape = (count, contacts)
+        return cls(
+            x=np.full((count, variables), np.nan),
+            family=np.full(shape, NO_CONTACT, dtype=np.int16),
+            u=np.zeros(shape),
+            sign=np.zeros(shape),
+            free=np.zeros(shape, dtype=np.bool_),
+            multiplier=np.zeros(shape),
+            equations=np.full((count, equations), np.nan),
+            objective=np.full(count, np.nan),
+            bound=np.full(count, np.nan),
+            excess=np.full(count, np.nan),
+        )
+
+    @property
+    def solved(self) -> NDArray[np.bool_]:
+        """Which programs have an optimum here."""
+        return ~np.isnan(self.objective)
+
+    def active_set(self, place: int) -> ActiveSet:
+        """One optimum in the terms of the solver of single programs."""
+        own = self.family[place] != NO_CONTACT
+        return ActiveSet(
+            x=self.x[place].copy(),
+            family=self.family[place][own].astype(np.intp),
+            u=self.u[place][own],
+            s=self.sign[place][own],
+            free=self.free[place][own],
+            multipliers=self.multiplier[place][own],
+            equality_multipliers=self.equations[place].copy(),
+        )
+
+    def taken(self, places: NDArray[np.intp]) -> SolvedBatch:
+        """Some of the rows."""
+        return SolvedBatch(**{entry.name: getattr(self, entry.name)[places] for entry in fields(self)})
+
+    def only(self, kept: NDArray[np.bool_]) -> Self:
+        """The same without the objectives of the others, so that they count as not solved."""
+        return replace(self, objective=np.where(kept, self.objective, np.nan))
+
+    def frozen(self) -> Self:
+        """A copy whose arrays cannot be written to."""
+        for entry in fields(self):
+            getattr(self, entry.name).setflags(write=False)
+        return self
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain lists of what does not follow from the laws: all but objectives and excesses."""
+        return {entry.name: getattr(self, entry.name).tolist() for entry in fields(self) if entry.name not in FOLLOWING}
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> Self:
+        """Read what `to_dict` wrote, and what follows; it is checked by whoever reads."""
+        kinds = {"family": np.int16, "free": np.bool_}
+        return cls(**{name: np.array(value, dtype=kinds.get(name, np.float64)) for name, value in data.items()})

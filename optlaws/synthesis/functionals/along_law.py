@@ -10,7 +10,7 @@ import numpy as np
 
 from optlaws.formulas.branches import knots
 from optlaws.formulas.of_motion import MotionFormula
-from optlaws.formulas.vocabulary import ORDERS
+from optlaws.formulas.tree import ORDERS
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, PolynomialLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw

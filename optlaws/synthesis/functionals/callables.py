@@ -8,10 +8,10 @@ from typing import Any
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.formulas.functions import SMOOTH_FUNCTIONS
 from optlaws.formulas.reading import LONGEST
 from optlaws.formulas.slopes import added, multiplied, opposite
-from optlaws.formulas.tree import Call, Exponentiation, Formula, Name, Number, Reciprocal, number
-from optlaws.formulas.vocabulary import SMOOTH_FUNCTIONS, VOCABULARY
+from optlaws.formulas.tree import VOCABULARY, Call, Exponentiation, Formula, Name, Number, Reciprocal, number
 from optlaws.locks import casadi_lock
 
 _MOST = 2000

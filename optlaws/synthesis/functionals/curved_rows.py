@@ -10,12 +10,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from optlaws.formulas.affine import quadratic
 from optlaws.formulas.branches import switches, together
 from optlaws.formulas.convexity import Judge
 from optlaws.formulas.of_motion import MotionFormula
-from optlaws.formulas.quadratic import quadratic
-from optlaws.formulas.tree import Call, Exponentiation, Formula, Name, Negative, Number, number, product, total
-from optlaws.formulas.vocabulary import ORDERS
+from optlaws.formulas.tree import ORDERS, Call, Exponentiation, Formula, Name, Negative, Number, number, product, total
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import gauss
 from optlaws.numerics.tolerances import RULES_AGREE

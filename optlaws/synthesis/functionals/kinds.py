@@ -13,8 +13,7 @@ from optlaws.formulas.branches import smooth
 from optlaws.formulas.convexity import Judge
 from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.slopes import opposite
-from optlaws.formulas.tree import Negative
-from optlaws.formulas.vocabulary import ORDERS
+from optlaws.formulas.tree import ORDERS, Negative
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.numbers import Array, power_of_two

@@ -12,8 +12,7 @@ from optlaws.errors import InputError
 from optlaws.formulas.branches import smooth_itself
 from optlaws.formulas.of_motion import MotionFormula, checked, of_text
 from optlaws.formulas.scanner import FormulaError
-from optlaws.formulas.tree import Formula, plain
-from optlaws.formulas.vocabulary import ORDERS
+from optlaws.formulas.tree import ORDERS, Formula, plain
 from optlaws.numbers import real
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.functionals.callables import text_of

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from optlaws.formulas.of_motion import MotionFormula
-from optlaws.formulas.vocabulary import ORDERS
+from optlaws.formulas.tree import ORDERS
 from optlaws.numbers import Array, power_of_two
 from optlaws.numerics.tolerances import INVERSE_AGREES, POSITIVE_WEIGHTS, SIZE_RANK, TINY
 from optlaws.synthesis.functionals.affine_rows import columns, gauss

@@ -338,8 +338,6 @@ def back_velocity(B: float) -> float:
 
     With v = u + 1/2 this is 4v³ - 3v = 2B²(B - 3/2) - 1, and the left side is the Chebyshev polynomial T_3.
 
-    Examples
-    --------
     >>> round(back_velocity(3.0), 9)
     1.5
     """
@@ -350,8 +348,6 @@ def back_velocity(B: float) -> float:
 def run_in(B: float) -> float:
     """Time r/2 of positive jerk at either end in the law of least J with free end accelerations, B >= 3/2: r.
 
-    Examples
-    --------
     >>> run_in(1.5), round(run_in(2.0), 12)
     (0.0, 0.5)
     """
@@ -362,8 +358,6 @@ def run_in(B: float) -> float:
 def back_time(B: float, J: float) -> float:
     """Time of the motion back with jerk ±J in two equal parts, B >= 2.
 
-    Examples
-    --------
     >>> back_time(2.0, 32.0)
     0.0
     """
@@ -373,8 +367,6 @@ def back_time(B: float, J: float) -> float:
 def trapezoid(rise: float, time: float, J: float) -> float:
     """Height C of a trapezoid of acceleration with slopes ±J that raises b by `rise` in `time`.
 
-    Examples
-    --------
     >>> trapezoid(2.0, 0.5, 32.0)
     8.0
     """

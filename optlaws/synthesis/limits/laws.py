@@ -199,9 +199,9 @@ def _mirrored(
         half = len(first)
         ends[half - 1 : half] = []
         pieces[half - 1 : half + 1] = [middle]
-    breaks, kept = [0.0], []
+    breaks, lasting = [0.0], []
     for end, piece in zip(ends, pieces, strict=True):
         if end > breaks[-1]:
             breaks.append(end)
-            kept.append(piece)
-    return breaks, kept
+            lasting.append(piece)
+    return breaks, lasting

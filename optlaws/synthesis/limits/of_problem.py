@@ -23,8 +23,6 @@ def known_limit(problem: Problem) -> float | None:
 
     For a sum it is the sum of the parts' limits, which no one law need reach together. It is rounded down.
 
-    Examples
-    --------
     >>> known_limit(Problem(B=1.5, order=4, minimise="D"))
     2.25
     """
@@ -41,8 +39,6 @@ def known_limit(problem: Problem) -> float | None:
 def limited_laws(problem: Problem) -> str:
     """Which laws the limit of a problem holds for, in words.
 
-    Examples
-    --------
     >>> limited_laws(Problem(B=1.5, order=3)), limited_laws(Problem(order=4))
     ('law of order 3 with this B', 'law of order 4')
     >>> limited_laws(Problem(order=3, B=(1.5, 1.8), J=(0, 70)))
@@ -105,35 +101,35 @@ def _uneven(problem: Problem, constant: str) -> Fraction | None:
     least = Fraction(limit(constant, None, order=problem.order))
     if constant not in {"C", "D"}:
         return least
-    k, asked = Fraction(problem.inflexion or 0.5), problem.range("B") or Range()
+    k, limits = Fraction(problem.inflexion or 0.5), problem.range("B") or Range()
     # the greatest b is at least the mean velocity
-    peak = Fraction(max(asked.low, _MEAN_VELOCITY))
+    peak = Fraction(max(limits.low, _MEAN_VELOCITY))
     if constant == "D":
         # b²/2 rises from 0 to B²/2 in the time k, and falls back in 1 - k
         rise = peak**2 / (2 * min(k, 1 - k))
-        best = min(max(asked.low, 1.5), asked.high)
+        best = min(max(limits.low, 1.5), limits.high)
         forth = Fraction(power_limit(best, monotone=True)) if problem.monotone else Fraction(0)
         B = Fraction(best)
         return max(least, rise, forth, B**3 / (3 * (B - 1)))
     # c takes b from 0 to B in the time k, and back in 1 - k
     slopes = peak / min(k, 1 - k)
     # with no more time at B than there is, a <= B - B² / C
-    B = Fraction(min(max(asked.low, 2.0), asked.high))
+    B = Fraction(min(max(limits.low, 2.0), limits.high))
     return max(least, slopes, B * B / (B - 1))
 
 
 def _held_up_anywhere(problem: Problem, constant: str) -> bool:
     """Whether B is raised above its best by a bound that does not say where: elsewhere than at 1/2 it may cost less."""
-    asked = problem.range("B")
-    if asked is None or asked.fixed or problem.inflexion is not None:
+    limits = problem.range("B")
+    if limits is None or limits.fixed or problem.inflexion is not None:
         return False
-    return asked.low > (_MEAN_VELOCITY if problem.order == 1 else best_velocity(constant, problem.order))
+    return limits.low > (_MEAN_VELOCITY if problem.order == 1 else best_velocity(constant, problem.order))
 
 
-def _best(asked: Range | None, constant: str, order: int) -> float | None:
+def _best(limits: Range | None, constant: str, order: int) -> float | None:
     """The B of the range at which the limit is least: it falls up to one B and rises beyond."""
-    if asked is None:
+    if limits is None:
         return None
     if order == 1:
-        return asked.low if asked.low > _MEAN_VELOCITY else None
-    return min(max(asked.low, best_velocity(constant, order)), asked.high)
+        return limits.low if limits.low > _MEAN_VELOCITY else None
+    return min(max(limits.low, best_velocity(constant, order)), limits.high)

@@ -11,8 +11,6 @@ from sys import float_info
 def rounded_down(value: Fraction) -> float:
     """The greatest double that is not above an exact number.
 
-    Examples
-    --------
     >>> rounded_down(Fraction(9, 4)), rounded_down(Fraction(2, 3)) <= Fraction(2, 3)
     (2.25, True)
     """
@@ -26,8 +24,6 @@ def rounded_down(value: Fraction) -> float:
 def ratio_rounded_down(numerator: int, denominator: int) -> float:
     """The same of a ratio of whole numbers, of which the lower one is above 0; quicker than by fractions.
 
-    Examples
-    --------
     >>> ratio_rounded_down(9, 4), Fraction(ratio_rounded_down(2, 3)) <= Fraction(2, 3)
     (2.25, True)
     """
@@ -42,8 +38,6 @@ def ratio_rounded_down(numerator: int, denominator: int) -> float:
 def root_ratio_rounded_down(whole: int, square: int, denominator: int) -> float:
     """A double just below (whole + root of square) / denominator, of whole numbers above 0 but for the first.
 
-    Examples
-    --------
     >>> root_ratio_rounded_down(1, 9, 4), root_ratio_rounded_down(0, 2, 1) ** 2 <= 2.0
     (1.0, True)
     """
@@ -65,8 +59,6 @@ def root_ratio_rounded_down(whole: int, square: int, denominator: int) -> float:
 def rounded_up(value: Fraction) -> float:
     """The least double that is not below an exact number.
 
-    Examples
-    --------
     >>> rounded_up(Fraction(9, 4)), rounded_up(Fraction(2, 3)) >= Fraction(2, 3)
     (2.25, True)
     """
@@ -93,8 +85,6 @@ def not_above(value: float, below: Callable[[Fraction], bool]) -> float:
 def root_rounded_down(offset: Fraction, factor: Fraction, square: Fraction) -> float:
     """A double just below offset + factor * sqrt(square), with a factor and a square of at least 0.
 
-    Examples
-    --------
     >>> root_rounded_down(Fraction(1), Fraction(2), Fraction(9, 4))
     4.0
     """

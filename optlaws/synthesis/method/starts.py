@@ -12,7 +12,7 @@ from optlaws.numbers import Array
 from optlaws.synthesis.method.exchange import solve
 from optlaws.synthesis.problem.constants import PowerConstant
 from optlaws.synthesis.program.writer import Model, model_of
-from optlaws.synthesis.spaces.polynomials.space import PolynomialSpace
+from optlaws.synthesis.spaces.polynomial_space import PolynomialSpace
 
 _SEED = 20010
 _RANDOM = 2

@@ -9,7 +9,7 @@ from optlaws.errors import InputError
 from optlaws.numbers import MOST_ORDER, MOST_VELOCITY, real, whole
 from optlaws.synthesis.problem.expression import Expression, Term, leaves
 from optlaws.synthesis.problem.named_constants import expression, is_named
-from optlaws.synthesis.problem.ranges import Bounds, Range, as_range
+from optlaws.synthesis.problem.ranges import Range, as_range
 from optlaws.synthesis.problem.windows import Window
 from optlaws.synthesis.spaces.bases import Basis
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
@@ -33,9 +33,9 @@ def constant(value: Any, name: str) -> float | Range | None:  # noqa: ANN401 - i
     return limits.high if limits.fixed else limits
 
 
-def constant_of_bounds(value: Any, asked: Range, name: str) -> float | Range | None:  # noqa: ANN401
+def constant_of_bounds(value: Any, limits: Range, name: str) -> float | Range | None:  # noqa: ANN401
     """What `bounds` ask of a constant that has an entry of its own, where that asks nothing."""
-    plain = asked.high if asked.fixed else asked
+    plain = limits.high if limits.fixed else limits
     if value is not None:
         raise InputError(f"{name} is given twice: as {value!r} and in bounds as {plain!r}")
     return constant(plain, name)
@@ -55,11 +55,6 @@ def windows(given: Any) -> tuple[Window, ...]:  # noqa: ANN401 - they are checke
         if not isinstance(window, Window):
             raise InputError(f"windows must be Window values such as via('a', 0.3, at=0.4), got {shortened(window)}")
     return several
-
-
-def bounds(given: Any) -> Bounds:  # noqa: ANN401 - it is checked here
-    """What is asked of constants by name."""
-    return Bounds(given)
 
 
 def inflexion(k: Any) -> float | None:  # noqa: ANN401 - it is checked here
@@ -87,8 +82,6 @@ def boundary(given: Any) -> BoundaryConditions | None:  # noqa: ANN401 - it is c
 class NotGiven(int):
     """The order that nobody gave: another value than a 0 that somebody did.
 
-    Examples
-    --------
     >>> NotGiven() == 0, type(NotGiven()) is int
     (True, False)
     """

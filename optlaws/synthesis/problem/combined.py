@@ -37,21 +37,11 @@ class Combined(Functional):
 
 @dataclass(frozen=True, repr=False)
 class CombinedPeak(Combined):
-    """Peak of w0 a^(nu) + w1 a^(nu+1) + ..., magnitude or one sign only.
+    """Peak of w0 a^(nu) + w1 a^(nu+1) + ..., magnitude or one sign only."""
 
-    Attributes
-    ----------
-    nu
-        Order of the lowest derivative.
-    weights
-        The w, exact.
-    signs
-        Which signs count.
-    """
-
-    nu: int
-    weights: tuple[Fraction, ...]
-    signs: tuple[float, ...] = (1.0, -1.0)
+    nu: int  #: order of the lowest derivative
+    weights: tuple[Fraction, ...]  #: the w, exact
+    signs: tuple[float, ...] = (1.0, -1.0)  #: which signs count
 
     @kept_property
     def scale(self) -> float:
@@ -97,8 +87,6 @@ class CombinedPower(Combined, PowerConstant):
 def facing(weights: tuple[Fraction, ...]) -> tuple[Fraction, ...]:
     """The weights that say on the first half what these say on the second, in symmetric laws.
 
-    Examples
-    --------
     >>> facing((Fraction(1), Fraction(2), Fraction(3)))
     (Fraction(1, 1), Fraction(-2, 1), Fraction(3, 1))
     """
@@ -108,8 +96,6 @@ def facing(weights: tuple[Fraction, ...]) -> tuple[Fraction, ...]:
 def floats(weights: tuple[Fraction, ...]) -> tuple[float, ...]:
     """The weights rounded.
 
-    Examples
-    --------
     >>> floats((Fraction(1), Fraction(1, 200)))
     (1.0, 0.005)
     """

@@ -6,27 +6,30 @@ One more constant is one class: say how it reads off a law (`value`), which rows
 
 from __future__ import annotations
 
+import warnings
 from abc import ABC, abstractmethod
 from collections import ChainMap
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass, field
 from fractions import Fraction
+from math import isnan
 from typing import TYPE_CHECKING, ClassVar, Protocol
 
 import numpy as np
 
-from optlaws.errors import OptlawsError
+from optlaws.errors import NotNormalised, OptlawsError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, smoothstep
 from optlaws.lazy import Registry
 from optlaws.numbers import Array, power_of_two
 from optlaws.synthesis.families.family import ConstraintFamily
-from optlaws.synthesis.problem.expression import Term
+from optlaws.synthesis.problem.expression import Expression, Term, leaves
 
 if TYPE_CHECKING:
     from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
     from optlaws.synthesis.spaces.space import LawSpace
-
 
 _SMOOTH = 4  # the order of the law that scales are taken from
 _NO_ACCELERATION = 3  # the order from which laws begin and end without acceleration
@@ -209,8 +212,6 @@ class _InUnitsOfLaws(Functional):
 class PeakConstant(_InUnitsOfLaws):
     """Peak of a derivative: magnitude, or one sign only.
 
-    Examples
-    --------
     >>> from optlaws.laws import smoothstep
     >>> C.value(smoothstep(2)), C_plus.value(smoothstep(2))
     (6.0, 6.0)
@@ -237,8 +238,6 @@ class PeakConstant(_InUnitsOfLaws):
 class PeakJerk(PeakConstant):
     """Peak of the jerk, which costs more where the acceleration must begin and end with 0.
 
-    Examples
-    --------
     >>> from optlaws.laws import smoothstep
     >>> J.value(smoothstep(3)), J.least(3)
     (60.0, 32.0)
@@ -255,8 +254,6 @@ class PeakJerk(PeakConstant):
 class PowerConstant(_InUnitsOfLaws):
     """Peak D of the kinetic power d = b c: not convex in the law.
 
-    Examples
-    --------
     >>> from optlaws.laws import smoothstep
     >>> round(D.value(smoothstep(2)), 6)
     3.464102
@@ -277,8 +274,6 @@ class PowerConstant(_InUnitsOfLaws):
 class RootMeanSquare(_InUnitsOfLaws):
     """RMS of a derivative over the interval.
 
-    Examples
-    --------
     >>> from optlaws.laws import smoothstep
     >>> round(rms_c.value(smoothstep(2)) ** 2, 9)
     12.0
@@ -320,3 +315,47 @@ PLAIN: Registry[Functional] = Registry("plain constant")
 WITHOUT_ARGUMENTS: Mapping[str, Functional] = ChainMap(FUNCTIONALS, ALIASES, PLAIN)
 #: what makes a constant from arguments, by the name that text calls it by: `C_cam(nu=20)`
 MAKERS: Registry[Callable[..., Functional]] = Registry("constant")
+
+
+_SPREAD = 8.0
+_KEPT = 1024
+_warned: set[tuple[str, int]] = set()
+_silent: ContextVar[bool] = ContextVar("mixtures are meant", default=False)
+
+
+@contextmanager
+def meant() -> Iterator[None]:
+    """Have no mixture warned of, in this thread alone: filters of warnings are the process's.
+
+    >>> from optlaws.synthesis.problem.constants import C, J
+    >>> with meant():
+    ...     warn_of_mixture(C + 3 * J, 4)
+    """
+    before = _silent.set(True)
+    try:
+        yield
+    finally:
+        _silent.reset(before)
+
+
+def warn_of_mixture(objective: Expression, order: int) -> None:
+    """Warn, once for each objective, if a part of a mixture outweighs another many times over.
+
+    Parts are compared at the constants' least values for laws of the order: C counts 4, D 2.25, J 32 from order 3 on.
+    An objective such as C + 3*J is hardly a mixture; 0.5*C/4 + 0.5*J/32 is.
+
+    >>> from optlaws.synthesis.problem.constants import C, D
+    >>> warn_of_mixture(0.6 * C / 4 + 0.4 * D / 2.25, 4)
+    """
+    text = repr(objective)
+    if _silent.get() or (text, order) in _warned:
+        return
+    shares = {leaf: weight * leaf.least(order) for weight, leaf in leaves(objective) if isinstance(leaf, Functional)}
+    known = [share for share in shares.values() if not isnan(share)]
+    if len(known) > 1 and max(known) > _SPREAD * min(known):
+        if len(_warned) >= _KEPT:
+            _warned.clear()
+        _warned.add((text, order))
+        parts = ", ".join(f"{leaf!r} {share:.3g}" for leaf, share in shares.items() if not isnan(share))
+        message = f"the objective {text} is not normalised: at the constants' least values its parts are {parts}"
+        warnings.warn(f"{message}; divide each constant by such a value", NotNormalised, stacklevel=3)

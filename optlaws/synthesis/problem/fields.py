@@ -15,7 +15,7 @@ from optlaws.errors import InputError
 from optlaws.numbers import bounded
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.problem import checks
-from optlaws.synthesis.problem.ranges import Range
+from optlaws.synthesis.problem.ranges import Bounds, Range
 from optlaws.synthesis.problem.windows import Window, read_window
 from optlaws.synthesis.spaces.bases import basis
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
@@ -24,8 +24,6 @@ from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 class Kind(Enum):
     """What the values of an entry are; each door knows how it reads and writes a kind.
 
-    Examples
-    --------
     >>> ENTRIES["degree"].kind
     <Kind.WHOLE: 'a whole number'>
     """
@@ -44,27 +42,13 @@ class Kind(Enum):
 
 @dataclass(frozen=True)
 class Entry:
-    """One entry as files, studies and commands call it.
+    """One entry as files, studies and commands call it."""
 
-    Attributes
-    ----------
-    name
-        What it is called.
-    kind
-        What its values are.
-    about
-        What it asks, in a sentence.
-    heading
-        What a column of its values is called.
-    default
-        Its value unless given; None where nothing is asked, or where there is none to give.
-    """
-
-    name: str
-    kind: Kind
-    about: str
-    heading: str
-    default: Any
+    name: str  #: what it is called
+    kind: Kind  #: what its values are
+    about: str  #: what it asks, in a sentence
+    heading: str  #: what a column of its values is called
+    default: Any  #: its value unless given; None where nothing is asked, or where there is none to give
 
 
 def _entry(name: str, kind: Kind, about: str, heading: str | None = None, *, default: Any = None) -> Entry:  # noqa: ANN401
@@ -73,36 +57,17 @@ def _entry(name: str, kind: Kind, about: str, heading: str | None = None, *, def
 
 @dataclass(frozen=True)
 class Field:
-    """One field of `Problem`, with the entries that make it up.
+    """One field of `Problem`, with the entries that make it up."""
 
-    Attributes
-    ----------
-    name
-        The name of the field.
-    check
-        Whatever was given -> what the problem keeps; its error names the field.
-    entries
-        One or more; a field left out of all of them has the default of `Problem`.
-    near
-        Whether a warm start leads from one value to another: equal values, or values that differ in numbers.
-    compared
-        The attribute of `Problem` that `near` compares.
-    joined
-        Entries, by keywords -> what `check` takes.
-    plain
-        What the problem keeps -> JSON-able entries, none where nothing is asked.
-    optional
-        Whether it may ask nothing.
-    """
-
-    name: str
-    check: Callable[[Any], Any]
-    entries: tuple[Entry, ...]
+    name: str  #: the name of the field
+    check: Callable[[Any], Any]  #: whatever was given -> what the problem keeps; its error names the field
+    entries: tuple[Entry, ...]  #: one or more; a field left out of all of them has the default of `Problem`
+    #: whether a warm start leads from one value to another: equal values, or values that differ in numbers
     near: Callable[[Any, Any], bool]
-    compared: str
-    joined: Callable[..., Any]
-    plain: Callable[[Any], dict[str, Any]]
-    optional: bool = False
+    compared: str  #: the attribute of `Problem` that `near` compares
+    joined: Callable[..., Any]  #: entries, by keywords -> what `check` takes
+    plain: Callable[[Any], dict[str, Any]]  #: what the problem keeps -> JSON-able entries, none where nothing is asked
+    optional: bool = False  #: whether it may ask nothing
 
 
 def _single(
@@ -130,10 +95,10 @@ def _single(
 
 def _constant(name: str, about: str) -> Field:
     entry = _entry(name, Kind.CONSTANT, about, f"{name} asked")
-    return _single(entry, partial(checks.constant, name=name), near=_asked_alike, plain=_plain_range, optional=True)
+    return _single(entry, partial(checks.constant, name=name), near=_limited_alike, plain=_plain_range, optional=True)
 
 
-def _asked_alike(first: Any, second: Any) -> bool:  # noqa: ANN401
+def _limited_alike(first: Any, second: Any) -> bool:  # noqa: ANN401
     """Numbers, ranges bounded on the same side, or nothing."""
     if isinstance(first, Range) and isinstance(second, Range):
         return isfinite(first.high) == isfinite(second.high)
@@ -141,37 +106,16 @@ def _asked_alike(first: Any, second: Any) -> bool:  # noqa: ANN401
 
 
 def _bounded_alike(first: Mapping[Any, Range], second: Mapping[Any, Range]) -> bool:
-    return list(first) == list(second) and all(_asked_alike(first[constant], second[constant]) for constant in first)
+    return list(first) == list(second) and all(map(_limited_alike, first.values(), second.values()))
 
 
-def _same_terms(first: Any, second: Any) -> bool:  # noqa: ANN401 - expressions
-    return [term for _, term in first.terms] == [term for _, term in second.terms]
-
-
-def _as_many(first: tuple[Any, ...], second: tuple[Any, ...]) -> bool:
-    return len(first) == len(second)
-
-
-def _any(_first: object, _second: object) -> bool:
-    # the solver compares the spaces that the bases span
-    return True
-
-
-def _plain_range(asked: Any) -> Any:  # noqa: ANN401 - a number, a range or None
-    return [asked.low, bounded(asked.high)] if isinstance(asked, Range) else asked
-
-
-def _plain_bounds(bounds: Mapping[Any, Range]) -> dict[str, Any] | None:
-    return {constant.name: r.high if r.fixed else _plain_range(r) for constant, r in bounds.items()} or None
+def _plain_range(limits: Any) -> Any:  # noqa: ANN401 - a number, a range or None
+    return [limits.low, bounded(limits.high)] if isinstance(limits, Range) else limits
 
 
 def _joined_basis(**entries: Any) -> Any:  # noqa: ANN401
     name, degree = (entries.pop(entry, ENTRIES[entry].default) for entry in ("basis", "degree"))
     return basis(name, degree, **entries)
-
-
-def _joined_ends(start: Any = (), end: Any = ()) -> BoundaryConditions:  # noqa: ANN401
-    return BoundaryConditions(checks.listed(start, "start"), checks.listed(end, "end"))
 
 
 def _plain_ends(boundary: BoundaryConditions | None) -> dict[str, Any]:
@@ -185,10 +129,6 @@ def _read_windows(windows: Any) -> tuple[Window, ...]:  # noqa: ANN401
     return tuple(read_window(window) if isinstance(window, str) else Window.from_dict(window) for window in given)
 
 
-def _plain_windows(windows: tuple[Window, ...]) -> list[dict[str, Any]] | None:
-    return [window.to_dict() for window in windows] or None
-
-
 #: in the order in which files name them
 FIELDS: tuple[Field, ...] = (
     _single(
@@ -200,7 +140,7 @@ FIELDS: tuple[Field, ...] = (
             default="C",
         ),
         checks.objective,
-        near=_same_terms,
+        near=lambda first, second: [term for _, term in first.terms] == [term for _, term in second.terms],
         compared="objective",
         plain=str,
     ),
@@ -219,9 +159,9 @@ FIELDS: tuple[Field, ...] = (
     ),
     _single(
         _entry("bounds", Kind.CONSTANTS, "Any constant at most or at least a value."),
-        checks.bounds,
+        Bounds,
         near=_bounded_alike,
-        plain=_plain_bounds,
+        plain=lambda bounds: {key.name: r.high if r.fixed else _plain_range(r) for key, r in bounds.items()} or None,
         optional=True,
     ),
     _single(
@@ -239,10 +179,10 @@ FIELDS: tuple[Field, ...] = (
             _entry("continuity", Kind.WHOLE, "For bsplines and pieces: order up to which derivatives are continuous."),
             _entry("straight", Kind.NUMBERS, "For periodic pieces: numbers, from 0 on, of those without acceleration."),
         ),
-        near=_any,
+        near=lambda *_: True,  # the solver compares the spaces that the bases span
         compared="basis",
         joined=_joined_basis,
-        plain=lambda kept: dict(kept.to_dict()),
+        plain=lambda basis: dict(basis.to_dict()),
     ),
     _single(
         _entry("monotone", Kind.SWITCH, "Ask b >= 0 too: no return within the motion.", default=False),
@@ -261,7 +201,7 @@ FIELDS: tuple[Field, ...] = (
         ),
         near=eq,
         compared="boundary",
-        joined=_joined_ends,
+        joined=lambda start=(), end=(): BoundaryConditions(checks.listed(start, "start"), checks.listed(end, "end")),
         plain=_plain_ends,
         optional=True,
     ),
@@ -272,9 +212,9 @@ FIELDS: tuple[Field, ...] = (
             'a, b, c, j or a formula in bounds, such as "b <= 1.2 @ 0.2..0.3", "a = 0.3 @ 0.4" or "c + 0.2*b <= 5".',
         ),
         checks.windows,
-        near=_as_many,
+        near=lambda first, second: len(first) == len(second),
         read=_read_windows,
-        plain=_plain_windows,
+        plain=lambda windows: [window.to_dict() for window in windows] or None,
         optional=True,
     ),
 )
@@ -290,13 +230,6 @@ CONSTANTS = tuple(entry.name for entry in ENTRIES.values() if entry.kind is Kind
 def from_entries(data: Mapping[str, Any]) -> dict[str, Any]:
     """The fields that entries ask for.
 
-    Raises
-    ------
-    InputError
-        If an entry is unknown (the nearest right one is named), the order is missing, or an entry cannot be read.
-
-    Examples
-    --------
     >>> from_entries({"order": 4, "degree": 5})
     {'order': 4, 'basis': Chebyshev(degree=5)}
     """

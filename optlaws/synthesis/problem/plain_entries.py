@@ -24,8 +24,6 @@ _NUMBERS = "fiub"
 def plain_entries(entries: Mapping[str, Any]) -> dict[str, Any] | None:
     """Entries as plain data; None where one is of a kind that cannot be read back.
 
-    Examples
-    --------
     >>> plain_entries({"B": np.array([1.5, 1.6]), "order": 4})
     {'B': {'array': [1.5, 1.6], 'shape': [2], 'type': 'float64'}, 'order': 4}
     """
@@ -36,13 +34,7 @@ def plain_entries(entries: Mapping[str, Any]) -> dict[str, Any] | None:
 
 
 def read_entries(data: Mapping[str, Any]) -> dict[str, Any]:
-    """The entries that `plain_entries` wrote.
-
-    Raises
-    ------
-    InputError
-        If one is of no such kind.
-    """
+    """The entries that `plain_entries` wrote."""
     return {name: _read(value) for name, value in data.items()}
 
 
@@ -113,12 +105,12 @@ def _read(value: Any) -> Any:  # noqa: ANN401
         kind = np.dtype(str(value["type"]))
         if kind.kind not in _NUMBERS:
             raise InputError(f"an array of entries is one of numbers, got {shortened(value['type'])}")
-        numbers = [float(one) if isinstance(one, str) else one for one in value["array"]]
+        numbers = [float(number) if isinstance(number, str) else number for number in value["array"]]
         return np.array(numbers, dtype=kind).reshape(value["shape"])
     if "objects" in value:
         objects = np.empty(len(value["objects"]), dtype=object)
-        for i, one in enumerate(value["objects"]):
-            objects[i] = _read_object(one)
+        for i, stored in enumerate(value["objects"]):
+            objects[i] = _read_object(stored)
         return objects.reshape(value["shape"])
     if "basis" in value:
         entries = dict(value["basis"])

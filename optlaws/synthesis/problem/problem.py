@@ -107,9 +107,9 @@ class Problem:
         """What `bounds` ask of B, C, D and J belongs to the entries of these names."""
         for constant in _NAMED:
             if constant in self.bounds:
-                asked = constant_of_bounds(getattr(self, constant.name), self.bounds[constant], constant.name)
-                object.__setattr__(self, constant.name, asked)
-        others = {constant: asked for constant, asked in self.bounds.items() if constant not in _NAMED}
+                limits = constant_of_bounds(getattr(self, constant.name), self.bounds[constant], constant.name)
+                object.__setattr__(self, constant.name, limits)
+        others = {constant: limits for constant, limits in self.bounds.items() if constant not in _NAMED}
         object.__setattr__(self, "bounds", Bounds(others))
 
     def _drop_implied_inflexion(self) -> None:
@@ -156,10 +156,10 @@ class Problem:
     @property
     def peak_is_variable(self) -> bool:
         """Whether programs have a variable B for the peak velocity that is asked, beside those of the objective."""
-        wanted = self.range("B")
-        if wanted is None:
+        limits = self.range("B")
+        if limits is None:
             return False
-        return not self.symmetric if wanted.fixed else wanted.low > 0.0 and self.peak_at is not None
+        return not self.symmetric if limits.fixed else limits.low > 0.0 and self.peak_at is not None
 
     def range(self, name: str) -> Range | None:
         """What is asked of a constant, by its name."""
@@ -168,13 +168,13 @@ class Problem:
     @kept_property
     def bounded(self) -> tuple[tuple[Functional, Range], ...]:
         """The constants but B of which something is asked, and what."""
-        own = ((constant, self._ranges[constant.name]) for constant in _NAMED if constant.name != "B")
-        return (*((constant, asked) for constant, asked in own if asked is not None), *self.bounds.items())
+        of_entries = ((constant, self._ranges[constant.name]) for constant in _NAMED if constant.name != "B")
+        return (*((constant, limits) for constant, limits in of_entries if limits is not None), *self.bounds.items())
 
     @kept_property
     def _ranges(self) -> dict[str, Range | None]:
-        own = {name: as_range(getattr(self, name), name) for name in CONSTANTS}
-        return own | {constant.name: asked for constant, asked in self.bounds.items()}
+        of_entries = {name: as_range(getattr(self, name), name) for name in CONSTANTS}
+        return of_entries | {constant.name: limits for constant, limits in self.bounds.items()}
 
     @kept_property
     def constants(self) -> set[Functional]:
@@ -214,11 +214,11 @@ class Problem:
         """
         if not isinstance(self.B, float) or self.inflexion is not None or type(self) is not Problem:
             return replace(self, B=B)
-        made: Problem = object.__new__(Problem)
-        own = {name: value for name, value in self.__dict__.items() if name in _KEPT_ALONG_B}
+        problem: Problem = object.__new__(Problem)
+        unchanged = {name: value for name, value in self.__dict__.items() if name in _KEPT_ALONG_B}
         velocity = _check_velocity(B)
-        made.__dict__.update(own, B=velocity, _ranges={**self._ranges, "B": as_range(velocity, "B")})
-        return made
+        problem.__dict__.update(unchanged, B=velocity, _ranges={**self._ranges, "B": as_range(velocity, "B")})
+        return problem
 
     def to_dict(self) -> dict[str, Any]:
         """Plain JSON-able dict.
@@ -281,8 +281,8 @@ class Problem:
     def _repr_html_(self) -> str:
         from optlaws.shown.showing import facts, page
 
-        asked = {name: getattr(self, name) for name in self._said}
-        texts = {name: "free" if value is None else self.titled(str(value)) for name, value in asked.items()}
+        given = {name: getattr(self, name) for name in self._said}
+        texts = {name: "free" if value is None else self.titled(str(value)) for name, value in given.items()}
         return page("Problem", facts(texts))
 
     def __repr__(self) -> str:
@@ -291,19 +291,20 @@ class Problem:
     @property
     def _said(self) -> list[str]:
         """The entries that the problem says: some always, others where they are given."""
-        return [field.name for field in fields(self) if field.name in _ALWAYS or _given(self, field)]
+        given = {entry.name for entry in fields(self) if getattr(self, entry.name) != entry.default}
+        return [entry.name for entry in fields(self) if entry.name in _ALWAYS or entry.name in given]
 
 
 #: what a problem always says
 _ALWAYS = ("B", "order", "basis", "minimise")
 _check_velocity = next(field.check for field in FIELDS if field.name == "B")
 #: what a number for B has no part in
-_KEPT_ALONG_B = {one.name for one in fields(Problem)} | {"objective", "convex", "constants", "bounded"}
+_KEPT_ALONG_B = {entry.name for entry in fields(Problem)} | {"objective", "convex", "constants", "bounded"}
 
 
-def _fixed_above_mean(wanted: Range | None) -> bool:
+def _fixed_above_mean(limits: Range | None) -> bool:
     """Whether B is fixed, to a value that laws with stroke 1 can have as the peak of their velocity alone."""
-    return wanted is not None and wanted.fixed and wanted.low > 1.0
+    return limits is not None and limits.fixed and limits.low > 1.0
 
 
 def _as_code(code: str, short: Mapping[str, str]) -> str:
@@ -311,10 +312,6 @@ def _as_code(code: str, short: Mapping[str, str]) -> str:
     for name, text in short.items():
         code = code.replace(repr(name), text).replace(repr(name)[1:-1], f"{{{text}}}")
     return f"f{code}" if code.startswith(("'", '"')) and "{" in code else code
-
-
-def _given(problem: Problem, entry: Any) -> bool:  # noqa: ANN401 - a dataclass field
-    return bool(getattr(problem, entry.name) != entry.default)
 
 
 @lru_cache(maxsize=MOST_ORDER)

@@ -103,13 +103,6 @@ def at_least(low: float) -> Range:
 def as_range(value: Any, name: str) -> Range | None:  # noqa: ANN401 - it is checked here
     """A number, a Range, a pair [low, high] or None as a Range or None; `name` is what an error calls it.
 
-    Raises
-    ------
-    InputError
-        If it is none of these.
-
-    Examples
-    --------
     >>> as_range(2, "B")
     between(2.0, 2.0)
     """
@@ -136,22 +129,15 @@ def _named_range(low: Any, high: Any, name: str) -> Range:  # noqa: ANN401 - the
 class Bounds(Mapping[Functional, Range]):
     """What is asked of constants, by constant; frozen and hashable. Names find the known ones.
 
-    Raises
-    ------
-    InputError
-        If a name is unknown, a constant is named twice, or a value is no number, range or pair.
-
-    Examples
-    --------
     >>> Bounds({"rms_c": at_most(4), "jounce": None})
     {'rms_c': at_most(4)}
     """
 
-    def __init__(self, asked: Any = ()) -> None:  # noqa: ANN401 - it is checked here
-        if not isinstance(asked, Mapping) and asked != ():
-            raise InputError(f"bounds must be a dict such as {{'rms_c': at_most(5)}}, got {shortened(asked)}")
+    def __init__(self, given: Any = ()) -> None:  # noqa: ANN401 - it is checked here
+        if not isinstance(given, Mapping) and given != ():
+            raise InputError(f"bounds must be a dict such as {{'rms_c': at_most(5)}}, got {shortened(given)}")
         self._ranges: dict[Functional, Range] = {}
-        for key, value in dict(asked).items():
+        for key, value in dict(given).items():
             constant = _constant(key)
             if constant.name in {bounded.name for bounded in self._ranges}:
                 raise InputError(f"bounds name {shortened(constant.title)} twice")
@@ -195,13 +181,6 @@ def _constant(key: Any) -> Functional:  # noqa: ANN401 - it is checked here
 def read_bounds(most: Sequence[str], least: Sequence[str] = ()) -> dict[str, Range]:
     """Bounds from texts such as "rms_c=4": the greatest and the least values.
 
-    Raises
-    ------
-    InputError
-        If a text is not a name and a number, or a name comes twice on one side.
-
-    Examples
-    --------
     >>> read_bounds(["rms_c=4", "jounce=900"], ["rms_c=3.5"])
     {'rms_c': between(3.5, 4.0), 'jounce': at_most(900.0)}
     """

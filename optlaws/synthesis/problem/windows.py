@@ -207,13 +207,6 @@ def via(quantity: str, value: float, *, at: float) -> Window:
 def read_window(text: str) -> Window:
     """A window from text: what is asked of a, b, c or j, then where; the whole motion unless said.
 
-    Raises
-    ------
-    InputError
-        If the text is no window, the quantity unknown, or a number out of range.
-
-    Examples
-    --------
     >>> read_window("b <= 1.2 @ 0.2..0.3"), read_window("a = 0.3 @ 0.4")
     (Window('b', high=1.2, start=0.2, stop=0.3), via('a', 0.3, at=0.4))
     >>> read_window("-20 <= j <= 20 @ 0").point

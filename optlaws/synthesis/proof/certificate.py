@@ -26,9 +26,9 @@ from optlaws.synthesis.proof import data as stored
 from optlaws.synthesis.proof.duality import Line, lines_of, row_of, sum_of_rows
 from optlaws.synthesis.proof.farkas import farkas_margin
 from optlaws.synthesis.proof.nodes import Contact, Leaf, Node
-from optlaws.synthesis.proof.peaks.rows import PeakRows, peak_of, roots_of
+from optlaws.synthesis.proof.peak_rows import PeakRows, peak_of, roots_of
 from optlaws.synthesis.proof.power.box import BoxRows
-from optlaws.synthesis.proof.power.rows_of_problem import rows_of
+from optlaws.synthesis.proof.power.rows import rows_of
 
 OBJECTIVE, RELAXED, VIOLATION = "objective", "relaxed", "violation"
 
@@ -145,11 +145,11 @@ class Certificate:
         >>> proof.with_leaf(contacts=()).contacts
         ()
         """
-        own = self.leaf
+        leaf = self.leaf
         changed = replace(
-            own,
-            contacts=own.contacts if contacts is None else tuple(contacts),
-            equations=own.equations if equations is None else tuple(equations),
+            leaf,
+            contacts=leaf.contacts if contacts is None else tuple(contacts),
+            equations=leaf.equations if equations is None else tuple(equations),
         )
         return replace(self, tree=(*self.tree[:-1], changed))
 
@@ -194,15 +194,15 @@ class Certificate:
 
     def to_dict(self) -> dict[str, Any]:
         """Plain JSON-able dict with the recomputed bound (None where there is none): docs/reference/proof-format.md."""
-        own: dict[str, Any]
+        entries: dict[str, Any]
         if self.points is not None:
-            own = {"claim": self.claim, "points": list(self.points), "steps": stored.steps(self.tree)}
+            entries = {"claim": self.claim, "points": list(self.points), "steps": stored.steps(self.tree)}
         elif self.peak:
             cells = stored.cells(self.tree, roots_of(self.problem, self.peak))
-            own = {"constant": self.peak, "claim": self.claim, "cells": cells}
+            entries = {"constant": self.peak, "claim": self.claim, "cells": cells}
         else:
-            own = {"program": self.program, "tangent": self.tangent or 0.0, **stored.sum_of(self.leaf)}
-        return {"problem": self.problem.to_dict(), **own, "bound": bounded(self.bound)}
+            entries = {"program": self.program, "tangent": self.tangent or 0.0, **stored.sum_of(self.leaf)}
+        return {"problem": self.problem.to_dict(), **entries, "bound": bounded(self.bound)}
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> Certificate:
@@ -216,10 +216,10 @@ class Certificate:
         entries = stored.stated_certificate(data)
         problem = stored.problem_of(entries.problem)
         if isinstance(entries, stored.StatedLeaf):
-            contacts = tuple(map(stored.contact_of, entries.contacts))
+            contacts = stored.contacts_of(entries.contacts)
             return cls.of_leaf(problem, contacts, entries.equations, entries.program, entries.tangent)
         if isinstance(entries, stored.StatedBoxes):
-            return cls(problem, entries.claim, stored.tree_of_steps(entries.steps), points=entries.points)
+            return cls(problem, entries.claim, tuple(map(stored.node_of, entries.steps)), points=entries.points)
         tree = stored.tree_of_cells(entries.cells, roots_of(problem, entries.constant))
         return cls(problem, entries.claim, tree, peak=entries.constant)
 

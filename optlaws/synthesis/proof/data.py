@@ -85,13 +85,6 @@ class StatedPlaces(msgspec.Struct, forbid_unknown_fields=True):
 def stated(data: object, kind: type[Stated], name: str) -> Stated:
     """Plain data as a value of which every key is known and of its type; `name` is what an error calls it.
 
-    Raises
-    ------
-    InputError
-        If a key is unknown or missing, or a value is of another type or beyond double precision.
-
-    Examples
-    --------
     >>> stated({"constraint": "C", "sign": 1, "k": 0.25, "multiplier": 0.5}, StatedContact, "contact").k
     0.25
     >>> stated({"constraint": "C", "sign": 1, "k": "a", "multiplier": 0.5}, StatedContact, "contact")
@@ -105,13 +98,7 @@ def stated(data: object, kind: type[Stated], name: str) -> Stated:
 
 
 def stated_certificate(data: object) -> StatedLeaf | StatedBoxes | StatedPlaces:
-    """The entries of a certificate, in whichever of three ways its tree is written.
-
-    Raises
-    ------
-    InputError
-        As `stated`.
-    """
+    """The entries of a certificate, in whichever of three ways its tree is written."""
     keys = data.keys() if isinstance(data, Mapping) else ()
     if "steps" in keys:
         return stated(data, StatedBoxes, "certificate")
@@ -139,13 +126,6 @@ def as_json(data: object) -> Any:  # noqa: ANN401 - JSON
 def problem_of(data: dict[str, Any]) -> Problem:
     """The problem that plain data describe.
 
-    Raises
-    ------
-    InputError
-        If they describe none.
-
-    Examples
-    --------
     >>> problem_of({"order": 4, "B": 10**400})
     Traceback (most recent call last):
     optlaws.errors.InputError: problem: ...
@@ -156,20 +136,21 @@ def problem_of(data: dict[str, Any]) -> Problem:
         raise InputError(f"problem: {error}") from None
 
 
-def contact_of(entries: StatedContact) -> Contact:
-    """The contact that entries of a file describe.
-
-    Raises
-    ------
-    InputError
-        If its k, sign, multiplier or direction is none.
-    """
-    return Contact(entries.constraint, entries.sign, entries.k, entries.multiplier, entries.direction)
+def contacts_of(entries: Sequence[StatedContact]) -> tuple[Contact, ...]:
+    """The contacts that entries of a file describe."""
+    return tuple(Contact(*msgspec.structs.astuple(contact)) for contact in entries)
 
 
 def sum_of(leaf: Leaf) -> dict[str, Any]:
     """The contacts and equations of a leaf as plain data."""
     return {"contacts": [asdict(contact) for contact in leaf.contacts], "equations": list(leaf.equations)}
+
+
+def brief_sum_of(leaf: Leaf) -> dict[str, Any]:
+    """The same without directions of contacts that have none."""
+    plain = sum_of(leaf)
+    contacts = [{name: value for name, value in contact.items() if value != ()} for contact in plain["contacts"]]
+    return {**plain, "contacts": contacts}
 
 
 def steps(tree: Sequence[Node]) -> list[dict[str, Any]]:
@@ -178,32 +159,18 @@ def steps(tree: Sequence[Node]) -> list[dict[str, Any]]:
 
 
 def _step(node: Leaf) -> dict[str, Any]:
-    moved = (node.variable, node.side) if isinstance(node, Tightening) else (-1, 1)
-    own = sum_of(node)
-    for contact in own["contacts"]:
-        if not contact["direction"]:
-            del contact["direction"]
-    return {"variable": moved[0], "side": moved[1], **own, "claim": node.claim}
+    variable, side = (node.variable, node.side) if isinstance(node, Tightening) else (-1, 1)
+    return {"variable": variable, "side": side, **brief_sum_of(node), "claim": node.claim}
 
 
-def tree_of_steps(entries: Sequence[StatedStep]) -> tuple[Node, ...]:
-    """The tree whose nodes were stated.
-
-    Raises
-    ------
-    InputError
-        If an entry is no leaf, no tightening and no split.
-    """
-    return tuple(map(_node, entries))
-
-
-def _node(entries: StatedStep) -> Node:
-    own = (entries.side, entries.contacts, entries.equations, entries.claim)
-    if entries.at is not None and own == (None, None, None, None):
+def node_of(entries: StatedStep) -> Node:
+    """The node of a tree over boxes that a step describes."""
+    of_leaf = (entries.side, entries.contacts, entries.equations, entries.claim)
+    if entries.at is not None and of_leaf == (None, None, None, None):
         return Split(entries.variable, entries.at)
-    if entries.at is not None or None in own:
+    if entries.at is not None or None in of_leaf:
         raise InputError("this is not a certificate: a step has side, contacts, equations and claim, a split has at")
-    contacts, equations, claim = tuple(map(contact_of, entries.contacts or ())), entries.equations or (), entries.claim
+    contacts, equations, claim = contacts_of(entries.contacts or ()), entries.equations or (), entries.claim
     tightening = Tightening(contacts, equations, claim or 0.0, variable=entries.variable, side=entries.side or 0)
     return tightening if entries.variable != -1 else Leaf(contacts, equations, claim or 0.0)
 
@@ -223,13 +190,7 @@ def cells(tree: Sequence[Node], roots: Sequence[PlaceRange]) -> list[dict[str, A
 
 
 def tree_of_cells(entries: Sequence[StatedCell], roots: Sequence[PlaceRange]) -> tuple[Node, ...]:
-    """The tree whose leaves were stated with their ranges.
-
-    Raises
-    ------
-    InputError
-        If their ranges are not those into which splits can divide the places of the peak.
-    """
+    """The tree whose leaves were stated with their ranges."""
     left = [(PlaceRange(cell.sign, cell.k - cell.reach, cell.k + cell.reach), cell) for cell in entries]
     nodes: list[Node] = []
     for root in reversed(roots):
@@ -247,7 +208,7 @@ def _divided(root: PlaceRange, leaves: list[tuple[PlaceRange, StatedCell]]) -> I
         here, inside = ranges.pop()
         if len(inside) == 1 and inside[0][0] == here:
             cell = inside[0][1]
-            yield Leaf(tuple(map(contact_of, cell.contacts)), cell.equations)
+            yield Leaf(contacts_of(cell.contacts), cell.equations)
             continue
         edges = [place.high for place, _ in inside[:-1]]
         if not edges or not here.low < edges[0] <= edges[-1] < here.high:

@@ -32,8 +32,8 @@ _SPLIT = 2.0**27 + 1.0
 def lines_of(program: Program, leaf: Leaf) -> list[Line]:
     """Contacts and the program's equations as weights, rows and right sides; negative multipliers of contacts are 0."""
     lines = [(max(contact.multiplier, 0.0), *row_of(program, contact)) for contact in leaf.contacts]
-    own = program.multipliers_of_equations(leaf.equations).tolist()
-    return [*lines, *zip(own, program.equalities, program.right.tolist(), strict=False)]
+    weights = program.multipliers_of_equations(leaf.equations).tolist()
+    return [*lines, *zip(weights, program.equalities, program.right.tolist(), strict=False)]
 
 
 def row_of(program: Program, contact: Contact) -> tuple[Array, float]:

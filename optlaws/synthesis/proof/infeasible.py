@@ -30,10 +30,7 @@ from optlaws.synthesis.spaces.bases import Basis, PolynomialBasis
 
 _ROUNDS = 6
 _PLAIN = 2  # so few equations contradict each other whatever freedom the law has
-_MORE_FREEDOM = {
-    PolynomialBasis: "A higher degree of Z",
-    Basis: "More pieces, a higher degree, a lower continuity",
-}
+_MORE_FREEDOM = {PolynomialBasis: "A higher degree of Z", Basis: "More pieces, a higher degree, a lower continuity"}
 
 _TEXT = {
     RowName.BELOW_PEAK: "b <= B",
@@ -48,8 +45,8 @@ _TEXT = {
 
 def failure(problem: Problem, outcome: Outcome) -> InfeasibleProblem | SolverFailure:
     """The error to raise; an elastic phase tells which constraints contradict each other, or a limit does."""
-    said, rounds = f"the solver said {outcome.status!r}", f"{outcome.rounds} rounds of exchange"
-    tried = f"{said} after {outcome.iterations} iterations, {rounds}"
+    outcome_text, rounds = f"the solver said {outcome.status!r}", f"{outcome.rounds} rounds of exchange"
+    tried = f"{outcome_text} after {outcome.iterations} iterations, {rounds}"
     straight = convex_part(problem)
     elastic = least_violation(straight)
     disagreement = _disagreement(elastic)
@@ -83,8 +80,10 @@ def failure(problem: Problem, outcome: Outcome) -> InfeasibleProblem | SolverFai
             tried=tried,
         )
     if _falls_for_ever(problem):
+        scale = problem.objective.scale
+        deep = f"{-DEPTH:.0f}" if scale == 1.0 else f"{-DEPTH * scale:g}"
         msg = (
-            f"{problem.minimise} has no least value: there are laws with {_deep(problem)} and less. A bound on C, J or "
+            f"{problem.minimise} has no least value: there are laws with {deep} and less. A bound on C, J or "
             "B from above, or end conditions of a higher order, help"
         )
         return SolverFailure(msg, problem=problem, tried=tried)
@@ -93,20 +92,15 @@ def failure(problem: Problem, outcome: Outcome) -> InfeasibleProblem | SolverFai
     return SolverFailure("; mind that ".join([msg, *remarks]), problem=problem, tried=tried)
 
 
-def _deep(problem: Problem) -> str:
-    scale = problem.objective.scale
-    return f"{-DEPTH:.0f}" if scale == 1.0 else f"{-DEPTH * scale:g}"
-
-
 def _falls_for_ever(problem: Problem) -> bool:
     """Whether the objective, which peaks of one sign may make negative, is held by nothing but a row that says so."""
     if not problem.convex:
         return False
     model = model_of(problem)
-    program, held = model.program, grounded(model.program)
-    deepest = solve(held).optimum
+    program, bounded = model.program, grounded(model.program)
+    deepest = solve(bounded).optimum
     # so far down nothing shows which contacts are exact: a law that keeps all bounds is enough
-    x = solve_on_points(held, first_points(held), None).x if deepest is None else deepest.x
+    x = solve_on_points(bounded, first_points(bounded), None).x if deepest is None else deepest.x
     return program.objective_at(x) < -0.99 * DEPTH and program.violation(x) < DEEP_LAW_EXCESS
 
 
@@ -122,12 +116,12 @@ def _contradiction(proof: Certificate) -> str:
 def _out_of_reach(problem: Problem, elastic: Model) -> Certificate | None:
     """Proof that an amplitude cannot be as small as asked, from its least under all other constraints."""
     cones = {family.name for family in elastic.program.families if isinstance(family, ConeFamily)}
-    for constant, asked in problem.bounds.items():
+    for constant, limits in problem.bounds.items():
         if constant.name in cones:
             model = model_of(least_of(problem, constant))
             optimum = solve(model.program).optimum
             proof = None if optimum is None else certificate(model, optimum, OBJECTIVE)
-            if proof is not None and proof.bound > asked.high:
+            if proof is not None and proof.bound > limits.high:
                 return proof
     return None
 
@@ -136,9 +130,9 @@ def _why(problem: Problem, proof: Certificate, elastic: Model) -> str:
     """Which constraints contradict each other: those with a multiplier in the proof."""
     acting = [_named(problem, contact.constraint) for contact in proof.contacts if contact.multiplier > 0.0]
     acting += _equations(problem, proof, elastic)
-    asked = " and ".join(dict.fromkeys(reversed(acting)))
+    demands = " and ".join(dict.fromkeys(reversed(acting)))
     return (
-        f"no law of order {problem.order} with {_shape(problem)} has {asked}. "
+        f"no law of order {problem.order} with {_shape(problem)} has {demands}. "
         f"{_MORE_FREEDOM[_kind(problem)]} or a lower order helps{_possible(problem)}"
     )
 
@@ -172,15 +166,15 @@ class _Contradicting(Strategy[list[Points], Certificate]):
     elastic: Model
     rounds: int = _ROUNDS
 
-    def answered(self, held: list[Points]) -> tuple[Certificate | None, list[Points] | None]:
+    def answered(self, points: list[Points]) -> tuple[Certificate | None, list[Points] | None]:
         """The proof, or the points with the vertex's extrema."""
-        vertex = vertex_on_points(self.elastic.program, held)
+        vertex = vertex_on_points(self.elastic.program, points)
         if vertex is None:
             return None, None
-        proof = violation_certificate(self.elastic, as_answered(held, vertex))
+        proof = violation_certificate(self.elastic, as_answered(points, vertex))
         if proof.proves_infeasible:
             return proof, None
-        return None, with_extrema(self.elastic.program, held, vertex.x)
+        return None, with_extrema(self.elastic.program, points, vertex.x)
 
 
 def _disagreeing(problem: Problem, proof: Certificate, elastic: Model) -> str:
@@ -216,9 +210,9 @@ def _named(problem: Problem, constraint: str) -> str:
     number = names.window_number(constraint)
     if number is not None:
         return repr(problem.windows[number - 1])
-    asked = problem.range(constraint)
-    if constraint not in _TEXT and asked is not None:
-        return f"{constraint} <= {asked.high:g}"
+    limits = problem.range(constraint)
+    if constraint not in _TEXT and limits is not None:
+        return f"{constraint} <= {limits.high:g}"
     text = _TEXT.get(constraint, constraint)
     value = getattr(problem, text[-1], None) if text[-1] in "CDJ" else None
     return f"{text} = {value!r} everywhere" if value is not None else f"{text} everywhere"
@@ -229,8 +223,6 @@ def possible_velocities(problem: Problem) -> tuple[float | None, float | None]:
 
     None where there is no such end, or where no B has a law; of a problem that D bounds, for the rest of it.
 
-    Examples
-    --------
     >>> possible_velocities(Problem(B=1.2, order=6))
     (1.221697, None)
     """

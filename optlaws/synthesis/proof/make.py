@@ -1,4 +1,9 @@
-"""From an optimum's multipliers to a certificate, and the best bound that can be proven."""
+"""From an optimum's multipliers to a certificate, and the best bound that can be proven.
+
+At a law in which a formula with kinks vanishes along a stretch, or nearly does, the slope of its integral leaps: one
+tangent leaves a slope that rounding, or a kink, hides. Tangents on all sides of the law, weighted by a linear program,
+have the slope that the optimum asks for, exactly.
+"""
 
 from __future__ import annotations
 
@@ -8,25 +13,28 @@ from math import nextafter
 import numpy as np
 
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import APEX, DIRECTIONS_BALANCED, DIRECTIONS_RANK, PROOF_ENOUGH, PROOF_WEIGHTLESS
+from optlaws.numerics.tolerances import (
+    APEX,
+    CUTS_ENOUGH,
+    DIRECTIONS_BALANCED,
+    DIRECTIONS_RANK,
+    PROOF_ENOUGH,
+    PROOF_WEIGHTLESS,
+)
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.cone import ConeFamily
-from optlaws.synthesis.families.curved import FormulaFamily
+from optlaws.synthesis.families.curved import FormulaFamily, IntegralFamily
 from optlaws.synthesis.families.energy import EnergyFamily
-from optlaws.synthesis.families.family import NormFamily
+from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily, Points
+from optlaws.synthesis.families.kinked import KinkedIntegralFamily
 from optlaws.synthesis.families.names import RowName, VariableName, velocity_at_peak
+from optlaws.synthesis.method.discretised.grids import first_points, with_extrema
+from optlaws.synthesis.method.discretised.linear import LinearTable, vertex_on_points
 from optlaws.synthesis.method.exchange import solve
 from optlaws.synthesis.problem.constants import D
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, relaxed, relaxed_power
-from optlaws.synthesis.proof.certificate import (
-    OBJECTIVE,
-    RELAXED,
-    VIOLATION,
-    Certificate,
-    weighted_rows,
-)
-from optlaws.synthesis.proof.cuts import by_tangents, needs_tangents
+from optlaws.synthesis.proof.certificate import OBJECTIVE, RELAXED, VIOLATION, Certificate, weighted_rows
 from optlaws.synthesis.proof.duality import row_of, summed
 from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.proof.sublevel_bounds import least_values
@@ -83,7 +91,7 @@ def _of_convex(model: Model, optimum: ActiveSet, objective: float) -> Certificat
         return proof
     # constants that are nowhere below 0 bound their sum without a contact
     proof = max(proof, Certificate.of_leaf(model.problem), key=lambda known: known.bound)
-    several = by_tangents(model, optimum, objective) if needs_tangents(model) else None
+    several = _Tangents(model, optimum).certificate(objective) if _needs_tangents(model) else None
     several = None if several is None else _held(model, several)
     return several if several is not None and several.bound > proof.bound else proof
 
@@ -96,10 +104,7 @@ def _by_the_peak(problem: Problem) -> Certificate | None:
         return None
     loose = relaxed(problem, problem.B)
     pull = 2.0 * weight * problem.B
-    contacts = (
-        Contact(RowName.TANGENT, 1.0, 0.0, weight),
-        Contact(RowName.FROM_START, 1.0, 0.5, pull),
-    )
+    contacts = (Contact(RowName.TANGENT, 1.0, 0.0, weight), Contact(RowName.FROM_START, 1.0, 0.5, pull))
     equations = [0.0] * len(loose.program.right)
     equations[loose.equation_names.index(velocity_at_peak(0.5))] = -pull
     return Certificate.of_leaf(problem, contacts, equations, RELAXED, problem.B)
@@ -120,11 +125,11 @@ def certificate(model: Model, optimum: ActiveSet, program: str, tangent: float =
     """Contacts and multipliers of an optimum in terms of k."""
     contacts = []
     for i, family in enumerate(model.program.families):
-        own = np.flatnonzero(optimum.family == i)
+        places = np.flatnonzero(optimum.family == i)
         direction: tuple[float, ...] = ()
         if isinstance(family, NormFamily):
             direction = _direction(family, np.append(optimum.x, 1.0))
-        for j, k in zip(own, family.k(optimum.u[own]), strict=True):
+        for j, k in zip(places, family.k(optimum.u[places]), strict=True):
             if isinstance(family, ConeFamily):
                 direction = family.direction(optimum.x, float(optimum.u[j]))
             if isinstance(family, FormulaFamily):
@@ -161,22 +166,22 @@ def _held(model: Model, proof: Certificate) -> Certificate:
     rows = [row_of(model.program, contact)[0] for contact in contacts]
     for name, place in model.places.items():
         # its rows may be several, with names of their own
-        own = [i for i, contact in enumerate(contacts) if contact.multiplier > 0.0 and rows[i][place] < 0.0]
-        if own and (slope[place] > 0.0 if name in falling else slope[place] < 0.0):
-            most = max(own, key=lambda i: contacts[i].multiplier)
+        rows_of_name = [i for i, contact in enumerate(contacts) if contact.multiplier > 0.0 and rows[i][place] < 0.0]
+        if rows_of_name and (slope[place] > 0.0 if name in falling else slope[place] < 0.0):
+            most = max(rows_of_name, key=lambda i: contacts[i].multiplier)
             pull = -float(rows[most][place])
             greater = contacts[most].multiplier + _MORE * float(slope[place]) / pull
             contacts[most] = replace(contacts[most], multiplier=nextafter(greater, np.copysign(np.inf, slope[place])))
-    held = proof.with_leaf(contacts=contacts)
-    return held if held.bound > proof.bound else proof
+    bounding = proof.with_leaf(contacts=contacts)
+    return bounding if bounding.bound > proof.bound else proof
 
 
 def violation_certificate(model: Model, optimum: ActiveSet) -> Certificate:
     """The certificate that no law exists, without multipliers that are mere rounding."""
     sizes = (optimum.multipliers, optimum.equality_multipliers)
     least = PROOF_WEIGHTLESS * max((float(np.abs(size).max(initial=0.0)) for size in sizes), default=0.0)
-    kept = [np.where(np.abs(size) < least, 0.0, size) for size in sizes]
-    plain = replace(optimum, multipliers=kept[0], equality_multipliers=kept[1])
+    sizeable = [np.where(np.abs(size) < least, 0.0, size) for size in sizes]
+    plain = replace(optimum, multipliers=sizeable[0], equality_multipliers=sizeable[1])
     return certificate(model, plain, VIOLATION)
 
 
@@ -186,15 +191,7 @@ def lower_bound(proof: Certificate, limit: float | None) -> float:
 
 
 def _balanced(model: Model, proof: Certificate) -> Certificate:
-    """The certificate with the least change of its directions that balances it; the better of both.
-
-    Parameters
-    ----------
-    found
-        The program that the certificate speaks of.
-    proof
-        A certificate, whose multipliers nearly balance.
-    """
+    """The certificate with the least change of its directions that balances it; the better of both."""
     if not any(contact.direction for contact in proof.contacts):
         return proof
     images = [_image(model, contact) for contact in proof.contacts]
@@ -239,3 +236,105 @@ def _with_direction(contact: Contact, direction: Array) -> Contact:
     """A direction beyond length 1 is made one, and its multiplier greater."""
     length = max(float(np.linalg.norm(direction)), 1.0)
     return replace(contact, multiplier=contact.multiplier * length, direction=tuple((direction / length).tolist()))
+
+
+_ROUNDS = 24
+#: how far beside the law tangents touch at first, in times the greatest variable, and shares of the way to a vertex
+_BESIDE = (1e-2, 1e-5, 1e-8)
+_SHARES = (1.0, 0.3, 1e-2, 1e-4, 1e-7)
+#: how far a vertex may be from the law, in the same
+_AROUND = 10.0
+_MOST_TANGENTS = 600
+
+
+def _needs_tangents(model: Model) -> bool:
+    """Whether the program has convex integrals with kinks, and else rows that are straight."""
+    families = model.program.families
+    kinked = [family for family in families if isinstance(family, KinkedIntegralFamily)]
+    others = [family for family in families if not isinstance(family, KinkedIntegralFamily | LinearFamily)]
+    return bool(kinked) and not others and all(family.convex for family in kinked)
+
+
+class _Tangents:
+    def __init__(self, model: Model, optimum: ActiveSet) -> None:
+        self.model, self.x = model, optimum.x
+        program = model.program
+        self.straight = [family for family in program.families if isinstance(family, LinearFamily)]
+        self.kinked = [family for family in program.families if isinstance(family, KinkedIntegralFamily)]
+        several = with_extrema(program, first_points(program), optimum.x)
+        self.points = [
+            points.joined(Points(optimum.u[optimum.family == i], optimum.s[optimum.family == i]))
+            for i, (family, points) in enumerate(zip(program.families, several, strict=True))
+            if isinstance(family, LinearFamily)
+        ]
+        self.size = max(1.0, float(np.abs(optimum.x).max()))
+        self.rows: list[tuple[IntegralFamily, tuple[float, ...], Array]] = []
+        self._touch(self.x)
+        for way in np.eye(model.space.terms, program.size):
+            for reach in _BESIDE:
+                for sign in (1.0, -1.0):
+                    self._touch(self.x + sign * reach * self.size * way)
+
+    def _touch(self, x: Array) -> None:
+        for family in self.kinked:
+            point = family.touching(x, 1.0)
+            row = family.tangent_row(1.0, 1.0, point)
+            if row is not None and np.isfinite(row).all():
+                self.rows.append((family, point, row))
+
+    def certificate(self, objective: float) -> Certificate | None:
+        """The best certificate of vertices, each of which shows where the next tangents touch; None where none is."""
+        best: Certificate | None = None
+        for _ in range(_ROUNDS):
+            families, points = self._families()
+            program = replace(self.model.program, families=families)
+            vertex = vertex_on_points(program, points)
+            if vertex is None:
+                return best
+            table, ends = LinearTable(program, points), np.cumsum([len(touching.u) for touching in points])
+            weights = np.concatenate(vertex.multipliers[:-1]) * table.length
+            binding = weights > 0.0
+            balanced = table.balanced(binding, weights, vertex.multipliers[-1])
+            multipliers, equations = weights.copy(), vertex.multipliers[-1]
+            if balanced is not None:
+                multipliers[binding], equations = balanced
+            proof = self._stated(np.split(multipliers / table.length, ends[:-1]), points, equations)
+            best = proof if best is None or proof.bound > best.bound else best
+            if (
+                best.bound >= objective - CUTS_ENOUGH * max(abs(objective), CUTS_ENOUGH)
+                or len(self.rows) > _MOST_TANGENTS
+            ):
+                return best
+            for share in _SHARES:
+                self._touch(self.x + share * (vertex.x - self.x))
+            straight = replace(self.model.program, families=tuple(self.straight))
+            self.points = with_extrema(straight, self.points, vertex.x)
+        return best
+
+    def _families(self) -> tuple[tuple[ConstraintFamily, ...], list[Points]]:
+        """The straight families, a row for each tangent, and a box that is none of the certificate's."""
+        once, families, points = np.ones(1), [*self.straight], [*self.points]
+        size = self.model.program.size
+        for kinked, _, row in self.rows:
+            families.append(LinearFamily(kinked.name, kinked.slack, kinked.bound, (1.0,), (1.0, 1.0), series=row[None]))
+            points.append(Points(once, once))
+        for way in np.eye(size):
+            for sign in (1.0, -1.0):
+                row = np.append(sign * way, -sign * float(way @ self.x))[None]
+                bound = _AROUND * self.size
+                families.append(LinearFamily("box", np.zeros(size), bound, (1.0,), (1.0, 1.0), series=row))
+                points.append(Points(once, once))
+        return tuple(families), points
+
+    def _stated(self, weights: list[Array], points: list[Points], equations: Array) -> Certificate:
+        contacts, unit = [], self.model.unit
+        for family, touching, weights_there in zip(self.straight, points, weights, strict=False):
+            for u, s, weight in zip(touching.u, touching.s, weights_there, strict=True):
+                if weight > 0.0:
+                    k = float(min(max(family.k(np.array([u]))[0], 0.0), 1.0))
+                    contacts.append(Contact(family.name, float(s), k, float(weight) * (unit / family.unit)))
+        for (kinked, point, _), weights_there in zip(self.rows, weights[len(self.straight) :], strict=False):
+            if weights_there[0] > 0.0:
+                contacts.append(Contact(kinked.name, 1.0, 0.0, float(weights_there[0]) * (unit / kinked.unit), point))
+        stated = self.model.program.stated_multipliers(np.asarray(equations))
+        return Certificate.of_leaf(self.model.problem, contacts, stated.tolist())

@@ -21,13 +21,6 @@ def unfolded(model: Model, half: Model, optimum: ActiveSet) -> ActiveSet:
 
     Each contact is there twice, at k and at 1 - k, with half its multiplier. The equations' multipliers are those that
     leave least of the sum of rows; what the whole proves is for a certificate to say.
-
-    Parameters
-    ----------
-    model
-        The program of the unsymmetric problem.
-    half, optimum
-        The program of the same problem with symmetric laws, and its optimum.
     """
     names = {family.name: i for i, family in enumerate(model.program.families)}
     odd = {peak.name for peak in model.problem.constants if isinstance(peak, PeakConstant) and peak.nu % 2 == 0}
@@ -78,9 +71,9 @@ def _with_equations(program: Program, x: Array, contacts: list[Contact]) -> Acti
     u, s, multipliers = (np.asarray(column, dtype=np.float64) for column in (u, s, multipliers))
     slope = program.objective.copy()
     for i, rows in enumerate(program.families):
-        own = np.flatnonzero(family == i)
-        if len(own):
-            slope += multipliers[own] @ rows.jet(x, u[own], s[own]).gradient
+        places = np.flatnonzero(family == i)
+        if len(places):
+            slope += multipliers[places] @ rows.jet(x, u[places], s[places]).gradient
     weights = np.linalg.lstsq(program.equalities.T, -slope, rcond=None)[0] if len(program.right) else np.empty(0)
     return ActiveSet(
         x=x,

@@ -17,40 +17,29 @@ from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
 
 
 class Ground(NamedTuple):
-    """Why a problem has no law: what a proof has to speak of, and what its lower bound has to exceed.
+    """Why a problem has no law: what a proof has to speak of, and what its lower bound has to exceed."""
 
-    Attributes
-    ----------
-    problem
-        What the proof is of.
-    above
-        A bound that is asked of a constant, which no law keeps whose least value is greater; None where the
-        constraints themselves contradict each other.
-    """
-
-    problem: Problem
+    problem: Problem  #: what the proof is of
+    #: a bound that is asked of a constant, which no law keeps whose least value is greater; None where the constraints
+    #: themselves contradict each other
     above: float | None
 
 
 def convex_part(problem: Problem) -> Problem:
     """The problem without the bounds that are not convex: what contradicts itself there does so with them too.
 
-    Examples
-    --------
     >>> convex_part(Problem(B=1.7, order=4, D=(0.0, 6.0)))
     Problem(B=1.7, order=4, basis=Chebyshev(degree=9), minimise='C')
     """
-    kept = {constant: limits for constant, limits in problem.bounded if constant.convex}
-    if len(kept) == len(problem.bounded):
+    convex_bounds = {constant: limits for constant, limits in problem.bounded if constant.convex}
+    if len(convex_bounds) == len(problem.bounded):
         return problem
-    return replace(problem, C=None, D=None, J=None, bounds=kept)
+    return replace(problem, C=None, D=None, J=None, bounds=convex_bounds)
 
 
 def least_of(problem: Problem, constant: Functional) -> Problem:
     """The problem of the least value of a bounded constant under all other constraints.
 
-    Examples
-    --------
     >>> from optlaws.synthesis.problem.constants import D
     >>> least_of(Problem(B=1.7, order=4, D=(0.0, 2.0)), D)
     Problem(B=1.7, order=4, basis=Chebyshev(degree=9), minimise='D')
@@ -82,8 +71,6 @@ def proof_of_no_law(problem: Problem, proof: object) -> Certificate | None:
 
     Multipliers that prove it of one problem mostly prove it of those beyond: what they prove is affine in the numbers.
 
-    Examples
-    --------
     >>> import optlaws
     >>> try:
     ...     optlaws.synthesize(Problem(B=1.05, order=3, basis=optlaws.Chebyshev(3)))
@@ -109,16 +96,14 @@ def proof_of_no_law(problem: Problem, proof: object) -> Certificate | None:
 def beyond_limit(problem: Problem) -> str:
     """Which constant is asked to be below what no law of any degree can beat; empty if none is.
 
-    Examples
-    --------
     >>> beyond_limit(Problem(B=1.7, order=4, C=(0.0, 3.0)))
     'no law of any degree has C <= 3 with the other constraints: its limit is 4.128571 (optlaws.limit). ...'
     """
-    for constant, asked in problem.bounded:
+    for constant, limits in problem.bounded:
         least = known_limit(replace(problem, minimise=constant.expression()))
-        if least is not None and asked.high < least * (1.0 - VALUE_ROUNDING):
+        if least is not None and limits.high < least * (1.0 - VALUE_ROUNDING):
             return (
-                f"no law of any degree has {constant!r} <= {asked.high:g} with the other constraints: "
+                f"no law of any degree has {constant!r} <= {limits.high:g} with the other constraints: "
                 f"its limit is {least:.7g} (optlaws.limit). A higher bound of {constant!r} helps, or another B"
             )
     return ""

@@ -111,8 +111,6 @@ Node = Leaf | Split
 class PlaceRange(NamedTuple):
     """Places from one to another, and the sign with which the peak is there.
 
-    Examples
-    --------
     >>> PlaceRange(1.0, 0.0, 0.5).parts(0.125)[0]
     PlaceRange(sign=1.0, low=0.125, high=0.5)
     """

@@ -20,7 +20,7 @@ from optlaws.numbers import Array, bounded, real
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.evaluation import worth
 from optlaws.synthesis.proof.certificate import OBJECTIVE, Certificate
-from optlaws.synthesis.proof.data import StatedContact, contact_of, problem_of, stated
+from optlaws.synthesis.proof.data import StatedContact, brief_sum_of, contacts_of, problem_of, stated
 from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.proven.swept_parameter import SweptParameter, gap_bounds, lower_line
 from optlaws.synthesis.solution import measure
@@ -196,9 +196,9 @@ class ProvenFront:
         sides: Array,
     ) -> ProvenFront:
         """A front whose laws are made when they are asked for, with what is known at each already."""
-        made = cls(number, tuple(values.tolist()), laws, certificates)
-        made.__dict__["sides"] = sides
-        return made
+        front = cls(number, tuple(values.tolist()), laws, certificates)
+        front.__dict__["sides"] = sides
+        return front
 
     @property
     def problem(self) -> Problem:
@@ -264,14 +264,14 @@ class ProvenFront:
         return self._bounds(values)[0]
 
     def _bounds(self, values: Many) -> tuple[Array, Array]:
-        asked = np.asarray(values, dtype=np.float64)
+        places = np.asarray(values, dtype=np.float64)
         low, high = self.between
-        wrong = asked[~((asked >= low) & (asked <= high))]
+        wrong = places[~((places >= low) & (places <= high))]
         if wrong.size:
             raise self._outside(float(wrong.flat[0]))
         t = np.array(self.values)
-        i = np.clip(np.searchsorted(t, asked, side="right") - 1, 0, len(t) - 2)
-        away = (asked - t[i], asked - t[i + 1])
+        i = np.clip(np.searchsorted(t, places, side="right") - 1, 0, len(t) - 2)
+        away = (places - t[i], places - t[i + 1])
         share = away[0] / (t[i + 1] - t[i])
         tops, lows, slopes = self.sides.T
         if self.number.concave:
@@ -351,12 +351,7 @@ class ProvenFront:
             "problem": self.problem.to_dict(),
             "gap": self.gap,
             "points": [
-                {
-                    "at": value,
-                    "law": law.to_dict(),
-                    "contacts": [_plain(contact) for contact in proof.contacts],
-                    "equations": list(proof.equations),
-                }
+                {"at": value, "law": law.to_dict(), **brief_sum_of(proof.leaf)}
                 for value, law, proof in zip(self.values, self.laws, self.certificates, strict=True)
             ],
         }
@@ -374,16 +369,10 @@ class ProvenFront:
 
 
 def front_of(stated_front: StatedFront) -> ProvenFront:
-    """The front that was stated.
-
-    Raises
-    ------
-    InputError
-        If it is none.
-    """
+    """The front that was stated."""
     number = SweptParameter(problem_of(stated_front.problem), stated_front.runs)
     proofs = [
-        Certificate.of_leaf(number.at(point.at), tuple(map(contact_of, point.contacts)), point.equations)
+        Certificate.of_leaf(number.at(point.at), contacts_of(point.contacts), point.equations)
         for point in stated_front.points
     ]
     laws = tuple(MotionLaw.from_dict(point.law) for point in stated_front.points)
@@ -398,8 +387,3 @@ def front_of(stated_front: StatedFront) -> ProvenFront:
 def weighted_value(number: SweptParameter, law: MotionLaw) -> float:
     """What the term whose weight runs is of a law, before it is weighted."""
     return worth(replace(number.problem, minimise=number.weighted), law).objective
-
-
-def _plain(contact: Contact) -> dict[str, Any]:
-    plain = {"constraint": contact.constraint, "sign": contact.sign, "k": contact.k, "multiplier": contact.multiplier}
-    return plain | ({"direction": list(contact.direction)} if contact.direction else {})

@@ -92,16 +92,16 @@ def proven_front(
     (5.182381, True, True)
     """
     number = _number(problem, over)
-    wanted = positive(gap, "gap")
+    greatest_gap = positive(gap, "gap")
     if between is not None:
-        return _Refined(number, _checked(between)).until(wanted)
+        return _Refined(number, _checked(between)).until(greatest_gap)
     low, high = _where_it_pays(number)
     for above in _ABOVE:
         # so near to the least value that has a law multipliers are great, and proofs may be worse than what is asked
         with suppress(SolverFailure):
-            return _Refined(number, (low, high)).until(wanted)
+            return _Refined(number, (low, high)).until(greatest_gap)
         low = least_value(number.problem, number.name) * (1.0 + above)
-    return _Refined(number, (low, high)).until(wanted)
+    return _Refined(number, (low, high)).until(greatest_gap)
 
 
 class _Refined:
@@ -208,15 +208,15 @@ class _Refined:
 
     def _check(self, gap: float) -> None:
         """Refuse a gap that certified laws have themselves: no law between them would mend it."""
-        own = self.own_gaps
-        worst = int(np.argmax(own))
+        gaps = self.own_gaps
+        worst = int(np.argmax(gaps))
         narrow = np.diff(self.values).min() <= NARROWEST * float(np.ptp(self.values))
-        if own[worst] <= gap and not narrow:
+        if gaps[worst] <= gap and not narrow:
             return
         value = float(self.values[worst])
         raise SolverFailure(
-            f"the law at {self.number.name} = {value!r} has a gap of {own[worst]:.1e} itself: a front cannot be proven "
-            f"to {gap:g}; ask a greater gap, or another range",
+            f"the law at {self.number.name} = {value!r} has a gap of {gaps[worst]:.1e} itself: a front cannot be "
+            f"proven to {gap:g}; ask a greater gap, or another range",
             problem=self.number.at(value),
         )
 
@@ -265,15 +265,7 @@ def _least_known(number: SweptParameter) -> str:
 
 
 def lower_lines(part: SolvedPart, values: Array, number: SweptParameter, ends: tuple[float, float]) -> Array | None:
-    """Value and slope of what the certificates of a part prove between the ends; None where a row is not linear.
-
-    Parameters
-    ----------
-    part, values
-        Laws that were found together, and the B of each.
-    number, ends
-        B, and between which values.
-    """
+    """Value and slope of what the certificates of a part prove between the ends; None where a row is not linear."""
     families = part.model.program.families
     if number.name != "B" or not all(isinstance(family, LinearFamily) for family in families):
         return None

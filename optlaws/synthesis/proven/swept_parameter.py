@@ -78,13 +78,7 @@ class SweptParameter:
         return self.name.startswith(WEIGHT)
 
     def at(self, value: float) -> Problem:
-        """The problem at a value of the number.
-
-        Raises
-        ------
-        InputError
-            If it can have no such value.
-        """
+        """The problem at a value of the number."""
         if self.concave:
             return replace(self.problem, minimise=self._weighted(value))
         if self.name == "B":
@@ -118,13 +112,13 @@ class SweptParameter:
 
     @property
     def _place(self) -> int:
-        wanted = self.name.removeprefix(WEIGHT)
+        name = self.name.removeprefix(WEIGHT)
         known = [repr(term) for _, term in self.problem.objective.terms]
         if len(known) < 2:
             raise InputError(f"a weight runs in an objective of several terms, got {self.problem.objective!r}")
-        if wanted not in known:
-            raise InputError(unknown_key(wanted, known, "term of the objective"))
-        return known.index(wanted)
+        if name not in known:
+            raise InputError(unknown_key(name, known, "term of the objective"))
+        return known.index(name)
 
     def _weighted(self, weight: float) -> Expression:
         """The objective with another weight of the term."""
@@ -141,8 +135,8 @@ def _check_convex(problem: Problem) -> None:
                 f"{constant.title} is not convex, so that two laws prove nothing of the laws between: pareto_front "
                 "exchanges it point by point"
             )
-        asked = problem.range(constant.name)
-        if constant.name != "B" and asked is not None and asked.low > 0.0:
+        limits = problem.range(constant.name)
+        if constant.name != "B" and limits is not None and limits.low > 0.0:
             raise InputError(
                 f"{constant.title} is bounded from below, which laws between two need not keep: bound it from above"
             )

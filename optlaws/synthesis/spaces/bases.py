@@ -1,4 +1,4 @@
-"""Basis functions W_i(k) of the free function Z(k) = sum z_i W_i(k) of eq. 8."""
+"""Basis functions W_i(k) of the free function Z(k) = sum z_i W_i(k) of eq. 8, and breaks between which they are one."""
 
 from __future__ import annotations
 
@@ -6,7 +6,9 @@ from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import pairwise
 from math import comb
+from numbers import Integral
 from typing import Any, ClassVar, cast
 
 import numpy as np
@@ -14,14 +16,68 @@ import numpy as np
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.lazy import Registry
-from optlaws.numbers import MOST_DEGREE, MOST_PIECE_DEGREE, MOST_PIECES, Array, fractions, numbers, positive, whole
-from optlaws.numerics.exact import (
-    chebyshev_from_powers,
-    exact_powers,
-    powers_from_chebyshev,
-    rounded,
+from optlaws.numbers import (
+    MOST_DEGREE,
+    MOST_PIECE_DEGREE,
+    MOST_PIECES,
+    Array,
+    fractions,
+    listed,
+    numbers,
+    positive,
+    whole,
 )
-from optlaws.synthesis.spaces.breaks import mirrored, order_of_continuity, places
+from optlaws.numerics.exact import chebyshev_from_powers, exact_powers, powers_from_chebyshev, rounded
+from optlaws.numerics.tolerances import MIRROR
+
+
+def places(breaks: int | Sequence[float]) -> tuple[float, ...]:
+    """Breaks as floats; a number asks for so many pieces of equal length.
+
+    >>> places(4), places([0, 0.3, 1])
+    ((0.0, 0.25, 0.5, 0.75, 1.0), (0.0, 0.3, 1.0))
+    """
+    if isinstance(breaks, Integral):
+        number = whole(breaks, "number of pieces", least=1, most=MOST_PIECES)
+        return tuple(i / number for i in range(number + 1))
+    places = numbers(listed(breaks, "breaks", MOST_PIECES + 1), "breaks")
+    if len(places) < 2 or places[0] != 0.0 or places[-1] != 1.0 or not all(a < b for a, b in pairwise(places)):
+        raise InputError(f"breaks must increase from 0 to 1, got {shortened(places)}")
+    return places
+
+
+def mirrored(breaks: Sequence[float]) -> bool:
+    """Whether the breaks are symmetric about 1/2.
+
+    >>> mirrored((0.0, 0.3, 0.7, 1.0)), mirrored((0.0, 0.3, 1.0))
+    (True, False)
+    """
+    return all(abs(place + other - 1.0) <= MIRROR for place, other in zip(breaks, reversed(breaks), strict=True))
+
+
+def order_of_continuity(continuity: int, degree: int) -> int:
+    """The order up to which derivatives are continuous at the breaks, checked.
+
+    >>> order_of_continuity(2, 3)
+    2
+    """
+    order = whole(continuity, "continuity", least=1, most=MOST_DEGREE)
+    if order >= degree:
+        raise InputError(f"continuity must be below the degree {degree}, got {order}")
+    return order
+
+
+def read_breaks(text: str) -> int | list[float]:
+    """Breaks from text: a number of equal pieces, or the places separated by blanks.
+
+    >>> read_breaks("8"), read_breaks("0 0.3 1")
+    (8, [0.0, 0.3, 1.0])
+    """
+    try:
+        places = [float(word) for word in text.replace(",", " ").split()]
+    except ValueError as error:
+        raise InputError(f"breaks are a number of pieces or places separated by blanks: {error}") from None
+    return int(places[0]) if len(places) == 1 and places[0].is_integer() else places
 
 
 class Basis(ABC):
@@ -262,17 +318,13 @@ def basis(name: str, degree: int, **parameters: Any) -> Basis:  # noqa: ANN401 -
     >>> basis("chebyshev", 9)
     Chebyshev(degree=9)
     """
-    if not _known(name):
+    if not isinstance(name, str) or name not in Basis.kinds:
         raise InputError(f"basis {shortened(name)} is unknown; known are {', '.join(sorted(Basis.kinds))}")
     kind: Any = Basis.kinds[name]
     try:
         return cast("Basis", kind(degree=degree, **parameters))
     except TypeError as error:
         raise InputError(f"basis {name!r} does not take these parameters: {error}") from None
-
-
-def _known(name: object) -> bool:
-    return isinstance(name, str) and name in Basis.kinds
 
 
 def _sized(z: Sequence[float], chosen: PolynomialBasis) -> Sequence[float]:
@@ -283,5 +335,5 @@ def _sized(z: Sequence[float], chosen: PolynomialBasis) -> Sequence[float]:
 
 
 def _fitted(values: Sequence[float] | Array, size: int) -> tuple[float, ...]:
-    kept = [float(v) for v in values[:size]]
-    return tuple(kept + [0.0] * (size - len(kept)))
+    known = [float(v) for v in values[:size]]
+    return tuple(known + [0.0] * (size - len(known)))

@@ -5,17 +5,54 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import pairwise
 from math import comb, factorial
 from typing import Any, Self, overload
 
 from optlaws.errors import InputError
 from optlaws.laws import PolynomialLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
+from optlaws.laws.segments.segment import PolynomialSegment
 from optlaws.numbers import MOST_ORDER, fractions, listed, whole
-from optlaws.numerics.exact import Polynomial, edge, exact_powers, plus, shifted, times
+from optlaws.numerics.exact import Polynomial, chebyshev_from_powers, edge, exact_powers, plus, shifted, times
 from optlaws.synthesis.spaces.bases import PolynomialBasis, Powers
-from optlaws.synthesis.spaces.spline_law import piecewise_law
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
+
+
+def piecewise_law(
+    base: Polynomial, order: int, breaks: Sequence[float], pieces: Sequence[Sequence[Any]]
+) -> PiecewiseLaw:
+    """The law base(k) + k^l (k-1)^l Z(k).
+
+    Parameters
+    ----------
+    base
+        Ascending powers of k of the law with Z = 0.
+    order
+        The order l.
+    breaks
+        Where the pieces of Z begin and end.
+    pieces
+        Z on each piece, ascending powers of (k - start) / length.
+
+    Examples
+    --------
+    >>> from fractions import Fraction
+    >>> law = piecewise_law([Fraction(n) for n in (0, 0, 3, -2)], 2, (0.0, 0.5, 1.0), [[0, 8], [8, -8]])
+    >>> len(law.segments), law.a(0.5), law.c(0.0)
+    (2, 1.0, 6.0)
+    """
+    segments = []
+    for (low, high), z in zip(pairwise(fractions(breaks, "breaks")), pieces, strict=True):
+        length = high - low
+        around, local = (
+            [value * length**i for i, value in enumerate(shifted(coefficients, low))]
+            for coefficients in (edge(order), base)
+        )
+        a = plus(local, times(around, fractions(z, "Z")))
+        c = [(i + 1) * (i + 2) * value / length**2 for i, value in enumerate(a[2:])]
+        segments.append(PolynomialSegment(chebyshev_from_powers(c), b0=float(a[1] / length)))
+    return PiecewiseLaw(breaks, segments, a0=float(base[0]))
 
 
 @dataclass(frozen=True)
@@ -82,9 +119,9 @@ class BoundaryConditions:
         """
         order = self.order
         end = [value / factorial(i) for i, value in enumerate(fractions(self.end, "end"))]
-        wanted = [e - a for e, a in zip(end, shifted(self.a0(), 1), strict=True)]
+        missing = [e - a for e, a in zip(end, shifted(self.a0(), 1), strict=True)]
         inverse = [Fraction((-1) ** i * comb(order + i - 1, i)) for i in range(order)]
-        return shifted(times(wanted, inverse)[:order], -1)
+        return shifted(times(missing, inverse)[:order], -1)
 
 
 @overload

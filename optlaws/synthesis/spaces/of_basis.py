@@ -15,7 +15,7 @@ from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 from optlaws.synthesis.spaces.pieces.free import PieceSpace, piece_space
 from optlaws.synthesis.spaces.pieces.periodic import PeriodicPieces, PeriodicSpace, periodic_space
 from optlaws.synthesis.spaces.pieces.splines import SplineSpace, spline_space
-from optlaws.synthesis.spaces.polynomials.space import PolynomialSpace, polynomial_space
+from optlaws.synthesis.spaces.polynomial_space import PolynomialSpace, polynomial_space
 from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
 
@@ -49,13 +49,7 @@ def _(basis: PolynomialBasis, boundary: BoundaryConditions, *, symmetric: bool) 
 
 @lru_cache(maxsize=64)
 def check_conversions(basis: PolynomialBasis) -> None:
-    """See that a basis leads from a Chebyshev series to its coefficients and back.
-
-    Raises
-    ------
-    InputError
-        If it does not: its two methods contradict each other.
-    """
+    """See that a basis leads from a Chebyshev series to its coefficients and back."""
     numbers = np.random.default_rng(0)
     for _ in range(2):
         given = numbers.normal(size=basis.size)

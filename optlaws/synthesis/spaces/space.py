@@ -62,14 +62,14 @@ class LawSpace(ABC):
 
     def cached(self, key: Hashable, make: Callable[[], Array]) -> Array:
         """What `make` gives, kept for the keys that came last."""
-        kept = self._kept.get(key)
-        if kept is None:
-            kept = make()
+        known = self._kept.get(key)
+        if known is None:
+            known = make()
             if len(self._kept) >= _KEPT:
                 # a copy of the keys, for another thread may be changing them
                 self._kept.pop(next(iter(self._kept.copy())), None)
-            self._kept[key] = kept
-        return kept
+            self._kept[key] = known
+        return known
 
     @abstractmethod
     def law(self, coordinates: Array) -> MotionLaw:

@@ -17,8 +17,7 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.numbers import MOST_PIECE_DEGREE, Array, fractions, whole
 from optlaws.numerics.exact import chebyshev_from_powers
-from optlaws.synthesis.spaces.bases import Basis
-from optlaws.synthesis.spaces.breaks import mirrored, order_of_continuity, places
+from optlaws.synthesis.spaces.bases import Basis, mirrored, order_of_continuity, places
 
 
 @dataclass(frozen=True, init=False)
@@ -51,8 +50,8 @@ class PiecewiseBasis(Basis):
     def __init__(self, breaks: int | Sequence[float], degree: int = 3, continuity: int | None = None) -> None:
         object.__setattr__(self, "breaks", places(breaks))
         object.__setattr__(self, "degree", whole(degree, "degree of Z", least=2, most=MOST_PIECE_DEGREE))
-        asked = self.degree - 1 if continuity is None else continuity
-        object.__setattr__(self, "continuity", order_of_continuity(asked, self.degree))
+        order = self.degree - 1 if continuity is None else continuity
+        object.__setattr__(self, "continuity", order_of_continuity(order, self.degree))
 
     @property
     @abstractmethod
@@ -84,8 +83,8 @@ class PiecewiseBasis(Basis):
 
     def coefficients(self, series: Array) -> tuple[float, ...]:
         """The z_i of a Z given by its Chebyshev series on each piece, in least squares."""
-        wanted = np.reshape(np.asarray(series, dtype=np.float64), -1)
-        return tuple(np.linalg.lstsq(self.functions.reshape(self.size, -1).T, wanted, rcond=None)[0].tolist())
+        values = np.reshape(np.asarray(series, dtype=np.float64), -1)
+        return tuple(np.linalg.lstsq(self.functions.reshape(self.size, -1).T, values, rcond=None)[0].tolist())
 
     @kept_property
     def functions(self) -> Array:

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from functools import reduce
 from itertools import pairwise
+from operator import methodcaller
 from typing import Any
 
 from flint import arb, arb_poly, arb_series, ctx, fmpq, fmpq_poly
@@ -13,12 +14,6 @@ from flint import arb, arb_poly, arb_series, ctx, fmpq, fmpq_poly
 from optlaws.formulas.arithmetic import Arithmetic, evaluate, horner, pieces
 from optlaws.formulas.tree import Formula, Table
 from optlaws.verification.enclosing.balls import ball, rational
-
-_NAMES = ("sin", "cos", "tan", "exp", "log", "atan")
-
-
-def _method(name: str) -> Any:  # noqa: ANN401 - a function of whatever has the method
-    return lambda x: getattr(x, name)()
 
 
 def _tanh(x: Any) -> Any:  # noqa: ANN401 - a ball or a series
@@ -46,10 +41,6 @@ def _sqrt(x: Any) -> Any:  # noqa: ANN401 - a ball or a series
     return x.sqrt()
 
 
-def _norm(x: Any, y: Any) -> Any:  # noqa: ANN401 - balls or series
-    return _sqrt(x * x + y * y)
-
-
 def _abs(x: Any) -> Any:  # noqa: ANN401 - a ball or a series
     plain = _plain(x)
     if plain >= 0 or plain <= 0:
@@ -64,10 +55,6 @@ def _max(x: Any, y: Any) -> Any:  # noqa: ANN401 - balls or series
         return x + y * 0 if first >= other else y + x * 0
     slopes = [p.union(q) for p, q in zip(_coefficients(x + y * 0)[1:2], _coefficients(y + x * 0)[1:2], strict=True)]
     return _kinked(x + y, [first.max(other), *slopes])
-
-
-def _min(x: Any, y: Any) -> Any:  # noqa: ANN401 - balls or series
-    return -_max(-x, -y)
 
 
 def _may_vanish(x: arb) -> bool:
@@ -90,10 +77,6 @@ def _kinked(like: Any, known: list[arb]) -> Any:  # noqa: ANN401 - a ball or a s
     return arb_series([*known, *[arb.nan()] * (ctx.cap - len(known))])
 
 
-def _exactly(value: float) -> arb:
-    return ball(float(value))
-
-
 def _on_pieces(table: Table, at: Any) -> Any:  # noqa: ANN401 - a ball or a series
     """The values of all pieces that the ball may be on, and of a series those slopes that they bound together."""
     places, plain = [ball(place) for place in table.places], _plain(at)
@@ -113,8 +96,6 @@ def _on_pieces(table: Table, at: Any) -> Any:  # noqa: ANN401 - a ball or a seri
 def exact_pieces(table: Table) -> list[list[fmpq]]:
     """On each piece of a table powers of (x - start); straight lines exactly, a spline as its rounded coefficients say.
 
-    Examples
-    --------
     >>> from optlaws.formulas.tree import Name
     >>> exact_pieces(Table(Name("k"), (0.0, 0.5, 1.0), (0.0, 1.0, 0.0)))
     [[0, 2], [1, -2]]
@@ -133,23 +114,19 @@ def _differentiated(row: list[fmpq], order: int) -> list[fmpq]:
 
 
 BALLS = Arithmetic(
-    number=_exactly,
+    number=lambda value: ball(float(value)),
     functions={
-        **{name: _method(name) for name in _NAMES},
+        **{name: methodcaller(name) for name in ("sin", "cos", "tan", "exp", "log", "atan")},
         "tanh": _tanh,
         "sqrt": _sqrt,
         "abs": _abs,
         "max": _max,
-        "min": _min,
-        "norm": _norm,
+        "min": lambda x, y: -_max(-x, -y),
+        "norm": lambda x, y: _sqrt(x * x + y * y),
     },
     power=_power,
     table=_on_pieces,
 )
-
-
-def _polynomial_power(base: fmpq_poly, exponent: fmpq_poly) -> fmpq_poly:
-    return base ** int(exponent(fmpq(0)).p)
 
 
 def _polynomial_table(table: Table, at: fmpq_poly) -> fmpq_poly:
@@ -165,7 +142,7 @@ def _polynomial_table(table: Table, at: fmpq_poly) -> fmpq_poly:
 POLYNOMIALS = Arithmetic(
     number=lambda value: fmpq_poly([rational(float(value))]),
     functions={},
-    power=_polynomial_power,
+    power=lambda base, exponent: base ** int(exponent(fmpq(0)).p),
     table=_polynomial_table,
 )
 
@@ -173,8 +150,6 @@ POLYNOMIALS = Arithmetic(
 def series_of(formula: Formula, names: Mapping[str, arb_series]) -> arb_series:
     """The Taylor series of a formula where its names have theirs; of no number where a divisor may be 0.
 
-    Examples
-    --------
     >>> from optlaws.formulas.tree import Name, Number, Exponentiation
     >>> series = series_of(Exponentiation(Name("k"), Number(2.0)), {"k": arb_series([arb(3), arb(1)])})
     >>> [float(series[i]) for i in range(3)]
@@ -190,8 +165,6 @@ def series_of(formula: Formula, names: Mapping[str, arb_series]) -> arb_series:
 def composed(polynomial: fmpq_poly, x: arb_series) -> arb_series:
     """The Taylor series of a polynomial of what is affine; about the middle of a ball first, which hardly widens it.
 
-    Examples
-    --------
     >>> float(composed(fmpq_poly([0, -1, 1]), arb_series([arb(1, 2.0**-20), arb(1)]))[0].rad()) < 1.01 * 2.0**-20
     True
     """

@@ -12,14 +12,15 @@ from flint import arb, ctx, fmpq, fmpq_poly
 
 from optlaws.synthesis.limits.rounding import rounded_down, rounded_up
 
+#: balls that hold the least and the greatest value of something
+Extremes = tuple[arb, arb]
+
 _PLACES, _EXACT = 128, 4096
 
 
 def rational(value: float | Fraction) -> fmpq:
     """The exact value of a float or Fraction.
 
-    Examples
-    --------
     >>> rational(0.25)
     1/4
     """

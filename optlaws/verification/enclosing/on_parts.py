@@ -28,8 +28,6 @@ _RATIONALS = Arithmetic(number=Fraction, functions={}, power=_whole_power)
 def kinks(motion: MotionFormula) -> list[Fraction]:
     """The k at which what depends on k alone may have a kink; those of straight lines exactly, others nearly.
 
-    Examples
-    --------
     >>> from optlaws.formulas.of_motion import of_text
     >>> kinks(of_text("table(1 - k, 0:1, 0.25:2, 1:0)*c + abs(k - 0.5)*b"))
     [Fraction(1, 2), Fraction(3, 4)]
@@ -74,8 +72,6 @@ def _root(formula: Formula) -> Fraction | None:
 def on_part(formula: Formula, low: Fraction, high: Fraction) -> Formula:
     """The formula between two k, without kinks of what is affine in k if none is between them.
 
-    Examples
-    --------
     >>> from optlaws.formulas.reading import read
     >>> on_part(read("abs(k - 0.5)*c + max(k, 0.25, b)"), Fraction(1, 2), Fraction(1))
     (k - 0.5)*c + max(k, 0.25, b)

@@ -18,55 +18,42 @@ from math import inf, isfinite
 from flint import arb, arb_mat, ctx
 
 from optlaws.errors import InputError
+from optlaws.numerics.tolerances import BOUND_ENCLOSED, ROUNDED_MULTIPLIER
 from optlaws.synthesis.limits.rounding import rounded_up
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
 from optlaws.synthesis.proof.nodes import Contact
 from optlaws.verification.enclosing.balls import ball, lower, upper
-from optlaws.verification.enclosing.row import BallRow
-from optlaws.verification.exact.power import tree_holds
+from optlaws.verification.exact.boxes import tree_holds
 from optlaws.verification.exact.rows import ExactRows
 from optlaws.verification.exact.sublevel_bounds import greatest_values, least_objective, least_values, means
-from optlaws.verification.machines.certificate_rows import together
+from optlaws.verification.machines.certificate_rows import BallRow, together
 
 Vector = list[arb]
 
-_WIDE = 2.0**-80
 _TRIES = 3
 #: how readily moments take part, beside the squares of the multipliers
 _READINESS = (2.0**-60, 1.0)
 #: bounds that differ by less are one bound
 _SAME = Fraction(1, 10**13)
-#: a correction of multipliers, in shares of the greatest, that needs no other explanation than rounding
-_LITTLE = 1e-7
 #: how far from a contact its neighbours are, and how much of its multiplier each takes
 _NEAR, _SHARE = Fraction(1, 2**20), Fraction(1, 2**22)
 
 
 @dataclass(frozen=True)
 class Proof:
-    """The bound that a certificate proves, and what it took.
+    """The bound that a certificate proves, and what it took."""
 
-    Attributes
-    ----------
-    value
-        The lower bound; of a proof that no law exists, by how much the constraints contradict each other. None if
-        nothing is proven.
-    charge
-        What was taken off for moments that had to join in; 0 where corrected multipliers do without.
-    correction
-        The greatest change of a multiplier, in units of the greatest one.
-    negative, unknown
-        Numbers of contacts with a negative multiplier, and of those the problem does not ask for: they do not count.
-    slope
-        By how much the bound rises with a number on the right side of rows, between two floats, where that was asked.
-    """
-
+    #: the lower bound; of a proof that no law exists, by how much the constraints contradict each other. None if
+    #: nothing is proven
     value: Fraction | None
-    charge: float = 0.0
-    correction: float = 0.0
+    charge: float = 0.0  #: what was taken off for moments that had to join in; 0 where corrected multipliers do without
+    correction: float = 0.0  #: the greatest change of a multiplier, in units of the greatest one
+    #: negative, unknown: numbers of contacts with a negative multiplier, and of those the problem does not ask for:
+    #: they do not count
     negative: int = 0
     unknown: int = 0
+    #: by how much the bound rises with a number on the right side of rows, between two floats, where that was asked
     slope: tuple[Fraction, Fraction] = (Fraction(0), Fraction(0))
 
 
@@ -75,13 +62,6 @@ def prove(certificate: Certificate) -> Proof:
 
     Places of a peak are not checked: such a tree proves nothing here.
 
-    Raises
-    ------
-    InputError
-        If the laws are of an unknown kind, or a constant that is minimised or bounded is none that is known.
-
-    Examples
-    --------
     >>> from optlaws import Chebyshev, Problem, synthesize
     >>> solution = synthesize(Problem(B=1.859, order=4, basis=Chebyshev(9)))
     >>> proof = prove(solution.certificate)
@@ -101,34 +81,17 @@ def prove(certificate: Certificate) -> Proof:
 
 @dataclass(frozen=True)
 class Along:
-    """A number on the right side of rows, or a weight of the objective, along which a bound is asked.
+    """A number on the right side of rows, or a weight of the objective, along which a bound is asked."""
 
-    Attributes
-    ----------
-    step
-        The problem with the number greater by `width`; None for a weight, along which bounds are averaged.
-    width
-        By how much.
-    widest
-        The problem, of all that are asked about, whose laws may be greatest.
-    claim
-        The greatest objective that is asked about.
-    """
-
+    #: the problem with the number greater by `width`; None for a weight, along which bounds are averaged
     step: Problem | None
-    width: Fraction
-    widest: Problem
-    claim: float
+    width: Fraction  #: by how much
+    widest: Problem  #: the problem, of all that are asked about, whose laws may be greatest
+    claim: float  #: the greatest objective that is asked about
 
 
 def prove_along(certificate: Certificate, along: Along) -> Proof:
-    """What the certificate's contacts prove wherever the number is between its ends: a value here, and its slope.
-
-    Raises
-    ------
-    InputError
-        As `prove`.
-    """
+    """What the certificate's contacts prove wherever the number is between its ends: a value here, and its slope."""
     return _proof(certificate, along)
 
 
@@ -285,7 +248,7 @@ class _System:
         proof = Proof(
             proven, rounded_up(upper(charge) * self.unit) + 0.0, moved / greatest, self.negative, self.unknown, bounds
         )
-        return proof, bool(value.rad() < _WIDE)
+        return proof, bool(value.rad() < BOUND_ENCLOSED)
 
     def _slopes(self) -> Vector:
         slopes = list(self.cost)
@@ -330,9 +293,9 @@ def _better(proof: Proof, than: Proof, scale: Fraction) -> bool:
     if proof.value is None or than.value is None:
         return proof.value is not None
     rounding = _SAME * max(scale, abs(than.value))
-    if proof.correction <= _LITTLE < than.correction:
+    if proof.correction <= ROUNDED_MULTIPLIER < than.correction:
         return proof.value > than.value - rounding
-    if than.correction <= _LITTLE < proof.correction:
+    if than.correction <= ROUNDED_MULTIPLIER < proof.correction:
         return proof.value > than.value + rounding
     return proof.value > than.value
 

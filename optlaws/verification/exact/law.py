@@ -17,18 +17,60 @@ from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment, Segment
 from optlaws.laws.segments.sine import HarmonicSegment, SineSegment
 from optlaws.synthesis.functionals.curved_rows import split, squared
-from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaPeak, FormulaRms
+from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaPeak, FormulaRms, FormulaValue
 from optlaws.synthesis.problem.combined import CombinedPeak, CombinedPower
-from optlaws.synthesis.problem.constants import PeakConstant, PowerConstant, RootMeanSquare
+from optlaws.synthesis.problem.constants import PeakConstant, PeakJerk, PowerConstant, RootMeanSquare
 from optlaws.synthesis.problem.expression import Expression, Maximum, Term
-from optlaws.verification.enclosing.ball_pieces import PowerPiece, SinePiece
+from optlaws.synthesis.problem.named_constants import is_named
 from optlaws.verification.enclosing.balls import ball, enclosed, rational
-from optlaws.verification.enclosing.pieces import ExactPiece, Extremes, PolynomialPiece, least_and_greatest
-from optlaws.verification.exact.formula_values import extremes_of, integral_of
-from optlaws.verification.exact.known_constants import Known, OfFormula, OfMachine, known
-from optlaws.verification.machines.mode_residuals import ExactModeResidual, ModeConstant
-from optlaws.verification.machines.outputs import ExactOutput, KnownOutputRms
-from optlaws.verification.machines.residuals import ExactResidual, ResidualConstant
+from optlaws.verification.enclosing.pieces import (
+    ExactPiece,
+    Extremes,
+    PolynomialPiece,
+    PowerPiece,
+    SinePiece,
+    least_and_greatest,
+)
+from optlaws.verification.exact.motion_formulas import extremes_of, integral_of
+from optlaws.verification.machines.outputs import ExactOutput, KnownOutput, KnownOutputRms
+from optlaws.verification.machines.residuals import ExactModeResidual, ExactResidual, ModeConstant, ResidualConstant
+
+OfFormula = FormulaIntegral | FormulaPeak | FormulaRms | FormulaValue
+_OF_FORMULAS = {FormulaIntegral, FormulaPeak, FormulaRms, FormulaValue}
+OfMachine = ResidualConstant | ModeConstant | KnownOutput
+Known = PeakConstant | PowerConstant | RootMeanSquare | CombinedPeak | OfMachine | OfFormula
+
+_OF_CAMS = tuple(f"{name}_cam(" for name in ("B", "C", "C_plus", "C_minus", "D", "J"))
+_TOLD = (*_OF_CAMS, "residual(", "mode_residual(", "output_peak(", "output_rms(")
+
+
+def known(term: Term) -> Known:
+    """The constant, if it is one of a law, of its cam, of a machine, or of a formula, as optlaws itself defines them.
+
+    Raises
+    ------
+    InputError
+        If it is any other: what a subclass means, nobody has put into exact arithmetic.
+
+    Examples
+    --------
+    >>> from optlaws.synthesis.problem.constants import C
+    >>> known(C).nu
+    2
+    """
+    if type(term) in {PeakConstant, PeakJerk, RootMeanSquare} and isinstance(term, PeakConstant | RootMeanSquare):
+        return term
+    if type(term) is PowerConstant and tuple(term.weights) == (Fraction(1),):
+        return term
+    if isinstance(term, CombinedPeak | CombinedPower | OfMachine) and repr(term).startswith(_TOLD) and is_named(term):
+        return term
+    if type(term) in _OF_FORMULAS and isinstance(term, OfFormula) and is_named(term):
+        return term
+    raise InputError(
+        "exact verification knows peaks, power and RMS of derivatives, constants of cams, of machines and "
+        f"of formulas as optlaws defines them, not {term!r}: what bounds it is checked with numpy alone, by "
+        "Certificate.bound"
+    )
 
 
 class ExactLaw:
@@ -36,18 +78,6 @@ class ExactLaw:
 
     Where a derivative jumps by more than rounding, as `PiecewiseLaw.jumps` tells, those above it are infinite.
 
-    Parameters
-    ----------
-    law
-        The law.
-
-    Raises
-    ------
-    InputError
-        If the law is neither polynomial nor made of polynomials, sines and constant power.
-
-    Examples
-    --------
     >>> from optlaws.laws import smoothstep
     >>> ExactLaw(smoothstep(2)).polynomials[0].derivative(1)
     (-3/2)*x^2 + 3/2
@@ -84,35 +114,23 @@ class ExactLaw:
 
     @property
     def polynomials(self) -> list[PolynomialPiece]:
-        """The pieces of a law that is made of polynomials alone.
-
-        Raises
-        ------
-        InputError
-            If one is not.
-        """
+        """The pieces of a law that is made of polynomials alone."""
         polynomials = [piece for piece in self.pieces if isinstance(piece, PolynomialPiece)]
         if len(polynomials) < len(self.pieces):
             raise InputError("the law of a solution must be made of polynomials")
         return polynomials
 
     def value(self, nu: int, k: Fraction) -> fmpq:
-        """The derivative of order nu at k, exact; at a break that of the later piece.
-
-        Raises
-        ------
-        InputError
-            If a piece is no polynomial.
-        """
+        """The derivative of order nu at k, exact; at a break that of the later piece."""
         return [piece for piece in self.polynomials if piece.start <= k][-1].exact(nu, k)
 
     def extremes(self, nu: int, start: Fraction = Fraction(0), stop: Fraction = Fraction(1)) -> Extremes:
         """Balls that hold the least and the greatest value of the derivative of order nu between two k."""
-        asked = (nu, start, stop)
-        if asked not in self._extremes:
+        key = (nu, start, stop)
+        if key not in self._extremes:
             with ctx.workprec(self.precision):
-                self._extremes[asked] = self._enclosed(nu, start, stop)
-        return self._extremes[asked]
+                self._extremes[key] = self._enclosed(nu, start, stop)
+        return self._extremes[key]
 
     def _enclosed(self, nu: int, start: Fraction, stop: Fraction) -> Extremes:
         if start == stop:
@@ -154,13 +172,7 @@ class ExactLaw:
         return {**peaks, "rms_c": self.rms(2)}
 
     def combined_peak(self, constant: CombinedPeak) -> arb:
-        """A ball that holds the peak of a combination of derivatives.
-
-        Raises
-        ------
-        InputError
-            If a piece is no polynomial.
-        """
+        """A ball that holds the peak of a combination of derivatives."""
         nu, weights = constant.nu, constant.weights
         if self._impulses(nu + len(weights) - 1):
             return arb.pos_inf()
@@ -170,13 +182,7 @@ class ExactLaw:
             return reduce(arb.max, (greatest if sign > 0 else -least for sign in constant.signs))
 
     def combined_power(self, constant: CombinedPower) -> arb:
-        """A ball that holds the peak of the power of a combination of derivatives.
-
-        Raises
-        ------
-        InputError
-            If a piece is no polynomial.
-        """
+        """A ball that holds the peak of the power of a combination of derivatives."""
         weights = constant.weights
         if self._impulses(len(weights) + 1):
             return arb.pos_inf()
@@ -189,13 +195,7 @@ class ExactLaw:
         return {name: enclosed(value) for name, value in self.constants().items()}
 
     def of_machine(self, constant: OfMachine) -> arb:
-        """A ball that holds a constant of a machine: a residual over frequencies, of a mode over a box, or an output's.
-
-        Raises
-        ------
-        InputError
-            If a piece is no polynomial, or the machine has no such mode or motion.
-        """
+        """A ball that holds a constant of a machine: the residual of a follower or of a mode, or one of an output."""
         with ctx.workprec(2 * self.precision):
             if isinstance(constant, ResidualConstant):
                 return ExactResidual(constant).peak(self.polynomials)
@@ -207,13 +207,7 @@ class ExactLaw:
             return (exact.rms if isinstance(constant, KnownOutputRms) else exact.peak)(self.polynomials)
 
     def of_formula(self, constant: OfFormula) -> arb:
-        """A ball that holds a constant of a formula.
-
-        Raises
-        ------
-        InputError
-            If a piece is no polynomial, or the formula has no exact form.
-        """
+        """A ball that holds a constant of a formula."""
         motion = constant.motion
         if self._impulses(max(motion.orders, default=0)):
             return arb.pos_inf()
@@ -224,13 +218,7 @@ class ExactLaw:
             return reduce(arb.max, [self.greatest_of(motion, sign) for sign in signs])
 
     def greatest_of(self, motion: MotionFormula, sign: float) -> arb:
-        """A ball that holds the greatest value of a formula, times a sign, over its part.
-
-        Raises
-        ------
-        InputError
-            If a piece is no polynomial, or the formula has no exact form.
-        """
+        """A ball that holds the greatest value of a formula, times a sign, over its part."""
         with ctx.workprec(self.precision):
             tops = []
             for branch in split(motion, sign, "") or []:
@@ -245,13 +233,7 @@ class ExactLaw:
         return (integral_of(squared(constant.motion), self.polynomials) / whole).sqrt()
 
     def term(self, term: Term) -> arb:
-        """A ball that holds the value of a constant or a maximum.
-
-        Raises
-        ------
-        InputError
-            If it is no constant that exact arithmetic knows, nor a maximum of sums of these.
-        """
+        """A ball that holds the value of a constant or a maximum."""
         if isinstance(term, Maximum):
             with ctx.workprec(self.precision):
                 return reduce(arb.max, map(self.sum, term.parts))

@@ -26,13 +26,6 @@ _ZERO = fmpq_poly([0])
 def exact_space(problem: Problem) -> ExactSpace:
     """The laws of a problem as a space in exact numbers.
 
-    Raises
-    ------
-    InputError
-        If the basis is of a kind that nobody has put into exact arithmetic.
-
-    Examples
-    --------
     >>> from optlaws.synthesis import Chebyshev
     >>> exact_space(Problem(B=1.6, order=1, basis=Chebyshev(1))).derivative(1)
     [[3/2*x^2 + (-1/2), 1]]
@@ -81,17 +74,17 @@ def _(basis: PiecewiseBasis, problem: Problem) -> ExactSpace:
 def _(basis: Pieces, problem: Problem) -> ExactSpace:
     start, end = ([Fraction(v) for v in part] for part in (problem.conditions.start, problem.conditions.end))
     breaks = [Fraction(k) for k in basis.breaks if not problem.symmetric or k <= _HALF]
-    wanted = [Condition(nu, Fraction(0), start[nu]) for nu in range(2, problem.order)]
+    equations = [Condition(nu, Fraction(0), start[nu]) for nu in range(2, problem.order)]
     if problem.symmetric:
-        wanted.append(Condition(0, _HALF, (start[0] + end[0]) / 2))
-        wanted += [Condition(nu, _HALF, Fraction(0)) for nu in range(2, min(basis.continuity, basis.degree) + 1, 2)]
+        equations.append(Condition(0, _HALF, (start[0] + end[0]) / 2))
+        equations += [Condition(nu, _HALF, Fraction(0)) for nu in range(2, min(basis.continuity, basis.degree) + 1, 2)]
     else:
-        wanted += [Condition(nu, Fraction(1), value) for nu, value in enumerate(end)]
+        equations += [Condition(nu, Fraction(1), value) for nu, value in enumerate(end)]
     base = sum((rational(v / factorial(i)) * _K**i for i, v in enumerate(start[: basis.degree + 1])), _ZERO)
-    kept = _splines(breaks, basis.degree, basis.continuity, lowest=problem.order)
-    functions = [[*part, base] for part in kept]
+    splines = _splines(breaks, basis.degree, basis.continuity, lowest=problem.order)
+    functions = [[*part, base] for part in splines]
     divided = problem.boundary is None and problem.order > 1 and (problem.symmetric or len(breaks) > 2)
-    return _FreePieces(problem, breaks, functions, continuity=basis.continuity, conditions=wanted, divided=divided)
+    return _FreePieces(problem, breaks, functions, continuity=basis.continuity, conditions=equations, divided=divided)
 
 
 @_space.register
@@ -99,10 +92,10 @@ def _(basis: PeriodicPieces, problem: Problem) -> ExactSpace:
     start, end = (Fraction(part[0]) for part in (problem.conditions.start, problem.conditions.end))
     breaks = [Fraction(k) for k in basis.breaks]
     free = _kept_by(basis, _splines(breaks, basis.degree, basis.continuity, lowest=1))
-    wanted = [Condition(0, Fraction(1), end), Condition(1, Fraction(1), Fraction(0), less=Fraction(0))]
+    equations = [Condition(0, Fraction(1), end), Condition(1, Fraction(1), Fraction(0), less=Fraction(0))]
     base = fmpq_poly([rational(start)])
     functions = [[*part, base] for part in free]
-    return ExactSpace(problem, breaks, functions, continuity=basis.continuity, conditions=wanted)
+    return ExactSpace(problem, breaks, functions, continuity=basis.continuity, conditions=equations)
 
 
 def _kept_by(basis: PeriodicPieces, functions: list[Functions]) -> list[Functions]:
@@ -145,12 +138,8 @@ class _FreePieces(ExactSpace):
         if self.breaks[-1] == 1:
             ways[-1] = ((1 - _K) / rational(1 - self.breaks[-2])) ** power
         return [
-            [-_quotient(velocity, way) for velocity in part] for part, way in zip(self.derivative(1), ways, strict=True)
+            [-divmod(velocity, way)[0] for velocity in part] for part, way in zip(self.derivative(1), ways, strict=True)
         ]
-
-
-def _quotient(polynomial: fmpq_poly, way: fmpq_poly) -> fmpq_poly:
-    return divmod(polynomial, way)[0]
 
 
 def _splines(breaks: list[Fraction], degree: int, continuity: int, lowest: int = 0) -> list[Functions]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
@@ -15,7 +15,7 @@ from flint import arb
 from optlaws.errors import InputError
 from optlaws.formulas.branches import switches
 from optlaws.formulas.of_motion import MotionFormula
-from optlaws.formulas.vocabulary import ORDERS
+from optlaws.formulas.tree import ORDERS
 from optlaws.kept import kept_property
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.names import RowName, VariableName
@@ -34,22 +34,18 @@ from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.spaces.of_basis import space_of
 from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.verification.enclosing.balls import ball
-from optlaws.verification.enclosing.pieces import PolynomialPiece
-from optlaws.verification.enclosing.row import BallRow, Maker, Names, UpperLimit
-from optlaws.verification.exact.formula_rows import (
+from optlaws.verification.exact.law import ExactLaw, OfFormula, OfMachine, known
+from optlaws.verification.exact.motion_formulas import (
     formula_columns,
     norm_columns,
     straight_integral,
     tangent_columns,
     tangent_integral,
 )
-from optlaws.verification.exact.known_constants import OfFormula, OfMachine, known
-from optlaws.verification.exact.law import ExactLaw
 from optlaws.verification.exact.of_basis import exact_space
-from optlaws.verification.machines.certificate_rows import Corner, cone, mean, mode_edges, peak
-from optlaws.verification.machines.mode_residuals import ModeConstant
+from optlaws.verification.machines.certificate_rows import BallRow, Corner, Maker, Names, UpperLimit, cone, mode_edges
 from optlaws.verification.machines.outputs import KnownOutput, KnownOutputRms, OutputRows
-from optlaws.verification.machines.residuals import ExactResidual, ResidualConstant
+from optlaws.verification.machines.residuals import ExactResidual, ModeConstant, ResidualConstant
 
 _NEAR = Fraction(1, 10**9)
 
@@ -68,18 +64,7 @@ class WindowPart:
 
 
 class ExactRows:
-    """The rows that a certificate may use. The constants are variables that every law meets with its own values.
-
-    Parameters
-    ----------
-    certificate
-        Which problem, and which program: with D relaxed, or for a proof that no law exists.
-
-    Raises
-    ------
-    InputError
-        If the laws are of an unknown kind, or a constant that is minimised or bounded is none that is known.
-    """
+    """The rows that a certificate may use. The constants are variables that every law meets with its own values."""
 
     def __init__(self, certificate: Certificate) -> None:
         self.problem = problem = certificate.problem
@@ -170,8 +155,10 @@ class ExactRows:
         elif self.relaxed and limit.constants:
             self._single(names.at_least(constant.name), limit.constants, 0.0)
 
-    def _everywhere(self, name: str, values: Place, signs: tuple[float, ...], limit: UpperLimit) -> None:
-        self._add(name, lambda contact, k: limit.row(value * contact.sign for value in values(k)), signs)
+    def _everywhere(
+        self, name: str, values: Place, signs: tuple[float, ...], limit: UpperLimit, unit: arb | None = None
+    ) -> None:
+        self._add(name, lambda contact, k: limit.row((value * contact.sign for value in values(k)), unit), signs)
 
     def _of_formula(self, constant: OfFormula, limit: UpperLimit) -> None:
         symmetric = self.problem.symmetric
@@ -212,7 +199,10 @@ class ExactRows:
     def _integral(self, constant: FormulaRms | FormulaIntegral, limit: UpperLimit) -> None:
         motion, name = constant.motion, constant.name
         if isinstance(constant, FormulaRms) and constant.affine:
-            self._add(name, lambda contact, _: self._norm_of(constant, contact, limit))
+            whole = ball(Fraction(motion.stop) - Fraction(motion.start)).sqrt()
+            parts = constant.parts(symmetric=self.problem.symmetric)
+            columns = partial(norm_columns, self.space, parts)
+            self._add(name, lambda contact, _: limit.row(value / whole for value in columns(contact.direction)))
             return
         root = isinstance(constant, FormulaRms)
         unit = ball(constant.length).sqrt() if isinstance(constant, FormulaRms) else arb(1)
@@ -234,12 +224,6 @@ class ExactRows:
             return formula_columns(self.space, motion, _clamped(k, start, stop))
 
         self._everywhere(name, values, signs, limit)
-
-    def _norm_of(self, constant: FormulaRms, contact: Contact, limit: UpperLimit) -> BallRow:
-        """As `_norm`, with the values of a formula."""
-        whole = ball(Fraction(constant.motion.stop) - Fraction(constant.motion.start))
-        columns = norm_columns(self.space, constant.parts(symmetric=self.problem.symmetric), contact.direction)
-        return limit.row(value / whole.sqrt() for value in columns)
 
     def _single(self, name: str, constants: Names, high: float | arb) -> None:
         row = UpperLimit(constants, high).row([arb(0)] * (self.space.terms + 1))
@@ -282,22 +266,15 @@ class ExactRows:
 
     def _of_machine(self, constant: OfMachine, limit: UpperLimit) -> None:
         if isinstance(constant, ResidualConstant):
-            self._residual(constant, limit)
+            amplitudes = partial(ExactResidual(constant).rows, self.space)
+            makers = {constant.name: cone(amplitudes, limit, arb(limit.high or 1.0))}
         elif isinstance(constant, ModeConstant):
-            self._mode(constant, limit)
+            makers, corners = mode_edges(constant, self.space, self._solved, limit)
+            self.corners.update(corners)
         else:
             self._output(constant, limit)
-
-    def _residual(self, constant: ResidualConstant, limit: UpperLimit) -> None:
-        """Rows of a residual at each frequency, in units of the bound."""
-        amplitudes = partial(ExactResidual(constant).rows, self.space)
-        self.cones.add(constant.name)
-        self._add(constant.name, cone(amplitudes, limit, arb(limit.high or 1.0)))
-
-    def _mode(self, constant: ModeConstant, limit: UpperLimit) -> None:
-        edges = mode_edges(constant, self.space, self._solved, limit)
-        self.corners.update(edges.corners)
-        for name, maker in edges.makers.items():
+            return
+        for name, maker in makers.items():
             self.cones.add(name)
             self._add(name, maker)
 
@@ -305,16 +282,16 @@ class ExactRows:
         output = self.outputs[constant.name] = OutputRows(constant, self.space)
         unit = ball(constant.unit(self._solved))
         if not isinstance(constant, KnownOutputRms):
-            self._add(constant.name, peak(output, unit, limit), (1.0, -1.0))
+            self._everywhere(constant.name, output.at, (1.0, -1.0), limit, unit)
             return
 
-        def law_along(direction: Sequence[float]) -> Sequence[PolynomialPiece]:
-            law = constant.along(self._solved, direction)
+        def beside_another_law(contact: Contact, _: Fraction) -> BallRow:
+            law = constant.along(self._solved, contact.direction)
             if law is None:
                 raise LookupError
-            return ExactLaw(law).polynomials
+            return limit.row(output.beside(ExactLaw(law).polynomials), unit)
 
-        self._add(constant.name, mean(output, law_along, unit, limit))
+        self._add(constant.name, beside_another_law)
 
     def _constraints(self) -> None:
         problem = self.problem
@@ -324,10 +301,10 @@ class ExactRows:
             self._everywhere(RowName.FORWARD, partial(self.space.values, 1), (-1.0,), UpperLimit())
             if self.space.divided:
                 self._everywhere(RowName.RATIO, self.space.ratio, (1.0,), UpperLimit())
-        for constant, wanted in problem.bounded:
-            self._range(constant, wanted)
-        for asked in self.space.conditions:
-            self._equal(BallRow(self.space.condition(asked), {}, -ball(asked.value)))
+        for constant, limits in problem.bounded:
+            self._range(constant, limits)
+        for condition in self.space.conditions:
+            self._equal(BallRow(self.space.condition(condition), {}, -ball(condition.value)))
         for i, window in enumerate(problem.windows, 1):
             halves = (names.window(i), names.mirrored(names.window(i)))
             if window.motion is not None:
@@ -336,21 +313,21 @@ class ExactRows:
             for part, name in zip(parts(window, symmetric=problem.symmetric), halves, strict=False):
                 self._window(name, window, part)
 
-    def _range(self, constant: Functional, wanted: Range) -> None:
+    def _range(self, constant: Functional, limits: Range) -> None:
         name = constant.name
-        if name in self.names and wanted.low > 0.0:
-            self._single(names.at_least(name), {name: -1.0}, -wanted.low)
-        if not isfinite(wanted.high):
+        if name in self.names and limits.low > 0.0:
+            self._single(names.at_least(name), {name: -1.0}, -limits.low)
+        if not isfinite(limits.high):
             return
         if name in self.names:
-            self._single(names.at_most(name), {name: 1.0}, wanted.high)
+            self._single(names.at_most(name), {name: 1.0}, limits.high)
         else:
-            self._bounded(constant, UpperLimit(high=wanted.high))
+            self._bounded(constant, UpperLimit(high=limits.high))
 
     def _peak(self) -> None:
         """What makes b greatest at one k, and B its value there."""
-        problem, space, wanted = self.problem, self.space, self.problem.range("B")
-        fixed = wanted.high if wanted is not None and wanted.fixed else None
+        problem, space, limits = self.problem, self.space, self.problem.range("B")
+        fixed = limits.high if limits is not None and limits.fixed else None
         if fixed is not None and not problem.symmetric:
             self._equal(BallRow([arb(0)] * (space.terms + 1), {"B": 1.0}, -ball(fixed)))
         if problem.peak_at is None:
@@ -366,20 +343,20 @@ class ExactRows:
 
     def _velocity(self) -> None:
         """Rows |b| <= B and the bounds of B."""
-        problem, wanted = self.problem, self.problem.range("B")
-        if wanted is None:
+        problem, limits = self.problem, self.problem.range("B")
+        if limits is None:
             return
         if problem.peak_is_variable:
             self._everywhere(RowName.VELOCITY, partial(self.space.values, 1), (1.0, -1.0), UpperLimit({"B": -1.0}))
-        elif wanted.fixed:
+        elif limits.fixed:
             self._add(RowName.VELOCITY, self._below_middle, (1.0, -1.0))
         else:
-            self._range(B, wanted)
+            self._range(B, limits)
             return
-        if not wanted.fixed:
-            if isfinite(wanted.high):
-                self._single(names.at_most("B"), {"B": 1.0}, wanted.high)
-            self._single(names.at_least("B"), {"B": -1.0}, -wanted.low)
+        if not limits.fixed:
+            if isfinite(limits.high):
+                self._single(names.at_most("B"), {"B": 1.0}, limits.high)
+            self._single(names.at_least("B"), {"B": -1.0}, -limits.low)
 
     def _below_middle(self, contact: Contact, k: Fraction) -> BallRow:
         pairs = zip(self.space.values(1, k), self.space.values(1, Fraction(1, 2)), strict=True)
@@ -433,7 +410,7 @@ def parts(window: Window, *, symmetric: bool) -> Iterator[WindowPart]:
 
 def _is_bounded(power: PowerConstant, problem: Problem) -> bool:
     """Whether it is bounded from above, by the objective or by a number: only then do rows have its root."""
-    high = (constant for constant, wanted in problem.bounded if isfinite(wanted.high))
+    high = (constant for constant, limits in problem.bounded if isfinite(limits.high))
     return any(constant == power for constant in (*(leaf for _, leaf in leaves(problem.objective)), *high))
 
 

@@ -86,12 +86,12 @@ class ExactSpace:
         """Values of the derivatives of order nu at k."""
         return values(self.derivative(nu)[self.piece(k)], x_of(k))
 
-    def condition(self, asked: Condition) -> list[arb]:
+    def condition(self, condition: Condition) -> list[arb]:
         """The row of a condition: what each function has of it, the base law last."""
-        row = self.values(asked.nu, asked.k)
-        if asked.less is None:
+        row = self.values(condition.nu, condition.k)
+        if condition.less is None:
             return row
-        return [entry - other for entry, other in zip(row, self.values(asked.nu, asked.less), strict=True)]
+        return [entry - other for entry, other in zip(row, self.values(condition.nu, condition.less), strict=True)]
 
     def on_piece(self, nu: int, piece: int, x: arb) -> list[arb]:
         """Values of the derivatives of order nu at x = 2k - 1, by the polynomials of a piece."""
@@ -168,7 +168,8 @@ class ExactSpace:
     @kept_property
     def bounds(self) -> EndValues:
         """What the end conditions say."""
-        start, end = ([rational(Fraction(v)) for v in part] for part in _ends(self.problem))
+        conditions = self.problem.conditions
+        start, end = ([rational(Fraction(v)) for v in part] for part in (conditions.start, conditions.end))
         stroke = end[0] - start[0]
         if len(start) == 1:
             return EndValues(None, None, stroke)
@@ -220,7 +221,3 @@ def values(polynomials: Functions, x: arb) -> list[arb]:
 def x_of(k: Fraction) -> arb:
     """The place x = 2k - 1 of a k."""
     return ball(2 * k - 1)
-
-
-def _ends(problem: Problem) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    return problem.conditions.start, problem.conditions.end

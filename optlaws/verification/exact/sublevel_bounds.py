@@ -1,4 +1,4 @@
-"""What constants and derivatives can be in laws whose objective is below a claim, with every rounding enclosed."""
+"""What constants and derivatives can be in laws below a claim, and what no law beats, with every rounding enclosed."""
 
 from __future__ import annotations
 
@@ -6,16 +6,18 @@ from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from math import inf, isfinite
 
-from flint import arb
+from flint import arb, ctx
 
 from optlaws.synthesis.families.names import VariableName
+from optlaws.synthesis.limits.closed_forms import back_velocity
 from optlaws.synthesis.limits.rounding import rounded_up
 from optlaws.synthesis.problem.constants import Functional, PeakConstant, PowerConstant
-from optlaws.synthesis.problem.expression import Expression, Maximum, leaves
+from optlaws.synthesis.problem.expression import Expression, Maximum, Term, leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
 from optlaws.synthesis.spaces.of_basis import space_of
-from optlaws.verification.enclosing.balls import ball, upper
+from optlaws.verification.enclosing.balls import ball, lower, upper
+from optlaws.verification.exact.law import known
 from optlaws.verification.exact.rows import ExactRows
 from optlaws.verification.machines.floors import floor
 from optlaws.verification.machines.outputs import KnownOutput
@@ -77,9 +79,9 @@ def greatest_values(certificate: Certificate, rows: ExactRows, claim: float) -> 
     if certificate.program != VIOLATION:
         _spread(problem.objective, Fraction(claim), least_values(problem, rows), greatest)
     for name in ("B", *(constant.name for constant, _ in problem.bounded)):
-        asked = problem.range(name)
-        if asked is not None:
-            greatest[name] = min(greatest.get(name, inf), asked.high)
+        limits = problem.range(name)
+        if limits is not None:
+            greatest[name] = min(greatest.get(name, inf), limits.high)
     if rows.power is not None and isfinite(greatest.get(rows.power.name, inf)):
         greatest[VariableName.POWER_ROOT] = rounded_up(upper(ball(greatest[rows.power.name]).sqrt()))
     start = rows.space.bounds.start_velocity
@@ -146,3 +148,67 @@ def _spread(
         if isinstance(term, Maximum):
             for part in term.parts:
                 _spread(part, Fraction(value), least, greatest)
+
+
+_BITS = 192
+#: a cam moves from rest to rest too, with whatever B
+_LEAST_OF_CAMS = {"C_cam(": Fraction(4), "D_cam(": Fraction(9, 4)}
+_SLIGHTLY_LESS = 1 - Fraction(1, 10**13)
+
+
+def exact_limit(problem: Problem) -> Fraction | None:
+    """A number that no law of the problem beats; None where the closed forms say nothing of the objective.
+
+    Only C and D count, the law's and its cam's; every other constant is to be at least 0.
+
+    >>> exact_limit(Problem(B=1.5, order=4, minimise="D"))
+    Fraction(9, 4)
+    """
+    if problem.boundary is not None or problem.order == 1:
+        return None
+    constants = [leaf for _, leaf in leaves(problem.objective) if isinstance(leaf, Functional)]
+    if any(floor(constant, problem.conditions) < 0 for constant in constants):
+        return None
+    total = _sum(problem, problem.objective)
+    return total if total > 0 else None
+
+
+def _sum(problem: Problem, expression: Expression) -> Fraction:
+    return sum((Fraction(weight) * _term(problem, term) for weight, term in expression.terms), Fraction(0))
+
+
+def _term(problem: Problem, term: Term) -> Fraction:
+    if isinstance(term, Maximum):
+        return max(_sum(problem, part) for part in term.parts)
+    name = repr(term)
+    if name.startswith(tuple(_LEAST_OF_CAMS)):
+        known(term)
+        return _LEAST_OF_CAMS[name[: name.index("(") + 1]]
+    limits = problem.range("B")
+    if name not in {"C", "D"}:
+        return Fraction(0)
+    if limits is None or not limits.fixed or problem.inflexion is not None:
+        return Fraction(4) if name == "C" else Fraction(9, 4)
+    B = Fraction(limits.high)
+    return _acceleration(B, monotone=problem.monotone) if name == "C" else _power(B, monotone=problem.monotone)
+
+
+def _acceleration(B: Fraction, *, monotone: bool) -> Fraction:
+    if B <= 2:
+        return B * B / (B - 1)
+    if monotone:
+        return B * B
+    with ctx.workprec(_BITS):
+        back = ball(B - 2)
+        return lower(2 * (back + (back * back + ball(B * B)).sqrt()))
+
+
+def _power(B: Fraction, *, monotone: bool) -> Fraction:
+    if 2 * B <= 3:
+        return B**3 / (3 * (B - 1))
+    if monotone:
+        return 2 * B**3 / 3
+    u = max(Fraction(back_velocity(float(B))) * _SLIGHTLY_LESS, Fraction(0))
+    # 2u³ + 3u² rises with u: this u is not above the root
+    below = 2 * u**3 + 3 * u**2 <= B * B * (B - Fraction(3, 2))
+    return B * B + (2 * u * u if below else 0)

@@ -1,9 +1,9 @@
-"""Rows of certificates that machines ask for: outputs at a time, their mean squares, and amplitudes of modes."""
+"""Rows of certificates in balls, and those of machines: outputs at a time, their mean squares, amplitudes of modes."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import partial
 from math import hypot
@@ -13,54 +13,73 @@ from flint import acb, arb
 from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.verification.enclosing.balls import ball
-from optlaws.verification.enclosing.pieces import PolynomialPiece
-from optlaws.verification.enclosing.row import BallRow, Maker, UpperLimit
-from optlaws.verification.machines.driving import Space
-from optlaws.verification.machines.mode_residuals import ExactModeResidual, ModeConstant
-from optlaws.verification.machines.outputs import OutputRows
+from optlaws.verification.machines.output_motion import Space
+from optlaws.verification.machines.residuals import ExactModeResidual, ModeConstant
 
-#: a law's pieces by the direction of a contact; LookupError where there is none
-LawAlong = Callable[[Sequence[float]], Sequence[PolynomialPiece]]
+Names = Mapping[str, float | arb]
+
+
+@dataclass(frozen=True, eq=False)
+class BallRow:
+    """functions . (z, 1) + sum of constants + right; at most 0, or 0 for an equation, in every law of the problem."""
+
+    functions: list[arb]
+    constants: Names = field(default_factory=dict)
+    right: arb | float = 0.0
+
+    def vector(self, variables: list[str]) -> list[arb]:
+        """Coefficients of z and of the named constants, then what is constant."""
+        *free, base = self.functions
+        return [*free, *(arb(self.constants.get(name, 0.0)) for name in variables), base + self.right]
+
+
+@dataclass(frozen=True, eq=False)
+class UpperLimit:
+    """A sum of named constants, their signs turned, and a number, which a function of the law is at most."""
+
+    constants: Names = field(default_factory=dict)
+    high: float | arb = 0.0
+
+    def row(self, functions: Iterable[arb], unit: arb | None = None) -> BallRow:
+        """The row of a function of the law, in a unit if one is given."""
+        if unit is None:
+            return BallRow(list(functions), self.constants, -arb(self.high))
+        constants = {name: arb(value) / unit for name, value in self.constants.items()}
+        return BallRow([value / unit for value in functions], constants, -arb(self.high) / unit)
+
+
+Maker = Callable[[Contact, Fraction], BallRow]
+
+
 #: the name of a cone, and a place of it
 Corner = tuple[str, float]
 #: corners of a box by edge and end, and where they stand first
 _FIRST = {(1, 0.0): (0, 1.0), (2, 1.0): (1, 1.0), (3, 0.0): (0, 0.0), (3, 1.0): (2, 0.0)}
 
 
-@dataclass(frozen=True)
-class ModeEdges:
-    """What the edges of a box ask for.
-
-    Attributes
-    ----------
-    makers
-        Rows of each edge, by its name.
-    corners
-        Corners that an earlier edge has too: that one's, and the ratio of its unit to this one's.
-    """
-
-    makers: Mapping[str, Maker]
-    corners: Mapping[Corner, tuple[Corner, float]]
-
-
 def cone(amplitudes: Callable[[Fraction], list[acb]], limit: UpperLimit, unit: arb) -> Maker:
     """A direction times a complex amplitude is at most its magnitude."""
-    kept: dict[Fraction, list[acb]] = {}
+    known: dict[Fraction, list[acb]] = {}
 
     def make(contact: Contact, k: Fraction) -> BallRow:
         if len(contact.direction) != 2:
             raise LookupError
-        if k not in kept:
-            kept[k] = amplitudes(k)
+        if k not in known:
+            known[k] = amplitudes(k)
         real, imaginary = (ball(value) for value in contact.direction)
         length = (real**2 + imaginary**2).sqrt().max(arb(1))
-        return limit.row(((value.real * real + value.imag * imaginary) / length for value in kept[k]), unit)
+        return limit.row(((value.real * real + value.imag * imaginary) / length for value in known[k]), unit)
 
     return make
 
 
-def mode_edges(constant: ModeConstant, space: Space, solved: LawSpace, limit: UpperLimit) -> ModeEdges:
-    """A cone for each edge of the box, in the units of the certificate."""
+def mode_edges(
+    constant: ModeConstant, space: Space, solved: LawSpace, limit: UpperLimit
+) -> tuple[dict[str, Maker], dict[Corner, tuple[Corner, float]]]:
+    """A cone for each edge of a box by its name, in the units of the certificate; and corners that two edges have.
+
+    Beside a corner stand the same one of an earlier edge, and the ratio of that edge's unit to this one's.
+    """
     exact = ExactModeResidual(constant)
     count, sought = len(exact.edges), bool(limit.constants)
     units = [constant.unit(solved, i, float(limit.high), sought=sought) for i in range(count)]
@@ -74,17 +93,7 @@ def mode_edges(constant: ModeConstant, space: Space, solved: LawSpace, limit: Up
         for (i, end), (j, other) in _FIRST.items()
         if count > 2
     }
-    return ModeEdges(makers, corners)
-
-
-def peak(output: OutputRows, unit: arb, limit: UpperLimit) -> Maker:
-    """An output at a time."""
-    return lambda contact, k: limit.row((contact.sign * value for value in output.at(k)), unit)
-
-
-def mean(output: OutputRows, law_along: LawAlong, unit: arb, limit: UpperLimit) -> Maker:
-    """An output times that of another law, which a direction says."""
-    return lambda contact, _: limit.row(output.beside(law_along(contact.direction)), unit)
+    return makers, corners
 
 
 def together(contacts: Iterable[Contact], corners: Mapping[Corner, tuple[Corner, float]]) -> list[Contact]:

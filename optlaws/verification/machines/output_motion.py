@@ -1,59 +1,146 @@
-"""An output of a machine while laws drive it: polynomials and exponentials on each stretch, in balls."""
+"""An output of a machine while laws, dwells and returns drive it: polynomials and exponentials in time, in balls."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from itertools import pairwise
 from math import comb, factorial
+from typing import Protocol
 
-from flint import acb, acb_mat, arb, arb_mat, fmpq
+from flint import acb, acb_mat, arb, arb_mat, fmpq, fmpq_poly
 
 from optlaws.errors import InputError
 from optlaws.verification.enclosing.balls import ball, rational
-from optlaws.verification.machines.driving import DrivenStretch
+from optlaws.verification.enclosing.pieces import PolynomialPiece
 from optlaws.verification.machines.transfer import Pole, Transfer
+
+Columns = list[fmpq_poly]
+_HALF = Fraction(1, 2)
+
+
+@dataclass(frozen=True)
+class DrivenStretch:
+    """Displacements on one stretch of time, as polynomials of the time since it began."""
+
+    #: start, length: where it begins and how long it is, in durations of the rise
+    start: Fraction
+    length: Fraction
+    columns: Columns  #: one polynomial for each law
+
+    @property
+    def stop(self) -> Fraction:
+        """The time at which the stretch ends."""
+        return self.start + self.length
+
+    @property
+    def first(self) -> list[fmpq]:
+        """The displacements where the stretch begins."""
+        return [column(fmpq(0)) for column in self.columns]
+
+    @property
+    def last(self) -> list[fmpq]:
+        """The displacements where the stretch ends."""
+        return [column(rational(self.length)) for column in self.columns]
+
+
+class Space(Protocol):
+    """The laws of a problem in exact numbers, as `optlaws.verification.exact` has them."""
+
+    breaks: list[Fraction]
+
+    def derivative(self, nu: int) -> list[Columns]:
+        """Derivatives of order nu by k, as polynomials in x = 2k - 1 on each piece."""
+
+
+def of_pieces(pieces: Sequence[PolynomialPiece]) -> list[DrivenStretch]:
+    """A stored law: one column."""
+    drives = []
+    for piece in pieces:
+        local = fmpq_poly([fmpq(-1), piece.rate])
+        drives.append(DrivenStretch(piece.start, piece.stop - piece.start, [piece.derivative(0)(local)]))
+    return drives
+
+
+def of_space(space: Space) -> list[DrivenStretch]:
+    """All laws of a space: free functions, then the base law; of symmetric laws the second half mirrors the first."""
+    drives = []
+    for part, (low, high) in zip(space.derivative(0), pairwise(space.breaks), strict=True):
+        local = fmpq_poly([rational(2 * low - 1), fmpq(2)])
+        drives.append(DrivenStretch(low, high - low, [function(local) for function in part]))
+    if space.breaks[-1] == _HALF:
+        middle = drives[-1].last
+        drives += [_mirrored(drive, middle) for drive in reversed(drives)]
+    return drives
+
+
+def _mirrored(drive: DrivenStretch, middle: list[fmpq]) -> DrivenStretch:
+    back = fmpq_poly([rational(drive.length), fmpq(-1)])
+    columns = [2 * height - column(back) for column, height in zip(drive.columns, middle, strict=True)]
+    return DrivenStretch(1 - drive.stop, drive.length, columns)
+
+
+def rest(start: Fraction, length: Fraction, levels: Sequence[fmpq]) -> DrivenStretch:
+    """A stretch on which nothing moves."""
+    return DrivenStretch(start, length, [fmpq_poly([level]) for level in levels])
+
+
+def followed(rise: Sequence[DrivenStretch], last: Fraction) -> list[DrivenStretch]:
+    """A rise with the dwell after it, up to a time."""
+    dwell = [rest(rise[-1].stop, last - rise[-1].stop, rise[-1].last)] if last > rise[-1].stop else []
+    return [*rise, *dwell]
+
+
+def cycle(rise: Sequence[DrivenStretch], dwell: Fraction, pause: Fraction) -> list[DrivenStretch]:
+    """Rise, dwell, the same law back, and a rest."""
+    low, high = rise[0].first, rise[-1].last
+    back = 1 + dwell
+    both = [low_part + other for low_part, other in zip(low, high, strict=True)]
+    fall = [
+        DrivenStretch(
+            back + drive.start,
+            drive.length,
+            [total - column for total, column in zip(both, drive.columns, strict=True)],
+        )
+        for drive in rise
+    ]
+    around = [*rise, *([rest(Fraction(1), dwell, high)] if dwell else []), *fall]
+    return [*around, *([rest(back + 1, pause, low)] if pause else [])]
+
+
+def with_column(rise: Sequence[DrivenStretch], other: Sequence[DrivenStretch]) -> list[DrivenStretch]:
+    """One more law, given on stretches of its own, each continued over the stretch whose middle it covers."""
+    drives = []
+    for drive in rise:
+        middle = drive.start + drive.length / 2
+        covering = [part for part in other if part.start <= middle][-1]
+        later = fmpq_poly([rational(drive.start - covering.start), fmpq(1)])
+        drives.append(DrivenStretch(drive.start, drive.length, [*drive.columns, covering.columns[0](later)]))
+    return drives
+
 
 States = list[acb_mat]
 
 
 @dataclass(frozen=True, eq=False)
 class OutputStretch:
-    """The output on a stretch: polynomials of the time since it began, and for each pole s^l/l! exp(root s) times rows.
+    """The output on a stretch: polynomials of the time s since it began, and s^l/l! exp(root s) of each pole."""
 
-    Attributes
-    ----------
-    start, length
-        When, in durations of the rise.
-    polynomials
-        Coefficients, a row for each power, a column for each law.
-    free
-        For each pole the rows of l = 0, 1, ....
-    """
-
+    #: start, length: when, in durations of the rise
     start: Fraction
     length: Fraction
-    polynomials: arb_mat
-    free: list[acb_mat]
+    polynomials: arb_mat  #: coefficients, a row for each power, a column for each law
+    free: list[acb_mat]  #: for each pole factors of s^l/l! exp(root s), a row for each l, a column for each law
 
 
 @dataclass(frozen=True, eq=False)
 class OutputMotion:
-    """Outputs of several laws over consecutive stretches.
-
-    Attributes
-    ----------
-    poles
-        Those of the machine.
-    stretches
-        The stretches.
-    laws
-        How many there are.
-    """
+    """Outputs of several laws over consecutive stretches."""
 
     poles: Sequence[Pole]
     stretches: Sequence[OutputStretch]
-    laws: int
+    laws: int  #: how many there are
 
     def raised(self, by: arb, columns: Sequence[int]) -> OutputMotion:
         """The motion with a number added to some of the outputs."""
@@ -81,22 +168,7 @@ class OutputMotion:
 
 
 def response(transfer: Transfer, drives: Sequence[DrivenStretch], *, repeats: bool = False) -> OutputMotion:
-    """The output over consecutive drives, at the precision at work.
-
-    Parameters
-    ----------
-    transfer
-        From the law to the output.
-    drives
-        The laws.
-    repeats
-        Whether they are a cycle that comes back, whose steady output is meant; else the machine rests before.
-
-    Raises
-    ------
-    InputError
-        If there is no such motion, or it is not the only one: the machine drifts.
-    """
+    """The output over consecutive drives from rest, or the steady one where they are a cycle that `repeats`."""
     chains = _Chains(transfer, len(drives[0].columns))
     driven = [_driving(drive, transfer.order) for drive in drives]
     states = chains.returned(driven) if repeats else chains.settled(drives[0])
@@ -134,7 +206,7 @@ class _Chains:
             free = [acb_mat(_weighted(pole, rows)) for pole, rows in zip(self.poles, away, strict=True)]
             yield OutputStretch(drive.start, drive.length, self._polynomials(drive), free)
             states = [
-                part + _propagated(pole, ball(drive.length), rows)
+                part + _chain(pole, ball(drive.length)) * rows
                 for pole, rows, (_, part) in zip(self.poles, away, forced, strict=True)
             ]
         self.last = states
@@ -212,12 +284,8 @@ def _weighted(pole: Pole, away: acb_mat) -> acb_mat:
     return acb_mat(turn) * away
 
 
-def _propagated(pole: Pole, length: arb, away: acb_mat) -> acb_mat:
-    """The chain's free motion after a time."""
-    return _chain(pole, length) * away
-
-
 def _chain(pole: Pole, length: arb) -> acb_mat:
+    """The matrix that takes a chain's states to those of its free motion after a time."""
     wave, count = (pole.root * length).exp(), len(pole.shares)
     terms = [wave * length**i / factorial(i) for i in range(count)]
     return acb_mat([[terms[i - j] if j <= i else acb(0) for j in range(count)] for i in range(count)])

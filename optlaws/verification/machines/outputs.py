@@ -13,9 +13,17 @@ from optlaws.laws import MotionLaw
 from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.verification.enclosing.balls import ball
 from optlaws.verification.enclosing.pieces import PolynomialPiece
-from optlaws.verification.machines import driving
-from optlaws.verification.machines.driving import DrivenStretch, Space
-from optlaws.verification.machines.output_motion import OutputMotion, response
+from optlaws.verification.machines.output_motion import (
+    DrivenStretch,
+    OutputMotion,
+    Space,
+    cycle,
+    followed,
+    of_pieces,
+    of_space,
+    response,
+    with_column,
+)
 from optlaws.verification.machines.taylor_cells import greatest_value, moments, products, root
 from optlaws.verification.machines.transfer import MachineConstant, Transfer
 
@@ -66,13 +74,7 @@ class KnownOutputRms(KnownOutput, Protocol):
 
 
 class ExactOutput:
-    """An output over all the time that counts, and what is before it.
-
-    Parameters
-    ----------
-    constant
-        Which output, of which machine, when.
-    """
+    """An output over all the time that counts, and what is before it."""
 
     def __init__(self, constant: KnownOutput) -> None:
         self.constant = constant
@@ -101,45 +103,37 @@ class ExactOutput:
     def _moved(self, rise: Sequence[DrivenStretch]) -> OutputMotion:
         if self.constant.cycle is not None:
             dwell, pause = map(Fraction, self.constant.cycle)
-            return response(self.transfer, driving.cycle(rise, dwell, pause), repeats=True)
+            return response(self.transfer, cycle(rise, dwell, pause), repeats=True)
         if self.constant.steady:
             return response(self.transfer, rise, repeats=True)
-        return response(self.transfer, driving.followed(rise, self.stop))
+        return response(self.transfer, followed(rise, self.stop))
 
     def peak(self, pieces: Sequence[PolynomialPiece]) -> arb:
         """A ball that holds the greatest magnitude under a stored law, or that of one side."""
         signs = self.constant.signs if isinstance(self.constant, KnownOutputPeak) else (1.0, -1.0)
-        return greatest_value(self.response(driving.of_pieces(pieces), [0]), self.start, self.stop, signs)
+        return greatest_value(self.response(of_pieces(pieces), [0]), self.start, self.stop, signs)
 
     def rms(self, pieces: Sequence[PolynomialPiece]) -> arb:
         """A ball that holds the root mean square under a stored law."""
-        (square,) = products(self.response(driving.of_pieces(pieces), [0]), self.start, self.stop)
+        (square,) = products(self.response(of_pieces(pieces), [0]), self.start, self.stop)
         return root(square / ball(self.stop - self.start))
 
 
 class OutputRows:
-    """An output under all laws of a problem, at the precision at work when it is first asked.
-
-    Parameters
-    ----------
-    constant
-        Which output, of which machine, when.
-    space
-        The laws.
-    """
+    """An output under all laws of a problem, at the precision at work when it is first asked."""
 
     def __init__(self, constant: KnownOutput, space: Space) -> None:
         self.exact, self.space = ExactOutput(constant), space
 
     @kept_property
     def _response(self) -> OutputMotion:
-        rise = driving.of_space(self.space)
+        rise = of_space(self.space)
         return self.exact.response(rise, [len(rise[0].columns) - 1])
 
     def beside(self, pieces: Sequence[PolynomialPiece]) -> list[arb]:
         """The mean of the output times another law's, over the latter's RMS: at most the RMS of the output (Cauchy)."""
         exact = self.exact
-        rise = driving.with_column(driving.of_space(self.space), driving.of_pieces(pieces))
+        rise = with_column(of_space(self.space), of_pieces(pieces))
         *moments, square = products(exact.response(rise, [-2, -1]), exact.start, exact.stop)
         whole = ball(exact.stop - exact.start)
         size = (square * whole).sqrt()

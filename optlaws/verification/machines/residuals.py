@@ -1,25 +1,120 @@
-"""The residual vibration of a follower that a law leaves, in complex balls."""
+"""The residual vibration that a law leaves in a follower or in a mode of a machine, in complex balls."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
-from typing import Protocol, TypeVar, runtime_checkable
+from functools import partial, reduce
+from itertools import pairwise
+from typing import Any, Protocol, TypeVar, runtime_checkable
 
-from flint import acb, acb_series, arb
+from flint import acb, acb_series, arb, arb_poly, fmpq
 
+from optlaws.errors import InputError
+from optlaws.kept import kept_property
+from optlaws.numerics.tolerances import SAME_FREQUENCY, SAME_ROOT, TAYLOR_REST, VIBRATING
+from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.verification.enclosing.balls import ball
 from optlaws.verification.enclosing.pieces import PolynomialPiece
-from optlaws.verification.machines.driving import Space
-from optlaws.verification.machines.velocity_transforms import (
-    Ends,
-    ends_of,
-    ends_of_law,
-    greatest_modulus,
-    transforms,
-)
+from optlaws.verification.enclosing.taylor_models import Taylor, cells, greatest_magnitude
+from optlaws.verification.machines.output_motion import Space
+from optlaws.verification.machines.taylor_cells import root
+from optlaws.verification.machines.transfer import MachineConstant, Rational, roots, transforms
 
+#: b and its derivatives at the start and at the end of a piece
+Ends = tuple[list[fmpq], list[fmpq]]
 Number = TypeVar("Number", acb, acb_series)
+_HALF = Fraction(1, 2)
+#: no stretch with a Taylor polynomial of its own is shorter
+_SHORTEST = Fraction(1, 2**20)
+
+
+def ends_of(space: Space) -> list[list[Ends]]:
+    """The derivatives at the ends of the pieces of every function of a space."""
+    degree = max(polynomial.degree() for part in space.derivative(0) for polynomial in part)
+    derivatives = [space.derivative(nu) for nu in range(1, degree + 1)]
+    edges = [2 * fmpq(k.numerator, k.denominator) - 1 for k in space.breaks]
+    return [
+        [
+            (
+                [derivative[i][column](low) for derivative in derivatives],
+                [derivative[i][column](high) for derivative in derivatives],
+            )
+            for i, (low, high) in enumerate(pairwise(edges))
+        ]
+        for column in range(len(space.derivative(0)[0]))
+    ]
+
+
+def ends_of_law(pieces: Sequence[PolynomialPiece]) -> tuple[list[Fraction], list[list[Ends]]]:
+    """The breaks of a stored law, and the derivatives at the ends of its pieces."""
+    breaks = [pieces[0].start, *(piece.stop for piece in pieces)]
+    ends = []
+    for piece in pieces:
+        orders = range(1, piece.derivative(0).degree() + 1)
+        ends.append(([piece.exact(nu, piece.start) for nu in orders], [piece.exact(nu, piece.stop) for nu in orders]))
+    return breaks, [ends]
+
+
+def velocity_transforms(w: Number, breaks: Sequence[Fraction], columns: Sequence[Sequence[Ends]]) -> list[Number]:
+    """Integrals of exp(w (1-k)) b(k); where the breaks end at 1/2, b(1-k) = b(k)."""
+    total = _between_breaks(w, breaks, columns)
+    if breaks[-1] == _HALF:
+        mirrored = _between_breaks(-w, breaks, columns)
+        total = [transform + w.exp() * other for transform, other in zip(total, mirrored, strict=True)]
+    return total
+
+
+def _between_breaks(w: Number, breaks: Sequence[Fraction], columns: Sequence[Sequence[Ends]]) -> list[Number]:
+    inverse, powers = 1 / w, [1 / w]
+    for _ in range(max(len(start) for column in columns for start, _ in column)):
+        powers.append(powers[-1] * inverse)
+    waves = [(w * acb(ball(1 - k))).exp() for k in breaks]
+    nothing = w * 0
+    transforms = []
+    for column in columns:
+        total = nothing
+        for (start, stop), before, after in zip(column, waves, waves[1:], strict=False):
+            total = total + before * _sum(powers, start, nothing) - after * _sum(powers, stop, nothing)
+        transforms.append(total)
+    return transforms
+
+
+def _sum(powers: Sequence[Number], values: Sequence[fmpq], nothing: Number) -> Number:
+    return sum((power * acb(arb(value)) for power, value in zip(powers, values, strict=False) if value != 0), nothing)
+
+
+def greatest_modulus(functions: Sequence[Callable[[Any], Any]], low: Fraction, high: Fraction) -> arb:
+    """A ball that holds the greatest magnitude of complex functions of a real number, given for numbers and series."""
+    if low == high:
+        sizes: list[arb] = [abs(function(acb(ball(low)))) for function in functions]
+        return reduce(arb.max, sizes)
+    parts = [part for function in functions for part in _parts(function, low, high)]
+    off = reduce(arb.max, (radius for _, radius in parts))
+    size = root(greatest_magnitude([(square, arb(0)) for square, _ in parts]))
+    return (size + arb(0, off)).max(arb(0))
+
+
+def _parts(
+    function: Callable[[acb_series], acb_series], low: Fraction, high: Fraction
+) -> Iterator[tuple[arb_poly, arb]]:
+    """Polynomials of which the squared magnitude is made, on short stretches, and how far the function is off."""
+    several = cells(lambda nu: [function(nu)], acb_series, (low, high), 2 * _SHORTEST, _next_to_nothing)
+    yield from ((_squared(centre), rest) for _, [(centre, rest)] in several)
+
+
+def _next_to_nothing(parts: Sequence[Taylor], _: Fraction) -> bool:
+    centre, rest = parts[0]
+    return bool(rest <= TAYLOR_REST * sum(map(abs, centre[:2]), arb(0)))
+
+
+def _squared(series: list[acb]) -> arb_poly:
+    """The squared magnitude of a polynomial of a real number."""
+    real, imaginary = arb_poly([term.real for term in series]), arb_poly([term.imag for term in series])
+    return real * real + imaginary * imaginary
+
+
 _I = acb(0, 1)
 
 
@@ -36,13 +131,7 @@ class ResidualConstant(Protocol):
 
 
 class ExactResidual:
-    """The complex amplitude, times nu², as a function of the frequency.
-
-    Parameters
-    ----------
-    constant
-        Which residual.
-    """
+    """The complex amplitude, times nu², as a function of the frequency."""
 
     def __init__(self, constant: ResidualConstant) -> None:
         self.low, self.high = Fraction(constant.low), Fraction(constant.high)
@@ -55,7 +144,7 @@ class ExactResidual:
         root = acb(ball(-self.damping), sine)
         w = nu * root
         scale = nu * nu * self._detuning(nu, w) * (-_I * acb(ball(-self.damping), -sine) / sine)
-        return [scale * transform for transform in transforms(w, breaks, columns)]
+        return [scale * transform for transform in velocity_transforms(w, breaks, columns)]
 
     def _detuning(self, nu: Number, w: Number) -> Number:
         """What the cam made for the design frequency leaves."""
@@ -74,3 +163,121 @@ class ExactResidual:
         """A ball that holds the greatest magnitude over the interval of frequencies, at the precision at work."""
         breaks, ends = ends_of_law(pieces)
         return greatest_modulus([lambda nu: self.amplitudes(nu, breaks, ends)[0]], self.low, self.high)
+
+
+Corner = tuple[arb, arb]
+
+
+@runtime_checkable
+class ModeConstant(MachineConstant, Protocol):
+    """What the residual of a mode is made of (optlaws.mechanisms defines it)."""
+
+    @property
+    def mode(self) -> int:
+        """The number of the mode, the slowest one's being 1."""
+
+    @property
+    def spread(self) -> float:
+        """Share by which its frequency may be off, either way."""
+
+    @property
+    def dampings(self) -> tuple[float, float] | None:
+        """The least and the greatest damping ratio; None for the mode's own."""
+
+    def unit(self, space: LawSpace, edge: int, bound: float, *, sought: bool) -> float:
+        """What the rows of the certificate are divided by: any number above 0 will do."""
+
+
+@dataclass(frozen=True)
+class ExactEdge:
+    """Roots i nu exp(i angle) between two corners (nu, angle), sin(angle) being the damping ratio."""
+
+    first: Corner
+    last: Corner
+    single: bool = False
+
+    def root(self, place: Number) -> Number:
+        """The root at a place from 0 to 1."""
+        nu, angle = (acb(a) + place * acb(b - a) for a, b in zip(self.first, self.last, strict=True))
+        return _I * nu * (_I * angle).exp()
+
+
+class ExactModeResidual:
+    """The greatest amplitude over the box, at the precision at work when it is first asked."""
+
+    def __init__(self, constant: ModeConstant) -> None:
+        self.constant = constant
+
+    @kept_property
+    def mode(self) -> list[tuple[acb, int]]:
+        """The roots that are the mode, nearly the same, with their multiplicities."""
+        below, _ = transforms(self.constant.machine, self.constant.output)
+        groups = vibrations(roots(below))
+        if not 1 <= self.constant.mode <= len(groups):
+            raise InputError(f"the machine has no mode {self.constant.mode}")
+        return groups[self.constant.mode - 1]
+
+    @kept_property
+    def root(self) -> acb:
+        """The mean of the roots that are the mode."""
+        whole = sum(count for _, count in self.mode)
+        return sum((root * count for root, count in self.mode), acb(0)) / whole
+
+    @kept_property
+    def share(self) -> arb:
+        """The mode's amplitude in the output over the magnitude of the integral of exp(root (1 - k)) b(k)."""
+        below, parts = transforms(self.constant.machine, self.constant.output)
+        total = acb(0)
+        for i, part in enumerate(parts):
+            for pole in Rational(part, below).poles():
+                if not any(bool(pole.root.overlaps(root)) for root, _ in self.mode):
+                    continue
+                if len(pole.shares) > 1:
+                    raise InputError(f"mode {self.constant.mode} is defective: it has no amplitude")
+                total += pole.shares[0] * self.root ** (i - 1)
+        return abs(2 * total)
+
+    @kept_property
+    def edges(self) -> list[ExactEdge]:
+        """The edges of the box, one where it is thin, as optlaws.mechanisms numbers them."""
+        angle = (-self.root.real / abs(self.root)).asin()
+        spread, dampings = Fraction(self.constant.spread), self.constant.dampings
+        low, high = abs(self.root) * ball(1 - spread), abs(self.root) * ball(1 + spread)
+        least, most = (angle, angle) if dampings is None else (ball(damping).asin() for damping in dampings)
+        if dampings is None or dampings[0] == dampings[1]:
+            return [ExactEdge((low, least), (high, least), single=not spread)]
+        if not spread:
+            return [ExactEdge((low, least), (low, most))]
+        lower, upper = ((low, least), (high, least)), ((low, most), (high, most))
+        return [ExactEdge(*lower), ExactEdge(lower[1], upper[1]), ExactEdge(*upper), ExactEdge(lower[0], upper[0])]
+
+    def rows(self, space: Space, edge: int, place: Fraction) -> list[acb]:
+        """Amplitudes of a space's free functions and of its base law, at a place of an edge from 0 to 1."""
+        transforms = velocity_transforms(self.edges[edge].root(acb(ball(place))), space.breaks, ends_of(space))
+        return [self.share * transform for transform in transforms]
+
+    def peak(self, pieces: Sequence[PolynomialPiece]) -> arb:
+        """A ball that holds the greatest over the box, at the precision at work."""
+        breaks, ends = ends_of_law(pieces)
+
+        def amplitude(edge: ExactEdge, place: Number) -> Number:
+            return velocity_transforms(edge.root(place), breaks, ends)[0]
+
+        along = [partial(amplitude, edge) for edge in self.edges]
+        return self.share * greatest_modulus(along, Fraction(0), Fraction(0 if self.edges[0].single else 1))
+
+
+def vibrations(poles: Sequence[tuple[acb, int]]) -> list[list[tuple[acb, int]]]:
+    """Roots of vibrations above the real line, the slowest first, those that are nearly the same together."""
+    upper = [pole for pole in poles if pole[0].imag > ball(VIBRATING) * abs(pole[0])]
+    groups: list[list[tuple[acb, int]]] = []
+    for pole in sorted(upper, key=lambda pole: float(abs(pole[0]).mid())):
+        size = abs(pole[0])
+        near = [group for group in groups if abs(group[0][0] - pole[0]) <= ball(SAME_ROOT) * size.max(arb(1))]
+        if near:
+            near[0].append(pole)
+            continue
+        if groups and not size > abs(groups[-1][0][0]) * ball(1 + SAME_FREQUENCY):
+            raise InputError("two modes of the machine have the same frequency: which is the first cannot be told")
+        groups.append([pole])
+    return groups

@@ -10,36 +10,27 @@ from math import comb, factorial
 from flint import acb, acb_mat, arb, arb_mat, arb_poly
 
 from optlaws.errors import InputError
-from optlaws.verification.enclosing.ball_extremes import greatest_magnitude
+from optlaws.numerics.tolerances import OUTPUT_REST
 from optlaws.verification.enclosing.balls import ball
+from optlaws.verification.enclosing.taylor_models import greatest_magnitude
 from optlaws.verification.machines.output_motion import OutputMotion, OutputStretch
 from optlaws.verification.machines.transfer import Pole
 
 #: terms of the polynomials, beside those that the law itself needs
 _TERMS = 48
-#: what is next to nothing, of what the output is made of
-_NOTHING = 2.0**-150
 _MOST = 20000
 
 
 @dataclass(frozen=True, eq=False)
 class Cell:
-    """Outputs of several laws on a stretch of time that is short enough.
+    """Outputs of several laws on a stretch of time that is short enough."""
 
-    Attributes
-    ----------
-    start, stop
-        When, in durations of the rise.
-    series
-        Coefficients of u^i, a row for each power, a column for each law; u runs from -1 at the start to 1 at the stop.
-    off
-        For each law, how far the output may be from its polynomial.
-    """
-
+    #: start, stop: when, in durations of the rise
     start: Fraction
     stop: Fraction
+    #: coefficients of u^i, a row for each power, a column for each law; u runs from -1 at the start to 1 at the stop
     series: arb_mat
-    off: list[arb]
+    off: list[arb]  #: for each law, how far the output may be from its polynomial
 
     @property
     def half(self) -> arb:
@@ -52,13 +43,7 @@ class Cell:
 
 
 def cells(motion: OutputMotion, start: Fraction, stop: Fraction) -> Iterator[Cell]:
-    """Cells from one time to another.
-
-    Raises
-    ------
-    InputError
-        If there would be too many of them.
-    """
+    """Cells from one time to another."""
     count = 0
     for stretch in motion.stretches:
         low, high = max(start, stretch.start), min(stop, stretch.start + stretch.length)
@@ -87,7 +72,7 @@ def _cell(motion: OutputMotion, stretch: OutputStretch, low: Fraction, high: Fra
             size += sum(map(abs, row), arb(0))
     size += sum((abs(value) for value in stretch.polynomials.entries()), arb(0))
     # what only rounding is made of needs no smaller cells
-    if any(not distance < _NOTHING * size for distance in off) and any(bool(distance > 0) for distance in off):
+    if any(not distance < OUTPUT_REST * size for distance in off) and any(bool(distance > 0) for distance in off):
         return None
     series = _shifted(stretch.polynomials, centre, half, count)
     for pole, free in zip(motion.poles, stretch.free, strict=True):

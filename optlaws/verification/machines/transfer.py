@@ -65,18 +65,10 @@ class MachineConstant(Protocol):
 
 @dataclass(frozen=True)
 class Pole:
-    """A root of the denominator, real or above the real line, with what it does to the output.
+    """A root of the denominator, real or above the real line, with what it does to the output."""
 
-    Attributes
-    ----------
-    root
-        Where it is; the imaginary part of a real one is exactly 0.
-    shares
-        Factors of 1/(s - root), 1/(s - root)², ..., as many as the root is multiple.
-    """
-
-    root: acb
-    shares: tuple[acb, ...]
+    root: acb  #: where it is; the imaginary part of a real one is exactly 0
+    shares: tuple[acb, ...]  #: factors of 1/(s - root), 1/(s - root)², ..., as many as the root is multiple
 
     @property
     def count(self) -> int:
@@ -87,13 +79,6 @@ class Pole:
 class Rational:
     """A quotient of polynomials in s, without what cancels.
 
-    Parameters
-    ----------
-    above, below
-        The polynomials.
-
-    Examples
-    --------
     >>> fraction = Rational(fmpq_poly([2, 2]), fmpq_poly([2, 3, 1]))
     >>> fraction.numerator, fraction.denominator, fraction.laurent(3)
     (2, x + 2, {0: 1, 1: -1/2, 2: 1/4, 3: -1/8})
@@ -141,13 +126,6 @@ class Transfer(Rational):
     """The output's transform over that of the law's derivative `order`: 0 where the machine sees the displacement.
 
     Where it does not, it is driven by the velocity, which need not come back after a cycle.
-
-    Parameters
-    ----------
-    machine
-        The machine.
-    output
-        Which output.
     """
 
     def __init__(self, machine: StateSpaceMatrices, output: str) -> None:
@@ -160,13 +138,7 @@ class Transfer(Rational):
 
 
 def transforms(machine: StateSpaceMatrices, output: str) -> tuple[fmpq_poly, list[fmpq_poly]]:
-    """The characteristic polynomial p, and for each of a, b and c what is to be divided by p: C (s - A)^-1 B + D.
-
-    Raises
-    ------
-    InputError
-        If there is no such output.
-    """
+    """The characteristic polynomial p, and for each of a, b and c what is to be divided by p: C (s - A)^-1 B + D."""
     if output not in machine.outputs:
         raise InputError(f"the machine has no output {output!r}")
     place, size = machine.outputs.index(output), len(machine.A)
@@ -189,8 +161,6 @@ def transforms(machine: StateSpaceMatrices, output: str) -> tuple[fmpq_poly, lis
 def roots(polynomial: fmpq_poly) -> list[tuple[acb, int]]:
     """Balls around all roots with their multiplicities; of a real root the imaginary part is exactly 0.
 
-    Examples
-    --------
     >>> [(root.real.mid(), count) for root, count in roots(fmpq_poly([1, 2, 1]))]
     [(-1.00000000000000, 2)]
     """

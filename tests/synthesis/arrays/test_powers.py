@@ -12,8 +12,7 @@ from optlaws.synthesis.arrays.continuation import ParametricContinuation
 from optlaws.synthesis.arrays.continued_laws import laws_along
 from optlaws.synthesis.arrays.newton_steps import States, locally_optimal
 from optlaws.synthesis.arrays.powers import least_power, on_global_branch
-from optlaws.synthesis.arrays.programs import Path, between
-from optlaws.synthesis.arrays.solved_batch import SolvedBatch
+from optlaws.synthesis.arrays.programs import Path, SolvedBatch, between
 from optlaws.synthesis.search import LawSearch
 from optlaws.synthesis.solution_array import SolutionArray
 from optlaws.verification import verify

@@ -6,7 +6,7 @@ from scipy.optimize import linprog
 
 from optlaws import BoundaryConditions, Chebyshev, Pieces, Problem, synthesize
 from optlaws.synthesis.spaces.pieces.free import PieceSpace, piece_space
-from optlaws.synthesis.spaces.polynomials.space import polynomial_space
+from optlaws.synthesis.spaces.polynomial_space import polynomial_space
 from optlaws.verification.exact.bound import prove
 from tests.synthesis.judge import judge
 

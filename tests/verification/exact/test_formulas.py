@@ -18,7 +18,7 @@ from tests.verification.tampering import overstated
 
 pytest.importorskip("flint")
 from optlaws.verification.exact.law import ExactLaw
-from optlaws.verification.exact.limits import exact_limit
+from optlaws.verification.exact.sublevel_bounds import exact_limit
 
 TABLE = "table(k, 0:1, 0.3:2, 0.7:1, 1:3)"
 SPLINE = "spline(a, 0:0, 0.3:0.1, 0.6:0.5, 1:1.2)"

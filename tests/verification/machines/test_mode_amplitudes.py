@@ -9,7 +9,7 @@ from flint import ctx
 from optlaws import InputError, Link, Machine, smoothstep
 from optlaws.verification.enclosing.balls import enclosed, lower, upper
 from optlaws.verification.exact.law import ExactLaw
-from optlaws.verification.machines.mode_residuals import ExactModeResidual
+from optlaws.verification.machines.residuals import ExactModeResidual
 
 ORDER = 3
 CHAIN = Machine.from_masses(

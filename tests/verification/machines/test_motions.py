@@ -12,8 +12,7 @@ from optlaws import InputError, Machine, PiecewiseLaw, smoothstep
 from optlaws.laws.segments.segment import PolynomialSegment
 from optlaws.verification.enclosing.balls import ball, enclosed, lower, upper
 from optlaws.verification.exact.law import ExactLaw
-from optlaws.verification.machines import driving
-from optlaws.verification.machines.output_motion import response
+from optlaws.verification.machines.output_motion import cycle, followed, of_pieces, response
 from optlaws.verification.machines.transfer import Transfer
 from tests.mechanisms.machine.random_machines import random_case
 from tests.sampling import sampled
@@ -70,7 +69,7 @@ def test_a_response_is_that_of_the_matrix_exponential(kind: str) -> None:
     with mpmath.workdps(50), ctx.workprec(400):
         _, start, row = chain(machine)
         wanted = (row * exponential(kind, k) * start)[0]
-        rise = driving.of_pieces(ExactLaw(smoothstep(ORDER)).polynomials)
+        rise = of_pieces(ExactLaw(smoothstep(ORDER)).polynomials)
         (found,) = response(Transfer(machine, "output 1"), rise).row(k)
         assert abs(lower(found) - fraction(wanted)) < Fraction(1, 10**36)
         assert float(found.rad()) < 1e-60
@@ -114,7 +113,7 @@ def test_random_machines_are_those_of_doubles(seed: int) -> None:
     for output in machine.outputs[-2:]:
         found = machine.response(rise, dwell=0.5)[output]
         with ctx.workprec(400):
-            laws = driving.followed(driving.of_pieces(ExactLaw(rise).polynomials), Fraction(3, 2))
+            laws = followed(of_pieces(ExactLaw(rise).polynomials), Fraction(3, 2))
             motion = response(Transfer(machine, output), laws)
             values = [float(motion.row(Fraction(i, 8))[0].mid()) for i in range(13)]
         scale = max(found.peak(0).value, 1e-3)
@@ -135,9 +134,9 @@ def test_cycles_come_back() -> None:
 
 def test_what_has_no_steady_motion_is_said() -> None:
     drifting = Transfer(MACHINES["drifting"], "output 1")
-    there = driving.of_pieces(ExactLaw(smoothstep(ORDER)).polynomials)
+    there = of_pieces(ExactLaw(smoothstep(ORDER)).polynomials)
     with pytest.raises(InputError, match="drifts"), ctx.workprec(300):
-        response(drifting, driving.cycle(there, Fraction(0), Fraction(0)), repeats=True)
+        response(drifting, cycle(there, Fraction(0), Fraction(0)), repeats=True)
 
 
 def test_a_jump_of_velocity_has_no_peak_where_the_acceleration_is_felt() -> None:

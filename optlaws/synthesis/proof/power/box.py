@@ -82,9 +82,9 @@ class BoxRows(ABC):
         self.units = {family.name: family.unit for family in scaled.program.families}
         self.sizes = np.concatenate([scaled.variable_scales, np.ones(self.extra + 1)])
         self.space = self.model.space
-        self.terms, self.own = self.space.terms, self.model.program.size
-        self.size = self.own + self.extra
-        self._families = {nu: self.space.derivative(nu, "", np.zeros(self.own)) for nu in (1, 2)}
+        self.terms, self.variables = self.space.terms, self.model.program.size
+        self.size = self.variables + self.extra
+        self._families = {nu: self.space.derivative(nu, "", np.zeros(self.variables)) for nu in (1, 2)}
 
     @abstractmethod
     def root(self) -> Box:
@@ -171,8 +171,8 @@ class BoxRows(ABC):
         """Rows over the program's variables, the constant last, as rows over those of a box."""
         inverse, base = self._map
         free, nothing = rows[:, : self.terms], np.zeros((len(rows), self.extra))
-        own = rows[:, self.terms : -1]
-        return np.column_stack([free @ inverse, own, nothing, rows[:, -1] - free @ base])
+        variables = rows[:, self.terms : -1]
+        return np.column_stack([free @ inverse, variables, nothing, rows[:, -1] - free @ base])
 
     def rows(self, nu: int, k: Array) -> Array:
         """The law's derivative at the places k over the program's variables, the constant last."""
@@ -238,10 +238,10 @@ class BoxRows(ABC):
         joined = np.vstack([self.of_contacts(node.contacts, box), equations, self.objective()])
         multipliers = [max(contact.multiplier, 0.0) for contact in node.contacts]
         weights = np.array([*multipliers, *node.equations[: len(equations)], max(node.claim, 0.0)])
-        own = np.zeros(self.size + 1)
+        moved = np.zeros(self.size + 1)
         if isinstance(node, Tightening):
-            own[node.variable] = float(node.side)
-        total = own + weights @ joined
-        size = np.abs(own) + np.abs(weights) @ np.abs(joined)
+            moved[node.variable] = float(node.side)
+        total = moved + weights @ joined
+        size = np.abs(moved) + np.abs(weights) @ np.abs(joined)
         greatest = np.append(np.maximum(np.abs(box.low), np.abs(box.high)), 1.0)
         return float(box.extent(total[None])[0][0]) - ENERGY_ROUNDING * float(size @ greatest)

@@ -15,7 +15,7 @@ from math import inf, isfinite
 import numpy as np
 
 from optlaws.formulas.intervals import Endpoints, enclosed
-from optlaws.formulas.vocabulary import ORDERS
+from optlaws.formulas.tree import ORDERS
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
 from optlaws.numerics.tolerances import BENEATH_ROUNDING, TINY
@@ -32,7 +32,7 @@ from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.proof.power.box import Box, BoxRows, Places
 from optlaws.synthesis.proof.power.integral_underestimators import ConvexUnderestimator
 from optlaws.synthesis.proof.sublevel_bounds import asked_or_claimed, means
-from optlaws.synthesis.spaces.polynomials.space import PolynomialSpace
+from optlaws.synthesis.spaces.polynomial_space import PolynomialSpace
 
 #: constants whose bound is one of a derivative's magnitude everywhere
 PEAKS = {"b": "B", "c": "C", "j": "J"}
@@ -53,14 +53,11 @@ def applies(problem: Problem) -> bool:
     )
     if not known or not any(open_ones):
         return False
-    sides, integrals = _own_sides(model, 1.0), {family.name for family in model.program.families if _summed(family)}
+    sides = _own_sides(model, 1.0)
+    integrals = {family.name for family in model.program.families if isinstance(family, IntegralFamily)}
     # an integral is no less than its formula is in the first box
     low = [name in integrals or isfinite(end) for name, end in zip(_own_names(model), sides[:, 0], strict=True)]
     return all(low) and bool(np.isfinite(sides[:, 1]).all()) and "B" in _greatest(model, 1.0)
-
-
-def _summed(family: ConstraintFamily) -> bool:
-    return isinstance(family, IntegralFamily)
 
 
 def _own_names(model: Model) -> list[str]:
@@ -87,31 +84,24 @@ def _greatest(model: Model, claim: float) -> dict[str, float]:
 def _own_sides(model: Model, claim: float) -> Array:
     """Least and greatest values of the program's own variables, in their order, a row each."""
     constants = {leaf.name: leaf for _, leaf in leaves(model.problem.objective) if isinstance(leaf, Functional)}
-    greatest, asked = _greatest(model, claim), model.problem.range("B")
+    greatest, limits = _greatest(model, claim), model.problem.range("B")
     sides = []
     for name in _own_names(model):
         least = constants[name].floor(model.space.boundary) if name in constants else -inf
         if name == "B":
-            least = asked.low if asked is not None else 0.0
+            least = limits.low if limits is not None else 0.0
         sides.append((least, greatest.get(name, inf)))
     return np.array(sides, dtype=np.float64).reshape(-1, 2)
 
 
 @dataclass(frozen=True, eq=False)
 class Plane:
-    """Where planes touch that sign times a family's formula is nowhere below, less what is taken from them.
+    """Where planes touch that sign times a family's formula is nowhere below, less what is taken from them."""
 
-    Attributes
-    ----------
-    family, sign
-        The rows of a formula.
-    way
-        None for the middle of the ranges; for a corner -1 or 1 by which end of each.
-    """
-
+    #: family, sign: the rows of a formula
     family: CurvedFamily
     sign: float
-    way: Way
+    way: Way  #: None for the middle of the ranges; for a corner -1 or 1 by which end of each
 
     def touching(self, low: Array, high: Array) -> Array:
         """The derivatives there, from their least and greatest values; shape (names, places) each."""
@@ -149,14 +139,14 @@ class FormulaRows(BoxRows):
         families = self.model.program.families
         self.families = [family for family in families if isinstance(family, CurvedFamily)]
         self._orders = sorted({ORDERS[name] for family in self.families for name in family.names})
-        self._laws = {nu: self.space.derivative(nu, "", np.zeros(self.own)) for nu in self._orders}
+        self._laws = {nu: self.space.derivative(nu, "", np.zeros(self.variables)) for nu in self._orders}
         self._near: list[Array] = []
 
     def root(self) -> Box:
         """The box of all laws of the problem whose objective is below the claim."""
         low, high = self.brackets_at(self.points)
-        own = _own_sides(self.model, self.claim)
-        box = Box(np.append(low, own[:, 0]), np.append(high, own[:, 1]))
+        sides = _own_sides(self.model, self.claim)
+        box = Box(np.append(low, sides[:, 0]), np.append(high, sides[:, 1]))
         for beneath in self.integrals.values():
             place = self.model.places.get(beneath.family.name)
             if place is not None and not isfinite(box.low[place]):

@@ -145,7 +145,7 @@ class Grid:
         equations = rows.equations()
         equal, equal_right = equations[:, :-1] * half, -equations[:, -1] - equations[:, :-1] @ centre
         equal_length = np.abs(equal).sum(axis=1)
-        kept = np.where(
+        divisor = np.where(
             equal_length > GRID_EMPTY * np.minimum(1.0, np.abs(equations * rows.sizes).max(axis=1, initial=0.0)),
             equal_length,
             np.inf,
@@ -155,9 +155,9 @@ class Grid:
             right[which] / length[which],
             length[which],
             which,
-            equal / kept[:, None],
-            np.where(np.isfinite(kept), equal_right / kept, 0.0),
-            kept,
+            equal / divisor[:, None],
+            np.where(np.isfinite(divisor), equal_right / divisor, 0.0),
+            divisor,
         )
 
     def node(self, box: Box, variable: int, side: int) -> tuple[Leaf | None, Array | None]:

@@ -18,8 +18,7 @@ import numpy as np
 from optlaws.formulas.intervals import Endpoints, enclosed
 from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.slopes import derivative
-from optlaws.formulas.tree import Formula
-from optlaws.formulas.vocabulary import ORDERS
+from optlaws.formulas.tree import ORDERS, Formula
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import gauss
@@ -36,29 +35,17 @@ _CELLS = 32
 
 @dataclass(frozen=True, eq=False)
 class CurvatureBound:
-    """What bounds the second derivatives of an integral in a box.
+    """What bounds the second derivatives of an integral in a box."""
 
-    Attributes
-    ----------
-    low, high
-        Least and greatest values of the derivatives on the cells.
-    middle, half
-        Of the box's velocities.
-    free
-        Directions, in units of the box, in which laws differ that keep the equations.
-    third
-        Greatest magnitudes of the formula's third derivatives on the cells.
-    anywhere
-        A form over the velocities that second derivatives of the integral are nowhere below.
-    """
-
+    #: low, high: least and greatest values of the derivatives on the cells
     low: Array
     high: Array
+    #: middle and half width of the box's velocities
     middle: Array
     half: Array
-    free: Array
-    third: Mapping[tuple[int, int, int], Array]
-    anywhere: Array
+    free: Array  #: directions, in units of the box, in which laws differ that keep the equations
+    third: Mapping[tuple[int, int, int], Array]  #: greatest magnitudes of the formula's third derivatives on the cells
+    anywhere: Array  #: a form over the velocities that second derivatives of the integral are nowhere below
 
     def costs(self, form: Array) -> tuple[Array, Array]:
         """Negative eigenvalues of a form, their signs turned, and magnitudes of their vectors, in units of the box."""
@@ -77,17 +64,7 @@ class CurvatureBound:
 
 
 class ConvexUnderestimator:
-    """Planes that the integral of a formula, or its root, is nowhere below in a box.
-
-    Parameters
-    ----------
-    rows
-        Of the problem.
-    family
-        The integral's row.
-    motion
-        Its formula, over its part of the interval.
-    """
+    """Planes that the integral of a formula, or its root, is nowhere below in a box."""
 
     def __init__(self, rows: BoxRows, family: IntegralFamily, motion: MotionFormula) -> None:
         self.rows, self.family, self.motion = rows, family, motion
@@ -105,7 +82,7 @@ class ConvexUnderestimator:
     def _taylor(self, nu: int) -> Array:
         space, planes, factor = self.rows.space, [], np.ones_like(self.reach)
         for i in range(space.degree_of(nu) + 1):
-            columns = space.widened(columns_of(space, nu + i, self.middle), self.rows.own)
+            columns = space.widened(columns_of(space, nu + i, self.middle), self.rows.variables)
             mapped = self.rows.mapped(columns)
             if i:
                 # what is given has no derivative

@@ -20,9 +20,10 @@ from optlaws.synthesis.problem.constants import D, PeakConstant
 from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, model_of
+from optlaws.synthesis.proof.power import formula_underestimators, shared_energy
 from optlaws.synthesis.proof.power.box import Box, BoxRows, Places
 from optlaws.synthesis.proof.sublevel_bounds import asked_or_claimed
-from optlaws.synthesis.spaces.polynomials.space import PolynomialSpace
+from optlaws.synthesis.spaces.polynomial_space import PolynomialSpace
 
 POWER_ROWS = (RowName.POWER, RowName.POWER_FROM_LEAST)
 
@@ -88,17 +89,17 @@ class PowerRows(BoxRows):
     def _anchors(self) -> Anchors:
         ends = self.space.start_velocity, self.space.start_velocity + self.space.velocity_change
         anchors = Anchors(np.array([0.0, 1.0]), np.array(ends), np.array(ends))
-        asked, peak = self.problem.range("B"), self.problem.peak_at
-        if asked is not None and asked.low > 0.0 and peak is not None:
-            anchors = anchors.joined(np.array([peak]), np.array([asked.low]), np.array([self.greatest["B"]]))
+        limits, peak = self.problem.range("B"), self.problem.peak_at
+        if limits is not None and limits.low > 0.0 and peak is not None:
+            anchors = anchors.joined(np.array([peak]), np.array([limits.low]), np.array([self.greatest["B"]]))
         return anchors
 
     def root(self) -> Box:
         """The box of all laws of the problem whose objective is below the claim."""
         low, high = self.brackets_at(self.points)
         others = sorted(self.model.places, key=self.model.places.__getitem__)
-        asked = self.problem.range("B")
-        least = [asked.low if name == "B" and asked is not None else 0.0 for name in others]
+        limits = self.problem.range("B")
+        least = [limits.low if name == "B" and limits is not None else 0.0 for name in others]
         return Box(np.append(low, least), np.append(high, [self.greatest[name] for name in others]))
 
     def brackets_at(self, k: Array) -> tuple[Array, Array]:
@@ -157,8 +158,6 @@ class Anchors:
 def velocity_brackets(anchors: Anchors, D: float, k: Array) -> tuple[Array, Array]:
     """Least and greatest velocity at the places k of a law with peak power D (dimensionless).
 
-    Examples
-    --------
     >>> rest = Anchors(np.array([0.0]), np.zeros(1), np.zeros(1))
     >>> velocity_brackets(rest, 2.0, np.array([0.25]))[1].tolist()
     [1.0]
@@ -172,3 +171,15 @@ def velocity_brackets(anchors: Anchors, D: float, k: Array) -> tuple[Array, Arra
 def _signed_root(square: Array) -> Array:
     root: Array = np.copysign(np.sqrt(np.abs(square)), square)
     return root
+
+
+_KINDS = (
+    (shared_energy.applies, shared_energy.EnergyRows),
+    (applies, PowerRows),
+    (formula_underestimators.applies, formula_underestimators.FormulaRows),
+)
+
+
+def rows_of(problem: Problem, claim: float, points: Sequence[float]) -> BoxRows | None:
+    """The rows of a problem under a claim; None where nothing of it can be bounded by boxes."""
+    return next((kind(problem, claim, points) for fits, kind in _KINDS if fits(problem)), None)

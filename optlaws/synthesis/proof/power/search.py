@@ -16,7 +16,7 @@ from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.proof.nodes import Node, Split
 from optlaws.synthesis.proof.power.box import Box, BoxRows
 from optlaws.synthesis.proof.power.grid import Grid
-from optlaws.synthesis.proof.power.rows_of_problem import rows_of
+from optlaws.synthesis.proof.power.rows import rows_of
 
 #: tells from the variables of some law whether its neighbourhood has a better one than the best known
 Explore = Callable[[Array], bool]
@@ -64,24 +64,14 @@ def searched(problem: Problem, claim: float, x: Array, budget: int, explore: Exp
 
 @dataclass(eq=False)
 class BoxSearch:
-    """A search for the proof of one claim.
-
-    Attributes
-    ----------
-    left
-        How many linear programs it may still solve.
-    certificate
-        The certificate; None before, and where they do not suffice.
-    overtaken
-        Whether a law was found that makes the claim worthless.
-    """
+    """A search for the proof of one claim."""
 
     rows: BoxRows
     grid: Grid
-    left: int
+    left: int  #: how many linear programs it may still solve
     explore: Explore
-    certificate: Certificate | None = None
-    overtaken: bool = False
+    certificate: Certificate | None = None  #: None before it is found, and where the programs do not suffice
+    overtaken: bool = False  #: whether a law was found that makes the claim worthless
 
     def __post_init__(self) -> None:
         root = self.rows.root()
@@ -144,7 +134,7 @@ class BoxSearch:
         return moved
 
     def _variables_of(self, values: Array) -> Array:
-        return np.append(self.rows.coordinates(values), values[self.rows.terms : self.rows.own])
+        return np.append(self.rows.coordinates(values), values[self.rows.terms : self.rows.variables])
 
 
 def _points(problem: Problem, claim: float) -> list[float]:

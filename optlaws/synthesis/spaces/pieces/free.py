@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from functools import lru_cache
 from itertools import pairwise
+from math import factorial
 
 import numpy as np
-from numpy.polynomial import chebyshev
+from numpy.polynomial import chebyshev, legendre
 
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
@@ -15,10 +16,44 @@ from optlaws.numerics.chebyshev import from_values, nodes
 from optlaws.synthesis.families.family import ConstraintFamily
 from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
-from optlaws.synthesis.spaces.pieces.forward import above_rest
 from optlaws.synthesis.spaces.pieces.rows import PieceFamily, PieceSeries
 from optlaws.synthesis.spaces.pieces.space import PiecewiseSpace
 from optlaws.synthesis.spaces.space import Equation
+
+
+def above_rest(velocity: PieceSeries, derivative: PieceSeries, order: int) -> PieceSeries:
+    """Piecewise series of -b / w with w > 0: at most 0 if and only if b >= 0.
+
+    With k1 the end of the first piece w = (k/k1)^(l-1) there, likewise on a last piece that ends with k = 1, and 1 on
+    the others: w is continuous. Lower powers of k, which rest makes vanish, are left out.
+
+    Parameters
+    ----------
+    velocity, derivative
+        The series of b, and of the derivative of a of order l, by u = 1 - 2k.
+    order
+        The number l of boundary conditions, at least 2.
+    """
+    series = -velocity.series
+    ends = [i for i, u in ((0, 1.0), (len(series) - 1, -1.0)) if velocity.breaks[i + (u < 0.0)] == u]
+    for i in ends:
+        series[i] = _divided(derivative, i, series.shape[1], order - 1)
+    return PieceSeries(velocity.breaks, series)
+
+
+def _divided(derivative: PieceSeries, piece: int, count: int, power: int) -> Array:
+    """-b / w on the first or the last piece, by Taylor's remainder, so that nothing cancels."""
+    # the share of the piece's length that a place is away from the end of the interval
+    side = 1.0 if piece == 0 else -1.0
+    away = (1.0 - side * nodes(count)) / 2.0
+    x, weights = legendre.leggauss(count // 2 + 2)
+    share = (1.0 + x) / 2.0
+    local = side * (1.0 - 2.0 * np.outer(away, share))
+    columns = chebyshev.chebval(local.reshape(-1), derivative.series[piece])
+    values = columns.T.reshape(count, len(share), -1)
+    means = np.einsum("psc,s->pc", values, weights * (1.0 - share) ** (power - 1) / 2.0)
+    length = (derivative.breaks[piece] - derivative.breaks[piece + 1]) / 2.0
+    return np.asarray(-from_values(means) * (side * length) ** power / factorial(power - 1))
 
 
 class PieceSpace(PiecewiseSpace):
@@ -27,8 +62,6 @@ class PieceSpace(PiecewiseSpace):
     Coordinates are the coefficients of the acceleration in B-splines, which makes them local and well conditioned.
     Where `symmetric` they describe the first half only.
 
-    Examples
-    --------
     >>> space = piece_space(BoundaryConditions.rest(2), (0.0, 0.5, 1.0), 2, 1, symmetric=False)
     >>> space.terms
     2
@@ -39,16 +72,16 @@ class PieceSpace(PiecewiseSpace):
     ) -> None:
         super().__init__(breaks, continuity, symmetric=symmetric)
         self.boundary = boundary
-        kept = np.array([k for k in breaks if not symmetric or k <= 0.5])
-        self.k = kept
+        places = np.array([k for k in breaks if not symmetric or k <= 0.5])
+        self.k = places
         self._order = degree - 2
-        self._acceleration = self._splines(kept, self._order, self._order - (continuity - 2))
+        self._acceleration = self._splines(places, self._order, self._order - (continuity - 2))
         self._free_start = boundary.order == 1
         if self._free_start:
             # one more coordinate: the velocity at the start, beyond that of a = a(0) + stroke k
             self._acceleration = np.insert(self._acceleration, -1, 0.0, axis=2)
         self.terms = self._acceleration.shape[2] - 1
-        self._pieces[2] = PieceSeries(1.0 - 2.0 * kept, self._acceleration)
+        self._pieces[2] = PieceSeries(1.0 - 2.0 * places, self._acceleration)
         self.stroke = float(boundary.end[0]) - float(boundary.start[0])
         self.start_velocity = self.stroke if self._free_start else float(boundary.start[1])
         end_velocity = self.stroke if self._free_start else float(boundary.end[1])

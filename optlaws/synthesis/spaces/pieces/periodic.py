@@ -111,8 +111,8 @@ class PeriodicSpace(PieceSpace):
             # every spline and its copies a turn before and after
             turns = np.pad(values, ((0, 0), (0, -values.shape[1] % count))).reshape(len(values), -1, count)
             series[i, :, :-1] = from_values(turns.sum(axis=1))
-        kept = [j for j in range(count) if not series[list(self._straight), :, j].any()]
-        return np.ascontiguousarray(series[:, :, [*kept, count]])
+        bent = [j for j in range(count) if not series[list(self._straight), :, j].any()]
+        return np.ascontiguousarray(series[:, :, [*bent, count]])
 
     def vanishing(self, nu: int) -> int:
         """A constant acceleration, where no piece is straight, and the velocity at the start."""

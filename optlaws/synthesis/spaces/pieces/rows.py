@@ -58,9 +58,9 @@ class PieceSeries:
         order = np.argsort(piece, kind="stable")
         ends = np.searchsorted(piece[order], np.arange(len(self.series) + 1))
         for series, (first, last) in zip(self.series, pairwise(ends), strict=True):
-            own = order[first:last]
-            shared = np.broadcast_to(series, (len(own), *series.shape))
-            columns[own] = np.einsum("pm,pmc->pc", basis[own], shared)
+            here = order[first:last]
+            shared = np.broadcast_to(series, (len(here), *series.shape))
+            columns[here] = np.einsum("pm,pmc->pc", basis[here], shared)
         return columns
 
     def global_places(self, piece: int, local: Array) -> Array:
@@ -176,11 +176,11 @@ def _stationary(family: PieceFamily, factors: list[Array]) -> Array:
         if np.abs(slope).max() > FLAT_SLOPE * np.abs(series).max():
             roots = real_parts_of_roots(slope)
             places.append(pieces.global_places(i, roots[np.abs(roots) < 1.0]))
-    kept = np.ones(len(family.corners), dtype=np.bool_)
+    needed = np.ones(len(family.corners), dtype=np.bool_)
     if not family.jumps:
         # where the function goes on rising or falling, a corner is no extremum
-        kept[1:-1] = [
+        needed[1:-1] = [
             before[1] * after[0] <= FLAT_SLOPE * max(before[1] ** 2, after[0] ** 2)
             for before, after in pairwise(slopes)
         ]
-    return np.concatenate([family.corners[kept], *places])
+    return np.concatenate([family.corners[needed], *places])

@@ -47,7 +47,7 @@ def test_no_law_in_a_box_is_below_a_plane(problem: Problem) -> None:
     family, nothing = beneath.family, np.zeros(rows.size + 1)
     for width in (0.02, 0.1, 0.5):
         middle = random.uniform(0.5, 1.5, rows.terms)
-        low, high = (np.append(middle + side * width, np.full(rows.own - rows.terms, 1.0)) for side in (-1, 1))
+        low, high = (np.append(middle + side * width, np.full(rows.variables - rows.terms, 1.0)) for side in (-1, 1))
         box, touching = Box(low, high), middle + width * random.uniform(-1.0, 1.0, rows.terms)
         # without equations, for these laws keep none
         beneath.rows.equations = lambda: np.zeros((0, rows.size + 1))  # type: ignore[method-assign]
@@ -56,7 +56,9 @@ def test_no_law_in_a_box_is_below_a_plane(problem: Problem) -> None:
             plane = plane + beneath._square(box, nothing)
         assert plane.any()
         for _ in range(20):
-            law = np.append(middle + width * random.uniform(-1.0, 1.0, rows.terms), np.ones(rows.own - rows.terms))
+            law = np.append(
+                middle + width * random.uniform(-1.0, 1.0, rows.terms), np.ones(rows.variables - rows.terms)
+            )
             x = np.append(rows.coordinates(law), law[rows.terms :])
             value = float(replace(family, root=False).value(x, np.ones(1))[0])
             assert plane @ np.append(law, 1.0) <= value + 1e-9 * abs(value)

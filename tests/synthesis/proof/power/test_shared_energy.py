@@ -23,9 +23,9 @@ from optlaws import (
 )
 from optlaws.balancing.loaders.constants import NAMES, D_loader
 from optlaws.synthesis.proof.power.box import Box, BoxRows
-from optlaws.synthesis.proof.power.rows_of_problem import rows_of
+from optlaws.synthesis.proof.power.rows import rows_of
 from optlaws.synthesis.proof.power.search import _points
-from optlaws.synthesis.proof.power.secant_overestimators import secant_over_inverse, secant_over_root
+from optlaws.synthesis.proof.power.shared_energy import secant_over_inverse, secant_over_root
 from optlaws.verification import verify
 from tests.sampling import examples
 

@@ -7,6 +7,7 @@ Gegenbauer series (of index l + 1/2 and l - 3/2): every free function has a clos
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import lru_cache
 
 import numpy as np
@@ -29,8 +30,48 @@ from optlaws.synthesis.families.family import (
 )
 from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions, construct
-from optlaws.synthesis.spaces.polynomials.below_peak import chord
 from optlaws.synthesis.spaces.space import LawSpace, Quadrature
+
+
+def chord(jerk: Callable[[Array], Array], u: Array, centre: float, degree: int) -> Array:
+    """(b - b0) / (u - u0)² at points u where b has the value b0 and no slope at u0; by an integral, so nothing cancels.
+
+    Parameters
+    ----------
+    jerk
+        Columns of j at points u = 1 - 2k, shape (points, columns); polynomials of a degree.
+    u, centre
+        The points and u0.
+    degree
+        The degree of b.
+
+    Examples
+    --------
+    >>> chord(lambda u: np.full((len(u), 1), 8.0), np.array([0.25]), 0.5, 2)  # b = 1 + (u - 0.5)²
+    array([[1.]])
+    """
+    # by Taylor the mean of b'' with the weight 1 - s, and b'' by u is j/4
+    return _mean(jerk, u, centre, degree, lambda share: 1.0 - share) / 4.0
+
+
+def kink(acceleration: Callable[[Array], Array], u: Array, centre: float, degree: int) -> Array:
+    """(b - b0) / |u - u0| on one side of u0 where b has a kink; otherwise as `chord`.
+
+    >>> kink(lambda u: np.full((len(u), 1), -4.0), np.array([0.75]), 0.5, 1)  # b = 1 + 2 (u - 0.5)
+    array([[2.]])
+    """
+    side = np.sign(u - centre)[:, None]
+    return -side * _mean(acceleration, u, centre, degree, np.ones_like) / 2.0
+
+
+def _mean(
+    values: Callable[[Array], Array], u: Array, centre: float, degree: int, weight: Callable[[Array], Array]
+) -> Array:
+    x, weights = legendre.leggauss(degree // 2 + 2)
+    share = (1.0 + x) / 2.0
+    places = centre + np.outer(u - centre, share)
+    columns = values(places.reshape(-1)).reshape(len(u), len(share), -1)
+    return np.asarray(np.einsum("psc,s->pc", columns, weights * weight(share) / 2.0))
 
 
 class PolynomialSpace(LawSpace):
@@ -103,7 +144,7 @@ class PolynomialSpace(LawSpace):
                 if len(lower) > 1:
                     series = -2.0 * np.asarray(chebyshev.chebder(lower), dtype=np.float64)
             else:
-                base = self.base(self._k, nu)
+                base = self.base((1.0 - self._u) / 2.0, nu)
                 values = np.column_stack([(self._shapes[nu] * self.scale[:, None]).T, base])
                 # what lies beyond the degree is rounding
                 series = from_values(values)[: 2 * self.order + self.degree + 1 - nu]
@@ -113,10 +154,6 @@ class PolynomialSpace(LawSpace):
             series.setflags(write=False)
             self._series[nu] = series
         return self._series[nu]
-
-    @property
-    def _k(self) -> Array:
-        return np.asarray((1.0 - self._u) / 2.0)
 
     def law(self, coordinates: Array) -> PolynomialLaw:
         """The law with the given coordinates (one for each free function)."""
@@ -167,8 +204,8 @@ class PolynomialSpace(LawSpace):
             return self.series(nu)
         total = np.zeros_like(self.series(nu))
         for i, weight in enumerate(weights):
-            own = self.series(nu + i)
-            total[: len(own)] += weight * own[: len(total)]
+            terms = self.series(nu + i)
+            total[: len(terms)] += weight * terms[: len(total)]
         return total
 
     def backward(self, slack: Array, bound: float) -> LinearFamily:
@@ -217,11 +254,6 @@ class PolynomialSpace(LawSpace):
         """b(1/2) as a row: free functions, then the base law."""
         return self.row(1, 0.5)
 
-    @kept_property
-    def base_ratio(self) -> float:
-        """b / (k(1-k))^(l-1) of the base law S_l."""
-        return 4.0 ** (self.order - 1) * float(self.base.b(0.5))
-
     def below(self, slack: Array, peak: float = 0.5) -> ConstraintFamily:
         """Rows b <= b(peak) of laws with c(peak) = 0, divided by (2k - 2 peak)²: else they were ill posed."""
         if self.symmetric:
@@ -258,15 +290,15 @@ class PolynomialSpace(LawSpace):
 
     @kept_property
     def _ratio_scale(self) -> Array:
-        return self.scale * 4.0 ** (self.order - 1) / self.base_ratio
+        """The scale of the free functions in units of b / (k(1-k))^(l-1) of the base law S_l."""
+        power = 4.0 ** (self.order - 1)
+        return self.scale * power / (power * float(self.base.b(0.5)))
 
 
 @lru_cache(maxsize=128)
 def polynomial_space(boundary: BoundaryConditions, degree: int, *, symmetric: bool) -> PolynomialSpace:
     """The space, kept for the next call.
 
-    Examples
-    --------
     >>> polynomial_space(BoundaryConditions.rest(2), 3, symmetric=False).terms
     4
     """

@@ -12,7 +12,7 @@ from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import OBJECTIVE, Certificate
 from optlaws.synthesis.proof.make import certificate
 from optlaws.synthesis.proof.nodes import Leaf, Node, PlaceRange, Split
-from optlaws.synthesis.proof.peaks.rows import PeakRows
+from optlaws.synthesis.proof.peak_rows import PeakRows
 
 _PROGRAMS = 1500
 _HOPELESS, _NEARLY = 1.5, 4.0

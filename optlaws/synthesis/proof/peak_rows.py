@@ -30,8 +30,8 @@ _UPWARD, _AMPLE = 1.0 + 2.0**-50, 1.0 + 2.0**-20
 
 def peak_of(problem: Problem, name: str) -> PeakConstant | None:
     """The peak of that name, where a lower bound of it can be proven: for polynomial laws of convex problems."""
-    constant, asked = FUNCTIONALS.get(name), problem.range(name)
-    if not isinstance(constant, PeakConstant) or asked is None or asked.low <= 0.0:
+    constant, limits = FUNCTIONALS.get(name), problem.range(name)
+    if not isinstance(constant, PeakConstant) or limits is None or limits.low <= 0.0:
         return None
     return constant if problem.convex and isinstance(problem.basis, PolynomialBasis) else None
 
@@ -51,22 +51,12 @@ def roots_of(problem: Problem, name: str) -> list[PlaceRange]:
 
 
 class PeakRows:
-    """What laws below a claim can have as the values of a derivative.
-
-    Parameters
-    ----------
-    problem
-        The problem; laws of it are spoken of.
-    peak
-        A peak of the derivative that the problem bounds from below.
-    claim
-        Laws with an objective below it are spoken of.
-    """
+    """What laws below a claim can have as the values of a derivative."""
 
     def __init__(self, problem: Problem, peak: PeakConstant, claim: float) -> None:
         self.problem, self.peak, self.claim = problem, peak, claim
-        asked = problem.range(peak.name)
-        self.low = inf if asked is None else asked.low
+        limits = problem.range(peak.name)
+        self.low = inf if limits is None else limits.low
         self.model = model_of(problem)
         objective = np.append(self.model.program.objective, 0.0)[None, :]
         most = claim / self.model.unit * _UPWARD

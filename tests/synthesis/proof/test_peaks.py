@@ -23,7 +23,7 @@ from optlaws import (
 )
 from optlaws.synthesis.problem.constants import B, J
 from optlaws.synthesis.proof.nodes import PlaceRange
-from optlaws.synthesis.proof.peaks.rows import PeakRows
+from optlaws.synthesis.proof.peak_rows import PeakRows
 from optlaws.verification import verify
 from tests.sampling import sampled
 from tests.synthesis.judge import Judged, judge

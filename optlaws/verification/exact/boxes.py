@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import reduce
 from itertools import combinations_with_replacement, product
 from math import isfinite
 
-from flint import arb, ctx
+from flint import arb, arb_mat, ctx
 
 from optlaws.formulas.arithmetic import evaluate
 from optlaws.formulas.slopes import derivative
-from optlaws.formulas.tree import Formula, Reciprocal
-from optlaws.formulas.vocabulary import ORDERS
+from optlaws.formulas.tree import ORDERS, Formula, Reciprocal
 from optlaws.kept import kept_property
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.names import RowName
@@ -23,16 +24,146 @@ from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import Certificate
-from optlaws.synthesis.proof.nodes import Contact
+from optlaws.synthesis.proof.nodes import Contact, Leaf, Split, Tightening
 from optlaws.synthesis.proof.power import formula_underestimators
 from optlaws.synthesis.proof.power.formula_underestimators import PEAKS, Way
 from optlaws.synthesis.proof.power.rows import POWER_ROWS, applies
 from optlaws.verification.enclosing.ball_formulas import BALLS
 from optlaws.verification.enclosing.balls import ball
-from optlaws.verification.exact.box_steps import BallBox, BoxSteps, Vector
-from optlaws.verification.exact.known_constants import known
-from optlaws.verification.exact.sublevel_bounds import never_negative
+from optlaws.verification.exact.law import known
+from optlaws.verification.exact.rows import ExactRows
+from optlaws.verification.exact.sublevel_bounds import greatest_values, never_negative
 from optlaws.verification.machines.floors import floor
+
+Vector = list[arb]
+
+
+@dataclass(frozen=True, eq=False)
+class BallBox:
+    """Points that are nowhere above the least values, and nowhere below the greatest."""
+
+    low: Vector
+    high: Vector
+
+    def cut(self, variable: int, *, low: arb | None = None, high: arb | None = None) -> BallBox:
+        """With a side of a variable moved."""
+        sides = [list(self.low), list(self.high)]
+        for values, value in zip(sides, (low, high), strict=True):
+            if value is not None:
+                values[variable] = value
+        return BallBox(*sides)
+
+    def least(self, row: Vector) -> arb:
+        """What a row, its constant last, is at least."""
+        total = row[-1]
+        for weight, low, high in zip(row, self.low, self.high, strict=False):
+            total += (weight * low).min(weight * high)
+        return total.lower()
+
+
+class BoxSteps(ABC):
+    """The nodes of a certificate's tree, applied again."""
+
+    def __init__(self, certificate: Certificate) -> None:
+        self.tree, self.problem, self.claim = certificate.tree, certificate.problem, certificate.claim or 0.0
+        self.rows = ExactRows(certificate)
+        self.points = [Fraction(k) for k in certificate.points or ()]
+        velocities = [self.rows.space.values(1, k) for k in self.points]
+        if len(velocities) != self.rows.space.terms:
+            raise ZeroDivisionError
+        self.inverse = arb_mat([row[:-1] for row in velocities]).inv()
+        self.base = arb_mat(len(velocities), 1, [row[-1] for row in velocities])
+        sublevel = greatest_values(certificate, self.rows, self.claim)
+        self.greatest = {name: Fraction(most) for name, most in sublevel.items() if isfinite(most)}
+        start, change, stroke = self.rows.space.bounds
+        self.stroke = abs(arb(stroke))
+        self.ends = [
+            ball(0) if start is None else arb(start),
+            arb(0) if start is None or change is None else arb(start + change),
+        ]
+        self.B = self.greatest_velocity()
+
+    @abstractmethod
+    def greatest_velocity(self) -> arb:
+        """What |b| is at most."""
+
+    @abstractmethod
+    def own_sides(self, name: str) -> tuple[arb, arb]:
+        """Least and greatest values of one of the program's own variables but B."""
+
+    @abstractmethod
+    def outer(self, k: Fraction) -> tuple[arb, arb]:
+        """Between what values b(k) is in every law below the claim."""
+
+    @abstractmethod
+    def curved(self, contact: Contact, box: BallBox) -> Vector | None:
+        """The row of a contact that depends on the box; None where it is no such row, or says nothing there."""
+
+    def holds(self) -> bool:
+        """Whether the tree leaves no box."""
+        boxes = [self.root()]
+        for node in self.tree:
+            if not boxes:
+                return False
+            if isinstance(node, Split | Tightening) and not 0 <= node.variable < len(boxes[-1].low):
+                return False
+            box = boxes.pop()
+            if isinstance(node, Split):
+                at = ball(node.at)
+                boxes += [box.cut(node.variable, low=at), box.cut(node.variable, high=at)]
+            else:
+                boxes += self.moved(box, node)
+        return not boxes
+
+    def root(self) -> BallBox:
+        """The box of all laws of the problem whose objective is below the claim."""
+        brackets = [self.outer(k) for k in self.points]
+        limits = self.problem.range("B")
+        of_B = ball(0 if limits is None else limits.low), self.B
+        constants = [of_B if name == "B" else self.own_sides(name) for name in self.rows.names]
+        sides = [*brackets, *constants]
+        return BallBox([low.lower() for low, _ in sides], [high.upper() for _, high in sides])
+
+    def moved(self, box: BallBox, node: Leaf) -> list[BallBox]:
+        """The box after a sum of rows, none if it is empty."""
+        total = [arb(0)] * (len(box.low) + 1)
+        if isinstance(node, Tightening):
+            total[node.variable] = arb(node.side)
+        parts = [(max(contact.multiplier, 0.0), self.contact(contact, box)) for contact in node.contacts]
+        equations = [self.mapped(row.vector(self.rows.names)) for row in self.rows.equations]
+        parts += zip(node.equations, equations, strict=False)
+        cost = [ball(self.rows.cost.get(name, 0.0)) for name in self.rows.names]
+        parts.append((max(node.claim, 0.0), [*[arb(0)] * len(self.points), *cost, -ball(self.claim)]))
+        for weight, row in parts:
+            total = [x + ball(weight) * y for x, y in zip(total, row, strict=True)]
+        least = box.least(total)
+        if not isinstance(node, Tightening):
+            return [] if least > 0 else [box]
+        low, high = box.low[node.variable], box.high[node.variable]
+        if node.side > 0:
+            return [] if least > high else [box.cut(node.variable, low=low.max(least))]
+        return [] if -least < low else [box.cut(node.variable, high=high.min(-least))]
+
+    def mapped(self, vector: Vector) -> Vector:
+        """A row over the coordinates as one over the variables of a box."""
+        terms = len(self.points)
+        weights = arb_mat(1, terms, vector[:terms]) * self.inverse
+        shift = (weights * self.base).entries()[0]
+        return [*weights.entries(), *vector[terms:-1], vector[-1] - shift]
+
+    def derivative(self, nu: int, k: Fraction) -> Vector:
+        """The law's derivative at k over the variables of a box."""
+        *free, base = self.rows.space.values(nu, k)
+        return self.mapped([*free, *[arb(0)] * len(self.rows.names), base])
+
+    def contact(self, contact: Contact, box: BallBox) -> Vector:
+        """The row of a contact, at most 0; zeros where the problem asks for nothing of the kind."""
+        curved = self.curved(contact, box)
+        row = self.rows.row(contact) if curved is None else None
+        if row is not None:
+            return self.mapped(row.vector(self.rows.names))
+        return [arb(0)] * (len(box.low) + 1) if curved is None else curved
+
 
 _BITS = 256
 _DEEPEST = 5
@@ -41,13 +172,6 @@ _DEEPEST = 5
 def tree_holds(certificate: Certificate) -> bool:
     """Whether the tree of a certificate over boxes leaves none with every rounding enclosed.
 
-    Raises
-    ------
-    InputError
-        If the problem has a constant that nobody has put into exact arithmetic, such as one of a loader.
-
-    Examples
-    --------
     >>> from optlaws import Problem, synthesize
     >>> solution = synthesize(Problem(B=1.641, order=4, minimise="D"), bound="tight")
     >>> tree_holds(solution.power_certificate)
@@ -91,9 +215,9 @@ class _PowerProof(BoxSteps):
     def anchors(self) -> list[tuple[Fraction, arb, arb]]:
         """Places at which the velocity is known to lie between two values."""
         known_at = [(Fraction(i), end, end) for i, end in enumerate(self.ends)]
-        asked, peak = self.problem.range("B"), self.problem.peak_at
-        if asked is not None and asked.low > 0.0 and peak is not None:
-            known_at.append((Fraction(peak), ball(asked.low), self.B))
+        limits, peak = self.problem.range("B"), self.problem.peak_at
+        if limits is not None and limits.low > 0.0 and peak is not None:
+            known_at.append((Fraction(peak), ball(limits.low), self.B))
         return known_at
 
     def own_sides(self, name: str) -> tuple[arb, arb]:
@@ -194,10 +318,10 @@ class _FormulaProof(BoxSteps):
     def _branches(self) -> dict[tuple[str, float], tuple[Branch, Way, dict[str, float], float]]:
         """Formulas with where their planes touch and what they are at most, by the names and signs of rows."""
         sought = (leaf for _, leaf in leaves(self.problem.objective) if isinstance(leaf, Functional))
-        asked: list[tuple[Functional, dict[str, float], float]] = [(leaf, {leaf.name: -1.0}, 0.0) for leaf in sought]
-        asked += [(constant, {}, limits.high) for constant, limits in self.problem.bounded if isfinite(limits.high)]
+        bounded: list[tuple[Functional, dict[str, float], float]] = [(leaf, {leaf.name: -1.0}, 0.0) for leaf in sought]
+        bounded += [(constant, {}, limits.high) for constant, limits in self.problem.bounded if isfinite(limits.high)]
         branches = {}
-        for constant, slack, high in asked:
+        for constant, slack, high in bounded:
             if not isinstance(constant, FormulaPeak | FormulaValue):
                 continue
             for branch in constant.branches(symmetric=self.problem.symmetric):
@@ -231,11 +355,11 @@ def _plane(branch: Branch, way: Way, ranges: dict[str, tuple[arb, arb]], k: Frac
     slopes = [sign * evaluate(slope, at, BALLS) for slope in first.values()]
     height = sign * evaluate(formula, at, BALLS) - _dot(slopes, touch)
     if not branch.convex:
-        for one, other in combinations_with_replacement(ranges, 2):
-            bend = sign * _over(derivative(first[one], other), ranges, k)
-            away = [[end - at[name] for end in ranges[name]] for name in (one, other)]
+        for left, right in combinations_with_replacement(ranges, 2):
+            bend = sign * _over(derivative(first[left], right), ranges, k)
+            away = [[end - at[name] for end in ranges[name]] for name in (left, right)]
             # products of ends, for balls around products of ranges that begin at 0 would be wider by a half
-            ends = [x * y for x, y in product(*away)] if one != other else [arb(0), *(x * x / 2 for x in away[0])]
+            ends = [x * y for x, y in product(*away)] if left != right else [arb(0), *(x * x / 2 for x in away[0])]
             height += _least([bend.lower() * end for end in ends] + [bend.upper() * end for end in ends])
     finite = height.is_finite() and all(slope.is_finite() for slope in slopes)
     return (slopes, height) if finite else None
@@ -253,7 +377,7 @@ def _over(formula: Formula, ranges: dict[str, tuple[arb, arb]], k: Fraction, dep
     low, high = ranges[widest]
     middle = ((low + high) / 2).mid()
     halves = (_over(formula, ranges | {widest: half}, k, depth + 1) for half in ((low, middle), (middle, high)))
-    return reduce(lambda one, other: one.union(other), halves)
+    return reduce(arb.union, halves)
 
 
 def _least(values: Sequence[arb]) -> arb:

@@ -1,4 +1,4 @@
-"""The names that formulas may have: of the motion, and of smooth functions."""
+"""The smooth functions that formulas may have: all that arithmetics, ranges and rules of convexity know of them."""
 
 from __future__ import annotations
 
@@ -7,11 +7,6 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 import numpy as np
-
-#: orders of the derivatives of the law, by name
-ORDERS = {"a": 0, "b": 1, "c": 2, "j": 3}
-#: these, the power d = b c and the dimensionless time k
-VOCABULARY = ("a", "b", "c", "d", "j", "k")
 
 
 @dataclass(frozen=True)

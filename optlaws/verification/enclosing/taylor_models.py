@@ -1,4 +1,4 @@
-"""Extremes of functions with every rounding enclosed: Taylor polynomials on cells, and branch and bound over these."""
+"""Extremes and integrals of functions with every error enclosed: Taylor polynomials with their remainders on cells."""
 
 from __future__ import annotations
 
@@ -7,18 +7,16 @@ from fractions import Fraction
 from functools import reduce
 from typing import Any
 
-from flint import arb, arb_poly, arb_series, ctx
+from flint import arb, arb_poly, arb_series, ctx, fmpq_poly
 
-from optlaws.verification.enclosing.balls import ball, series_length
-from optlaws.verification.enclosing.pieces import Extremes
+from optlaws.numerics.tolerances import GREATEST_ENCLOSED, GREATEST_NEGLIGIBLE, TAYLOR_REST
+from optlaws.verification.enclosing.balls import Extremes, ball, series_length
 
-#: bits with which it is looked for; how narrow the value must be, of itself and of what the polynomials are made of;
-#: and how short a part is cut no further
-_BITS, _NARROW, _NOTHING, _SHORTEST = 192, 2.0**-70, 2.0**-110, Fraction(1, 2**60)
+#: bits with which the greatest value is searched, and how short a part is cut no further
+_BITS, _SHORTEST = 192, Fraction(1, 2**60)
 _WHOLE = (Fraction(-1), Fraction(1))
-#: terms of Taylor polynomials; how little may be left of a function, of itself; how short a cell is cut no further, and
-#: after how many none is
-_TERMS, _LEFT, _LEAST, _MOST = 24, 2.0**-80, Fraction(1, 2**70), 1 << 12
+#: terms of Taylor polynomials; how short a cell is cut no further, and after how many none is
+_TERMS, _LEAST, _MOST = 24, Fraction(1, 2**70), 1 << 12
 
 #: a function by its Taylor series; coefficients beyond what it is smooth to are not finite
 Smooth = Callable[[arb_series], arb_series]
@@ -30,8 +28,6 @@ Taylor = tuple[list[Any], arb]
 def extremes(function: Smooth, start: Fraction, stop: Fraction) -> Extremes:
     """Balls that hold the least and the greatest value of a function between two places.
 
-    Examples
-    --------
     >>> least, greatest = extremes(lambda s: s.sin(), Fraction(0), Fraction(3))
     >>> greatest.contains(1), float(greatest.rad()) < 1e-12
     (True, True)
@@ -40,7 +36,7 @@ def extremes(function: Smooth, start: Fraction, stop: Fraction) -> Extremes:
     size = 1 + abs(first).max(abs(last)).upper()
     if not size.is_finite():
         return arb.nan(), arb.nan()
-    most = size * max(_LEFT, 2.0 ** (8 - ctx.prec))
+    most = size * max(TAYLOR_REST, 2.0 ** (8 - ctx.prec))
 
     def enough(parts: Sequence[Taylor], _: Fraction) -> bool:
         return bool(parts[0][1] <= most)
@@ -133,7 +129,7 @@ class _BranchAndBound:
     """Bounds of the greatest value so far, from below and from above."""
 
     def __init__(self, signs: Sequence[float], size: arb) -> None:
-        self.signs, self.nothing = signs, size * _NOTHING
+        self.signs, self.nothing = signs, size * GREATEST_NEGLIGIBLE
         self.least = self.greatest = -size
 
     def _counted(self, value: arb) -> arb:
@@ -162,7 +158,78 @@ class _BranchAndBound:
             if others and sizes[0] > sum((m * size for m, size in enumerate(sizes[1:], 2)), arb(0)):
                 # it rises or falls throughout
                 self.greatest = reduce(arb.max, ((end + off).upper() for end in ends), self.greatest)
-            elif width < (_NARROW * abs(self.least)).max(self.nothing) or half < _SHORTEST or not others:
+            elif width < (GREATEST_ENCLOSED * abs(self.least)).max(self.nothing) or half < _SHORTEST or not others:
                 self.greatest = self.greatest.max(top)
             else:
                 left += [(low, middle), (middle, high)]
+
+
+#: functions of k by their Taylor series; coefficients beyond what they are smooth to are not finite
+Functions = Callable[[arb_series], Sequence[arb_series]]
+#: what stands for them on a cell that is next to nothing
+Rough = Callable[[arb], Sequence[arb]]
+
+#: binary places beside those that count and as many again, which polynomials may lose
+_SPARE = 64
+_BALL = arb(0, 1)
+
+
+def integrals(
+    functions: Functions,
+    columns: Sequence[Sequence[fmpq_poly]],
+    ends: tuple[Fraction, Fraction],
+    bits: int,
+    rough: Rough | None = None,
+) -> list[arb]:
+    """Balls that hold, for each column, the integral over k of the sum of the functions times its polynomials.
+
+    Parameters
+    ----------
+    functions
+        Of k.
+    columns
+        Each has a polynomial for each function, in what runs from -1 to 1 between the ends.
+    ends
+        From which k to which.
+    bits
+        How many binary places of the functions' size count.
+    rough
+        Values that may stand for the functions together on cells too small to matter, where they are not smooth.
+
+    Examples
+    --------
+    >>> [integral] = integrals(lambda k: [k.exp()], [[fmpq_poly([1])]], (Fraction(0), Fraction(1)), 64)
+    >>> integral.contains(arb(1).exp() - 1), float(integral.rad()) < 1e-12
+    (True, True)
+    """
+    low, high = ends
+    sums = [arb(0)] * len(columns)
+    with ctx.workprec(min(ctx.prec, 2 * bits + _SPARE)):
+        half, middle = ball((high - low) / 2), (low + high) / 2
+        here = [value[0] for value in functions(arb_series([ball(middle)]))]
+        small = (1 + sum((abs(value) for value in here if value.is_finite()), arb(0))) * ball(Fraction(1, 2**bits))
+
+        def enough(parts: Sequence[Taylor], length: Fraction) -> bool:
+            return bool(sum((rest for _, rest in parts), arb(0)) * ball(length / (high - low)) < small)
+
+        wide = [[arb_poly(term) for term in column] for column in columns]
+        shortest = (high - low) / 2**bits
+        for (start, stop), parts in cells(functions, arb_series, ends, shortest, enough, terms=max(8, bits // 2)):
+            cell = ball((start + stop - 2 * middle) / (high - low)), ball((stop - start) / (high - low))
+            known = parts
+            if rough is not None and not all(rest.is_finite() for _, rest in parts):
+                known = [([value.mid()], value.rad()) for value in rough(ball(start).union(ball(stop)))]
+            for i, column in enumerate(wide):
+                sums[i] += sum((_product(term, part, cell) for term, part in zip(column, known, strict=True)), arb(0))
+        return [value * half for value in sums]
+
+
+def _product(polynomial: arb_poly, part: Taylor, cell: tuple[arb, arb]) -> arb:
+    """The integral over a cell of a polynomial times a function, by its Taylor polynomial there."""
+    centre, reach = cell
+    local = polynomial(arb_poly([centre, reach]))
+    whole = (local * arb_poly(part[0])).integral()
+    value = whole(arb(1)) - whole(arb(-1))
+    if not part[1].is_zero():
+        value += 2 * local(_BALL) * part[1] * _BALL
+    return value * reach

@@ -1,1 +1,0 @@
-"""Proof that a peak bounded from below can have its bound nowhere in a better law."""

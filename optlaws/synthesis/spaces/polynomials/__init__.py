@@ -1,1 +1,0 @@
-"""Laws of eq. 8 with a polynomial Z."""
