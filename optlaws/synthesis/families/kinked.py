@@ -36,15 +36,12 @@ class SmoothStretch:
 
 @dataclass(frozen=True, eq=False)
 class KinkSplit:
-    """What the stretches of a law make of the integral: its sum, and its slope as a row.
-
-    `places`, `columns` and `weights` are those of Gauss's rule, and belong to the stretches one after the other.
-    """
+    """What the stretches of a law make of the integral: its sum, and its slope as a row."""
 
     stretches: list[SmoothStretch]
     total: float
     slope: Array
-    columns: Array
+    columns: Array  #: at the places of Gauss's rule, of the stretches one after the other, as all that follows
     names: dict[str, Array]
     weights: Array
 
@@ -57,24 +54,13 @@ class KinkSplit:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class KinkedIntegralFamily(IntegralFamily):
-    """f is the integral of a formula with kinks in the law, or its root; `places` and `weights` are for guesses alone.
+    """f is the integral of a formula with kinks in the law, or its root; `places` and `weights` are for guesses alone."""
 
-    Attributes
-    ----------
-    rows
-        Of 0 and places k: the names' columns, shape (names, places, variables + 1); of 1 those of their slopes by k.
-    units
-        What these are times.
-    edges
-        The k between which all but the kinks is smooth, ascending.
-    length
-        How many places a stretch needs.
-    """
-
+    #: of 0 and places k the names' columns, shape (names, places, variables + 1); of 1 those of their slopes by k
     rows: Callable[[int, Array], Array]
-    units: Array
-    edges: tuple[float, ...]
-    length: int
+    units: Array  #: what these are times
+    edges: tuple[float, ...]  #: the k between which all but the kinks is smooth, ascending
+    length: int  #: how many places a stretch needs
 
     @kept_property
     def _switches(self) -> tuple[list[Formula], list[Formula]]:
