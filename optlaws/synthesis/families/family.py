@@ -309,6 +309,10 @@ class RootFamily(LinearFamily):
         jets = np.stack([g0, g1 + g0 / (2.0 * left), g2 + g1 / left + 3.0 * g0 / (4.0 * left**2)])
         return np.asarray(np.where(near[:, None], 0.0, jets / root))
 
+    def value(self, x: Array, u: Array) -> Array:
+        """f at the points u, of series and of pieces."""
+        return np.asarray(self.columns(u)[0] @ np.append(x, 1.0))
+
     def stationary(self, x: Array) -> Array:
         """Roots of 2 (1-u) g' + g."""
         series = self.series @ np.append(x, 1.0)

@@ -54,7 +54,7 @@ class KinkSplit:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class KinkedIntegralFamily(IntegralFamily):
-    """f is the integral of a formula with kinks in the law, or its root; `places` and `weights` are for guesses alone."""
+    """f is the integral of a formula with kinks in the law, or its root; its nodes are for guesses alone."""
 
     #: of 0 and places k the names' columns, shape (names, places, variables + 1); of 1 those of their slopes by k
     rows: Callable[[int, Array], Array]

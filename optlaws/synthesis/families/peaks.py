@@ -112,8 +112,8 @@ def _polished(series: Array, angle: Array, apart: float) -> Array:
         rising = value * slope > 0.0
         low, high = np.where(rising, angle, low), np.where(rising, high, angle)
         further = angle - np.divide(slope, bend, out=np.full_like(slope, np.inf), where=bend != 0.0)
-        kept = (low <= further) & (further <= high) & (value * bend < 0.0)
-        further = np.where(kept, further, (low + high) / 2.0)
+        between = (low <= further) & (further <= high) & (value * bend < 0.0)
+        further = np.where(between, further, (low + high) / 2.0)
         left = np.abs(further - angle) > ANGLE_SETTLED
         angle, low, high, going = further[left], low[left], high[left], going[left]
         if not len(going):
