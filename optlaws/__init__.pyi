@@ -100,7 +100,7 @@ from optlaws.studies.study import open_study as open_study
 from optlaws.synthesis.arrays.problems import ProblemArray as ProblemArray
 from optlaws.synthesis.arrays.problems import each as each
 from optlaws.synthesis.front import Front as Front
-from optlaws.synthesis.functionals.loads import drive_torque as drive_torque
+from optlaws.synthesis.functionals.makers import drive_torque as drive_torque
 from optlaws.synthesis.functionals.makers import functional as functional
 from optlaws.synthesis.functionals.makers import integral as integral
 from optlaws.synthesis.functionals.makers import peak as peak

@@ -30,10 +30,11 @@ if TYPE_CHECKING:
 
 
 _SPARE = 40
-# what two rules in a row may differ by, relative, and how often parts are cut in two
+#: how often parts are cut in two, at most
 _MOST_POWER = 5
-# along how many laws, and how much greater the acceleration of the others is
+#: along how many laws rules must agree, and how much greater the acceleration of the others is
 _LAWS, _GREATER = 4, 2.0
+#: formulas beneath one
 _MOST = 8
 
 #: between which values derivatives are, by name
@@ -97,20 +98,11 @@ def integral_rows(
 ) -> IntegralFamily:
     """The row that the integral of a formula over its part, or its root, is at most slack . x + bound."""
     used = tuple(sorted(motion.formula.names() & ORDERS.keys()))
-    k, weights = integral_rule(space, motion)
-    columns = np.stack([space.widened(columns_at(space, name_of_branch, k), len(slack)) for name_of_branch in used])
-    plain = IntegralFamily(
-        name,
-        slack,
-        bound,
-        formula=motion.formula,
-        names=used,
-        columns=columns,
-        places=k,
-        weights=weights,
-        root=root,
-        convex=convex,
-    )
+    # exact where the formula is a polynomial of k
+    k, weights = _rule(rule_edges(space, motion), rule_length(space, motion))
+    columns = np.stack([space.widened(columns_of(space, ORDERS[symbol], k), len(slack)) for symbol in used])
+    rule = {"columns": columns, "places": k, "weights": weights}
+    plain = IntegralFamily(name, slack, bound, formula=motion.formula, names=used, root=root, convex=convex, **rule)
     return plain if not switches(motion.formula, ORDERS) else _kinked(space, motion, plain)
 
 
@@ -121,20 +113,14 @@ def _kinked(space: LawSpace, motion: MotionFormula, plain: IntegralFamily) -> Ki
         several = (columns_of(space, ORDERS[name] + turn, k) for name in plain.names)
         return np.array([space.widened(columns, len(plain.slack)) for columns in several])
 
-    own = {field.name: getattr(plain, field.name) for field in fields(plain)}
-    degrees = {name: space.degree_of(ORDERS[name]) for name in plain.names}
-    degree = replace(motion, formula=together(motion.formula)).degree(degrees)
-    length = _SPARE + max(degrees.values()) if degree is None else degree // 2 + 1
+    given = {field.name: getattr(plain, field.name) for field in fields(plain)}
+    length = rule_length(space, replace(motion, formula=together(motion.formula)))
     edges = tuple(_known_edges(space, motion))
-    return KinkedIntegralFamily(**own, rows=rows, units=np.ones(len(plain.slack) + 1), edges=edges, length=length)
-
-
-def integral_rule(space: LawSpace, motion: MotionFormula) -> tuple[Array, Array]:
-    """Gauss's places k over the formula's part and their weights; exact where the formula is a polynomial of k."""
-    return _rule(rule_edges(space, motion), rule_length(space, motion))
+    return KinkedIntegralFamily(**given, rows=rows, units=np.ones(len(plain.slack) + 1), edges=edges, length=length)
 
 
 def _rule(edges: list[float], count: int) -> tuple[Array, Array]:
+    """Places k of Gauss's rule between edges, and their weights."""
     x, share = gauss(count)
     low, width = np.array(edges[:-1])[:, None], np.diff(edges)[:, None]
     return (low + width * (1.0 + x) / 2.0).ravel(), (share * width / 2.0).ravel()
@@ -172,7 +158,9 @@ def _cells(space: LawSpace, motion: MotionFormula, edges: list[float]) -> int:
     count, before, laws = rule_length(space, motion), np.full(_LAWS, np.nan), _some_laws(space)
     for power in range(_MOST_POWER + 1):
         k, weights = _rule(_cut(edges, 1 << power), count)
-        names = {name: laws @ columns_at(space, name, k).T for name in ORDERS if name in motion.formula.names()}
+        names = {
+            name: laws @ columns_of(space, nu, k).T for name, nu in ORDERS.items() if name in motion.formula.names()
+        }
         values = np.broadcast_to(motion.values({**names, "k": k}), (_LAWS, len(k)))
         columns_there = values @ weights
         if (np.abs(columns_there - before) <= RULES_AGREE * (np.abs(values) @ weights)).all():
@@ -201,11 +189,6 @@ def rule_cells(space: LawSpace, motion: MotionFormula, count: int) -> Array:
     """The k between which the formula is smooth, as many cells between them as make up a count at least."""
     edges = rule_edges(space, motion)
     return np.array(_cut(edges, -(-count // (len(edges) - 1))))
-
-
-def columns_at(space: LawSpace, name: str, k: Array) -> Array:
-    """A derivative at places anywhere in [0, 1]."""
-    return columns_of(space, ORDERS[name], k)
 
 
 def columns_of(space: LawSpace, nu: int, k: Array) -> Array:
@@ -258,17 +241,13 @@ def _bounds(names_of: tuple[str, ...], boxes: Boxes, *, above: bool) -> list[For
     return [
         total(
             [
-                product([_plain(factor), Name(second)]),
-                product([_plain(other), Name(first)]),
-                Negative(product([_plain(factor), _plain(other)])),
+                product([number(factor), Name(second)]),
+                product([number(other), Name(first)]),
+                Negative(product([number(factor), number(other)])),
             ]
         )
         for factor, other in corners
     ]
-
-
-def _plain(value: float) -> Formula:
-    return number(value)
 
 
 def squared(motion: MotionFormula) -> MotionFormula:

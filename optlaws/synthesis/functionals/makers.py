@@ -1,4 +1,4 @@
-"""What makes constants of formulas: `peak("c + 0.2*b")`, `rms(...)`, `integral(...)`, `value(...)`."""
+"""What makes constants of formulas: `peak("c + 0.2*b")`, `rms(...)`, and the formula of what drives a machine."""
 
 from __future__ import annotations
 
@@ -11,8 +11,10 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.formulas.branches import smooth_itself
 from optlaws.formulas.of_motion import MotionFormula, checked, of_text
+from optlaws.formulas.reading import read
 from optlaws.formulas.scanner import FormulaError
-from optlaws.formulas.tree import Formula, plain
+from optlaws.formulas.slopes import added, derivative, multiplied
+from optlaws.formulas.tree import Exponentiation, Formula, Name, Number, plain
 from optlaws.formulas.vocabulary import ORDERS
 from optlaws.numbers import real
 from optlaws.suggest import unknown_key
@@ -195,6 +197,39 @@ def functional(
     return _KINDS[kind](function, start=start, stop=stop)
 
 
+def drive_torque(*, inertia: str = "1", friction: str = "0", load: str = "0") -> str:
+    """The torque I(a) c + I'(a) b²/2 + friction b + load that drives a law, as the text of a formula.
+
+    Parameters
+    ----------
+    inertia
+        Moment of inertia over the displacement a, in units in which the rest is said too: "1", "1 + 0.3*a^2",
+        "spline(a, 0:1, 0.3:1.1, 0.7:1.4, 1:1.3)".
+    friction
+        Viscous friction, of a and k.
+    load
+        External force over k or over a: "4*a", "table(k, 0:0, 0.4:0, 0.5:6, 0.6:0, 1:0)".
+
+    Raises
+    ------
+    InputError
+        If a part is no formula of a and k, or the inertia has kinks.
+
+    Examples
+    --------
+    >>> drive_torque(friction="0.5", load="4*a")
+    'c + 0.5*b + 4*a'
+    >>> drive_torque(inertia="1 + 0.3*a^2")
+    '(1 + 0.3*a^2)*c + 0.5*0.3*2*a*b^2'
+    >>> drive_torque(inertia="spline(a, 0:1, 0.3:1.1, 0.7:1.4, 1:1.3)")[-44:]
+    'spline1(a, 0:1, 0.3:1.1, 0.7:1.4, 1:1.3)*b^2'
+    """
+    mass, drag, force = (read(text, ("a", "k")) for text in (inertia, friction, load))
+    square = Exponentiation(Name("b"), Number(2.0))
+    turning = multiplied([Number(0.5), derivative(mass, "a"), square])
+    return str(added([multiplied([mass, Name("c")]), turning, multiplied([drag, Name("b")]), force]))
+
+
 def _motion(formula: Any, start: float, stop: float) -> MotionFormula:  # noqa: ANN401 - it is checked here
     """The formula that a text or a tree says, which must depend on the law."""
     if isinstance(formula, Formula):
@@ -242,7 +277,5 @@ def _name(kind: str, motion: MotionFormula, others: list[str] | None = None) -> 
 
 _KINDS: dict[str, Callable[..., Functional]] = {"integral": integral, "peak": peak, "rms": rms, "value": value}
 
-MAKERS.setdefault("integral", integral)
-MAKERS.setdefault("peak", peak)
-MAKERS.setdefault("rms", rms)
-MAKERS.setdefault("value", value)
+for _kind, _maker in _KINDS.items():
+    MAKERS.setdefault(_kind, _maker)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple, Self
 
 import numpy as np
 
@@ -23,46 +23,52 @@ _ORDER = 2
 _MOST_GAIN = 1e6
 _ROOM = 1.01
 #: beyond this a bound says nothing
-_LARGEST = 1e13
+LARGEST = 1e13
+
+
+class SizeBound(NamedTuple):
+    """The mean magnitude of a derivative of some order is at most a factor times a constant, plus an offset."""
+
+    order: int
+    factor: float
+    offset: float
+
+    @classmethod
+    def of_acceleration(cls, factor: float, offset: float) -> Self:
+        """The bound of |c|, with room for rounding."""
+        return cls(_ORDER, _ROUNDED * factor, _ROUNDED * offset)
+
+    def times(self, share: float) -> Self:
+        """The bound by another constant, of which this one is at most a share."""
+        return self._replace(factor=self.factor * share)
 
 
 @dataclass(frozen=True, eq=False)
 class Reach:
-    """By how much values of a formula at places move the mean of |c|: sum of pulls times |f| plus the offset.
+    """By how much values of a formula at places move the mean of |c|: sum of pulls times |f| plus the offset."""
 
-    Attributes
-    ----------
-    pulls
-        One for each place.
-    offset
-        What is there without the formula.
-    weights
-        Of the places: the sum of weights times f² is the integral of f².
-    turning
-        Weights above 0 whose sum with f is the same in every law, None where there are none; and that sum.
-    """
-
-    pulls: Array
-    offset: float
-    weights: Array
+    pulls: Array  #: one for each place
+    offset: float  #: what is there without the formula
+    weights: Array  #: of the places: the sum of weights times f² is the integral of f²
+    #: weights above 0 whose sum with f is the same in every law, None where there are none; and that sum
     turning: tuple[Array, float] | None = None
 
-    def by_peak(self) -> tuple[int, float, float]:
+    def by_peak(self) -> SizeBound:
         """The bound for a formula whose magnitude is at most 1."""
-        return _ORDER, _ROUNDED * float(self.pulls.sum()), _ROUNDED * self.offset
+        return SizeBound.of_acceleration(float(self.pulls.sum()), self.offset)
 
-    def by_square(self) -> tuple[int, float, float]:
+    def by_square(self) -> SizeBound:
         """The bound for a formula whose square's integral is 1, by Cauchy's inequality."""
-        return _ORDER, _ROUNDED * float(np.sqrt((self.pulls**2 / self.weights).sum())), _ROUNDED * self.offset
+        return SizeBound.of_acceleration(float(np.sqrt((self.pulls**2 / self.weights).sum())), self.offset)
 
-    def by_one_sign(self, sign: float) -> tuple[int, float, float] | None:
+    def by_one_sign(self, sign: float) -> SizeBound | None:
         """The bound for a formula that is at most 1 with a sign: what is above 0 less what is below is known."""
         if self.turning is None:
             return None
         turning, fixed = self.turning
         share = float((self.pulls / turning).max())
         most = 2.0 * share * float(turning.sum())
-        return _ORDER, _ROUNDED * most, _ROUNDED * (self.offset + share * max(-sign * fixed, 0.0))
+        return SizeBound.of_acceleration(most, self.offset + share * max(-sign * fixed, 0.0))
 
 
 def reach(space: LawSpace, parts: tuple[MotionFormula, ...]) -> Reach | None:
@@ -86,7 +92,7 @@ def reach_of(space: LawSpace, values: Array, weights: Array) -> Reach | None:
 
 
 def _reach_of(space: LawSpace, values: Array, weights: Array) -> Reach | None:
-    fixed, free = kept_directions(space)
+    fixed, free = feasible_directions(space)
     rows, right = values[:, :-1] @ free, -(values[:, :-1] @ fixed + values[:, -1])
     inverse = np.linalg.pinv(rows)
     if np.abs(inverse @ rows - np.eye(free.shape[1])).max(initial=0.0) * space.terms > INVERSE_AGREES:
@@ -96,39 +102,37 @@ def _reach_of(space: LawSpace, values: Array, weights: Array) -> Reach | None:
     pulls = rule.weights @ np.abs(moved)
     still = rule.values[:, :-1] @ fixed + rule.values[:, -1]
     offset = float(rule.weights @ np.abs(moved @ right + still))
-    if not float(pulls.sum()) + offset < _LARGEST:
+    if not float(pulls.sum()) + offset < LARGEST:
         return None
     return Reach(pulls, offset, weights, _turning(rows, right, weights))
 
 
-def by_norm(space: LawSpace, rows: Array) -> tuple[tuple[int, float, float], ...]:
-    """What the RMS of c is at most in laws of a space, by the norm of rows: the least singular value of the way back.
+def by_norm(space: LawSpace, rows: Array) -> tuple[SizeBound, ...]:
+    """What the RMS of c is at most in laws of a space, by the norm of rows; nothing where they do not determine c.
 
-    Nothing where the rows do not determine the law.
+    The factor is the inverse of the least singular value of the map from c to the rows.
     """
     rule = space.quadrature(2)
     bent = np.sqrt(rule.weights)[:, None] * rule.values
-    fixed, free = kept_directions(space)
-    kept = np.append(fixed, 1.0)
-    way: Array = np.asarray(np.linalg.qr(bent[:, :-1] @ free, mode="r"))
-    if np.linalg.matrix_rank(way) < way.shape[1]:
+    fixed, free = feasible_directions(space)
+    point = np.append(fixed, 1.0)
+    triangle: Array = np.asarray(np.linalg.qr(bent[:, :-1] @ free, mode="r"))
+    if np.linalg.matrix_rank(triangle) < triangle.shape[1]:
         return ()
-    least = float(np.linalg.svd(rows[:, :-1] @ free @ np.linalg.inv(way), compute_uv=False)[-1])
+    least = float(np.linalg.svd(rows[:, :-1] @ free @ np.linalg.inv(triangle), compute_uv=False)[-1])
     if least * _MOST_GAIN < float(np.linalg.norm(rows)) / max(float(np.linalg.norm(bent)), 1.0):
         return ()
     factor = _ROOM / least
-    return ((2, factor, _ROOM * float(np.linalg.norm(bent @ kept)) + factor * float(np.linalg.norm(rows @ kept))),)
+    offset = _ROOM * float(np.linalg.norm(bent @ point)) + factor * float(np.linalg.norm(rows @ point))
+    return (SizeBound(2, factor, offset),)
 
 
-def kept_directions(space: LawSpace) -> tuple[Array, Array]:
+def feasible_directions(space: LawSpace) -> tuple[Array, Array]:
     """Coordinates that keep the space's equations, and in which directions they may be left without breaking one."""
     equations = space.equations()
     if not equations:
         return np.zeros(space.terms), np.eye(space.terms)
-    matrix, right = (
-        np.array([equation.row for equation in equations]),
-        np.array([equation.right for equation in equations]),
-    )
+    matrix, right = (np.array(part) for part in zip(*((each.row, each.right) for each in equations), strict=True))
     _, sizes, directions = np.linalg.svd(matrix)
     rank = int((sizes > SIZE_RANK * sizes.max()).sum())
     return np.linalg.lstsq(matrix, right, rcond=None)[0], directions[rank:].T
@@ -149,8 +153,7 @@ def _balanced(rows: Array, weights: Array, near: Array) -> Array:
     """The weights nearest to given ones that no law moves."""
     roots = np.sqrt(weights)
     scaled = roots[:, None] * rows
-    moved: Array = near - roots * (scaled @ np.linalg.lstsq(scaled, near / roots, rcond=None)[0])
-    return moved
+    return np.asarray(near - roots * (scaled @ np.linalg.lstsq(scaled, near / roots, rcond=None)[0]))
 
 
 def _evenly(rows: Array, weights: Array) -> Array | None:
@@ -185,21 +188,12 @@ def known_values(motion: MotionFormula, conditions: BoundaryConditions) -> list[
         if motion.start <= k <= motion.stop and max(motion.orders, default=0) < len(end):
             value = motion.values({"k": k, **{name: end[nu] for name, nu in ORDERS.items() if nu < len(end)}})
             values.append((float(value), max(motion.scale, abs(float(value)))))
-    mean = mean_value(motion, conditions)
-    return values if mean is None else [*values, (mean, _mean_size(motion, conditions))]
-
-
-def mean_value(motion: MotionFormula, conditions: BoundaryConditions) -> float | None:
-    """The mean over the whole interval of a formula whose factors are numbers; None where it is not known."""
     terms = _mean_terms(motion, conditions)
-    return None if terms is None else sum(terms)
-
-
-def _mean_size(motion: MotionFormula, conditions: BoundaryConditions) -> float:
-    return sum(map(abs, _mean_terms(motion, conditions) or []))
+    return values if terms is None else [*values, (sum(terms), sum(map(abs, terms)))]
 
 
 def _mean_terms(motion: MotionFormula, conditions: BoundaryConditions) -> list[float] | None:
+    """What adds up to the mean over the whole interval of a formula whose factors are numbers; None of others."""
     plain = motion.constant_weights()
     known = range(1, len(conditions.start) + 1)
     whole = motion.affine is not None and (motion.start, motion.stop) == (0.0, 1.0)
