@@ -100,7 +100,7 @@ class ConeFamily(SeriesFamily, NonlinearFamily):
 
     def value(self, x: Array, u: Array) -> Array:
         """|p| at the points u."""
-        return np.abs(np.asarray(chebyshev.chebval(u, self.series @ np.append(x, 1.0))))
+        return np.asarray(np.abs(chebyshev.chebval(u, self.series @ np.append(x, 1.0))))
 
     def stationary(self, x: Array) -> Array:
         """Roots of the derivative of |p|²."""

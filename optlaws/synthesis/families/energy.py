@@ -222,11 +222,11 @@ class EnergyFamily(ConstraintFamily):
         """Roots of the derivative's numerator, a polynomial in u."""
         point = np.append(x, 1.0)
         top = reduce(product, (factor.series @ point for factor in self.factors))
-        slope = chebyshev.chebder(top)
+        slope = _derivative(top)
         if self.divided:
             under = product(self.energy.below.series @ point, self.energy.above.series @ point)
-            slope = chebyshev.chebsub(product(slope, under), 0.5 * product(top, chebyshev.chebder(under)))
-        return real_parts_of_roots(np.asarray(slope))
+            slope = np.asarray(chebyshev.chebsub(product(slope, under), 0.5 * product(top, _derivative(under))))
+        return real_parts_of_roots(slope)
 
     def minorant(self, x: Array) -> Array:
         """An affine function, the constant last, that Y B is nowhere below in laws of the B that the law x has.
@@ -258,3 +258,7 @@ def _at_places(family: LinearFamily, x: Array, u: Array) -> Taylor:
     bend[:, 0, 0] = curvature
     bend[:, 0, 1:] = bend[:, 1:, 0] = columns[1, :, :-1]
     return Taylor(value, np.column_stack([slope, columns[0, :, :-1]]), bend)
+
+
+def _derivative(series: Array) -> Array:
+    return np.asarray(chebyshev.chebder(series), dtype=np.float64)

@@ -207,11 +207,11 @@ class SeriesFamily(BatchFamily):
     @kept_property
     def _jet(self) -> NDArray[Any]:
         """The series with their first and second derivatives beside them."""
-        jet = np.zeros((3, *self.series.shape), self.series.dtype)
-        for nu, derivatives in enumerate(jet):
+        jet = np.zeros((len(self.series), 3, self.series.shape[1]), self.series.dtype)
+        for nu in range(3):
             lower = chebyshev.chebder(self.series, nu)
-            derivatives[: len(lower)] = lower
-        return np.hstack(jet)
+            jet[: len(lower), nu] = lower
+        return np.asarray(jet.reshape(len(jet), -1))
 
     def columns(self, u: Array) -> NDArray[Any]:
         """The series' values with two derivatives by u, shape (3, points, variables + 1)."""

@@ -101,8 +101,18 @@ def integral_rows(
     # exact where the formula is a polynomial of k
     k, weights = _rule(rule_edges(space, motion), rule_length(space, motion))
     columns = np.stack([space.widened(columns_of(space, ORDERS[symbol], k), len(slack)) for symbol in used])
-    rule = {"columns": columns, "places": k, "weights": weights}
-    plain = IntegralFamily(name, slack, bound, formula=motion.formula, names=used, root=root, convex=convex, **rule)
+    plain = IntegralFamily(
+        name,
+        slack,
+        bound,
+        formula=motion.formula,
+        names=used,
+        columns=columns,
+        places=k,
+        weights=weights,
+        root=root,
+        convex=convex,
+    )
     return plain if not switches(motion.formula, ORDERS) else _kinked(space, motion, plain)
 
 
