@@ -80,15 +80,10 @@ class Front:
 
     def rows_of(self, columns: Sequence[str]) -> list[list[float | str | None]]:
         """Constants of each point, with its lower bound, its gap, its limit and its status."""
+        constants = ([value_of(point, name) for name in columns] for point in self.points)
         return [
-            [
-                *(value_of(point, name) for name in columns),
-                point.lower_bound,
-                point.gap,
-                point.limit,
-                point.status.value,
-            ]
-            for point in self.points
+            [*values, point.lower_bound, point.gap, point.limit, point.status.value]
+            for values, point in zip(constants, self.points, strict=True)
         ]
 
     def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
@@ -151,12 +146,7 @@ class Front:
 def undominated(solutions: Sequence[Solution], over: Sequence[str], values: Array | None = None) -> list[Solution]:
     """Those than which no other is better in one constant and as good in all, by ascending constants.
 
-    Parameters
-    ----------
-    solutions, over
-        The solutions, and the names of the constants.
-    values
-        Of the constants, a row for each solution; found from the laws unless they are known.
+    Values of the constants, a row for each solution, are computed from the laws unless they are known.
 
     Examples
     --------
@@ -200,14 +190,7 @@ def _known_already(rows: Sequence[Sequence[float]], kept: Sequence[int], place: 
 
 
 def value_of(solution: Solution, name: str) -> float:
-    """A constant of a solution's law.
-
-    Examples
-    --------
-    >>> from optlaws.synthesis import Problem, synthesize
-    >>> round(value_of(synthesize(Problem(B=1.641, order=4)), "C"), 6)
-    5.080702
-    """
+    """A constant of a solution's law."""
     return named(name).value(solution.law)
 
 

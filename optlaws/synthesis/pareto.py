@@ -80,14 +80,7 @@ def pareto_front(
 
 
 def where_it_pays(problem: Problem, over: tuple[str, str]) -> tuple[float, float]:
-    """From the least value of the first constant that has a law, nearly, to the value that the best law has.
-
-    Examples
-    --------
-    >>> low, high = where_it_pays(Problem(order=4), ("B", "C"))
-    >>> round(low, 5), round(high, 5)
-    (1.12969, 1.90294)
-    """
+    """From the least value of the first constant that has a law, nearly, to the value that the best law has."""
     points = _Curve(problem, _checked(problem, over, None), None).points
     return points[0][0], points[-1][0]
 
@@ -113,7 +106,7 @@ class _Curve:
     def grow(self, count: int) -> Front:
         """Put a point into the stretch that wants one most, and so on."""
         dead: set[float] = set()
-        if count >= _MANY and self._asked(self.points[0][0]).convex:
+        if count >= _MANY and self._problem(self.points[0][0]).convex:
             self._grow_together(count)
         with Steps(f"least {self.over[1]} over {self.over[0]}", count) as steps:
             while len(self.points) < count:
@@ -146,16 +139,16 @@ class _Curve:
         # the middles of the first stretches, and of their halves, and so on
         begun = 2 ** int(log2(count / _EVEN))
         values = [low * (high / low) ** (i / begun) for i in range(1, begun)]
-        line = SolvedLine(self.problem, self.over[0], self._asked, low, high)
+        line = SolvedLine(self.problem, self.over[0], self._problem, low, high)
         while values:
             results = line.at(np.array(values))
             proven = np.flatnonzero(results.status == Status.OPTIMAL.value)
-            points = [
-                (values[i], solution) for i in proven.tolist() if isinstance(solution := results.result(i), Solution)
-            ]
+            there = [values[i] for i in proven.tolist()]
+            solutions = map(results.result, proven.tolist())
+            points = [(value, law) for value, law in zip(there, solutions, strict=True) if isinstance(law, Solution)]
             if set(self.over) <= set(IN_ARRAYS):
                 columns = [getattr(results, name)[proven].tolist() for name in self.over]
-                self._values |= dict(zip([values[i] for i in proven.tolist()], zip(*columns, strict=True), strict=True))
+                self._values |= zip(there, zip(*columns, strict=True), strict=True)
             self.points = sorted([*self.points, *points], key=lambda point: point[0])
             if len(points) < len(values):
                 # the others are looked at one by one
@@ -165,24 +158,24 @@ class _Curve:
             places = wanting[np.argsort(-widths[wanting])][: count - len(self.points)]
             values = [sqrt(self.points[i][0] * self.points[i + 1][0]) for i in sorted(places.tolist())]
 
-    def _asked(self, value: float) -> Problem:
+    def _problem(self, value: float) -> Problem:
         return _at_most(self.problem, self.over[0], value)
 
     def _first(self, low: float, pays: float) -> tuple[float, Solution]:
         """At the least value of the first constant, or at `low` where that can be had; of one that can be 0 near it."""
         if low > (1.0 if self.over[0] == "B" else 0.0):
             try:
-                return low, synthesize(self._asked(low))
+                return low, synthesize(self._problem(low))
             except InfeasibleProblem:
                 pass
         least = least_value(self.problem, self.over[0])
         if least < NEARLY_NOTHING * pays:
-            return NEARLY_NOTHING * pays, synthesize(self._asked(NEARLY_NOTHING * pays))
+            return NEARLY_NOTHING * pays, synthesize(self._problem(NEARLY_NOTHING * pays))
         value = least * (1.0 + _ABOVE[0])
-        solution = synthesize(self._asked(value))
+        solution = synthesize(self._problem(value))
         for above in _ABOVE[1:]:
             # so near to its least value the constant leaves the solver no room: the contacts are continued instead
-            nearer = _tried(self._asked(least * (1.0 + above)), solution)
+            nearer = _tried(self._problem(least * (1.0 + above)), solution)
             if nearer is None or nearer.status is Status.INACCURATE:
                 break
             value, solution = least * (1.0 + above), nearer
@@ -192,7 +185,7 @@ class _Curve:
         """At the least value of the last constant, or at `high`; a problem of the same kind as the others."""
         value = min(pays if self.over[0] == "B" else pays * (1.0 + AGREEMENT), high)
         try:
-            return value, synthesize(self._asked(value))
+            return value, synthesize(self._problem(value))
         except (InfeasibleProblem, SolverFailure):
             if value == high:
                 raise
@@ -212,14 +205,14 @@ class _Curve:
         return widths
 
     def _solved(self, value: float, left: Solution, right: Solution) -> Solution | None:
-        asked = self._asked(value)
-        if asked.convex:
-            near = _tried(asked, left)
-            return near if near is not None and near.status is Status.OPTIMAL else _tried(asked, None)
+        problem = self._problem(value)
+        if problem.convex:
+            near = _tried(problem, left)
+            return near if near is not None and near.status is Status.OPTIMAL else _tried(problem, None)
         # a branch of local optima may cease to be the best, so it is only continued where the starts lead to worse
-        best = _tried(asked, None)
+        best = _tried(problem, None)
         if best is None or best.objective > left.objective or best.objective < right.objective:
-            tries = [solution for solution in (best, _tried(asked, left), _tried(asked, right)) if solution is not None]
+            tries = (solution for solution in (best, _tried(problem, left), _tried(problem, right)) if solution)
             best = min(tries, key=lambda solution: solution.objective, default=None)
         return best
 
@@ -245,14 +238,14 @@ def _at_most(problem: Problem, name: str, value: float) -> Problem:
     return _with(problem, name, value if name == "B" else Range(0.0, value))
 
 
-def _with(problem: Problem, name: str, asked: float | Range) -> Problem:
-    changed: dict[str, Any] = {name: asked} if name in CONSTANTS else {"bounds": {**problem.bounds, name: asked}}
+def _with(problem: Problem, name: str, limits: float | Range) -> Problem:
+    changed: dict[str, Any] = {name: limits} if name in CONSTANTS else {"bounds": {**problem.bounds, name: limits}}
     return replace(problem, **changed)
 
 
-def _tried(asked: Problem, start: Solution | None) -> Solution | None:
+def _tried(problem: Problem, start: Solution | None) -> Solution | None:
     try:
-        return synthesize(asked, start=start)
+        return synthesize(problem, start=start)
     except (InfeasibleProblem, SolverFailure):
         return None
 

@@ -39,6 +39,19 @@ if TYPE_CHECKING:
 NUMBERS = ("objective", "lower_bound", "gap", "B", "C", "D", "J", "rms_c")
 
 
+def _constant(name: str, description: str) -> kept_property[Array]:
+    """A constant of each law as a property that is kept."""
+
+    def values(laws: SolutionArray) -> Array:
+        alone = laws.problems.one_objective
+        return laws._gathered(  # noqa: SLF001 - a method, written once for several names
+            lambda part: part.constant(name, one_objective=alone), lambda solution: constant_of(solution.law, name)
+        )
+
+    values.__doc__ = description
+    return kept_property(values)
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class SolutionArray:
     """Optimal laws of many problems with their proofs, as arrays of the problems' shape; NaN where there is no law.
@@ -51,7 +64,7 @@ class SolutionArray:
     problems
         What was solved.
     parts
-        Optima that were found together, in the terms of their programs.
+        Optima of problems that were solved together, in the terms of their programs.
     others
         Solutions of problems that were solved alone, and errors of those without a law, by their places in the
         flattened array.
@@ -115,7 +128,7 @@ class SolutionArray:
         """The solution at a place of the flattened array, or the error that `synthesize` raises for its problem."""
         if place in self.others:
             return self.others[place]
-        part, row = int(self._part_of[place]), int(self._row_of[place])
+        part, row = self._places[:, place].tolist()
         return self.parts[part].solution(row, self.problems.problem(place), self.seconds / max(self.size, 1))
 
     @kept_property
@@ -164,13 +177,10 @@ class SolutionArray:
 
     def stored_laws(self) -> list[dict[str, Any] | None]:
         """Each law as its `to_dict` gives it, in the order of the flattened array; None where there is none."""
-        laws: list[dict[str, Any] | None] = [None] * self.size
+        laws: dict[int, dict[str, Any]] = {place: solution.law.to_dict() for place, solution in self._alone.items()}
         for part in self.parts:
-            for place, law in zip(part.places.tolist(), stored_laws(part.model.space, part.coordinates), strict=True):
-                laws[place] = law
-        for place, result in self.others.items():
-            laws[place] = result.law.to_dict() if isinstance(result, Solution) else None
-        return laws
+            laws |= zip(part.places.tolist(), stored_laws(part.model.space, part.coordinates), strict=True)
+        return [laws.get(place) for place in range(self.size)]
 
     @kept_property
     def z_series(self) -> Array:
@@ -187,30 +197,11 @@ class SolutionArray:
         """Coefficients of Z in each problem's basis, along the last axis: `z`."""
         return self.z
 
-    @kept_property
-    def B(self) -> Array:
-        """Peak velocity of each law."""
-        return self._constant("B")
-
-    @kept_property
-    def C(self) -> Array:
-        """Peak acceleration of each law."""
-        return self._constant("C")
-
-    @kept_property
-    def D(self) -> Array:
-        """Peak power of each law."""
-        return self._constant("D")
-
-    @kept_property
-    def J(self) -> Array:
-        """Peak jerk of each law."""
-        return self._constant("J")
-
-    @kept_property
-    def rms_c(self) -> Array:
-        """Root mean square of the acceleration of each law."""
-        return self._constant("rms_c")
+    B = _constant("B", "Peak velocity of each law.")
+    C = _constant("C", "Peak acceleration of each law.")
+    D = _constant("D", "Peak power of each law.")
+    J = _constant("J", "Peak jerk of each law.")
+    rms_c = _constant("rms_c", "Root mean square of the acceleration of each law.")
 
     @kept_property
     def contacts(self) -> dict[str, NDArray[Any]]:
@@ -218,21 +209,11 @@ class SolutionArray:
 
         Laws with fewer contacts than others have "" and NaN beyond their end.
         """
-        columns: dict[str, list[tuple[NDArray[np.intp], NDArray[Any]]]] = {}
-        for places, rows in [*((part.places, part.contacts) for part in self.parts), *self._contacts_alone()]:
-            for name, values in rows.items():
-                columns.setdefault(name, []).append((places, values))
-        most = max((values.shape[1] for _, values in columns.get("k", [])), default=0)
-        return {name: _frozen(self._filled(rows, most)) for name, rows in columns.items()}
-
-    def _contacts_alone(self) -> Iterator[tuple[NDArray[np.intp], dict[str, NDArray[Any]]]]:
-        for place, result in self.others.items():
-            if isinstance(result, Solution):
-                rows = result.certificate.contacts
-                columns = {"constraint": np.array([[row.constraint for row in rows]], dtype=object)}
-                for name in ("sign", "k", "multiplier"):
-                    columns[name] = np.array([[getattr(row, name) for row in rows]])
-                yield np.array([place]), columns
+        rows = [(part.places, part.contacts) for part in self.parts]
+        rows += [(np.array([place]), _contacts(solution)) for place, solution in self._alone.items()]
+        most = max((columns["k"].shape[1] for _, columns in rows), default=0)
+        names = rows[0][1] if rows else {}
+        return {name: _frozen(self._filled([(i, columns[name]) for i, columns in rows], most)) for name in names}
 
     def _filled(self, rows: list[tuple[NDArray[np.intp], NDArray[Any]]], most: int) -> NDArray[Any]:
         texts = any(values.dtype == object for _, values in rows)
@@ -247,7 +228,7 @@ class SolutionArray:
         import pandas as pd
 
         varied = {name: arrays[0] for name, arrays in self.problems.varied.items() if len(arrays) == 1}
-        columns = {**{_asked(name): values for name, values in varied.items()}, **self._columns}
+        columns = {**{_heading(name): values for name, values in varied.items()}, **self._columns}
         return pd.DataFrame({name: values.reshape(-1) for name, values in columns.items()})
 
     def to_xarray(self) -> xr.Dataset:
@@ -274,10 +255,7 @@ class SolutionArray:
 
         `optlaws verify` checks each solution, and `from_dict` reads it again.
         """
-        results = [self.result(place) for place in range(self.size)]
-        alone = {
-            str(place): plain_alone(result) for place, result in self.others.items() if isinstance(result, Solution)
-        }
+        results = map(self.result, range(self.size))
         return {
             "shape": list(self.shape),
             "seconds": self.seconds,
@@ -293,7 +271,7 @@ class SolutionArray:
                 }
                 for part in self.parts
             ],
-            "alone": alone,
+            "alone": {str(place): plain_alone(solution) for place, solution in self._alone.items()},
         }
 
     @classmethod
@@ -314,13 +292,13 @@ class SolutionArray:
         True
         """
         stored = read_solutions(data)
-        parts = tuple(SolvedPart(places, model, laws) for places, model, laws in stored.parts)
-        made = cls(stored.problems, parts, stored.others, stored.seconds)
+        parts = tuple(SolvedPart(*part) for part in stored.parts)
+        laws = cls(stored.problems, parts, stored.others, stored.seconds)
         for place, status in enumerate(stored.statuses):
-            possible = statuses_of(made.result(place))
+            possible = statuses_of(laws.result(place))
             if status not in possible:
                 raise InputError(f"the status of solutions[{place}] is {status!r}, but it is {' or '.join(possible)}")
-        return made
+        return laws
 
     def summary(self) -> Summary:
         """How many laws of each status there are, and between what objectives and gaps lie, as rows.
@@ -350,57 +328,54 @@ class SolutionArray:
 
     def __repr__(self) -> str:
         names, counts = np.unique(self.status, return_counts=True)
-        told = ", ".join(f"{count} {name}" for name, count in zip(names.tolist(), counts.tolist(), strict=True))
-        return f"SolutionArray(shape={self.shape}, {told}, problems={self.problems!r})"
+        statuses = ", ".join(f"{count} {name}" for name, count in zip(names.tolist(), counts.tolist(), strict=True))
+        return f"SolutionArray(shape={self.shape}, {statuses}, problems={self.problems!r})"
 
     @kept_property
-    def _part_of(self) -> NDArray[np.intp]:
-        return self._placed(lambda i, part: np.full(len(part.places), i))
+    def _alone(self) -> dict[int, Solution]:
+        """The solutions of problems that were solved alone, by their places."""
+        return {place: result for place, result in self.others.items() if isinstance(result, Solution)}
 
     @kept_property
-    def _row_of(self) -> NDArray[np.intp]:
-        return self._placed(lambda _, part: np.arange(len(part.places)))
-
-    def _placed(self, values: Callable[[int, SolvedPart], NDArray[np.intp]]) -> NDArray[np.intp]:
-        numbers = np.full(self.size, -1, dtype=np.intp)
+    def _places(self) -> NDArray[np.intp]:
+        """The part and the row in it of each problem; -1 of those that were solved alone."""
+        numbers = np.full((2, self.size), -1, dtype=np.intp)
         for i, part in enumerate(self.parts):
-            numbers[part.places] = values(i, part)
+            numbers[:, part.places] = np.full(len(part.places), i), np.arange(len(part.places))
         return numbers
 
     def _gathered(self, of_part: Callable[[SolvedPart], Array], of_solution: Callable[[Solution], float]) -> Array:
         values = np.full(self.size, np.nan)
         for part in self.parts:
             values[part.places] = of_part(part)
-        for place, result in self.others.items():
-            if isinstance(result, Solution):
-                values[place] = of_solution(result)
+        for place, solution in self._alone.items():
+            values[place] = of_solution(solution)
         return _frozen(values.reshape(self.shape))
 
     def _rows(self, of_part: Callable[[SolvedPart], Array], of_solution: Callable[[Solution], Array]) -> Array:
         rows = [(part.places, of_part(part)) for part in self.parts]
-        rows += [
-            (np.array([i]), of_solution(result)[None])
-            for i, result in self.others.items()
-            if isinstance(result, Solution)
-        ]
+        rows += [(np.array([place]), of_solution(solution)[None]) for place, solution in self._alone.items()]
         return _frozen(self._filled(rows, max((values.shape[1] for _, values in rows), default=0)))
 
-    def _constant(self, name: str) -> Array:
-        alone = self.problems.one_objective
-        return self._gathered(
-            lambda part: part.constant(name, one_objective=alone), lambda solution: constant_of(solution.law, name)
-        )
-
     def _taken(self, places: NDArray[np.intp]) -> SolutionArray:
-        flat = places.ravel()
-        parts = []
+        flat, parts = places.ravel(), []
+        of_part, rows = self._places[:, flat]
         for i, part in enumerate(self.parts):
-            mine = np.flatnonzero(self._part_of[flat] == i)
-            if len(mine):
-                parts.append(SolvedPart(mine, part.model, part.found.taken(self._row_of[flat[mine]]).frozen()))
+            here = np.flatnonzero(of_part == i)
+            if len(here):
+                parts.append(SolvedPart(here, part.model, part.found.taken(rows[here]).frozen()))
         others = {i: self.others[place] for i, place in enumerate(flat.tolist()) if place in self.others}
         share = self.seconds * len(flat) / max(self.size, 1)
         return SolutionArray(self.problems.taken(places), tuple(parts), others, share)
+
+
+def _contacts(solution: Solution) -> dict[str, NDArray[Any]]:
+    """The contacts of a certificate, as a row of those of many."""
+    contacts = solution.certificate.contacts
+    columns = {"constraint": np.array([[contact.constraint for contact in contacts]], dtype=object)}
+    return columns | {
+        name: np.array([[getattr(contact, name) for contact in contacts]]) for name in ("sign", "k", "multiplier")
+    }
 
 
 def _frozen(values: NDArray[Any]) -> NDArray[Any]:
@@ -415,9 +390,9 @@ def statuses_of(result: Solution | OptlawsError) -> list[str]:
     problem = result.problem
     velocity = problem.range("B")
     held_up = any(limits.low > 0.0 for _, limits in problem.bounded) or (velocity is not None and velocity.low > 0.0)
-    ways = {True: [True, False] if held_up else [True], False: [False]}[problem.convex]
+    several = [problem.convex, False] if held_up and problem.convex else [problem.convex]
     scale = problem.objective.scale
-    return [status_of(result.objective, result.lower_bound, scale, proven=proven).value for proven in ways]
+    return [status_of(result.objective, result.lower_bound, scale, proven=proven).value for proven in several]
 
 
 def _axes(problems: ProblemArray) -> tuple[list[str], dict[str, Any]]:
@@ -428,11 +403,11 @@ def _axes(problems: ProblemArray) -> tuple[list[str], dict[str, Any]]:
         strides = [i for i, step in enumerate(arrays[0].strides) if step and problems.shape[i] > 1]
         alone = len(arrays) == 1 and len(strides) == 1 and arrays[0].dtype.kind in "fiu"
         if alone and dims[strides[0]].startswith("axis "):
-            dims[strides[0]] = _asked(name)
-            coords[_asked(name)] = np.moveaxis(arrays[0], strides[0], 0).reshape(problems.shape[strides[0]], -1)[:, 0]
+            dims[strides[0]] = _heading(name)
+            coords[_heading(name)] = np.moveaxis(arrays[0], strides[0], 0).reshape(problems.shape[strides[0]], -1)[:, 0]
     return dims, coords
 
 
-def _asked(name: str) -> str:
+def _heading(name: str) -> str:
     """What a column of an entry's values is called beside the numbers of the laws."""
     return f"{name} asked" if name in NUMBERS else name

@@ -1,15 +1,13 @@
 """How many problems are solved: together along lines on which their numbers differ, the others one by one.
 
-What other modules build on is `solved(problems)`: it takes a `ProblemArray` (`ProblemArray.of(list_of_problems)` makes
-one of any problems that are there, of one kind or of several) and raises nothing but for wrong arguments. Its
-`SolutionArray` has `result(place)`, which is a `Solution` or the error of that problem, in the order of the problems.
+`solved` raises nothing but for wrong arguments: the `SolutionArray` has a `Solution` or an error of each problem.
 `SolvedLine` is asked for laws again and again.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import fields
+from dataclasses import dataclass, fields
 from math import inf
 from time import perf_counter
 
@@ -118,31 +116,30 @@ def _infeasible(problem: Problem, ended: InfeasibleProblem) -> InfeasibleProblem
 
 def _lines(problems: ProblemArray) -> Iterator[ProblemLine]:
     velocities = problems.velocities
-    if velocities is not None:
-        places = np.flatnonzero(~np.isnan(velocities))
-        if len(places) > 1:
-            known = velocities[places]
-            try:
-                ends = [problems.problem(int(places[at])) for at in (known.argmin(), known.argmax())]
-            except InputError:
-                return  # the other entries make no problem
-            if len(places) < least_count(ends[0]):
-                return
-            line = along_velocities(ends[0], ends[1], known, places)
-            if line is not None:
-                yield line
+    if velocities is None:
+        valid = {place: problem for place in range(problems.size) if (problem := _valid(problems, place)) is not None}
+        yield from lines_of(list(valid.values()), np.array(list(valid), np.intp))
         return
-    valid = [(place, problem) for place in range(problems.size) if (problem := _valid(problems, place)) is not None]
-    yield from lines_of([problem for _, problem in valid], np.array([place for place, _ in valid], np.intp))
+    places = np.flatnonzero(~np.isnan(velocities))
+    if len(places) < 2:
+        return
+    known = velocities[places]
+    ends = [_valid(problems, int(places[at])) for at in (known.argmin(), known.argmax())]
+    # the other entries may make no problem
+    if ends[0] is None or ends[1] is None or len(places) < least_count(ends[0]):
+        return
+    line = along_velocities(ends[0], ends[1], known, places)
+    if line is not None:
+        yield line
 
 
 def _valid(problems: ProblemArray, place: int) -> Problem | None:
     try:
-        given: object = problems.problem(place)
+        entry: object = problems.problem(place)
     except InputError:
         return None
-    # what was given need be none, which is for `synthesize` to say
-    return given if isinstance(given, Problem) else None
+    # an entry of a list need be none, which is for `synthesize` to say
+    return entry if isinstance(entry, Problem) else None
 
 
 def _others(problems: ProblemArray, places: NDArray[np.intp], bound: str) -> dict[int, Solution | OptlawsError]:
@@ -162,7 +159,6 @@ def _alone(problems: ProblemArray, place: int, near: Solution | None, bound: str
     """One problem by itself, begun at a neighbour's law."""
     try:
         problem = problems.problem(place)
-        # what was given need be no problem, which is for `synthesize` to say
         convex = getattr(problem, "convex", False)
         # where problems are not convex, the law of a branch that has become the worse one would stay
         return synthesize(problem, start=near if convex else None, bound=bound)
@@ -170,19 +166,11 @@ def _alone(problems: ProblemArray, place: int, near: Solution | None, bound: str
         return error
 
 
+@dataclass(eq=False)
 class SolvedLine:
     """Convex problems between two, that differ in one number in which their programs are affine.
 
-    Where their structures change is found once, so that laws may be asked for again and again.
-
-    Parameters
-    ----------
-    problem
-        What else is asked.
-    name, at
-        The number, and the problem at a value of it; of B the values alone tell.
-    low, high
-        The ends.
+    Where their structures change is computed once, so that laws are to be had again and again.
 
     Examples
     --------
@@ -192,12 +180,15 @@ class SolvedLine:
     ([5.17368, 4.81977], [5.04086])
     """
 
-    def __init__(self, problem: Problem, name: str, at: Callable[[float], Problem], low: float, high: float) -> None:
-        self.problem, self.name, self._at, self.low, self.high = problem, name, at, low, high
+    problem: Problem
+    name: str  #: of the number
+    problem_at: Callable[[float], Problem]  #: the problem at a value of it
+    low: float
+    high: float
 
     def _problems(self, values: Array) -> ProblemArray:
         if self.name != "B":
-            return ProblemArray.of([self._at(value) for value in values.tolist()])
+            return ProblemArray.of([self.problem_at(value) for value in values.tolist()])
         entries = {field.name: getattr(self.problem, field.name) for field in fields(Problem)}
         return ProblemArray(**{**entries, "B": values})
 
@@ -222,13 +213,9 @@ class SolvedLine:
             first, last = ends.problem(0), ends.problem(1)
         except InputError:
             return None
-        return between(first, last) if _one_form(first, last) else None
+        form = form_of(first).key
+        return between(first, last) if first.convex and form is not None and form == form_of(last).key else None
 
     @kept_property
     def _segments(self) -> list[StructureSegment]:
         return [] if self._path is None else segments_of(self._path, 0.0, 1.0)
-
-
-def _one_form(first: Problem, last: Problem) -> bool:
-    one, other = form_of(first).key, form_of(last).key
-    return first.convex and one is not None and one == other

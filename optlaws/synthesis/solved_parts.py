@@ -48,9 +48,8 @@ class SolvedPart:
         optimal = np.full(len(self.places), Status.OPTIMAL.value)
         if self.model.problem.convex:
             return optimal
-        off = np.abs(self.found.objective - self.found.bound) > OPTIMALITY_GAP * measure(
-            self.found.objective, self.model.problem.objective.scale
-        )
+        size = measure(self.found.objective, self.model.problem.objective.scale)
+        off = np.abs(self.found.objective - self.found.bound) > OPTIMALITY_GAP * size
         return np.where(off, Status.LOCAL.value, optimal)
 
     @property
@@ -83,34 +82,33 @@ class SolvedPart:
     @property
     def contacts(self) -> dict[str, NDArray[Any]]:
         """Where rows bind, as columns of the laws' contacts."""
-        laws = self.found
-        names = np.array([*(family.name for family in self.model.program.families), ""], dtype=object)
+        laws, families = self.found, self.model.program.families
+        names = np.array([*(family.name for family in families), ""], dtype=object)
         none = laws.family == NO_CONTACT
         k = np.full(laws.u.shape, np.nan)
-        for i, family in enumerate(self.model.program.families):
-            mine = laws.family == i
-            k[mine] = np.clip(family.k(laws.u[mine]), 0.0, 1.0)
-        rows: dict[str, NDArray[Any]] = {"constraint": names[laws.family], "k": k}
-        rows["sign"] = np.where(none, np.nan, laws.sign)
+        for i, family in enumerate(families):
+            here = laws.family == i
+            k[here] = np.clip(family.k(laws.u[here]), 0.0, 1.0)
         # of the problem's own rows, as certificates have them
-        units = np.array([*(self.model.unit / family.unit for family in self.model.program.families), 1.0])
-        rows["multiplier"] = np.where(none, np.nan, laws.multiplier * units[laws.family])
-        return rows
+        units = np.array([*(self.model.unit / family.unit for family in families), 1.0])
+        return {
+            "constraint": names[laws.family],
+            "k": k,
+            "sign": np.where(none, np.nan, laws.sign),
+            "multiplier": np.where(none, np.nan, laws.multiplier * units[laws.family]),
+        }
 
     def solution(self, row: int, problem: Problem, seconds: float) -> Solution:
         """The solution of a row, of which only what the array holds is there before it is asked for."""
-        model, bound = self.model, float(self.found.bound[row])
-
-        def lower_bound(solution: Solution) -> float:
-            return max(bound, -inf if solution.limit is None else solution.limit)
+        model, bound, objective = self.model, float(self.found.bound[row]), float(self.found.objective[row])
+        scale = problem.objective.scale
 
         def proof(solution: Solution) -> Certificate:
-            own = replace(model, problem=problem)
+            program = replace(model, problem=problem)
             if problem.convex:
-                return certificate(own, solution.active_set, OBJECTIVE)
-            return certify(own, solution.active_set, solution.objective, solution.limit)
+                return certificate(program, solution.active_set, OBJECTIVE)
+            return certify(program, solution.active_set, objective, solution.limit)
 
-        objective = float(self.found.objective[row])
         known = {
             "problem": problem,
             "objective": objective,
@@ -124,23 +122,14 @@ class SolvedPart:
             "z_series": lambda solution: tuple(model.space.z_series(model.coordinates(solution.active_set.x)).tolist()),
             "certificate": proof,
             "limit": lambda solution: known_limit(solution.problem),
-            "lower_bound": lower_bound,
-            "status": lambda solution: status_of(
-                solution.objective, solution.lower_bound, problem.objective.scale, proven=problem.convex
-            ),
+            "lower_bound": lambda solution: max(bound, -inf if solution.limit is None else solution.limit),
+            "status": lambda solution: status_of(objective, solution.lower_bound, scale, proven=problem.convex),
         }
         return partly_known(known, later)
 
 
 def constant_of(law: MotionLaw, name: str) -> float:
-    """A constant of one law by its name.
-
-    Examples
-    --------
-    >>> from optlaws.laws import smoothstep
-    >>> constant_of(smoothstep(2), "C")
-    6.0
-    """
+    """A constant of one law by its name."""
     value = getattr(law.constants, name)
     return float(value.value if name in CONSTANTS else value)
 
@@ -162,12 +151,12 @@ def stored_laws(space: LawSpace, coordinates: Array) -> list[dict[str, Any]]:
     first = space.law(coordinates[0]).to_dict()
     accelerations, starts = space.laws(coordinates)
     return [
-        {**first, "acceleration": _kept(row), "b0": start}
+        {**first, "acceleration": _trimmed(row), "b0": start}
         for row, start in zip(accelerations.tolist(), starts.tolist(), strict=True)
     ]
 
 
-def _kept(row: list[float]) -> list[float]:
+def _trimmed(row: list[float]) -> list[float]:
     while row and row[-1] == 0.0:
         row.pop()
     return row
