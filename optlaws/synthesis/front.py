@@ -195,14 +195,7 @@ def value_of(solution: Solution, name: str) -> float:
 
 
 def values_of(solutions: Sequence[Solution], names: Sequence[str]) -> Array:
-    """Constants of the laws of many solutions: one row a solution, one column a constant.
-
-    Examples
-    --------
-    >>> from optlaws.synthesis import Problem, sweep
-    >>> values_of(list(sweep([Problem(B=1.6, order=4), Problem(B=1.8, order=4)])), ("B", "C")).round(4).tolist()
-    [[1.6, 5.2622], [1.8, 4.6958]]
-    """
+    """Constants of the laws of many solutions: one row a solution, one column a constant."""
     return np.column_stack([_column(solutions, name) for name in names])
 
 

@@ -276,19 +276,10 @@ class Solution(LawExport):
 
 
 def partly_known(known: dict[str, Any], later: Mapping[str, Callable[[Solution], Any]]) -> Solution:
-    """A solution of which some attributes are computed when they are first asked for; equal to one that has all.
-
-    Examples
-    --------
-    >>> import optlaws
-    >>> whole = optlaws.synthesize(optlaws.Problem(B=1.859, order=4))
-    >>> known = {entry.name: getattr(whole, entry.name) for entry in fields(whole) if entry.name != "law"}
-    >>> partly_known(known, {"law": lambda whole_one: whole.law}) == whole
-    True
-    """
-    made = object.__new__(Solution)
-    made.__dict__.update(_DEFAULTS | known, _later=later)
-    return made
+    """A solution of which some attributes are computed when they are first needed; equal to one that has all."""
+    solution = object.__new__(Solution)
+    solution.__dict__.update(_DEFAULTS | known, _later=later)
+    return solution
 
 
 _DEFAULTS = {entry.name: entry.default for entry in fields(Solution) if entry.default is not MISSING}

@@ -135,17 +135,7 @@ def constant_of(law: MotionLaw, name: str) -> float:
 
 
 def stored_laws(space: LawSpace, coordinates: Array) -> list[dict[str, Any]]:
-    """What `law.to_dict()` of each law is; coordinates have a row for each law.
-
-    Examples
-    --------
-    >>> from optlaws.synthesis import Problem, synthesize
-    >>> from optlaws.synthesis.program.writer import model_of
-    >>> solution = synthesize(Problem(B=1.7, order=4))
-    >>> model = model_of(solution.problem)
-    >>> stored_laws(model.space, model.coordinates(solution.active_set.x)[None]) == [solution.law.to_dict()]
-    True
-    """
+    """What `law.to_dict()` of each law is; coordinates have a row for each law."""
     if not isinstance(space, PolynomialSpace) or not len(coordinates):
         return [space.law(row).to_dict() for row in coordinates]
     first = space.law(coordinates[0]).to_dict()

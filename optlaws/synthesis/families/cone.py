@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import product, real_parts_of_roots
 from optlaws.numerics.tolerances import CONE_NODES, EPSILON, ROW_ROUNDING, TINY
-from optlaws.synthesis.families.family import NonlinearFamily, RowJet, SeriesFamily
+from optlaws.synthesis.families.family import NonlinearFamily, RowJet, SeriesFamily, last_result
 from optlaws.synthesis.families.peaks import peaks, products
 
 Complex = NDArray[np.complex128]
@@ -53,12 +53,10 @@ class ConeFamily(SeriesFamily, NonlinearFamily):
         size = max(abs(p), TINY)
         return p.real / size, p.imag / size
 
+    @last_result
     def _jets(self, u: Array, point: Array) -> tuple[Complex, Complex]:
         """The columns with two derivatives by the place, and what they are in each law."""
-        return self.once(lambda: self._moved(self.columns(u.reshape(-1)).reshape(3, *u.shape, -1), point), u, point)
-
-    @staticmethod
-    def _moved(columns: Complex, point: Array) -> tuple[Complex, Complex]:
+        columns = self.columns(u.reshape(-1)).reshape(3, *u.shape, -1)
         return columns, (columns @ point[:, :, None])[..., 0]
 
     def planes(self, u: Array, point: Array) -> tuple[Array, Array, Array]:
@@ -108,13 +106,7 @@ class ConeFamily(SeriesFamily, NonlinearFamily):
 
 
 def stationary_places(series: Complex) -> Array:
-    """Points among which every stationary point in [-1, 1] of the magnitude of a complex series is.
-
-    Examples
-    --------
-    >>> stationary_places(np.array([1.0j, 1.0])).round(12).tolist()
-    [0.0]
-    """
+    """Points among which every stationary point in [-1, 1] of the magnitude of a complex series is."""
     sizes = np.abs(series)
     counted = np.flatnonzero(sizes > EPSILON * sizes.max(initial=0.0))
     if not len(counted):

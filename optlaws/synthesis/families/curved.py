@@ -21,7 +21,7 @@ from optlaws.numbers import Array
 from optlaws.numerics.candidates import candidates
 from optlaws.numerics.chebyshev import FEWEST, MOST, from_values, nodes
 from optlaws.numerics.tolerances import FORMULA_RESOLVED, LEAST_ENERGY, ROUNDOFF
-from optlaws.synthesis.families.family import LinearFamily, NonlinearFamily, RowJet, WholeLawFamily
+from optlaws.synthesis.families.family import LinearFamily, NonlinearFamily, RowJet, WholeLawFamily, last_result
 from optlaws.synthesis.families.peaks import peaks
 
 _PLACES_PER_DEGREE = 2
@@ -180,11 +180,9 @@ class CurvedFamily(FormulaFamily):
         value = s * self.slopes.value(names)[0] - self.right_side(x)
         return replace(super().jet(x, u, s), value=value, slope=s * slope)
 
+    @last_result
     def _expansion(self, u: Array, point: Array) -> tuple[Array, Array, dict[str, Array], Array, Array]:
         """The parts' columns, what these are in each law, the names, and the formula's first and second derivatives."""
-        return self.once(lambda: self._expanded(u, point), u, point)
-
-    def _expanded(self, u: Array, point: Array) -> tuple[Array, Array, dict[str, Array], Array, Array]:
         columns = self.columns(u)
         moved = (columns @ point[:, :, None])[..., 0].swapaxes(0, 1)
         names = self._at(moved[0], u)

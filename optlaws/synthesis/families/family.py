@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Hashable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, fields, replace
+from functools import wraps
 from typing import Any, ClassVar, Self, TypeVar
 
 import numpy as np
@@ -153,22 +154,24 @@ class BatchFamily(ConstraintFamily):
         """What rounding may hide of each entry of the sum of weights times planes, (laws, variables + 1)."""
 
 
+def last_result(method: Callable[..., Result]) -> Callable[..., Result]:
+    """A method of arrays that remembers its last result: slopes and second derivatives of one place come together."""
+    name = f"_last_{method.__name__}"
+
+    @wraps(method)
+    def remembered(family: ConstraintFamily, *arrays: Array) -> Result:
+        key = [(array.shape, array.tobytes()) for array in arrays]
+        known = family.__dict__.get(name)
+        if known is None or known[0] != key:
+            known = family.__dict__[name] = key, method(family, *arrays)
+        result: Result = known[1]
+        return result
+
+    return remembered
+
+
 class NonlinearFamily(BatchFamily):
     """A batch family that is not affine in the law; of one law it says what it does of a batch of one."""
-
-    @kept_property
-    def _last(self) -> dict[Hashable, Any]:
-        return {}
-
-    def once(self, make: Callable[[], Result], *arrays: Array) -> Result:
-        """What is made of arrays; the last is kept, for slopes and second derivatives are asked one after the other."""
-        key = tuple((array.shape, array.tobytes()) for array in arrays)
-        known: Result | None = self._last.get(key)
-        if known is None:
-            known = make()
-            self._last.clear()
-            self._last[key] = known
-        return known
 
     @abstractmethod
     def hessians(self, u: Array, point: Array, weights: Array) -> Array:
@@ -392,10 +395,10 @@ class ProductFamily(NonlinearFamily):
         slope[:, :, -1:] -= g1 * h0 + g0 * h1
         return value, slope, (g2 * h0 + 2.0 * g1 * h1 + g0 * h2)[:, :, 0]
 
+    @last_result
     def _columns(self, u: Array) -> list[Array]:
         """The columns of both factors with two derivatives by the place."""
-        factors, places = (self.first, self.second), u.reshape(-1)
-        return self.once(lambda: [factor.columns(places).reshape(3, *u.shape, -1) for factor in factors], u)
+        return [factor.columns(u.reshape(-1)).reshape(3, *u.shape, -1) for factor in (self.first, self.second)]
 
     def hessians(self, u: Array, point: Array, weights: Array) -> Array:  # noqa: ARG002
         """The sum of weights times the rows of one factor by those of the other."""
@@ -454,11 +457,9 @@ class NormFamily(WholeLawFamily):
         planes = self._touching(point)[1][:, None, :].repeat(u.shape[1], axis=1)
         return planes, np.zeros(planes.shape), np.zeros(u.shape)
 
+    @last_result
     def _touching(self, point: Array) -> tuple[Array, Array]:
         """The norm of each law, and the plane that touches it there."""
-        return self.once(lambda: self._shown(point), point)
-
-    def _shown(self, point: Array) -> tuple[Array, Array]:
         image = point @ self.matrix.T
         size = np.maximum(np.sqrt((image * image).sum(axis=1)), NO_NORM)
         return size, (image / size[:, None]) @ self.matrix

@@ -22,7 +22,7 @@ from optlaws.numbers import Array
 from optlaws.numerics.candidates import cut_at_all, cut_at_roots
 from optlaws.numerics.chebyshev import gauss
 from optlaws.synthesis.families.curved import IntegralFamily, Slopes, between
-from optlaws.synthesis.families.family import RowJet
+from optlaws.synthesis.families.family import RowJet, last_result
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,11 +82,10 @@ class KinkedIntegralFamily(IntegralFamily):
     def _names(self, point: Array, k: Array, columns: Array) -> dict[str, Array]:
         return {**dict(zip(self.names, columns @ point, strict=True)), "k": k}
 
+    @last_result
     def split(self, x: Array) -> KinkSplit:
         """The stretches of a law, and the integral over them."""
-        return self.once(lambda: self._split(np.append(x, 1.0)), x)
-
-    def _split(self, point: Array) -> KinkSplit:
+        point = np.append(x, 1.0)
         stretches = self._stretches(point)
         x, share = gauss(self.length)
         low, width = (

@@ -40,14 +40,7 @@ def power_peaks(velocity: Array, acceleration: Array) -> Array:
 
 
 def of_polynomials(laws: Sequence[PolynomialLaw], name: str) -> Array:
-    """B, C, D, J or rms_c of many polynomial laws.
-
-    Examples
-    --------
-    >>> from optlaws.laws import smoothstep
-    >>> of_polynomials([smoothstep(2), smoothstep(3)], "C").round(6).tolist()
-    [6.0, 5.773503]
-    """
+    """B, C, D, J or rms_c of many polynomial laws."""
     count = max((len(law.acceleration) for law in laws), default=0) + 1
     c = np.array([[*law.acceleration, *[0.0] * (count - len(law.acceleration))] for law in laws]).reshape(-1, count)
     b = chebyshev.chebint(c, lbnd=-1.0, scl=0.5, axis=1)

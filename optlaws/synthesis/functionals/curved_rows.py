@@ -261,14 +261,7 @@ def _bounds(names_of: tuple[str, ...], boxes: Boxes, *, above: bool) -> list[For
 
 
 def squared(motion: MotionFormula) -> MotionFormula:
-    """The square of a formula; of a norm what has no root in it.
-
-    Examples
-    --------
-    >>> from optlaws.formulas.of_motion import of_text
-    >>> squared(of_text("norm(b, 2*c)")).formula
-    b^2 + (2*c)^2
-    """
+    """The square of a formula; of norm(b, 2*c) it is b^2 + (2*c)^2, which has no root in it."""
     formula, two = motion.formula, Number(2.0)
     sizes = formula.arguments if isinstance(formula, Call) and formula.function in {"abs", "norm"} else (formula,)
     return replace(motion, formula=total([Exponentiation(part, two) for part in sizes]))

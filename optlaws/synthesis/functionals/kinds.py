@@ -32,8 +32,7 @@ from optlaws.synthesis.functionals.curved_rows import (
     split,
     squared,
 )
-from optlaws.synthesis.functionals.integral_reach import by_integral, by_tangents
-from optlaws.synthesis.functionals.sizes import SizeBound, known_values, reach
+from optlaws.synthesis.functionals.sizes import SizeBound, by_integral, by_tangents, known_values, reach
 from optlaws.synthesis.functionals.undefined import check_ends, check_passed, pitfalls
 from optlaws.synthesis.problem.constants import Asked, Functional
 from optlaws.synthesis.problem.ranges import as_range
@@ -112,22 +111,25 @@ class OfFormula(Functional):
         if self.convex:
             return self.families(space, slack, bound)
         floor = self.floor(space.boundary)
-        families = self._envelopes(space, slack, bound, boxes_of(problem))
+        beneath = self.beneath(boxes_of(problem), symmetric=space.symmetric)
+        families = tuple(branch_rows(space, branch, slack, bound) for branch in beneath)
         if isfinite(floor) and slack.any():
             row = np.append(-slack, 0.0)[None, :]
             least = LinearFamily(names.at_least(self.name), 0.0 * slack, -floor, (1.0,), (1.0, 1.0), series=row)
             return (*families, least)
         return families
 
-    def _envelopes(
-        self,
-        space: LawSpace,  # noqa: ARG002
-        slack: Array,  # noqa: ARG002
-        bound: float,  # noqa: ARG002
-        boxes: Boxes,  # noqa: ARG002
-    ) -> tuple[ConstraintFamily, ...]:
-        """Convex rows that hold where the constant is at most slack . x + bound."""
-        return ()
+    def branches(self, *, symmetric: bool) -> list[Branch]:  # noqa: ARG002
+        """The smooth formulas whose rows hold the constant; none where other rows do."""
+        return []
+
+    def beneath(self, boxes: Boxes, *, symmetric: bool) -> list[Branch]:  # noqa: ARG002
+        """Convex formulas that the constant is nowhere below while derivatives are in their boxes."""
+        return []
+
+    def floor(self, conditions: BoundaryConditions) -> float:  # noqa: ARG002
+        """Zero where the formula is nowhere below 0 or its sign does not count, else minus infinity."""
+        return 0.0 if self.of_magnitude or self.sign > 0 else -inf
 
     @abstractmethod
     def value(self, law: MotionLaw) -> float:
@@ -145,9 +147,9 @@ class OfFormula(Functional):
         check_passed(self.motion, space.boundary, smooth=not space.jumps(2))
         return self._families(space, slack, bound)
 
-    @abstractmethod
     def _families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConstraintFamily, ...]:
         """The rows themselves."""
+        return tuple(branch_rows(space, branch, slack, bound) for branch in self.branches(symmetric=space.symmetric))
 
 
 @dataclass(frozen=True, repr=False)
@@ -207,11 +209,7 @@ class FormulaPeak(OfFormula):
         if self.affine:
             halves = sides(self.motion, self.name, self.signs, symmetric=space.symmetric)
             return tuple(rows(space, side, slack, bound) for side in halves)
-        return tuple(branch_rows(space, branch, slack, bound) for branch in self.branches(symmetric=space.symmetric))
-
-    def _envelopes(self, space: LawSpace, slack: Array, bound: float, boxes: Boxes) -> tuple[ConstraintFamily, ...]:
-        beneath = self.beneath(boxes, symmetric=space.symmetric)
-        return tuple(branch_rows(space, branch, slack, bound) for branch in beneath)
+        return super()._families(space, slack, bound)
 
     def beneath(self, boxes: Boxes, *, symmetric: bool) -> list[Branch]:
         """Convex formulas that those of the peak are nowhere below, with the peak's convex ones themselves."""
@@ -283,10 +281,6 @@ class FormulaIntegral(OfFormula):
         """Of the formula times the part's length; a power of 2."""
         return power_of_two(self.motion.scale * (self.motion.stop - self.motion.start))
 
-    def floor(self, conditions: BoundaryConditions) -> float:  # noqa: ARG002
-        """Zero where the formula is nowhere below 0, else minus infinity."""
-        return 0.0 if self.sign > 0 else -inf
-
     def value(self, law: MotionLaw) -> float:
         """By Gauss's rule, exact where the formula is a polynomial of k."""
         return integral_along(self.motion, law)
@@ -304,10 +298,6 @@ class FormulaIntegral(OfFormula):
 class FormulaValue(OfFormula):
     """Value of a formula at one k; made by `value`."""
 
-    def floor(self, conditions: BoundaryConditions) -> float:  # noqa: ARG002
-        """A value may be below 0 unless its formula is nowhere."""
-        return 0.0 if self.sign > 0 else -inf
-
     def value(self, law: MotionLaw) -> float:
         """The value."""
         return value_along(self.motion, law)
@@ -316,10 +306,6 @@ class FormulaValue(OfFormula):
         """The smooth formulas whose rows hold the value."""
         [motion] = self.parts(symmetric=symmetric)
         return split(motion, 1.0, self.name) or []
-
-    def _families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConstraintFamily, ...]:
-        """One row, or one for each branch."""
-        return tuple(branch_rows(space, branch, slack, bound) for branch in self.branches(symmetric=space.symmetric))
 
 
 def greatest_along(motion: MotionFormula, sign: float, law: MotionLaw) -> float:

@@ -70,15 +70,8 @@ def rms(formula: Any, *, start: float = 0.0, stop: float = 1.0) -> Functional:  
 
     Parameters
     ----------
-    formula
-        Text as `peak` takes it.
-    start, stop
-        The part of the interval.
-
-    Raises
-    ------
-    InputError
-        If the formula cannot be read; the error points at the place in the text.
+    formula, start, stop
+        As `peak` takes them, with the same errors.
 
     Examples
     --------
@@ -101,15 +94,8 @@ def integral(formula: Any, *, start: float = 0.0, stop: float = 1.0) -> Function
 
     Parameters
     ----------
-    formula
-        Text as `peak` takes it.
-    start, stop
-        The part of the interval.
-
-    Raises
-    ------
-    InputError
-        If the formula cannot be read; the error points at the place in the text.
+    formula, start, stop
+        As `peak` takes them, with the same errors.
 
     Examples
     --------
@@ -131,14 +117,9 @@ def value(formula: Any, *, at: float) -> Functional:  # noqa: ANN401
     Parameters
     ----------
     formula
-        Text as `peak` takes it.
+        As `peak` takes it, with the same errors.
     at
         The k.
-
-    Raises
-    ------
-    InputError
-        If the formula cannot be read; the error points at the place in the text.
 
     Examples
     --------

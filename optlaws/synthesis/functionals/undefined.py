@@ -69,14 +69,7 @@ def check_passed(motion: MotionFormula, conditions: BoundaryConditions, *, smoot
 
 
 def pitfalls(motion: MotionFormula) -> Iterator[str]:
-    """Parts of a formula that some motions bring where they have no value or no slope, in words.
-
-    Examples
-    --------
-    >>> from optlaws.formulas.of_motion import of_text
-    >>> list(pitfalls(of_text("b^0.5 + 1/(c - 7) + 1/sqrt(4 + c^2)")))
-    ['b^0.5 has no slope or no value where b <= 0', '1/(c - 7) has no value where c - 7 = 0']
-    """
+    """Parts of a formula that some motions bring where they have no value or no slope, in words."""
     for part in motion.formula.walk():
         if not part.names() & ORDERS.keys():
             continue
