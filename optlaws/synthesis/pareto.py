@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from math import inf, log2, sqrt
 from typing import Any
@@ -358,10 +359,8 @@ class _Curve:
     def _first(self, low: float, pays: float) -> tuple[float, Solution]:
         """At the least value of the first constant, or at `low` where that can be had; of one that can be 0 near it."""
         if low > (1.0 if self.over[0] == "B" else 0.0):
-            try:
+            with suppress(InfeasibleProblem):
                 return low, synthesize(self._problem(low))
-            except InfeasibleProblem:
-                pass
         least = least_value(self.problem, self.over[0])
         if least < NEARLY_NOTHING * pays:
             return NEARLY_NOTHING * pays, synthesize(self._problem(NEARLY_NOTHING * pays))
@@ -469,12 +468,7 @@ def _checked(problem: object, over: Sequence[str | Functional], between: tuple[f
             given = getattr(problem, name, problem.range(name))
             raise InputError(f"{name} is exchanged: leave it out of the problem, got {given!r}")
     if between is not None:
-        pair = tuple(between)
-        if len(pair) != 2 or not all(_positive(value) for value in pair) or pair[0] >= pair[1]:
+        ends = [real(value) or 0.0 for value in between]
+        if len(ends) != 2 or not 0.0 < ends[0] < ends[1] < inf:
             raise InputError(f"between must be two numbers above 0 in ascending order, got {shortened(between)}")
     return names
-
-
-def _positive(value: Any) -> bool:  # noqa: ANN401 - it is checked here
-    number = real(value)
-    return number is not None and 0.0 < number < inf

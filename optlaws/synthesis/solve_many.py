@@ -351,15 +351,7 @@ def sweep(problems: Iterable[Problem], *, errors: Errors = "raise") -> Iterator[
     problems
         The problems.
     errors
-        What becomes of a problem without an answer: "raise" raises its error and ends the sweep, "return" gives the
-        error in its place and goes on.
-
-    Raises
-    ------
-    InfeasibleProblem, SolverFailure
-        As `synthesize`, unless errors are returned.
-    InputError
-        If `errors` is unknown; and, unless errors are returned, if one of the problems is none.
+        As of `synthesize_many`, with the same errors.
 
     Examples
     --------
@@ -393,7 +385,7 @@ def _raised(results: Iterator[Result], errors: Errors) -> Iterator[Result]:
 
 
 def _together(problems: object) -> bool:
-    """Whether there are problems that are as good solved together, and sooner: convex, or of least power on lines."""
+    """Whether the problems are there already, and as good solved together: convex, or of least power on lines."""
     if not isinstance(problems, Sequence) or not all(isinstance(problem, Problem) for problem in problems):
         return False
     others = [problem for problem in problems if not problem.convex]

@@ -74,11 +74,9 @@ def branch_rows(space: LawSpace, branch: Branch, slack: Array, bound: float) -> 
     if motion.affine is not None:
         return rows(space, Side(branch.name, motion, (branch.sign,)), slack, bound)
     nothing = np.zeros(len(slack))
-    parts = []
-    for name in sorted(motion.formula.names() & ORDERS.keys()):
-        single = Side(name, MotionFormula(Name(name), motion.start, motion.stop), (1.0,))
-        parts.append((name, rows(space, single, nothing, 0.0)))
-    degrees = {name: space.degree_of(nu) for name, nu in ORDERS.items() if name in motion.formula.names()}
+    degrees = _degrees(space, motion)
+    sides = {name: Side(name, MotionFormula(Name(name), motion.start, motion.stop), (1.0,)) for name in sorted(degrees)}
+    parts = tuple((name, rows(space, side, nothing, 0.0)) for name, side in sides.items())
     return CurvedFamily(
         branch.name,
         slack,
@@ -86,7 +84,7 @@ def branch_rows(space: LawSpace, branch: Branch, slack: Array, bound: float) -> 
         (branch.sign,),
         (1.0 - 2.0 * motion.stop, 1.0 - 2.0 * motion.start),
         formula=motion.formula,
-        parts=tuple(parts),
+        parts=parts,
         tangents=(branch.sign,) if branch.convex else (),
         degree=motion.degree(degrees),
         edges=edges_of(space, motion),
@@ -97,7 +95,7 @@ def integral_rows(
     space: LawSpace, motion: MotionFormula, name: str, slack: Array, bound: float, *, root: bool, convex: bool
 ) -> IntegralFamily:
     """The row that the integral of a formula over its part, or its root, is at most slack . x + bound."""
-    used = tuple(sorted(motion.formula.names() & ORDERS.keys()))
+    used = tuple(sorted(_degrees(space, motion)))
     # exact where the formula is a polynomial of k
     k, weights = _rule(rule_edges(space, motion), rule_length(space, motion))
     columns = np.stack([space.widened(columns_of(space, ORDERS[symbol], k), len(slack)) for symbol in used])
@@ -136,9 +134,14 @@ def _rule(edges: list[float], count: int) -> tuple[Array, Array]:
     return (low + width * (1.0 + x) / 2.0).ravel(), (share * width / 2.0).ravel()
 
 
+def _degrees(space: LawSpace, motion: MotionFormula) -> dict[str, int]:
+    """The degrees of the derivatives that a formula has, by their names."""
+    return {name: space.degree_of(nu) for name, nu in ORDERS.items() if name in motion.formula.names()}
+
+
 def rule_length(space: LawSpace, motion: MotionFormula) -> int:
     """How many places a piece needs."""
-    degrees = {name: space.degree_of(nu) for name, nu in ORDERS.items() if name in motion.formula.names()}
+    degrees = _degrees(space, motion)
     degree = motion.degree(degrees)
     return _SPARE + max(degrees.values(), default=0) if degree is None else degree // 2 + 1
 
@@ -168,14 +171,12 @@ def _cells(space: LawSpace, motion: MotionFormula, edges: list[float]) -> int:
     count, before, laws = rule_length(space, motion), np.full(_LAWS, np.nan), _some_laws(space)
     for power in range(_MOST_POWER + 1):
         k, weights = _rule(_cut(edges, 1 << power), count)
-        names = {
-            name: laws @ columns_of(space, nu, k).T for name, nu in ORDERS.items() if name in motion.formula.names()
-        }
+        names = {name: laws @ columns_of(space, ORDERS[name], k).T for name in _degrees(space, motion)}
         values = np.broadcast_to(motion.values({**names, "k": k}), (_LAWS, len(k)))
-        columns_there = values @ weights
-        if (np.abs(columns_there - before) <= RULES_AGREE * (np.abs(values) @ weights)).all():
+        integrals = values @ weights
+        if (np.abs(integrals - before) <= RULES_AGREE * (np.abs(values) @ weights)).all():
             return max(1 << power - 1, 1)
-        before = columns_there
+        before = integrals
     return 1 << _MOST_POWER
 
 
@@ -205,13 +206,13 @@ def columns_of(space: LawSpace, nu: int, k: Array) -> Array:
     """The derivative of order nu at places in [0, 1]: of symmetric laws the second half is the first's mirror image."""
     if not space.symmetric:
         return space.columns(nu, 1.0 - 2.0 * k)
-    columns_there = space.columns(nu, np.abs(1.0 - 2.0 * k))
+    columns = space.columns(nu, np.abs(1.0 - 2.0 * k))
     if nu % 2 == 0:
         later = k > 0.5
-        columns_there[later] *= -1.0
+        columns[later] *= -1.0
         if nu == 0:
-            columns_there[later, -1] += 1.0
-    return columns_there
+            columns[later, -1] += 1.0
+    return columns
 
 
 def envelopes(motion: MotionFormula, boxes: Boxes) -> list[Formula]:
@@ -243,20 +244,13 @@ def envelopes(motion: MotionFormula, boxes: Boxes) -> list[Formula]:
 
 def _bounds(names_of: tuple[str, ...], boxes: Boxes, *, above: bool) -> list[Formula]:
     """Affine bounds of a product."""
-    first, second = names_of
-    (l1, u1), (l2, u2) = boxes[first], boxes[second]
+    first, second = map(Name, names_of)
+    (l1, u1), (l2, u2) = (boxes[name] for name in names_of)
     corners = [(u1, l2), (l1, u2)] if above else [(l1, l2), (u1, u2)]
-    if first == second:
-        corners = corners[:1] if above else corners
+    numbers = [(number(factor), number(other)) for factor, other in corners[: 1 if above and first == second else 2]]
     return [
-        total(
-            [
-                product([number(factor), Name(second)]),
-                product([number(other), Name(first)]),
-                Negative(product([number(factor), number(other)])),
-            ]
-        )
-        for factor, other in corners
+        total([product([factor, second]), product([other, first]), Negative(product([factor, other]))])
+        for factor, other in numbers
     ]
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from abc import abstractmethod
 from dataclasses import dataclass, replace
 from math import inf, isfinite
 from typing import TYPE_CHECKING
@@ -131,18 +130,8 @@ class OfFormula(Functional):
         """Zero where the formula is nowhere below 0 or its sign does not count, else minus infinity."""
         return 0.0 if self.of_magnitude or self.sign > 0 else -inf
 
-    @abstractmethod
-    def value(self, law: MotionLaw) -> float:
-        """The constant of a law, recomputed over the whole part."""
-
     def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConstraintFamily, ...]:
-        """Rows that hold if and only if the constant is at most slack . x + bound.
-
-        Raises
-        ------
-        InputError
-            If the formula has no value at an end of the laws, or where each of them comes by.
-        """
+        """Rows that hold if and only if the constant is at most slack . x + bound; of formulas with values alone."""
         check_ends(self.motion, space.boundary)
         check_passed(self.motion, space.boundary, smooth=not space.jumps(2))
         return self._families(space, slack, bound)

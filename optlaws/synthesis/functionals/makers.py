@@ -59,7 +59,7 @@ def peak(formula: Any, *, side: str = "both", start: float = 0.0, stop: float = 
     if side not in tuple(_SIDES):
         raise InputError(unknown_key(side, _SIDES, "side"))
     motion = _motion(formula, *_part(start, stop))
-    name = _name("peak", motion, [] if side == "both" else [f"side={side}"])
+    name = _name("peak", motion, *([] if side == "both" else [f"side={side}"]))
     peak = FormulaPeak(name, nan, convex=True, motion=motion, signs=_SIDES[side])
     convex = motion.affine is not None or all(branch.convex for branch in peak.branches(symmetric=False))
     return _checked(replace(peak, convex=convex), formula)
@@ -79,9 +79,7 @@ def rms(formula: Any, *, start: float = 0.0, stop: float = 1.0) -> Functional:  
     >>> round(rms("c").value(smoothstep(2)) ** 2, 9)
     12.0
     """
-    motion = _motion(formula, *_part(start, stop))
-    if motion.start == motion.stop:
-        raise InputError(f"rms needs a part of the interval with start < stop, got {start!r} and {stop!r}")
+    motion = _motion(formula, *_part(start, stop, "rms"))
     name = _name("rms", motion)
     rms = FormulaRms(name, nan, convex=True, motion=motion)
     kind = motion.curvature
@@ -104,9 +102,7 @@ def integral(formula: Any, *, start: float = 0.0, stop: float = 1.0) -> Function
     >>> round(energy.value(smoothstep(2)), 9), energy.convexity
     (13.8, 'convex: every term of c^2 + (1 + k)*b^2 is convex')
     """
-    motion = _motion(formula, *_part(start, stop))
-    if motion.start == motion.stop:
-        raise InputError(f"integral needs a part of the interval with start < stop, got {start!r} and {stop!r}")
+    motion = _motion(formula, *_part(start, stop, "integral"))
     integral = FormulaIntegral(_name("integral", motion), nan, convex=motion.curvature.convex, motion=motion)
     return _checked(integral, formula)
 
@@ -235,10 +231,13 @@ def _checked(constant: OfFormula, formula: Any) -> OfFormula:  # noqa: ANN401 - 
     return constant
 
 
-def _part(start: object, stop: object) -> tuple[float, float]:
+def _part(start: object, stop: object, integrated: str = "") -> tuple[float, float]:
+    """The ends of a part of the interval; what is integrated needs more than a place."""
     first, last = _place(start, "start"), _place(stop, "stop")
     if first > last:
         raise InputError(f"a part of the interval needs start <= stop, got {start!r} and {stop!r}")
+    if integrated and first == last:
+        raise InputError(f"{integrated} needs a part of the interval with start < stop, got {start!r} and {stop!r}")
     return first, last
 
 
@@ -249,8 +248,8 @@ def _place(k: object, name: str) -> float:
     return float(number)
 
 
-def _name(kind: str, motion: MotionFormula, others: list[str] | None = None) -> str:
-    parts = [str(motion.formula), *(others or [])]
+def _name(kind: str, motion: MotionFormula, *others: str) -> str:
+    parts = [str(motion.formula), *others]
     parts += [f"start={plain(motion.start)}"] if motion.start != 0.0 else []
     parts += [f"stop={plain(motion.stop)}"] if motion.stop != 1.0 else []
     return f"{kind}({', '.join(parts)})"

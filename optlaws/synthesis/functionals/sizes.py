@@ -320,8 +320,7 @@ def _value(family: IntegralFamily, x: Array) -> float:
 
 
 def _hessian(family: IntegralFamily, x: Array) -> Array:
-    bent = family.hessian(x, np.ones(1), np.ones(1))
-    return np.zeros((len(x), len(x))) if bent is None else bent
+    return np.asarray(family.hessian(x, np.ones(1), np.ones(1)))
 
 
 def _lowest(family: IntegralFamily, x: Array, free: Array) -> Array:
