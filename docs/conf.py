@@ -86,7 +86,7 @@ nitpick_ignore = [
     ("py:class", "optlaws.synthesis.problem.constants.Asked"),
     ("py:class", "optlaws.synthesis.proven.front.LazySequence"),
     ("py:class", "optlaws.synthesis.proven.swept_parameter.SweptParameter"),
-    ("py:class", "optlaws.synthesis.solved_parts.SolvedPart"),
+    ("py:class", "optlaws.synthesis.solution_array.SolvedPart"),
     ("py:class", "optlaws.synthesis.spaces.space.LawSpace"),
 ]
 # B, C and D are attributes of several classes: which one a text means is said beside it

@@ -99,8 +99,7 @@ from optlaws.studies.run import run_study as run_study
 from optlaws.studies.study import open_study as open_study
 from optlaws.synthesis.arrays.problems import ProblemArray as ProblemArray
 from optlaws.synthesis.arrays.problems import each as each
-from optlaws.synthesis.front import Front as Front
-from optlaws.synthesis.functionals.loads import drive_torque as drive_torque
+from optlaws.synthesis.functionals.makers import drive_torque as drive_torque
 from optlaws.synthesis.functionals.makers import functional as functional
 from optlaws.synthesis.functionals.makers import integral as integral
 from optlaws.synthesis.functionals.makers import peak as peak
@@ -109,6 +108,7 @@ from optlaws.synthesis.functionals.makers import value as value
 from optlaws.synthesis.limits.closed_forms import acceleration_limit as acceleration_limit
 from optlaws.synthesis.limits.closed_forms import limit as limit
 from optlaws.synthesis.limits.laws import limit_law as limit_law
+from optlaws.synthesis.pareto import Front as Front
 from optlaws.synthesis.pareto import pareto_front as pareto_front
 from optlaws.synthesis.problem.constants import FUNCTIONALS as FUNCTIONALS
 from optlaws.synthesis.problem.constants import B as B

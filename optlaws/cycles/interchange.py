@@ -11,7 +11,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.extras import needed
 from optlaws.files.reading import JsonText
-from optlaws.files.toml_text import to_toml
+from optlaws.files.tables import to_toml
 from optlaws.laws import MotionLaw
 from optlaws.laws.exporting import ExportOptions
 from optlaws.mechanisms.machine.machine import Machine

@@ -19,8 +19,7 @@ from optlaws.plots.style import BLUES, GREY, empty_figure, plot_style
 from optlaws.results.results import Results
 from optlaws.studies.problem_entries import ProblemEntries, gap, problem
 from optlaws.synthesis import Solution, synthesize
-from optlaws.synthesis.functionals.loads import drive_torque
-from optlaws.synthesis.functionals.makers import peak, rms
+from optlaws.synthesis.functionals.makers import drive_torque, peak, rms
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -32,9 +32,8 @@ from optlaws.plots.style import (
 from optlaws.results.results import Page, Results
 from optlaws.studies.problem_entries import Positive, ProblemEntries, gap, problem
 from optlaws.synthesis import FUNCTIONALS, Problem
-from optlaws.synthesis.front import HEADINGS, Front
 from optlaws.synthesis.limits.of_problem import known_limit
-from optlaws.synthesis.pareto import pareto_front
+from optlaws.synthesis.pareto import HEADINGS, Front, pareto_front
 from optlaws.synthesis.problem.fields import CONSTANTS
 from optlaws.synthesis.proven.front import ProvenFront
 from optlaws.synthesis.proven.refine import proven_front

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
 
-    from optlaws.synthesis.front import Front
+    from optlaws.synthesis.pareto import Front
     from optlaws.synthesis.proven.front import ProvenFront
 
 _AXES = {"B": "peak velocity B", "C": "peak acceleration C", "D": "peak power D", "J": "peak jerk J"}

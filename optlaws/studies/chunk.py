@@ -24,7 +24,7 @@ from optlaws.synthesis.arrays.lines import least_count, lines_of
 from optlaws.synthesis.arrays.powers import least_power
 from optlaws.synthesis.problem.constants import meant
 from optlaws.synthesis.problem.fields import from_entries
-from optlaws.synthesis.solve_array import solved
+from optlaws.synthesis.solve_many import solved
 
 INFEASIBLE, WRONG_INPUT, NOT_FOUND = "infeasible", "wrong input", "not found"
 TIME_LIMIT, DIED, ERROR = "time limit", "worker died", "error"

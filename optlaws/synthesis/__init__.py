@@ -6,10 +6,9 @@ __getattr__, __dir__, __all__ = face(
     __name__,
     {
         "optlaws.synthesis.arrays.problems": "ProblemArray each",
-        "optlaws.synthesis.front": "Front",
         "optlaws.synthesis.limits.closed_forms": "acceleration_limit limit",
         "optlaws.synthesis.limits.laws": "limit_law",
-        "optlaws.synthesis.pareto": "pareto_front",
+        "optlaws.synthesis.pareto": "Front pareto_front",
         "optlaws.synthesis.problem.constants": "FUNCTIONALS B C C_minus C_plus D Functional J jounce "
         "rms_c rms_j rms_jounce",
         "optlaws.synthesis.problem.expression": "Expression Maximum Term maximum",

@@ -1,10 +1,10 @@
 # made by tests/contracts/faces.py from the table in __init__.py
 from optlaws.synthesis.arrays.problems import ProblemArray as ProblemArray
 from optlaws.synthesis.arrays.problems import each as each
-from optlaws.synthesis.front import Front as Front
 from optlaws.synthesis.limits.closed_forms import acceleration_limit as acceleration_limit
 from optlaws.synthesis.limits.closed_forms import limit as limit
 from optlaws.synthesis.limits.laws import limit_law as limit_law
+from optlaws.synthesis.pareto import Front as Front
 from optlaws.synthesis.pareto import pareto_front as pareto_front
 from optlaws.synthesis.problem.constants import FUNCTIONALS as FUNCTIONALS
 from optlaws.synthesis.problem.constants import B as B

@@ -1,30 +1,225 @@
-"""Exchanges between constants: how little of one a law can have for how much of another."""
+"""Fronts: laws of which none is better in every constant, and how they are computed."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import replace
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, replace
 from math import inf, log2, sqrt
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
+from optlaws.extras import needed
+from optlaws.kept import kept_property
+from optlaws.laws import PolynomialLaw
 from optlaws.numbers import Array, real, whole
 from optlaws.numerics.tolerances import AGREEMENT, NEARLY_NOTHING, NO_EXCHANGE
 from optlaws.shown.steps import Steps
-from optlaws.synthesis.front import IN_ARRAYS, Front, undominated, value_of, values_of
+from optlaws.synthesis.families.peaks import of_polynomials
 from optlaws.synthesis.method.exchange import solve
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.fields import CONSTANTS
-from optlaws.synthesis.problem.named_constants import apart, is_named, named
+from optlaws.synthesis.problem.named_constants import apart, is_named, named, title_of
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
 from optlaws.synthesis.program.writer import extreme_velocity
 from optlaws.synthesis.solution import Solution, Status
 from optlaws.synthesis.solve import synthesize
-from optlaws.synthesis.solve_array import SolvedLine
+from optlaws.synthesis.solve_many import SolvedLine
+
+_OF_POINTS = ("lower bound", "gap", "limit", "status")
+#: of fronts of B, C, D and J
+HEADINGS = (*CONSTANTS, *_OF_POINTS)
+
+_SHOWN = 12
+#: from so many laws on constants are computed for all at once
+_TOGETHER = 16
+_BLOCK = 256
+#: constants that are computed for many laws at once
+IN_ARRAYS = ("B", "C", "D", "J", "rms_c")
+
+
+@dataclass(frozen=True)
+class Front:
+    """Laws of which none is better in every constant: each the best of its own problem.
+
+    Attributes
+    ----------
+    over
+        The constants exchanged; the last is minimised, the others are given.
+    points
+        The solutions, by ascending values of the first constant.
+    failed
+        Values of the first constant at which the solver found no law.
+
+    Examples
+    --------
+    >>> from optlaws.synthesis import Problem
+    >>> from optlaws.synthesis.pareto import pareto_front
+    >>> front = pareto_front(Problem(order=4), over=("B", "C"), points=5, between=(1.5, 1.8))
+    >>> front
+    Front(over=('B', 'C'), 5 points, B 1.5 to 1.8, C 5.70496 to 4.69579)
+    >>> front.values.shape, max(solution.gap for solution in front) < 1e-8
+    ((5, 2), True)
+    """
+
+    over: tuple[str, ...]
+    points: tuple[Solution, ...]
+    failed: tuple[float, ...] = ()
+
+    @kept_property
+    def values(self) -> Array:
+        """The constants of each point: one row a point, one column a constant of `over`."""
+        return values_of(self.points, self.over)
+
+    @property
+    def headings(self) -> tuple[str, ...]:
+        """What the rows have: B, C, D and J, what else is exchanged, and how good each point is."""
+        return (*map(title_of, self._columns), *_OF_POINTS)
+
+    @property
+    def _columns(self) -> tuple[str, ...]:
+        return (*CONSTANTS, *(name for name in self.over if name not in CONSTANTS))
+
+    @property
+    def rows(self) -> list[list[float | str | None]]:
+        """What `headings` name, a row for each point."""
+        return self.rows_of(self._columns)
+
+    def rows_of(self, columns: Sequence[str]) -> list[list[float | str | None]]:
+        """Constants of each point, with its lower bound, its gap, its limit and its status."""
+        constants = ([value_of(point, name) for name in columns] for point in self.points)
+        return [
+            [*values, point.lower_bound, point.gap, point.limit, point.status.value]
+            for values, point in zip(constants, self.points, strict=True)
+        ]
+
+    def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
+        """Draw the points into matplotlib's axes, new ones unless given; a third constant as colour; the artists."""
+        from optlaws.plots.front import draw_front
+
+        return draw_front(self, ax, **style)
+
+    def to_pandas(self) -> Any:  # noqa: ANN401 - pandas is imported here alone
+        """The rows as a data frame, a line for each point; needs the extra `optlaws[studies]`.
+
+        Examples
+        --------
+        >>> from optlaws.synthesis import Problem
+        >>> from optlaws.synthesis.pareto import pareto_front
+        >>> front = pareto_front(Problem(order=4), over=("B", "C"), points=3, between=(1.5, 1.8))
+        >>> front.to_pandas()[["B", "C", "status"]].round(4).to_dict("list")
+        {'B': [1.5, ..., 1.8], 'C': [5.705, ..., 4.6958], 'status': ['optimal', 'optimal', 'optimal']}
+        """
+        needed("pandas", "to_pandas")
+        import pandas as pd
+
+        return pd.DataFrame(self.rows, columns=list(self.headings))
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain JSON-able dict with every solution whole."""
+        return {
+            "over": list(self.over),
+            "values": self.values.tolist(),
+            "points": [point.to_dict() for point in self.points],
+            "failed": list(self.failed),
+        }
+
+    def __len__(self) -> int:
+        return len(self.points)
+
+    def __iter__(self) -> Iterator[Solution]:
+        return iter(self.points)
+
+    def __getitem__(self, place: int) -> Solution:
+        return self.points[place]
+
+    def __repr__(self) -> str:
+        over = tuple(map(title_of, self.over))
+        ends = [f"{name} {v[0]:.6g} to {v[-1]:.6g}" for name, v in zip(over, self.values.T, strict=True)]
+        return f"Front(over={over!r}, {len(self)} points, {', '.join(ends)})"
+
+    def _repr_html_(self) -> str:
+        from optlaws.shown.showing import drawing, page, table
+
+        rows = self.rows[:: 1 + len(self) // _SHOWN]
+        curve = ""
+        if len(self.over) == len(("given", "minimised")):
+            x, y = self.values.T
+            first, last = map(title_of, self.over)
+            curve = drawing(f"{last} over {first}", x.tolist(), (y - y.min()).tolist())
+        return page(repr(self), table(self.headings, rows), curve)
+
+
+def undominated(solutions: Sequence[Solution], over: Sequence[str], values: Array | None = None) -> list[Solution]:
+    """Those than which no other is better in one constant and as good in all, by ascending constants.
+
+    Values of the constants, a row for each solution, are computed from the laws unless they are known.
+
+    Examples
+    --------
+    >>> from optlaws.synthesis import Problem, sweep
+    >>> solutions = list(sweep(Problem(B=B, order=4) for B in (1.6, 1.8, 2.2)))
+    >>> [solution.problem.B for solution in undominated(solutions, ("B", "C"))]
+    [1.6, 1.8]
+    """
+    points = values_of(solutions, over) if values is None else values
+    order = np.lexsort(points.T[::-1])
+    order = order[~_beaten(points[order])]
+    rows, kept = points[order].tolist(), [0]
+    for i in range(1, len(order)):
+        if not _known_already(rows, kept, i):
+            kept.append(i)
+    return [solutions[order[i]] for i in kept]
+
+
+def _beaten(values: Array) -> NDArray[np.bool_]:
+    """Which rows another is better than in one constant, and no worse in all."""
+    kept = np.zeros(len(values), dtype=np.bool_)
+    for begin in range(0, len(values), _BLOCK):
+        some = values[begin : begin + _BLOCK]
+        no_worse, better = np.ones((len(some), len(values)), np.bool_), np.zeros((len(some), len(values)), np.bool_)
+        for own, others in zip(some.T, values.T, strict=True):
+            no_worse &= others <= (own * (1.0 + AGREEMENT))[:, None]
+            better |= others < (own * (1.0 - AGREEMENT))[:, None]
+        kept[begin : begin + _BLOCK] = (no_worse & better).any(axis=1)
+    return kept
+
+
+def _known_already(rows: Sequence[Sequence[float]], kept: Sequence[int], place: int) -> bool:
+    """Whether a row is one of those that are kept; the rows ascend in their first entry."""
+    row = rows[place]
+    for other in map(rows.__getitem__, reversed(kept)):
+        if abs(other[0] / row[0] - 1.0) > AGREEMENT:
+            return False
+        if all(abs(value / own - 1.0) <= AGREEMENT for value, own in zip(other, row, strict=True)):
+            return True
+    return False
+
+
+def value_of(solution: Solution, name: str) -> float:
+    """A constant of a solution's law."""
+    return named(name).value(solution.law)
+
+
+def values_of(solutions: Sequence[Solution], names: Sequence[str]) -> Array:
+    """Constants of the laws of many solutions: one row a solution, one column a constant."""
+    return np.column_stack([_column(solutions, name) for name in names])
+
+
+def _column(solutions: Sequence[Solution], name: str) -> Array:
+    if all(repr(solution.problem.objective) == name for solution in solutions):
+        return np.array([solution.objective for solution in solutions])
+    laws = [solution.law for solution in solutions]
+    polynomials = [law for law in laws if isinstance(law, PolynomialLaw)]
+    if len(laws) >= _TOGETHER and name in IN_ARRAYS and len(polynomials) == len(laws):
+        return of_polynomials(polynomials, name)
+    return np.array([value_of(solution, name) for solution in solutions])
+
 
 # how far above its least value a constant is held while the next one is minimised: as near as the solver can go
 _ABOVE = (1e-5, 1e-7, 1e-9)
@@ -80,14 +275,7 @@ def pareto_front(
 
 
 def where_it_pays(problem: Problem, over: tuple[str, str]) -> tuple[float, float]:
-    """From the least value of the first constant that has a law, nearly, to the value that the best law has.
-
-    Examples
-    --------
-    >>> low, high = where_it_pays(Problem(order=4), ("B", "C"))
-    >>> round(low, 5), round(high, 5)
-    (1.12969, 1.90294)
-    """
+    """From the least value of the first constant that has a law, nearly, to the value that the best law has."""
     points = _Curve(problem, _checked(problem, over, None), None).points
     return points[0][0], points[-1][0]
 
@@ -113,7 +301,7 @@ class _Curve:
     def grow(self, count: int) -> Front:
         """Put a point into the stretch that wants one most, and so on."""
         dead: set[float] = set()
-        if count >= _MANY and self._asked(self.points[0][0]).convex:
+        if count >= _MANY and self._problem(self.points[0][0]).convex:
             self._grow_together(count)
         with Steps(f"least {self.over[1]} over {self.over[0]}", count) as steps:
             while len(self.points) < count:
@@ -146,16 +334,16 @@ class _Curve:
         # the middles of the first stretches, and of their halves, and so on
         begun = 2 ** int(log2(count / _EVEN))
         values = [low * (high / low) ** (i / begun) for i in range(1, begun)]
-        line = SolvedLine(self.problem, self.over[0], self._asked, low, high)
+        line = SolvedLine(self.problem, self.over[0], self._problem, low, high)
         while values:
             results = line.at(np.array(values))
             proven = np.flatnonzero(results.status == Status.OPTIMAL.value)
-            points = [
-                (values[i], solution) for i in proven.tolist() if isinstance(solution := results.result(i), Solution)
-            ]
+            there = [values[i] for i in proven.tolist()]
+            solutions = map(results.result, proven.tolist())
+            points = [(value, law) for value, law in zip(there, solutions, strict=True) if isinstance(law, Solution)]
             if set(self.over) <= set(IN_ARRAYS):
                 columns = [getattr(results, name)[proven].tolist() for name in self.over]
-                self._values |= dict(zip([values[i] for i in proven.tolist()], zip(*columns, strict=True), strict=True))
+                self._values |= zip(there, zip(*columns, strict=True), strict=True)
             self.points = sorted([*self.points, *points], key=lambda point: point[0])
             if len(points) < len(values):
                 # the others are looked at one by one
@@ -165,24 +353,22 @@ class _Curve:
             places = wanting[np.argsort(-widths[wanting])][: count - len(self.points)]
             values = [sqrt(self.points[i][0] * self.points[i + 1][0]) for i in sorted(places.tolist())]
 
-    def _asked(self, value: float) -> Problem:
+    def _problem(self, value: float) -> Problem:
         return _at_most(self.problem, self.over[0], value)
 
     def _first(self, low: float, pays: float) -> tuple[float, Solution]:
         """At the least value of the first constant, or at `low` where that can be had; of one that can be 0 near it."""
         if low > (1.0 if self.over[0] == "B" else 0.0):
-            try:
-                return low, synthesize(self._asked(low))
-            except InfeasibleProblem:
-                pass
+            with suppress(InfeasibleProblem):
+                return low, synthesize(self._problem(low))
         least = least_value(self.problem, self.over[0])
         if least < NEARLY_NOTHING * pays:
-            return NEARLY_NOTHING * pays, synthesize(self._asked(NEARLY_NOTHING * pays))
+            return NEARLY_NOTHING * pays, synthesize(self._problem(NEARLY_NOTHING * pays))
         value = least * (1.0 + _ABOVE[0])
-        solution = synthesize(self._asked(value))
+        solution = synthesize(self._problem(value))
         for above in _ABOVE[1:]:
             # so near to its least value the constant leaves the solver no room: the contacts are continued instead
-            nearer = _tried(self._asked(least * (1.0 + above)), solution)
+            nearer = _tried(self._problem(least * (1.0 + above)), solution)
             if nearer is None or nearer.status is Status.INACCURATE:
                 break
             value, solution = least * (1.0 + above), nearer
@@ -192,7 +378,7 @@ class _Curve:
         """At the least value of the last constant, or at `high`; a problem of the same kind as the others."""
         value = min(pays if self.over[0] == "B" else pays * (1.0 + AGREEMENT), high)
         try:
-            return value, synthesize(self._asked(value))
+            return value, synthesize(self._problem(value))
         except (InfeasibleProblem, SolverFailure):
             if value == high:
                 raise
@@ -212,14 +398,14 @@ class _Curve:
         return widths
 
     def _solved(self, value: float, left: Solution, right: Solution) -> Solution | None:
-        asked = self._asked(value)
-        if asked.convex:
-            near = _tried(asked, left)
-            return near if near is not None and near.status is Status.OPTIMAL else _tried(asked, None)
+        problem = self._problem(value)
+        if problem.convex:
+            near = _tried(problem, left)
+            return near if near is not None and near.status is Status.OPTIMAL else _tried(problem, None)
         # a branch of local optima may cease to be the best, so it is only continued where the starts lead to worse
-        best = _tried(asked, None)
+        best = _tried(problem, None)
         if best is None or best.objective > left.objective or best.objective < right.objective:
-            tries = [solution for solution in (best, _tried(asked, left), _tried(asked, right)) if solution is not None]
+            tries = (solution for solution in (best, _tried(problem, left), _tried(problem, right)) if solution)
             best = min(tries, key=lambda solution: solution.objective, default=None)
         return best
 
@@ -245,14 +431,14 @@ def _at_most(problem: Problem, name: str, value: float) -> Problem:
     return _with(problem, name, value if name == "B" else Range(0.0, value))
 
 
-def _with(problem: Problem, name: str, asked: float | Range) -> Problem:
-    changed: dict[str, Any] = {name: asked} if name in CONSTANTS else {"bounds": {**problem.bounds, name: asked}}
+def _with(problem: Problem, name: str, limits: float | Range) -> Problem:
+    changed: dict[str, Any] = {name: limits} if name in CONSTANTS else {"bounds": {**problem.bounds, name: limits}}
     return replace(problem, **changed)
 
 
-def _tried(asked: Problem, start: Solution | None) -> Solution | None:
+def _tried(problem: Problem, start: Solution | None) -> Solution | None:
     try:
-        return synthesize(asked, start=start)
+        return synthesize(problem, start=start)
     except (InfeasibleProblem, SolverFailure):
         return None
 
@@ -282,12 +468,7 @@ def _checked(problem: object, over: Sequence[str | Functional], between: tuple[f
             given = getattr(problem, name, problem.range(name))
             raise InputError(f"{name} is exchanged: leave it out of the problem, got {given!r}")
     if between is not None:
-        pair = tuple(between)
-        if len(pair) != 2 or not all(_positive(value) for value in pair) or pair[0] >= pair[1]:
+        ends = [real(value) or 0.0 for value in between]
+        if len(ends) != 2 or not 0.0 < ends[0] < ends[1] < inf:
             raise InputError(f"between must be two numbers above 0 in ascending order, got {shortened(between)}")
     return names
-
-
-def _positive(value: Any) -> bool:  # noqa: ANN401 - it is checked here
-    number = real(value)
-    return number is not None and 0.0 < number < inf

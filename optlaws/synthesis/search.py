@@ -55,30 +55,14 @@ class Attempt:
 
 @dataclass(eq=False)
 class LawSearch:
-    """What is known of the best law of a problem so far.
-
-    Attributes
-    ----------
-    model
-        The program of the problem.
-    tight
-        Whether to search for a tight bound where the problem is not convex.
-    warm
-        The optimum of a neighbouring problem.
-    attempts
-        Where the starts led.
-    power, peaks
-        The proof of a tight bound: with D, or over the places of a peak bounded from below.
-    began
-        When the search began, by `time.perf_counter`.
-    """
+    """What is known of the best law of a problem so far."""
 
     model: Model
-    tight: bool = False
-    warm: ActiveSet | None = None
-    attempts: list[Attempt] = field(default_factory=list)
-    power: Certificate | None = None
-    peaks: Certificate | None = None
+    tight: bool = False  #: whether to search for a tight bound where the problem is not convex
+    warm: ActiveSet | None = None  #: the optimum of a neighbouring problem
+    attempts: list[Attempt] = field(default_factory=list)  #: where the starts led
+    power: Certificate | None = None  #: the proof of a tight bound with D
+    peaks: Certificate | None = None  #: the proof of a tight bound over the places of a peak bounded from below
     began: float = field(default_factory=perf_counter)
 
     @property
@@ -140,9 +124,8 @@ class LawSearch:
         while True:
             best = better[-1]
             optimum = best.outcome.optimum
-            self.power = (
-                None if optimum is None else tightened(self.problem, best.objective, optimum.x * scales, explore)
-            )
+            if optimum is not None:
+                self.power = tightened(self.problem, best.objective, optimum.x * scales, explore)
             if best is better[-1]:
                 return best
 
@@ -165,28 +148,23 @@ class LawSearch:
 
     def _moved(self, plain: Attempt, best: Attempt) -> Attempt:
         """The best law to which steps of the place of a peak lead that is held up, as long as they pay."""
-        constant, low = (
-            next(iter(shortfalls(self.problem, plain.law).items())) if plain.law is not None else (None, 0.0)
-        )
+        optimum = plain.outcome.optimum
+        if plain.law is None or optimum is None:
+            return best
+        constant, low = next(iter(shortfalls(self.problem, plain.law).items()))
         alone = all(leaf == constant for _, leaf in leaves(self.problem.objective))
-        if alone or not isinstance(constant, PeakConstant) or plain.outcome.optimum is None:
+        if alone or not isinstance(constant, PeakConstant):
             return best
         step, side = FIRST_MOVE, 1.0
         for _ in range(_MOVES):
-            k = self._place(best, constant) + side * step
-            states = (
-                active_lower_bounds_at(self.model, plain.outcome.optimum, constant, low, k) if 0.0 < k < 1.0 else []
-            )
+            k = (0.5 if best.law is None else best.law.peak(constant.nu).k) + side * step
+            states = active_lower_bounds_at(self.model, optimum, constant, low, k) if 0.0 < k < 1.0 else []
             moved = self._best_of(plain, states)
             if moved is not None and moved.objective < best.objective * (1.0 - OPTIMALITY_GAP):
                 best, step = moved, 2.0 * step
             else:
                 side, step = -side, step if side > 0.0 else 0.25 * step
         return best
-
-    @staticmethod
-    def _place(attempt: Attempt, peak: PeakConstant) -> float:
-        return 0.5 if attempt.law is None else attempt.law.peak(peak.nu).k
 
     def _placed(self, plain: Attempt, best: Attempt) -> Attempt:
         """The best law from a search over the places of a peak that is bounded from below; keeps its proof."""
@@ -209,9 +187,9 @@ class LawSearch:
 
     def _best_of(self, plain: Attempt, states: list[ActiveSet]) -> Attempt | None:
         """The best of the candidates that keep every constraint and every lower bound; None where none does."""
-        candidates = (_kept(self.model, replace(plain.outcome, optimum=state)) for state in states)
-        kept = [candidate for candidate in candidates if candidate is not None]
-        return min(kept, key=lambda candidate: candidate.objective, default=None)
+        candidates = (feasible_attempt(self.model, replace(plain.outcome, optimum=state)) for state in states)
+        feasible = (candidate for candidate in candidates if candidate is not None)
+        return min(feasible, key=lambda candidate: candidate.objective, default=None)
 
     def certified(self, plain: Attempt, best: Attempt) -> Solution:
         """The best attempt without lower bounds of constants, which bounds the objective, and the one with them."""
@@ -271,10 +249,9 @@ def from_symmetric(search: LawSearch) -> Solution | None:
     if symmetric is None:
         return None
     optimum = mirroring.unfolded(model, half, symmetric.active_set)
-    at_best = optimum.x.copy()
-    at_best[: model.space.terms] = mirroring.coordinates(model, symmetric.law)
+    at_best = np.append(mirroring.coordinates(model, symmetric.law), optimum.x[model.space.terms :])
     outcome = Outcome(optimum, symmetric.iterations, 0, "from the symmetric law")
-    best = _kept(model, replace(outcome, optimum=replace(optimum, x=at_best)))
+    best = feasible_attempt(model, replace(outcome, optimum=optimum.at(at_best)))
     if best is None:
         return None
     plain = _measured(_Laws(model), outcome)
@@ -285,8 +262,8 @@ def solved_without_interior(search: LawSearch) -> Solution | None:
     """The best of the laws that keep bounds which leave hardly any room, and what is proven of them."""
     best: Solution | None = None
     for optimum, coordinates in fallbacks_without_interior(search.model):
-        x = np.concatenate([coordinates, optimum.x[len(coordinates) :]])
-        moved = _kept(search.model, Outcome(optimum.at(x), 0, 0, "with bounds loosened"))
+        x = np.append(coordinates, optimum.x[len(coordinates) :])
+        moved = feasible_attempt(search.model, Outcome(optimum.at(x), 0, 0, "with bounds loosened"))
         if moved is not None:
             plain = replace(moved, outcome=replace(moved.outcome, optimum=optimum))
             solution = LawSearch(search.model, began=search.began).certified(plain, moved)
@@ -321,9 +298,9 @@ def attempt(model: Model, warm: ActiveSet | None, point: Array | None) -> Attemp
         return kept and not shortfalls(model.problem, law)
 
     outcome = solve(model.program, warm, start=point, holds=holds)
-    if outcome.optimum is not None:
-        optimum = outcome.optimum.at(on_equations(model.program, outcome.optimum.x))
-        outcome = replace(outcome, optimum=optimum)
+    optimum = outcome.optimum
+    if optimum is not None:
+        outcome = replace(outcome, optimum=optimum.at(on_equations(model.program, optimum.x)))
     return _measured(laws, outcome)
 
 
@@ -335,10 +312,10 @@ def _measured(laws: _Laws, outcome: Outcome) -> Attempt:
     return Attempt(outcome, law if value.sound else None, value.objective)
 
 
-def _kept(model: Model, outcome: Outcome) -> Attempt | None:
+def feasible_attempt(model: Model, outcome: Outcome) -> Attempt | None:
     """The attempt; None where the law breaks a constraint or a lower bound."""
-    kept = _measured(_Laws(model), outcome)
-    return None if kept.law is None or shortfalls(model.problem, kept.law) else kept
+    measured = _measured(_Laws(model), outcome)
+    return None if measured.law is None or shortfalls(model.problem, measured.law) else measured
 
 
 def _beyond_proof(solution: Solution) -> bool:

@@ -6,15 +6,14 @@ from collections.abc import Callable, Mapping
 from dataclasses import MISSING, dataclass, field, fields
 from enum import StrEnum
 from functools import cache
-from typing import TYPE_CHECKING, Any, overload
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
 from optlaws.laws import Constants, MotionLaw
 from optlaws.laws.exporting import LawExport
-from optlaws.numbers import bounded
+from optlaws.numbers import Array, bounded
 from optlaws.numerics.tolerances import NO_OBJECTIVE
 from optlaws.shown.summary import Row, Summary
 from optlaws.synthesis.families.active_set import ActiveSet
@@ -23,12 +22,11 @@ from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.spaces.bases import PolynomialBasis, Powers
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
 
+#: of one law, or of many
+Objective = TypeVar("Objective", float, Array)
 
-@overload
-def measure(objective: float, scale: float) -> float: ...
-@overload
-def measure(objective: NDArray[np.float64], scale: float | NDArray[np.float64]) -> NDArray[np.float64]: ...
-def measure(objective: float | NDArray[np.float64], scale: float | NDArray[np.float64]) -> float | NDArray[np.float64]:
+
+def measure(objective: Objective, scale: float | Array) -> Objective:
     """What gaps of objectives are shares of: these themselves or, where they are 0 but for rounding, their scale.
 
     Examples
@@ -156,9 +154,8 @@ class Solution(LawExport):
     def z_powers(self) -> tuple[float, ...] | None:
         """Coefficients of Z in ascending powers of k, whatever the problem's basis; None for a law of pieces."""
         basis = self.problem.basis
-        return (
-            Powers(basis.degree).coefficients(np.array(self.z_series)) if isinstance(basis, PolynomialBasis) else None
-        )
+        powers = Powers(basis.degree) if isinstance(basis, PolynomialBasis) else None
+        return None if powers is None else powers.coefficients(np.array(self.z_series))
 
     @property
     def gap(self) -> float:
@@ -276,32 +273,17 @@ class Solution(LawExport):
 
 
 def partly_known(known: dict[str, Any], later: Mapping[str, Callable[[Solution], Any]]) -> Solution:
-    """A solution of which some attributes are computed when they are first asked for; equal to one that has all.
-
-    Examples
-    --------
-    >>> import optlaws
-    >>> whole = optlaws.synthesize(optlaws.Problem(B=1.859, order=4))
-    >>> known = {entry.name: getattr(whole, entry.name) for entry in fields(whole) if entry.name != "law"}
-    >>> partly_known(known, {"law": lambda whole_one: whole.law}) == whole
-    True
-    """
-    made = object.__new__(Solution)
-    made.__dict__.update(_DEFAULTS | known, _later=later)
-    return made
+    """A solution of which some attributes are computed when they are first needed; equal to one that has all."""
+    solution = object.__new__(Solution)
+    solution.__dict__.update(_DEFAULTS | known, _later=later)
+    return solution
 
 
 _DEFAULTS = {entry.name: entry.default for entry in fields(Solution) if entry.default is not MISSING}
 
 
 def versions() -> dict[str, str]:
-    """Versions of optlaws and of the libraries of which another release may find other laws, or the same otherwise.
-
-    Examples
-    --------
-    >>> list(versions())
-    ['optlaws', 'casadi', 'clarabel', 'numpy', 'scipy']
-    """
+    """Versions of optlaws and of the libraries of which another release may find other laws, or the same otherwise."""
     return dict(_versions())
 
 

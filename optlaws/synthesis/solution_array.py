@@ -1,9 +1,10 @@
-"""What a synthesis of many problems returns: one value of arrays, that becomes an ordinary solution where asked."""
+"""What a synthesis of many problems returns: one value of arrays, that becomes an ordinary solution at an index."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from math import inf
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
@@ -13,14 +14,26 @@ from numpy.typing import NDArray
 from optlaws.errors import InputError, OptlawsError
 from optlaws.extras import needed
 from optlaws.kept import kept_property
+from optlaws.laws import MotionLaw
 from optlaws.numbers import Array
+from optlaws.numerics.tolerances import OPTIMALITY_GAP
 from optlaws.shown.summary import Row, Summary
 from optlaws.synthesis.arrays.problems import ProblemArray
+from optlaws.synthesis.arrays.programs import NO_CONTACT, SolvedBatch
+from optlaws.synthesis.families.peaks import constant_of_series
 from optlaws.synthesis.limits.of_problem import known_limit
+from optlaws.synthesis.problem.fields import CONSTANTS
 from optlaws.synthesis.problem.plain_entries import plain_entries
+from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.program.writer import Model
+from optlaws.synthesis.proof.certificate import OBJECTIVE, Certificate
+from optlaws.synthesis.proof.make import certificate, certify
 from optlaws.synthesis.search import status_of
-from optlaws.synthesis.solution import Solution, Status, measure
-from optlaws.synthesis.solved_parts import SolvedPart, constant_of, stored_laws
+from optlaws.synthesis.solution import Solution, Status, measure, partly_known
+from optlaws.synthesis.spaces.bases import PolynomialBasis
+from optlaws.synthesis.spaces.polynomial_space import PolynomialSpace
+from optlaws.synthesis.spaces.space import LawSpace
+from optlaws.synthesis.spaces.splines import PiecewiseBasis
 from optlaws.synthesis.stored_solutions import (
     FAILED,
     INFEASIBLE,
@@ -39,6 +52,142 @@ if TYPE_CHECKING:
 NUMBERS = ("objective", "lower_bound", "gap", "B", "C", "D", "J", "rms_c")
 
 
+@dataclass(frozen=True, eq=False)
+class SolvedPart:
+    """Problems of one kind that were solved together: which, their program but for numbers, and their optima."""
+
+    places: NDArray[np.intp]
+    model: Model
+    found: SolvedBatch
+
+    @property
+    def coordinates(self) -> Array:
+        """The coordinates of each law."""
+        return self.found.x[:, : self.model.space.terms]
+
+    @property
+    def statuses(self) -> NDArray[np.str_]:
+        """Optimal, but where the problem is not convex and the bound does not meet the objective."""
+        optimal = np.full(len(self.places), Status.OPTIMAL.value)
+        if self.model.problem.convex:
+            return optimal
+        size = measure(self.found.objective, self.model.problem.objective.scale)
+        off = np.abs(self.found.objective - self.found.bound) > OPTIMALITY_GAP * size
+        return np.where(off, Status.LOCAL.value, optimal)
+
+    @property
+    def z_series(self) -> Array:
+        """Chebyshev coefficients of Z in 2k - 1, law by law."""
+        space = self.model.space
+        base = space.z_series(np.zeros(space.terms))
+        columns = np.array([space.z_series(unit) for unit in np.eye(space.terms)]).reshape(space.terms, -1)
+        return np.asarray(self.coordinates @ (columns - base) + base)
+
+    @property
+    def z(self) -> Array:
+        """Coefficients of Z in the problems' basis, law by law."""
+        basis = self.model.problem.basis
+        if not isinstance(basis, PolynomialBasis | PiecewiseBasis):
+            return np.empty((len(self.places), 0))
+        return np.array([basis.coefficients(series) for series in self.z_series])
+
+    def constant(self, name: str, *, one_objective: bool) -> Array:
+        """A constant of each law; `one_objective` says that all minimise what the first does."""
+        if one_objective and repr(self.model.problem.objective) == name:
+            return self.found.objective
+        space = self.model.space
+        if not isinstance(space, PolynomialSpace):
+            return np.array([constant_of(space.law(coordinate), name) for coordinate in self.coordinates])
+        laws = [space.series(nu) for nu in (1, 2, 3)]
+        b, c, j = (self.coordinates @ series[:, :-1].T + series[:, -1] for series in laws)
+        return constant_of_series(name, b, c, j)
+
+    @property
+    def contacts(self) -> dict[str, NDArray[Any]]:
+        """Where rows bind, as columns of the laws' contacts."""
+        laws, families = self.found, self.model.program.families
+        names = np.array([*(family.name for family in families), ""], dtype=object)
+        none = laws.family == NO_CONTACT
+        k = np.full(laws.u.shape, np.nan)
+        for i, family in enumerate(families):
+            here = laws.family == i
+            k[here] = np.clip(family.k(laws.u[here]), 0.0, 1.0)
+        # of the problem's own rows, as certificates have them
+        units = np.array([*(self.model.unit / family.unit for family in families), 1.0])
+        return {
+            "constraint": names[laws.family],
+            "k": k,
+            "sign": np.where(none, np.nan, laws.sign),
+            "multiplier": np.where(none, np.nan, laws.multiplier * units[laws.family]),
+        }
+
+    def solution(self, row: int, problem: Problem, seconds: float) -> Solution:
+        """The solution of a row, of which only what the array holds is there before it is asked for."""
+        model, bound, objective = self.model, float(self.found.bound[row]), float(self.found.objective[row])
+        scale = problem.objective.scale
+
+        def proof(solution: Solution) -> Certificate:
+            program = replace(model, problem=problem)
+            if problem.convex:
+                return certificate(program, solution.active_set, OBJECTIVE)
+            return certify(program, solution.active_set, objective, solution.limit)
+
+        known = {
+            "problem": problem,
+            "objective": objective,
+            "iterations": 0,
+            "seconds": seconds,
+            "starts": () if problem.convex else (objective,),
+        }
+        later: dict[str, Callable[[Solution], Any]] = {
+            "active_set": lambda _: self.found.active_set(row),
+            "law": lambda solution: model.law(solution.active_set.x),
+            "z_series": lambda solution: tuple(model.space.z_series(model.coordinates(solution.active_set.x)).tolist()),
+            "certificate": proof,
+            "limit": lambda solution: known_limit(solution.problem),
+            "lower_bound": lambda solution: max(bound, -inf if solution.limit is None else solution.limit),
+            "status": lambda solution: status_of(objective, solution.lower_bound, scale, proven=problem.convex),
+        }
+        return partly_known(known, later)
+
+
+def constant_of(law: MotionLaw, name: str) -> float:
+    """A constant of one law by its name."""
+    value = getattr(law.constants, name)
+    return float(value.value if name in CONSTANTS else value)
+
+
+def stored_laws(space: LawSpace, coordinates: Array) -> list[dict[str, Any]]:
+    """What `law.to_dict()` of each law is; coordinates have a row for each law."""
+    if not isinstance(space, PolynomialSpace) or not len(coordinates):
+        return [space.law(row).to_dict() for row in coordinates]
+    first = space.law(coordinates[0]).to_dict()
+    accelerations, starts = space.laws(coordinates)
+    return [
+        {**first, "acceleration": _trimmed(row), "b0": start}
+        for row, start in zip(accelerations.tolist(), starts.tolist(), strict=True)
+    ]
+
+
+def _trimmed(row: list[float]) -> list[float]:
+    while row and row[-1] == 0.0:
+        row.pop()
+    return row
+
+
+def _constant(name: str, description: str) -> kept_property[Array]:
+    """A constant of each law as a property that is kept."""
+
+    def values(laws: SolutionArray) -> Array:
+        alone = laws.problems.one_objective
+        return laws._gathered(  # noqa: SLF001 - a method, written once for several names
+            lambda part: part.constant(name, one_objective=alone), lambda solution: constant_of(solution.law, name)
+        )
+
+    values.__doc__ = description
+    return kept_property(values)
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class SolutionArray:
     """Optimal laws of many problems with their proofs, as arrays of the problems' shape; NaN where there is no law.
@@ -51,7 +200,7 @@ class SolutionArray:
     problems
         What was solved.
     parts
-        Optima that were found together, in the terms of their programs.
+        Optima of problems that were solved together, in the terms of their programs.
     others
         Solutions of problems that were solved alone, and errors of those without a law, by their places in the
         flattened array.
@@ -115,7 +264,7 @@ class SolutionArray:
         """The solution at a place of the flattened array, or the error that `synthesize` raises for its problem."""
         if place in self.others:
             return self.others[place]
-        part, row = int(self._part_of[place]), int(self._row_of[place])
+        part, row = self._places[:, place].tolist()
         return self.parts[part].solution(row, self.problems.problem(place), self.seconds / max(self.size, 1))
 
     @kept_property
@@ -164,13 +313,10 @@ class SolutionArray:
 
     def stored_laws(self) -> list[dict[str, Any] | None]:
         """Each law as its `to_dict` gives it, in the order of the flattened array; None where there is none."""
-        laws: list[dict[str, Any] | None] = [None] * self.size
+        laws: dict[int, dict[str, Any]] = {place: solution.law.to_dict() for place, solution in self._alone.items()}
         for part in self.parts:
-            for place, law in zip(part.places.tolist(), stored_laws(part.model.space, part.coordinates), strict=True):
-                laws[place] = law
-        for place, result in self.others.items():
-            laws[place] = result.law.to_dict() if isinstance(result, Solution) else None
-        return laws
+            laws |= zip(part.places.tolist(), stored_laws(part.model.space, part.coordinates), strict=True)
+        return [laws.get(place) for place in range(self.size)]
 
     @kept_property
     def z_series(self) -> Array:
@@ -187,30 +333,11 @@ class SolutionArray:
         """Coefficients of Z in each problem's basis, along the last axis: `z`."""
         return self.z
 
-    @kept_property
-    def B(self) -> Array:
-        """Peak velocity of each law."""
-        return self._constant("B")
-
-    @kept_property
-    def C(self) -> Array:
-        """Peak acceleration of each law."""
-        return self._constant("C")
-
-    @kept_property
-    def D(self) -> Array:
-        """Peak power of each law."""
-        return self._constant("D")
-
-    @kept_property
-    def J(self) -> Array:
-        """Peak jerk of each law."""
-        return self._constant("J")
-
-    @kept_property
-    def rms_c(self) -> Array:
-        """Root mean square of the acceleration of each law."""
-        return self._constant("rms_c")
+    B = _constant("B", "Peak velocity of each law.")
+    C = _constant("C", "Peak acceleration of each law.")
+    D = _constant("D", "Peak power of each law.")
+    J = _constant("J", "Peak jerk of each law.")
+    rms_c = _constant("rms_c", "Root mean square of the acceleration of each law.")
 
     @kept_property
     def contacts(self) -> dict[str, NDArray[Any]]:
@@ -218,21 +345,11 @@ class SolutionArray:
 
         Laws with fewer contacts than others have "" and NaN beyond their end.
         """
-        columns: dict[str, list[tuple[NDArray[np.intp], NDArray[Any]]]] = {}
-        for places, rows in [*((part.places, part.contacts) for part in self.parts), *self._contacts_alone()]:
-            for name, values in rows.items():
-                columns.setdefault(name, []).append((places, values))
-        most = max((values.shape[1] for _, values in columns.get("k", [])), default=0)
-        return {name: _frozen(self._filled(rows, most)) for name, rows in columns.items()}
-
-    def _contacts_alone(self) -> Iterator[tuple[NDArray[np.intp], dict[str, NDArray[Any]]]]:
-        for place, result in self.others.items():
-            if isinstance(result, Solution):
-                rows = result.certificate.contacts
-                columns = {"constraint": np.array([[row.constraint for row in rows]], dtype=object)}
-                for name in ("sign", "k", "multiplier"):
-                    columns[name] = np.array([[getattr(row, name) for row in rows]])
-                yield np.array([place]), columns
+        rows = [(part.places, part.contacts) for part in self.parts]
+        rows += [(np.array([place]), _contacts(solution)) for place, solution in self._alone.items()]
+        most = max((columns["k"].shape[1] for _, columns in rows), default=0)
+        names = rows[0][1] if rows else {}
+        return {name: _frozen(self._filled([(i, columns[name]) for i, columns in rows], most)) for name in names}
 
     def _filled(self, rows: list[tuple[NDArray[np.intp], NDArray[Any]]], most: int) -> NDArray[Any]:
         texts = any(values.dtype == object for _, values in rows)
@@ -247,7 +364,7 @@ class SolutionArray:
         import pandas as pd
 
         varied = {name: arrays[0] for name, arrays in self.problems.varied.items() if len(arrays) == 1}
-        columns = {**{_asked(name): values for name, values in varied.items()}, **self._columns}
+        columns = {**{_heading(name): values for name, values in varied.items()}, **self._columns}
         return pd.DataFrame({name: values.reshape(-1) for name, values in columns.items()})
 
     def to_xarray(self) -> xr.Dataset:
@@ -274,10 +391,7 @@ class SolutionArray:
 
         `optlaws verify` checks each solution, and `from_dict` reads it again.
         """
-        results = [self.result(place) for place in range(self.size)]
-        alone = {
-            str(place): plain_alone(result) for place, result in self.others.items() if isinstance(result, Solution)
-        }
+        results = map(self.result, range(self.size))
         return {
             "shape": list(self.shape),
             "seconds": self.seconds,
@@ -293,7 +407,7 @@ class SolutionArray:
                 }
                 for part in self.parts
             ],
-            "alone": alone,
+            "alone": {str(place): plain_alone(solution) for place, solution in self._alone.items()},
         }
 
     @classmethod
@@ -314,13 +428,13 @@ class SolutionArray:
         True
         """
         stored = read_solutions(data)
-        parts = tuple(SolvedPart(places, model, laws) for places, model, laws in stored.parts)
-        made = cls(stored.problems, parts, stored.others, stored.seconds)
+        parts = tuple(SolvedPart(*part) for part in stored.parts)
+        laws = cls(stored.problems, parts, stored.others, stored.seconds)
         for place, status in enumerate(stored.statuses):
-            possible = statuses_of(made.result(place))
+            possible = statuses_of(laws.result(place))
             if status not in possible:
                 raise InputError(f"the status of solutions[{place}] is {status!r}, but it is {' or '.join(possible)}")
-        return made
+        return laws
 
     def summary(self) -> Summary:
         """How many laws of each status there are, and between what objectives and gaps lie, as rows.
@@ -350,57 +464,54 @@ class SolutionArray:
 
     def __repr__(self) -> str:
         names, counts = np.unique(self.status, return_counts=True)
-        told = ", ".join(f"{count} {name}" for name, count in zip(names.tolist(), counts.tolist(), strict=True))
-        return f"SolutionArray(shape={self.shape}, {told}, problems={self.problems!r})"
+        statuses = ", ".join(f"{count} {name}" for name, count in zip(names.tolist(), counts.tolist(), strict=True))
+        return f"SolutionArray(shape={self.shape}, {statuses}, problems={self.problems!r})"
 
     @kept_property
-    def _part_of(self) -> NDArray[np.intp]:
-        return self._placed(lambda i, part: np.full(len(part.places), i))
+    def _alone(self) -> dict[int, Solution]:
+        """The solutions of problems that were solved alone, by their places."""
+        return {place: result for place, result in self.others.items() if isinstance(result, Solution)}
 
     @kept_property
-    def _row_of(self) -> NDArray[np.intp]:
-        return self._placed(lambda _, part: np.arange(len(part.places)))
-
-    def _placed(self, values: Callable[[int, SolvedPart], NDArray[np.intp]]) -> NDArray[np.intp]:
-        numbers = np.full(self.size, -1, dtype=np.intp)
+    def _places(self) -> NDArray[np.intp]:
+        """The part and the row in it of each problem; -1 of those that were solved alone."""
+        numbers = np.full((2, self.size), -1, dtype=np.intp)
         for i, part in enumerate(self.parts):
-            numbers[part.places] = values(i, part)
+            numbers[:, part.places] = np.full(len(part.places), i), np.arange(len(part.places))
         return numbers
 
     def _gathered(self, of_part: Callable[[SolvedPart], Array], of_solution: Callable[[Solution], float]) -> Array:
         values = np.full(self.size, np.nan)
         for part in self.parts:
             values[part.places] = of_part(part)
-        for place, result in self.others.items():
-            if isinstance(result, Solution):
-                values[place] = of_solution(result)
+        for place, solution in self._alone.items():
+            values[place] = of_solution(solution)
         return _frozen(values.reshape(self.shape))
 
     def _rows(self, of_part: Callable[[SolvedPart], Array], of_solution: Callable[[Solution], Array]) -> Array:
         rows = [(part.places, of_part(part)) for part in self.parts]
-        rows += [
-            (np.array([i]), of_solution(result)[None])
-            for i, result in self.others.items()
-            if isinstance(result, Solution)
-        ]
+        rows += [(np.array([place]), of_solution(solution)[None]) for place, solution in self._alone.items()]
         return _frozen(self._filled(rows, max((values.shape[1] for _, values in rows), default=0)))
 
-    def _constant(self, name: str) -> Array:
-        alone = self.problems.one_objective
-        return self._gathered(
-            lambda part: part.constant(name, one_objective=alone), lambda solution: constant_of(solution.law, name)
-        )
-
     def _taken(self, places: NDArray[np.intp]) -> SolutionArray:
-        flat = places.ravel()
-        parts = []
+        flat, parts = places.ravel(), []
+        of_part, rows = self._places[:, flat]
         for i, part in enumerate(self.parts):
-            mine = np.flatnonzero(self._part_of[flat] == i)
-            if len(mine):
-                parts.append(SolvedPart(mine, part.model, part.found.taken(self._row_of[flat[mine]]).frozen()))
+            here = np.flatnonzero(of_part == i)
+            if len(here):
+                parts.append(SolvedPart(here, part.model, part.found.taken(rows[here]).frozen()))
         others = {i: self.others[place] for i, place in enumerate(flat.tolist()) if place in self.others}
         share = self.seconds * len(flat) / max(self.size, 1)
         return SolutionArray(self.problems.taken(places), tuple(parts), others, share)
+
+
+def _contacts(solution: Solution) -> dict[str, NDArray[Any]]:
+    """The contacts of a certificate, as a row of those of many."""
+    contacts = solution.certificate.contacts
+    columns = {"constraint": np.array([[contact.constraint for contact in contacts]], dtype=object)}
+    return columns | {
+        name: np.array([[getattr(contact, name) for contact in contacts]]) for name in ("sign", "k", "multiplier")
+    }
 
 
 def _frozen(values: NDArray[Any]) -> NDArray[Any]:
@@ -415,9 +526,9 @@ def statuses_of(result: Solution | OptlawsError) -> list[str]:
     problem = result.problem
     velocity = problem.range("B")
     held_up = any(limits.low > 0.0 for _, limits in problem.bounded) or (velocity is not None and velocity.low > 0.0)
-    ways = {True: [True, False] if held_up else [True], False: [False]}[problem.convex]
+    several = [problem.convex, False] if held_up and problem.convex else [problem.convex]
     scale = problem.objective.scale
-    return [status_of(result.objective, result.lower_bound, scale, proven=proven).value for proven in ways]
+    return [status_of(result.objective, result.lower_bound, scale, proven=proven).value for proven in several]
 
 
 def _axes(problems: ProblemArray) -> tuple[list[str], dict[str, Any]]:
@@ -428,11 +539,11 @@ def _axes(problems: ProblemArray) -> tuple[list[str], dict[str, Any]]:
         strides = [i for i, step in enumerate(arrays[0].strides) if step and problems.shape[i] > 1]
         alone = len(arrays) == 1 and len(strides) == 1 and arrays[0].dtype.kind in "fiu"
         if alone and dims[strides[0]].startswith("axis "):
-            dims[strides[0]] = _asked(name)
-            coords[_asked(name)] = np.moveaxis(arrays[0], strides[0], 0).reshape(problems.shape[strides[0]], -1)[:, 0]
+            dims[strides[0]] = _heading(name)
+            coords[_heading(name)] = np.moveaxis(arrays[0], strides[0], 0).reshape(problems.shape[strides[0]], -1)[:, 0]
     return dims, coords
 
 
-def _asked(name: str) -> str:
+def _heading(name: str) -> str:
     """What a column of an entry's values is called beside the numbers of the laws."""
     return f"{name} asked" if name in NUMBERS else name

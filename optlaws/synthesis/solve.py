@@ -88,30 +88,28 @@ def check_bound(bound: object) -> None:
 
 
 def _neighbours(first: Problem, second: Problem) -> bool:
+    """Whether two problems differ in numbers alone, with the same variables."""
     peaks = [(problem.peak_at, problem.peak_is_variable) for problem in (first, second)]
-    return peaks[0] == peaks[1] and differ_in_numbers(first, second) and _same_space(first, second)
-
-
-def _same_space(first: Problem, second: Problem) -> bool:
-    return space_of(first.basis, first.conditions, symmetric=first.symmetric) is space_of(
-        second.basis, second.conditions, symmetric=second.symmetric
-    )
+    if peaks[0] != peaks[1] or not differ_in_numbers(first, second):
+        return False
+    spaces = [space_of(each.basis, each.conditions, symmetric=each.symmetric) for each in (first, second)]
+    return spaces[0] is spaces[1]
 
 
 def _no_power_so_small(problem: Problem) -> InfeasibleProblem | None:
     """The error to raise where the least D of the problem is proven to be above what is asked."""
-    asked = problem.range("D")
-    if asked is None or not isfinite(asked.high):
+    limits = problem.range("D")
+    if limits is None or not isfinite(limits.high):
         return None
     try:
         least = synthesize(replace(problem, minimise="D", D=None), bound=TIGHT)
     except OptlawsError:
         return None
-    if least.lower_bound <= asked.high:
+    if least.lower_bound <= limits.high:
         return None
     return InfeasibleProblem(
-        f"no law of this problem has D <= {asked.high:g}: D is at least {least.lower_bound:.7g}, proven by error.proof."
-        f" A law with {least.objective:.7g} exists; a higher bound of D or a higher degree of Z helps",
+        f"no law of this problem has D <= {limits.high:g}: D is at least {least.lower_bound:.7g}, proven by "
+        f"error.proof. A law with {least.objective:.7g} exists; a higher bound of D or a higher degree of Z helps",
         problem=problem,
         proof=least.power_certificate or least.certificate,
         tried="the least D of the problem was sought, with a tight bound",

@@ -1,25 +1,40 @@
-"""Many problems, as arrays, in order or in turn: their solutions, errors as results where asked."""
+"""Many problems, as arrays, in order or in turn: together along lines on which their numbers differ, others alone.
+
+`solved` raises nothing but for wrong arguments: its `SolutionArray` has a `Solution` or an error of each problem.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, fields
 from itertools import chain, islice, repeat
+from math import inf
+from time import perf_counter
 from typing import Literal, overload
 
 import numpy as np
+from numpy.typing import NDArray
 
 from optlaws.echo import shortened
-from optlaws.errors import InputError, OptlawsError
-from optlaws.numbers import whole
+from optlaws.errors import InfeasibleProblem, InputError, OptlawsError
+from optlaws.kept import kept_property
+from optlaws.numbers import Array, whole
+from optlaws.shown.steps import Steps
 from optlaws.suggest import unknown_key
-from optlaws.synthesis.arrays.lines import lines_of
-from optlaws.synthesis.arrays.powers import least_power
+from optlaws.synthesis.arrays.continuation import StructureSegment
+from optlaws.synthesis.arrays.continued_laws import laws_along, laws_on, segments_of
+from optlaws.synthesis.arrays.lines import ProblemLine, along_velocities, form_of, least_count, lines_of
+from optlaws.synthesis.arrays.powers import least_power, on_global_branch, with_quick_bounds
 from optlaws.synthesis.arrays.problems import ProblemArray
+from optlaws.synthesis.arrays.programs import Path, SolvedBatch, between
+from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.program.writer import model_of
+from optlaws.synthesis.proof.no_law import proof_of_no_law
+from optlaws.synthesis.search import LawSearch
 from optlaws.synthesis.solution import Solution
-from optlaws.synthesis.solution_array import SolutionArray
-from optlaws.synthesis.solve import check_bound, synthesize
-from optlaws.synthesis.solve_array import solved
+from optlaws.synthesis.solution_array import SolutionArray, SolvedPart
+from optlaws.synthesis.solve import TIGHT, check_bound, synthesize
 
 ERRORS = ("raise", "return")
 #: in a piece of `synthesize_chunks` unless asked otherwise
@@ -29,6 +44,189 @@ _CHUNKS = (64, 512, 4096)
 
 Errors = Literal["raise", "return"]
 Result = Solution | OptlawsError
+
+
+def solved(problems: ProblemArray, *, bound: str = "quick") -> SolutionArray:
+    """What `synthesize_array` returns, of checked arguments."""
+    began = perf_counter()
+    parts: list[SolvedPart] = []
+    others: dict[int, Result] = {}
+    done = 0
+    with Steps("laws", problems.size) as steps:
+        for line in _lines(problems):
+            laws = _along(problems, line, bound)
+            rows = np.flatnonzero(laws.solved)
+            if len(rows):
+                parts.append(SolvedPart(line.places[rows], line.path.model, laws.taken(rows).frozen()))
+                for beyond in (line.places[: rows[0]][::-1], line.places[rows[-1] + 1 :]):
+                    others.update(_beyond(problems, beyond, bound))
+            done += len(line.places)
+            steps.reach(done)
+    return completed(problems, parts, others, began, bound=bound)
+
+
+def completed(
+    problems: ProblemArray,
+    parts: Sequence[SolvedPart],
+    others: Mapping[int, Result],
+    began: float,
+    *,
+    bound: str = "quick",
+) -> SolutionArray:
+    """What is known of some of the problems, with the rest solved one by one, each begun at the law before it."""
+    known = np.concatenate([np.array(list(others), dtype=np.intp), *(part.places for part in parts)])
+    rest = _others(problems, np.setdiff1d(np.arange(problems.size), known), bound)
+    return SolutionArray(problems, tuple(parts), {**others, **rest}, perf_counter() - began)
+
+
+def _along(problems: ProblemArray, line: ProblemLine, bound: str) -> SolvedBatch:
+    """The laws of a line, as far as they are proven; of least power, those that no other branch is better than."""
+    if line.path.model.problem.convex:
+        return laws_along(line.path, line.t)
+    if bound == TIGHT:
+        return SolvedBatch.none(len(line.t), 0, 0, 0)
+    laws = laws_along(line.path, line.t)
+    sought = on_global_branch(laws, line.places, lambda place: LawSearch(model_of(problems.problem(place))).least())
+    laws = laws.only(sought)
+    limits = [known_limit(problems.problem(place)) for place in line.places.tolist()]
+    return with_quick_bounds(line.path, line.t, laws, np.array([-inf if limit is None else limit for limit in limits]))
+
+
+def _beyond(problems: ProblemArray, places: NDArray[np.intp], bound: str) -> Iterator[tuple[int, Result]]:
+    """The problems on a line beyond those with laws, the nearest first: these are a convex set, which ends for good."""
+    previous: Solution | None = None
+    ended: InfeasibleProblem | None = None
+    for place in places.tolist():
+        result: Result | None = None
+        if ended is not None:
+            result = _infeasible(problems.problem(place), ended)
+        if result is None:
+            result = _alone(problems, place, previous, bound)
+            previous = result if isinstance(result, Solution) else previous
+            if isinstance(result, InfeasibleProblem) and result.proof is not None:
+                ended = result
+        yield place, result
+
+
+def _infeasible(problem: Problem, ended: InfeasibleProblem) -> InfeasibleProblem | None:
+    """The error of a problem that the multipliers of a nearer one prove to have no law; None where they do not."""
+    proof = proof_of_no_law(problem, ended.proof)
+    if proof is None:
+        return None
+    return InfeasibleProblem(
+        "no law of this problem exists: the constraints contradict each other where they do in a nearer problem of "
+        "the same line (error.proof is the certificate)",
+        problem=problem,
+        tried="the multipliers that prove it of a nearer problem prove it of this one too",
+        proof=proof,
+    )
+
+
+def _lines(problems: ProblemArray) -> Iterator[ProblemLine]:
+    velocities = problems.velocities
+    if velocities is None:
+        valid = {place: problem for place in range(problems.size) if (problem := _valid(problems, place)) is not None}
+        yield from lines_of(list(valid.values()), np.array(list(valid), np.intp))
+        return
+    places = np.flatnonzero(~np.isnan(velocities))
+    if len(places) < 2:
+        return
+    known = velocities[places]
+    ends = [_valid(problems, int(places[at])) for at in (known.argmin(), known.argmax())]
+    # the other entries may make no problem
+    if ends[0] is None or ends[1] is None or len(places) < least_count(ends[0]):
+        return
+    line = along_velocities(ends[0], ends[1], known, places)
+    if line is not None:
+        yield line
+
+
+def _valid(problems: ProblemArray, place: int) -> Problem | None:
+    try:
+        entry: object = problems.problem(place)
+    except InputError:
+        return None
+    # an entry of a list need be none, which is for `synthesize` to say
+    return entry if isinstance(entry, Problem) else None
+
+
+def _others(problems: ProblemArray, places: NDArray[np.intp], bound: str) -> dict[int, Result]:
+    """What is solved one by one, each begun at the law before it."""
+    others: dict[int, Result] = {}
+    previous: Solution | None = None
+    with Steps("laws", len(places)) as steps:
+        for place in places.tolist():
+            result = _alone(problems, place, previous, bound)
+            previous = result if isinstance(result, Solution) else previous
+            others[place] = result
+            steps.reach(len(others))
+    return others
+
+
+def _alone(problems: ProblemArray, place: int, near: Solution | None, bound: str) -> Result:
+    """One problem by itself, begun at a neighbour's law."""
+    try:
+        problem = problems.problem(place)
+        convex = getattr(problem, "convex", False)
+        # where problems are not convex, the law of a branch that has become the worse one would stay
+        return synthesize(problem, start=near if convex else None, bound=bound)
+    except OptlawsError as error:
+        return error
+
+
+@dataclass(eq=False)
+class SolvedLine:
+    """Convex problems between two, that differ in one number in which their programs are affine.
+
+    Where their structures change is computed once, so that laws are to be had again and again.
+
+    Examples
+    --------
+    >>> problem = Problem(order=4)
+    >>> line = SolvedLine(problem, "B", problem.at_velocity, 1.6, 1.8)
+    >>> line.at(np.array([1.62, 1.7])).C.round(5).tolist(), line.at(np.array([1.65])).C.round(5).tolist()
+    ([5.17368, 4.81977], [5.04086])
+    """
+
+    problem: Problem
+    name: str  #: of the number
+    problem_at: Callable[[float], Problem]  #: the problem at a value of it
+    low: float
+    high: float
+
+    def _problems(self, values: Array) -> ProblemArray:
+        if self.name != "B":
+            return ProblemArray.of([self.problem_at(value) for value in values.tolist()])
+        entries = {field.name: getattr(self.problem, field.name) for field in fields(Problem)}
+        return ProblemArray(**{**entries, "B": values})
+
+    def at(self, values: Array) -> SolutionArray:
+        """What is solved at values of the number; few at a time are as quick as many."""
+        began, problems = perf_counter(), self._problems(values)
+        if self._path is None:
+            return solved(problems)
+        t = (values - self.low) / (self.high - self.low)
+        order = np.argsort(t, kind="stable")
+        order = order[(t[order] >= 0.0) & (t[order] <= 1.0)]
+        laws = laws_on(self._path, self._segments, t[order])
+        rows = np.flatnonzero(laws.solved)
+        parts = [SolvedPart(order[rows], self._path.model, laws.taken(rows).frozen())] if len(rows) else []
+        return completed(problems, parts, {}, began)
+
+    @kept_property
+    def _path(self) -> Path | None:
+        """The programs from one end to the other; None where they are not on a path."""
+        ends = self._problems(np.array([self.low, self.high]))
+        try:
+            first, last = ends.problem(0), ends.problem(1)
+        except InputError:
+            return None
+        form = form_of(first).key
+        return between(first, last) if first.convex and form is not None and form == form_of(last).key else None
+
+    @kept_property
+    def _segments(self) -> list[StructureSegment]:
+        return [] if self._path is None else segments_of(self._path, 0.0, 1.0)
 
 
 def synthesize_array(problems: ProblemArray, *, bound: str = "quick") -> SolutionArray:
@@ -152,15 +350,7 @@ def sweep(problems: Iterable[Problem], *, errors: Errors = "raise") -> Iterator[
     problems
         The problems.
     errors
-        What becomes of a problem without an answer: "raise" raises its error and ends the sweep, "return" gives the
-        error in its place and goes on.
-
-    Raises
-    ------
-    InfeasibleProblem, SolverFailure
-        As `synthesize`, unless errors are returned.
-    InputError
-        If `errors` is unknown; and, unless errors are returned, if one of the problems is none.
+        As of `synthesize_many`, with the same errors.
 
     Examples
     --------
@@ -194,7 +384,7 @@ def _raised(results: Iterator[Result], errors: Errors) -> Iterator[Result]:
 
 
 def _together(problems: object) -> bool:
-    """Whether there are problems that are as good solved together, and sooner: convex, or of least power on lines."""
+    """Whether the problems are there already, and as good solved together: convex, or of least power on lines."""
     if not isinstance(problems, Sequence) or not all(isinstance(problem, Problem) for problem in problems):
         return False
     others = [problem for problem in problems if not problem.convex]

@@ -7,9 +7,8 @@ import numpy as np
 import pytest
 
 from optlaws import Chebyshev, InputError, Problem, Solution, Status, synthesize
-from optlaws.synthesis.front import HEADINGS, Front, undominated, value_of
 from optlaws.synthesis.limits.closed_forms import limit
-from optlaws.synthesis.pareto import pareto_front
+from optlaws.synthesis.pareto import HEADINGS, Front, pareto_front, undominated, value_of
 from optlaws.synthesis.problem.named_constants import named
 from optlaws.synthesis.problem.ranges import Range
 

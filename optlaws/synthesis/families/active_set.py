@@ -28,9 +28,8 @@ class ActiveSet:
 
     def moved(self, contact: int, u: float) -> ActiveSet:
         """With one contact let go from its end to u."""
-        places, free = self.u.copy(), self.free.copy()
-        places[contact], free[contact] = u, True
-        return replace(self, u=places, free=free)
+        here = np.arange(len(self.u)) == contact
+        return replace(self, u=np.where(here, u, self.u), free=self.free | here)
 
     def joined(self, family: int, u: float, s: float, *, free: bool) -> ActiveSet:
         """With one more contact, without weight yet."""

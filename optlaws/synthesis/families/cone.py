@@ -3,40 +3,32 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Self
 
 import numpy as np
 from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
-from optlaws.kept import kept_property
 from optlaws.numbers import Array
-from optlaws.numerics.chebyshev import basis_values, product, real_parts_of_roots
+from optlaws.numerics.chebyshev import product, real_parts_of_roots
 from optlaws.numerics.tolerances import CONE_NODES, EPSILON, ROW_ROUNDING, TINY
-from optlaws.synthesis.families.family import ConstraintFamily, NonlinearFamily, RowJet
+from optlaws.synthesis.families.family import NonlinearFamily, RowJet, SeriesFamily, last_result
 from optlaws.synthesis.families.peaks import peaks, products
 
 Complex = NDArray[np.complex128]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class ConeFamily(NonlinearFamily):
-    """f = |p|, p a complex Chebyshev series in u for each variable, and one that belongs to none as the last column.
+class ConeFamily(SeriesFamily, NonlinearFamily):
+    """f = |p|, p the sum of complex series times the variables.
 
     The place is no k but stands for another parameter, such as a frequency; u = -1 is its least value.
     """
 
     series: Complex
 
-    def in_units(self, units: Array, unit: float) -> Self:
-        """The series' columns and the right side in other units."""
-        series = self.series * np.append(units, 1.0) / unit
-        return replace(self, series=series, slack=self.slack * units / unit, bound=self.bound / unit)
-
     def k(self, u: Array) -> Array:
         """The place as a number from 0 at u = -1 to 1 at u = 1."""
-        places: Array = (1.0 + u) / 2.0
-        return places
+        return 0.5 * (1.0 + u)
 
     def u(self, k: Array) -> Array:
         """The u of such a number."""
@@ -50,22 +42,10 @@ class ConeFamily(NonlinearFamily):
         count = max(int((sizes > CONE_NODES * sizes.max()).sum()), 3)
         return np.asarray(chebyshev.chebpts2(count)[::-1])
 
-    @kept_property
-    def _jet(self) -> Complex:
-        first = _slope(self.series)
-        return np.hstack([self.series, first, _slope(first)])
-
-    def columns(self, u: Array) -> Complex:
-        """p's columns with two derivatives by u, shape (3, points, variables + 1)."""
-        flat = basis_values(np.minimum(np.maximum(u, -1.0), 1.0), len(self.series)) @ self._jet
-        shaped: Complex = flat.reshape(len(u), 3, -1).transpose(1, 0, 2)
-        return shaped
-
     def tangent(self, u: float, direction: Array) -> Array:
         """The affine function that a unit vector makes of p at u; |p| is nowhere below it."""
         columns = self.columns(np.array([u]))[0, 0]
-        row: Array = direction[0] * columns.real + direction[1] * columns.imag
-        return row
+        return np.asarray(direction[0] * columns.real + direction[1] * columns.imag)
 
     def direction(self, x: Array, u: float) -> tuple[float, float]:
         """The unit vector of p at u."""
@@ -73,12 +53,10 @@ class ConeFamily(NonlinearFamily):
         size = max(abs(p), TINY)
         return p.real / size, p.imag / size
 
+    @last_result
     def _jets(self, u: Array, point: Array) -> tuple[Complex, Complex]:
         """The columns with two derivatives by the place, and what they are in each law."""
-        return self.once(lambda: self._moved(self.columns(u.reshape(-1)).reshape(3, *u.shape, -1), point), u, point)
-
-    @staticmethod
-    def _moved(columns: Complex, point: Array) -> tuple[Complex, Complex]:
+        columns = self.columns(u.reshape(-1)).reshape(3, *u.shape, -1)
         return columns, (columns @ point[:, :, None])[..., 0]
 
     def planes(self, u: Array, point: Array) -> tuple[Array, Array, Array]:
@@ -118,14 +96,9 @@ class ConeFamily(NonlinearFamily):
         real, imaginary = (point @ part.T for part in (self.series.real, self.series.imag))
         return np.asarray(np.sqrt(peaks(products(real, real) + products(imaginary, imaginary))))
 
-    def same_rows(self, other: ConstraintFamily) -> bool:
-        """Whether another family has the same series."""
-        return isinstance(other, ConeFamily) and np.array_equal(self.series, other.series)
-
     def value(self, x: Array, u: Array) -> Array:
         """|p| at the points u."""
-        sizes: Array = np.abs(np.asarray(chebyshev.chebval(u, self.series @ np.append(x, 1.0))))
-        return sizes
+        return np.asarray(np.abs(chebyshev.chebval(u, self.series @ np.append(x, 1.0))))
 
     def stationary(self, x: Array) -> Array:
         """Roots of the derivative of |p|²."""
@@ -133,25 +106,12 @@ class ConeFamily(NonlinearFamily):
 
 
 def stationary_places(series: Complex) -> Array:
-    """Points among which every stationary point in [-1, 1] of the magnitude of a complex series is.
-
-    Examples
-    --------
-    >>> stationary_places(np.array([1.0j, 1.0])).round(12).tolist()
-    [0.0]
-    """
+    """Points among which every stationary point in [-1, 1] of the magnitude of a complex series is."""
     sizes = np.abs(series)
-    kept = np.flatnonzero(sizes > EPSILON * sizes.max(initial=0.0))
-    if not len(kept):
+    counted = np.flatnonzero(sizes > EPSILON * sizes.max(initial=0.0))
+    if not len(counted):
         return np.empty(0)
-    short = series[: kept[-1] + 1]
+    short = series[: counted[-1] + 1]
     squares = [product(part, part) for part in (short.real.copy(), short.imag.copy())]
     slope = np.asarray(chebyshev.chebder(squares[0] + squares[1]), dtype=np.float64)
     return real_parts_of_roots(slope)
-
-
-def _slope(series: Complex) -> Complex:
-    slope = np.zeros_like(series)
-    lower = chebyshev.chebder(series)
-    slope[: len(lower)] = lower
-    return slope

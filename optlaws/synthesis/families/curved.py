@@ -21,7 +21,7 @@ from optlaws.numbers import Array
 from optlaws.numerics.candidates import candidates
 from optlaws.numerics.chebyshev import FEWEST, MOST, from_values, nodes
 from optlaws.numerics.tolerances import FORMULA_RESOLVED, LEAST_ENERGY, ROUNDOFF
-from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NonlinearFamily, RowJet
+from optlaws.synthesis.families.family import LinearFamily, NonlinearFamily, RowJet, WholeLawFamily, last_result
 from optlaws.synthesis.families.peaks import peaks
 
 _PLACES_PER_DEGREE = 2
@@ -31,15 +31,7 @@ _IN_A_ROW = 16
 
 @dataclass(frozen=True, eq=False)
 class Slopes:
-    """A formula in some names with its first and second derivatives by them.
-
-    Attributes
-    ----------
-    formula
-        The formula.
-    names
-        By which it is differentiated.
-    """
+    """A formula with its first and second derivatives by some of its names."""
 
     formula: Formula
     names: tuple[str, ...]
@@ -111,26 +103,14 @@ class FormulaFamily(NonlinearFamily):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class CurvedFamily(FormulaFamily):
-    """f is a smooth formula of derivatives of the law and of k.
+    """f is a smooth formula of derivatives of the law and of k."""
 
-    Attributes
-    ----------
-    formula
-        The formula.
-    parts
-        What its names stand for but k: families that are affine in the variables.
-    tangents
-        The signs with which the formula is convex, so that its tangents are nowhere above it.
-    degree
-        Of f in k along a law; None where it is no polynomial.
-    edges
-        The u between which it is smooth, descending.
-    """
-
+    #: what its names stand for but k: families that are affine in the variables
     parts: tuple[tuple[str, LinearFamily], ...]
+    #: the signs with which the formula is convex, so that its tangents are nowhere above it
     tangents: tuple[float, ...] = ()
-    degree: int | None = None
-    edges: tuple[float, ...] = (1.0, -1.0)
+    degree: int | None = None  #: of f in k along a law; None where it is no polynomial
+    edges: tuple[float, ...] = (1.0, -1.0)  #: the u between which it is smooth, descending
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -200,11 +180,9 @@ class CurvedFamily(FormulaFamily):
         value = s * self.slopes.value(names)[0] - self.right_side(x)
         return replace(super().jet(x, u, s), value=value, slope=s * slope)
 
+    @last_result
     def _expansion(self, u: Array, point: Array) -> tuple[Array, Array, dict[str, Array], Array, Array]:
         """The parts' columns, what these are in each law, the names, and the formula's first and second derivatives."""
-        return self.once(lambda: self._expanded(u, point), u, point)
-
-    def _expanded(self, u: Array, point: Array) -> tuple[Array, Array, dict[str, Array], Array, Array]:
         columns = self.columns(u)
         moved = (columns @ point[:, :, None])[..., 0].swapaxes(0, 1)
         names = self._at(moved[0], u)
@@ -288,16 +266,6 @@ class CurvedFamily(FormulaFamily):
         low, high = self.domain
         return [(max(a, low), min(b, high)) for b, a in pairwise(self.edges) if a < high and b > low]
 
-    def same_rows(self, other: ConstraintFamily) -> bool:
-        """Whether another family has the same formula of the same series."""
-        if not isinstance(other, CurvedFamily) or (self.formula, self.names) != (other.formula, other.names):
-            return False
-        rows = (
-            np.array_equal(first.series, two.series)
-            for (_, first), (_, two) in zip(self.parts, other.parts, strict=True)
-        )
-        return (self.tangents, self.edges) == (other.tangents, other.edges) and all(rows)
-
     def nodes(self) -> Array | None:
         """The nodes of the formula's parts, or as many as its degree needs."""
         low, high = self.domain
@@ -314,34 +282,15 @@ class CurvedFamily(FormulaFamily):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class IntegralFamily(FormulaFamily):
-    """f is the sum over nodes of weights times a smooth formula, or the root of that. It has no place: u is 1.
-
-    Attributes
-    ----------
-    formula
-        The formula, of the names and of k.
-    names
-        What `columns` are of.
-    columns
-        Their rows at the nodes, shape (names, nodes, variables + 1).
-    places
-        The k of the nodes.
-    weights
-        Of the nodes.
-    root
-        Whether the root of the sum is meant.
-    convex
-        Whether f is convex, so that its tangents are nowhere above it.
-    """
+class IntegralFamily(WholeLawFamily, FormulaFamily):
+    """f is the sum over nodes of weights times a smooth formula of names and k, or the root of that."""
 
     names: tuple[str, ...]
-    columns: Array
-    places: Array
-    weights: Array
-    root: bool = False
-    convex: bool = False
-    domain: tuple[float, float] = (1.0, 1.0)
+    columns: Array  #: rows of the names at the nodes, shape (names, nodes, variables + 1)
+    places: Array  #: the k of the nodes
+    weights: Array  #: of the nodes
+    root: bool = False  #: whether the root of the sum is meant
+    convex: bool = False  #: whether f is convex, so that its tangents are nowhere above it
 
     @kept_property
     def slopes(self) -> Slopes:
@@ -365,13 +314,6 @@ class IntegralFamily(FormulaFamily):
 
     def _at(self, values: Array) -> dict[str, Array]:
         return {**dict(zip(self.names, values, strict=True)), "k": np.broadcast_to(self.places, values.shape[1:])}
-
-    def same_rows(self, other: ConstraintFamily) -> bool:
-        """Whether another family has the same formula of the same rows at the same nodes."""
-        if not isinstance(other, IntegralFamily) or (self.formula, self.names) != (other.formula, other.names):
-            return False
-        arrays = ((self.columns, other.columns), (self.places, other.places), (self.weights, other.weights))
-        return (self.root, self.convex) == (other.root, other.convex) and all(np.array_equal(*two) for two in arrays)
 
     def touching(self, x: Array, u: float) -> tuple[float, ...]:  # noqa: ARG002 - it has no place
         """What the names are at the nodes in a law, one name after the other."""
@@ -438,11 +380,3 @@ class IntegralFamily(FormulaFamily):
     def greatest(self, point: Array) -> Array:
         """The integral in each law."""
         return self.outer(self.slopes.value(self._at_nodes(point)) @ self.weights)[0]
-
-    def value(self, x: Array, u: Array) -> Array:
-        """f."""
-        return np.full(len(u), self.greatest(np.append(x, 1.0)[None])[0])
-
-    def stationary(self, x: Array) -> Array:  # noqa: ARG002
-        """No places: an integral has none."""
-        return np.empty(0)

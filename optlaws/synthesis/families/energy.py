@@ -29,14 +29,9 @@ _LEAST_SHARE = 0.02
 
 @dataclass(frozen=True, eq=False)
 class Energy:
-    """The integral of sqrt(B² - b²) over the first half of a symmetric law, with B² - b² = t² below above.
+    """The integral of sqrt(B² - b²) over the first half of a symmetric law, with B² - b² = t² below above."""
 
-    Attributes
-    ----------
-    below, above
-        (B - b) / t² and B + b, both families in u = 2 t² - 1.
-    """
-
+    #: (B - b) / t² and B + b, both families in u = 2 t² - 1
     below: LinearFamily
     above: LinearFamily
 
@@ -74,8 +69,10 @@ class Energy:
         """
         for share in _SHARES:
             first, other = (self._tangent(rule, x, share) for rule in self._rules.values())
-            if first is not None and other is not None and _agree(first, other):
-                return first
+            if first is not None and other is not None:
+                off = float(np.abs(first - other).max())
+                if off <= RULES_AGREE * float(np.abs(first).max()):
+                    return first
         raise InputError("a law of shared energy must have a peak velocity above 0")
 
     def _tangent(self, rule: tuple[Array, Array, Array, Array], x: Array, share: float) -> Array | None:
@@ -87,8 +84,7 @@ class Energy:
         if not min(float(q.min()), float(r.min())) > _LEAST_SHARE * peak > 0.0:
             return None
         ratio = np.sqrt(r / q)
-        row: Array = 0.5 * ((weight * ratio) @ below + (weight / ratio) @ above)
-        return row
+        return np.asarray(0.5 * ((weight * ratio) @ below + (weight / ratio) @ above))
 
     def factor(self, x: Array) -> Taylor:
         """Y, half of the inverse, with its derivatives."""
@@ -96,12 +92,12 @@ class Energy:
 
     def _integral(self, x: Array) -> Taylor:
         below, above = (affine(columns, x) for columns in self.columns)
-        return (below * above).raised(_floor(below, above)).power(0.5).total()
+        return positive_product(below, above).power(0.5).total()
 
 
 @dataclass(frozen=True, eq=False)
 class Taylor:
-    """Values at points with their first and second derivatives by the place u, which comes first, and the variables."""
+    """Values at points with first and second derivatives by the place u and the variables; one point goes with all."""
 
     value: Array
     gradient: Array
@@ -136,9 +132,9 @@ class Taylor:
 
     def raised(self, least: Array) -> Taylor:
         """Constant where it would be below `least`."""
-        kept = (self.value > least).astype(np.float64)
+        moves = (self.value > least).astype(np.float64)
         return Taylor(
-            np.maximum(self.value, least), self.gradient * kept[:, None], self.curvature * kept[:, None, None]
+            np.maximum(self.value, least), self.gradient * moves[:, None], self.curvature * moves[:, None, None]
         )
 
     def total(self) -> Taylor:
@@ -147,49 +143,27 @@ class Taylor:
 
 
 def affine(columns: Array, x: Array) -> Taylor:
-    """An affine function from its rows at points, a number for each variable and the constant last; no place."""
-    count, size = len(columns), columns.shape[1]
-    gradient = np.column_stack([np.zeros(count), columns[:, :-1]])
-    return Taylor(columns @ np.append(x, 1.0), gradient, np.zeros((count, size, size)))
+    """An affine function from its rows at points that stay, a number for each variable and the constant last."""
+    gradient = np.column_stack([np.zeros(len(columns)), columns[:, :-1]])
+    return Taylor(columns @ np.append(x, 1.0), gradient, np.zeros((len(columns),) + (columns.shape[1],) * 2))
 
 
-def _agree(first: Array, other: Array) -> bool:
-    return float(np.abs(first - other).max()) <= RULES_AGREE * float(np.abs(first).max())
-
-
-def _floor(below: Taylor, above: Taylor) -> Array:
-    """The least product that counts, in units of B² where the product is about that."""
+def positive_product(below: Taylor, above: Taylor) -> Taylor:
+    """The product, constant where it is less than counts in units of B², which the product is about."""
     scale = np.maximum(above.value**2, np.abs(below.value) * np.abs(above.value))
-    least: Array = LEAST_ENERGY * np.maximum(scale, np.finfo(float).tiny)
-    return least
+    return (below * above).raised(LEAST_ENERGY * np.maximum(scale, np.finfo(float).tiny))
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class EnergyFamily(ConstraintFamily):
-    """f = scale Y^degree times the factors, divided by sqrt(below above) where `divided`.
+    """f = scale Y^degree times the factors, divided by sqrt(below above) where `divided`."""
 
-    Attributes
-    ----------
-    factors
-        Families that are affine in the law, over the same places.
-    energy
-        Of which Y is made.
-    degree
-        The power of Y.
-    divided
-        Whether sqrt(B² - b²)/t divides: then the places are those of the energy's families.
-    scale
-        A number.
-    convex
-        f is Y B, and the program's laws have one B: then it is convex in them.
-    """
-
-    factors: tuple[LinearFamily, ...]
-    energy: Energy
+    factors: tuple[LinearFamily, ...]  #: affine in the law, over the same places
+    energy: Energy  #: of which Y is made
     degree: int = 1
-    divided: bool = False
+    divided: bool = False  #: whether sqrt(B² - b²)/t divides: then the places are those of the energy's families
     scale: float = 1.0
-    convex: bool = False
+    convex: bool = False  #: f is Y B, and the program's laws have one B: then it is convex in them
 
     def scaled_down(self, by: float) -> Self:  # noqa: ARG002 - its unit is the law's
         """Itself: peaks of the other body are in the units of the law."""
@@ -217,9 +191,8 @@ class EnergyFamily(ConstraintFamily):
         low, high = self.domain
         if low == high:
             return None
-        count = 2 * len(self.slack) + 8
-        places: Array = 0.5 * (high + low) + 0.5 * (high - low) * chebyshev.chebpts2(count)[::-1]
-        return places
+        local = chebyshev.chebpts2(2 * len(self.slack) + 8)[::-1]
+        return np.asarray(0.5 * (high + low) + 0.5 * (high - low) * local)
 
     def jet(self, x: Array, u: Array, s: Array) -> RowJet:
         """Residuals with their derivatives."""
@@ -234,8 +207,7 @@ class EnergyFamily(ConstraintFamily):
 
     def hessian(self, x: Array, u: Array, weights: Array) -> Array | None:
         """Second derivatives of f, weighted."""
-        curved: Array = np.tensordot(weights, self._taylor(x, u).curvature[:, 1:, 1:], axes=1)
-        return curved
+        return np.asarray(np.tensordot(weights, self._taylor(x, u).curvature[:, 1:, 1:], axes=1))
 
     def value(self, x: Array, u: Array) -> Array:
         """f at the points u."""
@@ -253,7 +225,7 @@ class EnergyFamily(ConstraintFamily):
         slope = _derivative(top)
         if self.divided:
             under = product(self.energy.below.series @ point, self.energy.above.series @ point)
-            slope = _sum(product(slope, under), -0.5 * product(top, _derivative(under)))
+            slope = np.asarray(chebyshev.chebsub(product(slope, under), 0.5 * product(top, _derivative(under))))
         return real_parts_of_roots(slope)
 
     def minorant(self, x: Array) -> Array:
@@ -273,13 +245,10 @@ class EnergyFamily(ConstraintFamily):
         parts = [_at_places(factor, x, u) for factor in self.factors]
         if self.divided:
             parts.append(self._below_above(x, u).power(-0.5))
-        shared = self.energy.factor(x)
-        whole = reduce(Taylor.__mul__, [*parts, *[_repeated(shared, len(u))] * self.degree])
-        return whole.scaled(self.scale)
+        return reduce(Taylor.__mul__, [*parts, *[self.energy.factor(x)] * self.degree]).scaled(self.scale)
 
     def _below_above(self, x: Array, u: Array) -> Taylor:
-        below, above = (_at_places(family, x, u) for family in (self.energy.below, self.energy.above))
-        return (below * above).raised(_floor(below, above))
+        return positive_product(_at_places(self.energy.below, x, u), _at_places(self.energy.above, x, u))
 
 
 def _at_places(family: LinearFamily, x: Array, u: Array) -> Taylor:
@@ -291,16 +260,5 @@ def _at_places(family: LinearFamily, x: Array, u: Array) -> Taylor:
     return Taylor(value, np.column_stack([slope, columns[0, :, :-1]]), bend)
 
 
-def _repeated(factor: Taylor, count: int) -> Taylor:
-    return Taylor(*(np.repeat(part, count, axis=0) for part in (factor.value, factor.gradient, factor.curvature)))
-
-
 def _derivative(series: Array) -> Array:
-    return np.asarray(np.polynomial.chebyshev.chebder(series), dtype=np.float64)
-
-
-def _sum(first: Array, second: Array) -> Array:
-    total = np.zeros(max(len(first), len(second)))
-    total[: len(first)] = first
-    total[: len(second)] += second
-    return total
+    return np.asarray(chebyshev.chebder(series), dtype=np.float64)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Hashable, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, fields, replace
+from functools import wraps
 from typing import Any, ClassVar, Self, TypeVar
 
 import numpy as np
@@ -13,12 +14,12 @@ from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
-from optlaws.numerics.chebyshev import product, real_parts_of_roots
+from optlaws.numerics.chebyshev import basis_values, product, real_parts_of_roots
 from optlaws.numerics.gegenbauer import even_gegenbauer_jet
 from optlaws.numerics.tolerances import AT_END, END_OF_U, NO_NORM, ROW_ROUNDING
 from optlaws.synthesis.families.peaks import peaks, products
 
-Made = TypeVar("Made")
+Result = TypeVar("Result")
 
 #: of fewer polynomials' values cosines are quicker than the recurrence
 _SMALL = 4096
@@ -37,30 +38,16 @@ class RowJet:
 
 @dataclass(frozen=True, eq=False)
 class ConstraintFamily(ABC):
-    """The constraint s f(u; x) <= slack . x + bound for every u of the domain and every sign s.
+    """The constraint s f(u; x) <= slack . x + bound for every u of the domain and every sign s."""
 
-    Attributes
-    ----------
-    name
-        What is constrained; the certificate finds its formula by it.
-    slack, bound
-        The right side: a variable such as the peak C, a number, or both.
-    signs
-        The values of s: (1,), (-1,) or (1, -1) for a magnitude.
-    domain
-        The least and the greatest u that count.
-    held
-        The family binds as an equation at a contact that it has, and nowhere else: a peak that is held up.
-    unit
-        What the rows have been divided by, a power of 2: certificates speak of them as they were.
-    """
-
-    name: str
-    slack: Array
+    name: str  #: what is constrained; the certificate finds its formula by it
+    slack: Array  #: of the right side: a variable such as the peak C; the bound is a number
     bound: float = 0.0
-    signs: tuple[float, ...] = (1.0,)
-    domain: tuple[float, float] = (-1.0, 1.0)
+    signs: tuple[float, ...] = (1.0,)  #: the values of s: (1,), (-1,) or (1, -1) for a magnitude
+    domain: tuple[float, float] = (-1.0, 1.0)  #: the least and the greatest u that count
+    #: the family binds as an equation at a contact that it has, and nowhere else: a peak that is held up
     held: bool = False
+    #: what the rows have been divided by, a power of 2: certificates speak of them as they were
     unit: float = 1.0
 
     @property
@@ -78,7 +65,9 @@ class ConstraintFamily(ABC):
 
     def same_rows(self, other: ConstraintFamily) -> bool:
         """Whether f is the same function of the variables and the place, of families of one kind."""
-        return self is other
+        common = {field.name for field in fields(ConstraintFamily)}
+        names = [field.name for field in fields(self) if field.name not in common]
+        return type(self) is type(other) and all(_same(getattr(self, name), getattr(other, name)) for name in names)
 
     @abstractmethod
     def value(self, x: Array, u: Array) -> Array:
@@ -113,8 +102,7 @@ class ConstraintFamily(ABC):
 
     def k(self, u: Array) -> Array:
         """The k in [0, 1] that belongs to u = 1 - 2k."""
-        places: Array = (1.0 - u) / 2.0
-        return places
+        return 0.5 * (1.0 - u)
 
     def u(self, k: Array) -> Array:
         """The place that belongs to k."""
@@ -166,22 +154,24 @@ class BatchFamily(ConstraintFamily):
         """What rounding may hide of each entry of the sum of weights times planes, (laws, variables + 1)."""
 
 
+def last_result(method: Callable[..., Result]) -> Callable[..., Result]:
+    """A method of arrays that remembers its last result: slopes and second derivatives of one place come together."""
+    name = f"_last_{method.__name__}"
+
+    @wraps(method)
+    def remembered(family: ConstraintFamily, *arrays: Array) -> Result:
+        key = [(array.shape, array.tobytes()) for array in arrays]
+        known = family.__dict__.get(name)
+        if known is None or known[0] != key:
+            known = family.__dict__[name] = key, method(family, *arrays)
+        result: Result = known[1]
+        return result
+
+    return remembered
+
+
 class NonlinearFamily(BatchFamily):
     """A batch family that is not affine in the law; of one law it says what it does of a batch of one."""
-
-    @kept_property
-    def _last(self) -> dict[Hashable, Any]:
-        return {}
-
-    def once(self, make: Callable[[], Made], *arrays: Array) -> Made:
-        """What is made of arrays; the last is kept, for slopes and second derivatives are asked one after the other."""
-        key = tuple((array.shape, array.tobytes()) for array in arrays)
-        known: Made | None = self._last.get(key)
-        if known is None:
-            known = make()
-            self._last.clear()
-            self._last[key] = known
-        return known
 
     @abstractmethod
     def hessians(self, u: Array, point: Array, weights: Array) -> Array:
@@ -207,30 +197,39 @@ class NonlinearFamily(BatchFamily):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class LinearFamily(BatchFamily):
-    """f is affine in x: a Chebyshev series in u for each variable, and one that belongs to none as the last column."""
+class SeriesFamily(BatchFamily):
+    """f is made of Chebyshev series in u: one for each variable, and one that belongs to none as the last column."""
+
+    series: NDArray[Any]
+
+    def in_units(self, units: Array, unit: float) -> Self:
+        """The series' columns and the right side in other units."""
+        series = self.series * np.append(units, 1.0) / unit
+        return replace(self, series=series, slack=self.slack * units / unit, bound=self.bound / unit)
+
+    @kept_property
+    def _jet(self) -> NDArray[Any]:
+        """The series with their first and second derivatives beside them."""
+        jet = np.zeros((len(self.series), 3, self.series.shape[1]), self.series.dtype)
+        for nu in range(3):
+            lower = chebyshev.chebder(self.series, nu)
+            jet[: len(lower), nu] = lower
+        return np.asarray(jet.reshape(len(jet), -1))
+
+    def columns(self, u: Array) -> NDArray[Any]:
+        """The series' values with two derivatives by u, shape (3, points, variables + 1)."""
+        flat = basis_values(np.minimum(np.maximum(u, -1.0), 1.0), len(self.series)) @ self._jet
+        return np.asarray(flat.reshape(len(u), 3, -1).transpose(1, 0, 2))
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class LinearFamily(SeriesFamily):
+    """f is affine in x: the sum of the series times the variables."""
 
     #: whether the columns are the series alone
     plain: ClassVar[bool] = True
 
     series: Array
-
-    @kept_property
-    def _jet(self) -> Array:
-        parts = [self.series]
-        for _ in range(2):
-            slope = np.zeros_like(self.series)
-            lower = chebyshev.chebder(parts[-1])
-            slope[: len(lower)] = lower
-            parts.append(slope)
-        return np.hstack(parts)
-
-    def columns(self, u: Array) -> Array:
-        """f's columns with two derivatives by u, shape (3, points, variables + 1)."""
-        angles = np.arccos(np.minimum(np.maximum(u, -1.0), 1.0))
-        flat = np.cos(np.outer(angles, np.arange(len(self.series)))) @ self._jet
-        shaped: Array = flat.reshape(len(u), 3, -1).transpose(1, 0, 2)
-        return shaped
 
     def rows(self, u: Array, s: Array) -> tuple[Array, Array]:
         """A and h of the rows A x <= h at the points u with signs s."""
@@ -247,13 +246,8 @@ class LinearFamily(BatchFamily):
     @kept_property
     def _parts(self) -> tuple[tuple[NDArray[np.intp], Array], ...]:
         """For f and its first two derivatives: which polynomials they are made of, and with what coefficients."""
-        parts = []
-        series = self.series
-        for _ in range(3):
-            kept = np.flatnonzero(series.any(axis=1))
-            parts.append((kept, np.ascontiguousarray(series[kept])))
-            series = np.asarray(chebyshev.chebder(series), dtype=np.float64)
-        return tuple(parts)
+        parts = [(np.flatnonzero(series.any(axis=1)), series) for series in np.hsplit(self._jet, 3)]
+        return tuple((counted, np.ascontiguousarray(series[counted])) for counted, series in parts)
 
     def planes(self, u: Array, point: Array) -> tuple[Array, Array, Array]:
         """The rows themselves, whatever the law."""
@@ -261,9 +255,9 @@ class LinearFamily(BatchFamily):
             columns = self.columns(u.reshape(-1)).reshape(3, *u.shape, -1)
             return columns[0], columns[1], np.einsum("mpi,mi->mp", columns[2], point)
         polynomials = _polynomials(u.reshape(-1), len(self.series))
-        value, slope = ((polynomials[kept].T @ series).reshape(*u.shape, -1) for kept, series in self._parts[:2])
-        kept, series = self._parts[2]
-        bend = np.einsum("nmp,mn->mp", polynomials[kept].reshape(len(kept), *u.shape), point @ series.T)
+        value, slope = ((polynomials[counted].T @ series).reshape(*u.shape, -1) for counted, series in self._parts[:2])
+        counted, series = self._parts[2]
+        bend = np.einsum("nmp,mn->mp", polynomials[counted].reshape(len(counted), *u.shape), point @ series.T)
         return value, slope, bend
 
     def hessian(self, x: Array, u: Array, weights: Array) -> Array | None:  # noqa: ARG002
@@ -279,20 +273,10 @@ class LinearFamily(BatchFamily):
         """What rounding may hide of rows, whatever the place."""
         return np.asarray(weights.sum(axis=1)[:, None] * self.rounding)
 
-    def same_rows(self, other: ConstraintFamily) -> bool:
-        """Whether another family has the same series."""
-        return isinstance(other, LinearFamily) and (
-            self.series is other.series or np.array_equal(self.series, other.series)
-        )
-
-    def in_units(self, units: Array, unit: float) -> Self:
-        """The series' columns and the right side in other units."""
-        series = self.series * np.append(units, 1.0) / unit
-        return replace(self, series=series, slack=self.slack * units / unit, bound=self.bound / unit)
-
     def value(self, x: Array, u: Array) -> Array:
         """f at the points u."""
-        return np.asarray(chebyshev.chebval(u, self.series @ np.append(x, 1.0)), dtype=float)
+        point = np.append(x, 1.0)
+        return np.asarray(chebyshev.chebval(u, self.series @ point) if self.plain else self.columns(u)[0] @ point)
 
     def stationary(self, x: Array) -> Array:
         """Roots of the derivative's series."""
@@ -326,22 +310,17 @@ class RootFamily(LinearFamily):
         left = np.where(near, 1.0, 1.0 - u)[:, None]
         root = np.sqrt(left)
         jets = np.stack([g0, g1 + g0 / (2.0 * left), g2 + g1 / left + 3.0 * g0 / (4.0 * left**2)])
-        shaped: Array = np.where(near[:, None], 0.0, jets / root)
-        return shaped
+        return np.asarray(np.where(near[:, None], 0.0, jets / root))
 
     def value(self, x: Array, u: Array) -> Array:
-        """f at the points u."""
-        value: Array = self.columns(u)[0] @ np.append(x, 1.0)
-        return value
+        """f at the points u, of series and of pieces."""
+        return np.asarray(self.columns(u)[0] @ np.append(x, 1.0))
 
     def stationary(self, x: Array) -> Array:
         """Roots of 2 (1-u) g' + g."""
         series = self.series @ np.append(x, 1.0)
         slope = product(np.array([2.0, -2.0]), np.asarray(chebyshev.chebder(series)))
-        total = np.zeros(max(len(series), len(slope)))
-        total[: len(series)] = series
-        total[: len(slope)] += slope
-        return real_parts_of_roots(total)
+        return real_parts_of_roots(np.asarray(chebyshev.chebadd(series, slope)))
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -350,7 +329,7 @@ class MirroredFamily(RootFamily):
 
     def k(self, u: Array) -> Array:
         """The k that belongs to u = 2k - 1."""
-        return (1.0 + u) / 2.0
+        return 0.5 * (1.0 + u)
 
     def u(self, k: Array) -> Array:
         """2k - 1."""
@@ -381,11 +360,6 @@ class RatioFamily(EvenFamily):
         shaped[:, :, : len(self.scale) - 1] = polynomials[:, :, 1:] * self.scale[:-1]
         shaped[:, :, -1] = polynomials[:, :, 0] * self.scale[-1]
         return shaped
-
-    def value(self, x: Array, u: Array) -> Array:
-        """f at the points u, by recurrence."""
-        value: Array = self.columns(u)[0] @ np.append(x, 1.0)
-        return value
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -421,10 +395,10 @@ class ProductFamily(NonlinearFamily):
         slope[:, :, -1:] -= g1 * h0 + g0 * h1
         return value, slope, (g2 * h0 + 2.0 * g1 * h1 + g0 * h2)[:, :, 0]
 
+    @last_result
     def _columns(self, u: Array) -> list[Array]:
         """The columns of both factors with two derivatives by the place."""
-        factors, places = (self.first, self.second), u.reshape(-1)
-        return self.once(lambda: [factor.columns(places).reshape(3, *u.shape, -1) for factor in factors], u)
+        return [factor.columns(u.reshape(-1)).reshape(3, *u.shape, -1) for factor in (self.first, self.second)]
 
     def hessians(self, u: Array, point: Array, weights: Array) -> Array:  # noqa: ARG002
         """The sum of weights times the rows of one factor by those of the other."""
@@ -440,12 +414,6 @@ class ProductFamily(NonlinearFamily):
         """The greatest magnitude of f in each law over the whole interval."""
         return peaks(products(*(point @ factor.series.T for factor in (self.first, self.second))))
 
-    def same_rows(self, other: ConstraintFamily) -> bool:
-        """Whether another family has the same factors."""
-        if not isinstance(other, ProductFamily):
-            return False
-        return self.first.same_rows(other.first) and self.second.same_rows(other.second)
-
     def value(self, x: Array, u: Array) -> Array:
         """G h at the points u, each evaluated by itself."""
         return self.first.value(x, u) * self.second.value(x, u)
@@ -455,18 +423,29 @@ class ProductFamily(NonlinearFamily):
         point = np.append(x, 1.0)
         g, h = self.first.series @ point, self.second.series @ point
         slopes = [product(np.asarray(chebyshev.chebder(p)), q) for p, q in ((g, h), (h, g))]
-        total = np.zeros(max(map(len, slopes)))
-        for slope in slopes:
-            total[: len(slope)] += slope
-        return real_parts_of_roots(total)
+        return real_parts_of_roots(np.asarray(chebyshev.chebadd(*slopes)))
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class NormFamily(NonlinearFamily):
-    """f is the Euclidean norm of an affine map of x: the RMS of c or j. It has no place: u is 1."""
+class WholeLawFamily(NonlinearFamily):
+    """f says one number of a law as a whole, such as a norm or an integral. It has no place: u is 1."""
+
+    domain: tuple[float, float] = (1.0, 1.0)
+
+    def value(self, x: Array, u: Array) -> Array:
+        """f, whatever the points."""
+        return np.full(len(u), self.greatest(np.append(x, 1.0)[None])[0])
+
+    def stationary(self, x: Array) -> Array:  # noqa: ARG002
+        """No places: there are none."""
+        return np.empty(0)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class NormFamily(WholeLawFamily):
+    """f is the Euclidean norm of an affine map of x: the RMS of c or j."""
 
     matrix: Array
-    domain: tuple[float, float] = (1.0, 1.0)
 
     def in_units(self, units: Array, unit: float) -> Self:
         """The map's columns and the right side in other units."""
@@ -478,11 +457,9 @@ class NormFamily(NonlinearFamily):
         planes = self._touching(point)[1][:, None, :].repeat(u.shape[1], axis=1)
         return planes, np.zeros(planes.shape), np.zeros(u.shape)
 
+    @last_result
     def _touching(self, point: Array) -> tuple[Array, Array]:
         """The norm of each law, and the plane that touches it there."""
-        return self.once(lambda: self._shown(point), point)
-
-    def _shown(self, point: Array) -> tuple[Array, Array]:
         image = point @ self.matrix.T
         size = np.maximum(np.sqrt((image * image).sum(axis=1)), NO_NORM)
         return size, (image / size[:, None]) @ self.matrix
@@ -503,18 +480,6 @@ class NormFamily(NonlinearFamily):
         """The norm of each law."""
         return self._touching(point)[0]
 
-    def same_rows(self, other: ConstraintFamily) -> bool:
-        """Whether another family has the same matrix."""
-        return isinstance(other, NormFamily) and np.array_equal(self.matrix, other.matrix)
-
-    def value(self, x: Array, u: Array) -> Array:
-        """The norm."""
-        return np.full(len(u), float(np.linalg.norm(self.matrix @ np.append(x, 1.0))))
-
-    def stationary(self, x: Array) -> Array:  # noqa: ARG002
-        """No places: a norm has none."""
-        return np.empty(0)
-
 
 @dataclass(frozen=True, eq=False)
 class Points:
@@ -530,32 +495,28 @@ class Points:
 
 @dataclass(frozen=True, eq=False)
 class Program:
-    """Minimise objective . x subject to families and equations: equalities . x = right; all in units near its size.
+    """Minimise objective . x subject to families and equations: equalities . x = right; all in units near its size."""
 
-    Attributes
-    ----------
-    families, equalities, right, objective
-        Divided by powers of 2, so that tolerances are shares of what things are.
-    unit, equation_units
-        What the objective has been divided by, and each equation; None where no equation was.
-    """
-
+    #: divided by powers of 2, as all else is, so that tolerances are shares of what things are
     families: tuple[ConstraintFamily, ...]
     equalities: Array
     right: Array
     objective: Array
-    unit: float = 1.0
-    equation_units: Array | None = None
+    unit: float = 1.0  #: what the objective has been divided by
+    equation_units: Array | None = None  #: what each equation has been divided by; None where none was
+
+    @property
+    def _units(self) -> Array:
+        return np.ones(len(self.right)) if self.equation_units is None else self.equation_units
 
     def multipliers_of_equations(self, stated: Sequence[float]) -> Array:
         """The program's own multipliers, from those of the equations and the objective as the problem has them."""
-        units = np.ones(len(self.right)) if self.equation_units is None else self.equation_units
+        units = self._units
         return np.array(stated[: len(units)], dtype=np.float64) * units[: len(stated)] / self.unit
 
     def stated_multipliers(self, equations: Array) -> Array:
-        """The other way round."""
-        units = np.ones(len(self.right)) if self.equation_units is None else self.equation_units
-        return np.asarray(equations * self.unit / units)
+        """The multipliers of the equations as the problem has them, from the program's own."""
+        return np.asarray(equations * self.unit / self._units)
 
     @property
     def size(self) -> int:
@@ -588,3 +549,13 @@ def _polynomials(u: Array, count: int) -> Array:
         np.multiply(twice, polynomials[n - 1], out=polynomials[n])
         polynomials[n] -= polynomials[n - 2]
     return polynomials[:count]
+
+
+def _same(first: Any, other: Any) -> bool:  # noqa: ANN401 - what fields of families have
+    if first is other:
+        return True
+    if isinstance(first, ConstraintFamily):
+        return first.same_rows(other)
+    if isinstance(first, tuple):
+        return len(first) == len(other) and all(map(_same, first, other))
+    return np.array_equal(first, other) if isinstance(first, np.ndarray) else bool(first == other)

@@ -22,7 +22,7 @@ from optlaws.numbers import Array
 from optlaws.numerics.candidates import cut_at_all, cut_at_roots
 from optlaws.numerics.chebyshev import gauss
 from optlaws.synthesis.families.curved import IntegralFamily, Slopes, between
-from optlaws.synthesis.families.family import RowJet
+from optlaws.synthesis.families.family import RowJet, last_result
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,15 +36,12 @@ class SmoothStretch:
 
 @dataclass(frozen=True, eq=False)
 class KinkSplit:
-    """What the stretches of a law make of the integral: its sum, and its slope as a row.
-
-    `places`, `columns` and `weights` are those of Gauss's rule, and belong to the stretches one after the other.
-    """
+    """What the stretches of a law make of the integral: its sum, and its slope as a row."""
 
     stretches: list[SmoothStretch]
     total: float
     slope: Array
-    columns: Array
+    columns: Array  #: at the places of Gauss's rule, of the stretches one after the other, as all that follows
     names: dict[str, Array]
     weights: Array
 
@@ -57,24 +54,13 @@ class KinkSplit:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class KinkedIntegralFamily(IntegralFamily):
-    """f is the integral of a formula with kinks in the law, or its root; `places` and `weights` are for guesses alone.
+    """f is the integral of a formula with kinks in the law, or its root; its nodes are for guesses alone."""
 
-    Attributes
-    ----------
-    rows
-        Of 0 and places k: the names' columns, shape (names, places, variables + 1); of 1 those of their slopes by k.
-    units
-        What these are times.
-    edges
-        The k between which all but the kinks is smooth, ascending.
-    length
-        How many places a stretch needs.
-    """
-
+    #: of 0 and places k the names' columns, shape (names, places, variables + 1); of 1 those of their slopes by k
     rows: Callable[[int, Array], Array]
-    units: Array
-    edges: tuple[float, ...]
-    length: int
+    units: Array  #: what these are times
+    edges: tuple[float, ...]  #: the k between which all but the kinks is smooth, ascending
+    length: int  #: how many places a stretch needs
 
     @kept_property
     def _switches(self) -> tuple[list[Formula], list[Formula]]:
@@ -96,11 +82,10 @@ class KinkedIntegralFamily(IntegralFamily):
     def _names(self, point: Array, k: Array, columns: Array) -> dict[str, Array]:
         return {**dict(zip(self.names, columns @ point, strict=True)), "k": k}
 
+    @last_result
     def split(self, x: Array) -> KinkSplit:
         """The stretches of a law, and the integral over them."""
-        return self.once(lambda: self._split(np.append(x, 1.0)), x)
-
-    def _split(self, point: Array) -> KinkSplit:
+        point = np.append(x, 1.0)
         stretches = self._stretches(point)
         x, share = gauss(self.length)
         low, width = (

@@ -13,13 +13,7 @@ class _Name(StrEnum):
 
 
 class RowName(_Name):
-    """What rows are called that do not belong to one constant, and those of power certificates.
-
-    Examples
-    --------
-    >>> RowName.BELOW_PEAK
-    'chord'
-    """
+    """What rows are called that do not belong to one constant, and those of power certificates."""
 
     VELOCITY = "b"
     BELOW_PEAK = "chord"
@@ -34,13 +28,7 @@ class RowName(_Name):
 
 
 class VariableName(_Name):
-    """What variables are called that stand for no constant of the objective.
-
-    Examples
-    --------
-    >>> VariableName.POWER_ROOT
-    'root of D'
-    """
+    """What variables are called that stand for no constant of the objective."""
 
     POWER_ROOT = "root of D"
     VIOLATION = "t"
@@ -91,13 +79,7 @@ def window(number: int) -> str:
 
 
 def window_side(name: str, sign: float) -> str:
-    """What a window's rows hold down (sign 1) or up (-1).
-
-    Examples
-    --------
-    >>> window_side(mirrored(window(2)), -1.0)
-    'window 2 mirrored, below'
-    """
+    """What a window's rows hold down (sign 1) or up (-1): "window 2 mirrored, below"."""
     return f"{name}, {_SIDES[sign]}"
 
 
@@ -113,24 +95,12 @@ def window_number(row: str) -> int | None:
 
 
 def at(symbol: str, k: float) -> str:
-    """A quantity at a place.
-
-    Examples
-    --------
-    >>> at("b", 0.5), at("c", 0.3)
-    ('b(1/2)', 'c(0.3)')
-    """
+    """A quantity at a place, b(1/2) or c(0.3)."""
     return f"{symbol}(1/2)" if k == 0.5 else f"{symbol}({k})"
 
 
 def velocity_at_peak(k: float | None) -> str:
-    """The equation that B is the velocity at k; with None, that B is what it is wherever b is greatest.
-
-    Examples
-    --------
-    >>> velocity_at_peak(0.5), velocity_at_peak(None)
-    ('b(1/2) = B', 'B')
-    """
+    """The equation that B is the velocity at k; with None, that B is what it is wherever b is greatest."""
     return "B" if k is None else f"{at('b', k)} = B"
 
 

@@ -40,14 +40,7 @@ def power_peaks(velocity: Array, acceleration: Array) -> Array:
 
 
 def of_polynomials(laws: Sequence[PolynomialLaw], name: str) -> Array:
-    """B, C, D, J or rms_c of many polynomial laws.
-
-    Examples
-    --------
-    >>> from optlaws.laws import smoothstep
-    >>> of_polynomials([smoothstep(2), smoothstep(3)], "C").round(6).tolist()
-    [6.0, 5.773503]
-    """
+    """B, C, D, J or rms_c of many polynomial laws."""
     count = max((len(law.acceleration) for law in laws), default=0) + 1
     c = np.array([[*law.acceleration, *[0.0] * (count - len(law.acceleration))] for law in laws]).reshape(-1, count)
     b = chebyshev.chebint(c, lbnd=-1.0, scl=0.5, axis=1)
@@ -112,8 +105,8 @@ def _polished(series: Array, angle: Array, apart: float) -> Array:
         rising = value * slope > 0.0
         low, high = np.where(rising, angle, low), np.where(rising, high, angle)
         further = angle - np.divide(slope, bend, out=np.full_like(slope, np.inf), where=bend != 0.0)
-        kept = (low <= further) & (further <= high) & (value * bend < 0.0)
-        further = np.where(kept, further, (low + high) / 2.0)
+        between = (low <= further) & (further <= high) & (value * bend < 0.0)
+        further = np.where(between, further, (low + high) / 2.0)
         left = np.abs(further - angle) > ANGLE_SETTLED
         angle, low, high, going = further[left], low[left], high[left], going[left]
         if not len(going):

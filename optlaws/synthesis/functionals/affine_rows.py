@@ -29,7 +29,7 @@ _PLACES = 7
 
 @dataclass(frozen=True)
 class Side:
-    """A formula on the part of the interval that a space's rows speak of, with the name and the signs of its rows."""
+    """What rows say of a formula on the part of the interval of a space's rows."""
 
     name: str
     motion: MotionFormula
@@ -72,19 +72,15 @@ def sampled(motion: MotionFormula) -> Array:
 def columns(space: LawSpace, motion: MotionFormula, u: Array) -> Array:
     """An affine formula at places u = 1 - 2k: of the free functions, then of the base law with what is left."""
     k = (1.0 - u) / 2.0
-    columns_there = np.zeros((len(u), space.terms + 1))
+    total = np.zeros((len(u), space.terms + 1))
     for nu, factor in motion.weights.items():
-        columns_there += _at(factor, k)[:, None] * space.columns(nu, u)
-    columns_there[:, -1] += _at(motion.rest, k)
-    return columns_there
+        total += _at(factor, k)[:, None] * space.columns(nu, u)
+    total[:, -1] += _at(motion.rest, k)
+    return total
 
 
 def _at(factor: Formula, k: Array) -> Array:
-    return _spread(MotionFormula(factor).values({"k": k}), k)
-
-
-def _spread(values: Array, like: Array) -> Array:
-    return np.broadcast_to(values, like.shape)
+    return np.broadcast_to(MotionFormula(factor).values({"k": k}), k.shape)
 
 
 def rows(space: LawSpace, side: Side, slack: Array, bound: float) -> LinearFamily:
@@ -95,7 +91,7 @@ def rows(space: LawSpace, side: Side, slack: Array, bound: float) -> LinearFamil
         weights, lowest = plain[0], min(plain[0])
         combined = tuple(weights.get(nu, 0.0) for nu in range(lowest, max(weights) + 1))
         family = space.combination(lowest, combined, side.name, slack, bound, signs=side.signs)
-        return _within(family, domain)
+        return replace(family, domain=(max(domain[0], family.domain[0]), min(domain[1], family.domain[1])))
     edges = edges_of(space, motion)
     if edges == _WHOLE:
         wide = space.widened(_series(space, motion, _WHOLE), len(slack))
@@ -107,11 +103,6 @@ def rows(space: LawSpace, side: Side, slack: Array, bound: float) -> LinearFamil
     pieces = PieceSeries(np.array(edges), stacked)
     jumps = any(space.jumps(nu) for nu in motion.orders)
     return PieceFamily(side.name, slack, bound, side.signs, domain, series=np.zeros((1, 1)), pieces=pieces, jumps=jumps)
-
-
-def _within(family: LinearFamily, domain: tuple[float, float]) -> LinearFamily:
-    """The rows on a part of the space's part of the interval."""
-    return replace(family, domain=(max(domain[0], family.domain[0]), min(domain[1], family.domain[1])))
 
 
 def edges_of(space: LawSpace, motion: MotionFormula) -> tuple[float, ...]:
@@ -126,18 +117,16 @@ def count_of(space: LawSpace, motion: MotionFormula, ends: tuple[float, float]) 
         known = degree(factor, {"k": 1})
         if known is not None:
             return known
-        values = MotionFormula(factor).values
-        return len(interpolated(lambda x: _spread(values({"k": (1.0 - _between(ends, x)) / 2.0}), x), str(factor)))
+        return len(interpolated(lambda x: _at(factor, (1.0 - _between(ends, x)) / 2.0), str(factor)))
 
-    own = [length(factor) + space.degree_of(nu) for nu, factor in motion.weights.items()]
-    return 1 + max([*own, length(motion.rest)])
+    lengths = [length(factor) + space.degree_of(nu) for nu, factor in motion.weights.items()]
+    return 1 + max([*lengths, length(motion.rest)])
 
 
 def _between(ends: tuple[float, float], x: Array) -> Array:
     """The u of places from -1 to 1."""
     high, low = ends
-    places: Array = low + (x + 1.0) * (high - low) / 2.0
-    return places
+    return np.asarray(low + (x + 1.0) * (high - low) / 2.0)
 
 
 def _series(space: LawSpace, motion: MotionFormula, ends: tuple[float, float]) -> Array:

@@ -28,25 +28,21 @@ _DEEPEST, _DENSE = 12, 32
 
 def extremes_along(motion: MotionFormula, law: MotionLaw) -> tuple[Peak, Peak]:
     """The least and the greatest value of a formula in a law, each with its place; infinite where it has no bound."""
-    candidates = [_candidates(motion, law, ends) for ends in pairwise(_smooth_edges(motion, law))]
-    if not candidates:
+    pieces = [_candidates(motion, law, ends) for ends in pairwise(_smooth_edges(motion, law))]
+    if not pieces:
         k = np.array([motion.start])
         return extremes(k, _values(motion, law, k))
-    k, values = (np.concatenate(several) for several in zip(*candidates, strict=True))
+    k, values = (np.concatenate(several) for several in zip(*pieces, strict=True))
     if not np.isfinite(values).all():
         worst = float(k[~np.isfinite(values)][0])
         return Peak(-np.inf, worst), Peak(np.inf, worst)
     return extremes(k, values)
 
 
-def mean_square_along(motion: MotionFormula, law: MotionLaw) -> float:
-    """The integral over the part of the square of a formula in a law."""
-    return _Integral(motion, law, square=True).value
-
-
-def integral_along(motion: MotionFormula, law: MotionLaw) -> float:
-    """The integral over the part of a formula in a law."""
-    return _Integral(motion, law, square=False).value
+def integral_along(motion: MotionFormula, law: MotionLaw, *, square: bool = False) -> float:
+    """The integral over the part of a formula in a law, or of its square; infinite where it seems to have none."""
+    integral = _Integral(motion, law, square=square)
+    return sum(integral.over(ends) for ends in integral.pieces)
 
 
 def value_along(motion: MotionFormula, law: MotionLaw) -> float:
@@ -59,23 +55,20 @@ def _values(motion: MotionFormula, law: MotionLaw, k: Array) -> Array:
     return np.broadcast_to(motion.values({**names, "k": k}), k.shape).astype(np.float64)
 
 
-def _edges(motion: MotionFormula, law: MotionLaw) -> list[float]:
-    """The k between which the formula is smooth along the law."""
+def _smooth_edges(motion: MotionFormula, law: MotionLaw) -> list[float]:
+    """The k between which the formula is smooth along the law, with kinks and knots of splines that the law passes."""
     breaks = law.breaks if isinstance(law, PiecewiseLaw) else ()
     inner = {k for k in (*breaks, *motion.breaks) if motion.start < k < motion.stop}
-    return sorted({motion.start, motion.stop, *inner})
-
-
-def _smooth_edges(motion: MotionFormula, law: MotionLaw) -> list[float]:
-    """These, the kinks that the law makes, and where it passes the knots of splines."""
+    edges = sorted({motion.start, motion.stop, *inner})
     plain, bent = knots(motion.formula, ORDERS)
-    edges = cut_at_all((partial(_values, MotionFormula(switch), law) for switch in plain), _edges(motion, law))
+    edges = cut_at_all((partial(_values, MotionFormula(switch), law) for switch in plain), edges)
     for switch in bent:
         edges = cut_at_roots(partial(_inside, MotionFormula(switch), law), edges)
     return edges
 
 
 def _inside(motion: MotionFormula, law: MotionLaw, low: float, high: float) -> Callable[[Array], Array]:
+    """The values on a piece, its ends taken just within it."""
     return lambda k: _on(motion, law, (low, high), k)[1]
 
 
@@ -102,7 +95,7 @@ def _count(motion: MotionFormula, law: MotionLaw, ends: tuple[float, float]) -> 
 
 def _candidates(motion: MotionFormula, law: MotionLaw, ends: tuple[float, float]) -> tuple[Array, Array]:
     """Where the formula may be extreme on a piece, and its values there."""
-    inner = candidates(lambda k: _on(motion, law, ends, k)[1], ends, _count(motion, law, ends))
+    inner = candidates(_inside(motion, law, *ends), ends, _count(motion, law, ends))
     return _on(motion, law, ends, np.concatenate([np.array(ends), inner]))
 
 
@@ -113,19 +106,14 @@ class _Integral:
         self.motion, self.law, self.square = motion, law, square
         self.pieces = list(pairwise(_smooth_edges(motion, law)))
 
-    @property
-    def value(self) -> float:
-        """It over all pieces; infinite where it seems to have none."""
-        return sum(self._over(ends) for ends in self.pieces)
-
     @kept_property
     def size(self) -> float:
         """What it is without signs, nearly."""
         return sum(abs(self._by_rule(ends, _DENSE, sizes=True)) for ends in self.pieces)
 
-    def _over(self, ends: tuple[float, float]) -> float:
-        count = _count(self.motion, self.law, ends)
-        series = series_between(lambda k: _on(self.motion, self.law, ends, k)[1], ends, count)
+    def over(self, ends: tuple[float, float]) -> float:
+        """The integral over a piece."""
+        series = series_between(_inside(self.motion, self.law, *ends), ends, _count(self.motion, self.law, ends))
         if series is None:
             return self._in_parts(ends, 0)
         x, weights = gauss(len(series) + 1)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import Any
 
 from optlaws.echo import shortened
@@ -19,11 +19,6 @@ _MOST = 2000
 
 def text_of(function: Callable[..., Any]) -> str:
     """The formula that a callable of some of k, a, b, c, d, j writes down, as text.
-
-    Raises
-    ------
-    InputError
-        If its parameters are others, it returns no number or expression, or it uses functions that formulas lack.
 
     Examples
     --------
@@ -60,19 +55,17 @@ def _read(function: Callable[..., Any], names: list[str]) -> str:
         if kind is None:
             raise InputError("the function uses what is neither smooth nor known: formulas have no such operation")
         if kind == "INPUT":
-            made: Formula = Name(names[taken[0]])
+            formula: Formula = Name(names[taken[0]])
         elif kind == "CONST":
-            made = number(float(graph.instruction_constant(i)))
+            formula = number(float(graph.instruction_constant(i)))
+        elif kind in _OPERATIONS:
+            formula = _OPERATIONS[kind](*(work[place] for place in taken))
         else:
-            made = _operated(kind, [work[place] for place in taken])
-        if len(str(made)) > LONGEST:
+            formula = Call(kind.lower(), (work[taken[0]],))
+        if len(str(formula)) > LONGEST:
             raise InputError(f"a formula may have {LONGEST} characters, and that of the function has more")
-        work[graph.instruction_output(i)[0]] = made
+        work[graph.instruction_output(i)[0]] = formula
     raise InputError("the function writes down nothing")
-
-
-def _operated(kind: str, parts: Sequence[Formula]) -> Formula:
-    return _OPERATIONS[kind](*parts) if kind in _OPERATIONS else Call(kind.lower(), (parts[0],))
 
 
 _OPERATIONS: dict[str, Callable[..., Formula]] = {

@@ -29,10 +29,11 @@ if TYPE_CHECKING:
 
 
 _SPARE = 40
-# what two rules in a row may differ by, relative, and how often parts are cut in two
+#: how often parts are cut in two, at most
 _MOST_POWER = 5
-# along how many laws, and how much greater the acceleration of the others is
+#: along how many laws rules must agree, and how much greater the acceleration of the others is
 _LAWS, _GREATER = 4, 2.0
+#: formulas beneath one
 _MOST = 8
 
 #: between which values derivatives are, by name
@@ -72,11 +73,9 @@ def branch_rows(space: LawSpace, branch: Branch, slack: Array, bound: float) -> 
     if motion.affine is not None:
         return rows(space, Side(branch.name, motion, (branch.sign,)), slack, bound)
     nothing = np.zeros(len(slack))
-    parts = []
-    for name in sorted(motion.formula.names() & ORDERS.keys()):
-        single = Side(name, MotionFormula(Name(name), motion.start, motion.stop), (1.0,))
-        parts.append((name, rows(space, single, nothing, 0.0)))
-    degrees = {name: space.degree_of(nu) for name, nu in ORDERS.items() if name in motion.formula.names()}
+    degrees = _degrees(space, motion)
+    sides = {name: Side(name, MotionFormula(Name(name), motion.start, motion.stop), (1.0,)) for name in sorted(degrees)}
+    parts = tuple((name, rows(space, side, nothing, 0.0)) for name, side in sides.items())
     return CurvedFamily(
         branch.name,
         slack,
@@ -84,7 +83,7 @@ def branch_rows(space: LawSpace, branch: Branch, slack: Array, bound: float) -> 
         (branch.sign,),
         (1.0 - 2.0 * motion.stop, 1.0 - 2.0 * motion.start),
         formula=motion.formula,
-        parts=tuple(parts),
+        parts=parts,
         tangents=(branch.sign,) if branch.convex else (),
         degree=motion.degree(degrees),
         edges=edges_of(space, motion),
@@ -95,9 +94,10 @@ def integral_rows(
     space: LawSpace, motion: MotionFormula, name: str, slack: Array, bound: float, *, root: bool, convex: bool
 ) -> IntegralFamily:
     """The row that the integral of a formula over its part, or its root, is at most slack . x + bound."""
-    used = tuple(sorted(motion.formula.names() & ORDERS.keys()))
-    k, weights = integral_rule(space, motion)
-    columns = np.stack([space.widened(columns_at(space, name_of_branch, k), len(slack)) for name_of_branch in used])
+    used = tuple(sorted(_degrees(space, motion)))
+    # exact where the formula is a polynomial of k
+    k, weights = _rule(rule_edges(space, motion), rule_length(space, motion))
+    columns = np.stack([space.widened(columns_of(space, ORDERS[symbol], k), len(slack)) for symbol in used])
     plain = IntegralFamily(
         name,
         slack,
@@ -120,28 +120,27 @@ def _kinked(space: LawSpace, motion: MotionFormula, plain: IntegralFamily) -> Ki
         several = (columns_of(space, ORDERS[name] + turn, k) for name in plain.names)
         return np.array([space.widened(columns, len(plain.slack)) for columns in several])
 
-    own = {field.name: getattr(plain, field.name) for field in fields(plain)}
-    degrees = {name: space.degree_of(ORDERS[name]) for name in plain.names}
-    degree = replace(motion, formula=together(motion.formula)).degree(degrees)
-    length = _SPARE + max(degrees.values()) if degree is None else degree // 2 + 1
+    given = {field.name: getattr(plain, field.name) for field in fields(plain)}
+    length = rule_length(space, replace(motion, formula=together(motion.formula)))
     edges = tuple(_known_edges(space, motion))
-    return KinkedIntegralFamily(**own, rows=rows, units=np.ones(len(plain.slack) + 1), edges=edges, length=length)
-
-
-def integral_rule(space: LawSpace, motion: MotionFormula) -> tuple[Array, Array]:
-    """Gauss's places k over the formula's part and their weights; exact where the formula is a polynomial of k."""
-    return _rule(rule_edges(space, motion), rule_length(space, motion))
+    return KinkedIntegralFamily(**given, rows=rows, units=np.ones(len(plain.slack) + 1), edges=edges, length=length)
 
 
 def _rule(edges: list[float], count: int) -> tuple[Array, Array]:
+    """Places k of Gauss's rule between edges, and their weights."""
     x, share = gauss(count)
     low, width = np.array(edges[:-1])[:, None], np.diff(edges)[:, None]
     return (low + width * (1.0 + x) / 2.0).ravel(), (share * width / 2.0).ravel()
 
 
+def _degrees(space: LawSpace, motion: MotionFormula) -> dict[str, int]:
+    """The degrees of the derivatives that a formula has, by their names."""
+    return {name: space.degree_of(nu) for name, nu in ORDERS.items() if name in motion.formula.names()}
+
+
 def rule_length(space: LawSpace, motion: MotionFormula) -> int:
     """How many places a piece needs."""
-    degrees = {name: space.degree_of(nu) for name, nu in ORDERS.items() if name in motion.formula.names()}
+    degrees = _degrees(space, motion)
     degree = motion.degree(degrees)
     return _SPARE + max(degrees.values(), default=0) if degree is None else degree // 2 + 1
 
@@ -171,12 +170,12 @@ def _cells(space: LawSpace, motion: MotionFormula, edges: list[float]) -> int:
     count, before, laws = rule_length(space, motion), np.full(_LAWS, np.nan), _some_laws(space)
     for power in range(_MOST_POWER + 1):
         k, weights = _rule(_cut(edges, 1 << power), count)
-        names = {name: laws @ columns_at(space, name, k).T for name in ORDERS if name in motion.formula.names()}
+        names = {name: laws @ columns_of(space, ORDERS[name], k).T for name in _degrees(space, motion)}
         values = np.broadcast_to(motion.values({**names, "k": k}), (_LAWS, len(k)))
-        columns_there = values @ weights
-        if (np.abs(columns_there - before) <= RULES_AGREE * (np.abs(values) @ weights)).all():
+        integrals = values @ weights
+        if (np.abs(integrals - before) <= RULES_AGREE * (np.abs(values) @ weights)).all():
             return max(1 << power - 1, 1)
-        before = columns_there
+        before = integrals
     return 1 << _MOST_POWER
 
 
@@ -202,22 +201,17 @@ def rule_cells(space: LawSpace, motion: MotionFormula, count: int) -> Array:
     return np.array(_cut(edges, -(-count // (len(edges) - 1))))
 
 
-def columns_at(space: LawSpace, name: str, k: Array) -> Array:
-    """A derivative at places anywhere in [0, 1]."""
-    return columns_of(space, ORDERS[name], k)
-
-
 def columns_of(space: LawSpace, nu: int, k: Array) -> Array:
     """The derivative of order nu at places in [0, 1]: of symmetric laws the second half is the first's mirror image."""
     if not space.symmetric:
         return space.columns(nu, 1.0 - 2.0 * k)
-    columns_there = space.columns(nu, np.abs(1.0 - 2.0 * k))
+    columns = space.columns(nu, np.abs(1.0 - 2.0 * k))
     if nu % 2 == 0:
         later = k > 0.5
-        columns_there[later] *= -1.0
+        columns[later] *= -1.0
         if nu == 0:
-            columns_there[later, -1] += 1.0
-    return columns_there
+            columns[later, -1] += 1.0
+    return columns
 
 
 def envelopes(motion: MotionFormula, boxes: Boxes) -> list[Formula]:
@@ -249,36 +243,18 @@ def envelopes(motion: MotionFormula, boxes: Boxes) -> list[Formula]:
 
 def _bounds(names_of: tuple[str, ...], boxes: Boxes, *, above: bool) -> list[Formula]:
     """Affine bounds of a product."""
-    first, second = names_of
-    (l1, u1), (l2, u2) = boxes[first], boxes[second]
+    first, second = map(Name, names_of)
+    (l1, u1), (l2, u2) = (boxes[name] for name in names_of)
     corners = [(u1, l2), (l1, u2)] if above else [(l1, l2), (u1, u2)]
-    if first == second:
-        corners = corners[:1] if above else corners
+    numbers = [(number(factor), number(other)) for factor, other in corners[: 1 if above and first == second else 2]]
     return [
-        total(
-            [
-                product([_plain(factor), Name(second)]),
-                product([_plain(other), Name(first)]),
-                Negative(product([_plain(factor), _plain(other)])),
-            ]
-        )
-        for factor, other in corners
+        total([product([factor, second]), product([other, first]), Negative(product([factor, other]))])
+        for factor, other in numbers
     ]
 
 
-def _plain(value: float) -> Formula:
-    return number(value)
-
-
 def squared(motion: MotionFormula) -> MotionFormula:
-    """The square of a formula; of a norm what has no root in it.
-
-    Examples
-    --------
-    >>> from optlaws.formulas.of_motion import of_text
-    >>> squared(of_text("norm(b, 2*c)")).formula
-    b^2 + (2*c)^2
-    """
+    """The square of a formula; of norm(b, 2*c) it is b^2 + (2*c)^2, which has no root in it."""
     formula, two = motion.formula, Number(2.0)
     sizes = formula.arguments if isinstance(formula, Call) and formula.function in {"abs", "norm"} else (formula,)
     return replace(motion, formula=total([Exponentiation(part, two) for part in sizes]))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from abc import abstractmethod
 from dataclasses import dataclass, replace
 from math import inf, isfinite
 from typing import TYPE_CHECKING
@@ -21,12 +20,7 @@ from optlaws.numerics.tolerances import VALUE_ROUNDING
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily
 from optlaws.synthesis.functionals.affine_rows import columns, gauss, rows, sampled, sides
-from optlaws.synthesis.functionals.along_law import (
-    extremes_along,
-    integral_along,
-    mean_square_along,
-    value_along,
-)
+from optlaws.synthesis.functionals.along_law import extremes_along, integral_along, value_along
 from optlaws.synthesis.functionals.curved_rows import (
     Boxes,
     Branch,
@@ -36,9 +30,7 @@ from optlaws.synthesis.functionals.curved_rows import (
     split,
     squared,
 )
-from optlaws.synthesis.functionals.sizes import known_values, reach
-from optlaws.synthesis.functionals.straight_reach import straight_reach
-from optlaws.synthesis.functionals.tangent_reach import tangent_reach
+from optlaws.synthesis.functionals.sizes import SizeBound, by_integral, by_tangents, known_values, reach
 from optlaws.synthesis.functionals.undefined import check_ends, check_passed, pitfalls
 from optlaws.synthesis.problem.constants import Asked, Functional
 from optlaws.synthesis.problem.ranges import as_range
@@ -48,20 +40,11 @@ if TYPE_CHECKING:
     from optlaws.synthesis.spaces.space import LawSpace
 
 
-_BOTH = (1.0, -1.0)
-
-
 @dataclass(frozen=True, repr=False)
 class OfFormula(Functional):
-    """A constant made of a formula of the motion.
+    """A constant made of a formula of the motion."""
 
-    Attributes
-    ----------
-    motion
-        The formula, and over which part of the interval.
-    """
-
-    motion: MotionFormula
+    motion: MotionFormula  #: the formula, and over which part of the interval
 
     @property
     def scale(self) -> float:
@@ -112,11 +95,11 @@ class OfFormula(Functional):
 
     def sizes(self, space: LawSpace) -> tuple[tuple[int, float, float], ...]:
         """A bound of the law's size, kept for the space."""
-        kept = space.cached(("size", self.name), lambda: np.array(self._size(space) or ()))
-        return ((int(kept[0]), float(kept[1]), float(kept[2])),) if len(kept) else ()
+        known = space.cached(("size", self.name), lambda: np.array(self._size(space) or ()))
+        return ((int(known[0]), float(known[1]), float(known[2])),) if len(known) else ()
 
-    def _size(self, space: LawSpace) -> tuple[int, float, float] | None:  # noqa: ARG002
-        """An order, a factor and an offset; None where the constant does not bound the law."""
+    def _size(self, space: LawSpace) -> SizeBound | None:  # noqa: ARG002
+        """The bound; None where the constant does not bound the law."""
         return None
 
     def convex_families(
@@ -126,49 +109,42 @@ class OfFormula(Functional):
         if self.convex:
             return self.families(space, slack, bound)
         floor = self.floor(space.boundary)
-        families = self._envelopes(space, slack, bound, boxes_of(problem))
+        beneath = self.beneath(boxes_of(problem), symmetric=space.symmetric)
+        families = tuple(branch_rows(space, branch, slack, bound) for branch in beneath)
         if isfinite(floor) and slack.any():
             row = np.append(-slack, 0.0)[None, :]
             least = LinearFamily(names.at_least(self.name), 0.0 * slack, -floor, (1.0,), (1.0, 1.0), series=row)
             return (*families, least)
         return families
 
-    def _envelopes(
-        self,
-        space: LawSpace,  # noqa: ARG002
-        slack: Array,  # noqa: ARG002
-        bound: float,  # noqa: ARG002
-        boxes: Boxes,  # noqa: ARG002
-    ) -> tuple[ConstraintFamily, ...]:
-        """Convex rows that hold where the constant is at most slack . x + bound."""
-        return ()
+    def branches(self, *, symmetric: bool) -> list[Branch]:  # noqa: ARG002
+        """The smooth formulas whose rows hold the constant; none where other rows do."""
+        return []
 
-    @abstractmethod
-    def value(self, law: MotionLaw) -> float:
-        """The constant of a law, recomputed over the whole part."""
+    def beneath(self, boxes: Boxes, *, symmetric: bool) -> list[Branch]:  # noqa: ARG002
+        """Convex formulas that the constant is nowhere below while derivatives are in their boxes."""
+        return []
+
+    def floor(self, conditions: BoundaryConditions) -> float:  # noqa: ARG002
+        """Zero where the formula is nowhere below 0 or its sign does not count, else minus infinity."""
+        return 0.0 if self.of_magnitude or self.sign > 0 else -inf
 
     def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConstraintFamily, ...]:
-        """Rows that hold if and only if the constant is at most slack . x + bound.
-
-        Raises
-        ------
-        InputError
-            If the formula has no value at an end of the laws, or where each of them comes by.
-        """
+        """Rows that hold if and only if the constant is at most slack . x + bound; of formulas with values alone."""
         check_ends(self.motion, space.boundary)
         check_passed(self.motion, space.boundary, smooth=not space.jumps(2))
         return self._families(space, slack, bound)
 
-    @abstractmethod
     def _families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConstraintFamily, ...]:
         """The rows themselves."""
+        return tuple(branch_rows(space, branch, slack, bound) for branch in self.branches(symmetric=space.symmetric))
 
 
 @dataclass(frozen=True, repr=False)
 class FormulaPeak(OfFormula):
     """Peak of a formula: magnitude, or one sign only; made by `peak`."""
 
-    signs: tuple[float, ...] = _BOTH
+    signs: tuple[float, ...] = (1.0, -1.0)
 
     @property
     def of_magnitude(self) -> bool:
@@ -178,19 +154,19 @@ class FormulaPeak(OfFormula):
     @property
     def counted(self) -> tuple[float, ...]:
         """The signs that may count: of what is nowhere below 0 only one."""
-        return (float(self.sign),) if len(self.signs) == 2 and self.sign and not self.affine else self.signs
+        return (float(self.sign),) if self.of_magnitude and self.sign and not self.affine else self.signs
 
     def floor(self, conditions: BoundaryConditions) -> float:
         """A peak of one sign may be below 0; what the end conditions say of the formula it is not below."""
         known = known_values(self.motion, conditions)
-        least = 0.0 if len(self.signs) == 2 or self.sign == self.signs[0] else -inf
+        least = 0.0 if self.of_magnitude or self.sign == self.signs[0] else -inf
         return max([least, *(sign * value - VALUE_ROUNDING * size for value, size in known for sign in self.signs)])
 
     def value(self, law: MotionLaw) -> float:
         """The peak over the whole part."""
         return max(greatest_along(self.motion, sign, law) for sign in self.counted)
 
-    def _size(self, space: LawSpace) -> tuple[int, float, float] | None:
+    def _size(self, space: LawSpace) -> SizeBound | None:
         """Of a peak of one sign only if some mean of the formula is the same in every law, or it is convex."""
         if self.motion.start == self.motion.stop:
             return None
@@ -199,52 +175,44 @@ class FormulaPeak(OfFormula):
         size = reach(space, self.parts(symmetric=space.symmetric))
         if size is None:
             return None
-        return size.by_peak() if len(self.signs) == 2 else size.by_one_sign(self.signs[0])
+        return size.by_peak() if self.of_magnitude else size.by_one_sign(self.signs[0])
 
-    def _by_mean(self, space: LawSpace) -> tuple[int, float, float] | None:
+    def _by_mean(self, space: LawSpace) -> SizeBound | None:
         """By the mean of a convex formula, which is at most its peak."""
         signed = {1.0: self.motion, -1.0: replace(self.motion, formula=opposite(self.motion.formula))}
         for sign in self.counted:
-            size = _by_integral(space, signed[sign]) if signed[sign].curvature.convex else None
+            size = by_integral(space, signed[sign]) if signed[sign].curvature.convex else None
             if size is not None:
-                return size[0], size[1] * (self.motion.stop - self.motion.start), size[2]
+                return size.times(self.motion.stop - self.motion.start)
         return None
 
     def branches(self, *, symmetric: bool) -> list[Branch]:
         """The smooth formulas whose rows hold the peak."""
-        branches_found = []
-        for side in sides(self.motion, self.name, self.counted, symmetric=symmetric):
-            for sign in side.signs:
-                branches_found += split(side.motion, sign, side.name) or []
-        return branches_found
+        halves = sides(self.motion, self.name, self.counted, symmetric=symmetric)
+        several = [split(side.motion, sign, side.name) for side in halves for sign in side.signs]
+        return [branch for branches in several for branch in branches or []]
 
     def _families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConstraintFamily, ...]:
         """One family; two where symmetric laws count on half the interval but the formula is not symmetric."""
         if self.affine:
-            rows_by_side = sides(self.motion, self.name, self.signs, symmetric=space.symmetric)
-            return tuple(rows(space, side, slack, bound) for side in rows_by_side)
-        return tuple(branch_rows(space, branch, slack, bound) for branch in self.branches(symmetric=space.symmetric))
-
-    def _envelopes(self, space: LawSpace, slack: Array, bound: float, boxes: Boxes) -> tuple[ConstraintFamily, ...]:
-        beneath = self.beneath(boxes, symmetric=space.symmetric)
-        return tuple(branch_rows(space, branch, slack, bound) for branch in beneath)
+            halves = sides(self.motion, self.name, self.signs, symmetric=space.symmetric)
+            return tuple(rows(space, side, slack, bound) for side in halves)
+        return super()._families(space, slack, bound)
 
     def beneath(self, boxes: Boxes, *, symmetric: bool) -> list[Branch]:
         """Convex formulas that those of the peak are nowhere below, with the peak's convex ones themselves."""
-        branches_below = []
+        convex = []
         for branch in self.branches(symmetric=symmetric):
             if branch.convex:
-                branches_below.append(branch)
+                convex.append(branch)
                 continue
             motion = branch.motion
             signed = motion if branch.sign > 0.0 else replace(motion, formula=Negative(motion.formula))
-            under = [replace(signed, formula=formula) for formula in envelopes(signed, boxes)]
-            branches_below += [
-                Branch(motion, 1.0, names.envelope(i, branch.name, branch.sign))
-                for i, motion in enumerate(under, 1)
-                if motion.curvature.convex
-            ]
-        return branches_below
+            for i, formula in enumerate(envelopes(signed, boxes), 1):
+                below = replace(signed, formula=formula)
+                if below.curvature.convex:
+                    convex.append(Branch(below, 1.0, names.envelope(i, branch.name, branch.sign)))
+        return convex
 
 
 @dataclass(frozen=True, repr=False)
@@ -263,30 +231,29 @@ class FormulaRms(OfFormula):
 
     def value(self, law: MotionLaw) -> float:
         """The root of the mean square, by Gauss's rule, exact where the formula is a polynomial of k."""
-        return float(np.sqrt(mean_square_along(self.motion, law) / self.length))
+        return float(np.sqrt(integral_along(self.motion, law, square=True) / self.length))
 
     def _families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConstraintFamily, ...]:
         """A norm of the coordinates, or the root of an integral."""
         if not self.affine:
-            root = float(np.sqrt(self.length))
-            square = squared(self.motion)
-            family = integral_rows(space, square, self.name, slack * root, bound * root, root=True, convex=self.convex)
-            return (family,)
+            root, square = float(np.sqrt(self.length)), squared(self.motion)
+            return (integral_rows(space, square, self.name, slack * root, bound * root, root=True, convex=self.convex),)
         matrix = np.vstack([self._roots(space, half) for half in self.parts(symmetric=space.symmetric)])
         return (NormFamily(self.name, slack, bound, matrix=space.widened(matrix, len(slack))),)
 
-    def _size(self, space: LawSpace) -> tuple[int, float, float] | None:
+    def _size(self, space: LawSpace) -> SizeBound | None:
         """By Cauchy's inequality, or by tangents."""
-        if not self.affine:
-            size = _by_tangents(space, squared(self.motion), root=True) if self.convex else None
-            if size is None and self.convex and self.sign > 0:
-                # the mean is at most the root of the mean square
-                mean = _by_integral(space, self.motion)
-                size = None if mean is None else (mean[0], mean[1] * float(np.sqrt(self.length)), mean[2])
-        else:
+        root = float(np.sqrt(self.length))
+        if self.affine:
             values = reach(space, self.parts(symmetric=space.symmetric))
             size = None if values is None else values.by_square()
-        return None if size is None else (size[0], size[1] * float(np.sqrt(self.length)), size[2])
+        else:
+            size = by_tangents(space, squared(self.motion), root=True) if self.convex else None
+            if size is None and self.convex and self.sign > 0:
+                # the mean is at most the root of the mean square
+                mean = by_integral(space, self.motion)
+                size = None if mean is None else mean.times(root)
+        return None if size is None else size.times(root)
 
     def _roots(self, space: LawSpace, motion: MotionFormula) -> Array:
         u, weights = gauss(space, motion)
@@ -302,17 +269,13 @@ class FormulaIntegral(OfFormula):
         """Of the formula times the part's length; a power of 2."""
         return power_of_two(self.motion.scale * (self.motion.stop - self.motion.start))
 
-    def floor(self, conditions: BoundaryConditions) -> float:  # noqa: ARG002
-        """Zero where the formula is nowhere below 0, else minus infinity."""
-        return 0.0 if self.sign > 0 else -inf
-
     def value(self, law: MotionLaw) -> float:
         """By Gauss's rule, exact where the formula is a polynomial of k."""
         return integral_along(self.motion, law)
 
-    def _size(self, space: LawSpace) -> tuple[int, float, float] | None:
+    def _size(self, space: LawSpace) -> SizeBound | None:
         """Of a convex formula."""
-        return _by_integral(space, self.motion) if self.convex and not self.affine else None
+        return by_integral(space, self.motion) if self.convex and not self.affine else None
 
     def _families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConstraintFamily, ...]:
         """One row."""
@@ -323,10 +286,6 @@ class FormulaIntegral(OfFormula):
 class FormulaValue(OfFormula):
     """Value of a formula at one k; made by `value`."""
 
-    def floor(self, conditions: BoundaryConditions) -> float:  # noqa: ARG002
-        """A value may be below 0 unless its formula is nowhere."""
-        return 0.0 if self.sign > 0 else -inf
-
     def value(self, law: MotionLaw) -> float:
         """The value."""
         return value_along(self.motion, law)
@@ -335,10 +294,6 @@ class FormulaValue(OfFormula):
         """The smooth formulas whose rows hold the value."""
         [motion] = self.parts(symmetric=symmetric)
         return split(motion, 1.0, self.name) or []
-
-    def _families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConstraintFamily, ...]:
-        """One row, or one for each branch."""
-        return tuple(branch_rows(space, branch, slack, bound) for branch in self.branches(symmetric=space.symmetric))
 
 
 def greatest_along(motion: MotionFormula, sign: float, law: MotionLaw) -> float:
@@ -350,36 +305,14 @@ def greatest_along(motion: MotionFormula, sign: float, law: MotionLaw) -> float:
     return max(highest.value if sign > 0.0 else -lowest.value for sign, (lowest, highest) in ends)
 
 
-def _by_integral(space: LawSpace, motion: MotionFormula) -> tuple[int, float, float] | None:
-    """What bounds the laws in which the integral of a convex formula is small."""
-    return straight_reach(space, motion) or _by_tangents(space, motion, root=False)
-
-
-def _by_tangents(space: LawSpace, motion: MotionFormula, *, root: bool) -> tuple[int, float, float] | None:
-    """What bounds the laws in which the integral of a convex formula, or its root, is small."""
-    nothing = np.zeros(space.terms)
-    unit = power_of_two(np.sqrt(motion.scale)) if root else motion.scale
-    plain = integral_rows(space, motion, "", nothing, 0.0, root=False, convex=True).scaled_down(
-        unit**2 if root else unit
-    )
-    size = tangent_reach(space, plain, replace(plain, root=True) if root else plain)
-    return None if size is None else (size[0], size[1] / unit, size[2])
-
-
 def refusal(constant: OfFormula) -> str | None:
-    """Why a formula cannot be minimised or bounded; None where it can.
-
-    Its kinks must make it the greatest of smooth formulas, or there must be none.
-    """
-    motion = constant.motion
-    if isinstance(constant, FormulaPeak | FormulaValue):
-        signs = constant.counted if isinstance(constant, FormulaPeak) else (1.0,)
-        bad = [sign for sign in signs if split(motion, sign, constant.name) is None]
-        if not bad:
-            return None
-        hint = '; side="high" may be' if len(signs) == 2 and len(bad) == 1 else ""
-        return f"{motion.formula} has kinks, but not those of a maximum: it is neither smooth nor known{hint}"
-    return None
+    """Why a formula cannot be minimised or bounded: its kinks are not those of a greatest of smooth formulas."""
+    signs = constant.counted if isinstance(constant, FormulaPeak) else (1.0,)
+    bad = [sign for sign in signs if split(constant.motion, sign, constant.name) is None]
+    if not bad or not isinstance(constant, FormulaPeak | FormulaValue):
+        return None
+    hint = '; side="high" may be' if len(signs) == 2 and len(bad) == 1 else ""
+    return f"{constant.motion.formula} has kinks, but not those of a maximum: it is neither smooth nor known{hint}"
 
 
 def boxes_of(problem: Asked) -> dict[str, tuple[float, float]]:
@@ -393,9 +326,9 @@ def boxes_of(problem: Asked) -> dict[str, tuple[float, float]]:
     """
     boxes = {}
     for name, constant in (("b", "B"), ("c", "C"), ("j", "J")):
-        asked = as_range(getattr(problem, constant, None), constant)
-        if asked is not None and isfinite(asked.high):
-            boxes[name] = (-asked.high, asked.high)
+        limits = as_range(getattr(problem, constant, None), constant)
+        if limits is not None and isfinite(limits.high):
+            boxes[name] = (-limits.high, limits.high)
     if problem.monotone:
         boxes["b"] = (0.0, boxes.get("b", (0.0, inf))[1])
         if getattr(problem, "boundary", None) is None:

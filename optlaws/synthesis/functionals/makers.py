@@ -1,4 +1,4 @@
-"""What makes constants of formulas: `peak("c + 0.2*b")`, `rms(...)`, `integral(...)`, `value(...)`."""
+"""What makes constants of formulas: `peak("c + 0.2*b")`, `rms(...)`, and the formula of what drives a machine."""
 
 from __future__ import annotations
 
@@ -11,8 +11,10 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.formulas.branches import smooth_itself
 from optlaws.formulas.of_motion import MotionFormula, checked, of_text
+from optlaws.formulas.reading import read
 from optlaws.formulas.scanner import FormulaError
-from optlaws.formulas.tree import ORDERS, Formula, plain
+from optlaws.formulas.slopes import added, derivative, multiplied
+from optlaws.formulas.tree import ORDERS, Exponentiation, Formula, Name, Number, plain
 from optlaws.numbers import real
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.functionals.callables import text_of
@@ -56,7 +58,7 @@ def peak(formula: Any, *, side: str = "both", start: float = 0.0, stop: float = 
     if side not in tuple(_SIDES):
         raise InputError(unknown_key(side, _SIDES, "side"))
     motion = _motion(formula, *_part(start, stop))
-    name = _name("peak", motion, [] if side == "both" else [f"side={side}"])
+    name = _name("peak", motion, *([] if side == "both" else [f"side={side}"]))
     peak = FormulaPeak(name, nan, convex=True, motion=motion, signs=_SIDES[side])
     convex = motion.affine is not None or all(branch.convex for branch in peak.branches(symmetric=False))
     return _checked(replace(peak, convex=convex), formula)
@@ -67,15 +69,8 @@ def rms(formula: Any, *, start: float = 0.0, stop: float = 1.0) -> Functional:  
 
     Parameters
     ----------
-    formula
-        Text as `peak` takes it.
-    start, stop
-        The part of the interval.
-
-    Raises
-    ------
-    InputError
-        If the formula cannot be read; the error points at the place in the text.
+    formula, start, stop
+        As `peak` takes them, with the same errors.
 
     Examples
     --------
@@ -83,9 +78,7 @@ def rms(formula: Any, *, start: float = 0.0, stop: float = 1.0) -> Functional:  
     >>> round(rms("c").value(smoothstep(2)) ** 2, 9)
     12.0
     """
-    motion = _motion(formula, *_part(start, stop))
-    if motion.start == motion.stop:
-        raise InputError(f"rms needs a part of the interval with start < stop, got {start!r} and {stop!r}")
+    motion = _motion(formula, *_part(start, stop, "rms"))
     name = _name("rms", motion)
     rms = FormulaRms(name, nan, convex=True, motion=motion)
     kind = motion.curvature
@@ -98,15 +91,8 @@ def integral(formula: Any, *, start: float = 0.0, stop: float = 1.0) -> Function
 
     Parameters
     ----------
-    formula
-        Text as `peak` takes it.
-    start, stop
-        The part of the interval.
-
-    Raises
-    ------
-    InputError
-        If the formula cannot be read; the error points at the place in the text.
+    formula, start, stop
+        As `peak` takes them, with the same errors.
 
     Examples
     --------
@@ -115,9 +101,7 @@ def integral(formula: Any, *, start: float = 0.0, stop: float = 1.0) -> Function
     >>> round(energy.value(smoothstep(2)), 9), energy.convexity
     (13.8, 'convex: every term of c^2 + (1 + k)*b^2 is convex')
     """
-    motion = _motion(formula, *_part(start, stop))
-    if motion.start == motion.stop:
-        raise InputError(f"integral needs a part of the interval with start < stop, got {start!r} and {stop!r}")
+    motion = _motion(formula, *_part(start, stop, "integral"))
     integral = FormulaIntegral(_name("integral", motion), nan, convex=motion.curvature.convex, motion=motion)
     return _checked(integral, formula)
 
@@ -128,14 +112,9 @@ def value(formula: Any, *, at: float) -> Functional:  # noqa: ANN401
     Parameters
     ----------
     formula
-        Text as `peak` takes it.
+        As `peak` takes it, with the same errors.
     at
         The k.
-
-    Raises
-    ------
-    InputError
-        If the formula cannot be read; the error points at the place in the text.
 
     Examples
     --------
@@ -194,6 +173,39 @@ def functional(
     return _KINDS[kind](function, start=start, stop=stop)
 
 
+def drive_torque(*, inertia: str = "1", friction: str = "0", load: str = "0") -> str:
+    """The torque I(a) c + I'(a) b²/2 + friction b + load that drives a law, as the text of a formula.
+
+    Parameters
+    ----------
+    inertia
+        Moment of inertia over the displacement a, in units in which the rest is said too: "1", "1 + 0.3*a^2",
+        "spline(a, 0:1, 0.3:1.1, 0.7:1.4, 1:1.3)".
+    friction
+        Viscous friction, of a and k.
+    load
+        External force over k or over a: "4*a", "table(k, 0:0, 0.4:0, 0.5:6, 0.6:0, 1:0)".
+
+    Raises
+    ------
+    InputError
+        If a part is no formula of a and k, or the inertia has kinks.
+
+    Examples
+    --------
+    >>> drive_torque(friction="0.5", load="4*a")
+    'c + 0.5*b + 4*a'
+    >>> drive_torque(inertia="1 + 0.3*a^2")
+    '(1 + 0.3*a^2)*c + 0.5*0.3*2*a*b^2'
+    >>> drive_torque(inertia="spline(a, 0:1, 0.3:1.1, 0.7:1.4, 1:1.3)")[-44:]
+    'spline1(a, 0:1, 0.3:1.1, 0.7:1.4, 1:1.3)*b^2'
+    """
+    mass, drag, force = (read(text, ("a", "k")) for text in (inertia, friction, load))
+    square = Exponentiation(Name("b"), Number(2.0))
+    turning = multiplied([Number(0.5), derivative(mass, "a"), square])
+    return str(added([multiplied([mass, Name("c")]), turning, multiplied([drag, Name("b")]), force]))
+
+
 def _motion(formula: Any, start: float, stop: float) -> MotionFormula:  # noqa: ANN401 - it is checked here
     """The formula that a text or a tree says, which must depend on the law."""
     if isinstance(formula, Formula):
@@ -218,10 +230,13 @@ def _checked(constant: OfFormula, formula: Any) -> OfFormula:  # noqa: ANN401 - 
     return constant
 
 
-def _part(start: object, stop: object) -> tuple[float, float]:
+def _part(start: object, stop: object, integrated: str = "") -> tuple[float, float]:
+    """The ends of a part of the interval; what is integrated needs more than a place."""
     first, last = _place(start, "start"), _place(stop, "stop")
     if first > last:
         raise InputError(f"a part of the interval needs start <= stop, got {start!r} and {stop!r}")
+    if integrated and first == last:
+        raise InputError(f"{integrated} needs a part of the interval with start < stop, got {start!r} and {stop!r}")
     return first, last
 
 
@@ -232,8 +247,8 @@ def _place(k: object, name: str) -> float:
     return float(number)
 
 
-def _name(kind: str, motion: MotionFormula, others: list[str] | None = None) -> str:
-    parts = [str(motion.formula), *(others or [])]
+def _name(kind: str, motion: MotionFormula, *others: str) -> str:
+    parts = [str(motion.formula), *others]
     parts += [f"start={plain(motion.start)}"] if motion.start != 0.0 else []
     parts += [f"stop={plain(motion.stop)}"] if motion.stop != 1.0 else []
     return f"{kind}({', '.join(parts)})"
@@ -241,7 +256,5 @@ def _name(kind: str, motion: MotionFormula, others: list[str] | None = None) -> 
 
 _KINDS: dict[str, Callable[..., Functional]] = {"integral": integral, "peak": peak, "rms": rms, "value": value}
 
-MAKERS.setdefault("integral", integral)
-MAKERS.setdefault("peak", peak)
-MAKERS.setdefault("rms", rms)
-MAKERS.setdefault("value", value)
+for _kind, _maker in _KINDS.items():
+    MAKERS.setdefault(_kind, _maker)

@@ -1,17 +1,36 @@
-"""What bounds a law in which a formula is small, and what a formula is at least whatever the law."""
+"""What bounds a law in which a formula is small, and what a formula is at least whatever the law.
+
+Enough values of a formula that is affine in the law determine the law. A convex formula is nowhere below its tangents,
+one that is made of straight ones nowhere below a mean of these whose shares change from cell to cell. Added up with
+weights, or integrated, they leave one coordinate of the law alone: it is at most so much times the integral, and more.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from itertools import pairwise
+from typing import TYPE_CHECKING, NamedTuple, Self
 
 import numpy as np
 
 from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.tree import ORDERS
 from optlaws.numbers import Array, power_of_two
-from optlaws.numerics.tolerances import INVERSE_AGREES, POSITIVE_WEIGHTS, SIZE_RANK, TINY
+from optlaws.numerics.chebyshev import gauss as gauss_rule
+from optlaws.numerics.tolerances import (
+    BALANCED,
+    FLAT_INTEGRAL,
+    INVERSE_AGREES,
+    POSITIVE_LEVEL,
+    POSITIVE_SHARES,
+    POSITIVE_WEIGHTS,
+    REACH_SETTLED,
+    SIZE_RANK,
+    TINY,
+)
+from optlaws.synthesis.families.curved import IntegralFamily
 from optlaws.synthesis.functionals.affine_rows import columns, gauss
+from optlaws.synthesis.functionals.curved_rows import columns_of, integral_rows, rule_cells
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 
 if TYPE_CHECKING:
@@ -24,45 +43,55 @@ _MOST_GAIN = 1e6
 _ROOM = 1.01
 #: beyond this a bound says nothing
 _LARGEST = 1e13
+_CELLS = 6
+_STEPS, _HALVINGS = 30, 20
+#: how far from the least value tangents touch, by what would double it; nearer, they are more alike on all sides
+_NEARER = (1.0, 0.25, 0.0625, 0.015625)
+
+
+class SizeBound(NamedTuple):
+    """The mean magnitude of a derivative of some order is at most a factor times a constant, plus an offset."""
+
+    order: int
+    factor: float
+    offset: float
+
+    @classmethod
+    def of_acceleration(cls, factor: float, offset: float) -> Self:
+        """The bound of |c|, with room for rounding."""
+        return cls(_ORDER, _ROUNDED * factor, _ROUNDED * offset)
+
+    def times(self, share: float) -> Self:
+        """The bound by another constant, of which this one is at most a share."""
+        return self._replace(factor=self.factor * share)
 
 
 @dataclass(frozen=True, eq=False)
 class Reach:
-    """By how much values of a formula at places move the mean of |c|: sum of pulls times |f| plus the offset.
+    """By how much values of a formula at places move the mean of |c|: sum of pulls times |f| plus the offset."""
 
-    Attributes
-    ----------
-    pulls
-        One for each place.
-    offset
-        What is there without the formula.
-    weights
-        Of the places: the sum of weights times f² is the integral of f².
-    turning
-        Weights above 0 whose sum with f is the same in every law, None where there are none; and that sum.
-    """
-
-    pulls: Array
-    offset: float
-    weights: Array
+    pulls: Array  #: one for each place
+    offset: float  #: what is there without the formula
+    weights: Array  #: of the places: the sum of weights times f² is the integral of f²
+    #: weights above 0 whose sum with f is the same in every law, None where there are none; and that sum
     turning: tuple[Array, float] | None = None
 
-    def by_peak(self) -> tuple[int, float, float]:
+    def by_peak(self) -> SizeBound:
         """The bound for a formula whose magnitude is at most 1."""
-        return _ORDER, _ROUNDED * float(self.pulls.sum()), _ROUNDED * self.offset
+        return SizeBound.of_acceleration(float(self.pulls.sum()), self.offset)
 
-    def by_square(self) -> tuple[int, float, float]:
+    def by_square(self) -> SizeBound:
         """The bound for a formula whose square's integral is 1, by Cauchy's inequality."""
-        return _ORDER, _ROUNDED * float(np.sqrt((self.pulls**2 / self.weights).sum())), _ROUNDED * self.offset
+        return SizeBound.of_acceleration(float(np.sqrt((self.pulls**2 / self.weights).sum())), self.offset)
 
-    def by_one_sign(self, sign: float) -> tuple[int, float, float] | None:
+    def by_one_sign(self, sign: float) -> SizeBound | None:
         """The bound for a formula that is at most 1 with a sign: what is above 0 less what is below is known."""
         if self.turning is None:
             return None
         turning, fixed = self.turning
         share = float((self.pulls / turning).max())
         most = 2.0 * share * float(turning.sum())
-        return _ORDER, _ROUNDED * most, _ROUNDED * (self.offset + share * max(-sign * fixed, 0.0))
+        return SizeBound.of_acceleration(most, self.offset + share * max(-sign * fixed, 0.0))
 
 
 def reach(space: LawSpace, parts: tuple[MotionFormula, ...]) -> Reach | None:
@@ -86,7 +115,7 @@ def reach_of(space: LawSpace, values: Array, weights: Array) -> Reach | None:
 
 
 def _reach_of(space: LawSpace, values: Array, weights: Array) -> Reach | None:
-    fixed, free = kept_directions(space)
+    fixed, free = feasible_directions(space)
     rows, right = values[:, :-1] @ free, -(values[:, :-1] @ fixed + values[:, -1])
     inverse = np.linalg.pinv(rows)
     if np.abs(inverse @ rows - np.eye(free.shape[1])).max(initial=0.0) * space.terms > INVERSE_AGREES:
@@ -101,34 +130,32 @@ def _reach_of(space: LawSpace, values: Array, weights: Array) -> Reach | None:
     return Reach(pulls, offset, weights, _turning(rows, right, weights))
 
 
-def by_norm(space: LawSpace, rows: Array) -> tuple[tuple[int, float, float], ...]:
-    """What the RMS of c is at most in laws of a space, by the norm of rows: the least singular value of the way back.
+def by_norm(space: LawSpace, rows: Array) -> tuple[SizeBound, ...]:
+    """What the RMS of c is at most in laws of a space, by the norm of rows; nothing where they do not determine c.
 
-    Nothing where the rows do not determine the law.
+    The factor is the inverse of the least singular value of the map from c to the rows.
     """
     rule = space.quadrature(2)
     bent = np.sqrt(rule.weights)[:, None] * rule.values
-    fixed, free = kept_directions(space)
-    kept = np.append(fixed, 1.0)
-    way: Array = np.asarray(np.linalg.qr(bent[:, :-1] @ free, mode="r"))
-    if np.linalg.matrix_rank(way) < way.shape[1]:
+    fixed, free = feasible_directions(space)
+    point = np.append(fixed, 1.0)
+    triangle: Array = np.asarray(np.linalg.qr(bent[:, :-1] @ free, mode="r"))
+    if np.linalg.matrix_rank(triangle) < triangle.shape[1]:
         return ()
-    least = float(np.linalg.svd(rows[:, :-1] @ free @ np.linalg.inv(way), compute_uv=False)[-1])
+    least = float(np.linalg.svd(rows[:, :-1] @ free @ np.linalg.inv(triangle), compute_uv=False)[-1])
     if least * _MOST_GAIN < float(np.linalg.norm(rows)) / max(float(np.linalg.norm(bent)), 1.0):
         return ()
     factor = _ROOM / least
-    return ((2, factor, _ROOM * float(np.linalg.norm(bent @ kept)) + factor * float(np.linalg.norm(rows @ kept))),)
+    offset = _ROOM * float(np.linalg.norm(bent @ point)) + factor * float(np.linalg.norm(rows @ point))
+    return (SizeBound(2, factor, offset),)
 
 
-def kept_directions(space: LawSpace) -> tuple[Array, Array]:
+def feasible_directions(space: LawSpace) -> tuple[Array, Array]:
     """Coordinates that keep the space's equations, and in which directions they may be left without breaking one."""
     equations = space.equations()
     if not equations:
         return np.zeros(space.terms), np.eye(space.terms)
-    matrix, right = (
-        np.array([equation.row for equation in equations]),
-        np.array([equation.right for equation in equations]),
-    )
+    matrix, right = (np.array(part) for part in zip(*((each.row, each.right) for each in equations), strict=True))
     _, sizes, directions = np.linalg.svd(matrix)
     rank = int((sizes > SIZE_RANK * sizes.max()).sum())
     return np.linalg.lstsq(matrix, right, rcond=None)[0], directions[rank:].T
@@ -149,8 +176,7 @@ def _balanced(rows: Array, weights: Array, near: Array) -> Array:
     """The weights nearest to given ones that no law moves."""
     roots = np.sqrt(weights)
     scaled = roots[:, None] * rows
-    moved: Array = near - roots * (scaled @ np.linalg.lstsq(scaled, near / roots, rcond=None)[0])
-    return moved
+    return np.asarray(near - roots * (scaled @ np.linalg.lstsq(scaled, near / roots, rcond=None)[0]))
 
 
 def _evenly(rows: Array, weights: Array) -> Array | None:
@@ -170,6 +196,178 @@ def _evenly(rows: Array, weights: Array) -> Array | None:
     return None if optimum.x is None else weights * (optimum.x[:-1] + optimum.x[-1])
 
 
+def by_integral(space: LawSpace, motion: MotionFormula) -> SizeBound | None:
+    """What bounds the laws in which the integral of a convex formula is small."""
+    return by_straight_formulas(space, motion) or by_tangents(space, motion, root=False)
+
+
+def by_straight_formulas(space: LawSpace, motion: MotionFormula) -> SizeBound | None:
+    """The bound by the integral of the greatest of straight formulas; None of others, or where they show none."""
+    formulas = motion.branches(1.0)
+    straight = [] if formulas is None else [MotionFormula(formula, motion.start, motion.stop) for formula in formulas]
+    if not straight or any(branch.affine is None for branch in straight):
+        return None
+    fixed, free = feasible_directions(space)
+    rule = space.quadrature(2)
+    sizes = rule.weights @ np.abs(rule.values[:, :-1] @ free)
+    if not free.shape[1] or (sizes == 0.0).any():
+        return None
+    rows = _rows(space, motion, straight, free.shape[1])
+    known = _reaches(rows[..., :-1] @ (free / sizes), rows[..., :-1] @ fixed + rows[..., -1])
+    if known is None or not sum(known) < _LARGEST:
+        return None
+    factor, beside = known
+    return SizeBound.of_acceleration(factor, beside + _mean_acceleration(space, fixed))
+
+
+def _mean_acceleration(space: LawSpace, coordinates: Array) -> float:
+    """The mean of |c| in a law."""
+    rule = space.quadrature(2)
+    return float(rule.weights @ np.abs(rule.values @ np.append(coordinates, 1.0)))
+
+
+def _rows(space: LawSpace, motion: MotionFormula, straight: list[MotionFormula], count: int) -> Array:
+    """Integrals of the straight formulas over cells, shape (cells, formulas, coordinates + 1)."""
+    edges = rule_cells(space, motion, _CELLS * (count + 2))
+    x, share = gauss_rule(space.degree_of(0) // 2 + _CELLS)
+    rows = []
+    for low, high in pairwise(edges.tolist()):
+        k, weights = low + (high - low) * (x + 1.0) / 2.0, share * (high - low) / 2.0
+        several = {nu: columns_of(space, nu, k) for nu in {nu for branch in straight for nu in branch.weights}}
+        sums = np.zeros((len(straight), space.terms + 1))
+        for i, branch in enumerate(straight):
+            for nu, factor in branch.weights.items():
+                sums[i] += (weights * MotionFormula(factor).values({"k": k})) @ several[nu]
+            sums[i, -1] += weights @ np.broadcast_to(MotionFormula(branch.rest).values({"k": k}), k.shape)
+        rows.append(sums)
+    return np.array(rows)
+
+
+def _reaches(slopes: Array, heights: Array) -> tuple[float, float] | None:
+    """Of all coordinates together: by how many times the integral they are bounded, and how much more."""
+    from scipy.optimize import linprog
+
+    cells, formulas, count = slopes.shape
+    flat, heights = slopes.reshape(-1, count), heights.ravel()
+    sums = np.kron(np.eye(cells), np.ones(formulas))
+    matrix, right = np.vstack([flat.T, sums]), np.append(np.zeros(count), np.ones(cells))
+    cost = np.append(np.zeros(cells * formulas), -1.0)
+    # the shares are at least the last variable, which is as great as may be
+    shifted = np.column_stack([matrix, matrix.sum(axis=1)])
+    optimum = linprog(cost, A_eq=shifted, b_eq=right, method="highs")
+    if optimum.x is None or optimum.x[-1] < POSITIVE_LEVEL:
+        return None
+    inverse = np.linalg.pinv(matrix)
+    level = optimum.x[:-1] + optimum.x[-1]
+    level = level - inverse @ (matrix @ level - right)
+    moved = inverse[:, :count]
+    off = float(np.abs(matrix @ moved - np.eye(count + cells)[:, :count]).max(initial=0.0))
+    if off > BALANCED or (level <= 0.0).any():
+        return None
+    factor = beside = 0.0
+    for column in moved.T:
+        both = [max(float((-side / level).max()), 0.0) for side in (column, -column)]
+        lifts = [-float((side + times * level) @ heights) for side, times in zip((column, -column), both, strict=True)]
+        factor, beside = factor + max(both), beside + max(*lifts, 0.0)
+    return float(factor), float(beside)
+
+
+def by_tangents(space: LawSpace, motion: MotionFormula, *, root: bool) -> SizeBound | None:
+    """The bound by the integral of a convex formula, or its root; None where its tangents show none."""
+    nothing = np.zeros(space.terms)
+    unit = power_of_two(np.sqrt(motion.scale)) if root else motion.scale
+    rows = integral_rows(space, motion, "", nothing, 0.0, root=False, convex=True)
+    plain = rows.scaled_down(unit**2 if root else unit)
+    bound = _by_tangents(space, plain, replace(plain, root=True) if root else plain)
+    return None if bound is None else bound.times(1.0 / unit)
+
+
+def _by_tangents(space: LawSpace, plain: IntegralFamily, family: IntegralFamily) -> SizeBound | None:
+    """The bound by f, which is convex: an integral or its root."""
+    fixed, free = feasible_directions(space)
+    if not free.size:
+        # one law is all there is
+        return SizeBound.of_acceleration(0.0, _mean_acceleration(space, fixed))
+    with np.errstate(all="ignore"):
+        lowest = _lowest(plain, fixed, free)
+        bend = free.T @ _hessian(plain, lowest) @ free
+    if not np.isfinite(bend).all() or not np.isfinite(lowest).all():
+        return None
+    sizes, turned = np.linalg.eigh(bend)
+    if sizes[0] <= FLAT_INTEGRAL * sizes[-1]:
+        return None
+    steps = free @ (turned / np.sqrt(sizes))
+    far = float(np.sqrt(2.0 * abs(_value(plain, lowest)))) or 1.0
+    for reach in (far * nearer for nearer in _NEARER):
+        heights, slopes = _tangents(family, lowest, reach * np.hstack([steps, -steps]).T, steps)
+        shares = _shares(slopes) if np.isfinite(heights).all() else None
+        if shares is not None:
+            return _summed(space, lowest, steps, heights, shares)
+    return None
+
+
+def _summed(space: LawSpace, lowest: Array, steps: Array, heights: Array, shares: Array) -> SizeBound:
+    """The bound that weighted tangents say."""
+    rule = space.quadrature(2)
+    means = rule.weights @ np.abs(rule.values[:, :-1] @ steps)
+    factors = shares.sum(axis=1).reshape(2, -1).max(axis=0)
+    beside = -(shares @ heights).reshape(2, -1).min(axis=0)
+    return SizeBound.of_acceleration(float(factors @ means), float(beside @ means) + _mean_acceleration(space, lowest))
+
+
+def _value(family: IntegralFamily, x: Array) -> float:
+    return float(family.value(x, np.ones(1))[0])
+
+
+def _hessian(family: IntegralFamily, x: Array) -> Array:
+    return np.asarray(family.hessian(x, np.ones(1), np.ones(1)))
+
+
+def _lowest(family: IntegralFamily, x: Array, free: Array) -> Array:
+    """Nearly where the integral is least, by Newton's method with steps that are halved."""
+    value = _value(family, x)
+    for _ in range(_STEPS):
+        bend, slope = free.T @ _hessian(family, x) @ free, free.T @ family.jet(x, np.ones(1), np.ones(1)).gradient[0]
+        if not np.isfinite(bend).all():
+            return x
+        step = free @ np.linalg.lstsq(bend, -slope, rcond=None)[0]
+        for _ in range(_HALVINGS):
+            there = _value(family, x + step)
+            if there <= value:
+                break
+            step = step / 2.0
+        else:
+            return x
+        x, before, value = x + step, value, there
+        if before - value <= REACH_SETTLED * abs(value):
+            return x
+    return x
+
+
+def _tangents(family: IntegralFamily, lowest: Array, ways: Array, steps: Array) -> tuple[Array, Array]:
+    """Heights at the lowest place, and slopes along the steps, of tangents there and on all sides."""
+    rows = [family.tangent_row(1.0, 1.0, family.touching(lowest + way, 1.0)) for way in (0.0 * ways[0], *ways)]
+    stacked = np.array([row for row in rows if row is not None])
+    # tangents that touch very far away overflow: nearer ones are tried then
+    with np.errstate(over="ignore", invalid="ignore"):
+        return stacked @ np.append(lowest, 1.0), stacked[:, :-1] @ steps
+
+
+def _shares(slopes: Array) -> Array | None:
+    """Weights of tangents, all at least 0, that leave each coordinate in turn, then each with its sign turned."""
+    count = slopes.shape[1]
+    units = np.vstack([np.eye(count), -np.eye(count)])
+    if len(slopes) < 2 * count + 1 or not np.isfinite(slopes).all():
+        return None
+    inverse = np.linalg.pinv(slopes.T)
+    level = np.ones(len(slopes)) - inverse @ slopes.sum(axis=0)
+    if level.min() < POSITIVE_SHARES:
+        return None
+    shares = units @ inverse.T
+    shares = shares + np.maximum((-shares / level).max(axis=1), 0.0)[:, None] * level
+    return shares if np.abs(shares @ slopes - units).max() <= BALANCED else None
+
+
 def known_values(motion: MotionFormula, conditions: BoundaryConditions) -> list[tuple[float, float]]:
     """What the end conditions say a formula is at an end, or in the mean; each with a size that its rounding has.
 
@@ -185,21 +383,12 @@ def known_values(motion: MotionFormula, conditions: BoundaryConditions) -> list[
         if motion.start <= k <= motion.stop and max(motion.orders, default=0) < len(end):
             value = motion.values({"k": k, **{name: end[nu] for name, nu in ORDERS.items() if nu < len(end)}})
             values.append((float(value), max(motion.scale, abs(float(value)))))
-    mean = mean_value(motion, conditions)
-    return values if mean is None else [*values, (mean, _mean_size(motion, conditions))]
-
-
-def mean_value(motion: MotionFormula, conditions: BoundaryConditions) -> float | None:
-    """The mean over the whole interval of a formula whose factors are numbers; None where it is not known."""
     terms = _mean_terms(motion, conditions)
-    return None if terms is None else sum(terms)
-
-
-def _mean_size(motion: MotionFormula, conditions: BoundaryConditions) -> float:
-    return sum(map(abs, _mean_terms(motion, conditions) or []))
+    return values if terms is None else [*values, (sum(terms), sum(map(abs, terms)))]
 
 
 def _mean_terms(motion: MotionFormula, conditions: BoundaryConditions) -> list[float] | None:
+    """What adds up to the mean over the whole interval of a formula whose factors are numbers; None of others."""
     plain = motion.constant_weights()
     known = range(1, len(conditions.start) + 1)
     whole = motion.affine is not None and (motion.start, motion.stop) == (0.0, 1.0)

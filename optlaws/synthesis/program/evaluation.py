@@ -1,17 +1,28 @@
-"""What a law is worth to a problem, recomputed from the law over the whole interval."""
+"""What a law is worth to a problem, recomputed from the law, and whether rows agree with such values."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from math import inf, isfinite
+from typing import TYPE_CHECKING
 
+import numpy as np
+
+from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
-from optlaws.numerics.tolerances import BOUND_FEASIBILITY, BOUND_SHORT
+from optlaws.numerics.tolerances import BOUND_FEASIBILITY, BOUND_SHORT, ROWS_AGREE
 from optlaws.synthesis.functionals.kinds import greatest_along
 from optlaws.synthesis.problem.constants import B, Functional
 from optlaws.synthesis.problem.expression import Expression, Maximum
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.windows import Window
+
+if TYPE_CHECKING:
+    from optlaws.synthesis.spaces.space import LawSpace
+
+#: along how many laws the rows of a user's class are compared with its values
+_LAWS = 3
 
 
 @dataclass(frozen=True)
@@ -98,3 +109,27 @@ def _total(expression: Expression, law: MotionLaw, values: dict[str, float]) -> 
                 values[term.name] = term.value(law)
             total += weight * values[term.name]
     return total
+
+
+def check_rows(constant: Functional, space: LawSpace) -> None:
+    """Refuse a user's class whose rows say another thing of laws than its value: no law or bound could be trusted."""
+    if not type(constant).__module__.startswith("optlaws."):
+        _check(constant, space)
+
+
+@lru_cache(maxsize=128)
+def _check(constant: Functional, space: LawSpace) -> None:
+    families = constant.families(space, np.zeros(space.terms), 0.0)
+    numbers = np.random.default_rng(0)
+    for size in range(_LAWS):
+        x = 0.3 * size * numbers.normal(size=space.terms)
+        rows = max(float(family.extremes(x)[2].max()) for family in families)
+        value = constant.value(space.law(x))
+        # what is the same for every law, such as the rounding of a peak of nothing, says nothing
+        if abs(rows - value) > ROWS_AGREE * max(abs(rows), abs(value)) and max(abs(rows), abs(value)) > ROWS_AGREE:
+            kind = type(constant).__name__
+            raise InputError(
+                f"{kind}.families and {kind}.value contradict each other: of a law the rows ask {constant.name} = "
+                f"{rows:.7g}, its value is {value:.7g}. Rows must hold if and only if the value is at most "
+                "slack . x + bound"
+            )

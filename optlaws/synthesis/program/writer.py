@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from math import isfinite, nextafter
+from typing import NamedTuple
 
 import numpy as np
 
@@ -24,35 +25,23 @@ from optlaws.synthesis.problem.expression import Expression, Maximum, Term, leav
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
 from optlaws.synthesis.problem.windows import Window
-from optlaws.synthesis.program.agreement import check_rows
+from optlaws.synthesis.program.evaluation import check_rows
 from optlaws.synthesis.spaces.of_basis import space_of
 from optlaws.synthesis.spaces.space import LawSpace
 
 
 @dataclass(frozen=True, eq=False)
 class Model:
-    """The program of a problem, with the space it is written over.
-
-    Attributes
-    ----------
-    problem
-        Whose laws the program speaks of.
-    space, program
-        Laws as a linear space, and what is minimised over its coordinates and the variables beyond them.
-    places
-        The variables beyond the coordinates by their names: those that bound the objective's constants and maxima
-        from above, and "B" where the peak velocity that is asked is a variable.
-    equation_names
-        What each equation of the program is.
-    scales
-        What these variables have been divided by, powers of 2 by name, so that they are near 1.
-    """
+    """The program of a problem, over the coordinates of a linear space of laws and variables beyond them."""
 
     problem: Problem
     space: LawSpace
     program: Program
+    #: the variables beyond the coordinates by their names: those that bound the objective's constants and maxima from
+    #: above, and "B" where the peak velocity is a variable
     places: dict[str, int]
     equation_names: tuple[str, ...]
+    #: what these variables have been divided by, powers of 2 by name, so that they are near 1
     scales: Mapping[str, float] = field(default_factory=dict)
 
     @property
@@ -102,7 +91,6 @@ _ANY = 2.0
 def _model(problem: Problem, *, scaled: bool) -> Model:
     writer = _Writer(problem, _objective_names(problem), scaled=scaled)
     writer.objective(problem.objective)
-    writer.constraints()
     return writer.model()
 
 
@@ -121,13 +109,17 @@ def _relaxed(problem: Problem, tangent: float) -> Model:
     writer = _Writer(problem, _objective_names(problem), extra=VariableName.POWER_ROOT if powers else None)
     writer.tangent, writer.convex = tangent, True
     writer.objective(problem.objective)
-    writer.constraints()
     return writer.model()
+
+
+def _objective_terms(expression: Expression) -> tuple[list[Term], list[Maximum]]:
+    """The constants and the maxima that an objective is made of, each once, in its order."""
+    return list(dict.fromkeys(leaf for _, leaf in leaves(expression))), list(dict.fromkeys(maxima(expression)))
 
 
 def _objective_names(problem: Problem) -> list[str]:
     """Names of the variables that the objective is made of."""
-    return [repr(term) for term in (*(leaf for _, leaf in leaves(problem.objective)), *maxima(problem.objective))]
+    return [repr(term) for terms in _objective_terms(problem.objective) for term in terms]
 
 
 def relaxed_power(problem: Problem) -> PowerConstant | None:
@@ -142,7 +134,6 @@ def least_violation(problem: Problem) -> Model:
     writer.spare = writer.cost = writer.unit(VariableName.VIOLATION)
     # laws with no bound to their size may have any room to spare; more than this is none of our business
     writer.row(RowName.TO_SPARE, -writer.unit(VariableName.VIOLATION), 1.0)
-    writer.constraints()
     return writer.model()
 
 
@@ -157,7 +148,6 @@ def extreme_velocity(problem: Problem, *, greatest: bool) -> Model:
     writer.cost = writer.unit("B", -1.0 if greatest else 1.0)
     if free.peak_at is None:
         writer.families += B.families(writer.space, writer.unit("B"), 0.0)
-    writer.constraints()
     return writer.model()
 
 
@@ -172,14 +162,20 @@ def maxima(expression: Expression) -> list[Maximum]:
     return inner
 
 
+class _Equation(NamedTuple):
+    """Row . x = right, both divided by the unit."""
+
+    name: str
+    row: Array
+    right: float
+    unit: float
+
+
 class _Writer:
     def __init__(
         self, problem: Problem, variables: list[str], extra: str | None = None, *, scaled: bool = True
     ) -> None:
-        if problem.peak_is_variable:
-            variables = [*variables, "B"]
-        if extra is not None:
-            variables = [*variables, extra]
+        variables = [*variables, *(["B"] if problem.peak_is_variable else []), *([] if extra is None else [extra])]
         self.problem, self.power, self.scaled = problem, relaxed_power(problem), scaled
         self.scales: dict[str, float] = {}
         self.convex = False
@@ -191,10 +187,7 @@ class _Writer:
         self.tangent = 0.0
         self.cost_unit = 1.0
         self.families: list[ConstraintFamily] = []
-        self.equalities: list[Array] = []
-        self.right: list[float] = []
-        self.equation_names: list[str] = []
-        self.equation_units: list[float] = []
+        self.equations: list[_Equation] = []
 
     def scale(self, of: Term | Expression | Window) -> float:
         """What rows and variables are divided by."""
@@ -209,26 +202,26 @@ class _Writer:
         return np.asarray(sum(self.unit(repr(term), weight * self.scale(term)) for weight, term in expression.terms))
 
     def objective(self, expression: Expression) -> None:
-        terms = (*(leaf for _, leaf in leaves(expression)), *maxima(expression))
-        self.scales = {repr(term): self.scale(term) for term in terms}
+        constants, greatest = _objective_terms(expression)
+        self.scales = {repr(term): self.scale(term) for term in (*constants, *greatest)}
         self.cost_unit = self.scale(expression)
         self.cost = self.sum(expression) / self.cost_unit
-        for leaf in dict.fromkeys(leaf for _, leaf in leaves(expression)):
+        for leaf in constants:
             if isinstance(leaf, PowerConstant) and VariableName.POWER_ROOT in self.places:
                 self._power(leaf, self.unit(leaf.name), 0.0)
             elif isinstance(leaf, Functional):
                 self.families += self._rows(leaf, self.unit(repr(leaf)), 0.0)
-        for term in dict.fromkeys(maxima(expression)):
+        for term in greatest:
+            scale = self.scale(term)
             for i, part in enumerate(term.parts, 1):
-                own = self.scale(term)
-                self.row(names.maximum_part(i, repr(term)), self.sum(part) - self.unit(repr(term), own), 0.0, own)
+                self.row(names.maximum_part(i, repr(term)), self.sum(part) - self.unit(repr(term), scale), 0.0, scale)
 
     def row(self, name: str, row: Array, bound: float, unit: float = 1.0) -> None:
         """One row, row . x <= bound, divided by its unit."""
         series = np.append(row / unit, 0.0)[None, :]
         self.families.append(LinearFamily(name, self.spare, bound / unit, (1.0,), (1.0, 1.0), unit=unit, series=series))
 
-    def constraints(self) -> None:
+    def _constraints(self) -> None:
         problem = self.problem
         self._peak()
         velocity = problem.range("B")
@@ -239,9 +232,7 @@ class _Writer:
         for constant, limits in problem.bounded:
             self._bounded(constant, limits)
         for condition in self.space.equations():
-            row = np.zeros(self.size)
-            row[: self.space.terms] = condition.row
-            self.equation(condition.name, row, condition.right)
+            self.equation(condition.name, self._widened(condition.row), condition.right)
         for i, window in enumerate(problem.windows, 1):
             halves = (names.window(i), names.mirrored(names.window(i)))
             if window.motion is not None:
@@ -274,7 +265,7 @@ class _Writer:
         if not problem.peak_is_variable and not velocity.fixed:
             self._bounded(B, velocity)
             return
-        slack, bound = (self.unit("B"), 0.0) if problem.peak_is_variable else self._middle()
+        slack, bound = (self.unit("B"), 0.0) if problem.peak_is_variable else self._derivative(1, 0.5)
         if problem.peak_at is None:
             signs = (1.0,) if problem.monotone else (1.0, -1.0)
             self.families.append(self.space.derivative(1, RowName.VELOCITY, slack + self.spare, bound, signs))
@@ -285,16 +276,18 @@ class _Writer:
                 self.row(names.at_most("B"), self.unit("B"), velocity.high)
             self.row(names.at_least("B"), -self.unit("B"), -velocity.low)
 
-    def _middle(self) -> tuple[Array, float]:
-        """b(1/2) as a row and its constant part: a fixed B of symmetric laws, whatever its value."""
-        row = self.space.widened(self.space.row(1, 0.5)[None, :], self.size)[0]
-        return row[:-1], float(row[-1])
+    def _widened(self, coefficients: Array) -> Array:
+        """A row over all variables, from that over the coordinates."""
+        return np.append(coefficients, np.zeros(self.size - self.space.terms))
+
+    def _derivative(self, nu: int, k: float) -> tuple[Array, float]:
+        """The derivative of order nu at k as a row and its constant part."""
+        row = self.space.row(nu, k)
+        return self._widened(row[:-1]), float(row[-1])
 
     def _value(self, name: str, nu: int, k: float, value: float | str) -> None:
         """The derivative of order nu at k is a number, or the variable of this name."""
-        *free, base = self.space.row(nu, k).tolist()
-        row = np.zeros(self.size)
-        row[: self.space.terms] = free
+        row, base = self._derivative(nu, k)
         if isinstance(value, str):
             self.equation(name, row - self.unit(value), -base)
         else:
@@ -337,15 +330,13 @@ class _Writer:
                 branches = split(part, sign, names.window_side(name, sign)) if isfinite(bound) else None
                 for branch in branches or []:
                     if branch.convex or not self.convex:
-                        self.families.append(
-                            branch_rows(self.space, branch, unit * self.spare, bound).scaled_down(unit)
-                        )
+                        rows = branch_rows(self.space, branch, unit * self.spare, bound)
+                        self.families.append(rows.scaled_down(unit))
 
     def _window(self, name: str, window: Window) -> None:
         ends = (1.0 - 2.0 * window.stop, 1.0 - 2.0 * window.start)
         if window.value:
-            row = self.space.widened(self.space.row(window.order, window.start)[None, :], self.size)[0]
-            self.equation(repr(window), row[:-1], window.high - float(row[-1]))
+            self._value(repr(window), window.order, window.start, window.high)
             return
         for sign, bound in ((1.0, window.high), (-1.0, -window.low)):
             if isfinite(bound):
@@ -371,13 +362,15 @@ class _Writer:
         self.row(RowName.TANGENT, 2.0 * self.tangent * root - slack, bound + self.tangent**2)
 
     def equation(self, name: str, row: Array, right: float, unit: float = 1.0) -> None:
-        self.equation_names.append(name)
-        self.equation_units.append(unit)
-        self.equalities.append(row / unit)
-        self.right.append(right / unit)
+        self.equations.append(_Equation(name, row / unit, right / unit, unit))
 
     def model(self) -> Model:
-        equalities = np.array(self.equalities).reshape(-1, self.size)
-        units = np.array(self.equation_units) if any(unit != 1.0 for unit in self.equation_units) else None
-        program = Program(tuple(self.families), equalities, np.array(self.right), self.cost, self.cost_unit, units)
-        return Model(self.problem, self.space, program, self.places, tuple(self.equation_names), self.scales)
+        """The program with the problem's constraints."""
+        self._constraints()
+        equalities = np.array([equation.row for equation in self.equations]).reshape(-1, self.size)
+        right = np.array([equation.right for equation in self.equations])
+        units = np.array([equation.unit for equation in self.equations])
+        scaled = units if (units != 1.0).any() else None
+        program = Program(tuple(self.families), equalities, right, self.cost, self.cost_unit, scaled)
+        equation_names = tuple(equation.name for equation in self.equations)
+        return Model(self.problem, self.space, program, self.places, equation_names, self.scales)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from optlaws import Chebyshev, Problem, ProblemArray, Solution, at_most, each, synthesize, synthesize_array
-from optlaws.synthesis import solve_array
+from optlaws.synthesis import solve_many
 from optlaws.synthesis.arrays.continuation import ParametricContinuation
 from optlaws.synthesis.arrays.continued_laws import laws_along
 from optlaws.synthesis.arrays.newton_steps import States, locally_optimal
@@ -104,7 +104,7 @@ def test_where_another_branch_is_better_laws_are_sought_alone(monkeypatch: pytes
             own = super().least()
             return own if own is None or ENDS[0] != self.problem.B else 0.99 * own
 
-    monkeypatch.setattr(solve_array, "LawSearch", Rival)
+    monkeypatch.setattr(solve_many, "LawSearch", Rival)
     laws = synthesize_array(ProblemArray(B=np.linspace(*ENDS, 24), order=3, basis=Chebyshev(3), minimise="D"))
     assert sorted(laws.others) == list(range(6))
     assert (laws.status == "local").all()

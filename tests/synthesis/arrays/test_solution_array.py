@@ -29,7 +29,7 @@ from optlaws import (
     synthesize_chunks,
     via,
 )
-from optlaws.synthesis.solve_array import solved
+from optlaws.synthesis.solve_many import solved
 from optlaws.verification import verify_all
 
 B = np.array([[1.6, np.nan, 1.7], [1.8, 0.5, 1.9]])
