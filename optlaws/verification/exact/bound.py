@@ -60,6 +60,8 @@ class Proof:
         Numbers of contacts with a negative multiplier, and of those the problem does not ask for: they do not count.
     slope
         By how much the bound rises with a number on the right side of rows, between two floats, where that was asked.
+    by_rows
+        Whether the rows prove it; otherwise what is minimised is never less, and multipliers do not count.
     """
 
     value: Fraction | None
@@ -68,6 +70,7 @@ class Proof:
     negative: int = 0
     unknown: int = 0
     slope: tuple[Fraction, Fraction] = (Fraction(0), Fraction(0))
+    by_rows: bool = True
 
 
 def prove(certificate: Certificate) -> Proof:
@@ -95,7 +98,7 @@ def prove(certificate: Certificate) -> Proof:
     best = _proof(certificate, None)
     least = least_objective(certificate.problem, ExactRows(certificate))
     if certificate.program != VIOLATION and least is not None and (best.value is None or best.value <= least):
-        return replace(best, value=least)
+        return replace(best, value=least, charge=0.0, correction=0.0, by_rows=False)
     return best
 
 
