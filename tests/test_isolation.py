@@ -62,7 +62,8 @@ def test_a_module_and_the_tests_of_its_laws_run_in_one_call() -> None:
     assert process.returncode == 0, process.stdout[-2000:]
 
 
-#: eight threads use or import optlaws for the first time at once; what fails is printed
+#: eight threads use or import optlaws for the first time at once; what fails is printed. Threads that take turns
+#: 500 times as often as usual meet sooner, so half of the uses are tried so
 FIRST_USE = """
 import random, sys, threading, importlib, optlaws
 mode, seed = sys.argv[1], int(sys.argv[2])
@@ -87,7 +88,7 @@ def first(thread):
         modules(thread) if mode == "modules" else uses[(seed if mode == "same" else seed + thread) % 8]()
     except BaseException as error:
         print(mode, seed, thread, repr(error))
-if mode == "modules":
+if mode == "modules" or seed // 8 % 2:
     import numpy, numpy.polynomial
     sys.setswitchinterval(1e-5)
 barrier = threading.Barrier(8)
@@ -103,8 +104,8 @@ threads = [threading.Thread(target=first, args=(thread,)) for thread in range(8)
         ("modules", 2),
         ("mixed", 2),
         pytest.param("modules", 60, marks=pytest.mark.long),
-        pytest.param("mixed", 200, marks=pytest.mark.long),
-        pytest.param("same", 200, marks=pytest.mark.long),
+        pytest.param("mixed", 48, marks=pytest.mark.long),
+        pytest.param("same", 64, marks=pytest.mark.long),
     ],
 )
 def test_threads_may_use_optlaws_first_at_once(mode: str, rounds: int) -> None:

@@ -18,7 +18,6 @@ import pytest
 from optlaws import open_study
 from optlaws.cli import exit_code
 from optlaws.studies.store import StudyDirectory
-from optlaws.studies.study import Study
 from tests.documents import ROOT
 from tests.studies.sweeping import rows, serially
 
@@ -53,11 +52,6 @@ degree = 5
 minimise = ["C", "D", "J"]
 B = { from = 1.5, to = 2.4, steps = 150 }
 """
-
-
-@pytest.fixture(scope="module")
-def undisturbed(tmp_path_factory: pytest.TempPathFactory) -> Study:
-    return serially(SWEPT, tmp_path_factory.mktemp("studies") / "undisturbed")
 
 
 class Run:
@@ -162,20 +156,15 @@ def test_killed_within_an_array_it_ends_as_if_nothing_had_been(tmp_path: Path) -
 
 
 @pytest.mark.long
-def test_killed_twice_it_ends_as_if_nothing_had_been(undisturbed: Study, tmp_path: Path) -> None:
-    assert list(disturbed(tmp_path, 1, ["solver", "run"])) == ["solver", "run"]
-    assert rows(open_study(tmp_path / "out")) == rows(undisturbed)
-
-
-@pytest.mark.long
-def test_killed_twenty_times_it_ends_as_if_nothing_had_been(undisturbed: Study, tmp_path: Path) -> None:
+def test_killed_twenty_times_it_ends_as_if_nothing_had_been(tmp_path: Path) -> None:
+    undisturbed = rows(serially(SWEPT, tmp_path / "undisturbed"))
     victims = ["run", "solver"] * 10
     for seed in range(100):
         folder = tmp_path / str(seed)
         folder.mkdir()
         killed = list(disturbed(folder, seed, victims))
         del victims[: len(killed)]
-        assert rows(open_study(folder / "out")) == rows(undisturbed)
+        assert rows(open_study(folder / "out")) == undisturbed
         if not victims:
             return
     pytest.fail(f"{len(victims)} of the 20 kills came too late")

@@ -275,12 +275,14 @@ def _clarabel(program: _Program, rows: Array, right: Array) -> Array | None:
     blocks, sides = [equations, rows], [wanted, right]
     cones: list[Any] = [clarabel.ZeroConeT(len(wanted)), clarabel.NonnegativeConeT(len(right))]
     for matrix, place in program.norms:
+        # a cone is one whatever its unit; rows of lengths about 1, as the others have, are solved further
+        unit = float(np.linalg.norm(matrix[:, :-1], axis=1).max())
         top = np.zeros((1, program.size))
-        top[0, place] = -1.0
+        top[0, place] = -1.0 / unit
         lower = np.zeros((len(matrix), program.size))
-        lower[:, : matrix.shape[1] - 1] = -matrix[:, :-1]
+        lower[:, : matrix.shape[1] - 1] = -matrix[:, :-1] / unit
         blocks += [top, lower]
-        sides += [np.zeros(1), matrix[:, -1]]
+        sides += [np.zeros(1), matrix[:, -1] / unit]
         cones.append(clarabel.SecondOrderConeT(len(matrix) + 1))
     nothing = csc_matrix((program.size, program.size))
     table, side = csc_matrix(np.vstack(blocks)), np.concatenate(sides)

