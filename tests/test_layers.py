@@ -41,7 +41,7 @@ MAY_IMPORT = {
     "series": {"laws", "numerics"},
     "laws": KNOWN,
     "synthesis": KNOWN | {"formulas", "laws"},
-    "mechanisms": KNOWN | {"formulas", "laws", "synthesis"},
+    "mechanisms": KNOWN | {"formulas", "laws", "synthesis", "motion"},
     "verification": KNOWN | {"formulas", "laws", "synthesis"},
     "motion": KNOWN | {"laws"},
     "cycles": KNOWN | {"formulas", "laws", "synthesis", "mechanisms", "motion"},

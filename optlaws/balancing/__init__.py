@@ -7,7 +7,7 @@ __getattr__, __dir__, __all__ = face(
     {
         "optlaws.balancing.dwells.choice": "DwellComparison compare_dwell_mechanisms least_dwell",
         "optlaws.balancing.dwells.clutch": "Clutch",
-        "optlaws.balancing.dwells.mechanism": "DwellMechanism dwell_mechanism",
+        "optlaws.balancing.dwells.mechanism": "DwellMechanism DwellType dwell_mechanism",
         "optlaws.balancing.dwells.sections": "Section",
         "optlaws.balancing.levers.design": "find_torsion_levers",
         "optlaws.balancing.levers.lever": "TorsionLever",

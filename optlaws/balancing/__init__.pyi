@@ -4,6 +4,7 @@ from optlaws.balancing.dwells.choice import compare_dwell_mechanisms as compare_
 from optlaws.balancing.dwells.choice import least_dwell as least_dwell
 from optlaws.balancing.dwells.clutch import Clutch as Clutch
 from optlaws.balancing.dwells.mechanism import DwellMechanism as DwellMechanism
+from optlaws.balancing.dwells.mechanism import DwellType as DwellType
 from optlaws.balancing.dwells.mechanism import dwell_mechanism as dwell_mechanism
 from optlaws.balancing.dwells.sections import Section as Section
 from optlaws.balancing.levers.design import find_torsion_levers as find_torsion_levers
@@ -43,6 +44,7 @@ __all__ = [
     "DwellComparison",
     "DwellMachine",
     "DwellMechanism",
+    "DwellType",
     "FourBar",
     "LeverCam",
     "LeverMotion",

@@ -14,7 +14,8 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.mechanisms.machine.dynamics import Dynamics
-from optlaws.numbers import MAGNITUDE_LIMIT, Array, positive, real_times
+from optlaws.motion.quantities import si_number
+from optlaws.numbers import MAGNITUDE_LIMIT, Array, NumberOrQuantity, positive, real_times
 from optlaws.numerics.tolerances import SETTLED, UNSTABLE
 from optlaws.suggest import unknown_key
 
@@ -96,8 +97,8 @@ class StateSpace:
         C: Rows,
         D: Rows = (),
         *,
-        duration: float,
-        stroke: float = 1.0,
+        duration: NumberOrQuantity,
+        stroke: NumberOrQuantity = 1.0,
         inputs: str = "a",
         outputs: Sequence[str] = (),
     ) -> Self:
@@ -108,9 +109,9 @@ class StateSpace:
         A, B, C, D
             Matrices for time in seconds and for a displacement, velocity and acceleration of the input in its units.
         duration
-            Duration of the rise, s.
+            Duration of the rise, "0.2 s", or a number of seconds.
         stroke
-            Stroke of the rise, in units of the input's displacement.
+            Stroke of the rise, "35 mm" or "20 deg", or a number in units of the input's displacement.
         inputs, outputs
             As of `Machine`.
 
@@ -119,7 +120,8 @@ class StateSpace:
         InputError
             If a number is out of range, or the matrices do not fit.
         """
-        T, h = positive(duration, "duration"), positive(stroke, "stroke")
+        T = positive(si_number(duration, ("time",), "duration"), "duration")
+        h = positive(si_number(stroke, ("length", "angle"), "stroke"), "stroke")
         _check_inputs(inputs)
         if not (0.0 < T * T < inf and isfinite(h / (T * T))):
             raise InputError(f"duration must be a time in s that machines take, got {shortened(duration)}")

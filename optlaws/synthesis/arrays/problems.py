@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from math import prod
-from typing import Any
+from typing import Any, TypedDict, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,12 +13,31 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.numbers import MOST_VELOCITY, Array
+from optlaws.suggest import keywords_of
 from optlaws.synthesis.problem.problem import Problem
 
 #: what `Problem` takes for an entry, or arrays of it
 Entry = Any
 #: of an entry that `Problem` fills in
 NOT_GIVEN = ...
+
+
+class ProblemArrayEntries(TypedDict, total=False):
+    """The entries of a problem, each a value or arrays of it."""
+
+    B: Entry
+    order: Entry
+    basis: Entry
+    minimise: Entry
+    monotone: Entry
+    symmetric: Entry
+    C: Entry
+    D: Entry
+    J: Entry
+    boundary: Entry
+    windows: Entry
+    bounds: Entry
+    inflexion: Entry
 
 
 class ProblemArray:
@@ -51,29 +70,11 @@ class ProblemArray:
     (3, 2)
     """
 
-    def __init__(
-        self,
-        *,
-        B: Entry = NOT_GIVEN,
-        order: Entry = NOT_GIVEN,
-        basis: Entry = NOT_GIVEN,
-        minimise: Entry = NOT_GIVEN,
-        monotone: Entry = NOT_GIVEN,
-        symmetric: Entry = NOT_GIVEN,
-        C: Entry = NOT_GIVEN,
-        D: Entry = NOT_GIVEN,
-        J: Entry = NOT_GIVEN,
-        boundary: Entry = NOT_GIVEN,
-        windows: Entry = NOT_GIVEN,
-        bounds: Entry = NOT_GIVEN,
-        inflexion: Entry = NOT_GIVEN,
-    ) -> None:
-        named = {"B": B, "order": order, "basis": basis, "minimise": minimise, "monotone": monotone}
-        named |= {"symmetric": symmetric, "C": C, "D": D, "J": J, "boundary": boundary, "windows": windows}
-        named |= {"bounds": bounds, "inflexion": inflexion}
+    @keywords_of(ProblemArrayEntries, **dict.fromkeys(ProblemArrayEntries.__annotations__, NOT_GIVEN))
+    def __init__(self, **entries: Unpack[ProblemArrayEntries]) -> None:
         self._entries = {
             name: _frozen(value if name == "windows" else _with_arrays(value, name))
-            for name, value in named.items()
+            for name, value in entries.items()
             if value is not NOT_GIVEN
         }
         arrays = {name: list(_arrays(value)) for name, value in self._entries.items()}
