@@ -8,7 +8,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 from math import isfinite
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -81,6 +81,11 @@ class Row:
         return values.get(kind, self.loader.C)
 
 
+def _stored(rival: BalancedLaw) -> dict[str, Any]:
+    """A rival without the proof that stands in no page."""
+    return {name: value for name, value in rival.to_dict().items() if name != "solution"}
+
+
 def run(results: Results) -> None:
     """Make laws for the loaders of all printed laws, with proof, and show them beside these."""
     results.digits = DIGITS
@@ -89,7 +94,7 @@ def run(results: Results) -> None:
     least, headings, rivals = _least(table), _headings(table), _rivals(table)
     results.table("table", headings, least)
     results.table("rivals", RIVALS, rivals)
-    laws = {row.code: {kind: rival and rival.to_dict() for kind, rival in row.rivals.items()} for row in table}
+    laws = {row.code: {kind: rival and _stored(rival) for kind, rival in row.rivals.items()} for row in table}
     results.text("laws.json", json.dumps({"about": MARK, "laws": laws}, indent=1) + "\n")
     results.picture("figure", draw(spec.title, table, next(row for row in table if row.code == spec.shown)))
     page = results.page("table").text(_ABOUT_LEAST.format(proven=_said(table))).table(headings, least)

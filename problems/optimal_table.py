@@ -236,7 +236,7 @@ def _laws(about: str, rows: Sequence[Row]) -> dict[str, Any]:
         "rows": [
             {
                 "B": row.cells["B"],
-                "printed": {"law": row.law.to_dict(), "constants": row.law.constants.to_dict()},
+                "printed": {"law": row.law.to_dict(), "constants": row.law.constants.to_dict(rms=False)},
                 "same shape": _solution(row.same),
                 "richer": {str(degree): _solution(solution) for degree, solution in row.richer.items()},
             }

@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import isfinite
-from typing import Any
+from typing import Any, ClassVar, Self
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.extras import needed
+from optlaws.files.reading import JsonText, entries_of
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.catalogue.reading import read_law
@@ -24,11 +26,12 @@ FAR = 1.5
 CONSTANTS = ("B", "C", "D", "J", "rms_c")
 _MACHINE = {1: "velocity, {}/s", 2: "acceleration, {}/s²", 3: "jerk, {}/s³"}
 _UNITS = {"length": "m", "angle": "rad"}
+_GIVEN = ("stroke", "duration", "unit", "nu", "damping")
 _PEAKS = {"D": "power", "J": "jerk"}
 
 
 @dataclass(frozen=True)
-class Comparison:
+class Comparison(JsonText):
     """Laws with their numbers, made by `compare`; a row for each law.
 
     Attributes
@@ -49,6 +52,8 @@ class Comparison:
     >>> [row["law"] for row in comparison.rows], [round(row["C"], 4) for row in comparison.rows]
     (['modified sine', 'cycloidal'], [5.528, 6.2832])
     """
+
+    _json_name: ClassVar[str] = "a comparison"
 
     laws: Mapping[str, MotionLaw]
     stroke: float | None = None
@@ -74,12 +79,33 @@ class Comparison:
         )
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain JSON-able dict; None where a peak has no bound."""
+        """Plain JSON-able dict; None where a peak has no bound. Rows and remarks follow from the rest."""
         rows = [
             {key: value if isinstance(value, str) else bounded(value) for key, value in row.items()}
             for row in self.rows
         ]
-        return {"rows": rows, "remarks": list(self.remarks)}
+        given = {name: getattr(self, name) for name in _GIVEN}
+        laws = {name: law.to_dict() for name, law in self.laws.items()}
+        return {"rows": rows, "remarks": list(self.remarks), "laws": laws, **given}
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> Self:
+        """The comparison that `to_dict` described; rows and remarks are computed, not read.
+
+        Raises
+        ------
+        InputError
+            If an entry is missing or wrong.
+        """
+        given = entries_of(data, ("laws", *_GIVEN), cls._json_name)
+        laws = given.pop("laws")
+        if not isinstance(laws, Mapping):
+            raise InputError(f"the laws of a comparison must be a table, got {shortened(laws)}")
+        if isinstance(given["nu"], list):
+            given["nu"] = tuple(given["nu"])
+        comparison = cls({name: MotionLaw.from_dict(law) for name, law in laws.items()}, **given)
+        comparison.rows  # noqa: B018 - what is wrong is refused at once
+        return comparison
 
     def to_pandas(self) -> Any:  # noqa: ANN401 - pandas is imported here alone
         """The rows as a data frame with the laws' names as index; needs the extra `optlaws[studies]`."""

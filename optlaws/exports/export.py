@@ -89,7 +89,7 @@ class Export:
         """
         return writing.write_any(Path(file), self.text)
 
-    def to_dict(self) -> dict[str, Any]:
+    def results(self) -> dict[str, Any]:
         """The export as plain data: everything but the text."""
         written = self.written
         return {
@@ -101,7 +101,7 @@ class Export:
             "notes": [*self.motion.proof, *written.notes],
             "units": {"master": self.motion.units.master, "slave": self.motion.units.slave},
             "IsPeriodic": self.motion.repeats,
-            **self.report.to_dict(),
+            **self.report.results(),
             "task": None
             if self.task is None
             else {"seconds": self.task.seconds, "acceleration": self.task.acceleration},

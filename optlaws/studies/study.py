@@ -14,13 +14,13 @@ from optlaws.extras import needed
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.studies import tables
-from optlaws.studies.chunk import STATUSES, StudyRow
+from optlaws.studies.chunk import StudyRow
 from optlaws.studies.journal import Journal
 from optlaws.studies.points import StudyPoints
 from optlaws.studies.specification import entries
 from optlaws.studies.store import StudyDirectory
 from optlaws.suggest import unknown_key
-from optlaws.synthesis import Problem
+from optlaws.synthesis import Problem, Status
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -44,8 +44,7 @@ class StudyPoint:
     problem
         The whole problem.
     status
-        "optimal", "local" or "inaccurate" where there is a law (see `Status`); otherwise "infeasible", "not found",
-        "wrong input", "time limit", "worker died" or "error", and `error` says more.
+        How far the law can be trusted or, where there is none, why; `error` says more.
     objective, lower_bound, gap, limit
         As in `Solution`; None where there is no law.
     constants
@@ -59,7 +58,7 @@ class StudyPoint:
     index: int
     key: str
     inputs: Mapping[str, Any]
-    status: str
+    status: Status
     objective: float | None
     lower_bound: float | None
     gap: float | None
@@ -122,13 +121,16 @@ class Study:
         return points
 
     @property
-    def counts(self) -> dict[str, int]:
+    def counts(self) -> dict[Status, int]:
         """How many points are done, by status."""
         if self._tabled:
             counts = Counter(self._parquet().read(columns=["status"])["status"].to_pylist())
         else:
             counts = self._journal().counts
-        return {status: counts[status] for status in STATUSES if counts[status]}
+        known = Counter[Status]()
+        for word, count in counts.items():
+            known[Status(word)] += count
+        return {status: known[status] for status in Status if known[status]}
 
     @property
     def finished(self) -> bool:
@@ -289,9 +291,10 @@ class Study:
 
     def _point(self, row: StudyRow) -> StudyPoint:
         law = row.stored_law()
-        names = ("index", "key", "inputs", "status", "objective", "lower_bound", "gap", "limit", "seconds", "error")
+        names = ("index", "key", "inputs", "objective", "lower_bound", "gap", "limit", "seconds", "error")
         return StudyPoint(
             **{name: getattr(row, name) for name in names},
+            status=Status(row.status),
             constants={} if law is None else {name: getattr(row, name) for name in CONSTANTS},
             entries=entries(self.file.problem.given(), row.inputs),
             stored=law,

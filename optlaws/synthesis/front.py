@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.errors import OptlawsError
 from optlaws.extras import needed
+from optlaws.files.reading import JsonText
 from optlaws.kept import kept_property
 from optlaws.laws import PolynomialLaw
 from optlaws.numbers import Array
@@ -32,7 +34,7 @@ IN_ARRAYS = ("B", "C", "D", "J", "rms_c")
 
 
 @dataclass(frozen=True)
-class Front:
+class Front(JsonText):
     """Laws of which none is better in every constant: each the best of its own problem.
 
     Attributes
@@ -41,8 +43,8 @@ class Front:
         The constants exchanged; the last is minimised, the others are given.
     points
         The solutions, by ascending values of the first constant.
-    failed
-        Values of the first constant at which the solver found no law.
+    errors
+        Why there is no law, by values of the first constant.
 
     Examples
     --------
@@ -55,9 +57,16 @@ class Front:
     ((5, 2), True)
     """
 
+    _json_name: ClassVar[str] = "a front"
+
     over: tuple[str, ...]
     points: tuple[Solution, ...]
-    failed: tuple[float, ...] = ()
+    errors: Mapping[float, OptlawsError] = field(default_factory=dict, repr=False, compare=False)
+
+    @property
+    def failed(self) -> tuple[float, ...]:
+        """Values of the first constant at which no law was found, ascending."""
+        return tuple(sorted(self.errors))
 
     @kept_property
     def values(self) -> Array:
@@ -113,14 +122,50 @@ class Front:
 
         return pd.DataFrame(self.rows, columns=list(self.headings))
 
+    def to_xarray(self) -> Any:  # noqa: ANN401 - xarray is imported here alone
+        """The rows as a dataset along the points, with the coordinates of the exchanged constants; needs xarray.
+
+        Examples
+        --------
+        >>> from optlaws.synthesis import Problem
+        >>> from optlaws.synthesis.pareto import pareto_front
+        >>> front = pareto_front(Problem(order=4), over=("B", "C"), points=3, between=(1.5, 1.8))
+        >>> front.to_xarray().C.sel(B=1.8, method="nearest").round(4).item()
+        4.6958
+        """
+        needed("xarray", "to_xarray")
+        import xarray as xr
+
+        first, *others = map(title_of, self.over)
+        columns = dict(zip(self.headings, zip(*self.rows, strict=True), strict=True))
+        data = {name: (first, list(values)) for name, values in columns.items() if name != first}
+        exchanged = {name: data.pop(name) for name in others[:-1]}
+        return xr.Dataset(data, {first: list(columns[first]), **exchanged})
+
     def to_dict(self) -> dict[str, Any]:
-        """Plain JSON-able dict with every solution whole."""
+        """Plain JSON-able dict with every solution whole: `optlaws verify` checks it, `from_dict` reads it again."""
+        from optlaws.synthesis.stored_solutions import plain_error
+
         return {
             "over": list(self.over),
             "values": self.values.tolist(),
             "points": [point.to_dict() for point in self.points],
             "failed": list(self.failed),
+            "errors": [plain_error(self.errors[value]) for value in self.failed],
         }
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> Front:
+        """Read what `to_dict` wrote; constants are computed from the laws and held against the values.
+
+        Raises
+        ------
+        InputError
+            If an entry is missing or wrong, or one states what does not follow from problems, laws and proofs.
+        """
+        from optlaws.synthesis.stored_solutions import read_front
+
+        return read_front(data)
 
     def __len__(self) -> int:
         return len(self.points)

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from optlaws.echo import shortened
-from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
+from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
 from optlaws.numbers import Array, real, whole
 from optlaws.numerics.tolerances import AGREEMENT, NEARLY_NOTHING, NO_EXCHANGE
 from optlaws.shown.steps import Steps
@@ -23,7 +23,7 @@ from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
 from optlaws.synthesis.program.writer import extreme_velocity
 from optlaws.synthesis.solution import Solution, Status
-from optlaws.synthesis.solve import synthesize
+from optlaws.synthesis.solve import Bound, check_bound, synthesize
 from optlaws.synthesis.solve_array import SolvedLine
 
 # how far above its least value a constant is held while the next one is minimised: as near as the solver can go
@@ -31,6 +31,8 @@ _ABOVE = (1e-5, 1e-7, 1e-9)
 _BENT = 2.0
 #: from so many points on those of convex problems are put in many at a time, where they are a quarter as wanted as any
 _MANY, _SHARE, _EVEN = 100, 0.25, 4
+#: where laws are worse than others, so many times as many are looked for at most
+_AGAIN = 2
 
 
 def pareto_front(
@@ -39,12 +41,14 @@ def pareto_front(
     *,
     points: int = 50,
     between: tuple[float, float] | None = None,
+    bound: Bound = "quick",
 ) -> Front:
     """Laws that exchange two or three constants for one another, from the least of the first to the least of the last.
 
     With over=("B", "C") each law has the least C at its B; with over=("C", "D") the least D among laws of at most
     its C. Points lie evenly along the curve in logarithms of the constants, closer where it bends. Where the problem
-    is convex every point is the optimum of its problem; with D no worse than a single `synthesize` of it.
+    is convex every point is the optimum of its problem; with D no worse than a single `synthesize` of it. Points ascend
+    in the first constant; none is better than another in all of them.
 
     Parameters
     ----------
@@ -54,17 +58,19 @@ def pareto_front(
         Two or three constants, by their names or themselves: B, C, D, J, or any that can be minimised and bounded,
         such as "peak(c + 0.2*b)", "residual(nu=20)" or `machine.peak("torque")`.
     points
-        How many laws; fewer where some are no better than others in any constant, or with three constants.
+        How many laws; fewer where nothing is exchanged, laws are not found, or with three constants.
     between
         Least and greatest value of the first constant; where it pays unless given. Beyond the value that the law of
         least last constant has, both constants get worse, so no points lie there.
+    bound
+        As of `synthesize`: "tight" proves the points of fronts with D, too, in up to some seconds each.
 
     Raises
     ------
     InputError
         If the constants are unknown, repeated or already given by the problem, or nothing is left between the values.
     InfeasibleProblem, SolverFailure
-        If no law of an end of the front exists or is found.
+        If no law of an end of the front exists or is found. Why there is none between is in `errors` of the front.
 
     Examples
     --------
@@ -74,9 +80,10 @@ def pareto_front(
     """
     names = _checked(problem, over, between)
     count = whole(points, "points", least=2)
+    check_bound(bound)
     if len(names) == 2:
-        return _Curve(problem, names, between).grow(count)
-    return _surface(problem, names, count, between)
+        return _Curve(problem, names, between, bound).grow(count)
+    return _surface(problem, names, count, between, bound)
 
 
 def where_it_pays(problem: Problem, over: tuple[str, str]) -> tuple[float, float]:
@@ -95,14 +102,21 @@ def where_it_pays(problem: Problem, over: tuple[str, str]) -> tuple[float, float
 class _Curve:
     """The front of two constants while it grows: solutions by the asked value of the first."""
 
-    def __init__(self, problem: Problem, over: tuple[str, ...], between: tuple[float, float] | None) -> None:
-        self.problem = replace(problem, minimise=over[1])
-        self.over = over
-        self.failed: list[float] = []
+    def __init__(
+        self,
+        problem: Problem,
+        over: tuple[str, ...],
+        between: tuple[float, float] | None,
+        bound: Bound = "quick",
+    ) -> None:
+        self.problem, self.over, self.bound = replace(problem, minimise=over[1]), over, bound
+        self.errors: dict[float, OptlawsError] = {}
+        #: first values of the stretches in which no law was found
+        self._dead: set[float] = set()
         #: constants of laws that were found many at a time, by the asked value of the first
         self._values: dict[float, Sequence[float]] = {}
         low, high = between if between is not None else (0.0, inf)
-        best = synthesize(_with(self.problem, over[0], Range(1.0 if over[0] == "B" else 0.0, inf)))
+        best = self._best(_with(self.problem, over[0], Range(1.0 if over[0] == "B" else 0.0, inf)))
         pays = value_of(best, over[0])
         if low >= pays * (1.0 - AGREEMENT):
             raise InputError(
@@ -111,27 +125,40 @@ class _Curve:
         self.points = [self._first(low, pays), self._last(best, pays, high)]
 
     def grow(self, count: int) -> Front:
-        """Put a point into the stretch that wants one most, and so on."""
-        dead: set[float] = set()
+        """Put a point into the stretch that wants one most, and so on, until so many are no worse than others."""
         if count >= _MANY and self._asked(self.points[0][0]).convex:
             self._grow_together(count)
         with Steps(f"least {self.over[1]} over {self.over[0]}", count) as steps:
-            while len(self.points) < count:
-                widths = [0.0 if self.points[i][0] in dead else width for i, width in enumerate(self._widths())]
-                i = int(np.argmax(widths))
-                if widths[i] < AGREEMENT:
+            kept: list[Solution] = []
+            sought = count
+            while len(kept) < count:
+                while len(self.points) < sought and self._halve():
+                    steps.reach(min(len(self.points), count))
+                kept = undominated([solution for _, solution in self.points], self.over, self._known())
+                if len(self.points) < sought or sought >= _AGAIN * count:
                     break
-                (low, left), (high, right) = self.points[i : i + 2]
-                value = sqrt(low * high)
-                solution = self._solved(value, left, right)
-                if solution is None:
-                    self.failed.append(value)
-                    dead.add(low)
-                else:
-                    self.points.insert(i + 1, (value, solution))
-                steps.reach(len(self.points))
-        solutions = [solution for _, solution in self.points]
-        return Front(self.over, tuple(undominated(solutions, self.over, self._known())), tuple(sorted(self.failed)))
+                # of local optima some are worse than others: as many more are sought
+                sought += count - len(kept)
+        return Front(self.over, tuple(kept), self.errors)
+
+    def _halve(self) -> bool:
+        """Put a point into the stretch that wants one most; False where none does."""
+        widths = [0.0 if self.points[i][0] in self._dead else width for i, width in enumerate(self._widths())]
+        i = int(np.argmax(widths))
+        if widths[i] < AGREEMENT:
+            return False
+        (low, left), (high, right) = self.points[i : i + 2]
+        value = sqrt(low * high)
+        solution = self._solved(value, left, right)
+        if isinstance(solution, Solution):
+            self.points.insert(i + 1, (value, solution))
+        else:
+            self.errors[value] = solution
+            self._dead.add(low)
+        return True
+
+    def _best(self, problem: Problem) -> Solution:
+        return synthesize(problem, bound=self.bound)
 
     def _known(self) -> Array:
         """The constants of the points, a row for each."""
@@ -149,7 +176,7 @@ class _Curve:
         line = SolvedLine(self.problem, self.over[0], self._asked, low, high)
         while values:
             results = line.at(np.array(values))
-            proven = np.flatnonzero(results.status == Status.OPTIMAL.value)
+            proven = np.flatnonzero(results.status == Status.OPTIMAL)
             points = [
                 (values[i], solution) for i in proven.tolist() if isinstance(solution := results.result(i), Solution)
             ]
@@ -172,18 +199,18 @@ class _Curve:
         """At the least value of the first constant, or at `low` where that can be had; of one that can be 0 near it."""
         if low > (1.0 if self.over[0] == "B" else 0.0):
             try:
-                return low, synthesize(self._asked(low))
+                return low, self._best(self._asked(low))
             except InfeasibleProblem:
                 pass
         least = least_value(self.problem, self.over[0])
         if least < NEARLY_NOTHING * pays:
-            return NEARLY_NOTHING * pays, synthesize(self._asked(NEARLY_NOTHING * pays))
+            return NEARLY_NOTHING * pays, self._best(self._asked(NEARLY_NOTHING * pays))
         value = least * (1.0 + _ABOVE[0])
-        solution = synthesize(self._asked(value))
+        solution = self._best(self._asked(value))
         for above in _ABOVE[1:]:
             # so near to its least value the constant leaves the solver no room: the contacts are continued instead
-            nearer = _tried(self._asked(least * (1.0 + above)), solution)
-            if nearer is None or nearer.status is Status.INACCURATE:
+            nearer = self._tried(self._asked(least * (1.0 + above)), solution)
+            if not isinstance(nearer, Solution) or nearer.status is Status.INACCURATE:
                 break
             value, solution = least * (1.0 + above), nearer
         return value, solution
@@ -192,7 +219,7 @@ class _Curve:
         """At the least value of the last constant, or at `high`; a problem of the same kind as the others."""
         value = min(pays if self.over[0] == "B" else pays * (1.0 + AGREEMENT), high)
         try:
-            return value, synthesize(self._asked(value))
+            return value, self._best(self._asked(value))
         except (InfeasibleProblem, SolverFailure):
             if value == high:
                 raise
@@ -211,34 +238,45 @@ class _Curve:
         widths: list[float] = (lengths * (1.0 + _BENT * (ends[:-1] + ends[1:]))).tolist()
         return widths
 
-    def _solved(self, value: float, left: Solution, right: Solution) -> Solution | None:
+    def _solved(self, value: float, left: Solution, right: Solution) -> Solution | OptlawsError:
         asked = self._asked(value)
         if asked.convex:
-            near = _tried(asked, left)
-            return near if near is not None and near.status is Status.OPTIMAL else _tried(asked, None)
+            near = self._tried(asked, left)
+            optimal = isinstance(near, Solution) and near.status is Status.OPTIMAL
+            return near if optimal else self._tried(asked, None)
         # a branch of local optima may cease to be the best, so it is only continued where the starts lead to worse
-        best = _tried(asked, None)
-        if best is None or best.objective > left.objective or best.objective < right.objective:
-            tries = [solution for solution in (best, _tried(asked, left), _tried(asked, right)) if solution is not None]
-            best = min(tries, key=lambda solution: solution.objective, default=None)
+        best = self._tried(asked, None)
+        if not isinstance(best, Solution) or best.objective > left.objective or best.objective < right.objective:
+            tries = [best, self._tried(asked, left), self._tried(asked, right)]
+            laws = [solution for solution in tries if isinstance(solution, Solution)]
+            return min(laws, key=lambda solution: solution.objective, default=best)
         return best
 
+    def _tried(self, asked: Problem, start: Solution | None) -> Solution | OptlawsError:
+        try:
+            return synthesize(asked, start=start, bound=self.bound)
+        except (InfeasibleProblem, SolverFailure) as error:
+            # its frames would keep what was tried
+            return error.with_traceback(None)
 
-def _surface(problem: Problem, over: tuple[str, ...], points: int, between: tuple[float, float] | None) -> Front:
+
+def _surface(
+    problem: Problem, over: tuple[str, ...], points: int, between: tuple[float, float] | None, bound: Bound
+) -> Front:
     """Curves of the second and the third constant at values of the first, as many as each curve has points."""
     across = max(2, round(sqrt(points)))
-    spines = [_Curve(problem, (over[0], name), between) for name in over[1:]]
+    spines = [_Curve(problem, (over[0], name), between, bound) for name in over[1:]]
     spine = max(spines, key=lambda curve: curve.points[-1][0]).grow(across)
-    failed = list(spine.failed)
+    errors = dict(spine.errors)
     solutions: list[Solution] = []
     for i, value in enumerate(spine.values[:, 0].tolist()):
         share = (points - len(solutions)) // (len(spine) - i)
         part = _at_most(problem, over[0], value)
         try:
-            solutions += _Curve(part, over[1:], None).grow(max(2, share)).points
-        except (InfeasibleProblem, SolverFailure):
-            failed.append(value)
-    return Front(over, tuple(undominated(solutions, over)), tuple(sorted(failed)))
+            solutions += _Curve(part, over[1:], None, bound).grow(max(2, share)).points
+        except (InfeasibleProblem, SolverFailure) as error:
+            errors[value] = error.with_traceback(None)
+    return Front(over, tuple(undominated(solutions, over)), errors)
 
 
 def _at_most(problem: Problem, name: str, value: float) -> Problem:
@@ -248,13 +286,6 @@ def _at_most(problem: Problem, name: str, value: float) -> Problem:
 def _with(problem: Problem, name: str, asked: float | Range) -> Problem:
     changed: dict[str, Any] = {name: asked} if name in CONSTANTS else {"bounds": {**problem.bounds, name: asked}}
     return replace(problem, **changed)
-
-
-def _tried(asked: Problem, start: Solution | None) -> Solution | None:
-    try:
-        return synthesize(asked, start=start)
-    except (InfeasibleProblem, SolverFailure):
-        return None
 
 
 def least_value(problem: Problem, name: str) -> float:

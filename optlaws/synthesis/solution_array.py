@@ -5,31 +5,23 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.errors import InputError, OptlawsError
+from optlaws.errors import OptlawsError
 from optlaws.extras import needed
+from optlaws.files.reading import JsonText
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
 from optlaws.shown.summary import Row, Summary
 from optlaws.synthesis.arrays.problems import ProblemArray
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.problem.plain_entries import plain_entries
-from optlaws.synthesis.search import status_of
 from optlaws.synthesis.solution import Solution, Status, measure
 from optlaws.synthesis.solved_parts import SolvedPart, constant_of, stored_laws
-from optlaws.synthesis.stored_solutions import (
-    FAILED,
-    INFEASIBLE,
-    INVALID,
-    plain_alone,
-    plain_error,
-    read_solutions,
-    status_of_error,
-)
+from optlaws.synthesis.stored_solutions import check_status, plain_error, plain_state, read_solutions
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -40,7 +32,7 @@ NUMBERS = ("objective", "lower_bound", "gap", "B", "C", "D", "J", "rms_c")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class SolutionArray:
+class SolutionArray(JsonText):
     """Optimal laws of many problems with their proofs, as arrays of the problems' shape; NaN where there is no law.
 
     An index gives an ordinary `Solution`, whose certificate is checked by itself, or raises the error of its problem;
@@ -63,11 +55,13 @@ class SolutionArray:
     >>> import numpy as np
     >>> from optlaws import ProblemArray, synthesize_array
     >>> laws = synthesize_array(ProblemArray(B=np.array([1.6, 1.62]), order=4))
-    >>> laws.objective.round(6).tolist(), laws.status.tolist()
-    ([5.262224, 5.173677], ['optimal', 'optimal'])
+    >>> laws.objective.round(6).tolist(), (laws.status == "optimal").tolist()
+    ([5.262224, 5.173677], [True, True])
     >>> round(laws[1].objective, 6), laws[1].certificate.bound <= laws[1].objective
     (5.173677, True)
     """
+
+    _json_name: ClassVar[str] = "an array of solutions"
 
     problems: ProblemArray
     parts: tuple[SolvedPart, ...]
@@ -138,15 +132,14 @@ class SolutionArray:
         return _frozen((self.objective - self.lower_bound) / measure(self.objective, scale))
 
     @kept_property
-    def status(self) -> NDArray[np.str_]:
-        """As of a solution, "optimal", "local" or "inaccurate"; "infeasible", "failed" or "invalid" without a law."""
-        known = [status.value for status in Status] + [INFEASIBLE, FAILED, INVALID]
-        words = np.full(self.size, Status.OPTIMAL.value, dtype=f"U{max(map(len, known))}")
+    def status(self) -> NDArray[np.object_]:
+        """The `Status` of each solution; infeasible, failed or invalid where there is no law."""
+        statuses = np.full(self.size, Status.OPTIMAL, dtype=object)
         for part in self.parts:
-            words[part.places] = part.statuses
+            statuses[part.places] = part.statuses
         for place, result in self.others.items():
-            words[place] = result.status.value if isinstance(result, Solution) else status_of_error(result)
-        return _frozen(words.reshape(self.shape))
+            statuses[place] = result.status if isinstance(result, Solution) else Status.of(result)
+        return _frozen(statuses.reshape(self.shape))
 
     @kept_property
     def errors(self) -> Mapping[int, OptlawsError]:
@@ -267,7 +260,7 @@ class SolutionArray:
 
     @property
     def _columns(self) -> dict[str, NDArray[Any]]:
-        return {**{name: getattr(self, name) for name in NUMBERS}, "status": self.status}
+        return {**{name: getattr(self, name) for name in NUMBERS}, "status": self.status.astype(str)}
 
     def to_dict(self) -> dict[str, Any]:
         """Plain JSON-able dict: each solution or error in the order of the flattened array, and the arrays themselves.
@@ -276,13 +269,13 @@ class SolutionArray:
         """
         results = [self.result(place) for place in range(self.size)]
         alone = {
-            str(place): plain_alone(result) for place, result in self.others.items() if isinstance(result, Solution)
+            str(place): plain_state(result) for place, result in self.others.items() if isinstance(result, Solution)
         }
         return {
             "shape": list(self.shape),
             "seconds": self.seconds,
             "solutions": [
-                result.to_dict() if isinstance(result, Solution) else plain_error(result) for result in results
+                result.claims() if isinstance(result, Solution) else plain_error(result) for result in results
             ],
             "problems": plain_entries(self.problems.entries) if self.problems.entries else None,
             "parts": [
@@ -317,9 +310,7 @@ class SolutionArray:
         parts = tuple(SolvedPart(places, model, laws) for places, model, laws in stored.parts)
         made = cls(stored.problems, parts, stored.others, stored.seconds)
         for place, status in enumerate(stored.statuses):
-            possible = statuses_of(made.result(place))
-            if status not in possible:
-                raise InputError(f"the status of solutions[{place}] is {status!r}, but it is {' or '.join(possible)}")
+            check_status(status, made.result(place), f"solutions[{place}]")
         return made
 
     def summary(self) -> Summary:
@@ -332,7 +323,7 @@ class SolutionArray:
         >>> [(row.name, row.text(5)) for row in laws.summary()][:4]
         [('problems', '3'), ('infeasible', '1'), ('optimal', '2'), ('objective', '...')]
         """
-        names, counts = np.unique(self.status, return_counts=True)
+        names, counts = np.unique(self.status.astype(str), return_counts=True)
         rows = [Row("problems", self.size, note=f"shape {self.shape}"), *map(Row, names.tolist(), counts.tolist())]
         for name, values in (("objective", self.objective), ("gap", self.gap)):
             known = values[np.isfinite(values)]
@@ -349,7 +340,7 @@ class SolutionArray:
         return page("SolutionArray", self.summary()._repr_html_(), *drawings)
 
     def __repr__(self) -> str:
-        names, counts = np.unique(self.status, return_counts=True)
+        names, counts = np.unique(self.status.astype(str), return_counts=True)
         told = ", ".join(f"{count} {name}" for name, count in zip(names.tolist(), counts.tolist(), strict=True))
         return f"SolutionArray(shape={self.shape}, {told}, problems={self.problems!r})"
 
@@ -406,18 +397,6 @@ class SolutionArray:
 def _frozen(values: NDArray[Any]) -> NDArray[Any]:
     values.setflags(write=False)
     return values
-
-
-def statuses_of(result: Solution | OptlawsError) -> list[str]:
-    """The statuses that a result can have; a law that a lower bound of a constant holds up is proven in part alone."""
-    if not isinstance(result, Solution):
-        return [status_of_error(result)]
-    problem = result.problem
-    velocity = problem.range("B")
-    held_up = any(limits.low > 0.0 for _, limits in problem.bounded) or (velocity is not None and velocity.low > 0.0)
-    ways = {True: [True, False] if held_up else [True], False: [False]}[problem.convex]
-    scale = problem.objective.scale
-    return [status_of(result.objective, result.lower_bound, scale, proven=proven).value for proven in ways]
 
 
 def _axes(problems: ProblemArray) -> tuple[list[str], dict[str, Any]]:

@@ -34,11 +34,11 @@ from optlaws.synthesis.proof.no_law import proof_of_no_law
 from optlaws.synthesis.search import LawSearch
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.solution_array import SolutionArray
-from optlaws.synthesis.solve import TIGHT, synthesize
+from optlaws.synthesis.solve import TIGHT, Bound, synthesize
 from optlaws.synthesis.solved_parts import SolvedPart
 
 
-def solved(problems: ProblemArray, *, bound: str = "quick") -> SolutionArray:
+def solved(problems: ProblemArray, *, bound: Bound = "quick") -> SolutionArray:
     """What `synthesize_array` returns, of checked arguments."""
     began = perf_counter()
     parts: list[SolvedPart] = []
@@ -63,7 +63,7 @@ def completed(
     others: Mapping[int, Solution | OptlawsError],
     began: float,
     *,
-    bound: str = "quick",
+    bound: Bound = "quick",
 ) -> SolutionArray:
     """What is known of some of the problems, with the rest solved one by one, each begun at the law before it."""
     known = np.concatenate([np.array(list(others), dtype=np.intp), *(part.places for part in parts)])
@@ -71,7 +71,7 @@ def completed(
     return SolutionArray(problems, tuple(parts), {**others, **rest}, perf_counter() - began)
 
 
-def _along(problems: ProblemArray, line: ProblemLine, bound: str) -> SolvedBatch:
+def _along(problems: ProblemArray, line: ProblemLine, bound: Bound) -> SolvedBatch:
     """The laws of a line, as far as they are proven; of least power, those that no other branch is better than."""
     if line.path.model.problem.convex:
         return laws_along(line.path, line.t)
@@ -85,7 +85,7 @@ def _along(problems: ProblemArray, line: ProblemLine, bound: str) -> SolvedBatch
 
 
 def _beyond(
-    problems: ProblemArray, places: NDArray[np.intp], bound: str
+    problems: ProblemArray, places: NDArray[np.intp], bound: Bound
 ) -> Iterator[tuple[int, Solution | OptlawsError]]:
     """The problems on a line beyond those with laws, the nearest first: these are a convex set, which ends for good."""
     previous: Solution | None = None
@@ -145,7 +145,7 @@ def _valid(problems: ProblemArray, place: int) -> Problem | None:
     return given if isinstance(given, Problem) else None
 
 
-def _others(problems: ProblemArray, places: NDArray[np.intp], bound: str) -> dict[int, Solution | OptlawsError]:
+def _others(problems: ProblemArray, places: NDArray[np.intp], bound: Bound) -> dict[int, Solution | OptlawsError]:
     """What is solved one by one, each begun at the law before it."""
     others: dict[int, Solution | OptlawsError] = {}
     previous: Solution | None = None
@@ -158,7 +158,7 @@ def _others(problems: ProblemArray, places: NDArray[np.intp], bound: str) -> dic
     return others
 
 
-def _alone(problems: ProblemArray, place: int, near: Solution | None, bound: str) -> Solution | OptlawsError:
+def _alone(problems: ProblemArray, place: int, near: Solution | None, bound: Bound) -> Solution | OptlawsError:
     """One problem by itself, begun at a neighbour's law."""
     try:
         problem = problems.problem(place)

@@ -18,7 +18,7 @@ from optlaws.synthesis.arrays.problems import ProblemArray
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.solution_array import SolutionArray
-from optlaws.synthesis.solve import check_bound, synthesize
+from optlaws.synthesis.solve import Bound, check_bound, synthesize
 from optlaws.synthesis.solve_array import solved
 
 ERRORS = ("raise", "return")
@@ -31,7 +31,7 @@ Errors = Literal["raise", "return"]
 Result = Solution | OptlawsError
 
 
-def synthesize_array(problems: ProblemArray, *, bound: str = "quick") -> SolutionArray:
+def synthesize_array(problems: ProblemArray, *, bound: Bound = "quick") -> SolutionArray:
     """Find the best law of each of many problems and prove it: what `synthesize` gives for each, in far less time.
 
     A problem without a law, or a number that makes no problem, spoils its own place alone.
@@ -65,7 +65,7 @@ def synthesize_array(problems: ProblemArray, *, bound: str = "quick") -> Solutio
     return solved(problems, bound=bound)
 
 
-def synthesize_chunks(problems: ProblemArray, *, size: int = _CHUNK, bound: str = "quick") -> Iterator[SolutionArray]:
+def synthesize_chunks(problems: ProblemArray, *, size: int = _CHUNK, bound: Bound = "quick") -> Iterator[SolutionArray]:
     """The same piece by piece, in the order of the flattened array: memory is that of one piece.
 
     Parameters
@@ -94,12 +94,12 @@ def synthesize_chunks(problems: ProblemArray, *, size: int = _CHUNK, bound: str 
 
 @overload
 def synthesize_many(
-    problems: Iterable[Problem], *, bound: str = "quick", errors: Literal["raise"] = "raise"
+    problems: Iterable[Problem], *, bound: Bound = "quick", errors: Literal["raise"] = "raise"
 ) -> Iterator[Solution]: ...
 @overload
-def synthesize_many(problems: Iterable[Problem], *, bound: str = "quick", errors: Errors) -> Iterator[Result]: ...
+def synthesize_many(problems: Iterable[Problem], *, bound: Bound = "quick", errors: Errors) -> Iterator[Result]: ...
 def synthesize_many(
-    problems: Iterable[Problem], *, bound: str = "quick", errors: Errors = "raise"
+    problems: Iterable[Problem], *, bound: Bound = "quick", errors: Errors = "raise"
 ) -> Iterator[Solution] | Iterator[Result]:
     """Solve many problems, those that differ in numbers together, and give their solutions in order.
 
@@ -137,10 +137,14 @@ def synthesize_many(
 
 
 @overload
-def sweep(problems: Iterable[Problem], *, errors: Literal["raise"] = "raise") -> Iterator[Solution]: ...
+def sweep(
+    problems: Iterable[Problem], *, bound: Bound = "quick", errors: Literal["raise"] = "raise"
+) -> Iterator[Solution]: ...
 @overload
-def sweep(problems: Iterable[Problem], *, errors: Errors) -> Iterator[Result]: ...
-def sweep(problems: Iterable[Problem], *, errors: Errors = "raise") -> Iterator[Solution] | Iterator[Result]:
+def sweep(problems: Iterable[Problem], *, bound: Bound = "quick", errors: Errors) -> Iterator[Result]: ...
+def sweep(
+    problems: Iterable[Problem], *, bound: Bound = "quick", errors: Errors = "raise"
+) -> Iterator[Solution] | Iterator[Result]:
     """Solve problems in turn, each warm started by the one before it where they are neighbours.
 
     Where the problems are there already, in a list, they are solved together, as `synthesize_many` does, if all are
@@ -151,6 +155,8 @@ def sweep(problems: Iterable[Problem], *, errors: Errors = "raise") -> Iterator[
     ----------
     problems
         The problems.
+    bound
+        As of `synthesize`.
     errors
         What becomes of a problem without an answer: "raise" raises its error and ends the sweep, "return" gives the
         error in its place and goes on.
@@ -160,7 +166,7 @@ def sweep(problems: Iterable[Problem], *, errors: Errors = "raise") -> Iterator[
     InfeasibleProblem, SolverFailure
         As `synthesize`, unless errors are returned.
     InputError
-        If `errors` is unknown; and, unless errors are returned, if one of the problems is none.
+        If `bound` or `errors` is unknown; and, unless errors are returned, if one of the problems is none.
 
     Examples
     --------
@@ -173,7 +179,8 @@ def sweep(problems: Iterable[Problem], *, errors: Errors = "raise") -> Iterator[
     ['InfeasibleProblem', 'Solution']
     """
     check_errors(errors)
-    return _raised(_many(problems, "quick") if _together(problems) else _in_turn(problems), errors)
+    check_bound(bound)
+    return _raised(_many(problems, bound) if _together(problems) else _in_turn(problems, bound), errors)
 
 
 def check_errors(errors: object) -> None:
@@ -203,18 +210,18 @@ def _together(problems: object) -> bool:
     return sum(len(line.places) for line in lines_of(others, np.arange(len(others)))) == len(others)
 
 
-def _in_turn(problems: Iterable[Problem]) -> Iterator[Result]:
+def _in_turn(problems: Iterable[Problem], bound: Bound) -> Iterator[Result]:
     previous: Solution | None = None
     for problem in problems:
         try:
-            previous = synthesize(problem, start=previous)
+            previous = synthesize(problem, start=previous, bound=bound)
         except OptlawsError as error:
             yield error
         else:
             yield previous
 
 
-def _many(problems: Iterable[Problem], bound: str) -> Iterator[Result]:
+def _many(problems: Iterable[Problem], bound: Bound) -> Iterator[Result]:
     for chunk in _chunks(problems):
         laws = solved(chunk, bound=bound)
         yield from map(laws.result, range(chunk.size))

@@ -43,15 +43,16 @@ class SolvedPart:
         return self.found.x[:, : self.model.space.terms]
 
     @property
-    def statuses(self) -> NDArray[np.str_]:
+    def statuses(self) -> NDArray[np.object_]:
         """Optimal, but where the problem is not convex and the bound does not meet the objective."""
-        optimal = np.full(len(self.places), Status.OPTIMAL.value)
+        optimal = np.full(len(self.places), Status.OPTIMAL, dtype=object)
         if self.model.problem.convex:
             return optimal
         off = np.abs(self.found.objective - self.found.bound) > OPTIMALITY_GAP * measure(
             self.found.objective, self.model.problem.objective.scale
         )
-        return np.where(off, Status.LOCAL.value, optimal)
+        optimal[off] = Status.LOCAL
+        return optimal
 
     @property
     def z_series(self) -> Array:

@@ -220,7 +220,7 @@ def test_constants_as_plain_data(law: MotionLaw) -> None:
     table = law.constants.to_dict()
     assert list(table) == ["B", "C", "D", "J"]
     assert table["C"] == {"value": law.peak(2).value, "k": law.peak(2).k}
-    assert law.constants.to_dict(rms=True)["rms_c"] == law.constants.rms_c
+    assert law.constants.to_dict()["rms_c"] == law.constants.rms_c
     assert json.loads(json.dumps(table)) == table
 
 

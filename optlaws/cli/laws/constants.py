@@ -35,6 +35,6 @@ def constants(
         raise InputError(f"--z takes numbers separated by blanks: {error}") from None
     peaks = optlaws.construct(optlaws.BoundaryConditions.rest(order), numbers).constants
     if as_json:
-        print_json(peaks.to_dict())
+        print_json(peaks.to_dict(rms=False))
     else:
         show(constants_table(peaks))

@@ -173,7 +173,7 @@ def _answer(made: Export, output: Path | None, *, as_json: bool) -> None:
     if output is not None:
         made.write(output)
     if as_json:
-        print_json(made.to_dict() | ({"text": made.text} if output is None else {"file": str(output)}))
+        print_json(made.results() | ({"text": made.text} if output is None else {"file": str(output)}))
     elif output is None:
         print(made.text, end="")  # noqa: T201 - the answer itself
         print(made, file=sys.stderr)  # noqa: T201

@@ -124,7 +124,7 @@ def _member(
 
 
 def _facts(name: str, motion_law: optlaws.MotionLaw) -> dict[str, Any]:
-    return {"name": name, "constants": motion_law.constants.to_dict(rms=True), "law": motion_law.to_dict()}
+    return {"name": name, "constants": motion_law.constants.to_dict(), "law": motion_law.to_dict()}
 
 
 def _lines(about: dict[str, Any]) -> list[tuple[str, str]]:

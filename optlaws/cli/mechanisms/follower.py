@@ -117,7 +117,7 @@ def follower(
         _draw(cam, reference, mass.damping, spectrum, plot)
     summary = _summary(mass, cam, reference, response)
     if machine is not None:
-        summary["machine"] = machine.response(cam).to_dict() | {"dynamic factor": summary["dynamic_factor"]}
+        summary["machine"] = machine.response(cam).results() | {"dynamic factor": summary["dynamic_factor"]}
     if as_json:
         print_json(summary)
     else:
@@ -178,7 +178,7 @@ def _summary(
             }
             for deviation in optlaws.off_design(cam, reference, mass)
         ],
-        "cam": {"constants": cam.constants.to_dict(), "law": cam.to_dict()},
+        "cam": {"constants": cam.constants.to_dict(rms=False), "law": cam.to_dict()},
     }
 
 

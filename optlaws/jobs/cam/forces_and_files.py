@@ -174,7 +174,7 @@ class Findings:
         """The results as data for programs, in SI units."""
         data: dict[str, Any] = {}
         if self.forces is not None:
-            data["forces"] = self.forces.to_dict()
+            data["forces"] = self.forces.results()
         if self.spring is not None:
             data["spring"] = self.spring.to_dict()
         if self.as_made:

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from math import inf, isfinite
-from typing import Any, Self
+from typing import Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.files.reading import JsonText
 from optlaws.kept import kept_property
 from optlaws.mechanisms.machine.dynamics import Dynamics
 from optlaws.motion.quantities import si_number
@@ -33,7 +34,7 @@ STIFFEST = 1e8  # the same for what decays
 
 
 @dataclass(frozen=True, init=False, repr=False)
-class StateSpace:
+class StateSpace(JsonText):
     """x' = A x + B w, y = C x + D w in durations of the rise; w are those of a, b and c that `inputs` names.
 
     Attributes
@@ -45,6 +46,8 @@ class StateSpace:
     outputs
         Names of the outputs.
     """
+
+    _json_name: ClassVar[str] = "a machine"
 
     A: Matrix
     B: Matrix

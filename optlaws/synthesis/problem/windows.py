@@ -6,10 +6,11 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import inf, isfinite
-from typing import Any
+from typing import Any, ClassVar
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.files.reading import JsonText
 from optlaws.formulas.of_motion import MotionFormula, of_text
 from optlaws.formulas.scanner import FormulaError
 from optlaws.kept import kept_property
@@ -27,7 +28,7 @@ _LONGEST = 200
 
 
 @dataclass(frozen=True, repr=False)
-class Window:
+class Window(JsonText):
     """A quantity of the law stays between two values at one k or over an interval (dimensionless).
 
     Parameters
@@ -52,6 +53,8 @@ class Window:
     >>> via("a", 0.3, at=0.4)
     via('a', 0.3, at=0.4)
     """
+
+    _json_name: ClassVar[str] = "a window"
 
     quantity: str
     low: float = -inf

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import comb
-from typing import Any, ClassVar, cast
+from typing import Any, ClassVar, Self, cast
 
 import numpy as np
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.files.reading import JsonText, entries_of
 from optlaws.lazy import Registry
 from optlaws.numbers import MOST_DEGREE, MOST_PIECE_DEGREE, MOST_PIECES, Array, fractions, numbers, positive, whole
 from optlaws.numerics.exact import (
@@ -24,7 +25,7 @@ from optlaws.numerics.exact import (
 from optlaws.synthesis.spaces.breaks import mirrored, order_of_continuity, places
 
 
-class Basis(ABC):
+class Basis(JsonText, ABC):
     """In what a law is sought; subclasses are frozen values. `name` calls it in problem files.
 
     Examples
@@ -32,6 +33,8 @@ class Basis(ABC):
     >>> sorted(Basis.kinds)
     ['bernstein', 'bsplines', 'chebyshev', 'periodic', 'pieces', 'powers']
     """
+
+    _json_name: ClassVar[str] = "a basis"
 
     name: ClassVar[str]
     kinds: ClassVar[Registry[type[Basis]]] = Registry("basis")
@@ -53,6 +56,27 @@ class Basis(ABC):
     @abstractmethod
     def to_dict(self) -> dict[str, Any]:
         """Its name and its parameters, plain."""
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> Self:
+        """The basis that `to_dict` described.
+
+        Raises
+        ------
+        InputError
+            If the name is unknown, that of another kind, or a parameter does not fit.
+
+        Examples
+        --------
+        >>> Basis.from_dict(Chebyshev(9).to_dict())
+        Chebyshev(degree=9)
+        """
+        known = entries_of(data, ("basis", "degree"), cls._json_name)
+        others = {name: value for name, value in data.items() if name not in known}
+        read = basis(known["basis"], known["degree"], **others)
+        if not isinstance(read, cls):
+            raise InputError(f"{shortened(data)} is no {cls.__name__}, but {read!r}")
+        return read
 
 
 @dataclass(frozen=True)
