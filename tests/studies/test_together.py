@@ -47,7 +47,7 @@ def test_rows_are_those_of_each_alone() -> None:
     many = [msgspec.json.decode(row) for task in tasks(asked) for row in rows(task)]
     alone = [msgspec.json.decode(row) for task in tasks(asked, alone=True) for row in rows(task)]
     assert len(many) == len(alone) == 20
-    assert {row["status"] for row in many} == {"optimal", "infeasible", "wrong input"}
+    assert {row["status"] for row in many} == {"optimal", "infeasible", "invalid"}
     for one, other in zip(many, alone, strict=True):
         assert list(one) == list(other)
         for name in ("index", "key", "inputs", "status", "error"):

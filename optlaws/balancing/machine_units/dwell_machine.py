@@ -133,7 +133,7 @@ class DwellMachine(JsonText):
             stretches.append(CamStretch(tau * low, tau * high, offset, turn.swing, tau, segment, high - low))
         return CamMotion(tuple(stretches), axis="angle", closed=True)
 
-    def cams(self, roller: str, pivot_distance: str) -> dict[str, DiscCam]:
+    def cams(self, roller: Quantity, pivot_distance: Quantity) -> dict[str, DiscCam]:
         """The executive cam and the loader's, with rollers on arms.
 
         Parameters

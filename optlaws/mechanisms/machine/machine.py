@@ -16,6 +16,7 @@ from optlaws.mechanisms.machine.over_time import MachineCycle, MachineResponse
 from optlaws.numbers import not_negative, positive
 
 if TYPE_CHECKING:
+    from optlaws.synthesis.functionals.makers import PeakSide
     from optlaws.mechanisms.machine.output_constants import OutputPeak, OutputRms
     from optlaws.mechanisms.machine.residual_boxes import ModeResidual
 
@@ -149,7 +150,7 @@ class Machine(MachineConstructors):
         *,
         within: tuple[float, float] = (0.0, 1.0),
         cycle: tuple[float, float] | None = None,
-        side: str = "both",
+        side: PeakSide = "both",
         offset: float = 0.0,
     ) -> OutputPeak:
         """The peak of an output as a constant of the law, to be minimised or bounded; convex.

@@ -48,7 +48,7 @@ class Window(JsonText):
 
     Examples
     --------
-    >>> Window("a", 0.4, 0.6, 0.45, 0.55).order
+    >>> Window("a", 0.4, 0.6, 0.45, 0.55).nu
     0
     >>> via("a", 0.3, at=0.4)
     via('a', 0.3, at=0.4)
@@ -122,7 +122,7 @@ class Window(JsonText):
         return 1.0 if self.motion is None else self.motion.scale
 
     @property
-    def order(self) -> int:
+    def nu(self) -> int:
         """Order of the derivative."""
         return QUANTITIES[self.quantity]
 
@@ -139,9 +139,9 @@ class Window(JsonText):
     def mirrored(self) -> Window:
         """What it asks of a symmetric law on the other side: a(k) + a(1-k) = 1, b and j even, c odd about 1/2."""
         low, high = self.low, self.high
-        if self.order == 0:
+        if self.nu == 0:
             low, high = 1.0 - high, 1.0 - low
-        elif self.order == 2:
+        elif self.nu == 2:
             low, high = -high, -low
         return Window(self.quantity, low, high, 1.0 - self.stop, 1.0 - self.start)
 

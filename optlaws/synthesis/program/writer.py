@@ -344,13 +344,13 @@ class _Writer:
     def _window(self, name: str, window: Window) -> None:
         ends = (1.0 - 2.0 * window.stop, 1.0 - 2.0 * window.start)
         if window.value:
-            row = self.space.widened(self.space.row(window.order, window.start)[None, :], self.size)[0]
+            row = self.space.widened(self.space.row(window.nu, window.start)[None, :], self.size)[0]
             self.equation(repr(window), row[:-1], window.high - float(row[-1]))
             return
         for sign, bound in ((1.0, window.high), (-1.0, -window.low)):
             if isfinite(bound):
                 side = names.window_side(name, sign)
-                family = self.space.derivative(window.order, side, self.spare, bound, (sign,))
+                family = self.space.derivative(window.nu, side, self.spare, bound, (sign,))
                 self.families.append(replace(family, domain=ends))
 
     def _power(self, power: PowerConstant, slack: Array, bound: float) -> None:

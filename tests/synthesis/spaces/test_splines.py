@@ -120,7 +120,7 @@ def test_laws_are_proven_and_their_z_makes_them(problem: Problem) -> None:
     if problem.monotone:
         assert solution.law.extrema(1)[0].value >= -1e-10
     for window in problem.windows:
-        values = solution.law(np.linspace(window.start, window.stop, 1001), window.order)
+        values = solution.law(np.linspace(window.start, window.stop, 1001), window.nu)
         assert window.low - 1e-9 <= values.min() <= values.max() <= window.high + 1e-9
     assert Problem.from_dict(problem.to_dict()) == problem
     assert MotionLaw.from_dict(solution.law.to_dict()) == solution.law
