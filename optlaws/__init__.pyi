@@ -8,7 +8,7 @@ from optlaws.balancing.dwells.mechanism import dwell_mechanism as dwell_mechanis
 from optlaws.balancing.levers.design import find_torsion_levers as find_torsion_levers
 from optlaws.balancing.levers.lever import TorsionLever as TorsionLever
 from optlaws.balancing.loaders.loader import Loader as Loader
-from optlaws.balancing.loaders.loader import loader as loader
+from optlaws.balancing.loaders.loader import inertial_loader as inertial_loader
 from optlaws.balancing.loaders.optimal import BalancedLaw as BalancedLaw
 from optlaws.balancing.loaders.optimal import balanced_law as balanced_law
 from optlaws.balancing.loaders.trapezium import TrapeziumSubstitute as TrapeziumSubstitute
@@ -19,7 +19,7 @@ from optlaws.balancing.machine_units.lever_cam import LeverCam as LeverCam
 from optlaws.balancing.machine_units.lever_cam import rocker_law as rocker_law
 from optlaws.cams.as_manufactured import AsMade as AsMade
 from optlaws.cams.as_manufactured import as_made as as_made
-from optlaws.cams.as_manufactured import with_error as with_error
+from optlaws.cams.as_manufactured import with_profile_error as with_profile_error
 from optlaws.cams.barrel import BarrelCam as BarrelCam
 from optlaws.cams.best_laws import best_base_circle as best_base_circle
 from optlaws.cams.best_laws import best_cam as best_cam
@@ -38,7 +38,7 @@ from optlaws.cams.springs import Spring as Spring
 from optlaws.cams.springs import least_spring as least_spring
 from optlaws.cycles.cycle import Cycle as Cycle
 from optlaws.cycles.law_comparison import Comparison as Comparison
-from optlaws.cycles.law_comparison import compare as compare
+from optlaws.cycles.law_comparison import compare_laws as compare_laws
 from optlaws.cycles.machine_axes import Axes as Axes
 from optlaws.cycles.machine_follower import MachineFollower as MachineFollower
 from optlaws.cycles.machine_follower import machine_follower as machine_follower
@@ -60,7 +60,7 @@ from optlaws.laws.catalogue.reading import read_law as read_law
 from optlaws.laws.constants import Constants as Constants
 from optlaws.laws.law import MotionLaw as MotionLaw
 from optlaws.laws.making.input_shaping import shaped_law as shaped_law
-from optlaws.laws.making.multiplier import multiplied as multiplied
+from optlaws.laws.making.multiplier import multiplied_law as multiplied_law
 from optlaws.laws.making.multiplier import multiplier_for as multiplier_for
 from optlaws.laws.making.through_points import law_through as law_through
 from optlaws.laws.making.transform import mirrored_law as mirrored_law
@@ -90,7 +90,7 @@ from optlaws.mechanisms.of_machines.parameters import MachineSpectrum as Machine
 from optlaws.mechanisms.of_machines.parameters import machine_spectrum as machine_spectrum
 from optlaws.mechanisms.spectrum.residual import residual_functional as residual_functional
 from optlaws.mechanisms.spectrum.residual import residual_phasor as residual_phasor
-from optlaws.mechanisms.spectrum.robust import residual as residual
+from optlaws.mechanisms.spectrum.robust import residual_vibration as residual_vibration
 from optlaws.mechanisms.spectrum.spectrum import ResponseSpectrum as ResponseSpectrum
 from optlaws.mechanisms.spectrum.spectrum import response_spectrum as response_spectrum
 from optlaws.motion.polynomials import PiecewiseMotion as PiecewiseMotion
@@ -98,16 +98,16 @@ from optlaws.numerics.peaks import Peak as Peak
 from optlaws.studies.run import run_study as run_study
 from optlaws.studies.study import open_study as open_study
 from optlaws.synthesis.arrays.problems import ProblemArray as ProblemArray
-from optlaws.synthesis.arrays.problems import each as each
+from optlaws.synthesis.arrays.problems import map_arrays as map_arrays
 from optlaws.synthesis.front import Front as Front
 from optlaws.synthesis.functionals.loads import drive_torque as drive_torque
+from optlaws.synthesis.functionals.makers import formula_integral as formula_integral
+from optlaws.synthesis.functionals.makers import formula_peak as formula_peak
+from optlaws.synthesis.functionals.makers import formula_rms as formula_rms
+from optlaws.synthesis.functionals.makers import formula_value as formula_value
 from optlaws.synthesis.functionals.makers import functional as functional
-from optlaws.synthesis.functionals.makers import integral as integral
-from optlaws.synthesis.functionals.makers import peak as peak
-from optlaws.synthesis.functionals.makers import rms as rms
-from optlaws.synthesis.functionals.makers import value as value
 from optlaws.synthesis.limits.closed_forms import acceleration_limit as acceleration_limit
-from optlaws.synthesis.limits.closed_forms import limit as limit
+from optlaws.synthesis.limits.closed_forms import constant_limit as constant_limit
 from optlaws.synthesis.limits.laws import limit_law as limit_law
 from optlaws.synthesis.pareto import pareto_front as pareto_front
 from optlaws.synthesis.problem.constants import FUNCTIONALS as FUNCTIONALS
@@ -153,7 +153,7 @@ from optlaws.synthesis.spaces.bases import Chebyshev as Chebyshev
 from optlaws.synthesis.spaces.bases import Pieces as Pieces
 from optlaws.synthesis.spaces.bases import Powers as Powers
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions as BoundaryConditions
-from optlaws.synthesis.spaces.end_conditions import construct as construct
+from optlaws.synthesis.spaces.end_conditions import law_from_z as law_from_z
 from optlaws.synthesis.spaces.pieces.periodic import PeriodicPieces as PeriodicPieces
 from optlaws.synthesis.spaces.splines import BSplines as BSplines
 
@@ -253,48 +253,49 @@ __all__ = [
     "between",
     "cam_constant",
     "catalogue",
-    "compare",
     "compare_dwell_mechanisms",
+    "compare_laws",
     "conjugate_cam",
-    "construct",
+    "constant_limit",
     "deg",
     "drive_torque",
     "driving_law",
     "dwell_machine",
     "dwell_mechanism",
-    "each",
     "find_torsion_levers",
     "flat_output",
+    "formula_integral",
+    "formula_peak",
+    "formula_rms",
+    "formula_value",
     "functional",
     "greatest_roller",
-    "integral",
+    "inertial_loader",
     "jounce",
+    "law_from_z",
     "law_through",
     "least_base_circle",
     "least_spring",
-    "limit",
     "limit_law",
-    "loader",
     "machine_follower",
     "machine_spectrum",
+    "map_arrays",
     "mass_law",
     "maximum",
     "mirrored_law",
-    "multiplied",
+    "multiplied_law",
     "multiplier_for",
     "off_design",
     "open_study",
     "pareto_front",
-    "peak",
     "polydyne",
     "proven_front",
     "read_law",
-    "residual",
     "residual_functional",
     "residual_phasor",
+    "residual_vibration",
     "response_spectrum",
     "reversed_law",
-    "rms",
     "rms_c",
     "rms_j",
     "rms_jounce",
@@ -310,8 +311,7 @@ __all__ = [
     "synthesize_chunks",
     "synthesize_many",
     "trapezoid",
-    "value",
     "via",
     "with_end_velocity",
-    "with_error",
+    "with_profile_error",
 ]

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optlaws import Chebyshev, InfeasibleProblem, Status, catalogue
-from optlaws.balancing import BalancedLaw, Loader, balanced_law, loader, loader_acceleration_limit
+from optlaws.balancing import BalancedLaw, Loader, balanced_law, inertial_loader, loader_acceleration_limit
 from optlaws.plots.style import BLUES, GREEN, GREY, WARM, empty_figure, plot_style
 from optlaws.results import MARK, Cell, Entries, Results, rows
 
@@ -55,7 +55,7 @@ class Row:
     """A printed law with its loader, and its rivals."""
 
     code: str
-    loader: Loader
+    inertial_loader: Loader
     order: int
     least: Mapping[tuple[int, int], BalancedLaw]
     rivals: Mapping[str, BalancedLaw | None]
@@ -120,7 +120,7 @@ def _row(given: Mapping[str, str], spec: Spec) -> Row:
         rivals["C no greater"] = _proven(B, order=order, basis=basis, most_C=C)
     for kind, minimise in (("mixture", MIXTURE), ("least B_l", "B_loader"), ("least D_l", "D_loader")):
         rivals[kind] = _proven(B, order=order, basis=basis, minimise=minimise)
-    return Row(given["code"], loader(law), order, least, rivals)
+    return Row(given["code"], inertial_loader(law), order, least, rivals)
 
 
 _proven = partial(balanced_law, bound="tight")

@@ -21,7 +21,7 @@ from optlaws import (
     SavinFamily,
     Solution,
     acceleration_limit,
-    construct,
+    law_from_z,
     savin,
     smoothstep,
     sweep,
@@ -158,8 +158,8 @@ def printed_law(spec: Table, line: Mapping[str, str]) -> PolynomialLaw:
     """The law that the Z(k) of a printed row gives."""
     base = spec.bases[line["base"]]
     z = [Fraction(text) for text in line["z"].split()]
-    powers = construct(BoundaryConditions.rest(base.order), base.z).exact_powers()
-    whole = construct(BoundaryConditions.rest(spec.order), z).exact_powers()
+    powers = law_from_z(BoundaryConditions.rest(base.order), base.z).exact_powers()
+    whole = law_from_z(BoundaryConditions.rest(spec.order), z).exact_powers()
     plain = smoothstep(spec.order).exact_powers()
     return PolynomialLaw.from_powers(
         [p + w - s for p, w, s in zip_longest(powers, whole, plain, fillvalue=Fraction(0))]

@@ -140,7 +140,21 @@ def test_every_public_callable_is_annotated() -> None:
 
 #: what the standard library, numpy, pandas and xarray have
 OTHERS = {"Any", "Callable", "Executor", "Fraction", "Iterable", "Iterator", "Literal", "Mapping", "NDArray", "None"}
-OTHERS |= {"Path", "Self", "Sequence", "bool", "class", "dict", "float", "int", "list", "object", "str", "tuple", "type"}
+OTHERS |= {
+    "Path",
+    "Self",
+    "Sequence",
+    "bool",
+    "class",
+    "dict",
+    "float",
+    "int",
+    "list",
+    "object",
+    "str",
+    "tuple",
+    "type",
+}
 OTHERS |= {"np.bool_", "np.complex128", "np.float64", "np.intp", "np.object_", "pd.DataFrame", "xr.Dataset"}
 
 

@@ -17,7 +17,7 @@ __getattr__, __dir__, __all__ = face(
         "optlaws.balancing.loaders.constants": "B_loader C_loader D_loader",
         "optlaws.balancing.loaders.law": "LoaderLaw",
         "optlaws.balancing.loaders.limits": "loader_acceleration_limit loader_power_limit loader_velocity_limit",
-        "optlaws.balancing.loaders.loader": "Loader loader",
+        "optlaws.balancing.loaders.loader": "Loader inertial_loader",
         "optlaws.balancing.loaders.optimal": "BalancedLaw balanced_law",
         "optlaws.balancing.loaders.trapezium": "TrapeziumSubstitute closed_form_Y",
         "optlaws.balancing.machine_units.balancing": "Balancing",

@@ -21,7 +21,7 @@ from optlaws.balancing.loaders.limits import loader_acceleration_limit as loader
 from optlaws.balancing.loaders.limits import loader_power_limit as loader_power_limit
 from optlaws.balancing.loaders.limits import loader_velocity_limit as loader_velocity_limit
 from optlaws.balancing.loaders.loader import Loader as Loader
-from optlaws.balancing.loaders.loader import loader as loader
+from optlaws.balancing.loaders.loader import inertial_loader as inertial_loader
 from optlaws.balancing.loaders.optimal import BalancedLaw as BalancedLaw
 from optlaws.balancing.loaders.optimal import balanced_law as balanced_law
 from optlaws.balancing.loaders.trapezium import TrapeziumSubstitute as TrapeziumSubstitute
@@ -59,8 +59,8 @@ __all__ = [
     "dwell_machine",
     "dwell_mechanism",
     "find_torsion_levers",
+    "inertial_loader",
     "least_dwell",
-    "loader",
     "loader_acceleration_limit",
     "loader_power_limit",
     "loader_velocity_limit",

@@ -15,7 +15,7 @@ from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.catalogue.reading import read_law
 from optlaws.mechanisms.checks import motion_law
-from optlaws.mechanisms.spectrum.robust import residual
+from optlaws.mechanisms.spectrum.robust import residual_vibration
 from optlaws.motion.piece import factor
 from optlaws.motion.quantities import either, quantity
 from optlaws.numbers import Quantity, bounded, positive
@@ -32,7 +32,7 @@ _PEAKS = {"D": "power", "J": "jerk"}
 
 @dataclass(frozen=True)
 class Comparison(JsonText):
-    """Laws with their numbers, made by `compare`; a row for each law.
+    """Laws with their numbers, made by `compare_laws`; a row for each law.
 
     Attributes
     ----------
@@ -47,8 +47,8 @@ class Comparison(JsonText):
 
     Examples
     --------
-    >>> from optlaws import compare
-    >>> comparison = compare("modified sine", "cycloidal")
+    >>> from optlaws import compare_laws
+    >>> comparison = compare_laws("modified sine", "cycloidal")
     >>> [row["law"] for row in comparison.rows], [round(row["C"], 4) for row in comparison.rows]
     (['modified sine', 'cycloidal'], [5.528, 6.2832])
     """
@@ -136,11 +136,11 @@ class Comparison(JsonText):
                 for nu, text in _MACHINE.items()
             }
         if self.nu is not None:
-            row["residual"] = residual(nu=self.nu, damping=self.damping).value(law)
+            row["residual"] = residual_vibration(nu=self.nu, damping=self.damping).value(law)
         return row
 
 
-def compare(
+def compare_laws(
     *laws: Any,  # noqa: ANN401 - whatever names or has a law
     stroke: Quantity | None = None,
     duration: Quantity | None = None,
@@ -168,7 +168,7 @@ def compare(
 
     Examples
     --------
-    >>> comparison = compare("modified sine", "cycloidal", stroke="35 mm", duration="0.1 s", nu=20)
+    >>> comparison = compare_laws("modified sine", "cycloidal", stroke="35 mm", duration="0.1 s", nu=20)
     >>> [round(row["acceleration, m/s²"], 3) for row in comparison.rows]
     [19.348, 21.991]
     """
@@ -181,7 +181,7 @@ def compare(
     if height is not None:
         positive(height, "stroke")
     if nu is not None:
-        residual(nu=nu, damping=damping)
+        residual_vibration(nu=nu, damping=damping)
     named: dict[str, MotionLaw] = {}
     for place, given_law in enumerate(laws, 1):
         name, law = _named(given_law, place)
@@ -214,7 +214,7 @@ def costs(
         for letter in _PEAKS
     }
     if nu is not None:
-        of = residual(nu=nu, damping=damping)
+        of = residual_vibration(nu=nu, damping=damping)
         values["a residual acceleration of "] = of.value(law), of.value(reference)
     return [_cost(what, value, other, name) for what, (value, other) in values.items() if value > FAR * other]
 

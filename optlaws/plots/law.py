@@ -271,8 +271,8 @@ def draw_comparison(comparison: Comparison, axes: Panels | None = None, **style:
 
     Examples
     --------
-    >>> from optlaws.cycles.law_comparison import compare
-    >>> artists = draw_comparison(compare("modified sine", "cycloidal"))
+    >>> from optlaws.cycles.law_comparison import compare_laws
+    >>> artists = draw_comparison(compare_laws("modified sine", "cycloidal"))
     >>> [text.get_text() for text in artists[0].figure.legends[0].get_texts()]
     ['modified sine', 'cycloidal']
     """

@@ -1,9 +1,9 @@
 # made by tests/contracts/faces.py from the table in __init__.py
 from optlaws.synthesis.arrays.problems import ProblemArray as ProblemArray
-from optlaws.synthesis.arrays.problems import each as each
+from optlaws.synthesis.arrays.problems import map_arrays as map_arrays
 from optlaws.synthesis.front import Front as Front
 from optlaws.synthesis.limits.closed_forms import acceleration_limit as acceleration_limit
-from optlaws.synthesis.limits.closed_forms import limit as limit
+from optlaws.synthesis.limits.closed_forms import constant_limit as constant_limit
 from optlaws.synthesis.limits.laws import limit_law as limit_law
 from optlaws.synthesis.pareto import pareto_front as pareto_front
 from optlaws.synthesis.problem.constants import FUNCTIONALS as FUNCTIONALS
@@ -53,7 +53,7 @@ from optlaws.synthesis.spaces.bases import PolynomialBasis as PolynomialBasis
 from optlaws.synthesis.spaces.bases import Powers as Powers
 from optlaws.synthesis.spaces.bases import basis as basis
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions as BoundaryConditions
-from optlaws.synthesis.spaces.end_conditions import construct as construct
+from optlaws.synthesis.spaces.end_conditions import law_from_z as law_from_z
 from optlaws.synthesis.spaces.splines import BSplines as BSplines
 from optlaws.synthesis.spaces.splines import PiecewiseBasis as PiecewiseBasis
 
@@ -98,11 +98,11 @@ __all__ = [
     "at_most",
     "basis",
     "between",
-    "construct",
-    "each",
+    "constant_limit",
     "jounce",
-    "limit",
+    "law_from_z",
     "limit_law",
+    "map_arrays",
     "maximum",
     "pareto_front",
     "proven_front",

@@ -94,11 +94,11 @@ def values(jumping: Solution) -> dict[str, Any]:
         "ProvenFront": proven,
         "SolutionArray": optlaws.synthesize_array(optlaws.ProblemArray(B=[1.05, float("nan"), 1.7, 1.8], order=4)),
         "Window": Window("b", high=1.9),
-        "Loader": optlaws.loader(optlaws.catalogue["0050"].law),
+        "Loader": optlaws.inertial_loader(optlaws.catalogue["0050"].law),
         "BalancedLaw": optlaws.balanced_law(order=4, B=1.8, basis=Chebyshev(3)),
         "DwellMechanism": replace(mechanism, law_1=optlaws.smoothstep(3)),
         "DwellMachine": DwellMachine(mechanism, 10.0, 0.05, 0.005, 0.1, 0.035),
-        "Comparison": optlaws.compare("0050", "cycloidal", stroke="35 mm", duration="0.1 s", nu=(18.0, 20.0)),
+        "Comparison": optlaws.compare_laws("0050", "cycloidal", stroke="35 mm", duration="0.1 s", nu=(18.0, 20.0)),
         "CatalogueEntry": optlaws.catalogue["constant velocity"],
         "CatalogueEntry of terms": optlaws.catalogue["modified sine"],
         "Segment": EXAMPLES["power of time"].segments[0],  # type: ignore[attr-defined] # a piecewise law

@@ -25,7 +25,7 @@ from optlaws import (
     compare_dwell_mechanisms,
     deg,
     dwell_mechanism,
-    loader,
+    inertial_loader,
     machine_follower,
     smoothstep,
 )
@@ -243,8 +243,8 @@ def machine_of(unit: UnitRegistry[Any] | None) -> list[Any]:
         TorsionLever(0.75, 1.0, 0.15, 0.15, given("60 deg", deg(60)), united("30 deg", deg(30)), given("1 rad", 1.0)),
         dwell_mechanism("III", law=K, **mechanism, **clutch),
         compare_dwell_mechanisms(law=K, most_torque=0.5, **mechanism, **clutch).mechanisms["II"],
-        loader(K).mass(**loader_mass, stroke=given("2 cm", 0.02)),
-        loader(K).stroke(**loader_mass, mass=united("10 kg", 10.0)),
+        inertial_loader(K).mass(**loader_mass, stroke=given("2 cm", 0.02)),
+        inertial_loader(K).stroke(**loader_mass, mass=united("10 kg", 10.0)),
     ]
 
 
@@ -271,7 +271,10 @@ def flat(value: Any) -> list[Any]:  # noqa: ANN401
         (lambda: Machine.from_modes([("12", 0.02)], duration=1.0), "the frequency of mode 1 must .* without a unit"),
         (lambda: Machine.from_modes([(12.0, 0.02)], duration="1 m"), "duration must be a time"),
         (lambda: TorsionLever(0.75, 1.0, 0.15, 0.15, "60 mm"), "swing must be an angle such as '45 deg', but"),
-        (lambda: loader(smoothstep(3)).mass(executive_mass="1 m", executive_stroke=1, stroke=1), "executive_mass must"),
+        (
+            lambda: inertial_loader(smoothstep(3)).mass(executive_mass="1 m", executive_stroke=1, stroke=1),
+            "executive_mass must",
+        ),
     ],
 )
 def test_a_quantity_of_another_dimension_is_refused(wrong: Callable[[], object], reason: str) -> None:

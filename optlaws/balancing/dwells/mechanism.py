@@ -330,7 +330,7 @@ def dwell_mechanism(
     kind
         "I", "II" or "III".
     law
-        Executive law of the rise, from rest to rest; its loader is that of `optlaws.loader`.
+        Executive law of the rise, from rest to rest; its loader is that of `inertial_loader`.
     dwell
         Angle of the upper dwell.
     rise

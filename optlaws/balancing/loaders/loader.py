@@ -137,7 +137,7 @@ class Loader(JsonText):
         Examples
         --------
         >>> from optlaws import catalogue
-        >>> loader(catalogue["K"].law).mass(executive_mass="2.5 kg", executive_stroke="40 mm", stroke=0.020)
+        >>> inertial_loader(catalogue["K"].law).mass(executive_mass="2.5 kg", executive_stroke="40 mm", stroke=0.020)
         10.0
         """
         mass, h, h_loader = _sizes(executive_mass=executive_mass, executive_stroke=executive_stroke, stroke=stroke)
@@ -167,7 +167,7 @@ class Loader(JsonText):
         Examples
         --------
         >>> from optlaws import catalogue
-        >>> loader(catalogue["K"].law).stroke(executive_mass=2.5, executive_stroke=0.040, mass=10.0)
+        >>> inertial_loader(catalogue["K"].law).stroke(executive_mass=2.5, executive_stroke=0.040, mass=10.0)
         0.02
         """
         executive, h, moved = _sizes(executive_mass=executive_mass, executive_stroke=executive_stroke, mass=mass)
@@ -208,7 +208,7 @@ class Loader(JsonText):
         return f"Loader(Y={self.Y:g}, B={self.B:g}, C={self.C:g}, D={self.D:g})"
 
 
-def loader(law: MotionLaw) -> Loader:
+def inertial_loader(law: MotionLaw) -> Loader:
     """The inertial loader that balances the inertia of a link moving by a law (eq. 1, 2).
 
     Parameters
@@ -224,7 +224,7 @@ def loader(law: MotionLaw) -> Loader:
     Examples
     --------
     >>> from optlaws import catalogue
-    >>> balanced = loader(catalogue["0317(1,5)"].law)
+    >>> balanced = inertial_loader(catalogue["0317(1,5)"].law)
     >>> balanced, balanced.C_at_turn, balanced.peaks_at_turn
     (Loader(Y=1.07323, B=1.66389, C=4.9574, D=5.51213), 0.0, False)
     """

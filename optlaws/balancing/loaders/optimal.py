@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 
 from optlaws.balancing.loaders.constants import objective
 from optlaws.balancing.loaders.limits import loader_velocity_limit
-from optlaws.balancing.loaders.loader import Loader, loader
+from optlaws.balancing.loaders.loader import Loader, inertial_loader
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.files.reading import JsonText, entries_of
@@ -57,7 +57,7 @@ class BalancedLaw(JsonText):
     _json_name: ClassVar[str] = "a balanced law"
 
     law: MotionLaw
-    loader: Loader
+    inertial_loader: Loader
     minimise: Expression
     objective: float
     lower_bound: float
@@ -159,7 +159,7 @@ def balanced_law(
 def _balanced(solution: Solution) -> BalancedLaw:
     return BalancedLaw(
         solution.law,
-        loader(solution.law),
+        inertial_loader(solution.law),
         solution.problem.objective,
         solution.objective,
         solution.lower_bound,

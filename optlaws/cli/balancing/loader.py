@@ -41,7 +41,7 @@ def loader(
         Write the loader's law to this JSON file.
     """
     check_files(output)
-    made = optlaws.loader(read_law(name))
+    made = optlaws.inertial_loader(read_law(name))
     machine = _machine(made, executive_mass, executive_stroke, mass, stroke)
     if output is not None:
         save(output, {"law": made.law.to_dict()})

@@ -9,7 +9,17 @@ from typing import Annotated, Any
 import msgspec
 import numpy as np
 
-from optlaws import Problem, ProblemArray, Range, Solution, SolutionArray, Status, each, limit, synthesize_array
+from optlaws import (
+    Problem,
+    ProblemArray,
+    Range,
+    Solution,
+    SolutionArray,
+    Status,
+    constant_limit,
+    map_arrays,
+    synthesize_array,
+)
 from optlaws.errors import InputError, OptlawsError
 from optlaws.explorer.answers import known_laws
 from optlaws.explorer.answers.asked import AskedLaw, problem_of, solved, without
@@ -113,7 +123,7 @@ def _span(problem: Problem, x: str) -> tuple[float, float] | None:
 def along(problem: Problem, x: str, values: Any) -> SolutionArray:  # noqa: ANN401 - an array
     """The laws of a problem whose constant x takes many values: B as it is, the others as their greatest."""
     entries = {name: getattr(problem, name) for name in problem.__dataclass_fields__}
-    entries[x] = values if x == "B" else each(_at_most, values)
+    entries[x] = values if x == "B" else map_arrays(_at_most, values)
     return synthesize_array(ProblemArray(**entries))
 
 
@@ -158,4 +168,4 @@ def _jerk_allows(problem: Problem, B: float) -> bool:
     asked = problem.range("J")
     if asked is None or problem.order < _JERK_ORDER:
         return True
-    return limit("J", B, order=problem.order, monotone=problem.monotone) <= asked.high
+    return constant_limit("J", B, order=problem.order, monotone=problem.monotone) <= asked.high

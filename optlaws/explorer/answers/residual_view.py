@@ -7,7 +7,7 @@ from typing import Annotated, Any
 import msgspec
 import numpy as np
 
-from optlaws import residual, response_spectrum
+from optlaws import residual_vibration, response_spectrum
 from optlaws.errors import OptlawsError
 from optlaws.explorer.answers.asked import MOST_LAWS, AskedLaw, law_of
 from optlaws.explorer.answers.law_view import digits, drawn
@@ -44,5 +44,5 @@ def _spectrum(asked: AskedLaw, nu: Any, follower: AskedResidual) -> dict[str, An
     except OptlawsError:  # the view of the law says why
         return None
     values = response_spectrum(law, nu, follower.damping).residual_acceleration
-    here = residual(nu=follower.nu, damping=follower.damping).value(law)
+    here = residual_vibration(nu=follower.nu, damping=follower.damping).value(law)
     return {"values": drawn(values), "value": here, "text": digits(here, 6)}

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import msgspec
 
-from optlaws.cams.as_manufactured import AsMade, UnreachedProfileError, as_made, with_error
+from optlaws.cams.as_manufactured import AsMade, UnreachedProfileError, as_made, with_profile_error
 from optlaws.cams.curves.extremes import UNDERCUT
 from optlaws.cams.cutting.cam_files import format_of
 from optlaws.cams.cutting.file_options import Cutting
@@ -167,7 +167,9 @@ class Findings:
                 peaks_by_name[name] = _tried(partial(as_made, cam, "csv", **table))
         error = options.error or ""
         for waves in options.waves if error else ():
-            peaks_by_name[f"error of {error}, {waves} waves a turn"] = _tried(partial(with_error, cam, error, waves))
+            peaks_by_name[f"error of {error}, {waves} waves a turn"] = _tried(
+                partial(with_profile_error, cam, error, waves)
+            )
         return peaks_by_name
 
     def to_data(self) -> dict[str, Any]:

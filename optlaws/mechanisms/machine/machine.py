@@ -16,9 +16,9 @@ from optlaws.mechanisms.machine.over_time import MachineCycle, MachineResponse
 from optlaws.numbers import not_negative, positive
 
 if TYPE_CHECKING:
-    from optlaws.synthesis.functionals.makers import PeakSide
     from optlaws.mechanisms.machine.output_constants import OutputPeak, OutputRms
     from optlaws.mechanisms.machine.residual_boxes import ModeResidual
+    from optlaws.synthesis.functionals.makers import PeakSide
 
 
 @dataclass(frozen=True, init=False, repr=False)

@@ -25,8 +25,8 @@ from optlaws.mechanisms.machine.texts import check_repeats, check_rest, output_e
 from optlaws.numbers import Array, power_of_two
 from optlaws.numerics.tolerances import NEGLIGIBLE_TERM, SHORTEST_STRETCH, VALUE_ROUNDING
 from optlaws.suggest import unknown_key
-from optlaws.synthesis.functionals.makers import PeakSide
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily
+from optlaws.synthesis.functionals.makers import PeakSide
 from optlaws.synthesis.functionals.sizes import Reach, by_norm, reach_of
 from optlaws.synthesis.problem.constants import MAKERS, Functional
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions

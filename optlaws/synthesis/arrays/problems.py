@@ -46,7 +46,7 @@ class ProblemArray:
     Arrays are those of numpy, lists, ranges, and whatever numpy makes arrays of, such as a Series of pandas. They are
     broadcast against each other as numpy does, and each place of their common shape is one problem. What is no array
     is the same for all of them: a pair (low, high) is a tuple, for a list of two numbers is an array; a list of
-    windows alone is a value. Values other than numbers come in arrays made by `each`, too. The array is immutable;
+    windows alone is a value. Values other than numbers come in arrays made by `map_arrays`, too. The array is immutable;
     nothing is checked before a problem is asked for, so that a wrong number spoils its own place alone.
 
     Parameters
@@ -219,15 +219,15 @@ class ProblemArray:
         return f"ProblemArray({', '.join(parts)})"
 
 
-def each(function: Callable[..., Any], *arrays: Any) -> NDArray[Any]:  # noqa: ANN401 - what numpy takes for arrays
+def map_arrays(function: Callable[..., Any], *arrays: Any) -> NDArray[Any]:  # noqa: ANN401 - what numpy takes for arrays
     """The values of a function at each place of some arrays, broadcast against each other: an array of any objects.
 
     Examples
     --------
     >>> from optlaws.synthesis.problem.ranges import at_most
-    >>> each(at_most, np.array([60.0, 70.0])).tolist()
+    >>> map_arrays(at_most, np.array([60.0, 70.0])).tolist()
     [at_most(60.0), at_most(70.0)]
-    >>> each("{:g}*C/4 + J/32".format, np.array([0.5, 1.0])).tolist()
+    >>> map_arrays("{:g}*C/4 + J/32".format, np.array([0.5, 1.0])).tolist()
     ['0.5*C/4 + J/32', '1*C/4 + J/32']
     """
     try:
