@@ -73,8 +73,8 @@ _load, __dir__, __all__ = face(
         "optlaws.synthesis.arrays.problems": "ProblemArray map_arrays",
         "optlaws.synthesis.front": "Front",
         "optlaws.synthesis.functionals.loads": "drive_torque",
-        "optlaws.synthesis.functionals.makers": "functional formula_integral formula_peak formula_rms formula_value",
-        "optlaws.synthesis.limits.closed_forms": "acceleration_limit constant_limit",
+        "optlaws.synthesis.functionals.makers": "functional integral peak rms value",
+        "optlaws.synthesis.limits.closed_forms": "acceleration_limit limit",
         "optlaws.synthesis.limits.laws": "limit_law",
         "optlaws.synthesis.pareto": "pareto_front",
         "optlaws.synthesis.problem.constants": "FUNCTIONALS B C C_minus C_plus D Functional J jounce "

@@ -101,13 +101,13 @@ from optlaws.synthesis.arrays.problems import ProblemArray as ProblemArray
 from optlaws.synthesis.arrays.problems import map_arrays as map_arrays
 from optlaws.synthesis.front import Front as Front
 from optlaws.synthesis.functionals.loads import drive_torque as drive_torque
-from optlaws.synthesis.functionals.makers import formula_integral as formula_integral
-from optlaws.synthesis.functionals.makers import formula_peak as formula_peak
-from optlaws.synthesis.functionals.makers import formula_rms as formula_rms
-from optlaws.synthesis.functionals.makers import formula_value as formula_value
+from optlaws.synthesis.functionals.makers import integral as integral
+from optlaws.synthesis.functionals.makers import peak as peak
+from optlaws.synthesis.functionals.makers import rms as rms
+from optlaws.synthesis.functionals.makers import value as value
 from optlaws.synthesis.functionals.makers import functional as functional
 from optlaws.synthesis.limits.closed_forms import acceleration_limit as acceleration_limit
-from optlaws.synthesis.limits.closed_forms import constant_limit as constant_limit
+from optlaws.synthesis.limits.closed_forms import limit as limit
 from optlaws.synthesis.limits.laws import limit_law as limit_law
 from optlaws.synthesis.pareto import pareto_front as pareto_front
 from optlaws.synthesis.problem.constants import FUNCTIONALS as FUNCTIONALS
@@ -256,7 +256,7 @@ __all__ = [
     "compare_dwell_mechanisms",
     "compare_laws",
     "conjugate_cam",
-    "constant_limit",
+    "limit",
     "deg",
     "drive_torque",
     "driving_law",
@@ -264,10 +264,10 @@ __all__ = [
     "dwell_mechanism",
     "find_torsion_levers",
     "flat_output",
-    "formula_integral",
-    "formula_peak",
-    "formula_rms",
-    "formula_value",
+    "integral",
+    "peak",
+    "rms",
+    "value",
     "functional",
     "greatest_roller",
     "inertial_loader",

@@ -26,10 +26,10 @@ from optlaws import (
     TranslatingRoller,
     at_most,
     catalogue,
-    constant_limit,
+    limit,
     drive_torque,
-    formula_peak,
-    formula_rms,
+    peak,
+    rms,
     least_base_circle,
     synthesize,
     trapezoid,
@@ -281,7 +281,7 @@ def test_least_times_of_ruckig(motion: LeastTime) -> None:
         synthesize(motion.problem(0.999 * motion.time))
     # and no law of any breaks: by the limits over all laws
     quicker = motion.limits(0.999 * motion.time)
-    assert quicker["J"] < constant_limit("J") or constant_limit("C", quicker["B"], J=quicker["J"]) > quicker["C"]
+    assert quicker["J"] < limit("J") or limit("C", quicker["B"], J=quicker["J"]) > quicker["C"]
 
 
 @pytest.mark.parametrize(
@@ -294,7 +294,7 @@ def test_trapezoids_of_kdl(velocity: float, acceleration: float, start: float, s
     B = min(velocity * duration / stroke, 2.0)
     law = trapezoid(0.0, 1 - 1 / B, 0.0)
     assert law.constants.C.value == pytest.approx(acceleration * duration**2 / stroke, rel=1e-12)
-    assert constant_limit("C", B) == pytest.approx(law.constants.C.value, rel=1e-12)
+    assert limit("C", B) == pytest.approx(law.constants.C.value, rel=1e-12)
     places = {(2.0, 6.0): [4.0, 6.0, 8.0, 9.5], (1.0, 12.0): [3.25 + 0.75, 6.0, 8.0, 9.5]}.get((velocity, duration))
     if places is not None:
         times = np.array([2.0, 3.0, 4.0, 5.0]) * duration / 6.0
@@ -304,8 +304,8 @@ def test_trapezoids_of_kdl(velocity: float, acceleration: float, start: float, s
 @pytest.mark.parametrize(
     ("functional", "least"),
     [
-        (formula_peak(drive_torque(inertia="1", load="3*a")), 3.3332),
-        (formula_rms(drive_torque(inertia="1", load="3*a")), 2.8412),
+        (peak(drive_torque(inertia="1", load="3*a")), 3.3332),
+        (rms(drive_torque(inertia="1", load="3*a")), 2.8412),
     ],
 )
 def test_torque_under_a_load_is_above_its_infimum(functional: Functional, least: float) -> None:

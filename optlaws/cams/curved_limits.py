@@ -27,7 +27,7 @@ from optlaws.motion.quantities import TURN
 from optlaws.numbers import Array
 from optlaws.numerics.enclosures.taylor import Jet
 from optlaws.numerics.tolerances import FORMULA_ROUNDING, PLANE_GAIN, PLANE_SLACK
-from optlaws.synthesis.functionals.makers import formula_value
+from optlaws.synthesis.functionals.makers import value
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import at_most
 from optlaws.synthesis.problem.windows import Window
@@ -231,5 +231,5 @@ def _highest(first: float, last: float, change: float) -> float:
 
 
 def _range_at(problem: Problem, name: str, k: float) -> Pair:
-    low = synthesize(replace(problem, minimise=formula_value(name, at=k))).lower_bound
-    return low, -synthesize(replace(problem, minimise=formula_value(f"-{name}", at=k))).lower_bound
+    low = synthesize(replace(problem, minimise=value(name, at=k))).lower_bound
+    return low, -synthesize(replace(problem, minimise=value(f"-{name}", at=k))).lower_bound

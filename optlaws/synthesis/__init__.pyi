@@ -3,7 +3,7 @@ from optlaws.synthesis.arrays.problems import ProblemArray as ProblemArray
 from optlaws.synthesis.arrays.problems import map_arrays as map_arrays
 from optlaws.synthesis.front import Front as Front
 from optlaws.synthesis.limits.closed_forms import acceleration_limit as acceleration_limit
-from optlaws.synthesis.limits.closed_forms import constant_limit as constant_limit
+from optlaws.synthesis.limits.closed_forms import limit as limit
 from optlaws.synthesis.limits.laws import limit_law as limit_law
 from optlaws.synthesis.pareto import pareto_front as pareto_front
 from optlaws.synthesis.problem.constants import FUNCTIONALS as FUNCTIONALS
@@ -98,7 +98,7 @@ __all__ = [
     "at_most",
     "basis",
     "between",
-    "constant_limit",
+    "limit",
     "jounce",
     "law_from_z",
     "limit_law",

@@ -30,7 +30,7 @@ from optlaws.synthesis.limits.closed_forms import (
     acceleration_limit,
     acceleration_limit_at_jerk,
     best_velocity,
-    constant_limit,
+    limit,
     jerk_limit,
     power_limit,
     rms_limit,
@@ -141,7 +141,7 @@ def test_its_law_is_of_its_class_and_attains_it(limits: Limit, B: float, monoton
         assert law.b([0.0, 1.0]) == pytest.approx([0.0, 0.0], abs=1e-12 * B)
     if limits.constant == "J" and limits.order > 2:
         assert law.c([0.0, 1.0]) == pytest.approx([0.0, 0.0], abs=1e-9 * law.constants.C.value)
-    assert constant_limit(limits.constant, B, order=limits.order, monotone=monotone) == limits.at(B, monotone=monotone)
+    assert limit(limits.constant, B, order=limits.order, monotone=monotone) == limits.at(B, monotone=monotone)
 
 
 @each
@@ -152,7 +152,7 @@ def test_it_falls_to_the_best_velocity_and_rises_from_there(limits: Limit, monot
         assert (np.diff(values) > 0.0).all()
         return
     best = best_velocity(limits.constant, limits.order)
-    assert constant_limit(limits.constant, order=limits.order) == limits.at(best)
+    assert limit(limits.constant, order=limits.order) == limits.at(best)
     turn = int(np.argmin(values))
     assert (np.diff(values[: turn + 1]) < 0.0).all()
     assert (np.diff(values[turn:]) > 0.0).all()
@@ -164,7 +164,7 @@ def test_asking_more_costs_no_less(limits: Limit) -> None:
     for B in VELOCITIES:
         assert limits.at(B) <= limits.at(B, monotone=True)
         least = {"C": 1, "J": 2}.get(limits.constant, 2)
-        values = [constant_limit(limits.constant, B, order=order) for order in range(least, 6)]
+        values = [limit(limits.constant, B, order=order) for order in range(least, 6)]
         assert values == sorted(values)
 
 
@@ -177,7 +177,7 @@ def test_velocities_and_orders_that_make_no_sense_are_refused(limits: Limit) -> 
     orders: list[Any] = [0, -1, 1.5, "2", True, None]
     for order in orders:
         with pytest.raises(InputError, match="order must be an integer of at least"):
-            constant_limit(limits.constant, 2.0, order=order)
+            limit(limits.constant, 2.0, order=order)
 
 
 @each_way

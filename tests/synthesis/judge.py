@@ -12,7 +12,7 @@ from numpy.polynomial import Chebyshev
 from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
 
-from optlaws import Expression, Functional, MotionLaw, Problem, Range, Solution, Window, formula_peak
+from optlaws import Expression, Functional, MotionLaw, Problem, Range, Solution, Window, peak
 from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.tree import Table
 from optlaws.mechanisms.cam.constants import CamPeak, CamPower
@@ -287,8 +287,8 @@ def window_broken(window: Window, one: Judged, allowed: float) -> list[str]:
         size = max(1.0, *map(abs, curve.extremes()))
     else:
         ends = {"start": window.start, "stop": window.stop}
-        highest = one.value(formula_peak(window.quantity, side="high", **ends)) if isfinite(window.high) else -inf
-        lowest = -one.value(formula_peak(window.quantity, side="low", **ends)) if isfinite(window.low) else inf
+        highest = one.value(peak(window.quantity, side="high", **ends)) if isfinite(window.high) else -inf
+        lowest = -one.value(peak(window.quantity, side="low", **ends)) if isfinite(window.low) else inf
         size = max(abs(end) for end in (window.low, window.high, highest, lowest) if isfinite(end))
     found = [f"{window!r} by {highest - window.high:.1e} above"] * (highest > window.high + allowed * size)
     return found + [f"{window!r} by {window.low - lowest:.1e} below"] * (lowest < window.low - allowed * size)

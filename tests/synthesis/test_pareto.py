@@ -8,7 +8,7 @@ import pytest
 
 from optlaws import Chebyshev, InputError, Problem, Solution, Status, synthesize
 from optlaws.synthesis.front import HEADINGS, Front, undominated, value_of
-from optlaws.synthesis.limits.closed_forms import constant_limit
+from optlaws.synthesis.limits.closed_forms import limit
 from optlaws.synthesis.pareto import pareto_front
 from optlaws.synthesis.problem.named_constants import named
 from optlaws.synthesis.problem.ranges import Range
@@ -52,7 +52,7 @@ def test_the_curve_of_a_convex_problem_is_convex_and_above_the_limit(velocity: F
     B, C = velocity.values.T
     slopes = np.diff(C) / np.diff(B)
     assert (np.diff(slopes) >= -1e-6 * np.abs(slopes[1:])).all()
-    assert all(c > constant_limit("C", b) for b, c in zip(B, C, strict=True))
+    assert all(c > limit("C", b) for b, c in zip(B, C, strict=True))
 
 
 def test_points_lie_evenly(velocity: Front) -> None:

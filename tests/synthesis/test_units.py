@@ -24,10 +24,10 @@ from optlaws import (
     at_least,
     at_most,
     between,
-    formula_integral,
-    formula_peak,
-    formula_rms,
-    formula_value,
+    integral,
+    peak,
+    rms,
+    value,
     maximum,
     sweep,
     synthesize,
@@ -55,20 +55,20 @@ def held(unit: float, limit: float, start: float = 0.0, stop: float = 1.0) -> tu
 
 #: the problem in a unit; of some the objective is in it, of some only what is asked
 OBJECTIVES: dict[str, Callable[[float], Problem]] = {
-    "peak": lambda u: asked(formula_peak(f"{u!r}*c"), B=1.8),
-    "peak of one side": lambda u: asked(formula_peak(f"{u!r}*c", side="high"), B=1.8, J=at_most(120.0)),
-    "peak of a sum": lambda u: asked(formula_peak(f"{u!r}*(1 + k)*c + {2.0 * u!r}*b - {u!r}"), B=at_most(2.0)),
-    "peak that is bent": lambda u: asked(formula_peak(f"{u!r}*(c^2 + 10*b^2)"), symmetric=True),
-    "peak of a maximum": lambda u: asked(formula_peak(f"max({u!r}*c, {0.5 * u!r}*j/10 - {u!r})", side="high"), B=1.8),
-    "rms": lambda u: asked(formula_rms(f"{u!r}*(c + 3*b)")),
-    "rms of a norm": lambda u: asked(formula_rms(f"norm({u!r}*c, {5.0 * u!r}*b)")),
-    "integral": lambda u: asked(formula_integral(f"{u!r}*c^2", start=0.2)),
-    "value": lambda u: asked(formula_value(f"{u!r}*j^2 + {u!r}*c", at=0.3), C=at_most(6.5)),
+    "peak": lambda u: asked(peak(f"{u!r}*c"), B=1.8),
+    "peak of one side": lambda u: asked(peak(f"{u!r}*c", side="high"), B=1.8, J=at_most(120.0)),
+    "peak of a sum": lambda u: asked(peak(f"{u!r}*(1 + k)*c + {2.0 * u!r}*b - {u!r}"), B=at_most(2.0)),
+    "peak that is bent": lambda u: asked(peak(f"{u!r}*(c^2 + 10*b^2)"), symmetric=True),
+    "peak of a maximum": lambda u: asked(peak(f"max({u!r}*c, {0.5 * u!r}*j/10 - {u!r})", side="high"), B=1.8),
+    "rms": lambda u: asked(rms(f"{u!r}*(c + 3*b)")),
+    "rms of a norm": lambda u: asked(rms(f"norm({u!r}*c, {5.0 * u!r}*b)")),
+    "integral": lambda u: asked(integral(f"{u!r}*c^2", start=0.2)),
+    "value": lambda u: asked(value(f"{u!r}*j^2 + {u!r}*c", at=0.3), C=at_most(6.5)),
     "weight": lambda u: asked(u * C, B=1.8),
-    "sum": lambda u: asked(0.5 * formula_peak(f"{u!r}*c") / 4 + 0.5 * formula_rms(f"{u!r}*j") / 30, B=1.8),
-    "maximum": lambda u: asked(maximum(formula_peak(f"{u!r}*c"), 0.1 * formula_peak(f"{u!r}*j")), symmetric=True),
-    "pieces": lambda u: asked(formula_peak(f"{u!r}*c + {0.2 * u!r}*b"), basis=Pieces(6, degree=5, continuity=3), B=1.8),
-    "power": lambda u: asked(formula_peak(f"{u!r}*d"), B=1.8, symmetric=True),
+    "sum": lambda u: asked(0.5 * peak(f"{u!r}*c") / 4 + 0.5 * rms(f"{u!r}*j") / 30, B=1.8),
+    "maximum": lambda u: asked(maximum(peak(f"{u!r}*c"), 0.1 * peak(f"{u!r}*j")), symmetric=True),
+    "pieces": lambda u: asked(peak(f"{u!r}*c + {0.2 * u!r}*b"), basis=Pieces(6, degree=5, continuity=3), B=1.8),
+    "power": lambda u: asked(peak(f"{u!r}*d"), B=1.8, symmetric=True),
     "output": lambda u: asked(machine(u).peak(), J=at_most(100.0)),
     "output in the dwell": lambda u: asked(machine(u).peak(within=(1.0, 1.5)), J=at_most(60.0), basis=Chebyshev(3)),
     "rms of an output": lambda u: asked(machine(u).rms(dwell=0.3)),
@@ -76,9 +76,9 @@ OBJECTIVES: dict[str, Callable[[float], Problem]] = {
     "residual that vanishes": lambda u: asked(machine(u).residual(), C=at_most(9.0)),
 }
 CONDITIONS: dict[str, Callable[[float], Problem]] = {
-    "bounded peak": lambda u: asked("J", B=1.8, bounds={formula_peak(f"{u!r}*c"): at_most(4.9 * u)}),
-    "fixed rms": lambda u: asked("C", bounds={formula_rms(f"{u!r}*c"): between(3.6 * u, 3.6 * u)}),
-    "peak from below": lambda u: asked("rms_j", bounds={formula_peak(f"{u!r}*c"): at_least(8.0 * u)}, symmetric=True),
+    "bounded peak": lambda u: asked("J", B=1.8, bounds={peak(f"{u!r}*c"): at_most(4.9 * u)}),
+    "fixed rms": lambda u: asked("C", bounds={rms(f"{u!r}*c"): between(3.6 * u, 3.6 * u)}),
+    "peak from below": lambda u: asked("rms_j", bounds={peak(f"{u!r}*c"): at_least(8.0 * u)}, symmetric=True),
     "bounded output": lambda u: asked("J", bounds={machine(u).peak(): at_most(0.0018 * u)}, basis=Chebyshev(9)),
     "bounded residual": lambda u: asked("C", bounds={machine(u).residual(): at_most(1e-6 * u)}, basis=Chebyshev(9)),
     "window": lambda u: asked("J", B=1.8, windows=held(u, 5.0)),
@@ -87,7 +87,7 @@ CONDITIONS: dict[str, Callable[[float], Problem]] = {
     "bent window": lambda u: asked("J", B=1.8, windows=(Window(f"{u!r}*(c^2 + b^2)", high=27.0 * u),)),
 }
 IMPOSSIBLE: dict[str, Callable[[float], Problem]] = {
-    "bound": lambda u: asked("J", bounds={formula_peak(f"{u!r}*c"): at_most(3.0 * u)}),
+    "bound": lambda u: asked("J", bounds={peak(f"{u!r}*c"): at_most(3.0 * u)}),
     "window": lambda u: asked("rms_j", B=1.8, windows=held(u, 3.0)),
     "bound of an output": lambda u: asked("J", bounds={machine(u).peak(): at_most(0.0005 * u)}),
     "values": lambda u: asked(
@@ -145,7 +145,7 @@ def test_what_no_law_keeps_is_infeasible_in_every_unit(kind: str, unit: float) -
 @pytest.mark.parametrize("unit", UNITS)
 def test_a_tight_bound_is_as_tight_in_every_unit(unit: float) -> None:
     def tight(unit: float) -> Solution:
-        return synthesize(asked(formula_peak(f"{unit!r}*d"), symmetric=True, B=1.8, basis=Chebyshev(3)), bound="tight")
+        return synthesize(asked(peak(f"{unit!r}*d"), symmetric=True, B=1.8, basis=Chebyshev(3)), bound="tight")
 
     found = tight(unit)
     same(found, tight(1.0), unit)
@@ -155,7 +155,7 @@ def test_a_tight_bound_is_as_tight_in_every_unit(unit: float) -> None:
 @pytest.mark.parametrize("unit", UNITS)
 def test_arrays_sweeps_and_fronts_are_the_same_in_every_unit(unit: float) -> None:
     def both(unit: float) -> tuple[Problem, Functional]:
-        constant = formula_peak(f"{unit!r}*c + {0.2 * unit!r}*b")
+        constant = peak(f"{unit!r}*c + {0.2 * unit!r}*b")
         return asked(constant, basis=Chebyshev(5)), constant
 
     (plain, _), (other, constant) = both(1.0), both(unit)

@@ -15,7 +15,7 @@ from optlaws.errors import InputError
 from optlaws.motion.piece import Piece
 from optlaws.numerics.enclosures.interval import Interval
 from optlaws.numerics.enclosures.taylor import Jet, Pair, Term
-from optlaws.synthesis.functionals.makers import formula_peak
+from optlaws.synthesis.functionals.makers import peak
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.windows import Window
 
@@ -42,7 +42,7 @@ class LinearLimit:
 
     def excess(self) -> Functional:
         """The excess of the greatest value of the sum over the limit."""
-        return formula_peak(f"{self.formula} + ({-self.most!r})", side="high")
+        return peak(f"{self.formula} + ({-self.most!r})", side="high")
 
 
 class Drag(NamedTuple):

@@ -20,7 +20,7 @@ from optlaws.cycles.specification.drive import CycleDrive, effort, read_drive
 from optlaws.cycles.specification.joints import LawSpan, Layout
 from optlaws.errors import InfeasibleProblem, SolverFailure
 from optlaws.motion.piece import Piece, factor
-from optlaws.synthesis.functionals.makers import formula_peak
+from optlaws.synthesis.functionals.makers import peak
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.expression import maximum
 from optlaws.synthesis.problem.problem import Problem
@@ -52,7 +52,7 @@ class _Powers:
         damped = f" - ({self.viscous * fastest!r})*(1 - a)" if forth else ""
         spared = "" if forth else f" - ({self.viscous * fastest**2!r})"
         lost = f"({kinetic} - ({self.constant!r})*(1 - a) - ({half!r})*(1 - a^2){damped})/(1 - k){spared}"
-        return formula_peak(gained, side="high", start=_NEAR_END), formula_peak(lost, side="high", stop=1.0 - _NEAR_END)
+        return peak(gained, side="high", start=_NEAR_END), peak(lost, side="high", stop=1.0 - _NEAR_END)
 
 
 def bound_by_energy(span: LawSpan, objective: CycleObjective, stroke: float, solution: Solution) -> float:

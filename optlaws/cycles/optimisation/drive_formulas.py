@@ -18,7 +18,7 @@ from optlaws.cycles.specification.joints import LawSpan
 from optlaws.cycles.specification.segments import Dwell
 from optlaws.errors import InputError
 from optlaws.motion.piece import factor
-from optlaws.synthesis.functionals.makers import formula_peak, formula_rms
+from optlaws.synthesis.functionals.makers import peak, rms
 from optlaws.synthesis.problem.constants import FUNCTIONALS, Functional
 
 
@@ -63,7 +63,7 @@ def driven_peak(span: LawSpan, drive: CycleDrive | None, stroke: float, nu: int)
     if nu == POWER and known.inertia > 0.0 and known == CycleDrive(known.inertia, 0.0, 0.0, 0.0, 0.0):
         return Driven(FUNCTIONALS["D"], known.inertia * stroke**2 / span.duration**3)
     formula, unit = driven_formula(span, drive, stroke, nu)
-    return Driven(formula_peak(formula), unit)
+    return Driven(peak(formula), unit)
 
 
 def driven_formula(span: LawSpan, drive: CycleDrive | None, stroke: float, nu: int) -> tuple[str, float]:
@@ -101,14 +101,14 @@ def driven_mean(span: LawSpan, drive: CycleDrive | None, stroke: float) -> Drive
     if known.dry == 0.0 or not may_turn(span):
         direction = 1.0 if span.displacement > 0.0 else -1.0
         formula = known.formula(stroke, span.duration, span.origin, direction, unit)
-        return Driven(formula_rms(formula), unit, formula=formula)
+        return Driven(rms(formula), unit, formula=formula)
     if known.stiffness or known.constant or not (known.inertia or known.viscous):
         raise InputError(
             f"drive: dry: {span.where} may turn back: with dry friction the rms force of such a motion is convex only "
             "without stiffness, preload and gravity: leave these out, or take moves between rests"
         )
     formula = known.formula(stroke, span.duration, span.origin, 0.0, unit)
-    return Driven(formula_rms(formula), unit, _friction(span, known), formula)
+    return Driven(rms(formula), unit, _friction(span, known), formula)
 
 
 def force_unit(span: LawSpan, drive: CycleDrive, stroke: float) -> float:

@@ -30,7 +30,7 @@ from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.kept import kept_property
 from optlaws.motion.piece import Piece, factor
 from optlaws.numerics.tolerances import FEASIBILITY, LEAST_PEAK_SLACK, PEAK_BRACKET
-from optlaws.synthesis.functionals.makers import formula_integral
+from optlaws.synthesis.functionals.makers import integral
 from optlaws.synthesis.solution import Solution
 
 _ROUNDS = 8
@@ -242,7 +242,7 @@ class _SharedForceLimit:
         nu, _ = kind_of(self.objective.minimise)
         weight = worth * (driven.unit / factor(stroke, span.duration, nu)) ** 2
         formula = f"{'abcj'[nu]}^2 + ({weight!r})*({driven.formula})^2"
-        plain = replace(span_problem(span, self.objective, self.axis, stroke), minimise=formula_integral(formula))
+        plain = replace(span_problem(span, self.objective, self.axis, stroke), minimise=integral(formula))
         # the limit as if the others took nothing: it only says how great laws may be
         problem = with_mean_square(plain, span, self.objective, stroke, self.left / span.duration)
         solution = solved(problem, span)

@@ -16,7 +16,7 @@ from optlaws import (
     Solution,
     SolutionArray,
     Status,
-    constant_limit,
+    limit,
     map_arrays,
     synthesize_array,
 )
@@ -168,4 +168,4 @@ def _jerk_allows(problem: Problem, B: float) -> bool:
     asked = problem.range("J")
     if asked is None or problem.order < _JERK_ORDER:
         return True
-    return constant_limit("J", B, order=problem.order, monotone=problem.monotone) <= asked.high
+    return limit("J", B, order=problem.order, monotone=problem.monotone) <= asked.high

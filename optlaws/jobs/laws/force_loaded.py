@@ -20,7 +20,7 @@ from optlaws.results.page import Page
 from optlaws.studies.problem_entries import ProblemEntries, gap, problem
 from optlaws.synthesis import Solution, synthesize
 from optlaws.synthesis.functionals.loads import drive_torque
-from optlaws.synthesis.functionals.makers import formula_peak, formula_rms
+from optlaws.synthesis.functionals.makers import peak, rms
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -75,7 +75,7 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
 
 
 def _convexity(case: Case) -> str:
-    return formula_peak(case.torque).convexity
+    return peak(case.torque).convexity
 
 
 def _laws(spec: ForceLoadedProblemFile, case: Case) -> Laws:
@@ -83,8 +83,8 @@ def _laws(spec: ForceLoadedProblemFile, case: Case) -> Laws:
     laws: Laws = {name: (catalogue[name].law, None) for name in spec.catalogue}
     objectives = {
         "least C": "C",
-        "least peak torque": formula_peak(case.torque).name,
-        "least RMS torque": formula_rms(case.torque).name,
+        "least peak torque": peak(case.torque).name,
+        "least RMS torque": rms(case.torque).name,
     }
     for name, minimise in objectives.items():
         solution = synthesize(problem(f"case {case.name}", spec.problem.given(), {"minimise": minimise}))
@@ -97,12 +97,7 @@ def _line(case: Case, name: str, law: MotionLaw, solution: Solution | None) -> l
     if solution is not None:
         proof = [solution.lower_bound, gap(solution), solution.status.value]
     constants = law.constants
-    measures = [
-        formula_peak(case.torque).value(law),
-        formula_rms(case.torque).value(law),
-        constants.B.value,
-        constants.C.value,
-    ]
+    measures = [peak(case.torque).value(law), rms(case.torque).value(law), constants.B.value, constants.C.value]
     return [case.name, name, *measures, *proof]
 
 

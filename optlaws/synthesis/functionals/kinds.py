@@ -167,7 +167,7 @@ class OfFormula(Functional):
 
 @dataclass(frozen=True, repr=False)
 class FormulaPeak(OfFormula):
-    """Peak of a formula: magnitude, or one sign only; made by `formula_peak`."""
+    """Peak of a formula: magnitude, or one sign only; made by `peak`."""
 
     signs: tuple[float, ...] = _BOTH
 
@@ -250,7 +250,7 @@ class FormulaPeak(OfFormula):
 
 @dataclass(frozen=True, repr=False)
 class FormulaRms(OfFormula):
-    """Root mean square of a formula over its part of the interval; made by `formula_rms`."""
+    """Root mean square of a formula over its part of the interval; made by `rms`."""
 
     @property
     def of_magnitude(self) -> bool:
@@ -296,7 +296,7 @@ class FormulaRms(OfFormula):
 
 @dataclass(frozen=True, repr=False)
 class FormulaIntegral(OfFormula):
-    """Integral of a formula over its part of the interval; made by `formula_integral`."""
+    """Integral of a formula over its part of the interval; made by `integral`."""
 
     @property
     def scale(self) -> float:
@@ -322,7 +322,7 @@ class FormulaIntegral(OfFormula):
 
 @dataclass(frozen=True, repr=False)
 class FormulaValue(OfFormula):
-    """Value of a formula at one k; made by `formula_value`."""
+    """Value of a formula at one k; made by `value`."""
 
     def floor(self, conditions: BoundaryConditions) -> float:  # noqa: ARG002
         """A value may be below 0 unless its formula is nowhere."""

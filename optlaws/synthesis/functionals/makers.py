@@ -1,4 +1,4 @@
-"""What makes constants of formulas: `formula_peak("c + 0.2*b")`, `formula_rms`, `formula_integral`, `formula_value`."""
+"""What makes constants of formulas: `peak("c + 0.2*b")`, `rms`, `integral`, `value`."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ FormulaKind = Literal["peak", "rms", "integral", "value"]
 _SIDES = {"both": (1.0, -1.0), "high": (1.0,), "low": (-1.0,)}
 
 
-def formula_peak(formula: Any, *, side: PeakSide = "both", start: float = 0.0, stop: float = 1.0) -> Functional:  # noqa: ANN401
+def peak(formula: Any, *, side: PeakSide = "both", start: float = 0.0, stop: float = 1.0) -> Functional:  # noqa: ANN401
     """The peak of a formula of the motion, over the whole of the interval or a part of it.
 
     Parameters
@@ -54,7 +54,7 @@ def formula_peak(formula: Any, *, side: PeakSide = "both", start: float = 0.0, s
     Examples
     --------
     >>> from optlaws.laws import smoothstep
-    >>> formula_peak("c + 3*b"), round(formula_peak("c + 3*b").value(smoothstep(3)), 6)
+    >>> peak("c + 3*b"), round(peak("c + 3*b").value(smoothstep(3)), 6)
     (peak(c + 3*b), 9.009603)
     """
     if side not in tuple(_SIDES):
@@ -66,13 +66,13 @@ def formula_peak(formula: Any, *, side: PeakSide = "both", start: float = 0.0, s
     return _checked(replace(peak, convex=convex), formula)
 
 
-def formula_rms(formula: Any, *, start: float = 0.0, stop: float = 1.0) -> Functional:  # noqa: ANN401
+def rms(formula: Any, *, start: float = 0.0, stop: float = 1.0) -> Functional:  # noqa: ANN401
     """The root mean square of a formula of the motion, over the whole of the interval or a part of it.
 
     Parameters
     ----------
     formula
-        Text as `formula_peak` takes it.
+        Text as `peak` takes it.
     start, stop
         The part of the interval.
 
@@ -84,7 +84,7 @@ def formula_rms(formula: Any, *, start: float = 0.0, stop: float = 1.0) -> Funct
     Examples
     --------
     >>> from optlaws.laws import smoothstep
-    >>> round(formula_rms("c").value(smoothstep(2)) ** 2, 9)
+    >>> round(rms("c").value(smoothstep(2)) ** 2, 9)
     12.0
     """
     motion = _motion(formula, *_part(start, stop))
@@ -97,13 +97,13 @@ def formula_rms(formula: Any, *, start: float = 0.0, stop: float = 1.0) -> Funct
     return _checked(replace(rms, convex=convex), formula)
 
 
-def formula_integral(formula: Any, *, start: float = 0.0, stop: float = 1.0) -> Functional:  # noqa: ANN401
+def integral(formula: Any, *, start: float = 0.0, stop: float = 1.0) -> Functional:  # noqa: ANN401
     """The integral of a formula of the motion, over the whole of the interval or a part of it.
 
     Parameters
     ----------
     formula
-        Text as `formula_peak` takes it.
+        Text as `peak` takes it.
     start, stop
         The part of the interval.
 
@@ -115,7 +115,7 @@ def formula_integral(formula: Any, *, start: float = 0.0, stop: float = 1.0) -> 
     Examples
     --------
     >>> from optlaws.laws import smoothstep
-    >>> energy = formula_integral("c^2 + (1 + k)*b^2")
+    >>> energy = integral("c^2 + (1 + k)*b^2")
     >>> round(energy.value(smoothstep(2)), 9), energy.convexity
     (13.8, 'convex: every term of c^2 + (1 + k)*b^2 is convex')
     """
@@ -126,13 +126,13 @@ def formula_integral(formula: Any, *, start: float = 0.0, stop: float = 1.0) -> 
     return _checked(integral, formula)
 
 
-def formula_value(formula: Any, *, at: float) -> Functional:  # noqa: ANN401
+def value(formula: Any, *, at: float) -> Functional:  # noqa: ANN401
     """The value of a formula of the motion at one k.
 
     Parameters
     ----------
     formula
-        Text as `formula_peak` takes it.
+        Text as `peak` takes it.
     at
         The k.
 
@@ -144,7 +144,7 @@ def formula_value(formula: Any, *, at: float) -> Functional:  # noqa: ANN401
     Examples
     --------
     >>> from optlaws.laws import smoothstep
-    >>> formula_value("c", at=0.25), formula_value("c", at=0.25).value(smoothstep(2))
+    >>> value("c", at=0.25), value("c", at=0.25).value(smoothstep(2))
     (value(c, at=0.25), 3.0)
     """
     place = _place(at, "at")
@@ -192,9 +192,9 @@ def functional(
     if (kind == "value") != (at is not None):
         raise InputError(f"a value needs at, the k at which it is asked, and nothing else takes one; got {at!r}")
     if at is not None:
-        return formula_value(function, at=at)
+        return value(function, at=at)
     if kind == "peak":
-        return formula_peak(function, side=side, start=start, stop=stop)
+        return peak(function, side=side, start=start, stop=stop)
     return _KINDS[kind](function, start=start, stop=stop)
 
 
@@ -244,13 +244,13 @@ def _name(kind: str, motion: MotionFormula, others: list[str] | None = None) -> 
 
 
 _KINDS: dict[str, Callable[..., Functional]] = {
-    "integral": formula_integral,
-    "peak": formula_peak,
-    "rms": formula_rms,
-    "value": formula_value,
+    "integral": integral,
+    "peak": peak,
+    "rms": rms,
+    "value": value,
 }
 
-MAKERS.setdefault("integral", formula_integral)
-MAKERS.setdefault("peak", formula_peak)
-MAKERS.setdefault("rms", formula_rms)
-MAKERS.setdefault("value", formula_value)
+MAKERS.setdefault("integral", integral)
+MAKERS.setdefault("peak", peak)
+MAKERS.setdefault("rms", rms)
+MAKERS.setdefault("value", value)

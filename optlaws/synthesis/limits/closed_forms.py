@@ -252,7 +252,7 @@ def _three_parts(B: float, J: float) -> float:
         inverse = lower
 
 
-def constant_limit(
+def limit(
     constant: str, B: float | None = None, *, order: int = 3, monotone: bool = False, J: float | None = None
 ) -> float:
     """Infimum of a constant over all laws from rest to rest, at a given B or over all B.
@@ -278,9 +278,9 @@ def constant_limit(
 
     Examples
     --------
-    >>> constant_limit("C", 1.6), constant_limit("D"), constant_limit("J"), round(constant_limit("J", order=2), 9)
+    >>> limit("C", 1.6), limit("D"), limit("J"), round(limit("J", order=2), 9)
     (4.266667, 2.25, 32.0, 12.0)
-    >>> constant_limit("C", 1.6, J=200.0)
+    >>> limit("C", 1.6, J=200.0)
     4.541693
     """
     if constant not in tuple(CONSTANTS):

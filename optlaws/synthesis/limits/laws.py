@@ -11,7 +11,7 @@ from optlaws.laws.segments.constant_power import PowerSegment
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment, Segment
 from optlaws.numerics.tolerances import STANDSTILL
-from optlaws.synthesis.limits.closed_forms import back_time, back_velocity, best_velocity, constant_limit, run_in
+from optlaws.synthesis.limits.closed_forms import back_time, back_velocity, best_velocity, limit, run_in
 
 Pair = tuple[float, float]
 Piece = TypeVar("Piece")
@@ -20,7 +20,7 @@ Piece = TypeVar("Piece")
 def limit_law(
     constant: str, B: float | None = None, *, order: int = 3, monotone: bool = False, J: float | None = None
 ) -> PiecewiseLaw:
-    """The symmetric law that attains `constant_limit` of the same arguments, exact and built without any search.
+    """The symmetric law that attains `limit` of the same arguments, exact and built without any search.
 
     Its derivatives jump where those of smooth laws only come near: for C the jerk is infinite, for D, which runs up
     from rest with constant power, C too.
@@ -58,7 +58,7 @@ def limit_law(
     >>> limit_law("C", B=1.6, J=200.0)
     PiecewiseLaw(segments=7, B=1.6, C=4.54169, D=7.03251, J=200)
     """
-    least = constant_limit(constant, B, order=order, monotone=monotone, J=J)
+    least = limit(constant, B, order=order, monotone=monotone, J=J)
     peak = float(best_velocity(constant, order) if B is None else B)
     if constant == "D":
         return _constant_power(peak, least, monotone=monotone)

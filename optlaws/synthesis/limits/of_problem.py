@@ -6,7 +6,7 @@ from fractions import Fraction
 from math import isfinite
 
 from optlaws.errors import InputError
-from optlaws.synthesis.limits.closed_forms import best_velocity, constant_limit, power_limit
+from optlaws.synthesis.limits.closed_forms import best_velocity, limit, power_limit
 from optlaws.synthesis.limits.rounding import rounded_down
 from optlaws.synthesis.problem.combined import Combined
 from optlaws.synthesis.problem.constants import C_minus, C_plus, Functional
@@ -86,11 +86,11 @@ def _of_constant(problem: Problem, constant: str) -> Fraction | None:
     jerk = problem.range("J")
     try:
         if constant == "C" and jerk is not None and problem.order > 2 and isfinite(jerk.high) and B is not None:
-            return Fraction(constant_limit("C", B, order=problem.order, monotone=problem.monotone, J=jerk.high))
+            return Fraction(limit("C", B, order=problem.order, monotone=problem.monotone, J=jerk.high))
     except InputError:
         pass  # at this B no law has so small a jerk: the limit without it still holds
     try:
-        return Fraction(constant_limit(constant, B, order=problem.order, monotone=problem.monotone))
+        return Fraction(limit(constant, B, order=problem.order, monotone=problem.monotone))
     except InputError:
         return None
 
@@ -102,7 +102,7 @@ def _uneven(problem: Problem, constant: str) -> Fraction | None:
     """
     if problem.order == 1:
         return None
-    least = Fraction(constant_limit(constant, None, order=problem.order))
+    least = Fraction(limit(constant, None, order=problem.order))
     if constant not in {"C", "D"}:
         return least
     k, asked = Fraction(problem.inflexion or 0.5), problem.range("B") or Range()

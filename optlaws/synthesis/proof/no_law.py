@@ -112,13 +112,13 @@ def beyond_limit(problem: Problem) -> str:
     Examples
     --------
     >>> beyond_limit(Problem(B=1.7, order=4, C=(0.0, 3.0)))
-    'no law of any degree has C <= 3 with the other constraints: its limit is 4.128571 (optlaws.constant_limit). ...'
+    'no law of any degree has C <= 3 with the other constraints: its limit is 4.128571 (optlaws.limit). ...'
     """
     for constant, asked in problem.bounded:
         least = known_limit(replace(problem, minimise=constant.expression()))
         if least is not None and asked.high < least * (1.0 - VALUE_ROUNDING):
             return (
                 f"no law of any degree has {constant!r} <= {asked.high:g} with the other constraints: "
-                f"its limit is {least:.7g} (optlaws.constant_limit). A higher bound of {constant!r} helps, or another B"
+                f"its limit is {least:.7g} (optlaws.limit). A higher bound of {constant!r} helps, or another B"
             )
     return ""

@@ -10,17 +10,7 @@ from numpy.typing import NDArray
 from scipy.integrate import fixed_quad
 from scipy.optimize import brentq
 
-from optlaws import (
-    Chebyshev,
-    MotionLaw,
-    Problem,
-    drive_torque,
-    formula_integral,
-    formula_rms,
-    smoothstep,
-    synthesize,
-    via,
-)
+from optlaws import Chebyshev, MotionLaw, Problem, drive_torque, integral, rms, smoothstep, synthesize, via
 from optlaws.formulas.of_motion import MotionFormula, of_text
 
 Array = NDArray[np.float64]
@@ -72,20 +62,18 @@ def test_integrals_and_root_mean_squares_are_those_of_scipy(kind: str, count: in
     heights = numbers.uniform(0.5, 3.0, count).round(3).tolist()
     text = f"{kind}(a, {', '.join(f'{x!r}:{y!r}' for x, y in zip(places, heights, strict=True))})*c + b"
     motion = of_text(text)
-    assert formula_rms(text).value(law) == pytest.approx(
-        by_quadrature(motion, law, places, square=True) ** 0.5, rel=1e-9
-    )
+    assert rms(text).value(law) == pytest.approx(by_quadrature(motion, law, places, square=True) ** 0.5, rel=1e-9)
     sizes = by_quadrature(motion, law, places, square=False)
-    assert formula_integral(f"abs({text})").value(law) == pytest.approx(sizes, rel=1e-8)
+    assert integral(f"abs({text})").value(law) == pytest.approx(sizes, rel=1e-8)
 
 
 def test_a_torque_whose_inertia_is_a_spline_has_a_root_mean_square() -> None:
     torque = drive_torque(inertia="spline(a, 0:1, 0.25:2, 0.5:3, 0.75:2, 1:1)")
-    assert formula_rms(torque).value(smoothstep(3)) == pytest.approx(9.480863, abs=5e-7)
+    assert rms(torque).value(smoothstep(3)) == pytest.approx(9.480863, abs=5e-7)
 
 
 def test_a_bound_of_a_spline_is_kept_as_exactly_as_any() -> None:
     places = "0:1, 0.1:1.2, 0.25:2, 0.3:2.6, 0.5:3, 0.6:2.6, 0.75:2, 0.9:1.5, 1:1"
-    torque = formula_rms(drive_torque(inertia=f"spline(a, {places})"))
+    torque = rms(drive_torque(inertia=f"spline(a, {places})"))
     solution = synthesize(Problem(order=3, symmetric=False, bounds={torque: (None, 9.0)}))
     assert torque.value(solution.law) == pytest.approx(9.0, rel=1e-10)

@@ -3,16 +3,16 @@
 import numpy as np
 import pytest
 
-from optlaws import BoundaryConditions, Chebyshev, Problem, formula_integral, formula_rms, law_from_z, synthesize
+from optlaws import BoundaryConditions, Chebyshev, Problem, integral, rms, law_from_z, synthesize
 from optlaws.synthesis.spaces.of_basis import space_of
 from tests.sampling import sampled
 
 CONSTANTS = [
-    formula_integral("c^2 + (1 + k)*b^2"),
-    formula_rms("norm(b, c)"),
-    formula_integral("exp(c/5)"),
-    formula_integral("c^4"),
-    formula_rms("exp(c/5)"),
+    integral("c^2 + (1 + k)*b^2"),
+    rms("norm(b, c)"),
+    integral("exp(c/5)"),
+    integral("c^4"),
+    rms("exp(c/5)"),
 ]
 
 

@@ -11,7 +11,7 @@ from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
 from optlaws.laws.segments.constant_power import PowerSegment
 from optlaws.laws.segments.piecewise import PiecewiseLaw
-from optlaws.synthesis.limits.closed_forms import constant_limit, jerk_limit
+from optlaws.synthesis.limits.closed_forms import limit, jerk_limit
 from optlaws.synthesis.limits.laws import limit_law
 from tests.sampling import examples
 
@@ -50,7 +50,7 @@ def check_motion(law: PiecewiseLaw, B: float, *, monotone: bool, rest: bool = Tr
 @given(B=velocities)
 def test_a_limit_law_has_the_limit_for_its_constant(constant: str, order: int, B: float, *, monotone: bool) -> None:
     law = limit_law(constant, B, order=order, monotone=monotone)
-    assert own(law, constant) == pytest.approx(constant_limit(constant, B, order=order, monotone=monotone), rel=1e-12)
+    assert own(law, constant) == pytest.approx(limit(constant, B, order=order, monotone=monotone), rel=1e-12)
     check_motion(law, B, monotone=monotone, rest=order > 1)
 
 
@@ -62,7 +62,7 @@ def test_a_trapezoid_law_has_the_least_acceleration_and_the_jerk_allowed(
 ) -> None:
     J = share * jerk_limit(B, monotone=monotone)
     law = limit_law("C", B, monotone=monotone, J=J)
-    assert own(law, "C") == pytest.approx(constant_limit("C", B, monotone=monotone, J=J), rel=1e-12)
+    assert own(law, "C") == pytest.approx(limit("C", B, monotone=monotone, J=J), rel=1e-12)
     # of ramps, time is rounded
     assert law.constants.J.value == pytest.approx(J, rel=1e-9)
     assert law.continuity == 2
@@ -96,7 +96,7 @@ def test_continuity_is_that_of_the_optimal_control(
 def test_without_b_the_law_is_the_best_of_all(constant: str, order: int, B: float) -> None:
     law = limit_law(constant, order=order)
     assert law == limit_law(constant, B, order=order)
-    assert own(law, constant) == pytest.approx(constant_limit(constant, order=order), rel=1e-14)
+    assert own(law, constant) == pytest.approx(limit(constant, order=order), rel=1e-14)
 
 
 def test_known_laws() -> None:

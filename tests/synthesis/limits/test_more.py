@@ -13,7 +13,7 @@ import pytest
 from optlaws import Chebyshev, InputError, Problem, acceleration_limit, savin, smoothstep, synthesize
 from optlaws.synthesis.limits.closed_forms import (
     acceleration_limit_at_jerk,
-    constant_limit,
+    limit,
     jerk_limit,
     power_limit,
     rms_limit,
@@ -132,7 +132,7 @@ def test_polynomials_of_growing_degree_approach_the_limit_of_the_rms(B: float, o
 @pytest.mark.parametrize(("B", "monotone"), [(1.5, False), (2.4, False), (2.4, True)])
 def test_optimal_laws_of_growing_degree_approach_the_limit_of_c(B: float, *, monotone: bool) -> None:
     found = [synthesize(Problem(B=B, order=3, basis=Chebyshev(n), monotone=monotone)).objective for n in (9, 21, 51)]
-    check_from_above(constant_limit("C", B, monotone=monotone), found, 0.1)
+    check_from_above(limit("C", B, monotone=monotone), found, 0.1)
 
 
 LAWS = [
@@ -151,9 +151,9 @@ def test_no_known_law_beats_a_limit(law: Any) -> None:  # noqa: ANN401
     monotone = law.extrema(1)[0].value > -1e-9
     values = {"C": constants.C.value, "D": constants.D.value, "J": constants.J.value, "RMS": constants.rms_c}
     for constant, value in values.items():
-        assert value >= constant_limit(constant, B, order=order, monotone=monotone) * (1 - 1e-9)
+        assert value >= limit(constant, B, order=order, monotone=monotone) * (1 - 1e-9)
     if order == 3:
-        assert constants.C.value >= constant_limit("C", B, monotone=monotone, J=constants.J.value) * (1 - 1e-9)
+        assert constants.C.value >= limit("C", B, monotone=monotone, J=constants.J.value) * (1 - 1e-9)
 
 
 def test_the_least_of_all() -> None:
@@ -161,12 +161,12 @@ def test_the_least_of_all() -> None:
     for constant, order, least, at in [
         ("C", 3, 4.0, 2.0), ("D", 3, 2.25, 1.5), ("J", 2, 12.0, 1.5), ("J", 3, 32.0, 2.0), ("RMS", 3, sqrt(12), 1.5),
     ]:  # fmt: skip
-        assert constant_limit(constant, order=order) == pytest.approx(least, rel=1e-15)
-        values = [constant_limit(constant, B, order=order) for B in grid]
+        assert limit(constant, order=order) == pytest.approx(least, rel=1e-15)
+        values = [limit(constant, B, order=order) for B in grid]
         assert min(values) == pytest.approx(least, rel=1e-14)
         assert grid[int(np.argmin(values))] == at
-    assert constant_limit("C", J=100.0) == pytest.approx(
-        min(constant_limit("C", B, J=100.0) for B in grid if jerk_limit(B) <= 100.0)
+    assert limit("C", J=100.0) == pytest.approx(
+        min(limit("C", B, J=100.0) for B in grid if jerk_limit(B) <= 100.0)
     )
 
 
@@ -176,14 +176,14 @@ def test_the_least_of_all() -> None:
     [("D", 3, 1.5), ("J", 2, 1.5), ("J", 2, 2.0), ("J", 3, 2.0), ("RMS", 2, 1.5), ("RMS", 2, 3.0)],
 )
 def test_formulas_join_where_they_change(constant: str, order: int, at: float, *, monotone: bool) -> None:
-    below, above = (constant_limit(constant, at + step, order=order, monotone=monotone) for step in (-1e-9, 1e-9))
+    below, above = (limit(constant, at + step, order=order, monotone=monotone) for step in (-1e-9, 1e-9))
     assert below == pytest.approx(above, rel=1e-7)
 
 
 def test_what_may_go_back_is_no_worse_and_better_where_it_does() -> None:
     for B in np.linspace(1.05, 6.0, 100).tolist():
         for constant, order, bound in [("C", 3, 2.0), ("D", 3, 1.5), ("J", 3, 2.0), ("J", 2, 2.0), ("RMS", 3, 3.0)]:
-            free, forth = (constant_limit(constant, B, order=order, monotone=monotone) for monotone in (False, True))
+            free, forth = (limit(constant, B, order=order, monotone=monotone) for monotone in (False, True))
             assert free < forth if bound < B else free == pytest.approx(forth, rel=1e-14)
 
 
@@ -191,7 +191,7 @@ def test_what_may_go_back_is_no_worse_and_better_where_it_does() -> None:
 @pytest.mark.parametrize("constant", ["C", "D", "J", "RMS"])
 def test_a_peak_velocity_that_makes_no_sense_is_refused(constant: str, B: Any) -> None:  # noqa: ANN401
     with pytest.raises(InputError, match="B must be a finite number above 1"):
-        constant_limit(constant, B)
+        limit(constant, B)
     with pytest.raises(InputError, match="B must be a finite number above 1"):
         acceleration_limit_at_jerk(B, 100.0)
 
@@ -214,4 +214,4 @@ def test_a_peak_velocity_that_makes_no_sense_is_refused(constant: str, B: Any) -
 def test_a_limit_that_makes_no_sense_is_refused(arguments: tuple[Any, ...], message: str) -> None:
     constant, B, options = (*arguments, {})[:3]
     with pytest.raises(InputError, match=message):
-        constant_limit(constant, B, **options)
+        limit(constant, B, **options)

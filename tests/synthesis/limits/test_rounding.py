@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from optlaws import BoundaryConditions, BSplines, Chebyshev, Pieces, Problem, at_least, at_most, synthesize
-from optlaws.synthesis.limits.closed_forms import acceleration_limit_at_jerk, constant_limit
+from optlaws.synthesis.limits.closed_forms import acceleration_limit_at_jerk, limit
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.limits.rounding import not_above, root_rounded_down, rounded_down, rounded_up
 from optlaws.verification.exact.bound import prove
@@ -79,7 +79,7 @@ EXACT = {
 @pytest.mark.parametrize(("constant", "order"), EXACT, ids=str)
 def test_limits_are_just_below_the_exact_values(constant: str, order: int, *, monotone: bool) -> None:
     for B in VELOCITIES:
-        stated = constant_limit(constant, B, order=order, monotone=monotone)
+        stated = limit(constant, B, order=order, monotone=monotone)
         exact = EXACT[constant, order](mpmath.mpf(B), monotone=monotone)
         assert stated <= exact
         assert stated >= exact * (1 - mpmath.mpf(10) ** -13)
@@ -88,7 +88,7 @@ def test_limits_are_just_below_the_exact_values(constant: str, order: int, *, mo
 @pytest.mark.parametrize("share", [1.0, 1.0001, 1.3, 12.0, 1e6])
 def test_limits_at_a_given_jerk_are_just_below_the_exact_values(share: float) -> None:
     for B in VELOCITIES:
-        J = share * constant_limit("J", B)
+        J = share * limit("J", B)
         b, j = mpmath.mpf(B), mpmath.mpf(J)
         stated = acceleration_limit_at_jerk(B, J)
         if b <= 2:
@@ -125,7 +125,7 @@ def test_numbers_beyond_the_greatest_double_are_rounded_outward_too(beyond: int)
 
 def test_the_limit_of_a_sum_is_not_above_the_sum_of_the_limits() -> None:
     for B in VELOCITIES[:20]:
-        parts = [constant_limit(name, B, order=4) for name in ("C", "D", "RMS")]
+        parts = [limit(name, B, order=4) for name in ("C", "D", "RMS")]
         stated = known_limit(Problem(B=B, order=4, minimise="0.1*C + 0.7*D + 0.3*rms_c"))
         exact = sum(Fraction(w) * Fraction(x) for w, x in zip((0.1, 0.7, 0.3), parts, strict=True))
         assert stated is not None

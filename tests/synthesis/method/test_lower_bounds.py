@@ -18,7 +18,7 @@ from optlaws import (
     at_least,
     at_most,
     between,
-    constant_limit,
+    limit,
     synthesize,
 )
 from optlaws.verification.exact.bound import prove
@@ -111,7 +111,7 @@ def test_what_no_law_can_have_at_once_is_said() -> None:
 @pytest.mark.parametrize("B", [1.3, 1.9, 2.5])
 @pytest.mark.parametrize("minimise", ["D", "C", "rms_c"])
 def test_a_power_below_its_limit_is_refused_with_the_limit(B: float, minimise: str) -> None:
-    least = constant_limit("D", B)
+    least = limit("D", B)
     with pytest.raises(InfeasibleProblem, match="its limit is"):
         synthesize(Problem(B=B, order=3, minimise=minimise, D=at_most(0.97 * least)))
 

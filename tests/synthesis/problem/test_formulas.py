@@ -18,10 +18,10 @@ from optlaws import (
     SolverFailure,
     Window,
     at_most,
-    formula_integral,
-    formula_peak,
-    formula_rms,
-    formula_value,
+    integral,
+    peak,
+    rms,
+    value,
     functional,
     maximum,
     synthesize,
@@ -128,7 +128,7 @@ def test_another_solver_on_a_grid_finds_nothing_better(text: str) -> None:
 
 
 def test_extremes_are_sought_where_a_formula_counts_and_has_values() -> None:
-    problem = replace(PROBLEM, minimise=formula_peak("c/b", start=0.1, stop=0.9))
+    problem = replace(PROBLEM, minimise=peak("c/b", start=0.1, stop=0.9))
     solution = synthesize(problem)
     assert broken(problem, solution.law) == []
     assert solution.objective == pytest.approx(Judged(solution.law).worth(problem.objective), rel=1e-8)
@@ -184,13 +184,13 @@ def test_a_window_that_cannot_be_kept_is_proven_so() -> None:
 def test_every_door_takes_them() -> None:
     bounded = Problem.from_dict({"order": 4, "B": 1.8, "minimise": "C", "bounds": {"rms(c + 3*b)": [None, 5.2]}})
     # the formula says another thing of a law's mirror image, and nobody asked for symmetric laws
-    assert bounded == replace(PROBLEM, minimise="C", bounds={formula_rms("c + 3*b"): at_most(5.2)}, symmetric=False)
-    assert named(formula_rms("c + 3*b").name).value(synthesize(bounded).law) <= 5.2 * (1 + 1e-9)
+    assert bounded == replace(PROBLEM, minimise="C", bounds={rms("c + 3*b"): at_most(5.2)}, symmetric=False)
+    assert named(rms("c + 3*b").name).value(synthesize(bounded).law) <= 5.2 * (1 + 1e-9)
     assert Problem.from_dict({"order": 4, "windows": ["c + 0.2*b <= 4.5 @ 0.1..0.9"]}).windows == (
         Window("c + 0.2*b", high=4.5, start=0.1, stop=0.9),
     )
-    mixed = 0.5 * formula_peak("c + 0.2*b") / 4 + maximum(formula_rms("c"), formula_integral("c^2"))
-    assert named("value(c, at=0.3)") == formula_value("c", at=0.3)
+    mixed = 0.5 * peak("c + 0.2*b") / 4 + maximum(rms("c"), integral("c^2"))
+    assert named("value(c, at=0.3)") == value("c", at=0.3)
     assert replace(PROBLEM, minimise=mixed).objective == mixed
     assert Range().low == 0.0
 
@@ -272,7 +272,7 @@ def test_a_function_writes_its_formula_down() -> None:
     assert written.name.startswith("peak(c + 0.2*b + ")
     assert functional(lambda c: 2 * c, kind="value", at=0.3) == named("value(2*c, at=0.3)")
     for one, text in (
-        (formula_rms(lambda b, c: c + 3 * b), "rms(c + 3*b)"),
+        (rms(lambda b, c: c + 3 * b), "rms(c + 3*b)"),
         (functional(lambda c, b: casadi.fmax(casadi.fabs(c), b**2), side="high"), "peak(max(abs(c), b^2), side=high)"),
         (functional(lambda c: c * c, kind="integral"), "integral(c^2)"),
     ):
@@ -317,7 +317,7 @@ def test_where_no_law_is_found_the_error_says_what_may_have_no_value() -> None:
 
 
 def test_the_error_says_nothing_of_values_that_no_motion_brings() -> None:
-    crank = formula_integral("c/sqrt(1 - (0.25*sin(pi*a))^2) + 1/(c - 7) + 1/(2 + b^2) + log(b)")
+    crank = integral("c/sqrt(1 - (0.25*sin(pi*a))^2) + 1/(c - 7) + 1/(2 + b^2) + log(b)")
     assert crank.remarks == (
         "1/(c - 7) has no value where c - 7 = 0",
         "log(b) has no slope or no value where b <= 0",

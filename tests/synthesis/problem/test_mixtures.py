@@ -4,14 +4,14 @@ import warnings
 
 import pytest
 
-from optlaws import FUNCTIONALS, C, Chebyshev, D, J, NotNormalised, Problem, constant_limit, rms_c, synthesize
+from optlaws import FUNCTIONALS, C, Chebyshev, D, J, NotNormalised, Problem, limit, rms_c, synthesize
 from optlaws.synthesis.problem.mixtures import warn_of_mixture
 
 
 @pytest.mark.parametrize("order", [2, 3, 4, 6])
 def test_the_least_values_are_the_limits_of_the_order(order: int) -> None:
     for constant, name in ((C, "C"), (D, "D"), (J, "J"), (rms_c, "RMS")):
-        assert constant.least(order) == pytest.approx(constant_limit(name, order=order), rel=1e-12)
+        assert constant.least(order) == pytest.approx(limit(name, order=order), rel=1e-12)
     assert all(one.reference == one.least(2) or one.reference != one.reference for one in FUNCTIONALS.values())
 
 

@@ -15,7 +15,7 @@ from optlaws import (
     Problem,
     Status,
     Window,
-    constant_limit,
+    limit,
     limit_law,
     synthesize,
 )
@@ -30,16 +30,14 @@ def test_eight_pieces_come_within_half_a_per_cent_of_the_limit() -> None:
     solution = synthesize(problem)
     assert solution.status == "optimal"
     assert len(problem.basis.to_dict()["breaks"]) == 9
-    assert constant_limit("C", 1.859) < solution.objective <= 1.005 * constant_limit("C", 1.859)
+    assert limit("C", 1.859) < solution.objective <= 1.005 * limit("C", 1.859)
     assert solution.z is None
 
 
 def test_the_excess_over_the_limit_falls_with_the_width() -> None:
     widths = np.array([0.008, 0.004, 0.002, 0.001])
     excess = [
-        synthesize(Problem(B=1.859, order=3, basis=Pieces.around(LIMIT_C, w, 3, 2))).objective
-        / constant_limit("C", 1.859)
-        - 1.0
+        synthesize(Problem(B=1.859, order=3, basis=Pieces.around(LIMIT_C, w, 3, 2))).objective / limit("C", 1.859) - 1.0
         for w in widths
     ]
     slope = np.polyfit(np.log(widths), np.log(excess), 1)[0]
@@ -120,9 +118,7 @@ def test_piecewise_linear_accelerations_agree_with_a_linear_program(B: float) ->
 def test_power_comes_near_its_limit() -> None:
     basis = Pieces(20, degree=5, continuity=3)
     solution = synthesize(Problem(order=3, minimise="D", B=1.6, basis=basis, monotone=True))
-    assert (
-        constant_limit("D", 1.6, monotone=True) <= solution.objective <= 1.04 * constant_limit("D", 1.6, monotone=True)
-    )
+    assert limit("D", 1.6, monotone=True) <= solution.objective <= 1.04 * limit("D", 1.6, monotone=True)
 
 
 @pytest.mark.parametrize(

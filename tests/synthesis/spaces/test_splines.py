@@ -23,7 +23,7 @@ from optlaws import (
     Window,
     at_most,
     between,
-    constant_limit,
+    limit,
     law_from_z,
     synthesize,
     via,
@@ -161,7 +161,7 @@ def test_peaks_are_seen_from_both_sides_of_a_break() -> None:
 
 def test_more_pieces_come_nearer_to_the_limit() -> None:
     excess = [
-        synthesize(Problem(B=1.859, order=3, basis=BSplines(n, 3))).objective / constant_limit("C", 1.859) - 1.0
+        synthesize(Problem(B=1.859, order=3, basis=BSplines(n, 3))).objective / limit("C", 1.859) - 1.0
         for n in (4, 8, 16, 32)
     ]
     rates = -np.diff(np.log(excess)) / np.log(2.0)

@@ -8,7 +8,7 @@ from typing import Any
 import mpmath as mp  # type: ignore[import-untyped]
 import pytest
 
-from optlaws import Chebyshev, Problem, formula_integral, formula_peak, smoothstep, synthesize
+from optlaws import Chebyshev, Problem, integral, peak, smoothstep, synthesize
 from optlaws.formulas.arithmetic import evaluate, horner, mpmath_arithmetic, pieces
 from optlaws.formulas.of_motion import of_text
 from optlaws.formulas.tree import Formula, Table
@@ -70,7 +70,7 @@ def test_integrals_hold_those_of_mpmath(text: str) -> None:
     with mp.workdps(30):
         parts = [mp.quad(lambda k: along(formula, k), list(ends)) for ends in pairwise(places(text))]
         expected = sum(parts)
-    found = ExactLaw(smoothstep(3)).term(formula_integral(text))
+    found = ExactLaw(smoothstep(3)).term(integral(text))
     assert float(found.rad()) < 1e-17
     assert abs(float(found.mid()) - expected) < 1e-15
 
@@ -79,7 +79,7 @@ def test_integrals_hold_those_of_mpmath(text: str) -> None:
 def test_peaks_hold_the_values_of_mpmath(text: str) -> None:
     with mp.workdps(30):
         values = [along(of_text(text).formula, mp.mpf(i) / 400) for i in range(401)]
-    found = ExactLaw(smoothstep(3)).term(formula_peak(text, side="high"))
+    found = ExactLaw(smoothstep(3)).term(peak(text, side="high"))
     assert float(found.rad()) < 1e-15
     greatest = float(max(values))
     assert greatest - 1e-14 <= float(found.mid()) < greatest + 2e-2 * abs(greatest)

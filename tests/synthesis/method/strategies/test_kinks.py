@@ -5,18 +5,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.optimize import linprog, minimize
 
-from optlaws import (
-    Chebyshev,
-    Functional,
-    Problem,
-    Status,
-    at_most,
-    drive_torque,
-    formula_integral,
-    formula_peak,
-    formula_rms,
-    synthesize,
-)
+from optlaws import Chebyshev, Functional, Problem, Status, at_most, drive_torque, integral, peak, rms, synthesize
 from optlaws.laws import smoothstep
 from optlaws.verification.exact.bound import prove
 from tests.synthesis.grids import Grid, polynomials
@@ -92,7 +81,7 @@ def test_integrals_of_sizes_are_proven(formula: str, options: dict[str, object])
 
 def test_they_are_bounds_and_parts_of_mixtures_too() -> None:
     problem = Problem(B=1.8, order=4, symmetric=False)
-    wander = formula_integral("abs(j)")
+    wander = integral("abs(j)")
     least = synthesize(Problem(B=1.8, order=4, symmetric=False, minimise=wander)).objective
     bounded = synthesize(Problem(B=1.8, order=4, symmetric=False, bounds={wander: at_most(1.05 * least)}))
     mixed = synthesize(Problem(B=1.8, order=4, symmetric=False, minimise="C + 0.2*integral(abs(j))"))
@@ -111,7 +100,7 @@ def test_where_a_formula_vanishes_along_the_law_its_corner_is_proven() -> None:
 @pytest.mark.long
 def test_a_slider_crank_needs_no_more_energy_than_its_speed_asks_for() -> None:
     inertia = "0.02 + 0.05*(sin(pi*a) + 0.25*sin(pi*a)*cos(pi*a)/sqrt(1 - (0.25*sin(pi*a))^2))^2"
-    energy = formula_integral(f"max(({drive_torque(inertia=inertia)})*b, 0)")
+    energy = integral(f"max(({drive_torque(inertia=inertia)})*b, 0)")
     unit = np.pi / 0.3**2
     assert energy.value(smoothstep(3)) * unit == pytest.approx(4.416, abs=5e-4)
     solution = synthesize(Problem(order=3, C=at_most(12), basis=Chebyshev(9), symmetric=False, minimise=energy))
@@ -124,7 +113,7 @@ def test_no_descent_of_scipy_finds_a_law_of_less_heat(seed: int) -> None:
     numbers = np.random.default_rng(seed)
     share, waves, drag = numbers.uniform(0.2, 3.0), int(numbers.integers(1, 3)), numbers.uniform(0.0, 1.0)
     torque = drive_torque(inertia=f"1 + {share:.3f}*sin({waves}*pi*a)^2", friction=f"{drag:.3f}")
-    heat = formula_rms(torque)
+    heat = rms(torque)
     ours = synthesize(Problem(order=3, basis=Chebyshev(5), symmetric=False, minimise=heat)).objective
     grid = polynomials(3, 5, 201)
     motion = grid.rows(0), grid.rows(1), grid.rows(2)
@@ -144,13 +133,13 @@ def test_no_descent_of_scipy_finds_a_law_of_less_heat(seed: int) -> None:
 @pytest.mark.parametrize(
     "constant",
     [
-        formula_peak("0.0753982237*c + max(0.591358617*c, 0.427256601*c)", side="high"),
-        formula_peak("c^2 + c", side="high"),
-        formula_peak("max(c, 2*b)", side="high"),
-        formula_peak("min(-abs(j), -2*abs(c))", side="low"),
-        formula_peak("exp(c/10) - b", side="high"),
-        formula_rms("abs(c) + abs(b)"),
-        formula_integral("max(c, 0) + 0.1*abs(j)"),
+        peak("0.0753982237*c + max(0.591358617*c, 0.427256601*c)", side="high"),
+        peak("c^2 + c", side="high"),
+        peak("max(c, 2*b)", side="high"),
+        peak("min(-abs(j), -2*abs(c))", side="low"),
+        peak("exp(c/10) - b", side="high"),
+        rms("abs(c) + abs(b)"),
+        integral("max(c, 0) + 0.1*abs(j)"),
     ],
     ids=repr,
 )
@@ -160,7 +149,7 @@ def test_convex_constants_alone_bound_their_laws(constant: Functional) -> None:
 
 
 def test_what_is_symmetric_and_not_convex_descends_from_the_law_it_begins_at() -> None:
-    heat = formula_rms(drive_torque(inertia="1 + 3*sin(pi*a)^2"))
+    heat = rms(drive_torque(inertia="1 + 3*sin(pi*a)^2"))
     problem = Problem(order=3, basis=Chebyshev(9), minimise=heat)
     assert problem.symmetric
     assert synthesize(problem).objective == pytest.approx(6.082473, abs=1e-6)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.sparse import bmat, csc_array, csr_array, eye_array, lil_array
 
-from optlaws import Chebyshev, Problem, at_most, constant_limit, synthesize
+from optlaws import Chebyshev, Problem, at_most, limit, synthesize
 from tests.sampling import sampled
 
 CELLS = 400
@@ -66,12 +66,12 @@ def _wide(block: Any, n: int, size: int) -> Any:  # noqa: ANN401 - a sparse arra
 @pytest.mark.parametrize("B", [1.2, 1.4, 1.5, None])
 def test_the_least_power_of_energies_is_the_limit(B: float | None) -> None:
     found = least_by_energy(B)
-    assert constant_limit("D", B) * (1 - 1e-7) <= found <= constant_limit("D", B) * 1.003
+    assert limit("D", B) * (1 - 1e-7) <= found <= limit("D", B) * 1.003
 
 
 @pytest.mark.parametrize("B", sampled([1.4, None]))
 def test_polynomials_of_any_degree_cost_more_power_than_energies(B: float | None) -> None:
-    least = constant_limit("D", B)
+    least = limit("D", B)
     costs = []
     for degree in (5, 9, 15):
         asked = Problem(

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from optlaws import Certificate, Chebyshev, Problem, at_most, formula_peak, synthesize
+from optlaws import Certificate, Chebyshev, Problem, at_most, peak, synthesize
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.program.writer import model_of
@@ -18,17 +18,17 @@ from tests.sampling import sampled
 
 SMALL = Problem(B=1.8, order=3, basis=Chebyshev(5))
 PROBLEMS = [
-    replace(SMALL, minimise=formula_peak("(1 + 0.5*a^2)*c + 0.5*a*b^2")),
-    replace(SMALL, minimise=formula_peak("b*c")),
-    replace(SMALL, minimise=formula_peak("sin(3*b)*c")),
+    replace(SMALL, minimise=peak("(1 + 0.5*a^2)*c + 0.5*a*b^2")),
+    replace(SMALL, minimise=peak("b*c")),
+    replace(SMALL, minimise=peak("sin(3*b)*c")),
     replace(SMALL, B=None, minimise="C", bounds={"peak(b*c)": at_most(3.5)}),
-    replace(SMALL, minimise=formula_peak("b*c + 0.1*abs(b)", side="high")),
-    replace(SMALL, basis=Chebyshev(3), symmetric=False, minimise=formula_peak("b*c + 0.3*b")),
-    replace(SMALL, minimise=formula_peak("c/(2 + b)")),
+    replace(SMALL, minimise=peak("b*c + 0.1*abs(b)", side="high")),
+    replace(SMALL, basis=Chebyshev(3), symmetric=False, minimise=peak("b*c + 0.3*b")),
+    replace(SMALL, minimise=peak("c/(2 + b)")),
     replace(SMALL, B=None, minimise="C/4 + 0.2*peak(b*c)"),
-    replace(SMALL, B=None, J=at_most(80), minimise=formula_peak("b*c")),
+    replace(SMALL, B=None, J=at_most(80), minimise=peak("b*c")),
     replace(SMALL, B=1.7, minimise="rms_c", bounds={"peak(b*c + 0.2*b^2)": at_most(4.5)}),
-    replace(SMALL, minimise=formula_peak("c^2 - b^2")),
+    replace(SMALL, minimise=peak("c^2 - b^2")),
 ]
 
 

@@ -6,21 +6,21 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from optlaws import Certificate, Chebyshev, Problem, at_most, formula_integral, formula_rms, synthesize
+from optlaws import Certificate, Chebyshev, Problem, at_most, integral, rms, synthesize
 from optlaws.synthesis.proof.power.box import Box
 from optlaws.synthesis.proof.power.formula_underestimators import FormulaRows, applies
 from tests.sampling import sampled
 
 SMALL = Problem(B=1.8, order=3, basis=Chebyshev(3))
 PROBLEMS = [
-    replace(SMALL, minimise=formula_rms("b*c")),
-    replace(SMALL, minimise=formula_integral("exp(c/5)*b^2")),
-    replace(SMALL, basis=Chebyshev(5), minimise=formula_integral("a^2*c^2")),
-    replace(SMALL, minimise=formula_rms("c*(1 + 0.3*a^2)", start=0.1, stop=0.7)),
-    replace(SMALL, basis=Chebyshev(5), minimise=formula_integral("sin(3*b)^2 + c^2/20")),
-    replace(SMALL, symmetric=False, minimise=formula_integral("(b*c)^2 + table(k, 0:0, 0.4:1, 1:0)*c^2")),
+    replace(SMALL, minimise=rms("b*c")),
+    replace(SMALL, minimise=integral("exp(c/5)*b^2")),
+    replace(SMALL, basis=Chebyshev(5), minimise=integral("a^2*c^2")),
+    replace(SMALL, minimise=rms("c*(1 + 0.3*a^2)", start=0.1, stop=0.7)),
+    replace(SMALL, basis=Chebyshev(5), minimise=integral("sin(3*b)^2 + c^2/20")),
+    replace(SMALL, symmetric=False, minimise=integral("(b*c)^2 + table(k, 0:0, 0.4:1, 1:0)*c^2")),
     replace(SMALL, B=None, C=at_most(7.0), minimise="C/4", bounds={"rms(b*c)": at_most(3.5)}),
-    replace(SMALL, basis=Chebyshev(5), minimise=formula_rms("b*c")),
+    replace(SMALL, basis=Chebyshev(5), minimise=rms("b*c")),
 ]
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from optlaws import Chebyshev, Problem, constant_limit, synthesize
+from optlaws import Chebyshev, Problem, limit, synthesize
 from optlaws.synthesis.limits.of_problem import known_limit
 from tests.sampling import sampled
 
@@ -53,5 +53,5 @@ def test_the_place_costs_power_where_the_way_to_it_is_short() -> None:
     near, far = (known_limit(uneven(1.5, k)) for k in (0.45, 0.1))
     assert near is not None
     assert far is not None
-    assert constant_limit("D", 1.5) < near < far
+    assert limit("D", 1.5) < near < far
     assert far == pytest.approx(1.5**2 / 0.2, rel=1e-12)
