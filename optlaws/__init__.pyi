@@ -8,7 +8,7 @@ from optlaws.balancing.dwells.mechanism import dwell_mechanism as dwell_mechanis
 from optlaws.balancing.levers.design import find_torsion_levers as find_torsion_levers
 from optlaws.balancing.levers.lever import TorsionLever as TorsionLever
 from optlaws.balancing.loaders.loader import Loader as Loader
-from optlaws.balancing.loaders.loader import loader as loader
+from optlaws.balancing.loaders.loader import inertial_loader as inertial_loader
 from optlaws.balancing.loaders.optimal import BalancedLaw as BalancedLaw
 from optlaws.balancing.loaders.optimal import balanced_law as balanced_law
 from optlaws.balancing.loaders.trapezium import TrapeziumSubstitute as TrapeziumSubstitute
@@ -19,7 +19,7 @@ from optlaws.balancing.machine_units.lever_cam import LeverCam as LeverCam
 from optlaws.balancing.machine_units.lever_cam import rocker_law as rocker_law
 from optlaws.cams.as_manufactured import AsMade as AsMade
 from optlaws.cams.as_manufactured import as_made as as_made
-from optlaws.cams.as_manufactured import with_error as with_error
+from optlaws.cams.as_manufactured import with_profile_error as with_profile_error
 from optlaws.cams.barrel import BarrelCam as BarrelCam
 from optlaws.cams.best_laws import best_base_circle as best_base_circle
 from optlaws.cams.best_laws import best_cam as best_cam
@@ -38,7 +38,7 @@ from optlaws.cams.springs import Spring as Spring
 from optlaws.cams.springs import least_spring as least_spring
 from optlaws.cycles.cycle import Cycle as Cycle
 from optlaws.cycles.law_comparison import Comparison as Comparison
-from optlaws.cycles.law_comparison import compare as compare
+from optlaws.cycles.law_comparison import compare_laws as compare_laws
 from optlaws.cycles.machine_axes import Axes as Axes
 from optlaws.cycles.machine_follower import MachineFollower as MachineFollower
 from optlaws.cycles.machine_follower import machine_follower as machine_follower
@@ -60,7 +60,7 @@ from optlaws.laws.catalogue.reading import read_law as read_law
 from optlaws.laws.constants import Constants as Constants
 from optlaws.laws.law import MotionLaw as MotionLaw
 from optlaws.laws.making.input_shaping import shaped_law as shaped_law
-from optlaws.laws.making.multiplier import multiplied as multiplied
+from optlaws.laws.making.multiplier import multiplied_law as multiplied_law
 from optlaws.laws.making.multiplier import multiplier_for as multiplier_for
 from optlaws.laws.making.through_points import law_through as law_through
 from optlaws.laws.making.transform import mirrored_law as mirrored_law
@@ -153,7 +153,7 @@ from optlaws.synthesis.spaces.bases import Chebyshev as Chebyshev
 from optlaws.synthesis.spaces.bases import Pieces as Pieces
 from optlaws.synthesis.spaces.bases import Powers as Powers
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions as BoundaryConditions
-from optlaws.synthesis.spaces.end_conditions import construct as construct
+from optlaws.synthesis.spaces.end_conditions import law_from_z as law_from_z
 from optlaws.synthesis.spaces.pieces.periodic import PeriodicPieces as PeriodicPieces
 from optlaws.synthesis.spaces.splines import BSplines as BSplines
 
@@ -253,34 +253,34 @@ __all__ = [
     "between",
     "cam_constant",
     "catalogue",
-    "compare",
     "compare_dwell_mechanisms",
+    "compare_laws",
     "conjugate_cam",
-    "construct",
     "deg",
     "drive_torque",
     "driving_law",
     "dwell_machine",
     "dwell_mechanism",
-    "each",
     "find_torsion_levers",
     "flat_output",
     "functional",
     "greatest_roller",
+    "inertial_loader",
     "integral",
     "jounce",
+    "law_from_z",
     "law_through",
     "least_base_circle",
     "least_spring",
     "limit",
     "limit_law",
-    "loader",
     "machine_follower",
     "machine_spectrum",
+    "map_arrays",
     "mass_law",
     "maximum",
     "mirrored_law",
-    "multiplied",
+    "multiplied_law",
     "multiplier_for",
     "off_design",
     "open_study",
@@ -289,9 +289,9 @@ __all__ = [
     "polydyne",
     "proven_front",
     "read_law",
-    "residual",
     "residual_functional",
     "residual_phasor",
+    "residual_vibration",
     "response_spectrum",
     "reversed_law",
     "rms",
@@ -313,5 +313,5 @@ __all__ = [
     "value",
     "via",
     "with_end_velocity",
-    "with_error",
+    "with_profile_error",
 ]

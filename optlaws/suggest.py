@@ -39,15 +39,16 @@ def unknown_key(
     return f"unknown {what} {shortened(name)}; known are {', '.join(names)}"
 
 
-def keywords_of(options: type) -> Callable[[FunctionT], FunctionT]:
-    """A decorator for functions whose `**keywords` are the entries of a `TypedDict`, each None unless given.
+def keywords_of(options: type, **defaults: Any) -> Callable[[FunctionT], FunctionT]:  # noqa: ANN401
+    """A decorator for functions whose `**keywords` are the entries of a `TypedDict`, None or a default unless given.
 
-    They stand in the signature by their names, and any other is refused as Python refuses it, with a suggestion.
+    They stand in the signature by their names. One that is required and missing, and any other, is refused as Python
+    refuses it, with a suggestion.
 
     Examples
     --------
     >>> from typing import TypedDict
-    >>> @keywords_of(TypedDict("Options", {"points": int}))
+    >>> @keywords_of(TypedDict("Options", {"points": int}, total=False))
     ... def export(to, **options):
     ...     return to, options
     >>> export("csv", points=7), str(signature(export))
@@ -56,12 +57,18 @@ def keywords_of(options: type) -> Callable[[FunctionT], FunctionT]:
     Traceback (most recent call last):
     TypeError: export() got an unexpected keyword argument 'pionts'; did you mean 'points'?
     """
+    required: frozenset[str] = getattr(options, "__required_keys__", frozenset())
 
     def decorated(function: FunctionT) -> FunctionT:
         bare = signature(function)
         named = [one for one in bare.parameters.values() if one.kind is not Parameter.VAR_KEYWORD]
         named += [
-            Parameter(name, Parameter.KEYWORD_ONLY, default=None, annotation=getattr(kind, "__forward_arg__", kind))
+            Parameter(
+                name,
+                Parameter.KEYWORD_ONLY,
+                default=Parameter.empty if name in required else defaults.get(name),
+                annotation=getattr(kind, "__forward_arg__", kind),
+            )
             for name, kind in options.__annotations__.items()
         ]
         known = {one.name for one in named}
@@ -72,6 +79,8 @@ def keywords_of(options: type) -> Callable[[FunctionT], FunctionT]:
                 near = unknown_key(name, known, "keyword argument").partition("; did")
                 message = f"{function.__qualname__}() got an unexpected keyword argument {name!r}"
                 raise TypeError(message + "".join(near[1:]))
+            for name in required - keywords.keys():
+                raise TypeError(f"{function.__qualname__}() missing a required keyword argument: {name!r}")
             return function(*args, **keywords)
 
         checked.__signature__ = bare.replace(parameters=named)  # type: ignore[attr-defined]

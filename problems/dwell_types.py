@@ -12,7 +12,7 @@ import msgspec
 import numpy as np
 
 from optlaws import InfeasibleProblem, InputError, MotionLaw, catalogue, deg
-from optlaws.balancing import Clutch, DwellMechanism, dwell_mechanism, least_dwell
+from optlaws.balancing import Clutch, DwellMechanism, DwellType, dwell_mechanism, least_dwell
 from optlaws.plots.style import BLUES, GREEN, GREY, WARM, empty_figure, plot_style
 from optlaws.results import Cell, Entries, Page, Results
 
@@ -250,7 +250,7 @@ def draw_map(law: MotionLaw, limits: Sequence[float], clutch_angles: Sequence[fl
         return figure
 
 
-def _from(kind: str, law: MotionLaw, limit: float, clutch: float) -> float:
+def _from(kind: DwellType, law: MotionLaw, limit: float, clutch: float) -> float:
     """The dwell in degrees from which on a type keeps to the limit; half a turn where it never does."""
     dwell = deg(2.0 * clutch + 1.0)
     mechanism = dwell_mechanism(

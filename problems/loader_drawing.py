@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws import MotionLaw, catalogue, deg
-from optlaws.balancing import Loader, loader
+from optlaws.balancing import Loader, inertial_loader
 from optlaws.plots.style import BLUES, GREEN, GREY, WARM, empty_figure, plot_style
 from optlaws.results import Cell, Entries, Results
 
@@ -31,7 +31,7 @@ class Drawing(Entries):
 def run(results: Results) -> None:
     """Draw the mechanism and its energies, and table the peaks of both links."""
     spec = results.read(Drawing)
-    mechanism = loader(catalogue[spec.law].law)
+    mechanism = inertial_loader(catalogue[spec.law].law)
     results.picture("mechanism", draw_mechanism(mechanism, deg(spec.shown), spec.radius_ratio))
     results.picture("exchange", draw_exchange(mechanism, spec.title))
     rows: list[list[Cell]] = []

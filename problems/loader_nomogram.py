@@ -9,7 +9,7 @@ import msgspec
 import numpy as np
 
 from optlaws import InputError
-from optlaws.balancing import TrapeziumSubstitute, loader
+from optlaws.balancing import TrapeziumSubstitute, inertial_loader
 from optlaws.plots.style import empty_figure, plot_style
 from optlaws.results import Entries, Results
 
@@ -59,7 +59,7 @@ def _row(e13: float, gamma_w: float) -> list[float] | None:
         substitute = TrapeziumSubstitute(e13, gamma_w)
     except InputError:
         return None
-    exact = loader(substitute.law)
+    exact = inertial_loader(substitute.law)
     peaks = substitute.law.constants
     executive = [peaks.B.value, peaks.C.value, peaks.D.value]
     return [e13, gamma_w, substitute.m, substitute.n, substitute.Y, exact.Y, *executive, exact.B, exact.C, exact.D]

@@ -8,12 +8,12 @@ from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 from math import isfinite
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from optlaws import Chebyshev, InfeasibleProblem, Status, catalogue
-from optlaws.balancing import BalancedLaw, Loader, balanced_law, loader, loader_acceleration_limit
+from optlaws.balancing import BalancedLaw, Loader, balanced_law, inertial_loader, loader_acceleration_limit
 from optlaws.plots.style import BLUES, GREEN, GREY, WARM, empty_figure, plot_style
 from optlaws.results import MARK, Cell, Entries, Results, rows
 
@@ -55,7 +55,7 @@ class Row:
     """A printed law with its loader, and its rivals."""
 
     code: str
-    loader: Loader
+    inertial_loader: Loader
     order: int
     least: Mapping[tuple[int, int], BalancedLaw]
     rivals: Mapping[str, BalancedLaw | None]
@@ -81,6 +81,11 @@ class Row:
         return values.get(kind, self.loader.C)
 
 
+def _stored(rival: BalancedLaw) -> dict[str, Any]:
+    """A rival without the proof that stands in no page."""
+    return {name: value for name, value in rival.to_dict().items() if name != "solution"}
+
+
 def run(results: Results) -> None:
     """Make laws for the loaders of all printed laws, with proof, and show them beside these."""
     results.digits = DIGITS
@@ -89,7 +94,7 @@ def run(results: Results) -> None:
     least, headings, rivals = _least(table), _headings(table), _rivals(table)
     results.table("table", headings, least)
     results.table("rivals", RIVALS, rivals)
-    laws = {row.code: {kind: rival and rival.to_dict() for kind, rival in row.rivals.items()} for row in table}
+    laws = {row.code: {kind: rival and _stored(rival) for kind, rival in row.rivals.items()} for row in table}
     results.text("laws.json", json.dumps({"about": MARK, "laws": laws}, indent=1) + "\n")
     results.picture("figure", draw(spec.title, table, next(row for row in table if row.code == spec.shown)))
     page = results.page("table").text(_ABOUT_LEAST.format(proven=_said(table))).table(headings, least)
@@ -115,7 +120,7 @@ def _row(given: Mapping[str, str], spec: Spec) -> Row:
         rivals["C no greater"] = _proven(B, order=order, basis=basis, most_C=C)
     for kind, minimise in (("mixture", MIXTURE), ("least B_l", "B_loader"), ("least D_l", "D_loader")):
         rivals[kind] = _proven(B, order=order, basis=basis, minimise=minimise)
-    return Row(given["code"], loader(law), order, least, rivals)
+    return Row(given["code"], inertial_loader(law), order, least, rivals)
 
 
 _proven = partial(balanced_law, bound="tight")

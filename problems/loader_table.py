@@ -9,7 +9,7 @@ from math import inf, isfinite, sqrt
 import numpy as np
 
 from optlaws import InputError, catalogue
-from optlaws.balancing import Loader, TrapeziumSubstitute, closed_form_Y, loader
+from optlaws.balancing import Loader, TrapeziumSubstitute, closed_form_Y, inertial_loader
 from optlaws.results import ON_GRID, REPRODUCED, Cell, Entries, PrintedNumber, Results, compared, rows
 
 COLUMNS = ("code", "law", "B", "C", "D")
@@ -45,7 +45,7 @@ class Row:
 
     code: str
     given: Mapping[str, str]
-    loader: Loader
+    inertial_loader: Loader
     on_grid: Mapping[str, float | None]
 
     @property
@@ -88,7 +88,7 @@ def run(results: Results) -> None:
 
 def recomputed(given: Mapping[str, str], grid: int) -> Row:
     """A printed row with its loader and what the paper's grid shows of it."""
-    mechanism = loader(catalogue[given["law"]].law)
+    mechanism = inertial_loader(catalogue[given["law"]].law)
     k = np.linspace(0.0, 1.0, grid + 1)
     moving = k[mechanism.law.b(k) != 0.0]  # where the loader turns, the paper's formula for c is 0/0
     on_grid = {

@@ -23,8 +23,8 @@ from optlaws import (
     cam_constant,
     catalogue,
     polydyne,
-    residual,
     residual_phasor,
+    residual_vibration,
     synthesize,
 )
 from optlaws.plots.style import DISTINCT, empty_figure, plot_style
@@ -42,7 +42,7 @@ class Design:
     nu: float
     damping: float
     between: tuple[float, float]
-    residual: float
+    residual_vibration: float
     degree: int
 
     def problem(self, order: int, minimise: Any, *, of_cam: bool = False, **entries: Any) -> Problem:  # noqa: ANN401 - a constant, and entries
@@ -73,12 +73,12 @@ class Compared:
     @cached_property
     def worst(self) -> float:
         """The greatest residual acceleration over the interval."""
-        return residual(nu=self.design.between, damping=self.design.damping).value(self.cam)
+        return residual_vibration(nu=self.design.between, damping=self.design.damping).value(self.cam)
 
     @cached_property
     def at_design(self) -> float:
         """The residual acceleration at the design frequency."""
-        return residual(nu=self.design.nu, damping=self.design.damping).value(self.cam)
+        return residual_vibration(nu=self.design.nu, damping=self.design.damping).value(self.cam)
 
 
 def compared(design: Design, members: Sequence[tuple[str, float]], known: Sequence[str]) -> Iterator[Compared]:
@@ -97,11 +97,11 @@ def compared(design: Design, members: Sequence[tuple[str, float]], known: Sequen
         solution = synthesize(design.problem(order, C_cam))
         yield Compared(f"optimal, order {order}, free B", "optimal", design, solution.law, solution=solution)
     most = at_most(design.residual)
-    mine = residual(nu=design.between, damping=design.damping, design=design.nu)
+    mine = residual_vibration(nu=design.between, damping=design.damping, design=design.nu)
     for order in orders:
         solution = synthesize(design.problem(order, C_cam, bounds={mine: most}))
         yield Compared(f"robust polydyne, order {order}", "robust", design, solution.law, solution=solution)
-        cut = residual(nu=design.between, damping=design.damping)
+        cut = residual_vibration(nu=design.between, damping=design.damping)
         solution = synthesize(design.problem(order - 2, "C", of_cam=True, bounds={cut: most}))
         yield Compared(
             f"robust on the cam, order {order - 2}", "robust", design, solution.law, polydyne=False, solution=solution
@@ -129,7 +129,7 @@ class Study(Entries):
     nu: float
     dampings: list[float]
     between: tuple[float, float]
-    residual: float
+    residual_vibration: float
     degree: int
     member: list[Member]
     catalogue: list[str]

@@ -21,7 +21,7 @@ from optlaws import (
     SavinFamily,
     Solution,
     acceleration_limit,
-    construct,
+    law_from_z,
     savin,
     smoothstep,
     sweep,
@@ -158,8 +158,8 @@ def printed_law(spec: Table, line: Mapping[str, str]) -> PolynomialLaw:
     """The law that the Z(k) of a printed row gives."""
     base = spec.bases[line["base"]]
     z = [Fraction(text) for text in line["z"].split()]
-    powers = construct(BoundaryConditions.rest(base.order), base.z).exact_powers()
-    whole = construct(BoundaryConditions.rest(spec.order), z).exact_powers()
+    powers = law_from_z(BoundaryConditions.rest(base.order), base.z).exact_powers()
+    whole = law_from_z(BoundaryConditions.rest(spec.order), z).exact_powers()
     plain = smoothstep(spec.order).exact_powers()
     return PolynomialLaw.from_powers(
         [p + w - s for p, w, s in zip_longest(powers, whole, plain, fillvalue=Fraction(0))]
@@ -236,7 +236,7 @@ def _laws(about: str, rows: Sequence[Row]) -> dict[str, Any]:
         "rows": [
             {
                 "B": row.cells["B"],
-                "printed": {"law": row.law.to_dict(), "constants": row.law.constants.to_dict()},
+                "printed": {"law": row.law.to_dict(), "constants": row.law.constants.to_dict(rms=False)},
                 "same shape": _solution(row.same),
                 "richer": {str(degree): _solution(solution) for degree, solution in row.richer.items()},
             }

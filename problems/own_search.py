@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import LinearConstraint, minimize
 
-from optlaws import BoundaryConditions, PolynomialLaw, Powers, Problem, construct, sweep
+from optlaws import BoundaryConditions, PolynomialLaw, Powers, Problem, law_from_z, sweep
 from optlaws.results import Cell, Entries, Results
 
 Array = NDArray[np.float64]
@@ -61,15 +61,15 @@ def search(B: float, z: Sequence[float], order: int) -> tuple[PolynomialLaw, str
         return float(np.abs(offset + columns @ z).max())
 
     answer = minimize(greatest, np.array(z), method="SLSQP", constraints=[constraint], options={"maxiter": 500})
-    law = construct(BoundaryConditions.rest(order), answer.x.tolist())
+    law = law_from_z(BoundaryConditions.rest(order), answer.x.tolist())
     return law, "converged" if answer.success else "gave up"
 
 
 def _affine(order: int, count: int, k: Array, nu: int) -> tuple[Array, Array]:
     """A derivative of the law at places, as what Z = 0 gives and the share of each coefficient of Z."""
     rest = BoundaryConditions.rest(order)
-    plain = construct(rest, [0.0])(k, nu)
-    shares = [construct(rest, [0.0] * i + [1.0])(k, nu) - plain for i in range(count)]
+    plain = law_from_z(rest, [0.0])(k, nu)
+    shares = [law_from_z(rest, [0.0] * i + [1.0])(k, nu) - plain for i in range(count)]
     return plain, np.column_stack(shares)
 
 

@@ -10,21 +10,6 @@ import pytest
 from tests.documents import ROOT
 
 MOST_ARGUMENTS = 8
-#: rooms whose functions take no more; what belongs together is one value, or the entries of a `TypedDict`
-FEW_ARGUMENTS = (
-    "cams",
-    "cycles",
-    "explorer",
-    "exports",
-    "files",
-    "jobs",
-    "laws",
-    "motion",
-    "plots",
-    "results",
-    "studies",
-    "verification",
-)
 
 
 def nodes(folder: Path) -> Iterator[tuple[Path, ast.AST]]:
@@ -41,11 +26,11 @@ def arguments(function: ast.FunctionDef | ast.AsyncFunctionDef) -> list[str]:
     return names[1:] if names[:1] in (["self"], ["cls"]) else names
 
 
-@pytest.mark.parametrize("room", FEW_ARGUMENTS)
-def test_a_function_takes_few_arguments(room: str) -> None:
+def test_a_function_takes_few_arguments() -> None:
+    # what belongs together is one value, or the entries of a `TypedDict`
     functions = (
         (path, node)
-        for path, node in nodes(ROOT / "optlaws" / room)
+        for path, node in nodes(ROOT / "optlaws")
         if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef)
     )
     many = [f"{path.name}: {node.name}" for path, node in functions if len(arguments(node)) > MOST_ARGUMENTS]

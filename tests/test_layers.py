@@ -40,7 +40,7 @@ MAY_IMPORT = {
     "numerics": BASE - {"files", "shown"},
     "laws": KNOWN,
     "synthesis": KNOWN | {"formulas", "laws"},
-    "mechanisms": KNOWN | {"formulas", "laws", "synthesis"},
+    "mechanisms": KNOWN | {"formulas", "laws", "synthesis", "motion"},
     "verification": KNOWN | {"formulas", "laws", "synthesis"},
     "motion": KNOWN | {"laws"},
     "cycles": KNOWN | {"formulas", "laws", "synthesis", "mechanisms", "motion"},

@@ -18,7 +18,7 @@ from optlaws import (
     Rise,
     Solution,
     catalogue,
-    compare,
+    compare_laws,
     pareto_front,
     smoothstep,
     synthesize,
@@ -98,7 +98,7 @@ def test_followers_show_themselves_and_their_answers() -> None:
     assert "damping ratio" in checked(Follower(20, 0.05))[1]
     assert checked(Follower(20, 1.5))[0].count("<svg") == 1
     assert "residual acceleration" in checked(Follower(20, 0.05).response(smoothstep(4)))[1]
-    assert "cycloidal" in checked(compare("modified sine", "cycloidal"))[1]
+    assert "cycloidal" in checked(compare_laws("modified sine", "cycloidal"))[1]
 
 
 def test_a_cycle_shows_its_segments_or_why_it_has_no_laws() -> None:

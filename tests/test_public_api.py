@@ -138,6 +138,46 @@ def test_every_public_callable_is_annotated() -> None:
     assert [name for name, function in functions.items() if not annotated(function)] == []
 
 
+#: what the standard library, numpy, pandas and xarray have
+OTHERS = {"Any", "Callable", "Executor", "Fraction", "Iterable", "Iterator", "Literal", "Mapping", "NDArray", "None"}
+OTHERS |= {
+    "Path",
+    "Self",
+    "Sequence",
+    "bool",
+    "class",
+    "dict",
+    "float",
+    "int",
+    "list",
+    "object",
+    "str",
+    "tuple",
+    "type",
+}
+OTHERS |= {"np.bool_", "np.complex128", "np.float64", "np.intp", "np.object_", "pd.DataFrame", "xr.Dataset"}
+
+
+def test_annotations_name_public_types() -> None:
+    """Those of optlaws itself, or of `optlaws.typing`, which has the very types that the annotations mean."""
+    unknown = {}
+    for name, function in (CALLABLES | METHODS).items():
+        room = vars(inspect.getmodule(inspect.unwrap(function)))
+        for word in words_of(function) - OTHERS - set(NAMES):
+            known = getattr(optlaws.typing, word, None)
+            if known is None or room.get(word, known) != known:
+                unknown[f"{name}: {word}"] = known
+    assert unknown == {}
+
+
+def words_of(function: Callable[..., Any]) -> set[str]:
+    """The names in the annotations of a callable, but for the words of literals."""
+    parts = inspect.signature(function)
+    texts = [parts.return_annotation, *(one.annotation for one in parts.parameters.values())]
+    plain = (re.sub(r"'[^']*'|\"[^\"]*\"|<[^>]*>", "", str(text)) for text in texts if text is not parts.empty)
+    return {word for text in plain for word in re.findall(r"[A-Za-z_][\w.]*", text)}
+
+
 def test_everything_raised_on_purpose_is_one_tree() -> None:
     found = [one for name in NAMES if inspect.isclass(one := getattr(optlaws, name)) and issubclass(one, Exception)]
     warnings = {one for one in found if issubclass(one, Warning)}

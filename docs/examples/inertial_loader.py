@@ -7,9 +7,9 @@ A second mass gives off what the first one takes up: their energies add up to on
 import numpy as np
 from matplotlib import pyplot as plt
 
-from optlaws import catalogue, loader
+from optlaws import catalogue, inertial_loader
 
-balanced = loader(catalogue["cycloidal"].law)
+balanced = inertial_loader(catalogue["cycloidal"].law)
 k = np.linspace(0.0, 1.0, 801)
 plt.plot(k, balanced.executive.b(k), label="executive link")
 plt.plot(k, balanced.law.b(k), "--", label="loader")

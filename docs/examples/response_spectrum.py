@@ -7,10 +7,10 @@ The residual of modified sine, and of a law that keeps it below 0.1 from nu = 18
 import numpy as np
 from matplotlib import pyplot as plt
 
-from optlaws import Chebyshev, Problem, at_most, catalogue, residual, response_spectrum, synthesize
+from optlaws import Chebyshev, Problem, at_most, catalogue, residual_vibration, response_spectrum, synthesize
 
 nu = np.linspace(8, 40, 2000)
-robust = synthesize(Problem(order=3, basis=Chebyshev(15), bounds={residual(nu=(18, 22)): at_most(0.1)})).law
+robust = synthesize(Problem(order=3, basis=Chebyshev(15), bounds={residual_vibration(nu=(18, 22)): at_most(0.1)})).law
 for law, name in ((catalogue["modified sine"].law, "modified sine"), (robust, "least C, residual at most 0.1")):
     plt.semilogy(nu, response_spectrum(law, nu).residual_acceleration, label=name)
 plt.ylim(1e-2, None)

@@ -7,7 +7,7 @@ __getattr__, __dir__, __all__ = face(
     {
         "optlaws.balancing.dwells.choice": "DwellComparison compare_dwell_mechanisms least_dwell",
         "optlaws.balancing.dwells.clutch": "Clutch",
-        "optlaws.balancing.dwells.mechanism": "DwellMechanism dwell_mechanism",
+        "optlaws.balancing.dwells.mechanism": "DwellMechanism DwellType dwell_mechanism",
         "optlaws.balancing.dwells.sections": "Section",
         "optlaws.balancing.levers.design": "find_torsion_levers",
         "optlaws.balancing.levers.lever": "TorsionLever",
@@ -17,7 +17,7 @@ __getattr__, __dir__, __all__ = face(
         "optlaws.balancing.loaders.constants": "B_loader C_loader D_loader",
         "optlaws.balancing.loaders.law": "LoaderLaw",
         "optlaws.balancing.loaders.limits": "loader_acceleration_limit loader_power_limit loader_velocity_limit",
-        "optlaws.balancing.loaders.loader": "Loader loader",
+        "optlaws.balancing.loaders.loader": "Loader inertial_loader",
         "optlaws.balancing.loaders.optimal": "BalancedLaw balanced_law",
         "optlaws.balancing.loaders.trapezium": "TrapeziumSubstitute closed_form_Y",
         "optlaws.balancing.machine_units.balancing": "Balancing",

@@ -4,6 +4,7 @@ from optlaws.balancing.dwells.choice import compare_dwell_mechanisms as compare_
 from optlaws.balancing.dwells.choice import least_dwell as least_dwell
 from optlaws.balancing.dwells.clutch import Clutch as Clutch
 from optlaws.balancing.dwells.mechanism import DwellMechanism as DwellMechanism
+from optlaws.balancing.dwells.mechanism import DwellType as DwellType
 from optlaws.balancing.dwells.mechanism import dwell_mechanism as dwell_mechanism
 from optlaws.balancing.dwells.sections import Section as Section
 from optlaws.balancing.levers.design import find_torsion_levers as find_torsion_levers
@@ -20,7 +21,7 @@ from optlaws.balancing.loaders.limits import loader_acceleration_limit as loader
 from optlaws.balancing.loaders.limits import loader_power_limit as loader_power_limit
 from optlaws.balancing.loaders.limits import loader_velocity_limit as loader_velocity_limit
 from optlaws.balancing.loaders.loader import Loader as Loader
-from optlaws.balancing.loaders.loader import loader as loader
+from optlaws.balancing.loaders.loader import inertial_loader as inertial_loader
 from optlaws.balancing.loaders.optimal import BalancedLaw as BalancedLaw
 from optlaws.balancing.loaders.optimal import balanced_law as balanced_law
 from optlaws.balancing.loaders.trapezium import TrapeziumSubstitute as TrapeziumSubstitute
@@ -43,6 +44,7 @@ __all__ = [
     "DwellComparison",
     "DwellMachine",
     "DwellMechanism",
+    "DwellType",
     "FourBar",
     "LeverCam",
     "LeverMotion",
@@ -57,8 +59,8 @@ __all__ = [
     "dwell_machine",
     "dwell_mechanism",
     "find_torsion_levers",
+    "inertial_loader",
     "least_dwell",
-    "loader",
     "loader_acceleration_limit",
     "loader_power_limit",
     "loader_velocity_limit",

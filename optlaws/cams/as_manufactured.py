@@ -340,7 +340,7 @@ def as_made(
     return run_against(cam, _CURVES_OF[form](outline, Cutting(tolerance, decimals, points, degree)), outside)
 
 
-def with_error(cam: DiscCam, error: Quantity, waves: Any) -> AsMade:  # noqa: ANN401 - a quantity and a number
+def with_profile_error(cam: DiscCam, error: Quantity, waves: Any) -> AsMade:  # noqa: ANN401 - a quantity and a number
     """The motion of a cam's follower if the profile is off by waves of an amplitude along its normals.
 
     Of four phases of the wave, the greatest values. A wave with n periods in a turn adds about n² times its amplitude
@@ -367,7 +367,7 @@ def with_error(cam: DiscCam, error: Quantity, waves: Any) -> AsMade:  # noqa: AN
     >>> from optlaws.cams.followers.translating_roller import TranslatingRoller
     >>> moves = [Rise("40 mm", "120 deg", law="3-4-5"), Dwell("60 deg"), Return(law="3-4-5")]
     >>> cam = DiscCam(Cycle(moves, speed="200 rpm"), base_radius="80 mm", follower=TranslatingRoller("12 mm"))
-    >>> round(with_error(cam, "0.01 mm", waves=3).acceleration_ratio, 3)
+    >>> round(with_profile_error(cam, "0.01 mm", waves=3).acceleration_ratio, 3)
     1.002
     """
     amplitude, count = positive_quantity(error, "length", "error"), whole(waves, "waves", least=1, most=_MOST_WAVES)

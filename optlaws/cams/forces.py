@@ -235,7 +235,7 @@ class CamForces:
         low, high = integral(lambda angle, order: _square(self._torque(angle, order)), self.edges, share=FORCE_EXTREMES)
         return sqrt(max(low, 0.0) / self._angle), sqrt(max(high, 0.0) / self._angle)
 
-    def to_dict(self) -> dict[str, Any]:
+    def results(self) -> dict[str, Any]:
         """Peaks with their places in degrees, and means, as plain data in SI units."""
         extremes = {name: _plain(getattr(self, name)) for name in ("contact", "torque")}
         pressed = {} if self.width is None else {"pressure": _plain(self.pressure)}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -24,6 +25,27 @@ Whole = Annotated[int, Parameter(converter=_whole)]
 Duration = Annotated[str | None, Parameter(name=("--duration", "--time"))]
 AsJson = Annotated[bool, Parameter(name="--json")]
 
+
+@Parameter(name="*")
+@dataclass(frozen=True, kw_only=True)
+class TableOptions:
+    """How a table of points is read.
+
+    Parameters
+    ----------
+    tolerance
+        Of a table of points: how far the law may be off them, in the unit of the displacements, 0 for a law through
+        them; the last digit, or what the noise of the table asks for, unless given.
+    columns
+        Of a table of more than two: those of the time or angle and of the displacement, by headings or numbers, as 1,3.
+    """
+
+    tolerance: float | None = None
+    columns: str | None = None
+
+
+WHOLE_TABLE = TableOptions()
+
 _PICTURES = (".png", ".svg")
 
 
@@ -33,12 +55,11 @@ def read_law(
     B: float | None = None,
     *,
     by: str = "",
-    tolerance: float | None = None,
-    columns: str | None = None,
+    points: TableOptions = WHOLE_TABLE,
 ) -> optlaws.MotionLaw:
     """The law of a text, as every command takes it; a family I to IV may have its member by alpha, or B, beside it.
 
-    `by` are the options that choose a member; `tolerance` and `columns` are of a table of points.
+    `by` are the options that choose a member; `points` are those of a table of points.
 
     Raises
     ------
@@ -57,7 +78,8 @@ def read_law(
         if family is not None and by:
             low, high = map(float, optlaws.SavinFamily.of(family).range)
             raise InputError(f"laws of family {family} need {by}: alpha is from {low:.9g} to {high:.9g}")
-        return reading.read_law(text, tolerance=tolerance, columns=None if columns is None else columns.split(","))
+        columns = None if points.columns is None else points.columns.split(",")
+        return reading.read_law(text, tolerance=points.tolerance, columns=columns)
     if family is None:
         raise InputError(
             f"{by} choose a member of a family I, II, III or IV, and no other takes it, got {shortened(text)}"

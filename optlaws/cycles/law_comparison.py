@@ -5,15 +5,17 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import isfinite
-from typing import Any
+from typing import Any, ClassVar, Self
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.extras import needed
+from optlaws.files.reading import JsonText, entries_of
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.catalogue.reading import read_law
 from optlaws.laws.law import motion_law
-from optlaws.mechanisms.spectrum.residual import residual
+from optlaws.mechanisms.spectrum.residual import residual_vibration
 from optlaws.motion.piece import factor, unit_of
 from optlaws.motion.quantities import either, quantity
 from optlaws.numbers import Quantity, bounded, positive
@@ -23,12 +25,13 @@ from optlaws.numerics.tolerances import AGREEMENT
 FAR = 1.5
 CONSTANTS = ("B", "C", "D", "J", "rms_c")
 _MACHINE = {1: "velocity, {}/s", 2: "acceleration, {}/s²", 3: "jerk, {}/s³"}
+_GIVEN = ("stroke", "duration", "unit", "nu", "damping")
 _PEAKS = {"D": "power", "J": "jerk"}
 
 
 @dataclass(frozen=True)
-class Comparison:
-    """Laws with their numbers, made by `compare`; a row for each law.
+class Comparison(JsonText):
+    """Laws with their numbers, made by `compare_laws`; a row for each law.
 
     Attributes
     ----------
@@ -43,11 +46,13 @@ class Comparison:
 
     Examples
     --------
-    >>> from optlaws import compare
-    >>> comparison = compare("modified sine", "cycloidal")
+    >>> from optlaws import compare_laws
+    >>> comparison = compare_laws("modified sine", "cycloidal")
     >>> [row["law"] for row in comparison.rows], [round(row["C"], 4) for row in comparison.rows]
     (['modified sine', 'cycloidal'], [5.528, 6.2832])
     """
+
+    _json_name: ClassVar[str] = "a comparison"
 
     laws: Mapping[str, MotionLaw]
     stroke: float | None = None
@@ -73,12 +78,33 @@ class Comparison:
         )
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain JSON-able dict; None where a peak has no bound."""
+        """Plain JSON-able dict; None where a peak has no bound. Rows and remarks follow from the rest."""
         rows = [
             {key: value if isinstance(value, str) else bounded(value) for key, value in row.items()}
             for row in self.rows
         ]
-        return {"rows": rows, "remarks": list(self.remarks)}
+        given = {name: getattr(self, name) for name in _GIVEN}
+        laws = {name: law.to_dict() for name, law in self.laws.items()}
+        return {"rows": rows, "remarks": list(self.remarks), "laws": laws, **given}
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> Self:
+        """The comparison that `to_dict` described; rows and remarks are computed, not read.
+
+        Raises
+        ------
+        InputError
+            If an entry is missing or wrong.
+        """
+        given = entries_of(data, ("laws", *_GIVEN), cls._json_name)
+        laws = given.pop("laws")
+        if not isinstance(laws, Mapping):
+            raise InputError(f"the laws of a comparison must be a table, got {shortened(laws)}")
+        if isinstance(given["nu"], list):
+            given["nu"] = tuple(given["nu"])
+        comparison = cls({name: MotionLaw.from_dict(law) for name, law in laws.items()}, **given)
+        comparison.rows  # noqa: B018 - what is wrong is refused at once
+        return comparison
 
     def to_pandas(self) -> Any:  # noqa: ANN401 - pandas is imported here alone
         """The rows as a data frame with the laws' names as index; needs the extra `optlaws[studies]`."""
@@ -109,11 +135,11 @@ class Comparison:
                 for nu, text in _MACHINE.items()
             }
         if self.nu is not None:
-            row["residual"] = residual(nu=self.nu, damping=self.damping).value(law)
+            row["residual"] = residual_vibration(nu=self.nu, damping=self.damping).value(law)
         return row
 
 
-def compare(
+def compare_laws(
     *laws: Any,  # noqa: ANN401 - whatever names or has a law
     stroke: Quantity | None = None,
     duration: Quantity | None = None,
@@ -141,7 +167,7 @@ def compare(
 
     Examples
     --------
-    >>> comparison = compare("modified sine", "cycloidal", stroke="35 mm", duration="0.1 s", nu=20)
+    >>> comparison = compare_laws("modified sine", "cycloidal", stroke="35 mm", duration="0.1 s", nu=20)
     >>> [round(row["acceleration, m/s²"], 3) for row in comparison.rows]
     [19.348, 21.991]
     """
@@ -154,7 +180,7 @@ def compare(
     if height is not None:
         positive(height, "stroke")
     if nu is not None:
-        residual(nu=nu, damping=damping)
+        residual_vibration(nu=nu, damping=damping)
     named: dict[str, MotionLaw] = {}
     for place, given_law in enumerate(laws, 1):
         name, law = _named(given_law, place)
@@ -180,7 +206,7 @@ def costs(
         for letter in _PEAKS
     }
     if nu is not None:
-        of = residual(nu=nu, damping=damping)
+        of = residual_vibration(nu=nu, damping=damping)
         values["a residual acceleration of "] = of.value(law), of.value(reference)
     return [_cost(what, value, other, name) for what, (value, other) in values.items() if value > FAR * other]
 

@@ -100,14 +100,14 @@ class MachineAnswer:
         """Amplitude of its acceleration."""
         return self._sized(self.response.residual_acceleration, 2)
 
-    def to_dict(self) -> dict[str, Any]:
+    def results(self) -> dict[str, Any]:
         """Plain JSON-able dict, the units in the names.
 
         Examples
         --------
         >>> from optlaws import smoothstep
         >>> machine = machine_follower(period="60 ms", duration="0.2 s", stroke="35 mm")
-        >>> list(machine.response(smoothstep(4)).to_dict())[:3]
+        >>> list(machine.response(smoothstep(4)).results())[:3]
         ['stroke, m', 'time, s', 'dynamic factor']
         """
         unit = self.machine.unit

@@ -19,8 +19,8 @@ from optlaws import (
     Status,
     at_most,
     catalogue,
-    each,
     limit,
+    map_arrays,
     synthesize_array,
 )
 from optlaws.errors import InputError, OptlawsError
@@ -121,7 +121,7 @@ def _span(problem: Problem, x: str) -> tuple[float, float] | None:
 def along(problem: Problem, x: str, values: Any) -> SolutionArray:  # noqa: ANN401 - an array
     """The laws of a problem whose constant x takes many values: B as it is, the others as their greatest."""
     entries = {name: getattr(problem, name) for name in problem.__dataclass_fields__}
-    entries[x] = values if x == "B" else each(at_most, values)
+    entries[x] = values if x == "B" else map_arrays(at_most, values)
     return synthesize_array(ProblemArray(**entries))
 
 

@@ -12,7 +12,7 @@ from typing import Annotated, Any
 import msgspec
 import numpy as np
 
-from optlaws import Chebyshev, MotionLaw, Peak, Problem, Solution, Status, residual, response_spectrum
+from optlaws import Chebyshev, MotionLaw, Peak, Problem, Solution, Status, residual_vibration, response_spectrum
 from optlaws.errors import InfeasibleProblem, OptlawsError, SolverFailure
 from optlaws.explorer.requests import (
     MOST_DEGREE,
@@ -303,5 +303,5 @@ def _spectrum(request: LawRequest, nu: Any, follower: ResidualRequest) -> dict[s
     except OptlawsError:  # the view of the law says why
         return None
     values = response_spectrum(law, nu, follower.damping).residual_acceleration
-    here = residual(nu=follower.nu, damping=follower.damping).value(law)
+    here = residual_vibration(nu=follower.nu, damping=follower.damping).value(law)
     return {"values": drawn(values), "value": here, "text": digits(here, 6)}

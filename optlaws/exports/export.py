@@ -83,7 +83,7 @@ class Export:
         """Write the file, whole or not at all; one that is there and says something else is kept as NAME.orig."""
         return writing.write_any(Path(file), self.text)
 
-    def to_dict(self) -> dict[str, Any]:
+    def results(self) -> dict[str, Any]:
         """The export as plain data: everything but the text."""
         written = self.written
         return {
@@ -95,7 +95,7 @@ class Export:
             "notes": [*self.motion.proof, *written.notes],
             "units": {"master": self.motion.units.master, "slave": self.motion.units.slave},
             "IsPeriodic": self.motion.repeats,
-            **self.report.to_dict(),
+            **self.report.results(),
             "task": None
             if self.task is None
             else {"seconds": self.task.seconds, "acceleration": self.task.acceleration},

@@ -57,7 +57,7 @@ class Characteristics:
             return inf
         return max(abs(self.least[nu].value), abs(self.greatest[nu].value))
 
-    def to_dict(self) -> dict[str, Any]:
+    def results(self) -> dict[str, Any]:
         """The characteristics by TwinCAT's names, as plain data; what is infinite is null."""
         data: dict[str, Any] = {"StartPoint": _point(self.start), "EndPoint": _point(self.end)}
         for side, extremes in (("Min", self.least), ("Max", self.greatest)):
@@ -110,12 +110,12 @@ class Report:
         whole = self.law.peak(nu)
         return self.run.peak(nu) / whole if whole > 0.0 and isfinite(whole) else nan
 
-    def to_dict(self) -> dict[str, Any]:
+    def results(self) -> dict[str, Any]:
         """The report as plain data; what is infinite or unknown is null."""
         return {
             "NominalMasterVelocity": self.rate,
-            "run": self.run.to_dict(),
-            "law": self.law.to_dict(),
+            "run": self.run.results(),
+            "law": self.law.results(),
             "ratio": {name: _known(self.ratio(nu)) for nu, name in enumerate(QUANTITIES) if nu},
             "deviation": {
                 name: {"MasterPosition": extreme.x, f"Slave{name}": _known(extreme.value)}

@@ -11,7 +11,7 @@ import json
 import os
 import stat
 from codecs import BOM_UTF16_BE, BOM_UTF16_LE
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, ClassVar, Self
 
@@ -98,6 +98,27 @@ def json_text(content: Any, name: str) -> Any:  # noqa: ANN401 - it is checked h
     return checked(parsed(content, name), name)
 
 
+def entries_of(data: Any, names: Iterable[str], what: str) -> dict[str, Any]:  # noqa: ANN401 - it is checked here
+    """The named entries of a stored value, from which the others follow; `what` is what an error calls it.
+
+    Raises
+    ------
+    InputError
+        If it is no table, or one is missing.
+
+    Examples
+    --------
+    >>> entries_of({"law": {}, "B": 1.5}, ["B"], "a loader")
+    {'B': 1.5}
+    """
+    if not isinstance(data, Mapping):
+        raise InputError(f"{what} must be a table, got {shortened(data)}")
+    missing = [name for name in names if name not in data]
+    if missing:
+        raise InputError(f"{what} needs {', '.join(missing)}")
+    return {name: data[name] for name in names}
+
+
 class JsonText:
     """Values with `to_dict` and `from_dict`, as JSON text too.
 
@@ -107,6 +128,8 @@ class JsonText:
     >>> MotionLaw.from_json(smoothstep(4).to_json()) == smoothstep(4)
     True
     """
+
+    __slots__ = ()
 
     #: what an error calls the text, and how it is laid out
     _json_name: ClassVar[str] = "a stored value"

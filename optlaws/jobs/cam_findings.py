@@ -11,7 +11,7 @@ from typing import Any
 import msgspec
 import numpy as np
 
-from optlaws.cams.as_manufactured import AsMade, UnreachedProfileError, as_made, with_error
+from optlaws.cams.as_manufactured import AsMade, UnreachedProfileError, as_made, with_profile_error
 from optlaws.cams.best_laws import BestBaseCircle
 from optlaws.cams.curves.extremes import EnclosedExtreme
 from optlaws.cams.disc import DiscCam
@@ -118,14 +118,16 @@ class Findings:
                 peaks_by_name[name] = _tried(partial(as_made, cam, "csv", **table))
         error = options.error or ""
         for waves in options.waves if error else ():
-            peaks_by_name[f"error of {error}, {waves} waves a turn"] = _tried(partial(with_error, cam, error, waves))
+            peaks_by_name[f"error of {error}, {waves} waves a turn"] = _tried(
+                partial(with_profile_error, cam, error, waves)
+            )
         return peaks_by_name
 
     def to_data(self) -> dict[str, Any]:
         """Sizes, forces, the spring and peaks as manufactured as data for programs, in SI units."""
         data: dict[str, Any] = {}
         if self.forces is not None:
-            data["forces"] = self.forces.to_dict()
+            data["forces"] = self.forces.results()
         if self.spring is not None:
             data["spring"] = self.spring.to_dict()
         if self.as_made:

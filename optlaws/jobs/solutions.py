@@ -19,7 +19,7 @@ from optlaws.results import printed
 from optlaws.results.results import Results
 from optlaws.studies.problem_entries import EntryLists, ProblemEntries, Some, gap, problem, record, shown
 from optlaws.suggest import unknown_key
-from optlaws.synthesis import FUNCTIONALS, Certificate, Problem, Solution, synthesize
+from optlaws.synthesis import FUNCTIONALS, Certificate, Problem, Solution, Status, synthesize
 from optlaws.synthesis.problem.fields import ENTRIES
 
 RESULTS = ("objective", "lower bound", "gap", "limit", "above limit, %", "status")
@@ -62,7 +62,7 @@ class SolvedRow:
     stated: Problem
     solution: Solution | None
     others: tuple[Solution | None, ...]
-    status: str
+    status: Status
     proof: Certificate | None
 
 
@@ -112,15 +112,15 @@ def _problems(spec: SolutionsProblemFile, number: int, entries: Mapping[str, Any
 def _solved(
     spec: SolutionsProblemFile, entries: Mapping[str, Any], stated: Problem, others: Sequence[Problem]
 ) -> SolvedRow:
-    status = "infeasible"
+    status = Status.INFEASIBLE
     solution, proof = None, None
     try:
         solution = synthesize(stated, bound=spec.bound)
-        status = solution.status.value
+        status = solution.status
     except InfeasibleProblem as error:
         proof = error.proof if isinstance(error.proof, Certificate) and error.proof.problem == stated else None
     except SolverFailure:
-        status = "not found"
+        status = Status.FAILED
     return SolvedRow(entries, stated, solution, tuple(_tried(rival) for rival in others), status, proof)
 
 

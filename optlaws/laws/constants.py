@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from math import inf
+from typing import Any, ClassVar, Self
 
-from optlaws.numbers import bounded
+from optlaws.files.reading import JsonText, entries_of
+from optlaws.numbers import bounded, finite
 from optlaws.numerics.peaks import Peak
 from optlaws.shown.summary import Row, Summary
 
 
 @dataclass(frozen=True, slots=True)
-class Constants:
+class Constants(JsonText):
     """The constants of a law, dimensionless.
 
     Attributes
@@ -27,14 +31,16 @@ class Constants:
     Peak(value=6.0, k=0.0)
     """
 
+    _json_name: ClassVar[str] = "constants"
+
     B: Peak
     C: Peak
     D: Peak
     J: Peak
     rms_c: float
 
-    def to_dict(self, *, rms: bool = False) -> dict[str, dict[str, float | None] | float | None]:
-        """B, C, D, J as {"value": ..., "k": ...}; rms_c too where `rms`; None where a value has no bound.
+    def to_dict(self, *, rms: bool = True) -> dict[str, dict[str, float | None] | float | None]:
+        """B, C, D, J as {"value": ..., "k": ...}; rms_c too unless `rms` is False; None where a value has no bound.
 
         Examples
         --------
@@ -51,6 +57,18 @@ class Constants:
         if rms:
             table["rms_c"] = bounded(self.rms_c)
         return table
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> Self:
+        """The constants that `to_dict` described, all five of them.
+
+        Raises
+        ------
+        InputError
+            If an entry is missing or no number.
+        """
+        *peaks, rms_c = entries_of(data, ("B", "C", "D", "J", "rms_c"), cls._json_name).values()
+        return cls(*map(Peak.from_dict, peaks), inf if rms_c is None else finite(rms_c, "rms_c"))
 
     def summary(self) -> Summary:
         """The peaks with their places, and the root mean square of c, as rows.

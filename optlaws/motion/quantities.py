@@ -156,6 +156,22 @@ def either(value: Any, dimensions: tuple[str, ...], name: str) -> tuple[str, flo
     raise InputError(f"{name} must be {kinds}, but {shortened(value)} is {_kind(unit)}")
 
 
+def si_number(value: Any, dimensions: tuple[str, ...], name: str) -> Any:  # noqa: ANN401 - what is none is checked later
+    """A quantity of one of several dimensions as a float in SI units; what has no unit, as a bare number, as it is.
+
+    Raises
+    ------
+    InputError
+        If it is a text or a quantity of pint and of none of them.
+
+    Examples
+    --------
+    >>> si_number("60 deg", ("angle",), "swing"), si_number(1.5, ("angle",), "swing")
+    (1.047198, 1.5)
+    """
+    return either(value, dimensions, name)[1] if isinstance(value, str) or hasattr(value, "units") else value
+
+
 def table(entries: Any, name: str, example: str) -> Mapping[str, Any]:  # noqa: ANN401 - it is checked here
     """Entries by name, as limits and drives are given.
 

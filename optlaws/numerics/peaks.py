@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from math import inf
+from typing import Any, ClassVar, Self
 
 import numpy as np
 
-from optlaws.numbers import Array, bounded
+from optlaws.files.reading import JsonText, entries_of
+from optlaws.numbers import Array, bounded, finite
 from optlaws.numerics.tolerances import POLISHED, POLISHING_REACH, TIE
 
 POLISH_STEPS = 3
 
 
 @dataclass(frozen=True, slots=True)
-class Peak:
+class Peak(JsonText):
     """An extreme value and the smallest k at which it is reached, both dimensionless.
 
     Examples
@@ -23,6 +25,8 @@ class Peak:
     >>> Peak(1.875, 0.5)
     Peak(value=1.875, k=0.5)
     """
+
+    _json_name: ClassVar[str] = "a peak"
 
     value: float
     k: float
@@ -38,6 +42,18 @@ class Peak:
         {'value': None, 'k': 0.0}
         """
         return {"value": bounded(self.value), "k": self.k}
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> Self:
+        """The peak that `to_dict` described.
+
+        Raises
+        ------
+        InputError
+            If an entry is missing or no number.
+        """
+        value, k = entries_of(data, ("value", "k"), cls._json_name).values()
+        return cls(inf if value is None else finite(value, "value"), finite(k, "k"))
 
 
 def highest(k: Array, values: Array, tie: float) -> Peak:

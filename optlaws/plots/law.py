@@ -196,7 +196,7 @@ def marks(problem: Problem) -> Iterator[Mark]:
             yield Mark(nu, sign * bounds.high, 0.0, 1.0, f"{name} at most {bounds.high:.6g}")
     for window in problem.windows:
         for value in {window.low, window.high} - {inf, -inf}:
-            yield Mark(window.order, value, window.start, window.stop, "window")
+            yield Mark(window.nu, value, window.start, window.stop, "window")
 
 
 def draw_solution(

@@ -13,22 +13,20 @@ import msgspec
 import numpy as np
 
 from optlaws.echo import cut
-from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
+from optlaws.errors import InfeasibleProblem, OptlawsError, SolverFailure
 from optlaws.files.problem_file import typed
 from optlaws.numbers import bounded
 from optlaws.studies.points import key, keys_along
 from optlaws.studies.specification import entries
 from optlaws.studies.tables import CONSTANTS, StudyPoint
-from optlaws.synthesis import Problem, ProblemArray, Solution, SolutionArray, synthesize
+from optlaws.synthesis import Problem, ProblemArray, Solution, SolutionArray, Status, synthesize
 from optlaws.synthesis.arrays.lines import least_count, lines_of
 from optlaws.synthesis.arrays.powers import least_power
 from optlaws.synthesis.problem.constants import meant
 from optlaws.synthesis.problem.fields import from_entries
+from optlaws.synthesis.solve import Bound
 from optlaws.synthesis.solve_many import solved
 
-INFEASIBLE, WRONG_INPUT, NOT_FOUND = "infeasible", "wrong input", "not found"
-TIME_LIMIT, DIED, ERROR = "time limit", "worker died", "error"
-STATUSES = ("optimal", "local", "inaccurate", INFEASIBLE, NOT_FOUND, WRONG_INPUT, TIME_LIMIT, DIED, ERROR)
 #: numbers of a row that the solutions of an array have as arrays
 _NUMBERS = ("objective", "lower_bound", "gap", "limit", *CONSTANTS)
 #: of the points of a run: so many must be on lines, else each is solved from the one before it
@@ -45,7 +43,7 @@ class Task(msgspec.Struct, kw_only=True):
     chunk: int
     problem: dict[str, Any]
     points: list[tuple[int, dict[str, Any]]]
-    bound: str = "quick"
+    bound: Bound = "quick"
     time_limit: float = 60.0
     imports: list[str] = []
     alone: bool = False
@@ -72,7 +70,7 @@ def blocks(task: Task, begin: int = 0) -> Iterator[list[bytes]]:
             yield from _in_turn(task, run)
 
 
-def failed(task: Task, place: int, status: str, error: str, seconds: float) -> bytes:
+def failed(task: Task, place: int, status: Status, error: str, seconds: float) -> bytes:
     """The row of a point that did not come back."""
     return _row(task, *task.points[place], {"status": status, "error": cut(error), "seconds": seconds})
 
@@ -110,7 +108,7 @@ def _of_solution(solution: Solution) -> dict[str, Any]:
     """The results of a point with a law."""
     constants = solution.constants
     return {
-        "status": solution.status.value,
+        "status": solution.status,
         "objective": solution.objective,
         "lower_bound": bounded(solution.lower_bound),
         "gap": bounded(solution.gap),
@@ -124,15 +122,10 @@ def _of_solution(solution: Solution) -> dict[str, Any]:
 
 def _of_error(error: Exception) -> dict[str, Any]:
     """The results of a point without a law."""
-    if isinstance(error, InfeasibleProblem):
-        status, text = INFEASIBLE, error.args[0]
-    elif isinstance(error, SolverFailure):
-        status, text = NOT_FOUND, error.args[0]
-    elif isinstance(error, InputError):
-        status, text = WRONG_INPUT, str(error)
-    else:
-        status, text = ERROR, f"{type(error).__name__}: {error}"
-    return {"status": status, "error": cut(text)}
+    if not isinstance(error, OptlawsError):
+        return {"status": Status.ERROR, "error": cut(f"{type(error).__name__}: {error}")}
+    text = error.args[0] if isinstance(error, InfeasibleProblem | SolverFailure) else str(error)
+    return {"status": Status.of(error), "error": cut(text)}
 
 
 def _raw(law: object) -> msgspec.Raw:
@@ -184,7 +177,7 @@ def _as_array(task: Task, run: Run) -> list[bytes] | None:
     ]
 
 
-def solved_rows(problems: ProblemArray, bound: str) -> list[dict[str, Any]]:
+def solved_rows(problems: ProblemArray, bound: Bound) -> list[dict[str, Any]]:
     """The results of each point of an array."""
     with meant():
         return _of_solutions(solved(problems, bound=bound))
@@ -222,7 +215,7 @@ def along_B(base: Mapping[str, Any], run: Run) -> bool:
     return all({name: value for name, value in inputs.items() if name != "B"} == others for _, inputs in run)
 
 
-def array_along_B(base: Mapping[str, Any], run: Run, bound: str) -> ProblemArray | None:
+def array_along_B(base: Mapping[str, Any], run: Run, bound: Bound) -> ProblemArray | None:
     """The problems of a run along B as one array; None where they are none or are better solved in turn."""
     try:
         fields = from_entries(entries(base, {**run[0][1], "B": 2.0}))
@@ -242,7 +235,7 @@ def _tuples(value: Any) -> Any:  # noqa: ANN401
     return tuple(value) if isinstance(value, list) else value
 
 
-def array_of(base: Mapping[str, Any], run: Run, bound: str) -> ProblemArray | None:
+def array_of(base: Mapping[str, Any], run: Run, bound: Bound) -> ProblemArray | None:
     """The problems of a run in which several numbers vary; None unless all are problems, most of them on lines.
 
     Examples

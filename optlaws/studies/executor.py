@@ -25,8 +25,9 @@ import msgspec
 
 from optlaws.errors import SolverFailure
 from optlaws.files.problem_file import typed
-from optlaws.studies.chunk import DIED, TIME_LIMIT, Task, failed, in_process
+from optlaws.studies.chunk import Task, failed, in_process
 from optlaws.studies.worker import DONE, ERROR, READY
+from optlaws.synthesis import Status
 
 #: how often a point may lose its process before the point itself is blamed
 STRIKES = 3
@@ -158,9 +159,9 @@ class Processes:
                 task, strikes = msgspec.structs.replace(task, alone=True), Counter()
                 continue
             if lost.late:
-                row = failed(task, place, TIME_LIMIT, f"no answer within {task.time_limit:g} s", task.time_limit)
+                row = failed(task, place, Status.TIME_LIMIT, f"no answer within {task.time_limit:g} s", task.time_limit)
             else:
-                row = failed(task, place, DIED, f"its process died {STRIKES} times: {lost}", 0.0)
+                row = failed(task, place, Status.DIED, f"its process died {STRIKES} times: {lost}", 0.0)
             rows.append(row)
             begin = len(rows)
         return rows

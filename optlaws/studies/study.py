@@ -14,11 +14,11 @@ from optlaws.errors import InputError
 from optlaws.extras import needed
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
-from optlaws.studies.chunk import STATUSES
 from optlaws.studies.points import StudyPoints
 from optlaws.studies.store import GROUP, Chunks, StudyDirectory
 from optlaws.studies.tables import CONSTANTS, StudyPoint, arrow, dataset, row_of, schema
 from optlaws.suggest import unknown_key
+from optlaws.synthesis import Status
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -69,13 +69,16 @@ class Study:
         return points
 
     @property
-    def counts(self) -> dict[str, int]:
+    def counts(self) -> dict[Status, int]:
         """How many points are done, by status."""
         if self._tabled:
             counts = Counter(self._parquet().read(columns=["status"])["status"].to_pylist())
         else:
             counts = self._chunks().counts
-        return {status: counts[status] for status in STATUSES if counts[status]}
+        known = Counter[Status]()
+        for word, count in counts.items():
+            known[Status(word)] += count
+        return {status: known[status] for status in Status if known[status]}
 
     @property
     def finished(self) -> bool:

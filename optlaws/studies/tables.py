@@ -14,7 +14,7 @@ from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.studies.points import StudyPoints, kind_of
 from optlaws.studies.specification import entries
-from optlaws.synthesis import Problem
+from optlaws.synthesis import Problem, Status
 from optlaws.synthesis.problem.fields import Kind
 
 if TYPE_CHECKING:
@@ -41,8 +41,7 @@ class StudyPoint(msgspec.Struct, kw_only=True, omit_defaults=True, dict=True):
     problem
         The whole problem; InputError where the point asks for none.
     status
-        "optimal", "local" or "inaccurate" where there is a law (see `Status`); otherwise "infeasible", "not found",
-        "wrong input", "time limit", "worker died" or "error", and `error` says more.
+        How far the law can be trusted or, where there is none, why; `error` says more.
     objective, lower_bound, gap, limit
         As in `Solution`; None where there is no law.
     constants
@@ -56,7 +55,7 @@ class StudyPoint(msgspec.Struct, kw_only=True, omit_defaults=True, dict=True):
     index: int
     key: str
     inputs: dict[str, Any]
-    status: str = ""
+    status: Status = Status.ERROR
     objective: float | None = None
     lower_bound: float | None = None
     gap: float | None = None
@@ -89,14 +88,16 @@ class StudyPoint(msgspec.Struct, kw_only=True, omit_defaults=True, dict=True):
         return Problem.from_dict(entries(self.shared, self.inputs))
 
     def __repr__(self) -> str:
-        return f"StudyPoint(index={self.index}, inputs={self.inputs}, status={self.status!r})"
+        return f"StudyPoint(index={self.index}, inputs={self.inputs}, status={self.status.value!r})"
 
 
 def row_of(line: Mapping[str, Any], inputs: dict[str, Any]) -> StudyPoint:
     """The row that a line of the Parquet file was."""
     results = {name: line[name] for name in (*NUMBERS, *OTHERS) if name in line}
-    law = results.pop("law")
-    return StudyPoint(**results, inputs=inputs, stored=NO_LAW if law is None else msgspec.Raw(law.encode()))
+    law, status = results.pop("law"), Status(results.pop("status"))
+    return StudyPoint(
+        **results, status=status, inputs=inputs, stored=NO_LAW if law is None else msgspec.Raw(law.encode())
+    )
 
 
 def column(name: str) -> str:

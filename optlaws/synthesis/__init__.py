@@ -5,7 +5,7 @@ from optlaws.lazy import face
 __getattr__, __dir__, __all__ = face(
     __name__,
     {
-        "optlaws.synthesis.arrays.problems": "ProblemArray each",
+        "optlaws.synthesis.arrays.problems": "ProblemArray map_arrays",
         "optlaws.synthesis.limits.closed_forms": "acceleration_limit limit",
         "optlaws.synthesis.limits.laws": "limit_law",
         "optlaws.synthesis.pareto": "Front pareto_front",
@@ -24,7 +24,7 @@ __getattr__, __dir__, __all__ = face(
         "optlaws.synthesis.solution_array": "SolutionArray",
         "optlaws.synthesis.solve_many": "sweep synthesize_array synthesize_chunks synthesize_many",
         "optlaws.synthesis.spaces.bases": "Basis Bernstein Chebyshev Pieces PolynomialBasis Powers basis",
-        "optlaws.synthesis.spaces.end_conditions": "BoundaryConditions construct",
+        "optlaws.synthesis.spaces.end_conditions": "BoundaryConditions law_from_z",
         "optlaws.synthesis.spaces.splines": "BSplines PiecewiseBasis",
     },
 )

@@ -53,7 +53,7 @@ from optlaws.synthesis.spaces.bases import PolynomialBasis as PolynomialBasis
 from optlaws.synthesis.spaces.bases import Powers as Powers
 from optlaws.synthesis.spaces.bases import basis as basis
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions as BoundaryConditions
-from optlaws.synthesis.spaces.end_conditions import construct as construct
+from optlaws.synthesis.spaces.end_conditions import law_from_z as law_from_z
 from optlaws.synthesis.spaces.splines import BSplines as BSplines
 from optlaws.synthesis.spaces.splines import PiecewiseBasis as PiecewiseBasis
 
@@ -98,11 +98,11 @@ __all__ = [
     "at_most",
     "basis",
     "between",
-    "construct",
-    "each",
     "jounce",
+    "law_from_z",
     "limit",
     "limit_law",
+    "map_arrays",
     "maximum",
     "pareto_front",
     "proven_front",

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from math import inf, log2, sqrt
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.echo import shortened
-from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
+from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
 from optlaws.extras import needed
+from optlaws.files.reading import JsonText
 from optlaws.kept import kept_property
 from optlaws.laws import PolynomialLaw
 from optlaws.numbers import Array, real, whole
@@ -28,7 +29,7 @@ from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
 from optlaws.synthesis.program.writer import extreme_velocity
 from optlaws.synthesis.solution import Solution, Status
-from optlaws.synthesis.solve import synthesize
+from optlaws.synthesis.solve import Bound, check_bound, synthesize
 from optlaws.synthesis.solve_many import SolvedLine
 
 _OF_POINTS = ("lower bound", "gap", "limit", "status")
@@ -44,7 +45,7 @@ IN_ARRAYS = ("B", "C", "D", "J", "rms_c")
 
 
 @dataclass(frozen=True)
-class Front:
+class Front(JsonText):
     """Laws of which none is better in every constant: each the best of its own problem.
 
     Attributes
@@ -53,8 +54,8 @@ class Front:
         The constants exchanged; the last is minimised, the others are given.
     points
         The solutions, by ascending values of the first constant.
-    failed
-        Values of the first constant at which the solver found no law.
+    errors
+        Why there is no law, by values of the first constant.
 
     Examples
     --------
@@ -67,9 +68,16 @@ class Front:
     ((5, 2), True)
     """
 
+    _json_name: ClassVar[str] = "a front"
+
     over: tuple[str, ...]
     points: tuple[Solution, ...]
-    failed: tuple[float, ...] = ()
+    errors: Mapping[float, OptlawsError] = field(default_factory=dict, repr=False, compare=False)
+
+    @property
+    def failed(self) -> tuple[float, ...]:
+        """Values of the first constant at which no law was found, ascending."""
+        return tuple(sorted(self.errors))
 
     @kept_property
     def values(self) -> Array:
@@ -120,14 +128,50 @@ class Front:
 
         return pd.DataFrame(self.rows, columns=list(self.headings))
 
+    def to_xarray(self) -> Any:  # noqa: ANN401 - xarray is imported here alone
+        """The rows as a dataset along the points, with the coordinates of the exchanged constants; needs xarray.
+
+        Examples
+        --------
+        >>> from optlaws.synthesis import Problem
+        >>> from optlaws.synthesis.pareto import pareto_front
+        >>> front = pareto_front(Problem(order=4), over=("B", "C"), points=3, between=(1.5, 1.8))
+        >>> front.to_xarray().C.sel(B=1.8, method="nearest").round(4).item()
+        4.6958
+        """
+        needed("xarray", "to_xarray")
+        import xarray as xr
+
+        first, *others = map(title_of, self.over)
+        columns = dict(zip(self.headings, zip(*self.rows, strict=True), strict=True))
+        data = {name: (first, list(values)) for name, values in columns.items() if name != first}
+        exchanged = {name: data.pop(name) for name in others[:-1]}
+        return xr.Dataset(data, {first: list(columns[first]), **exchanged})
+
     def to_dict(self) -> dict[str, Any]:
-        """Plain JSON-able dict with every solution whole."""
+        """Plain JSON-able dict with every solution whole: `optlaws verify` checks it, `from_dict` reads it again."""
+        from optlaws.synthesis.stored_solutions import plain_error
+
         return {
             "over": list(self.over),
             "values": self.values.tolist(),
             "points": [point.to_dict() for point in self.points],
             "failed": list(self.failed),
+            "errors": [plain_error(self.errors[value]) for value in self.failed],
         }
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> Front:
+        """Read what `to_dict` wrote; constants are computed from the laws and held against the values.
+
+        Raises
+        ------
+        InputError
+            If an entry is missing or wrong, or one states what does not follow from problems, laws and proofs.
+        """
+        from optlaws.synthesis.stored_solutions import read_front
+
+        return read_front(data)
 
     def __len__(self) -> int:
         return len(self.points)
@@ -226,6 +270,8 @@ _ABOVE = (1e-5, 1e-7, 1e-9)
 _BENT = 2.0
 #: from so many points on those of convex problems are put in many at a time, where they are a quarter as wanted as any
 _MANY, _SHARE, _EVEN = 100, 0.25, 4
+#: where laws are worse than others, so many times as many are looked for at most
+_AGAIN = 2
 
 
 def pareto_front(
@@ -234,12 +280,14 @@ def pareto_front(
     *,
     points: int = 50,
     between: tuple[float, float] | None = None,
+    bound: Bound = "quick",
 ) -> Front:
     """Laws that exchange two or three constants for one another, from the least of the first to the least of the last.
 
     With over=("B", "C") each law has the least C at its B; with over=("C", "D") the least D among laws of at most
     its C. Points lie evenly along the curve in logarithms of the constants, closer where it bends. Where the problem
-    is convex every point is the optimum of its problem; with D no worse than a single `synthesize` of it.
+    is convex every point is the optimum of its problem; with D no worse than a single `synthesize` of it. Points ascend
+    in the first constant; none is better than another in all of them.
 
     Parameters
     ----------
@@ -249,17 +297,19 @@ def pareto_front(
         Two or three constants, by their names or themselves: B, C, D, J, or any that can be minimised and bounded,
         such as "peak(c + 0.2*b)", "residual(nu=20)" or `machine.peak("torque")`.
     points
-        How many laws; fewer where some are no better than others in any constant, or with three constants.
+        How many laws; fewer where nothing is exchanged, laws are not found, or with three constants.
     between
         Least and greatest value of the first constant; where it pays unless given. Beyond the value that the law of
         least last constant has, both constants get worse, so no points lie there.
+    bound
+        As of `synthesize`: "tight" proves the points of fronts with D, too, in up to some seconds each.
 
     Raises
     ------
     InputError
         If the constants are unknown, repeated or already given by the problem, or nothing is left between the values.
     InfeasibleProblem, SolverFailure
-        If no law of an end of the front exists or is found.
+        If no law of an end of the front exists or is found. Why there is none between is in `errors` of the front.
 
     Examples
     --------
@@ -269,9 +319,10 @@ def pareto_front(
     """
     names = _checked(problem, over, between)
     count = whole(points, "points", least=2)
+    check_bound(bound)
     if len(names) == 2:
-        return _Curve(problem, names, between).grow(count)
-    return _surface(problem, names, count, between)
+        return _Curve(problem, names, between, bound).grow(count)
+    return _surface(problem, names, count, between, bound)
 
 
 def where_it_pays(problem: Problem, over: tuple[str, str]) -> tuple[float, float]:
@@ -283,14 +334,21 @@ def where_it_pays(problem: Problem, over: tuple[str, str]) -> tuple[float, float
 class _Curve:
     """The front of two constants while it grows: solutions by the asked value of the first."""
 
-    def __init__(self, problem: Problem, over: tuple[str, ...], between: tuple[float, float] | None) -> None:
-        self.problem = replace(problem, minimise=over[1])
-        self.over = over
-        self.failed: list[float] = []
+    def __init__(
+        self,
+        problem: Problem,
+        over: tuple[str, ...],
+        between: tuple[float, float] | None,
+        bound: Bound = "quick",
+    ) -> None:
+        self.problem, self.over, self.bound = replace(problem, minimise=over[1]), over, bound
+        self.errors: dict[float, OptlawsError] = {}
+        #: first values of the stretches in which no law was found
+        self._dead: set[float] = set()
         #: constants of laws that were found many at a time, by the asked value of the first
         self._values: dict[float, Sequence[float]] = {}
         low, high = between if between is not None else (0.0, inf)
-        best = synthesize(_with(self.problem, over[0], Range(1.0 if over[0] == "B" else 0.0, inf)))
+        best = self._best(_with(self.problem, over[0], Range(1.0 if over[0] == "B" else 0.0, inf)))
         pays = value_of(best, over[0])
         if low >= pays * (1.0 - AGREEMENT):
             raise InputError(
@@ -299,27 +357,40 @@ class _Curve:
         self.points = [self._first(low, pays), self._last(best, pays, high)]
 
     def grow(self, count: int) -> Front:
-        """Put a point into the stretch that wants one most, and so on."""
-        dead: set[float] = set()
+        """Put a point into the stretch that wants one most, and so on, until so many are no worse than others."""
         if count >= _MANY and self._problem(self.points[0][0]).convex:
             self._grow_together(count)
         with Steps(f"least {self.over[1]} over {self.over[0]}", count) as steps:
-            while len(self.points) < count:
-                widths = [0.0 if self.points[i][0] in dead else width for i, width in enumerate(self._widths())]
-                i = int(np.argmax(widths))
-                if widths[i] < AGREEMENT:
+            kept: list[Solution] = []
+            sought = count
+            while len(kept) < count:
+                while len(self.points) < sought and self._halve():
+                    steps.reach(min(len(self.points), count))
+                kept = undominated([solution for _, solution in self.points], self.over, self._known())
+                if len(self.points) < sought or sought >= _AGAIN * count:
                     break
-                (low, left), (high, right) = self.points[i : i + 2]
-                value = sqrt(low * high)
-                solution = self._solved(value, left, right)
-                if solution is None:
-                    self.failed.append(value)
-                    dead.add(low)
-                else:
-                    self.points.insert(i + 1, (value, solution))
-                steps.reach(len(self.points))
-        solutions = [solution for _, solution in self.points]
-        return Front(self.over, tuple(undominated(solutions, self.over, self._known())), tuple(sorted(self.failed)))
+                # of local optima some are worse than others: as many more are sought
+                sought += count - len(kept)
+        return Front(self.over, tuple(kept), self.errors)
+
+    def _halve(self) -> bool:
+        """Put a point into the stretch that wants one most; False where none does."""
+        widths = [0.0 if self.points[i][0] in self._dead else width for i, width in enumerate(self._widths())]
+        i = int(np.argmax(widths))
+        if widths[i] < AGREEMENT:
+            return False
+        (low, left), (high, right) = self.points[i : i + 2]
+        value = sqrt(low * high)
+        solution = self._solved(value, left, right)
+        if isinstance(solution, Solution):
+            self.points.insert(i + 1, (value, solution))
+        else:
+            self.errors[value] = solution
+            self._dead.add(low)
+        return True
+
+    def _best(self, problem: Problem) -> Solution:
+        return synthesize(problem, bound=self.bound)
 
     def _known(self) -> Array:
         """The constants of the points, a row for each."""
@@ -337,7 +408,7 @@ class _Curve:
         line = SolvedLine(self.problem, self.over[0], self._problem, low, high)
         while values:
             results = line.at(np.array(values))
-            proven = np.flatnonzero(results.status == Status.OPTIMAL.value)
+            proven = np.flatnonzero(results.status == Status.OPTIMAL)
             there = [values[i] for i in proven.tolist()]
             solutions = map(results.result, proven.tolist())
             points = [(value, law) for value, law in zip(there, solutions, strict=True) if isinstance(law, Solution)]
@@ -360,16 +431,16 @@ class _Curve:
         """At the least value of the first constant, or at `low` where that can be had; of one that can be 0 near it."""
         if low > (1.0 if self.over[0] == "B" else 0.0):
             with suppress(InfeasibleProblem):
-                return low, synthesize(self._problem(low))
+                return low, self._best(self._problem(low))
         least = least_value(self.problem, self.over[0])
         if least < NEARLY_NOTHING * pays:
-            return NEARLY_NOTHING * pays, synthesize(self._problem(NEARLY_NOTHING * pays))
+            return NEARLY_NOTHING * pays, self._best(self._problem(NEARLY_NOTHING * pays))
         value = least * (1.0 + _ABOVE[0])
-        solution = synthesize(self._problem(value))
+        solution = self._best(self._problem(value))
         for above in _ABOVE[1:]:
             # so near to its least value the constant leaves the solver no room: the contacts are continued instead
-            nearer = _tried(self._problem(least * (1.0 + above)), solution)
-            if nearer is None or nearer.status is Status.INACCURATE:
+            nearer = self._tried(self._problem(least * (1.0 + above)), solution)
+            if not isinstance(nearer, Solution) or nearer.status is Status.INACCURATE:
                 break
             value, solution = least * (1.0 + above), nearer
         return value, solution
@@ -378,7 +449,7 @@ class _Curve:
         """At the least value of the last constant, or at `high`; a problem of the same kind as the others."""
         value = min(pays if self.over[0] == "B" else pays * (1.0 + AGREEMENT), high)
         try:
-            return value, synthesize(self._problem(value))
+            return value, self._best(self._problem(value))
         except (InfeasibleProblem, SolverFailure):
             if value == high:
                 raise
@@ -397,34 +468,45 @@ class _Curve:
         widths: list[float] = (lengths * (1.0 + _BENT * (ends[:-1] + ends[1:]))).tolist()
         return widths
 
-    def _solved(self, value: float, left: Solution, right: Solution) -> Solution | None:
+    def _solved(self, value: float, left: Solution, right: Solution) -> Solution | OptlawsError:
         problem = self._problem(value)
         if problem.convex:
-            near = _tried(problem, left)
-            return near if near is not None and near.status is Status.OPTIMAL else _tried(problem, None)
+            near = self._tried(problem, left)
+            optimal = isinstance(near, Solution) and near.status is Status.OPTIMAL
+            return near if optimal else self._tried(problem, None)
         # a branch of local optima may cease to be the best, so it is only continued where the starts lead to worse
-        best = _tried(problem, None)
-        if best is None or best.objective > left.objective or best.objective < right.objective:
-            tries = (solution for solution in (best, _tried(problem, left), _tried(problem, right)) if solution)
-            best = min(tries, key=lambda solution: solution.objective, default=None)
+        best = self._tried(problem, None)
+        if not isinstance(best, Solution) or best.objective > left.objective or best.objective < right.objective:
+            tries = [best, self._tried(problem, left), self._tried(problem, right)]
+            laws = [solution for solution in tries if isinstance(solution, Solution)]
+            return min(laws, key=lambda solution: solution.objective, default=best)
         return best
 
+    def _tried(self, problem: Problem, start: Solution | None) -> Solution | OptlawsError:
+        try:
+            return synthesize(problem, start=start, bound=self.bound)
+        except (InfeasibleProblem, SolverFailure) as error:
+            # its frames would keep what was tried
+            return error.with_traceback(None)
 
-def _surface(problem: Problem, over: tuple[str, ...], points: int, between: tuple[float, float] | None) -> Front:
+
+def _surface(
+    problem: Problem, over: tuple[str, ...], points: int, between: tuple[float, float] | None, bound: Bound
+) -> Front:
     """Curves of the second and the third constant at values of the first, as many as each curve has points."""
     across = max(2, round(sqrt(points)))
-    spines = [_Curve(problem, (over[0], name), between) for name in over[1:]]
+    spines = [_Curve(problem, (over[0], name), between, bound) for name in over[1:]]
     spine = max(spines, key=lambda curve: curve.points[-1][0]).grow(across)
-    failed = list(spine.failed)
+    errors = dict(spine.errors)
     solutions: list[Solution] = []
     for i, value in enumerate(spine.values[:, 0].tolist()):
         share = (points - len(solutions)) // (len(spine) - i)
         part = _at_most(problem, over[0], value)
         try:
-            solutions += _Curve(part, over[1:], None).grow(max(2, share)).points
-        except (InfeasibleProblem, SolverFailure):
-            failed.append(value)
-    return Front(over, tuple(undominated(solutions, over)), tuple(sorted(failed)))
+            solutions += _Curve(part, over[1:], None, bound).grow(max(2, share)).points
+        except (InfeasibleProblem, SolverFailure) as error:
+            errors[value] = error.with_traceback(None)
+    return Front(over, tuple(undominated(solutions, over)), errors)
 
 
 def _at_most(problem: Problem, name: str, value: float) -> Problem:
@@ -434,13 +516,6 @@ def _at_most(problem: Problem, name: str, value: float) -> Problem:
 def _with(problem: Problem, name: str, limits: float | Range) -> Problem:
     changed: dict[str, Any] = {name: limits} if name in CONSTANTS else {"bounds": {**problem.bounds, name: limits}}
     return replace(problem, **changed)
-
-
-def _tried(problem: Problem, start: Solution | None) -> Solution | None:
-    try:
-        return synthesize(problem, start=start)
-    except (InfeasibleProblem, SolverFailure):
-        return None
 
 
 def least_value(problem: Problem, name: str) -> float:

@@ -6,10 +6,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import MISSING, dataclass, field, fields
 from enum import StrEnum
 from functools import cache
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 import numpy as np
 
+from optlaws.errors import InfeasibleProblem, InputError, OptlawsError
+from optlaws.files.reading import JsonText
 from optlaws.kept import kept_property
 from optlaws.laws import Constants, MotionLaw
 from optlaws.laws.exporting import LawExport
@@ -40,17 +42,40 @@ def measure(objective: Objective, scale: float | Array) -> Objective:
 
 
 class Status(StrEnum):
-    """How far a solution can be trusted; `advice` says what to do about it.
+    """How far a solution can be trusted, or why there is none; `advice` says what to do about it.
+
+    Solutions are optimal, local or inaccurate. Places of arrays, rows of tables and points of studies without a law are
+    infeasible, failed or invalid, as the error of the problem says; points of studies may also exceed a limit of time.
 
     Examples
     --------
     >>> Status.OPTIMAL.advice
     'The lower bound meets the objective: no law of this problem is better.'
+    >>> Status.of(InputError("order must be at least 1")).value, Status("not found").value
+    ('invalid', 'failed')
     """
 
     OPTIMAL = "optimal"
     LOCAL = "local"
     INACCURATE = "inaccurate"
+    INFEASIBLE = "infeasible"
+    FAILED = "failed"
+    INVALID = "invalid"
+    TIME_LIMIT = "time limit"
+    DIED = "worker died"
+    ERROR = "error"
+
+    @classmethod
+    def of(cls, error: OptlawsError) -> Status:
+        """The status of a problem that ended in an error."""
+        if isinstance(error, InfeasibleProblem):
+            return cls.INFEASIBLE
+        return cls.INVALID if isinstance(error, InputError) else cls.FAILED
+
+    @classmethod
+    def _missing_(cls, value: object) -> Status | None:
+        # what files of older versions say
+        return {"not found": cls.FAILED, "wrong input": cls.INVALID}.get(str(value))
 
     @property
     def advice(self) -> str:
@@ -59,11 +84,17 @@ class Status(StrEnum):
             Status.OPTIMAL: "The lower bound meets the objective: no law of this problem is better.",
             Status.LOCAL: "No better law was found from any start; the gap says how much better one could be.",
             Status.INACCURATE: "The law is sound but the bound does not meet it; change the degree a little.",
+            Status.INFEASIBLE: "No law of this problem exists, and a proof shows it; loosen a bound.",
+            Status.FAILED: "No law was found and none is known not to exist; change the degree, or loosen a bound.",
+            Status.INVALID: "The entries make no problem; the error says which and why.",
+            Status.TIME_LIMIT: "The point took longer than the study's time limit; raise it, or lower the degree.",
+            Status.DIED: "The process ended, mostly for want of memory; solve the point by itself.",
+            Status.ERROR: "An error of the library itself, which its developers would like to see.",
         }[self]
 
 
 @dataclass(frozen=True)
-class Solution(LawExport):
+class Solution(LawExport, JsonText):
     """An optimal law with its proof. Every number is recomputed from the law on the whole interval.
 
     Solutions are equal where problem, law, proof and numbers are, however long they took.
@@ -106,6 +137,8 @@ class Solution(LawExport):
     >>> solution.status.value, round(solution.objective, 6), solution.gap < 1e-8
     ('optimal', 5.917851, True)
     """
+
+    _json_name: ClassVar[str] = "a solution"
 
     problem: Problem
     law: MotionLaw
@@ -237,7 +270,36 @@ class Solution(LawExport):
         return self.law, (f"law: {least}, none below {self.lower_bound:.9g} in its space; status {self.status.value}",)
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain JSON-able dict: the command line's `--json`, with the problem and the certificate beside it."""
+        """Plain JSON-able dict: the command line's `--json`, with the problem and the certificate beside it.
+
+        `optlaws verify` checks it, and `from_dict` reads it again.
+        """
+        from optlaws.synthesis.stored_solutions import plain_state
+
+        return self.claims() | {"state": plain_state(self)}
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> Solution:
+        """Read what `to_dict` wrote; numbers are held against the law, bounds against the proofs.
+
+        Raises
+        ------
+        InputError
+            If an entry is missing or wrong, or one states what does not follow from problem, law and proofs.
+
+        Examples
+        --------
+        >>> import optlaws
+        >>> solution = optlaws.synthesize(optlaws.Problem(B=1.859, order=4))
+        >>> optlaws.Solution.from_json(solution.to_json()) == solution
+        True
+        """
+        from optlaws.synthesis.stored_solutions import read_solution
+
+        return read_solution(data)
+
+    def claims(self) -> dict[str, Any]:
+        """What `to_dict` says but for `state`, which says no more of the law: what can be verified, and how it went."""
         placed = {} if self.peak_certificate is None else {"peak_certificate": self.peak_certificate.to_dict()}
         return placed | {
             "status": self.status.value,
@@ -245,7 +307,7 @@ class Solution(LawExport):
             "lower_bound": bounded(self.lower_bound),
             "gap": bounded(self.gap),
             "limit": self.limit,
-            "constants": self.constants.to_dict(),
+            "constants": self.constants.to_dict(rms=False),
             "z": None if self.z is None else list(self.z_powers or self.z),
             "law": self.law.to_dict(),
             "iterations": self.iterations,

@@ -6,13 +6,14 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from math import inf
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.errors import InputError, OptlawsError
+from optlaws.errors import OptlawsError
 from optlaws.extras import needed
+from optlaws.files.reading import JsonText
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.numbers import Array
@@ -28,21 +29,12 @@ from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model
 from optlaws.synthesis.proof.certificate import OBJECTIVE, Certificate
 from optlaws.synthesis.proof.make import certificate, certify
-from optlaws.synthesis.search import status_of
 from optlaws.synthesis.solution import Solution, Status, measure, partly_known
 from optlaws.synthesis.spaces.bases import PolynomialBasis
 from optlaws.synthesis.spaces.polynomial_space import PolynomialSpace
 from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
-from optlaws.synthesis.stored_solutions import (
-    FAILED,
-    INFEASIBLE,
-    INVALID,
-    plain_alone,
-    plain_error,
-    read_solutions,
-    status_of_error,
-)
+from optlaws.synthesis.stored_solutions import check_status, plain_error, plain_state, read_solutions
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -66,14 +58,15 @@ class SolvedPart:
         return self.found.x[:, : self.model.space.terms]
 
     @property
-    def statuses(self) -> NDArray[np.str_]:
+    def statuses(self) -> NDArray[np.object_]:
         """Optimal, but where the problem is not convex and the bound does not meet the objective."""
-        optimal = np.full(len(self.places), Status.OPTIMAL.value)
+        optimal = np.full(len(self.places), Status.OPTIMAL, dtype=object)
         if self.model.problem.convex:
             return optimal
         size = measure(self.found.objective, self.model.problem.objective.scale)
         off = np.abs(self.found.objective - self.found.bound) > OPTIMALITY_GAP * size
-        return np.where(off, Status.LOCAL.value, optimal)
+        optimal[off] = Status.LOCAL
+        return optimal
 
     @property
     def z_series(self) -> Array:
@@ -189,7 +182,7 @@ def _constant(name: str, description: str) -> kept_property[Array]:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class SolutionArray:
+class SolutionArray(JsonText):
     """Optimal laws of many problems with their proofs, as arrays of the problems' shape; NaN where there is no law.
 
     An index gives an ordinary `Solution`, whose certificate is checked by itself, or raises the error of its problem;
@@ -212,11 +205,13 @@ class SolutionArray:
     >>> import numpy as np
     >>> from optlaws import ProblemArray, synthesize_array
     >>> laws = synthesize_array(ProblemArray(B=np.array([1.6, 1.62]), order=4))
-    >>> laws.objective.round(6).tolist(), laws.status.tolist()
-    ([5.262224, 5.173677], ['optimal', 'optimal'])
+    >>> laws.objective.round(6).tolist(), (laws.status == "optimal").tolist()
+    ([5.262224, 5.173677], [True, True])
     >>> round(laws[1].objective, 6), laws[1].certificate.bound <= laws[1].objective
     (5.173677, True)
     """
+
+    _json_name: ClassVar[str] = "an array of solutions"
 
     problems: ProblemArray
     parts: tuple[SolvedPart, ...]
@@ -287,15 +282,14 @@ class SolutionArray:
         return _frozen((self.objective - self.lower_bound) / measure(self.objective, scale))
 
     @kept_property
-    def status(self) -> NDArray[np.str_]:
-        """As of a solution, "optimal", "local" or "inaccurate"; "infeasible", "failed" or "invalid" without a law."""
-        known = [status.value for status in Status] + [INFEASIBLE, FAILED, INVALID]
-        words = np.full(self.size, Status.OPTIMAL.value, dtype=f"U{max(map(len, known))}")
+    def status(self) -> NDArray[np.object_]:
+        """The `Status` of each solution; infeasible, failed or invalid where there is no law."""
+        statuses = np.full(self.size, Status.OPTIMAL, dtype=object)
         for part in self.parts:
-            words[part.places] = part.statuses
+            statuses[part.places] = part.statuses
         for place, result in self.others.items():
-            words[place] = result.status.value if isinstance(result, Solution) else status_of_error(result)
-        return _frozen(words.reshape(self.shape))
+            statuses[place] = result.status if isinstance(result, Solution) else Status.of(result)
+        return _frozen(statuses.reshape(self.shape))
 
     @kept_property
     def errors(self) -> Mapping[int, OptlawsError]:
@@ -384,7 +378,7 @@ class SolutionArray:
 
     @property
     def _columns(self) -> dict[str, NDArray[Any]]:
-        return {**{name: getattr(self, name) for name in NUMBERS}, "status": self.status}
+        return {**{name: getattr(self, name) for name in NUMBERS}, "status": self.status.astype(str)}
 
     def to_dict(self) -> dict[str, Any]:
         """Plain JSON-able dict: each solution or error in the order of the flattened array, and the arrays themselves.
@@ -396,7 +390,7 @@ class SolutionArray:
             "shape": list(self.shape),
             "seconds": self.seconds,
             "solutions": [
-                result.to_dict() if isinstance(result, Solution) else plain_error(result) for result in results
+                result.claims() if isinstance(result, Solution) else plain_error(result) for result in results
             ],
             "problems": plain_entries(self.problems.entries) if self.problems.entries else None,
             "parts": [
@@ -407,7 +401,7 @@ class SolutionArray:
                 }
                 for part in self.parts
             ],
-            "alone": {str(place): plain_alone(solution) for place, solution in self._alone.items()},
+            "alone": {str(place): plain_state(solution) for place, solution in self._alone.items()},
         }
 
     @classmethod
@@ -431,9 +425,7 @@ class SolutionArray:
         parts = tuple(SolvedPart(*part) for part in stored.parts)
         laws = cls(stored.problems, parts, stored.others, stored.seconds)
         for place, status in enumerate(stored.statuses):
-            possible = statuses_of(laws.result(place))
-            if status not in possible:
-                raise InputError(f"the status of solutions[{place}] is {status!r}, but it is {' or '.join(possible)}")
+            check_status(status, laws.result(place), f"solutions[{place}]")
         return laws
 
     def summary(self) -> Summary:
@@ -446,7 +438,7 @@ class SolutionArray:
         >>> [(row.name, row.text(5)) for row in laws.summary()][:4]
         [('problems', '3'), ('infeasible', '1'), ('optimal', '2'), ('objective', '...')]
         """
-        names, counts = np.unique(self.status, return_counts=True)
+        names, counts = np.unique(self.status.astype(str), return_counts=True)
         rows = [Row("problems", self.size, note=f"shape {self.shape}"), *map(Row, names.tolist(), counts.tolist())]
         for name, values in (("objective", self.objective), ("gap", self.gap)):
             known = values[np.isfinite(values)]
@@ -463,7 +455,7 @@ class SolutionArray:
         return page("SolutionArray", self.summary()._repr_html_(), *drawings)
 
     def __repr__(self) -> str:
-        names, counts = np.unique(self.status, return_counts=True)
+        names, counts = np.unique(self.status.astype(str), return_counts=True)
         statuses = ", ".join(f"{count} {name}" for name, count in zip(names.tolist(), counts.tolist(), strict=True))
         return f"SolutionArray(shape={self.shape}, {statuses}, problems={self.problems!r})"
 
@@ -517,18 +509,6 @@ def _contacts(solution: Solution) -> dict[str, NDArray[Any]]:
 def _frozen(values: NDArray[Any]) -> NDArray[Any]:
     values.setflags(write=False)
     return values
-
-
-def statuses_of(result: Solution | OptlawsError) -> list[str]:
-    """The statuses that a result can have; a law that a lower bound of a constant holds up is proven in part alone."""
-    if not isinstance(result, Solution):
-        return [status_of_error(result)]
-    problem = result.problem
-    velocity = problem.range("B")
-    held_up = any(limits.low > 0.0 for _, limits in problem.bounded) or (velocity is not None and velocity.low > 0.0)
-    several = [problem.convex, False] if held_up and problem.convex else [problem.convex]
-    scale = problem.objective.scale
-    return [status_of(result.objective, result.lower_bound, scale, proven=proven).value for proven in several]
 
 
 def _axes(problems: ProblemArray) -> tuple[list[str], dict[str, Any]]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from math import isfinite
+from typing import Literal, get_args
 
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError
 from optlaws.suggest import unknown_key
@@ -16,11 +17,13 @@ from optlaws.synthesis.search import LawSearch, best_available
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.spaces.of_basis import space_of
 
-TIGHT = "tight"
-BOUNDS = ("quick", TIGHT)
+#: how problems that are not convex are bounded
+Bound = Literal["quick", "tight"]
+TIGHT: Bound = "tight"
+BOUNDS = get_args(Bound)
 
 
-def synthesize(problem: Problem, *, start: Solution | None = None, bound: str = "quick") -> Solution:
+def synthesize(problem: Problem, *, start: Solution | None = None, bound: Bound = "quick") -> Solution:
     """Find the law that minimises the problem's objective and prove it, or bound how much better one could be.
 
     Parameters

@@ -34,7 +34,7 @@ from optlaws.synthesis.proof.no_law import proof_of_no_law
 from optlaws.synthesis.search import LawSearch
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.solution_array import SolutionArray, SolvedPart
-from optlaws.synthesis.solve import TIGHT, check_bound, synthesize
+from optlaws.synthesis.solve import TIGHT, Bound, check_bound, synthesize
 
 ERRORS = ("raise", "return")
 #: in a piece of `synthesize_chunks` unless asked otherwise
@@ -46,7 +46,7 @@ Errors = Literal["raise", "return"]
 Result = Solution | OptlawsError
 
 
-def solved(problems: ProblemArray, *, bound: str = "quick") -> SolutionArray:
+def solved(problems: ProblemArray, *, bound: Bound = "quick") -> SolutionArray:
     """What `synthesize_array` returns, of checked arguments."""
     began = perf_counter()
     parts: list[SolvedPart] = []
@@ -71,7 +71,7 @@ def completed(
     others: Mapping[int, Result],
     began: float,
     *,
-    bound: str = "quick",
+    bound: Bound = "quick",
 ) -> SolutionArray:
     """What is known of some of the problems, with the rest solved one by one, each begun at the law before it."""
     known = np.concatenate([np.array(list(others), dtype=np.intp), *(part.places for part in parts)])
@@ -79,7 +79,7 @@ def completed(
     return SolutionArray(problems, tuple(parts), {**others, **rest}, perf_counter() - began)
 
 
-def _along(problems: ProblemArray, line: ProblemLine, bound: str) -> SolvedBatch:
+def _along(problems: ProblemArray, line: ProblemLine, bound: Bound) -> SolvedBatch:
     """The laws of a line, as far as they are proven; of least power, those that no other branch is better than."""
     if line.path.model.problem.convex:
         return laws_along(line.path, line.t)
@@ -92,7 +92,7 @@ def _along(problems: ProblemArray, line: ProblemLine, bound: str) -> SolvedBatch
     return with_quick_bounds(line.path, line.t, laws, np.array([-inf if limit is None else limit for limit in limits]))
 
 
-def _beyond(problems: ProblemArray, places: NDArray[np.intp], bound: str) -> Iterator[tuple[int, Result]]:
+def _beyond(problems: ProblemArray, places: NDArray[np.intp], bound: Bound) -> Iterator[tuple[int, Result]]:
     """The problems on a line beyond those with laws, the nearest first: these are a convex set, which ends for good."""
     previous: Solution | None = None
     ended: InfeasibleProblem | None = None
@@ -150,7 +150,7 @@ def _valid(problems: ProblemArray, place: int) -> Problem | None:
     return entry if isinstance(entry, Problem) else None
 
 
-def _others(problems: ProblemArray, places: NDArray[np.intp], bound: str) -> dict[int, Result]:
+def _others(problems: ProblemArray, places: NDArray[np.intp], bound: Bound) -> dict[int, Result]:
     """What is solved one by one, each begun at the law before it."""
     others: dict[int, Result] = {}
     previous: Solution | None = None
@@ -163,7 +163,7 @@ def _others(problems: ProblemArray, places: NDArray[np.intp], bound: str) -> dic
     return others
 
 
-def _alone(problems: ProblemArray, place: int, near: Solution | None, bound: str) -> Result:
+def _alone(problems: ProblemArray, place: int, near: Solution | None, bound: Bound) -> Result:
     """One problem by itself, begun at a neighbour's law."""
     try:
         problem = problems.problem(place)
@@ -229,7 +229,7 @@ class SolvedLine:
         return [] if self._path is None else segments_of(self._path, 0.0, 1.0)
 
 
-def synthesize_array(problems: ProblemArray, *, bound: str = "quick") -> SolutionArray:
+def synthesize_array(problems: ProblemArray, *, bound: Bound = "quick") -> SolutionArray:
     """Find the best law of each of many problems and prove it: what `synthesize` gives for each, in far less time.
 
     A problem without a law, or a number that makes no problem, spoils its own place alone.
@@ -263,7 +263,7 @@ def synthesize_array(problems: ProblemArray, *, bound: str = "quick") -> Solutio
     return solved(problems, bound=bound)
 
 
-def synthesize_chunks(problems: ProblemArray, *, size: int = _CHUNK, bound: str = "quick") -> Iterator[SolutionArray]:
+def synthesize_chunks(problems: ProblemArray, *, size: int = _CHUNK, bound: Bound = "quick") -> Iterator[SolutionArray]:
     """The same piece by piece, in the order of the flattened array: memory is that of one piece.
 
     Parameters
@@ -292,12 +292,12 @@ def synthesize_chunks(problems: ProblemArray, *, size: int = _CHUNK, bound: str 
 
 @overload
 def synthesize_many(
-    problems: Iterable[Problem], *, bound: str = "quick", errors: Literal["raise"] = "raise"
+    problems: Iterable[Problem], *, bound: Bound = "quick", errors: Literal["raise"] = "raise"
 ) -> Iterator[Solution]: ...
 @overload
-def synthesize_many(problems: Iterable[Problem], *, bound: str = "quick", errors: Errors) -> Iterator[Result]: ...
+def synthesize_many(problems: Iterable[Problem], *, bound: Bound = "quick", errors: Errors) -> Iterator[Result]: ...
 def synthesize_many(
-    problems: Iterable[Problem], *, bound: str = "quick", errors: Errors = "raise"
+    problems: Iterable[Problem], *, bound: Bound = "quick", errors: Errors = "raise"
 ) -> Iterator[Solution] | Iterator[Result]:
     """Solve many problems, those that differ in numbers together, and give their solutions in order.
 
@@ -335,10 +335,14 @@ def synthesize_many(
 
 
 @overload
-def sweep(problems: Iterable[Problem], *, errors: Literal["raise"] = "raise") -> Iterator[Solution]: ...
+def sweep(
+    problems: Iterable[Problem], *, bound: Bound = "quick", errors: Literal["raise"] = "raise"
+) -> Iterator[Solution]: ...
 @overload
-def sweep(problems: Iterable[Problem], *, errors: Errors) -> Iterator[Result]: ...
-def sweep(problems: Iterable[Problem], *, errors: Errors = "raise") -> Iterator[Solution] | Iterator[Result]:
+def sweep(problems: Iterable[Problem], *, bound: Bound = "quick", errors: Errors) -> Iterator[Result]: ...
+def sweep(
+    problems: Iterable[Problem], *, bound: Bound = "quick", errors: Errors = "raise"
+) -> Iterator[Solution] | Iterator[Result]:
     """Solve problems in turn, each warm started by the one before it where they are neighbours.
 
     Where the problems are there already, in a list, they are solved together, as `synthesize_many` does, if all are
@@ -349,6 +353,8 @@ def sweep(problems: Iterable[Problem], *, errors: Errors = "raise") -> Iterator[
     ----------
     problems
         The problems.
+    bound
+        As of `synthesize`.
     errors
         As of `synthesize_many`, with the same errors.
 
@@ -363,7 +369,8 @@ def sweep(problems: Iterable[Problem], *, errors: Errors = "raise") -> Iterator[
     ['InfeasibleProblem', 'Solution']
     """
     check_errors(errors)
-    return _raised(_many(problems, "quick") if _together(problems) else _in_turn(problems), errors)
+    check_bound(bound)
+    return _raised(_many(problems, bound) if _together(problems) else _in_turn(problems, bound), errors)
 
 
 def check_errors(errors: object) -> None:
@@ -393,18 +400,18 @@ def _together(problems: object) -> bool:
     return sum(len(line.places) for line in lines_of(others, np.arange(len(others)))) == len(others)
 
 
-def _in_turn(problems: Iterable[Problem]) -> Iterator[Result]:
+def _in_turn(problems: Iterable[Problem], bound: Bound) -> Iterator[Result]:
     previous: Solution | None = None
     for problem in problems:
         try:
-            previous = synthesize(problem, start=previous)
+            previous = synthesize(problem, start=previous, bound=bound)
         except OptlawsError as error:
             yield error
         else:
             yield previous
 
 
-def _many(problems: Iterable[Problem], bound: str) -> Iterator[Result]:
+def _many(problems: Iterable[Problem], bound: Bound) -> Iterator[Result]:
     for chunk in _chunks(problems):
         laws = solved(chunk, bound=bound)
         yield from map(laws.result, range(chunk.size))

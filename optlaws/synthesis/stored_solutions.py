@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, fields, replace
-from functools import lru_cache
+from functools import lru_cache, partial
 from math import inf, isfinite, prod
-from typing import Any, Literal, TypeVar
+from typing import Any, TypeVar
 
 import msgspec
 import numpy as np
@@ -25,6 +25,7 @@ from optlaws.synthesis.arrays.programs import FOLLOWING, NO_CONTACT, SolvedBatch
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Program
 from optlaws.synthesis.limits.of_problem import known_limit
+from optlaws.synthesis.pareto import Front
 from optlaws.synthesis.problem.fields import differ_in_numbers
 from optlaws.synthesis.problem.plain_entries import read_entries
 from optlaws.synthesis.problem.problem import Problem
@@ -33,13 +34,10 @@ from optlaws.synthesis.program.writer import Model, model_of
 from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.proof.data import as_json, problem_of, stated
 from optlaws.synthesis.proof.no_law import beyond_limit, proof_of_no_law
+from optlaws.synthesis.search import status_of
 from optlaws.synthesis.solution import Solution, Status
 from optlaws.synthesis.spaces.bases import PolynomialBasis
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
-
-#: what stands for the status of a problem without a law
-INFEASIBLE, FAILED, INVALID = "infeasible", "failed", "invalid"
-
 
 Plain = dict[str, Any]
 Kind = TypeVar("Kind")
@@ -80,8 +78,8 @@ class StatedActiveSet(msgspec.Struct, forbid_unknown_fields=True):
     equality_multipliers: list[float]
 
 
-class StatedAlone(msgspec.Struct, forbid_unknown_fields=True):
-    """What the row of a law that was found alone does not say."""
+class StatedState(msgspec.Struct, forbid_unknown_fields=True):
+    """What the claims of a law that was found alone do not say."""
 
     z_series: list[float]
     active_set: StatedActiveSet
@@ -93,7 +91,7 @@ class StatedSolution(msgspec.Struct, forbid_unknown_fields=True):
     problem: Plain
     law: Plain
     certificate: Plain
-    status: Literal["optimal", "local", "inaccurate"]
+    status: Status
     objective: float
     lower_bound: float | None
     iterations: int
@@ -106,13 +104,14 @@ class StatedSolution(msgspec.Struct, forbid_unknown_fields=True):
     power_certificate: Plain | None = None
     peak_certificate: Plain | None = None
     versions: Any = None
+    state: StatedState | None = None
     about: str = ""
 
 
 class StatedError(msgspec.Struct, forbid_unknown_fields=True):
     """The row of a problem without a law."""
 
-    status: Literal["infeasible", "failed", "invalid"]
+    status: Status
     error: str
     problem: Plain | None = None
     proof: Plain | None = None
@@ -128,7 +127,18 @@ class StatedSolutions(msgspec.Struct, forbid_unknown_fields=True):
     solutions: list[Plain]
     problems: Plain | None
     parts: list[StatedPart]
-    alone: dict[str, StatedAlone]
+    alone: dict[str, StatedState]
+    about: str = ""
+
+
+class StatedParetoFront(msgspec.Struct, forbid_unknown_fields=True):
+    """What `Front.to_dict` writes."""
+
+    over: list[str]
+    values: list[list[float]]
+    points: list[Plain]
+    failed: list[float] = []
+    errors: list[StatedError] = []
     about: str = ""
 
 
@@ -143,19 +153,12 @@ class StoredSolutions:
     parts: list[tuple[NDArray[np.intp], Model, SolvedBatch]]
     others: dict[int, Solution | OptlawsError]
     seconds: float
-    statuses: list[str]
-
-
-def status_of_error(error: OptlawsError) -> str:
-    """What stands for the status of a problem with this error."""
-    if isinstance(error, InfeasibleProblem):
-        return INFEASIBLE
-    return INVALID if isinstance(error, InputError) else FAILED
+    statuses: list[Status]
 
 
 def plain_error(error: OptlawsError) -> Plain:
     """An error as plain data, from which `read_solutions` makes one that says and proves the same."""
-    data: Plain = {"status": status_of_error(error), "error": str(error.args[0]) if error.args else ""}
+    data: Plain = {"status": Status.of(error).value, "error": str(error.args[0]) if error.args else ""}
     for name in ("problem", "proof"):
         value = getattr(error, name, None)
         if value is not None:
@@ -164,13 +167,72 @@ def plain_error(error: OptlawsError) -> Plain:
     return {**data, "tried": tried} if tried else data
 
 
-def plain_alone(solution: Solution) -> Plain:
-    """What is kept of a law that was found alone beside its `to_dict`."""
+def plain_state(solution: Solution) -> Plain:
+    """What is kept of a law that was found alone beside its claims: Z's series, and where a neighbour is begun."""
     state = solution.active_set
     return {
         "z_series": list(solution.z_series),
         "active_set": {field.name: getattr(state, field.name).tolist() for field in fields(state)},
     }
+
+
+def read_solution(data: object) -> Solution:
+    """Read what `Solution.to_dict` wrote, and check all that is taken from it.
+
+    Raises
+    ------
+    InputError
+        If an entry is missing or wrong, or states what does not follow from the problem, the law and the proofs.
+    """
+    row = stated(data, StatedSolution, "solution")
+    if row.state is None:
+        raise InputError("this solution has no `state`, without which it is verified but not read: solve it again")
+    state = row.state
+    return _plainly(lambda: _solution(row, state, problem_of(row.problem)), "this is no solution")
+
+
+def read_front(data: object) -> Front:
+    """Read what `Front.to_dict` wrote, and check all that is taken from it.
+
+    Raises
+    ------
+    InputError
+        If an entry is missing or wrong, or states what does not follow from the problems, the laws and the proofs.
+    """
+    entries = stated(data, StatedParetoFront, "front")
+    points = tuple(_at(f"points[{i}]", partial(read_solution, row)) for i, row in enumerate(entries.points))
+    errors: dict[float, OptlawsError] = {value: SolverFailure("") for value in entries.failed}
+    for i, (value, row) in enumerate(zip(entries.failed, entries.errors, strict=False)):
+        errors[value] = _at(f"errors[{i}]", partial(_error, row, partial(problem_of, row.problem or {})))
+    front = Front(tuple(entries.over), points, errors)
+    if not _plainly(lambda: _same(front.values.tolist(), entries.values), "this is no front"):
+        raise InputError("the values of a front are other than the constants of its laws")
+    return front
+
+
+def statuses_of(result: Solution | OptlawsError) -> list[Status]:
+    """The statuses that a result can have; a law that a lower bound of a constant holds up is proven in part alone."""
+    if not isinstance(result, Solution):
+        return [Status.of(result)]
+    problem = result.problem
+    velocity = problem.range("B")
+    held_up = any(limits.low > 0.0 for _, limits in problem.bounded) or (velocity is not None and velocity.low > 0.0)
+    ways = {True: [True, False] if held_up else [True], False: [False]}[problem.convex]
+    scale = problem.objective.scale
+    return [status_of(result.objective, result.lower_bound, scale, proven=proven) for proven in ways]
+
+
+def check_status(status: Status, result: Solution | OptlawsError, name: str) -> None:
+    """Refuse a status that a result cannot have; `name` is what an error calls it.
+
+    Raises
+    ------
+    InputError
+        If it is another's.
+    """
+    possible = statuses_of(result)
+    if status not in possible:
+        raise InputError(f"the status of {name} is {status.value!r}, but it is {' or '.join(possible)}")
 
 
 def read_solutions(data: object) -> StoredSolutions:
@@ -231,25 +293,31 @@ class _Reading:
         kept = self.entries.alone.get(str(place))
         if kept is None:
             raise InputError("the arrays say nothing of its law")
-        problem, law = problems.problem(place), MotionLaw.from_dict(row.law)
-        _check_numbers(row, problem, law)
-        _check_z(kept.z_series, problem, law)
-        return Solution(
-            problem=problem,
-            law=law,
-            z_series=tuple(kept.z_series),
-            objective=row.objective,
-            certificate=Certificate.from_dict(row.certificate),
-            lower_bound=_bound(row),
-            limit=known_limit(problem),
-            status=Status(row.status),
-            iterations=row.iterations,
-            seconds=row.seconds,
-            starts=row.starts,
-            power_certificate=_read(Certificate.from_dict, row.power_certificate),
-            peak_certificate=_read(Certificate.from_dict, row.peak_certificate),
-            active_set=_active_set(kept.active_set, model_of(problem).program),
-        )
+        return _solution(row, kept, problems.problem(place))
+
+
+def _solution(row: StatedSolution, state: StatedState, problem: Problem) -> Solution:
+    law = MotionLaw.from_dict(row.law)
+    _check_numbers(row, problem, law)
+    _check_z(state.z_series, problem, law)
+    solution = Solution(
+        problem=problem,
+        law=law,
+        z_series=tuple(state.z_series),
+        objective=row.objective,
+        certificate=Certificate.from_dict(row.certificate),
+        lower_bound=_bound(row),
+        limit=known_limit(problem),
+        status=row.status,
+        iterations=row.iterations,
+        seconds=row.seconds,
+        starts=row.starts,
+        power_certificate=_read(Certificate.from_dict, row.power_certificate),
+        peak_certificate=_read(Certificate.from_dict, row.peak_certificate),
+        active_set=_active_set(state.active_set, model_of(problem).program),
+    )
+    check_status(row.status, solution, "the solution")
+    return solution
 
 
 def _row(data: Plain, name: str) -> StatedSolution | StatedError:
@@ -417,15 +485,15 @@ def _active_set(entries: StatedActiveSet, program: Program) -> ActiveSet:
 
 def _error(row: StatedError, problem: Callable[[], Problem]) -> OptlawsError:
     """The error of a row without a law, which has to be so of its problem."""
-    if row.status == INVALID:
+    if row.status is Status.INVALID:
         if row.problem is not None or row.proof is not None:
-            raise InputError(f"a row that is {INVALID!r} has neither problem nor proof")
+            raise InputError(f"a row that is {row.status.value!r} has neither problem nor proof")
         if _is_problem(problem):
             raise InputError("it is said to be no problem, but it is one")
         return InputError(row.error)
-    if row.status == FAILED:
+    if row.status is Status.FAILED:
         if row.proof is not None:
-            raise InputError(f"a row that is {FAILED!r} has no proof")
+            raise InputError(f"a row that is {row.status.value!r} has no proof")
         return SolverFailure(row.error, problem=problem(), tried=row.tried)
     if row.proof is None:
         if not beyond_limit(problem()):

@@ -177,7 +177,7 @@ def _constant(law: ExactLaw, constant: Functional, limits: Range) -> Iterator[Ex
 def _extremes(window: Window, law: ExactLaw) -> Extremes:
     """Least and greatest value of what a window bounds, where it does."""
     if window.motion is None:
-        return law.extremes(window.order, Fraction(window.start), Fraction(window.stop))
+        return law.extremes(window.nu, Fraction(window.start), Fraction(window.stop))
     greatest = law.greatest_of(window.motion, 1.0) if isfinite(window.high) else arb(0)
     least = -law.greatest_of(window.motion, -1.0) if isfinite(window.low) else arb(0)
     return least, greatest

@@ -21,6 +21,8 @@ from optlaws.synthesis.proof.no_law import ground_of
 
 Data = Mapping[str, Any]
 
+#: where nothing was found nothing is claimed; the last is what older files say
+_NO_CLAIM = ("failed", "invalid", "not found")
 NO_FILE = "not a file of solutions or certificates"
 
 
@@ -43,6 +45,8 @@ class SolutionFile(msgspec.Struct, forbid_unknown_fields=True):
     seconds: float = 0.0
     starts: list[float] = []
     versions: dict[str, str] = {}
+    state: Any = None  # from which a neighbour is begun: it claims nothing of the law
+    value: float | None = None  # of the number along which a proven front runs, whose problem is proven
     about: str = ""
 
 
@@ -59,7 +63,7 @@ class TableRow(msgspec.Struct, forbid_unknown_fields=True):
 
     solution: Any = None
     problem: Any = msgspec.field(default=None, name="asked")
-    status: Literal["optimal", "local", "inaccurate", "infeasible", "not found"] | None = None
+    status: Literal["optimal", "local", "inaccurate", "infeasible", "failed", "invalid", "not found"] | None = None
     proof: Any = None
 
 
@@ -70,6 +74,7 @@ class FrontFile(msgspec.Struct, forbid_unknown_fields=True):
     values: list[list[float]]
     points: list[Any]
     failed: list[float] = []
+    errors: list[dict[str, Any]] = []
     about: str = ""
 
 
@@ -180,7 +185,7 @@ def _row(row: TableRow, path: str, around: Around) -> Iterator[tuple[str, FileEn
         problem_of(_stated(row.problem, dict[str, Any], f"{path}.asked"))
     context = Around(row.status, row.problem, around.B, around.values)
     inside = [entry for name in ("solution", "proof") for entry in _walk(getattr(row, name), f"{path}.{name}", context)]
-    if not inside and row.status not in {None, "not found"}:
+    if not inside and row.status not in {None, *_NO_CLAIM}:
         inside = [(path, FileEntry({}, context))]
     yield from inside
 
@@ -195,7 +200,7 @@ def _array(array: SolutionArrayFile, data: Data, path: str) -> Iterator[tuple[st
             yield place, FileEntry(row)
         elif row.get("status") == "infeasible":
             yield from _no_law(row, place)
-        elif {"error", "status"} != row.keys() - {"problem", "tried"} or row["status"] not in {"failed", "invalid"}:
+        elif {"error", "status"} != row.keys() - {"problem", "tried"} or row["status"] not in _NO_CLAIM:
             raise InputError(f"{NO_FILE}: {place} is neither a solution nor an error")
     if array.parts is not None or array.alone is not None or array.problems is not None:
         yield f"{inside}parts", FileEntry(data)
@@ -228,6 +233,9 @@ def _front(front: FrontFile, path: str) -> Iterator[tuple[str, FileEntry]]:
         if not inside:
             raise InputError(f"{NO_FILE}: {place} has no law, but its values claim one")
         yield from inside
+    for i, row in enumerate(front.errors):
+        if row.get("status") not in _NO_CLAIM:
+            yield from _no_law(row, f"{path}.errors[{i}]" if path else f"errors[{i}]")
 
 
 def _of_velocity(data: Data, path: str) -> Iterator[tuple[str, FileEntry]]:

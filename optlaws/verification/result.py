@@ -86,7 +86,7 @@ class Verification:
         """Whether every claim of the file is proven."""
         return all(claim.proven for claim in self.claims)
 
-    def to_dict(self) -> dict[str, Any]:
+    def results(self) -> dict[str, Any]:
         """Plain JSON-able dict; None for infinite numbers."""
         return {
             "proven": self.proven,

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from optlaws import InputError, MotionLaw, catalogue, deg, savin
-from optlaws.balancing import Clutch, DwellMechanism, Section, compare_dwell_mechanisms, dwell_mechanism
+from optlaws.balancing import Clutch, DwellMechanism, DwellType, Section, compare_dwell_mechanisms, dwell_mechanism
 
 from .computing import Claim, Number, Quantities, computation, entries
 
@@ -20,7 +20,7 @@ _DWELLS = (45, 60, 75, 90, 105, 120, 135, 150)
 
 
 @cache
-def _mechanism(kind: str, dwell: float = 90.0, clutch: float = 15.0, rise: float | None = None) -> DwellMechanism:
+def _mechanism(kind: DwellType, dwell: float = 90.0, clutch: float = 15.0, rise: float | None = None) -> DwellMechanism:
     """One of the mechanisms behind the figures: angles in degrees, rise and dwell half a turn unless given."""
     return dwell_mechanism(
         kind,
@@ -34,12 +34,12 @@ def _mechanism(kind: str, dwell: float = 90.0, clutch: float = 15.0, rise: float
     )
 
 
-def _at_speed(kind: str, rpm: float) -> DwellMechanism:
+def _at_speed(kind: DwellType, rpm: float) -> DwellMechanism:
     """A mechanism whose clutch needs 20 ms, at a speed of its cam shaft."""
     return _mechanism(kind, 90.0, 6.0 * rpm * 0.02, 90.0)
 
 
-def _drawn(kind: str, draw: np.random.Generator) -> DwellMechanism:
+def _drawn(kind: DwellType, draw: np.random.Generator) -> DwellMechanism:
     law, other, third = (savin(family, float(draw.uniform(0.0, 5.0))) for family in ("III", "II", "IV"))
     return dwell_mechanism(
         kind,
@@ -56,7 +56,7 @@ def _drawn(kind: str, draw: np.random.Generator) -> DwellMechanism:
 
 
 @computation("dwell.mechanism")
-def mechanism(kind: str, draw: np.random.Generator) -> Quantities:
+def mechanism(kind: DwellType, draw: np.random.Generator) -> Quantities:
     """A mechanism drawn at random at a random speed, in physical units: angles, ways, times, torques, teeth."""
     mechanism = _drawn(kind, draw)
     omega, L, I = draw.uniform(5.0, 20.0), draw.uniform(0.1, 0.5), draw.uniform(0.01, 0.1)
@@ -208,7 +208,7 @@ def _refused(make: Callable[[], object]) -> bool:
 
 
 @computation("dwell.size")
-def size(kind: str, dwell: float) -> Claim:
+def size(kind: DwellType, dwell: float) -> Claim:
     """Criterion a of a type at a dwell in degrees, beside 1.5: the cam grows by half."""
     return Claim(_mechanism(kind, dwell).a, ">=", 1.5)
 
@@ -222,7 +222,7 @@ def torque_over_speed() -> Claim:
 
 
 @computation("dwell.size_over_speed")
-def size_over_speed(kind: str, clutch: str) -> Claim:
+def size_over_speed(kind: DwellType, clutch: str) -> Claim:
     """How much a changes from 60 to 180 rpm, with the clutch in a fixed angle or a fixed time of 20 ms."""
     mechanisms = {rpm: _at_speed(kind, rpm) if clutch == "time" else _mechanism(kind) for rpm in (60.0, 120.0, 180.0)}
     sizes = [_size_in_time(mechanism, rpm * tau / 60.0) for rpm, mechanism in mechanisms.items()]
@@ -249,32 +249,32 @@ def longer_way_back() -> Claim:
 
 
 @computation("dwell.falls")
-def falls(kind: str, criterion: str) -> Claim:
+def falls(kind: DwellType, criterion: str) -> Claim:
     """The greatest rise of a criterion from one dwell to the next, 45 to 150 degrees by 15, as a share."""
     values = _over_dwells(kind, criterion)
     return Claim(max(after / before - 1.0 for before, after in pairwise(values)), "<=", 0.0)
 
 
 @computation("dwell.grows")
-def grows(kind: str, criterion: str) -> Claim:
+def grows(kind: DwellType, criterion: str) -> Claim:
     """The least rise of a criterion from one dwell to the next, as a share."""
     values = _over_dwells(kind, criterion)
     return Claim(min(after / before - 1.0 for before, after in pairwise(values)), ">=", 0.0)
 
 
-def _over_dwells(kind: str, criterion: str) -> Sequence[float]:
+def _over_dwells(kind: DwellType, criterion: str) -> Sequence[float]:
     return [getattr(_mechanism(kind, float(dwell)), criterion) for dwell in _DWELLS]
 
 
 @computation("dwell.torque_ratio_grows_with_speed")
-def torque_ratio_grows_with_speed(kind: str) -> Claim:
+def torque_ratio_grows_with_speed(kind: DwellType) -> Claim:
     """The least rise of b from 60 over 120 to 180 rpm with a clutch that needs 20 ms, as a share."""
     values = [_at_speed(kind, rpm).b for rpm in (60.0, 120.0, 180.0)]
     return Claim(min(after / before - 1.0 for before, after in pairwise(values)), ">=", 0.0)
 
 
 @computation("dwell.self_adjusting")
-def self_adjusting(kind: str) -> Claim:
+def self_adjusting(kind: DwellType) -> Claim:
     """How much b changes from a speed to twice the speed, with a clutch in a fixed angle, from the torques."""
     mechanism = _mechanism(kind)
     moving = max((s for s in mechanism.sections if s.name in {"reverse", "run-out"}), key=lambda s: _power(s, 1.0))

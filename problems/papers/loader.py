@@ -10,7 +10,7 @@ import numpy as np
 from scipy.integrate import quad
 
 from optlaws import InputError, MotionLaw, catalogue, savin
-from optlaws.balancing import Loader, TrapeziumSubstitute, loader
+from optlaws.balancing import Loader, TrapeziumSubstitute, inertial_loader
 from optlaws.results import rows
 
 from ..loader_table import COLUMNS, Row, recomputed
@@ -45,7 +45,7 @@ def codes(problems: Path) -> Number:
 def law(draw: np.random.Generator) -> Quantities:
     """A symmetric law and its loader at one k before the turn, with peaks and with masses drawn at random."""
     executive: MotionLaw = savin("II", float(draw.uniform(0.0, 5.0)))
-    balancing, k = loader(executive), float(draw.uniform(0.05, 0.45))
+    balancing, k = inertial_loader(executive), float(draw.uniform(0.05, 0.45))
     B = executive.peak(1).value
     area, _ = quad(lambda x: np.sqrt(np.maximum(B**2 - executive.b(x) ** 2, 0.0)), 0.0, k, epsabs=1e-13, epsrel=1e-13)
     quantities = {
@@ -85,11 +85,11 @@ def _masses(balancing: Loader, draw: np.random.Generator) -> dict[str, float]:
 def trapezium(part: str, draw: np.random.Generator) -> Quantities:
     """A trapezium and its loader at one k on its ramp, its plateau or its fall."""
     substitute = _trapezium(draw)
-    m, n, A, Y = substitute.m, substitute.n, substitute.A, loader(substitute.law).Y
+    m, n, A, Y = substitute.m, substitute.n, substitute.A, inertial_loader(substitute.law).Y
     low, high = {"ramp": (0.05 * m, 0.6 * m), "plateau": (m, m + n), "fall": (m + n, 0.499)}[part]
     k = float(draw.uniform(low, high))
     B, C = substitute.law.peak(1).value, substitute.law.peak(2).value
-    moved = loader(substitute.law).law
+    moved = inertial_loader(substitute.law).law
     quantities = {
         "e": substitute.e13,
         "g": substitute.gamma_w,
@@ -144,7 +144,9 @@ def series() -> Claim:
     """The greatest relative error of Y by (25), with four terms of the series, over 50 trapezia drawn at random."""
     draw = np.random.default_rng(4)
     balancing = [_trapezium(draw) for _ in range(50)]
-    return Claim(max(abs(substitute.Y / loader(substitute.law).Y - 1.0) for substitute in balancing), "<=", 1e-5)
+    return Claim(
+        max(abs(substitute.Y / inertial_loader(substitute.law).Y - 1.0) for substitute in balancing), "<=", 1e-5
+    )
 
 
 @computation("loader.substitute")
@@ -153,7 +155,9 @@ def substitute() -> Claim:
     errors = []
     for name in (*_SMOOTH_TURN, "K", "Co", "3-4-5 polynomial"):
         try:
-            errors.append(abs(TrapeziumSubstitute.of(catalogue[name].law).Y / loader(catalogue[name].law).Y - 1.0))
+            errors.append(
+                abs(TrapeziumSubstitute.of(catalogue[name].law).Y / inertial_loader(catalogue[name].law).Y - 1.0)
+            )
         except InputError:
             continue
     return Claim(max(errors), "<=", 0.01)
@@ -163,11 +167,11 @@ def substitute() -> Claim:
 def half_way() -> Claim:
     """The greatest distance of the loader's way at the turn from one half, over the laws of the table."""
     laws = [catalogue[name].law for name in (*_SMOOTH_TURN, "K", "Co", "3-4-5 polynomial")]
-    return Claim(max(abs(loader(law).law(0.5) - 0.5) for law in laws), "<=", 1e-9)
+    return Claim(max(abs(inertial_loader(law).law(0.5) - 0.5) for law in laws), "<=", 1e-9)
 
 
 @computation("loader.peak_at_turn")
 def peak_at_turn() -> Claim:
     """C of the loader of KC00 by the paper's formula, over the true peak: 1, if the formula were general."""
-    balancing = loader(catalogue["KC00"].law)
+    balancing = inertial_loader(catalogue["KC00"].law)
     return Claim(balancing.C_at_turn / balancing.C, ">=", 0.99)

@@ -18,7 +18,7 @@ from optlaws import (
     SavinFamily,
     Solution,
     at_most,
-    construct,
+    law_from_z,
     results,
     savin,
     smoothstep,
@@ -131,8 +131,8 @@ def construction(draw: np.random.Generator) -> Quantities:
     start[0], end[0] = 0.0, 1.0
     z = draw.uniform(-3.0, 3.0, 3)
     k = draw.uniform(0.1, 0.9)
-    law = construct(BoundaryConditions(tuple(start), tuple(end)), z)
-    plain = construct(BoundaryConditions(tuple(start), tuple(end)), [0.0])
+    law = law_from_z(BoundaryConditions(tuple(start), tuple(end)), z)
+    plain = law_from_z(BoundaryConditions(tuple(start), tuple(end)), [0.0])
     a0 = np.polynomial.Polynomial(start / [1, 1, 2, 6])
     whole = (np.polynomial.Polynomial(plain.to_powers()) - a0).coef
     a1 = np.polynomial.Polynomial(whole[4:])
@@ -186,7 +186,7 @@ def any_Z() -> Claim:
     draw = np.random.default_rng(2)
     conditions = BoundaryConditions((0.0, 0.5, -1.0, 2.0), (1.0, 0.3, 0.7, -2.0))
     target = np.array([conditions.start, conditions.end])
-    laws = (construct(conditions, draw.uniform(-1.0, 1.0, 13)) for _ in range(20))
+    laws = (law_from_z(conditions, draw.uniform(-1.0, 1.0, 13)) for _ in range(20))
     return Claim(max(float(np.abs(np.array(law.boundary_values(4)) - target).max()) for law in laws), "<=", 1e-9)
 
 
@@ -199,7 +199,7 @@ def base_laws() -> Claim:
         base, law = smoothstep(2), smoothstep(order)
         left = np.polynomial.Polynomial(law.to_powers()) - np.polynomial.Polynomial(base.to_powers())
         Z, rest = divmod(left, np.polynomial.Polynomial([0, 0, 1, -2, 1]))
-        composed = construct(BoundaryConditions.rest(2), Z.coef)
+        composed = law_from_z(BoundaryConditions.rest(2), Z.coef)
         worst = max(worst, float(np.abs(composed(k) - law(k)).max()), float(np.abs(rest.coef).max()))
     return Claim(worst, "<=", 1e-9)
 
@@ -208,7 +208,7 @@ def base_laws() -> Claim:
 def asymmetry() -> Claim:
     """|a(k) + a(1-k) - 1| of a law with b(1/2) = B and c(1/2) = 0 and another Z."""
     # an even part of Z with a root of order three in the middle changes neither
-    law = construct(BoundaryConditions.rest(4), np.poly1d([0.5] * 4, r=True).coef[::-1] * 500.0)
+    law = law_from_z(BoundaryConditions.rest(4), np.poly1d([0.5] * 4, r=True).coef[::-1] * 500.0)
     k = np.linspace(0.0, 1.0, 201)
     change = max(abs(law.b(0.5) - smoothstep(4).b(0.5)), abs(law.c(0.5)))
     broken = float(np.abs(law(k) + law(1.0 - k) - 1.0).max())

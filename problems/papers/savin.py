@@ -17,7 +17,7 @@ from optlaws import (
     SavinFamily,
     catalogue,
     mass_law,
-    multiplied,
+    multiplied_law,
     polydyne,
     savin,
     smoothstep,
@@ -241,7 +241,7 @@ def known_laws() -> Claim:
 @computation("savin.multiplier")
 def multiplier() -> Claim:
     """The greatest breach of a(1) = 1 and a symmetric c by a law multiplied by an even positive function."""
-    changed = multiplied(smoothstep(3), (2, -1, 1))
+    changed = multiplied_law(smoothstep(3), (2, -1, 1))
     k = np.linspace(0.0, 0.5, 51)
     breach = float(np.abs(changed.c(k) + changed.c(1.0 - k)).max())
     return Claim(max(breach, abs(changed(1.0) - 1.0)), "<=", 1e-9)

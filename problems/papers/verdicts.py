@@ -42,7 +42,7 @@ class Judged:
         """Whether the verdict is the declared one."""
         return self.verdict is self.item.verdict
 
-    def to_dict(self) -> dict[str, object]:
+    def results(self) -> dict[str, object]:
         """Plain data: id, kind, printed, computed, verdict and reason, and what belongs to them."""
         item = self.item
         optional = {name: getattr(item, name) for name in ("as_read", "means", "lost", "source") if getattr(item, name)}

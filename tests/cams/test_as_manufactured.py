@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from optlaws import Chebyshev, Cycle, Dwell, Problem, Return, Rise, synthesize
-from optlaws.cams.as_manufactured import ArcChain, PointSpline, as_made, run_against, with_error
+from optlaws.cams.as_manufactured import ArcChain, PointSpline, as_made, run_against, with_profile_error
 from optlaws.cams.cutting.cam_files import write_outline
 from optlaws.cams.cutting.spline import Spline
 from optlaws.cams.disc import DiscCam
@@ -82,7 +82,7 @@ def test_under_arcs_the_acceleration_leaps_and_is_nearly_kept(cam: DiscCam) -> N
 
 
 def test_waves_of_the_profile_add_their_square(cam: DiscCam) -> None:
-    made = with_error(cam, "0.01 mm", waves=12)
+    made = with_profile_error(cam, "0.01 mm", waves=12)
     meant = made.acceleration / made.acceleration_ratio
     assert made.deviation == pytest.approx(1e-5, rel=0.1)
     assert made.acceleration - meant == pytest.approx(12**2 * 1e-5, rel=0.15)
@@ -106,9 +106,9 @@ def test_what_cannot_be_run_says_why(cam: DiscCam) -> None:
         with pytest.raises(InputError, match=match):
             as_made(cam, **said)
     with pytest.raises(InputError, match="narrower than the roller"):
-        with_error(cam, "0.1 mm", waves=100)
+        with_profile_error(cam, "0.1 mm", waves=100)
     with pytest.raises(InputError, match="error must be above 0"):
-        with_error(cam, "0 mm", waves=3)
+        with_profile_error(cam, "0 mm", waves=3)
 
 
 def test_a_chain_of_arcs_and_lines_is_a_curve() -> None:

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 import optlaws
-from optlaws import BoundaryConditions, MotionLaw, Problem, Solution, SolverFailure, construct
+from optlaws import BoundaryConditions, MotionLaw, Problem, Solution, SolverFailure, law_from_z
 from optlaws.cli import app
 from tests.documents import ROOT
 from tests.jobs.examples import SOLUTIONS, SOLUTIONS_PRINTED
@@ -63,7 +63,7 @@ def test_z_and_the_law_of_the_json_are_the_same_law(capsys: Capture, basis: str)
     data = json.loads(out)
     law = MotionLaw.from_dict(data["law"])
     assert law.peak(2).value == data["objective"]
-    again = construct(BoundaryConditions.rest(4), data["z"])
+    again = law_from_z(BoundaryConditions.rest(4), data["z"])
     assert again.peak(2).value == pytest.approx(data["objective"], rel=1e-11)
 
 

@@ -83,6 +83,8 @@ def commands() -> Table:
 def options(command: App) -> Iterator[tuple[str, str]]:
     """The options of one command."""
     for argument in command.assemble_argument_collection():
+        if argument.children:
+            continue  # a group of options, each of which follows
         default = argument.field_info.default
         shown = "" if default is inspect.Parameter.empty else f" = {text_of(default)}"
         names = [name for name in argument.names if not name.startswith(("--no-", "--empty-"))]

@@ -26,7 +26,7 @@ from optlaws import (
     PeriodicPieces,
     Pieces,
     Powers,
-    construct,
+    law_from_z,
 )
 from optlaws.synthesis import PiecewiseBasis, PolynomialBasis
 from optlaws.synthesis.spaces.bases import basis as basis_called
@@ -199,7 +199,7 @@ def test_z_goes_there_and_back_and_makes_the_law(basis: Basis) -> None:
             continue
         z = basis.coefficients(series)
         assert len(z) == basis.size
-        again = construct(space.boundary, z, basis)
+        again = law_from_z(space.boundary, z, basis)
         for nu in range(3):
             assert again(K, nu) == pytest.approx(law(K, nu), abs=1e-8 * (1.0 + law.peak(nu).value))
         # what rounding each z to a double may change, no function being above 1
@@ -214,7 +214,7 @@ def test_z_of_another_length_is_refused(basis: Basis) -> None:
     if not isinstance(basis, PolynomialBasis | PiecewiseBasis):
         return
     for size in {0, basis.size - 1, basis.size + 1, basis.size + 2}:
-        for call in (basis.series, lambda z: construct(BoundaryConditions.rest(2), z, basis)):
+        for call in (basis.series, lambda z: law_from_z(BoundaryConditions.rest(2), z, basis)):
             with pytest.raises(InputError, match=f"{basis.size} coefficients"):
                 call([1.0] * size)
 

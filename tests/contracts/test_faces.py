@@ -93,6 +93,6 @@ def test_every_kind_of_the_package_is_declared() -> None:
 
 
 def test_a_stored_law_is_read_without_its_module_having_been_imported() -> None:
-    law = optlaws.loader(optlaws.catalogue["K"].law).law
+    law = optlaws.inertial_loader(optlaws.catalogue["K"].law).law
     script = f"from optlaws import MotionLaw; print(MotionLaw.from_dict({law.to_dict()!r}).kind)"
     assert python(script) == "loader\n"

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from optlaws import BoundaryConditions, BSplines, Chebyshev, Pieces
 from optlaws.balancing.loaders.constants import B_loader, C_loader, D_loader
-from optlaws.mechanisms.spectrum.residual import residual
+from optlaws.mechanisms.spectrum.residual import residual_vibration
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.curved import FormulaFamily
 from optlaws.synthesis.families.energy import EnergyFamily
@@ -54,7 +54,7 @@ def random_cone(seed: int) -> ConeFamily:
 
 def vibration(laws: LawSpace) -> ConstraintFamily:
     """The rows of a residual vibration."""
-    return residual(nu=(11, 14), damping=0.02).families(laws, slack(laws), BOUND)[0]
+    return residual_vibration(nu=(11, 14), damping=0.02).families(laws, slack(laws), BOUND)[0]
 
 
 def of_text(text: str, laws: LawSpace, room: Array) -> ConstraintFamily:

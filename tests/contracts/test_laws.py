@@ -25,7 +25,7 @@ from optlaws import (
     PolynomialLaw,
     Response,
     catalogue,
-    construct,
+    law_from_z,
     mirrored_law,
     reversed_law,
     smoothstep,
@@ -51,7 +51,7 @@ OTHERS: dict[str, MotionLaw] = {
     "loader of S_4": LoaderLaw(smoothstep(4)),
     "loader of an unsymmetric law": LoaderLaw(free_function_law(3, 4, 6)),
     "loader of a law between velocities": LoaderLaw(PolynomialLaw.from_powers([0.0, 0.5, 1.5, -1.0])),
-    "splines": construct(BoundaryConditions.rest(3), [1.0, -2.0, 3.0, 0.5, 1.0, -1.0], BSplines(3, 3)),
+    "splines": law_from_z(BoundaryConditions.rest(3), [1.0, -2.0, 3.0, 0.5, 1.0, -1.0], BSplines(3, 3)),
 }
 #: whose derivatives jump or grow without limit, inside or at the ends
 ROUGH: dict[str, MotionLaw] = {
@@ -220,7 +220,7 @@ def test_constants_as_plain_data(law: MotionLaw) -> None:
     table = law.constants.to_dict()
     assert list(table) == ["B", "C", "D", "J"]
     assert table["C"] == {"value": law.peak(2).value, "k": law.peak(2).k}
-    assert law.constants.to_dict(rms=True)["rms_c"] == law.constants.rms_c
+    assert law.constants.to_dict()["rms_c"] == law.constants.rms_c
     assert json.loads(json.dumps(table)) == table
 
 

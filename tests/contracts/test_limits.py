@@ -20,7 +20,7 @@ from optlaws import (
     Powers,
     Problem,
     at_least,
-    construct,
+    law_from_z,
     synthesize,
 )
 from optlaws.laws.making.trapezoids import from_half
@@ -81,7 +81,7 @@ def polynomials(order: int) -> Iterator[MotionLaw]:
         even = np.polynomial.Polynomial([0.0, 1.0, -1.0])  # k (1 - k)
         factors = generator.normal(size=1 + i % 4) * 2.0 ** generator.uniform(-1.0, 4.5)
         z = np.polynomial.Polynomial([-0.5, 1.0]) * sum(q * even**n for n, q in enumerate(factors))
-        yield construct(BoundaryConditions.rest(order), z.coef.tolist(), Powers(len(z.coef) - 1))
+        yield law_from_z(BoundaryConditions.rest(order), z.coef.tolist(), Powers(len(z.coef) - 1))
 
 
 def halves() -> Iterator[MotionLaw]:

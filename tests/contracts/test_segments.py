@@ -21,7 +21,7 @@ from optlaws import (
     PiecewiseLaw,
     PolynomialLaw,
     mirrored_law,
-    multiplied,
+    multiplied_law,
     polydyne,
     residual_phasor,
     reversed_law,
@@ -317,7 +317,7 @@ def test_a_new_kind_is_transformed(exponential: Any) -> None:  # noqa: ANN401
     symmetric = rise(exponential)
     assert symmetric.a(1.0) == pytest.approx(1.0, abs=1e-14)
     assert symmetric.b(k) == pytest.approx(symmetric.b(1.0 - k), abs=1e-13)
-    y = multiplied(symmetric, [2, -6, 6])
+    y = multiplied_law(symmetric, [2, -6, 6])
     ratio = y.c(k[1:50]) / (symmetric.c(k[1:50]) * (2 - 6 * k[1:50] + 6 * k[1:50] ** 2))
     assert ratio == pytest.approx(np.full(49, ratio[0]), rel=1e-11)
 

@@ -6,21 +6,33 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from optlaws import Chebyshev, InputError, Problem, at_most, catalogue, compare, residual, smoothstep, synthesize
+from optlaws import (
+    Chebyshev,
+    InputError,
+    Problem,
+    at_most,
+    catalogue,
+    compare_laws,
+    residual_vibration,
+    smoothstep,
+    synthesize,
+)
 from optlaws.cli.app import exit_code
 
 SINE = catalogue["modified sine"].law
 
 
 def test_numbers_are_those_of_the_laws() -> None:
-    comparison = compare("modified sine", smoothstep(3), stroke="35 mm", duration="100 ms", nu=(12, 32), damping=0.05)
+    comparison = compare_laws(
+        "modified sine", smoothstep(3), stroke="35 mm", duration="100 ms", nu=(12, 32), damping=0.05
+    )
     sine, poly = comparison.rows
     assert (sine["law"], poly["law"]) == ("modified sine", "law 2")
     assert [sine[name] for name in "BCDJ"] == [getattr(SINE.constants, name).value for name in "BCDJ"]
     assert poly["velocity, m/s"] == pytest.approx(1.875 * 0.035 / 0.1)
     assert poly["jerk, m/s³"] == pytest.approx(60 * 0.035 / 0.1**3)
-    assert sine["residual"] == residual(nu=(12, 32), damping=0.05).value(SINE)
-    turned = compare(catalogue["modified sine"], stroke="180 deg", duration="1 s").rows[0]
+    assert sine["residual"] == residual_vibration(nu=(12, 32), damping=0.05).value(SINE)
+    turned = compare_laws(catalogue["modified sine"], stroke="180 deg", duration="1 s").rows[0]
     assert turned["acceleration, rad/s²"] == pytest.approx(np.pi * SINE.constants.C.value)
 
 
@@ -28,7 +40,7 @@ def test_the_optimum_beside_modified_sine() -> None:
     B, J = SINE.constants.B.value, SINE.constants.J.value
     nine, many = (synthesize(Problem(order=3, B=B, J=at_most(J), basis=Chebyshev(degree))) for degree in (9, 41))
     assert nine.status.value == many.status.value == "optimal"
-    frame = compare("modified sine", nine, many).to_pandas()
+    frame = compare_laws("modified sine", nine, many).to_pandas()
     assert frame["C"].round(3).tolist() == [5.528, 5.189, 4.903]
     assert frame["J"].to_numpy() == pytest.approx([J] * 3, rel=1e-9)
     assert frame["D"].round(2).tolist() == [5.46, 6.41, 7.22]
@@ -37,17 +49,19 @@ def test_the_optimum_beside_modified_sine() -> None:
 
 
 def test_what_a_small_C_costs_is_said() -> None:
-    (remark,) = compare("modified sine", "constant acceleration").remarks
+    (remark,) = compare_laws("modified sine", "constant acceleration").remarks
     assert remark.startswith("constant acceleration: J = inf, without bound")
-    assert compare("constant acceleration", "modified sine").remarks == ()
-    assert compare("cycloidal", "constant acceleration", nu=6 * np.pi).remarks[-1].endswith("16; cycloidal has none")
+    assert compare_laws("constant acceleration", "modified sine").remarks == ()
+    assert (
+        compare_laws("cycloidal", "constant acceleration", nu=6 * np.pi).remarks[-1].endswith("16; cycloidal has none")
+    )
 
 
 def test_all_laws_are_drawn_into_the_axes_given() -> None:
     from matplotlib.figure import Figure
 
     panels = Figure().subplots(4, 1)
-    artists = compare("modified sine", "cycloidal").plot(panels)
+    artists = compare_laws("modified sine", "cycloidal").plot(panels)
     assert {artist.axes for artist in artists} == set(panels)
     assert panels[2].lines[0].get_linestyle() != panels[2].lines[2].get_linestyle()
 
@@ -66,14 +80,14 @@ def test_all_laws_are_drawn_into_the_axes_given() -> None:
 )
 def test_wrong_input_is_refused(laws: tuple[object, ...], given: dict[str, object], says: str) -> None:
     with pytest.raises(InputError, match=says):
-        compare(*laws, **given)  # type: ignore[arg-type] # wrong on purpose
+        compare_laws(*laws, **given)  # type: ignore[arg-type] # wrong on purpose
 
 
 def test_the_command_says_the_same(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     arguments = ["compare", "MODSINE", "III(7.2)", "--stroke", "35mm", "--time", "0.1s", "--nu", "12", "--nu", "32"]
     assert exit_code([*arguments, "--json"]) == 0
     said = json.loads(capsys.readouterr().out)
-    assert said == compare("MODSINE", "III(7.2)", stroke="35 mm", duration="0.1 s", nu=(12, 32)).to_dict()
+    assert said == compare_laws("MODSINE", "III(7.2)", stroke="35 mm", duration="0.1 s", nu=(12, 32)).to_dict()
     assert exit_code([*arguments, "--plot", str(tmp_path / "a.svg"), "--csv", str(tmp_path / "a.csv")]) == 0
     assert (tmp_path / "a.svg").is_file()
     assert (tmp_path / "a.csv").read_text("utf-8").count("\n") == 4

@@ -29,7 +29,7 @@ def test_answers_are_those_of_the_follower_in_units() -> None:
     assert answer.peak_acceleration == pytest.approx(size * response.peak(2).value, rel=1e-14)
     assert answer.dwell_acceleration == pytest.approx(size * response.dwell_peak(2).value, rel=1e-14)
     assert answer.residual_displacement == pytest.approx(0.035 * response.residual_displacement, rel=1e-14)
-    assert answer.to_dict()["residual acceleration, m/s²"] == answer.residual_acceleration
+    assert answer.results()["residual acceleration, m/s²"] == answer.residual_acceleration
     assert answer.peak_velocity == pytest.approx(0.035 / machine.duration * response.peak(1).value, rel=1e-14)
 
 

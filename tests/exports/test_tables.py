@@ -119,7 +119,7 @@ def test_the_best_number_of_points_is_chosen(name: str) -> None:
     assert made.points >= 5
     ratio = made.report.ratio(2)
     assert isinf(ratio) or ratio == pytest.approx(1.0, abs=3e-3)
-    assert json.loads(json.dumps(made.to_dict(), allow_nan=False))["points"] == made.points
+    assert json.loads(json.dumps(made.results(), allow_nan=False))["points"] == made.points
     assert "made by optlaws" in made.text or name in {"sew", "kas", "technosoft"}
 
 
@@ -179,7 +179,7 @@ def test_a_law_whose_acceleration_leaps_keeps_its_leaps() -> None:
     report = export_motion(made, "csv", points=241).report
     assert report.law.leaps[1].value == pytest.approx(2.0 * report.law.peak(2))
     assert report.law.leaps_at_ends[1] == pytest.approx(report.law.peak(2))
-    assert report.to_dict()["law"]["PointAtMaxSlaveJerk"]["SlaveJerk"] == 0.0
+    assert report.results()["law"]["PointAtMaxSlaveJerk"]["SlaveJerk"] == 0.0
     assert export_motion(made, "csv", points=241).rows()[2][2] is None
 
 

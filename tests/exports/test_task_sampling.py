@@ -26,7 +26,7 @@ def test_smooth_runs_are_heard_as_they_are() -> None:
     assert made.task is not None
     assert made.task.acceleration == pytest.approx(made.report.run.peak(2), rel=1e-3)
     assert "acceleration heard every 0.01 ms, mm/s²" in str(made)
-    assert made.to_dict()["task"] == {"seconds": made.task.seconds, "acceleration": made.task.acceleration}
+    assert made.results()["task"] == {"seconds": made.task.seconds, "acceleration": made.task.acceleration}
 
 
 @pytest.mark.parametrize("cycle", [press(), turning()])

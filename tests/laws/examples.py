@@ -6,7 +6,7 @@ import numpy as np
 
 from optlaws.laws import MotionLaw, PolynomialLaw, smoothstep
 from optlaws.laws.catalogue.catalogue import catalogue
-from optlaws.laws.making.multiplier import multiplied
+from optlaws.laws.making.multiplier import multiplied_law
 from optlaws.laws.making.transform import mirrored_law, reversed_law, with_end_velocity
 from optlaws.laws.making.trapezoids import scca, trapezoid
 from optlaws.laws.savin import savin
@@ -104,8 +104,8 @@ EXAMPLES: dict[str, MotionLaw] = {
     "cycloid in pieces, mirrored": mirrored_law(cut_sine(0.3)),
     "rising power, faster": with_end_velocity(cut_power(0.8, 1.6, 0.4), -0.5),
     "sine on a parabola, reversed": reversed_law(cut_sine(0.25, 0.625, powers=(1.0, -3.0, 2.0), turns=3)),
-    "S_3 times y": multiplied(smoothstep(3), [2, -7, 10, -6, 3]),
-    "modified sine times exp": multiplied(scca(0.25, 0.0, 0.75), lambda k: float(np.exp(4.0 * (k - 0.5) ** 2))),
+    "S_3 times y": multiplied_law(smoothstep(3), [2, -7, 10, -6, 3]),
+    "modified sine times exp": multiplied_law(scca(0.25, 0.0, 0.75), lambda k: float(np.exp(4.0 * (k - 0.5) ** 2))),
     "modified trapezoid": scca(0.25, 0.5, 0.25),
     "sine and coast": scca(0.2, 0.1, 0.3),
     "S-curve": trapezoid(0.1, 0.15, 0.2),

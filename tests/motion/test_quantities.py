@@ -1,6 +1,7 @@
 """Quantities with units: what they are in SI, and what errors say of those that are wrong."""
 
 from collections.abc import Callable
+from dataclasses import fields, is_dataclass
 from math import pi
 from pathlib import Path
 from typing import Any
@@ -14,10 +15,17 @@ from optlaws import (
     Dwell,
     Free,
     InputError,
+    Link,
     Machine,
     Return,
     Rise,
+    TorsionLever,
     TranslatingRoller,
+    catalogue,
+    compare_dwell_mechanisms,
+    deg,
+    dwell_mechanism,
+    inertial_loader,
     machine_follower,
     smoothstep,
 )
@@ -197,5 +205,78 @@ def test_bare_numbers_of_problem_files_and_units_of_bare_numbers_are_refused_wit
                     'kind = "rise"\nby = 35\n', "utf-8")  # fmt: skip
     with pytest.raises(InputError, match=r'by.; a number with a unit is written as text, such as "35 mm"'):
         read(reading.toml(file), file)
-    with pytest.raises(InputError, match="mode 1 must be a finite real number, got '12 Hz': give the number alone"):
-        Machine.from_modes([("12 Hz", 0.02)], duration=1.0)  # type: ignore[list-item] # on purpose
+    with pytest.raises(InputError, match="mode 1 must be a finite real number, got '2 Hz': give the number alone"):
+        Machine.from_modes([("12 Hz", "2 Hz")], duration=1.0)
+
+
+def machine_of(unit: UnitRegistry[Any] | None) -> list[Any]:
+    """What takes bare numbers too: with units as text, as quantities of pint, or in SI."""
+
+    def given(text: str, si: float) -> Any:  # noqa: ANN401 - a text, a quantity or a number
+        return si if unit is None else text
+
+    def united(text: str, si: float) -> Any:  # noqa: ANN401
+        return si if unit is None else unit.Quantity(text)
+
+    K = catalogue["K"].law
+    mechanism = {
+        "dwell": given("90 deg", deg(90)),
+        "rise": united("90 deg", deg(90)),
+        "swing": given("20 deg", deg(20)),
+    }
+    clutch = {"clutch_angle": united("15 deg", deg(15)), "radius_ratio": 1.0, "inertia_ratio": 0.1}
+    loader_mass = {"executive_mass": given("2.5 kg", 2.5), "executive_stroke": united("40 mm", 0.04)}
+    return [
+        Machine.from_masses(
+            {"motor": given("1500 g", 1.5), "load": united("2 kg", 2.0)},
+            [Link("motor", "load", given("0.8 N/mm", 800.0), united("2 N*s/m", 2.0))],
+            drive="motor",
+            duration=given("200 ms", 0.2),
+            stroke=united("35 mm", 0.035),
+        ),
+        Machine.from_modes(
+            [(given("200 1/min", 200 / 60), 0.02), (given("12 Hz", 12.0), 0.02), (given("40 rad/s", 20 / pi), 0.01)],
+            duration=united("0.4 s", 0.4),
+            stroke=given("20 deg", deg(20)),
+        ),
+        Machine.from_units([[-40.0]], [[40.0]], [[1.0]], duration=given("0.1 s", 0.1), stroke=united("2 m", 2.0)),
+        TorsionLever(0.75, 1.0, 0.15, 0.15, given("60 deg", deg(60)), united("30 deg", deg(30)), given("1 rad", 1.0)),
+        dwell_mechanism("III", law=K, **mechanism, **clutch),
+        compare_dwell_mechanisms(law=K, most_torque=0.5, **mechanism, **clutch).mechanisms["II"],
+        inertial_loader(K).mass(**loader_mass, stroke=given("2 cm", 0.02)),
+        inertial_loader(K).stroke(**loader_mass, mass=united("10 kg", 10.0)),
+    ]
+
+
+def test_machines_take_quantities_and_bare_numbers_alike() -> None:
+    for bare, united in zip(machine_of(None), machine_of(UnitRegistry()), strict=True):
+        numbers = [value for value in flat(bare) if isinstance(value, float)]
+        others = [value for value in flat(united) if isinstance(value, float)]
+        assert type(bare) is type(united)
+        assert numbers
+        assert others == pytest.approx(numbers, rel=1e-14)
+
+
+def flat(value: Any) -> list[Any]:  # noqa: ANN401
+    """All numbers in a value and its fields."""
+    if is_dataclass(value):
+        return [part for entry in fields(value) for part in flat(getattr(value, entry.name))]
+    return [part for entry in value for part in flat(entry)] if isinstance(value, tuple) else [value]
+
+
+@pytest.mark.parametrize(
+    ("wrong", "reason"),
+    [
+        (lambda: Link("motor", "load", "3 mm"), "stiffness must be a stiffness such as '3 N/mm' or a torsional"),
+        (lambda: Machine.from_modes([("12", 0.02)], duration=1.0), "the frequency of mode 1 must .* without a unit"),
+        (lambda: Machine.from_modes([(12.0, 0.02)], duration="1 m"), "duration must be a time"),
+        (lambda: TorsionLever(0.75, 1.0, 0.15, 0.15, "60 mm"), "swing must be an angle such as '45 deg', but"),
+        (
+            lambda: inertial_loader(smoothstep(3)).mass(executive_mass="1 m", executive_stroke=1, stroke=1),
+            "executive_mass must",
+        ),
+    ],
+)
+def test_a_quantity_of_another_dimension_is_refused(wrong: Callable[[], object], reason: str) -> None:
+    with pytest.raises(InputError, match=reason):
+        wrong()

@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from optlaws import MotionLaw, catalogue, loader
+from optlaws import MotionLaw, catalogue, inertial_loader
 from tests.documents import ROOT
 from tests.problems.written import table
 
@@ -18,7 +18,7 @@ def test_laws_are_what_their_loaders_say() -> None:
     for found in laws["Shun"].values():
         law = MotionLaw.from_dict(found["law"])
         assert law.constants.B.value == pytest.approx(printed["Shun"], rel=1e-7)
-        assert found["loader"]["constants"]["C"]["value"] == pytest.approx(loader(law).C, rel=1e-9)
+        assert found["loader"]["constants"]["C"]["value"] == pytest.approx(inertial_loader(law).C, rel=1e-9)
     own = catalogue["3-4-5 polynomial"].law.constants.C.value
     assert laws["Shun"]["C no greater"]["executive"]["C"] <= own * (1.0 + 1e-8)
 

@@ -175,7 +175,7 @@ def test_a_point_in_trouble_is_one_row(tmp_path: Path, trouble: str, status: str
 
 def test_a_value_that_makes_no_problem_is_one_row(tmp_path: Path) -> None:
     study = serially({"problem": {"order": 4}, "vary": {"B": [1.6, 0.9]}}, tmp_path)
-    assert [point.status for point in study] == ["optimal", "wrong input"]
+    assert [point.status for point in study] == ["optimal", "invalid"]
     assert "B must be" in str(study[1].error)
 
 

@@ -48,7 +48,7 @@ def test_rows_are_those_of_each_alone() -> None:
     many = [row for task in tasks(asked) for row in solved(task)]
     alone = [row for task in tasks(asked, alone=True) for row in solved(task)]
     assert len(many) == len(alone) == 20
-    assert {row["status"] for row in many} == {"optimal", "infeasible", "wrong input"}
+    assert {row["status"] for row in many} == {"optimal", "infeasible", "invalid"}
     for one, other in zip(many, alone, strict=True):
         assert list(one) == list(other)
         for name in ("index", "key", "inputs", "status", "error"):

@@ -35,12 +35,12 @@ from optlaws import (
     integral,
     maximum,
     peak,
-    residual,
+    residual_vibration,
     rms,
     value,
     via,
 )
-from optlaws.synthesis import PiecewiseBasis, PolynomialBasis, construct
+from optlaws.synthesis import PiecewiseBasis, PolynomialBasis, law_from_z
 from optlaws.synthesis.functionals.kinds import OfFormula
 from tests.synthesis.judge import Judged, broken
 
@@ -175,9 +175,9 @@ def _law(numbers: Numbers, frame: Frame) -> MotionLaw | None:
         series = np.array(_coefficients(numbers, frame.basis.size, size))
         if odd:
             series[::2] = 0.0
-        return construct(frame.conditions, frame.basis.coefficients(series), frame.basis)
+        return law_from_z(frame.conditions, frame.basis.coefficients(series), frame.basis)
     z = np.array(_coefficients(numbers, frame.basis.size, size))
-    return construct(frame.conditions, ((z - z[::-1]) / 2.0 if odd else z).tolist(), frame.basis)
+    return law_from_z(frame.conditions, ((z - z[::-1]) / 2.0 if odd else z).tolist(), frame.basis)
 
 
 # --- constants ---
@@ -201,7 +201,7 @@ def _residual(numbers: Numbers) -> Functional:
     damping = float(numbers.choice([0.0, 0.03, 0.1]))
     design = round(low * 1.1, 2) if numbers.random() < 0.3 else None
     design_damping = 0.02 if design is not None and numbers.random() < 0.5 else None
-    return residual(nu=nu, damping=damping, design=design, design_damping=design_damping)
+    return residual_vibration(nu=nu, damping=damping, design=design, design_damping=design_damping)
 
 
 #: by the name that text calls them by, all constants there are
@@ -239,7 +239,11 @@ def _machine(numbers: Numbers) -> Machine:
 
 #: constants of formulas and of machines, in units, and the order and continuity that they need
 IN_UNITS: Mapping[str, tuple[Callable[[Numbers], Functional], int, int]] = {
-    "peak": (lambda n: peak(_mixed(n, ("u*c + u*b", "u*(1 + k)*c", "u*(c^2 + 3*b^2)", "u*abs(c) + u*abs(b)"))), 0, 0),
+    "peak": (
+        lambda n: peak(_mixed(n, ("u*c + u*b", "u*(1 + k)*c", "u*(c^2 + 3*b^2)", "u*abs(c) + u*abs(b)"))),
+        0,
+        0,
+    ),
     "one side": (lambda n: peak(_mixed(n, ("max(u*c, u*b)", "u*c - u*b", "u*c^2 + u*c")), side="high"), 2, 0),
     "power": (lambda n: peak(_mixed(n, ("u*d", "u*d + u*c"))), 2, 1),
     "rms": (lambda n: rms(_mixed(n, ("u*c + u*b", "norm(u*c, u*b)", "u*(1 + k)*c"))), 0, 0),
@@ -412,7 +416,7 @@ def drawn(numbers: Numbers, *, units: bool = False) -> Drawn:
     """One problem."""
     frame = _frame(numbers, units=units)
     law = _law(numbers, frame)
-    typical = law or construct(frame.conditions)
+    typical = law or law_from_z(frame.conditions)
     judged = Guess(typical)
     entries = _bounds(numbers, frame, judged) | _velocity(numbers, frame, typical, judged)
     lowest = typical.extrema(1)[0].value

@@ -8,7 +8,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from optlaws import BoundaryConditions, Chebyshev, Powers, Problem, Solution, construct, smoothstep, synthesize
+from optlaws import BoundaryConditions, Chebyshev, Powers, Problem, Solution, law_from_z, smoothstep, synthesize
 from optlaws.laws import PolynomialLaw
 from tests.documents import ROOT
 
@@ -30,14 +30,14 @@ every_row = pytest.mark.parametrize(("printed", "exact"), ROWS)
 def law_of(printed: dict[str, str], z: Sequence[str] | None = None) -> PolynomialLaw:
     free = [Fraction(text) for text in (printed["z"].split() if z is None else z)]
     if printed["base"] == "S4":
-        return construct(BoundaryConditions.rest(4), free)
+        return law_from_z(BoundaryConditions.rest(4), free)
     # the law with B = 1.75 of Savin's family II, S_3 + k^3 (k-1)^3 8 (k-1/2), carries the rest: over l = 3, the
     # added k^4 (k-1)^4 Z is k^3 (k-1)^3 times (k² - k) Z
     whole = [Fraction(-4), Fraction(8), *[Fraction(0)] * len(free)]
     for i, value in enumerate(free):
         whole[i + 1] -= value
         whole[i + 2] += value
-    return construct(BoundaryConditions.rest(3), whole)
+    return law_from_z(BoundaryConditions.rest(3), whole)
 
 
 def rounded(value: float, digits: int) -> str:

@@ -197,6 +197,6 @@ def test_a_limit_in_doubles_is_not_called_proven(minimise: str, word: str) -> No
     data = data_of(Problem(B=1.8, order=3, basis=Chebyshev(5), minimise=minimise))
     lines = [line for line in str(verify(data)).splitlines() if " the limit: " in line]
     assert [line.split()[0] for line in lines] == [word]
-    assert "recomputed" in verify(data).to_dict()
+    assert "recomputed" in verify(data).results()
     above = verify({**data, "limit": 1.001 * data["limit"]})
     assert [claim.name for claim in above.claims if not claim.proven] == ["the limit"]

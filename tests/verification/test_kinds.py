@@ -16,7 +16,7 @@ from optlaws import (
     InputError,
     MotionLaw,
     Problem,
-    construct,
+    law_from_z,
     synthesize,
 )
 from optlaws.synthesis import Window, at_least, at_most, between
@@ -113,7 +113,7 @@ def test_no_law_beats_the_bound_of_an_own_constant(seed: int, size: float) -> No
     solution = synthesize(Problem(order=4, basis=DEGREE_9, minimise=HEATING))
     assert solution.z is not None
     z = np.array(solution.z) + np.random.default_rng(seed).normal(size=10) * size
-    law = construct(BoundaryConditions.rest(4), z, DEGREE_9)
+    law = law_from_z(BoundaryConditions.rest(4), z, DEGREE_9)
     assert HEATING.value(law) >= solution.certificate.bound
 
 

@@ -272,7 +272,7 @@ def test_no_solver_takes_part(tmp_path: Path) -> None:
 def test_a_verification_is_plain_data() -> None:
     verification = verify(data_of(FIRST))
     assert isinstance(verification, Verification)
-    assert json.loads(json.dumps(verification.to_dict()))["proven"] is True
+    assert json.loads(json.dumps(verification.results()))["proven"] is True
     assert "lower bound" in str(verification)
 
 

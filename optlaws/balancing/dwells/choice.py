@@ -6,12 +6,22 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
 from math import degrees, inf, isfinite, pi
+from typing import Unpack
 
-from optlaws.balancing.dwells.mechanism import KINDS, DwellMechanism, dwell_mechanism
+from optlaws.balancing.dwells.mechanism import (
+    DEFAULTS,
+    KINDS,
+    DwellMechanism,
+    DwellOptions,
+    DwellType,
+    dwell_mechanism,
+)
 from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.laws import MotionLaw
-from optlaws.numbers import real
+from optlaws.motion.quantities import si_number
+from optlaws.numbers import NumberOrQuantity, real
+from optlaws.suggest import keywords_of
 
 SHORT, LONG = pi / 4.0, 5.0 * pi / 9.0
 
@@ -35,24 +45,22 @@ class DwellComparison:
 
     mechanisms: Mapping[str, DwellMechanism]
     reasons: Mapping[str, str]
-    chosen: str | None
-    by_rule: str
+    chosen: DwellType | None
+    by_rule: DwellType
 
 
+@keywords_of(DwellOptions, **DEFAULTS)
 def compare_dwell_mechanisms(
     *,
     law: MotionLaw,
-    dwell: float,
-    rise: float,
-    clutch_angle: float,
-    swing: float,
+    dwell: NumberOrQuantity,
+    rise: NumberOrQuantity,
+    swing: NumberOrQuantity,
     radius_ratio: float,
     inertia_ratio: float,
     most_torque: float,
     most_size: float = inf,
-    law_1: MotionLaw | None = None,
-    law_2: MotionLaw | None = None,
-    lower_dwell: float | None = None,
+    **options: Unpack[DwellOptions],
 ) -> DwellComparison:
     """Compare the types: the one with the smallest cam (a) among those whose residual torque (b) is small enough.
 
@@ -61,8 +69,10 @@ def compare_dwell_mechanisms(
 
     Parameters
     ----------
-    law, dwell, rise, clutch_angle, swing, radius_ratio, inertia_ratio, law_1, law_2, lower_dwell
-        As for `dwell_mechanism`; angles in radians.
+    law, dwell, rise, swing, radius_ratio, inertia_ratio
+        As for `dwell_mechanism`.
+    clutch_angle, law_1, law_2, return_angle, return_law, lower_dwell, standstill, reverse_share
+        As for `dwell_mechanism`, where the type has them.
     most_torque
         Greatest b that is acceptable.
     most_size
@@ -96,18 +106,19 @@ def compare_dwell_mechanisms(
         law=law,
         dwell=dwell,
         rise=rise,
-        clutch_angle=clutch_angle,
         swing=swing,
         radius_ratio=radius_ratio,
         inertia_ratio=inertia_ratio,
-        law_1=law_1,
-        law_2=law_2,
-        lower_dwell=lower_dwell,
+        **options,
     )
-    return _compared(make, most_torque, most_size, _by_rule(dwell, dwell if lower_dwell is None else lower_dwell))
+    upper, lower = dwell, options.get("lower_dwell")
+    dwells = [si_number(angle, ("angle",), "dwell") for angle in (upper, upper if lower is None else lower)]
+    return _compared(make, most_torque, most_size, _by_rule(*dwells))
 
 
-def buildable(make: Callable[[str], DwellMechanism]) -> tuple[dict[str, DwellMechanism], dict[str, InputError]]:
+def buildable(
+    make: Callable[[DwellType], DwellMechanism],
+) -> tuple[dict[str, DwellMechanism], dict[str, InputError]]:
     """The types that can be made of the same data, and why the others cannot.
 
     Examples
@@ -129,7 +140,7 @@ def buildable(make: Callable[[str], DwellMechanism]) -> tuple[dict[str, DwellMec
 
 
 def _compared(
-    make: Callable[[str], DwellMechanism], most_torque: float, most_size: float, by_rule: str
+    make: Callable[[DwellType], DwellMechanism], most_torque: float, most_size: float, by_rule: DwellType
 ) -> DwellComparison:
     for name, limit in (("most_torque", most_torque), ("most_size", most_size)):
         number = real(limit)
@@ -214,7 +225,7 @@ def _reason(mechanism: DwellMechanism, most_torque: float, most_size: float) -> 
     return f"yes: a = {mechanism.a:.4g}, {limits}" + (f", a within {most_size:g}" if isfinite(most_size) else "")
 
 
-def _by_rule(dwell: float, lower_dwell: float) -> str:
+def _by_rule(dwell: float, lower_dwell: float) -> DwellType:
     if lower_dwell == 0.0 or max(dwell, lower_dwell) > LONG:
         return "II"
     return "I" if dwell == lower_dwell and dwell <= SHORT else "III"

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from math import degrees, inf, tau
-from typing import Any
+from typing import Any, ClassVar, Literal, Self, TypedDict, Unpack
 
 from optlaws.balancing.dwells.sections import (
     Section,
@@ -20,13 +21,18 @@ from optlaws.balancing.dwells.sections import (
 from optlaws.balancing.loaders.loader import Loader
 from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.files.reading import JsonText, entries_of
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
-from optlaws.numbers import finite, real
+from optlaws.motion.quantities import si_number
+from optlaws.numbers import NumberOrQuantity, finite, real
 from optlaws.numerics.tolerances import AGREEMENT
+from optlaws.suggest import keywords_of
 
-KINDS = ("I", "II", "III")
+DwellType = Literal["I", "II", "III"]
+
+KINDS: tuple[DwellType, ...] = ("I", "II", "III")
 LAWS = ("law", "law_1", "law_2", "return_law")
 POSITIVE = ("dwell", "rise", "return_angle", "swing", "radius_ratio", "inertia_ratio")
 NOT_NEGATIVE = ("clutch_angle", "lower_dwell", "standstill")
@@ -41,7 +47,7 @@ _UNLESS_GIVEN: Any = None  # in no mechanism that was made: there INSTEAD stands
 
 
 @dataclass(frozen=True, repr=False, kw_only=True)
-class DwellMechanism:
+class DwellMechanism(JsonText):
     """A balancing cam mechanism for an executive rocker that dwells; `dwell_mechanism` makes it, and names its data.
 
     Angles are in radians, ways in strokes S of the executive link.
@@ -63,7 +69,9 @@ class DwellMechanism:
     (DwellMechanism(III, a=1.59434, b=0.15, S1=0, S2=0.666667), ['rise', 'clutch', 'run-out', 'run-up', 'clutch', ...])
     """
 
-    kind: str
+    _json_name: ClassVar[str] = "a dwell mechanism"
+
+    kind: DwellType
     law: MotionLaw
     dwell: float
     rise: float
@@ -85,6 +93,8 @@ class DwellMechanism:
         for name, other in INSTEAD.items():
             if getattr(self, name) is None:
                 object.__setattr__(self, name, getattr(self, other))
+        for name in ANGLES:
+            object.__setattr__(self, name, si_number(getattr(self, name), ("angle",), name))
         _check(self)
 
     @property
@@ -166,15 +176,30 @@ class DwellMechanism:
         return (f"rise, return and dwells add up to {degrees(self.cycle):.6g} degrees, not to one turn",)
 
     def to_dict(self) -> dict[str, Any]:
-        """Angles (radians), ways, criteria and sections as plain data."""
+        """Angles (radians), ways, criteria and sections as plain data, and the laws, others than that of the rise."""
+        laws = {name: getattr(self, name) for name in LAWS}
         return {
             "type": self.kind,
+            **{name: law.to_dict() for name, law in laws.items() if name == "law" or law != self.law},
             **{name: getattr(self, name) for name in ANGLES + RATIOS + FOUND},
             "sections": [
                 {"name": section.name, "angle": section.angle, "travel": section.travel} for section in self.sections
             ],
             "remarks": list(self.remarks),
         }
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> Self:
+        """The mechanism that `to_dict` described; ways, criteria and sections are computed, not read.
+
+        Raises
+        ------
+        InputError
+            If an entry is missing or wrong.
+        """
+        entries = entries_of(data, ("type", "law", *ANGLES, *RATIOS), cls._json_name)
+        laws = {name: MotionLaw.from_dict(data[name]) for name in LAWS if name in data}
+        return cls(kind=entries.pop("type"), **entries | laws)
 
     def __repr__(self) -> str:
         return f"DwellMechanism({self.kind}, a={self.a:g}, b={self.b:g}, S1={self.S1:g}, S2={self.S2:g})"
@@ -266,23 +291,33 @@ def _room(mechanism: DwellMechanism) -> None:
             )
 
 
+class DwellOptions(TypedDict, total=False):
+    """What a mechanism may have beside its rise and its upper dwell; `dwell_mechanism` says what each is."""
+
+    clutch_angle: NumberOrQuantity
+    law_1: MotionLaw | None
+    law_2: MotionLaw | None
+    return_angle: NumberOrQuantity | None
+    return_law: MotionLaw | None
+    lower_dwell: NumberOrQuantity | None
+    standstill: NumberOrQuantity
+    reverse_share: float
+
+
+DEFAULTS: dict[str, float] = {"clutch_angle": 0.0, "standstill": 0.0, "reverse_share": 0.5}
+
+
+@keywords_of(DwellOptions, **DEFAULTS)
 def dwell_mechanism(
-    kind: str,
+    kind: DwellType,
     *,
     law: MotionLaw,
-    dwell: float,
-    rise: float,
-    swing: float,
+    dwell: NumberOrQuantity,
+    rise: NumberOrQuantity,
+    swing: NumberOrQuantity,
     radius_ratio: float,
     inertia_ratio: float,
-    clutch_angle: float = 0.0,
-    law_1: MotionLaw | None = None,
-    law_2: MotionLaw | None = None,
-    return_angle: float | None = None,
-    return_law: MotionLaw | None = None,
-    lower_dwell: float | None = None,
-    standstill: float = 0.0,
-    reverse_share: float = 0.5,
+    **options: Unpack[DwellOptions],
 ) -> DwellMechanism:
     """A balancing cam mechanism with an inertial loader, for an executive rocker that dwells.
 
@@ -290,14 +325,15 @@ def dwell_mechanism(
     uniform speed. In types II and III a clutch lets the loader go: the rocker of type II runs out, comes back by the
     reverse motion and runs up again, that of type III runs out, may stand still and runs up again.
 
-    Angles are in radians (`optlaws.deg` turns degrees into radians), ways in strokes S of the executive link.
+    Angles have a unit, "90 deg", or are numbers in radians (`optlaws.deg` turns degrees into radians); ways are in
+    strokes S of the executive link.
 
     Parameters
     ----------
     kind
         "I", "II" or "III".
     law
-        Executive law of the rise, from rest to rest; its loader is that of `optlaws.loader`.
+        Executive law of the rise, from rest to rest; its loader is that of `inertial_loader`.
     dwell
         Angle of the upper dwell.
     rise
@@ -342,23 +378,5 @@ def dwell_mechanism(
     DwellMechanism(II, a=1, b=1.9827, S1=0.333333, S2=0.856932)
     DwellMechanism(III, a=1.59434, b=0.15, S1=0, S2=0.666667)
     """
-    optional: dict[str, Any] = {
-        "law_1": law_1,
-        "law_2": law_2,
-        "return_angle": return_angle,
-        "return_law": return_law,
-        "lower_dwell": lower_dwell,
-    }
-    return DwellMechanism(
-        kind=kind,
-        law=law,
-        dwell=dwell,
-        rise=rise,
-        clutch_angle=clutch_angle,
-        swing=swing,
-        radius_ratio=radius_ratio,
-        inertia_ratio=inertia_ratio,
-        standstill=standstill,
-        reverse_share=reverse_share,
-        **optional,
-    )
+    angles: dict[str, Any] = {"dwell": dwell, "rise": rise, "swing": swing, **options}
+    return DwellMechanism(kind=kind, law=law, radius_ratio=radius_ratio, inertia_ratio=inertia_ratio, **angles)

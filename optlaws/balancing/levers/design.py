@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import partial
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from optlaws.balancing.levers.lever import TorsionLever
 from optlaws.balancing.levers.sizing import LEAST_TRANSMISSION, MOST_ROCKER_SWING
 from optlaws.echo import shortened
 from optlaws.errors import InputError, OptlawsError
-from optlaws.numbers import Array, finite
+from optlaws.numbers import Array, NumberOrQuantity, finite
 from optlaws.numerics.bisection import bisect
 from optlaws.numerics.tolerances import LINKAGE_MET, SAME_LINKAGE
 from optlaws.suggest import unknown_key
@@ -40,11 +40,11 @@ def find_torsion_levers(
     *,
     rho: float,
     nu: float,
-    swing: float,
+    swing: NumberOrQuantity,
     beta: Span = BETA,
     lam: Span = LAM,
-    least_transmission: float = LEAST_TRANSMISSION,
-    most_rocker_swing: float = MOST_ROCKER_SWING,
+    least_transmission: NumberOrQuantity = LEAST_TRANSMISSION,
+    most_rocker_swing: NumberOrQuantity = MOST_ROCKER_SWING,
 ) -> tuple[TorsionLever, ...]:
     """All levers whose exact motion has a constant of a given value, or two of them.
 
@@ -53,11 +53,11 @@ def find_torsion_levers(
     targets
         Values by name: B1, B3, B1/B3, C1, C3, C1/C3, T (in units of sqrt(I / c1)), T/T0, zeta, xi.
     rho, nu, swing
-        As of `TorsionLever`; swing in radians.
+        As of `TorsionLever`.
     beta, lam
         A number, or the range in which it is sought: as many ranges as there are targets.
     least_transmission, most_rocker_swing
-        Limits, as of `TorsionLever`; radians.
+        Limits, as of `TorsionLever`.
 
     Returns
     -------
@@ -88,7 +88,7 @@ def find_torsion_levers(
             f"({', '.join(targets) or 'none'}), {len(sought)} sought ({', '.join(sought) or 'none'})"
         )
     fixed = {name: span for name, span in spans.items() if not isinstance(span, tuple)}
-    limits = {"least_transmission": least_transmission, "most_rocker_swing": most_rocker_swing}
+    limits: dict[str, Any] = {"least_transmission": least_transmission, "most_rocker_swing": most_rocker_swing}
     make = partial(TorsionLever, rho=rho, nu=nu, swing=swing, **fixed, **limits)
     if len(targets) == 1:
         ((quantity, value),), ((name, span),) = targets.items(), sought.items()

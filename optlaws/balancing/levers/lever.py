@@ -15,18 +15,19 @@ from optlaws.balancing.levers.sizing import LEAST_TRANSMISSION, MOST_ROCKER_SWIN
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import PolynomialLaw
-from optlaws.numbers import Array, finite
+from optlaws.motion.quantities import si_number
+from optlaws.numbers import Array, NumberOrQuantity, finite
 from optlaws.numerics.tolerances import ANGLE_LIMIT
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class TorsionLever:
     """A driven mass that swings between two pre-twisted torsion bars through a four-bar linkage.
 
     Bar 1, of stiffness c1, holds the cam's rocker, bar 2, of stiffness xi c1, the driven link; they pull against each
     other, which takes up the clearances, and carry the mass from one extreme to the other, which unloads the cam.
-    Angles in radians (`deg` turns degrees into radians), lengths in units of the rocker, moments in units of c1, times
-    in units of sqrt(I / c1).
+    Angles have a unit, "60 deg", or are numbers in radians (`deg` turns degrees into radians); lengths are in units of
+    the rocker, moments in units of c1, times in units of sqrt(I / c1).
 
     Parameters
     ----------
@@ -38,11 +39,11 @@ class TorsionLever:
         Pre-twists: bar 1 is twisted by gamma01 (1 + rho) at rest, bar 2 by |chi02| (1 + nu), so that rho and nu say
         what is left of them at the extremes.
     swing
-        Swing of the driven link from extreme to extreme, radians.
+        Swing of the driven link from extreme to extreme.
     least_transmission
-        The angles between the coupler and both links must stay between this and its supplement, radians; 30 degrees.
+        The angles between the coupler and both links must stay between this and its supplement; 30 degrees.
     most_rocker_swing
-        The rocker must not swing farther, radians; 60 degrees.
+        The rocker must not swing farther; 60 degrees.
 
     Raises
     ------
@@ -51,8 +52,7 @@ class TorsionLever:
 
     Examples
     --------
-    >>> from math import radians
-    >>> lever = TorsionLever(beta=0.75, lam=1, rho=0.15, nu=0.15, swing=radians(60))
+    >>> lever = TorsionLever(beta=0.75, lam=1, rho=0.15, nu=0.15, swing="60 deg")
     >>> law = lever.law()
     >>> round(law.constants.B.value, 6), round(law.constants.C.value, 6)
     (1.580859, 5.023235)
@@ -68,9 +68,20 @@ class TorsionLever:
     least_transmission: float = LEAST_TRANSMISSION
     most_rocker_swing: float = MOST_ROCKER_SWING
 
-    def __post_init__(self) -> None:
-        for name in ("beta", "lam", "rho", "nu", "swing", "least_transmission", "most_rocker_swing"):
-            object.__setattr__(self, name, finite(getattr(self, name), name))
+    def __init__(  # noqa: PLR0917 - the value of these seven numbers
+        self,
+        beta: float,
+        lam: float,
+        rho: float,
+        nu: float,
+        swing: NumberOrQuantity,
+        least_transmission: NumberOrQuantity = LEAST_TRANSMISSION,
+        most_rocker_swing: NumberOrQuantity = MOST_ROCKER_SWING,
+    ) -> None:
+        angles = {"swing": swing, "least_transmission": least_transmission, "most_rocker_swing": most_rocker_swing}
+        turned = {name: si_number(angle, ("angle",), name) for name, angle in angles.items()}
+        for name, value in {"beta": beta, "lam": lam, "rho": rho, "nu": nu, **turned}.items():
+            object.__setattr__(self, name, finite(value, name))
         for name in ("beta", "lam"):
             if getattr(self, name) <= 0.0:
                 raise InputError(f"{name} must be above 0, got {getattr(self, name)!r}")
@@ -81,7 +92,7 @@ class TorsionLever:
             if not 0.0 < getattr(self, name) < most:
                 raise InputError(
                     f"{name} must be above 0 and below {degrees(most):g} deg, in radians, got {getattr(self, name)!r}; "
-                    "write deg(60) for 60 degrees"
+                    'write "60 deg" for 60 degrees'
                 )
         n, p = self.n, self.p
         chi02 = self.chi01 - self.swing - p * self.swing**3 / (768.0 * n)

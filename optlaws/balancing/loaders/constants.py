@@ -12,7 +12,7 @@ import numpy as np
 from numpy.polynomial import chebyshev
 
 from optlaws.balancing.loaders.limits import LIMITS
-from optlaws.balancing.loaders.loader import loader
+from optlaws.balancing.loaders.loader import inertial_loader
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
@@ -60,7 +60,7 @@ class LoaderPeak(Functional):
     def value(self, law: MotionLaw) -> float:
         """The peak over the whole interval; inf where the law has no loader."""
         try:
-            return float(getattr(loader(law), self.of))
+            return float(getattr(inertial_loader(law), self.of))
         except InputError:
             return inf
 

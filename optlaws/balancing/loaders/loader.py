@@ -2,23 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from math import inf, isfinite, sqrt
-from typing import Any
+from typing import Any, ClassVar, Self
 
 from optlaws.balancing.loaders.law import LoaderLaw
 from optlaws.balancing.loaders.tops import is_symmetric, tops
 from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.files.reading import JsonText, entries_of
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.law import motion_law
-from optlaws.numbers import bounded, real
+from optlaws.motion.quantities import si_number
+from optlaws.numbers import NumberOrQuantity, bounded, real
 from optlaws.numerics.tolerances import AGREEMENT, LOADER_TERM
 
 
 @dataclass(frozen=True, repr=False)
-class Loader:
+class Loader(JsonText):
     """The inertial loader that balances an executive law: its energy parameter Y, its law and its peaks.
 
     Executive link and loader together keep one kinetic energy, so each gives the power that the other takes:
@@ -43,6 +46,8 @@ class Loader:
     >>> balanced.law.b([0.0, 0.5, 1.0]).round(6).tolist()
     [1.414812, 0.0, -1.414812]
     """
+
+    _json_name: ClassVar[str] = "a loader"
 
     executive: MotionLaw
 
@@ -107,15 +112,18 @@ class Loader:
         """
         return is_symmetric(self.executive)
 
-    def mass(self, *, executive_mass: float, executive_stroke: float, stroke: float) -> float:
+    def mass(
+        self, *, executive_mass: NumberOrQuantity, executive_stroke: NumberOrQuantity, stroke: NumberOrQuantity
+    ) -> float:
         """Mass of the loader for a stroke of its own (eq. 2).
 
         Parameters
         ----------
         executive_mass, executive_stroke
-            Moving mass in kg and stroke in m of the executive link; or moment of inertia in kg m² and swing in rad.
+            Moving mass, "2.5 kg", and stroke, "40 mm", of the executive link; or moment of inertia and swing. Numbers
+            are in kg and m, or kg m² and rad.
         stroke
-            Stroke of the loader, from one extreme to the other, in the same unit.
+            Stroke of the loader, from one extreme to the other, likewise.
 
         Returns
         -------
@@ -129,25 +137,27 @@ class Loader:
         Examples
         --------
         >>> from optlaws import catalogue
-        >>> loader(catalogue["K"].law).mass(executive_mass=2.5, executive_stroke=0.040, stroke=0.020)
+        >>> inertial_loader(catalogue["K"].law).mass(executive_mass="2.5 kg", executive_stroke="40 mm", stroke=0.020)
         10.0
         """
-        _check(executive_mass=executive_mass, executive_stroke=executive_stroke, stroke=stroke)
-        return executive_mass * (executive_stroke / (self.Y * stroke)) ** 2
+        mass, h, h_loader = _sizes(executive_mass=executive_mass, executive_stroke=executive_stroke, stroke=stroke)
+        return mass * (h / (self.Y * h_loader)) ** 2
 
-    def stroke(self, *, executive_mass: float, executive_stroke: float, mass: float) -> float:
+    def stroke(
+        self, *, executive_mass: NumberOrQuantity, executive_stroke: NumberOrQuantity, mass: NumberOrQuantity
+    ) -> float:
         """Stroke of a loader of some mass (eq. 2).
 
         Parameters
         ----------
         executive_mass, executive_stroke
-            Moving mass in kg and stroke in m of the executive link; or moment of inertia in kg m² and swing in rad.
+            As of `mass`.
         mass
-            Mass of the loader in kg, or moment of inertia in kg m².
+            Mass of the loader, or its moment of inertia.
 
         Returns
         -------
-        Stroke from one extreme to the other, in the unit of the executive stroke.
+        Stroke from one extreme to the other, m or rad; in the unit of the executive stroke where that is a number.
 
         Raises
         ------
@@ -157,11 +167,11 @@ class Loader:
         Examples
         --------
         >>> from optlaws import catalogue
-        >>> loader(catalogue["K"].law).stroke(executive_mass=2.5, executive_stroke=0.040, mass=10.0)
+        >>> inertial_loader(catalogue["K"].law).stroke(executive_mass=2.5, executive_stroke=0.040, mass=10.0)
         0.02
         """
-        _check(executive_mass=executive_mass, executive_stroke=executive_stroke, mass=mass)
-        return executive_stroke / self.Y * sqrt(executive_mass / mass)
+        executive, h, moved = _sizes(executive_mass=executive_mass, executive_stroke=executive_stroke, mass=mass)
+        return h / self.Y * sqrt(executive / moved)
 
     def to_dict(self) -> dict[str, Any]:
         """Y, the peaks and the law as plain data; a peak without bound is None."""
@@ -183,11 +193,22 @@ class Loader:
             "law": self.law.to_dict(),
         }
 
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> Self:
+        """The loader that `to_dict` described, of its law alone; all else is computed.
+
+        Raises
+        ------
+        InputError
+            If there is no law of a loader.
+        """
+        return cls(LoaderLaw.from_dict(entries_of(data, ("law",), cls._json_name)["law"]).executive)
+
     def __repr__(self) -> str:
         return f"Loader(Y={self.Y:g}, B={self.B:g}, C={self.C:g}, D={self.D:g})"
 
 
-def loader(law: MotionLaw) -> Loader:
+def inertial_loader(law: MotionLaw) -> Loader:
     """The inertial loader that balances the inertia of a link moving by a law (eq. 1, 2).
 
     Parameters
@@ -203,15 +224,19 @@ def loader(law: MotionLaw) -> Loader:
     Examples
     --------
     >>> from optlaws import catalogue
-    >>> balanced = loader(catalogue["0317(1,5)"].law)
+    >>> balanced = inertial_loader(catalogue["0317(1,5)"].law)
     >>> balanced, balanced.C_at_turn, balanced.peaks_at_turn
     (Loader(Y=1.07323, B=1.66389, C=4.9574, D=5.51213), 0.0, False)
     """
     return Loader(law)
 
 
-def _check(**quantities: float) -> None:
-    for name, value in quantities.items():
-        number = real(value)
+def _sizes(**given: NumberOrQuantity) -> list[float]:
+    sizes = []
+    for name, value in given.items():
+        kinds = ("length", "angle") if name.endswith("stroke") else ("mass", "moment of inertia")
+        number = real(si_number(value, kinds, name))
         if number is None or not 0.0 < number < inf:
             raise InputError(f"{name} must be positive and finite, got {shortened(value)}")
+        sizes.append(number)
+    return sizes

@@ -2,28 +2,30 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, ClassVar
 
 from optlaws.balancing.loaders.constants import objective
 from optlaws.balancing.loaders.limits import loader_velocity_limit
-from optlaws.balancing.loaders.loader import Loader, loader
+from optlaws.balancing.loaders.loader import Loader, inertial_loader
 from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.files.reading import JsonText, entries_of
 from optlaws.laws import MotionLaw
 from optlaws.numbers import bounded, positive
 from optlaws.synthesis.problem.expression import Expression, Term
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import at_most
 from optlaws.synthesis.solution import Solution, Status
-from optlaws.synthesis.solve import synthesize
+from optlaws.synthesis.solve import Bound, synthesize
 from optlaws.synthesis.spaces.bases import Basis, Chebyshev, PolynomialBasis
 
 _LEAST_DEGREE, _AT_REST = 3, 2
 
 
 @dataclass(frozen=True, repr=False)
-class BalancedLaw:
+class BalancedLaw(JsonText):
     """An executive law with its loader, and what is proven of it; all numbers are recomputed from the law.
 
     Attributes
@@ -52,8 +54,10 @@ class BalancedLaw:
     ('optimal', True, True)
     """
 
+    _json_name: ClassVar[str] = "a balanced law"
+
     law: MotionLaw
-    loader: Loader
+    inertial_loader: Loader
     minimise: Expression
     objective: float
     lower_bound: float
@@ -77,7 +81,19 @@ class BalancedLaw:
             "loader": self.loader.to_dict(),
             "law": self.law.to_dict(),
             "starts": list(self.starts),
+            "solution": None if self.solution is None else self.solution.to_dict(),
         }
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> BalancedLaw:
+        """The result that `to_dict` described, of its `solution`, with which all is held against problem and proofs.
+
+        Raises
+        ------
+        InputError
+            If there is no solution, or it is wrong.
+        """
+        return _balanced(Solution.from_dict(entries_of(data, ("solution",), cls._json_name)["solution"]))
 
     def __repr__(self) -> str:
         return (
@@ -93,7 +109,7 @@ def balanced_law(
     basis: Basis | None = None,
     minimise: str | Term | Expression = "C_loader",
     most_C: float | None = None,
-    bound: str = "quick",
+    bound: Bound = "quick",
 ) -> BalancedLaw:
     """The symmetric executive law of a peak velocity whose inertial loader is gentlest.
 
@@ -137,11 +153,14 @@ def balanced_law(
     5.65925
     """
     problem = balanced_problem(B, order=order, basis=basis, minimise=minimise, most_C=most_C)
-    solution = synthesize(problem, bound=bound)
+    return _balanced(synthesize(problem, bound=bound))
+
+
+def _balanced(solution: Solution) -> BalancedLaw:
     return BalancedLaw(
         solution.law,
-        loader(solution.law),
-        problem.objective,
+        inertial_loader(solution.law),
+        solution.problem.objective,
         solution.objective,
         solution.lower_bound,
         solution.status,

@@ -20,7 +20,7 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import TURN, either
-from optlaws.numbers import Array, finite, real_times
+from optlaws.numbers import Array, Quantity, finite, real_times
 from optlaws.numerics.enclosures.branch_and_bound import Extremes, extremes
 from optlaws.numerics.enclosures.integral import integral
 from optlaws.numerics.enclosures.interval import Interval
@@ -108,7 +108,7 @@ class Balancing:
         values = self._executive(times) + (self._loader(times) if balanced else 0.0)
         return values if np.ndim(values) else float(values)
 
-    def loader_motion(self, stroke: str) -> CamMotion:
+    def loader_motion(self, stroke: Quantity) -> CamMotion:
         """The loader over the turn, for its own cam: forth and back with each move, as far as it goes each time.
 
         Parameters

@@ -6,9 +6,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import pairwise
 from math import tau
-from typing import Any
+from typing import Any, ClassVar, Self, TypedDict, Unpack
 
-from optlaws.balancing.dwells.mechanism import DwellMechanism, dwell_mechanism
+from optlaws.balancing.dwells.mechanism import DwellMechanism, DwellType, dwell_mechanism
 from optlaws.balancing.dwells.sections import peak_power
 from optlaws.cams.curves.motion_by_angle import CamMotion, CamStretch
 from optlaws.cams.disc import DiscCam
@@ -17,14 +17,18 @@ from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.specification.segments import Dwell, Return, Rise
 from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.files.reading import JsonText, entries_of
 from optlaws.laws import MotionLaw
-from optlaws.motion.quantities import quantity
+from optlaws.motion.quantities import positive_quantity, quantity
+from optlaws.numbers import Quantity, positive
+from optlaws.suggest import keywords_of
 
 _DWELL = ("run-out", "reverse", "run-up")
+_SIZES = ("inertia", "loader_inertia", "arm", "base_radius")
 
 
 @dataclass(frozen=True)
-class DwellMachine:
+class DwellMachine(JsonText):
     """A balancing dwell mechanism at a speed; made by `dwell_machine`.
 
     Attributes
@@ -47,6 +51,8 @@ class DwellMachine:
     >>> round(type_1.balanced_torque, 6), type_1.residual_torque
     (0.668101, 0.0)
     """
+
+    _json_name: ClassVar[str] = "a dwell machine"
 
     mechanism: DwellMechanism
     rate: float
@@ -127,7 +133,7 @@ class DwellMachine:
             stretches.append(CamStretch(tau * low, tau * high, offset, turn.swing, tau, segment, high - low))
         return CamMotion(tuple(stretches), axis="angle", closed=True)
 
-    def cams(self, roller: str, pivot_distance: str) -> dict[str, DiscCam]:
+    def cams(self, roller: Quantity, pivot_distance: Quantity) -> dict[str, DiscCam]:
         """The executive cam and the loader's, with rollers on arms.
 
         Parameters
@@ -150,9 +156,23 @@ class DwellMachine:
         }
 
     def to_dict(self) -> dict[str, Any]:
-        """Torques, angles and criteria as plain data in SI units."""
-        names = ("rate", "clutch_angle", "balanced_torque", "driven_torque", "residual_torque", "loader_driven_torque")
+        """Sizes, torques, angles and criteria as plain data in SI units."""
+        torques = ("balanced_torque", "driven_torque", "residual_torque", "loader_driven_torque")
+        names = ("rate", *_SIZES, "clutch_angle", *torques)
         return {name: getattr(self, name) for name in names} | {"mechanism": self.mechanism.to_dict()}
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> Self:
+        """The machine that `to_dict` described; torques are computed, not read.
+
+        Raises
+        ------
+        InputError
+            If an entry is missing or wrong.
+        """
+        numbers = entries_of(data, ("rate", *_SIZES, "mechanism"), cls._json_name)
+        mechanism = DwellMechanism.from_dict(numbers.pop("mechanism"))
+        return cls(mechanism, **{name: positive(value, name) for name, value in numbers.items()})
 
     @property
     def _sections(self) -> list[tuple[MotionLaw, float, float]]:
@@ -177,20 +197,27 @@ class DwellMachine:
         return self.mechanism
 
 
+class DwellSizes(TypedDict):
+    """Inertias of a dwell machine and lengths of its rockers and cams."""
+
+    inertia: Quantity
+    loader_inertia: Quantity
+    arm: Quantity
+    base_radius: Quantity
+
+
+@keywords_of(DwellSizes)
 def dwell_machine(
-    kind: str,
+    kind: DwellType,
     *,
     law: MotionLaw,
-    speed: str,
-    dwell: str,
-    rise: str,
-    swing: str,
-    inertia: str,
-    loader_inertia: str,
-    arm: str,
-    base_radius: str,
-    clutch_time: str = "0 s",
+    speed: Quantity,
+    dwell: Quantity,
+    rise: Quantity,
+    swing: Quantity,
+    clutch_time: Quantity = "0 s",
     more: Mapping[str, Any] | None = None,
+    **sizes: Unpack[DwellSizes],
 ) -> DwellMachine:
     """A balancing dwell mechanism from a machine's data: its clutch takes a time, an angle that grows with the speed.
 
@@ -228,34 +255,21 @@ def dwell_machine(
     >>> slow.mechanism, round(slow.balanced_torque, 6), round(slow.residual_torque, 6)
     (DwellMechanism(III, a=1.59434, b=0.15, S1=0, S2=0.666667), 0.668101, 0.100215)
     """
-    given = {
-        "speed": _above(speed, "angular velocity", "speed"),
-        "arm": _above(arm, "length", "arm"),
-        "base_radius": _above(base_radius, "length", "base_radius"),
-        "inertia": _above(inertia, "moment of inertia", "inertia"),
-        "loader_inertia": _above(loader_inertia, "moment of inertia", "loader_inertia"),
-    }
-    turned = _above(swing, "angle", "swing")
+    rate = positive_quantity(speed, "angular velocity", "speed")
+    kinds = dict(zip(_SIZES, ("moment of inertia",) * 2 + ("length",) * 2, strict=True))
+    known = {name: positive_quantity(sizes[name], kind, name) for name, kind in kinds.items()}  # type: ignore[literal-required]
     time = quantity(clutch_time, "time", "clutch_time")
     if time < 0.0:
         raise InputError(f"clutch_time must be at least 0, got {shortened(clutch_time)}")
+    angles = {"dwell": dwell, "rise": rise, "swing": swing}
+    turned: dict[str, Any] = {name: positive_quantity(angle, "angle", name) for name, angle in angles.items()}
     mechanism = dwell_mechanism(
         kind,
         law=law,
-        clutch_angle=given["speed"] * time,
-        radius_ratio=given["base_radius"] / (turned * given["arm"]),
-        inertia_ratio=given["loader_inertia"] / given["inertia"],
-        dwell=_above(dwell, "angle", "dwell"),
-        rise=_above(rise, "angle", "rise"),
-        swing=turned,
+        clutch_angle=rate * time,
+        radius_ratio=known["base_radius"] / (turned["swing"] * known["arm"]),
+        inertia_ratio=known["loader_inertia"] / known["inertia"],
+        **turned,
         **(more or {}),
     )
-    sizes = {name: given[name] for name in ("inertia", "loader_inertia", "arm", "base_radius")}
-    return DwellMachine(mechanism, given["speed"], **sizes)
-
-
-def _above(value: str, dimension: str, name: str) -> float:
-    known = quantity(value, dimension, name)
-    if known <= 0.0:
-        raise InputError(f"{name} must be above 0, got {shortened(value)}")
-    return known
+    return DwellMachine(mechanism, rate, **known)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import atan, degrees, inf, nextafter
-from typing import TypeAlias
+from typing import Literal, TypeAlias
 
 from optlaws.cams.curves.motion_by_angle import CamMotion
 from optlaws.numerics.enclosures.branch_and_bound import extremes
@@ -17,7 +17,10 @@ Function: TypeAlias = Callable[[Jet], Jet]
 
 _PARTS = 12
 
-FREE, UNDERCUT, UNDECIDED = "free", "undercut", "undecided"
+UndercutStatus = Literal["free", "undercut", "undecided"]
+FREE: UndercutStatus = "free"
+UNDERCUT: UndercutStatus = "undercut"
+UNDECIDED: UndercutStatus = "undecided"
 
 
 @dataclass(frozen=True)
@@ -82,7 +85,7 @@ class Undercut:
         The least radius of curvature of the profile where it bulges, m; below 0 by how much the roller is too large.
     """
 
-    status: str
+    status: UndercutStatus
     simple: bool
     margin: EnclosedExtreme
 

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import degrees, gcd, inf
 from typing import TYPE_CHECKING, Any
+
+from cyclopts import Parameter
 
 import optlaws
 from optlaws.cli.options import AsJson, Whole, read_law
@@ -18,30 +21,13 @@ _TEETH = 3
 _TURN = 360.0 * (1.0 + 1e-9)
 
 
-def dwell(
-    name: str,
-    /,
-    *,
-    dwell: float,
-    rise: float,
-    swing: float,
-    radius_ratio: float,
-    inertia_ratio: float,
-    clutch_angle: float,
-    most_torque: float,
-    most_size: float = inf,
-    lower_dwell: float | None = None,
-    law_1: str | None = None,
-    law_2: str | None = None,
-    teeth: Whole = 120,
-    as_json: AsJson = False,
-) -> None:
-    """Balancing mechanisms of types I, II and III for an executive link that dwells, and which of them to take.
+@Parameter(name="*")
+@dataclass(frozen=True, kw_only=True)
+class DwellAngles:
+    """Angles of the mechanism, and ratios.
 
     Parameters
     ----------
-    name
-        Executive law: a name or code of the catalogue, or a JSON or CSV file with a law.
     dwell
         Upper dwell, degrees.
     rise
@@ -54,12 +40,41 @@ def dwell(
         Inertia of the loader's rocker over the executive inertia.
     clutch_angle
         Angle in which the clutch acts at either end of a dwell, degrees.
+    lower_dwell
+        Lower dwell, degrees; 0 for none, the upper one unless given.
+    """
+
+    dwell: float
+    rise: float
+    swing: float
+    radius_ratio: float
+    inertia_ratio: float
+    clutch_angle: float
+    lower_dwell: float | None = None
+
+
+def dwell(
+    name: str,
+    /,
+    *,
+    angles: DwellAngles,
+    most_torque: float,
+    most_size: float = inf,
+    law_1: str | None = None,
+    law_2: str | None = None,
+    teeth: Whole = 120,
+    as_json: AsJson = False,
+) -> None:
+    """Balancing mechanisms of types I, II and III for an executive link that dwells, and which of them to take.
+
+    Parameters
+    ----------
+    name
+        Executive law: a name or code of the catalogue, or a JSON or CSV file with a law.
     most_torque
         Greatest residual torque b that is acceptable.
     most_size
         Greatest size a of the cam that is acceptable.
-    lower_dwell
-        Lower dwell, degrees; 0 for none, the upper one unless given.
     law_1
         Law of run-out and run-up of type II; the executive law unless given.
     law_2
@@ -69,18 +84,18 @@ def dwell(
     as_json
         Print one JSON object on stdout and nothing else; angles in radians.
     """
-    _check_turn(rise, dwell, lower_dwell)
+    _check_turn(angles.rise, angles.dwell, angles.lower_dwell)
     comparison = optlaws.compare_dwell_mechanisms(
         law=read_law(name),
-        dwell=optlaws.deg(dwell),
-        rise=optlaws.deg(rise),
-        swing=optlaws.deg(swing),
-        radius_ratio=radius_ratio,
-        inertia_ratio=inertia_ratio,
-        clutch_angle=optlaws.deg(clutch_angle),
+        dwell=optlaws.deg(angles.dwell),
+        rise=optlaws.deg(angles.rise),
+        swing=optlaws.deg(angles.swing),
+        radius_ratio=angles.radius_ratio,
+        inertia_ratio=angles.inertia_ratio,
+        clutch_angle=optlaws.deg(angles.clutch_angle),
         most_torque=most_torque,
         most_size=most_size,
-        lower_dwell=None if lower_dwell is None else optlaws.deg(lower_dwell),
+        lower_dwell=None if angles.lower_dwell is None else optlaws.deg(angles.lower_dwell),
         law_1=None if law_1 is None else read_law(law_1),
         law_2=None if law_2 is None else read_law(law_2),
     )

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import degrees
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+from cyclopts import Parameter
 
 import optlaws
 from optlaws.cli.options import AsJson, check_files, save
@@ -20,23 +23,10 @@ _ANGLES = ("chi01", "chi02")
 _CONSTANTS = ("zeta", "B1", "B3", "C1", "C3")
 
 
-def lever(
-    *,
-    swing: float,
-    beta: float | None = None,
-    lam: float | None = None,
-    rho: float = 0.15,
-    nu: float = 0.15,
-    wanted: list[str] | None = None,
-    inertia: float | None = None,
-    stiffness: float | None = None,
-    period: float | None = None,
-    least_transmission: float = 30.0,
-    most_rocker_swing: float = 60.0,
-    as_json: AsJson = False,
-    output: Path | None = None,
-) -> None:
-    """Law of motion of a mass that swings between torsion bars on a cam-lever mechanism: exact and asymptotic.
+@Parameter(name="*")
+@dataclass(frozen=True, kw_only=True)
+class LeverOptions:
+    """The lever: its swing, its lengths, what is left of its twists, and its limits.
 
     Parameters
     ----------
@@ -50,42 +40,92 @@ def lever(
         Part of the first bar's pre-twist that is left at its extreme.
     nu
         Part of the second bar's pre-twist that is left at its extreme.
-    wanted
-        A constant of the exact motion, such as B1/B3=0.99 or T=6.1, for which the length not given is sought; twice for
-        two of them and both lengths.
+    least_transmission
+        Least angle between the coupler and either link, degrees; the greatest is its supplement.
+    most_rocker_swing
+        Greatest swing of the rocker, degrees.
+    """
+
+    swing: float
+    beta: float | None = None
+    lam: float | None = None
+    rho: float = 0.15
+    nu: float = 0.15
+    least_transmission: float = 30.0
+    most_rocker_swing: float = 60.0
+
+    @property
+    def given(self) -> dict[str, float]:
+        """What `TorsionLever` takes beside the lengths.
+
+        Raises
+        ------
+        InputError
+            If an angle is out of range.
+        """
+        most = {"swing": 180.0, "least_transmission": 90.0, "most_rocker_swing": 180.0}
+        for name, limit in most.items():
+            angle = getattr(self, name)
+            if not 0.0 < angle < limit:
+                option = f"--{name.replace('_', '-')}"
+                raise InputError(f"{option} must be above 0 and below {limit:g} degrees, got {angle:g}")
+        return {"rho": self.rho, "nu": self.nu} | {name: optlaws.deg(getattr(self, name)) for name in most}
+
+
+@Parameter(name="*")
+@dataclass(frozen=True, kw_only=True)
+class BarOptions:
+    """The bars in a machine.
+
+    Parameters
+    ----------
     inertia
         Moment of inertia of the driven mass, kg m².
     stiffness
         Stiffness c1 of the first bar, N m/rad: with --inertia, gives the period in seconds.
     period
         Wanted period, seconds: with --inertia, gives the stiffness of both bars.
-    least_transmission
-        Least angle between the coupler and either link, degrees; the greatest is its supplement.
-    most_rocker_swing
-        Greatest swing of the rocker, degrees.
+    """
+
+    inertia: float | None = None
+    stiffness: float | None = None
+    period: float | None = None
+
+    def check(self) -> None:
+        """Refuse what goes with nothing."""
+        if self.period is not None and self.stiffness is not None:
+            raise InputError("--period and --stiffness exclude each other: one gives the other")
+        if (self.inertia is None) != (self.period is None and self.stiffness is None):
+            raise InputError("--inertia goes with --stiffness or --period")
+
+
+_BARS = BarOptions()
+
+
+def lever(
+    *,
+    options: LeverOptions,
+    wanted: list[str] | None = None,
+    bars: BarOptions = _BARS,
+    as_json: AsJson = False,
+    output: Path | None = None,
+) -> None:
+    """Law of motion of a mass that swings between torsion bars on a cam-lever mechanism: exact and asymptotic.
+
+    Parameters
+    ----------
+    wanted
+        A constant of the exact motion, such as B1/B3=0.99 or T=6.1, for which the length not given is sought; twice for
+        two of them and both lengths.
     as_json
         Print one JSON object on stdout and nothing else; angles in radians.
     output
         Write the exact law of the stroke to this JSON file.
     """
     check_files(output)
-    if period is not None and stiffness is not None:
-        raise InputError("--period and --stiffness exclude each other: one gives the other")
-    if (inertia is None) != (period is None and stiffness is None):
-        raise InputError("--inertia goes with --stiffness or --period")
-    angles = {"--swing": (swing, 180.0), "--least-transmission": (least_transmission, 90.0)}
-    for option, (angle, most) in {**angles, "--most-rocker-swing": (most_rocker_swing, 180.0)}.items():
-        if not 0.0 < angle < most:
-            raise InputError(f"{option} must be above 0 and below {most:g} degrees, got {angle:g}")
-    given: dict[str, float] = {
-        "rho": rho,
-        "nu": nu,
-        "swing": optlaws.deg(swing),
-        "least_transmission": optlaws.deg(least_transmission),
-        "most_rocker_swing": optlaws.deg(most_rocker_swing),
-    }
-    levers = _levers(beta, lam, wanted or [], given)
-    machines = [_machine(lever.exact, inertia, stiffness, period, lever.xi) for lever in levers]
+    bars.check()
+    levers = _levers(options, wanted or [])
+    machines = [_machine(lever.exact, bars, lever.xi) for lever in levers]
     if output is not None:
         _save(output, levers)
     if as_json:
@@ -96,9 +136,8 @@ def lever(
         _show(lever, machine)
 
 
-def _levers(
-    beta: float | None, lam: float | None, wanted: list[str], given: dict[str, float]
-) -> tuple[optlaws.TorsionLever, ...]:
+def _levers(options: LeverOptions, wanted: list[str]) -> tuple[optlaws.TorsionLever, ...]:
+    beta, lam, given = options.beta, options.lam, options.given
     if wanted:
         from optlaws.balancing.levers.design import BETA, LAM
 
@@ -119,16 +158,14 @@ def _value(text: str) -> tuple[str, float]:
         raise InputError(f"--wanted takes NAME=NUMBER, such as B1/B3=0.99, got {text!r}") from None
 
 
-def _machine(
-    motion: LeverMotion, inertia: float | None, stiffness: float | None, period: float | None, xi: float
-) -> dict[str, float]:
-    if inertia is None:
+def _machine(motion: LeverMotion, bars: BarOptions, xi: float) -> dict[str, float]:
+    if bars.inertia is None:
         return {}
-    first = motion.stiffness(period, inertia) if period is not None else stiffness
+    first = motion.stiffness(bars.period, bars.inertia) if bars.period is not None else bars.stiffness
     if first is None:
         return {}
     return {
-        "period_seconds": motion.seconds(first, inertia),
+        "period_seconds": motion.seconds(first, bars.inertia),
         "stiffness_1": first,
         "stiffness_2": xi * first,
     }

@@ -41,7 +41,7 @@ def loader(
         Write the loader's law to this JSON file.
     """
     check_files(output)
-    balancer = optlaws.loader(read_law(name))
+    balancer = optlaws.inertial_loader(read_law(name))
     machine = _machine(balancer, executive_mass, executive_stroke, mass, stroke)
     if output is not None:
         save(output, {"law": balancer.law.to_dict()})

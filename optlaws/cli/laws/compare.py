@@ -50,7 +50,7 @@ def compare(
     if nu is not None and len(nu) > _INTERVAL:
         raise InputError(f"--nu is given once for a frequency or twice for an interval, got {len(nu)} times")
     frequency = None if nu is None else nu[0] if len(nu) == _ONE else (nu[0], nu[1])
-    comparison = optlaws.compare(*laws, stroke=stroke, duration=duration, nu=frequency, damping=damping)
+    comparison = optlaws.compare_laws(*laws, stroke=stroke, duration=duration, nu=frequency, damping=damping)
     if csv is not None:
         _save(comparison, csv)
     if plot is not None:

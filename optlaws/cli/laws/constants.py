@@ -33,8 +33,8 @@ def constants(
         numbers = [float(text) for text in z.replace(",", " ").split()]
     except ValueError as error:
         raise InputError(f"--z takes numbers separated by blanks: {error}") from None
-    peaks = optlaws.construct(optlaws.BoundaryConditions.rest(order), numbers).constants
+    peaks = optlaws.law_from_z(optlaws.BoundaryConditions.rest(order), numbers).constants
     if as_json:
-        print_json(peaks.to_dict())
+        print_json(peaks.to_dict(rms=False))
     else:
         show(constants_table(peaks))

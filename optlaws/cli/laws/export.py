@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import sys
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import Parameter
 
-from optlaws.cli.options import AsJson, Duration, Whole, check_files, read_law
+from optlaws.cli.options import WHOLE_TABLE, AsJson, Duration, TableOptions, Whole, check_files, read_law
 from optlaws.cli.show import print_json, show, table
 from optlaws.errors import InputError
 
@@ -19,41 +20,13 @@ if TYPE_CHECKING:
 BEST = "best"
 
 
-def export(
-    law: str | None = None,
-    /,
-    *,
-    to: str | None = None,
-    listed: Annotated[bool, Parameter(name="--list")] = False,
-    stroke: str | None = None,
-    duration: Duration = None,
-    master: str | None = None,
-    start: str | None = None,
-    axis: str | None = None,
-    points: str | None = None,
-    counts: Whole | None = None,
-    digits: Whole | None = None,
-    decimal: str | None = None,
-    interpolation: str | None = None,
-    task: str | None = None,
-    name: str | None = None,
-    tolerance: float | None = None,
-    columns: str | None = None,
-    output: Path | None = None,
-    as_json: AsJson = False,
-) -> None:
-    """Write a law or a cycle in the format of a controller, and say what the controller will run.
-
-    The file goes to --output or, without it, to stdout and the report to stderr.
+@Parameter(name="*")
+@dataclass(frozen=True, kw_only=True)
+class MotionOptions:
+    """The motion of a law in its machine, or the axis of a problem file.
 
     Parameters
     ----------
-    law
-        A law by its name or file, or a problem file of the job "cycle" (.toml).
-    to
-        The format; --list tells which there are.
-    listed
-        List the formats: who takes them, how it interpolates, what it cannot hold.
     stroke
         How far the slave moves, such as "35 mm" or "-20 deg": positions are in its unit. Of a law alone.
     duration
@@ -64,6 +37,22 @@ def export(
         Position of the slave at the start; 0 unless given. Of a law alone.
     axis
         Which axis of a problem file with several.
+    """
+
+    stroke: str | None = None
+    duration: Duration = None
+    master: str | None = None
+    start: str | None = None
+    axis: str | None = None
+
+
+@Parameter(name="*")
+@dataclass(frozen=True, kw_only=True)
+class FormatOptions:
+    """What formats take, each some of it.
+
+    Parameters
+    ----------
     points
         How many points or pieces; chosen unless given, for the least peak acceleration of the run. "best" looks for the
         fewest pieces with the best breaks too, in formats of polynomials.
@@ -79,8 +68,44 @@ def export(
         Time of the drive's task, such as "1 ms": the report then says what it hears once in each.
     name
         Of the variable, the table or the joint.
-    tolerance, columns
-        Of a table of points, as `optlaws law` takes them.
+    """
+
+    points: str | None = None
+    counts: Whole | None = None
+    digits: Whole | None = None
+    decimal: str | None = None
+    interpolation: str | None = None
+    task: str | None = None
+    name: str | None = None
+
+
+_MOTION, _FORMAT = MotionOptions(), FormatOptions()
+
+
+def export(
+    law: str | None = None,
+    /,
+    *,
+    to: str | None = None,
+    listed: Annotated[bool, Parameter(name="--list")] = False,
+    motion: MotionOptions = _MOTION,
+    options: FormatOptions = _FORMAT,
+    points: TableOptions = WHOLE_TABLE,
+    output: Path | None = None,
+    as_json: AsJson = False,
+) -> None:
+    """Write a law or a cycle in the format of a controller, and say what the controller will run.
+
+    The file goes to --output or, without it, to stdout and the report to stderr.
+
+    Parameters
+    ----------
+    law
+        A law by its name or file, or a problem file of the job "cycle" (.toml).
+    to
+        The format; --list tells which there are.
+    listed
+        List the formats: who takes them, how it interpolates, what it cannot hold.
     output
         The file to write; one that is there and says something else is kept as NAME.orig.
     as_json
@@ -96,12 +121,10 @@ def export(
     from optlaws.exports.format import format_of
 
     chosen = format_of(to)
-    asked = {"counts": counts, "digits": digits, "decimal": decimal, "interpolation": interpolation, "name": name}
-    request = {**asked, "points": _points(points)}
+    request: dict[str, Any] = {**asdict(options), "points": _points(options.points)}
+    task = request.pop("task")
     chosen.request(**request)
-    said = {"stroke": stroke, "duration": duration, "master": master, "start": start}
-    of_table = {"tolerance": tolerance, "columns": columns}
-    made = export_motion(_motion(law, axis, said, of_table), to, task=task, **request)
+    made = export_motion(_motion(law, motion, points), to, task=task, **request)
     _answer(made, output, as_json=as_json)
 
 
@@ -114,20 +137,21 @@ def _points(text: str | None) -> int | str | None:
         raise InputError(f"--points takes a whole number or {BEST}, got {text}") from None
 
 
-def _motion(law: str, axis: str | None, said: dict[str, str | None], of_table: dict[str, Any]) -> Motion:
+def _motion(law: str, options: MotionOptions, points: TableOptions) -> Motion:
     from optlaws.files.packaged import is_problem
     from optlaws.motion.motion import motion_of_law
 
+    given: dict[str, Any] = asdict(options)
+    axis = given.pop("axis")
     if not is_problem(law):
         if axis is not None:
             raise InputError("--axis is one of a problem file with several; a law has none")
-        return motion_of_law(read_law(law, **of_table), **said)
-    of_law = said | of_table
-    for option in ("stroke", "duration", "start", "tolerance", "columns"):
-        if of_law[option] is not None:
+        return motion_of_law(read_law(law, points=points), **given)
+    for option, value in {**given, **asdict(points), "master": None}.items():
+        if value is not None:
             raise InputError(f"--{option} is of a law alone: a cycle has its own")
     cycle = _cycle(Path(law), axis)
-    of_cycle: Motion = cycle.motion() if said["master"] is None else cycle.motion(master=said["master"])
+    of_cycle: Motion = cycle.motion() if options.master is None else cycle.motion(master=options.master)
     return of_cycle
 
 
@@ -149,7 +173,7 @@ def _answer(made: Export, output: Path | None, *, as_json: bool) -> None:
     if output is not None:
         made.write(output)
     if as_json:
-        print_json(made.to_dict() | ({"text": made.text} if output is None else {"file": str(output)}))
+        print_json(made.results() | ({"text": made.text} if output is None else {"file": str(output)}))
     elif output is None:
         print(made.text, end="")  # noqa: T201 - the answer itself
         print(made, file=sys.stderr)  # noqa: T201

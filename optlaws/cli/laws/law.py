@@ -2,28 +2,49 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from cyclopts import Parameter
+
 import optlaws
 from optlaws.cli.laws.catalogue import continuous
-from optlaws.cli.options import AsJson, Whole, check_files, read_law, save_picture
+from optlaws.cli.options import WHOLE_TABLE, AsJson, TableOptions, Whole, check_files, read_law, save_picture
 from optlaws.cli.show import constants_table, number, print_json, show, table
 from optlaws.errors import InputError
+
+
+@Parameter(name="*")
+@dataclass(frozen=True, kw_only=True)
+class MemberOptions:
+    """The member of a family.
+
+    Parameters
+    ----------
+    alpha
+        Member of the family I, II, III or IV.
+    peak_velocity
+        B of the member, in place of alpha.
+    """
+
+    alpha: float | None = None
+    peak_velocity: float | None = None
+
+
+_NO_MEMBER = MemberOptions()
 
 
 def law(
     name: str,
     /,
     *,
-    alpha: float | None = None,
-    peak_velocity: float | None = None,
+    member: MemberOptions = _NO_MEMBER,
     at: list[float] | None = None,
     plot: Path | None = None,
     csv: Path | None = None,
     samples: Whole | None = None,
-    tolerance: float | None = None,
-    columns: str | None = None,
+    points: TableOptions = WHOLE_TABLE,
     as_json: AsJson = False,
 ) -> None:
     """Show a law of the catalogue, a coded law, a member of Savin's families or a stored law, with its constants.
@@ -33,10 +54,6 @@ def law(
     name
         A name in any language or of a controller, a code such as "0317(1,5)", a member such as "III(7.2)", a JSON file
         of a law or of `optlaws solve --output`, or a file with a table of points (.csv, .txt, .tsv, .tab, .dat).
-    alpha
-        Member of the family I, II, III or IV.
-    peak_velocity
-        B of the member, in place of alpha.
     at
         k in [0, 1] to give a, b, c, j and d at; may be repeated.
     plot
@@ -45,11 +62,6 @@ def law(
         Write k, a, b, c, j and d at equal steps of k to this file.
     samples
         How many lines for --csv; 201 unless given.
-    tolerance
-        Of a table of points: how far the law may be off them, in the unit of the displacements, 0 for a law through
-        them; the last digit, or what the noise of the table asks for, unless given.
-    columns
-        Of a table of more than two: those of the time or angle and of the displacement, by headings or numbers, as 1,3.
     as_json
         Print one JSON object on stdout and nothing else.
     """
@@ -59,9 +71,8 @@ def law(
     check_files(csv, plot=plot)
     if samples is not None and csv is None:
         raise InputError("--samples says how many lines --csv FILE has: name the file")
-    motion_law = read_law(
-        name, alpha, peak_velocity, by="--alpha or --peak-velocity", tolerance=tolerance, columns=columns
-    )
+    alpha, peak_velocity = member.alpha, member.peak_velocity
+    motion_law = read_law(name, alpha, peak_velocity, by="--alpha or --peak-velocity", points=points)
     about = _about(name, alpha, peak_velocity, motion_law)
     values = [{"k": k, **{letter: getattr(motion_law, letter)(k) for letter in LETTERS}} for k in at or ()]
     if csv is not None:
@@ -113,7 +124,7 @@ def _member(
 
 
 def _facts(name: str, motion_law: optlaws.MotionLaw) -> dict[str, Any]:
-    return {"name": name, "constants": motion_law.constants.to_dict(rms=True), "law": motion_law.to_dict()}
+    return {"name": name, "constants": motion_law.constants.to_dict(), "law": motion_law.to_dict()}
 
 
 def _lines(about: dict[str, Any]) -> list[tuple[str, str]]:

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
+
+from cyclopts import Parameter
 
 import optlaws
 from optlaws.cli.options import AsJson, Duration, check_files, read_law
@@ -11,39 +14,15 @@ from optlaws.cli.show import print_json, show, table
 from optlaws.errors import InputError
 
 _POINTS = 2001
-_NONE = (None, None, None)
 
 
-def follower(
-    law: str,
-    /,
-    *,
-    alpha: float | None = None,
-    nu: float | None = None,
-    speed_rpm: float | None = None,
-    rise_angle: float | None = None,
-    natural_period: float | None = None,
-    frequency: str | None = None,
-    speed: str | None = None,
-    rise: str | None = None,
-    duration: Duration = None,
-    stroke: str | None = None,
-    damping: float = 0.0,
-    design_nu: float | None = None,
-    design_damping: float | None = None,
-    spectrum: tuple[float, float] | None = None,
-    plot: Path | None = None,
-    as_json: AsJson = False,
-) -> None:
-    """Response of an elastic follower's mass: peaks, dynamic factor, residual vibration, and the same off design.
+@Parameter(name="*")
+@dataclass(frozen=True, kw_only=True)
+class FollowerOptions:
+    """The follower, by its nu or by data of its machine.
 
     Parameters
     ----------
-    law
-        Law meant for the mass: a name of the catalogue, a member such as III(7.2), a JSON file of a law or of
-        `optlaws solve --output`, or a CSV file with a table of points.
-    alpha
-        Member of the family, where the law is I, II, III or IV.
     nu
         Frequency of the follower: radians of its undamped free vibration in the rise.
     speed_rpm
@@ -64,6 +43,54 @@ def follower(
         Stroke of the cam with its unit, such as "35 mm" or "20 deg": peaks and vibration in machine units are told too.
     damping
         Damping ratio of the follower.
+    """
+
+    nu: float | None = None
+    speed_rpm: float | None = None
+    rise_angle: float | None = None
+    natural_period: float | None = None
+    frequency: str | None = None
+    speed: str | None = None
+    rise: str | None = None
+    duration: Duration = None
+    stroke: str | None = None
+    damping: float = 0.0
+
+    @property
+    def quantities(self) -> dict[str, str | None]:
+        """What is given with a unit, beside the stroke."""
+        return {name: getattr(self, name) for name in ("frequency", "speed", "rise", "duration")}
+
+    @property
+    def numbers(self) -> tuple[float | None, ...]:
+        """What is given in units of its own."""
+        return self.speed_rpm, self.rise_angle, self.natural_period
+
+
+_NO_FOLLOWER = FollowerOptions()
+
+
+def follower(
+    law: str,
+    /,
+    *,
+    alpha: float | None = None,
+    options: FollowerOptions = _NO_FOLLOWER,
+    design_nu: float | None = None,
+    design_damping: float | None = None,
+    spectrum: tuple[float, float] | None = None,
+    plot: Path | None = None,
+    as_json: AsJson = False,
+) -> None:
+    """Response of an elastic follower's mass: peaks, dynamic factor, residual vibration, and the same off design.
+
+    Parameters
+    ----------
+    law
+        Law meant for the mass: a name of the catalogue, a member such as III(7.2), a JSON file of a law or of
+        `optlaws solve --output`, or a CSV file with a table of points.
+    alpha
+        Member of the family, where the law is I, II, III or IV.
     design_nu
         Cut the cam so that the mass moves by the law at this nu; without it the law itself is cut.
     design_damping
@@ -78,47 +105,37 @@ def follower(
     check_files(plot=plot)
     if (plot is None) != (spectrum is None):
         raise InputError("--spectrum LOW HIGH gives the range of nu for --plot FILE: name both or neither")
-    mass, machine = _asked(
-        nu,
-        (speed_rpm, rise_angle, natural_period),
-        {"frequency": frequency, "speed": speed, "rise": rise, "duration": duration},
-        stroke,
-        damping,
-    )
+    mass, machine = _follower_and_machine(options)
     reference = read_law(law, alpha, by="--alpha")
     if design_nu is None and design_damping is not None:
         raise InputError("--design-damping needs --design-nu")
     cam = reference
     if design_nu is not None:
-        cam = optlaws.polydyne(reference, design_nu, damping if design_damping is None else design_damping)
+        cam = optlaws.polydyne(reference, design_nu, mass.damping if design_damping is None else design_damping)
     response = mass.response(cam)
     if plot is not None and spectrum is not None:
         _draw(cam, reference, mass.damping, spectrum, plot)
     summary = _summary(mass, cam, reference, response)
     if machine is not None:
-        summary["machine"] = machine.response(cam).to_dict() | {"dynamic factor": summary["dynamic_factor"]}
+        summary["machine"] = machine.response(cam).results() | {"dynamic factor": summary["dynamic_factor"]}
     if as_json:
         print_json(summary)
     else:
         _show(summary)
 
 
-Bare = tuple[float | None, float | None, float | None]
-
-
-def _asked(
-    nu: float | None, bare: Bare, quantities: dict[str, str | None], stroke: str | None, damping: float
-) -> tuple[optlaws.Follower, optlaws.MachineFollower | None]:
+def _follower_and_machine(options: FollowerOptions) -> tuple[optlaws.Follower, optlaws.MachineFollower | None]:
     """The follower, and the machine that it is of, where a stroke is given."""
-    if any(quantity is not None for quantity in quantities.values()):
-        if nu is not None or bare != _NONE:
+    stroke, damping = options.stroke, options.damping
+    if any(quantity is not None for quantity in options.quantities.values()):
+        if options.nu is not None or any(number is not None for number in options.numbers):
             raise InputError(
                 "--frequency, --speed, --rise and --duration are of a machine: give no --nu or numbers beside"
             )
-        machine = optlaws.machine_follower(stroke=stroke or "1 m", damping=damping, **quantities)
+        machine = optlaws.machine_follower(stroke=stroke or "1 m", damping=damping, **options.quantities)
         return machine.follower, machine if stroke else None
-    mass = _follower(nu, bare, damping)
-    rpm, angle, period = bare
+    mass = _follower(options)
+    rpm, angle, period = options.numbers
     if stroke is None:
         return mass, None
     if rpm is None or angle is None:
@@ -128,9 +145,10 @@ def _asked(
     )
 
 
-def _follower(nu: float | None, bare: Bare, damping: float) -> optlaws.Follower:
-    rpm, angle, period = bare
-    if nu is not None and bare == _NONE:
+def _follower(options: FollowerOptions) -> optlaws.Follower:
+    nu, damping = options.nu, options.damping
+    rpm, angle, period = options.numbers
+    if nu is not None and rpm is None and angle is None and period is None:
         return optlaws.Follower(nu, damping)
     if nu is None and rpm is not None and angle is not None and period is not None:
         return optlaws.Follower.from_speed(speed_rpm=rpm, rise_angle_deg=angle, natural_period=period, damping=damping)
@@ -160,7 +178,7 @@ def _summary(
             }
             for deviation in optlaws.off_design(cam, reference, mass)
         ],
-        "cam": {"constants": cam.constants.to_dict(), "law": cam.to_dict()},
+        "cam": {"constants": cam.constants.to_dict(rms=False), "law": cam.to_dict()},
     }
 
 

@@ -49,7 +49,7 @@ def ledger(
     with busy(f"{len(items)} items"):
         judged = [script.judge(item, name, source.parent) for name, item in items]
     if as_json:
-        print_json([judgement.to_dict() for judgement in judged])
+        print_json([judgement.results() for judgement in judged])
     else:
         _show(judged)
     broken = [

@@ -36,7 +36,7 @@ def verify(*files: Path, as_json: AsJson = False) -> None:
         for place, verification in verify_all(file).items()
     }
     if as_json:
-        print_json({name: verification.to_dict() for name, verification in verifications.items()})
+        print_json({name: verification.results() for name, verification in verifications.items()})
     else:
         for name, verification in verifications.items():
             word = "NOT PROVEN" if not verification.proven else "proven" if verification.claims else "recomputed"

@@ -56,7 +56,7 @@ class Catalogue(Mapping[str, "CatalogueEntry"]):
         from optlaws.laws.catalogue.entry import CatalogueEntry
 
         text = files("optlaws.laws.catalogue").joinpath("catalogue.toml").read_text(encoding="utf-8")
-        return {entry["name"]: CatalogueEntry.from_dict(entry) for entry in tomllib.loads(text)["law"]}
+        return {entry["name"]: CatalogueEntry.of_table(entry) for entry in tomllib.loads(text)["law"]}
 
     @kept_property
     def _by_alias(self) -> dict[str, CatalogueEntry]:

@@ -6,10 +6,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from math import pi
-from typing import Any
+from typing import Any, ClassVar, Self
 
 import numpy as np
 
+from optlaws.errors import InputError
+from optlaws.files.reading import JsonText, entries_of
 from optlaws.kept import kept_property
 from optlaws.laws.catalogue.tyr_codes import coded
 from optlaws.laws.constants import Constants
@@ -49,7 +51,7 @@ class Published:
 
 
 @dataclass(frozen=True)
-class CatalogueEntry:
+class CatalogueEntry(JsonText):
     """A law of the catalogue.
 
     Attributes
@@ -75,6 +77,8 @@ class CatalogueEntry:
     ('cycloidal', 2, 2.0)
     """
 
+    _json_name: ClassVar[str] = "an entry of the catalogue"
+
     name: str
     names: tuple[tuple[str, tuple[str, ...]], ...]
     definition: tuple[str, Any]
@@ -83,7 +87,7 @@ class CatalogueEntry:
     published: tuple[Published, ...]
 
     @classmethod
-    def from_dict(cls, data: Mapping[str, Any]) -> CatalogueEntry:
+    def of_table(cls, data: Mapping[str, Any]) -> CatalogueEntry:
         """The entry of a table of the catalogue's data file."""
         (builder,) = (key for key in BUILDERS if key in data)
         numbers = data[builder]
@@ -95,10 +99,7 @@ class CatalogueEntry:
             definition=(builder, numbers),
             source=data["source"],
             from_memory=data.get("from_memory", False),
-            published=tuple(
-                Published(printed["by"], tuple((key, text) for key, text in printed.items() if key != "by"))
-                for printed in data.get("published", ())
-            ),
+            published=tuple(map(_published, data.get("published", ()))),
         )
 
     def __repr__(self) -> str:
@@ -153,19 +154,48 @@ class CatalogueEntry:
         --------
         >>> from optlaws.laws.catalogue.catalogue import catalogue
         >>> sorted(catalogue["cubic"].to_dict())
-        ['aliases', 'constants', 'continuity', 'formula', 'from_memory', 'law', 'name', 'published', 'source']
+        ['aliases', 'constants', 'continuity', 'definition', 'formula', 'from_memory', 'law', 'name', 'published', ...]
         """
         return {
             "name": self.name,
             "aliases": {language: list(some) for language, some in self.names},
+            "definition": list(self.definition),
             "formula": self.formula,
             "source": self.source,
             "from_memory": self.from_memory,
             "continuity": self.continuity,
-            "constants": self.constants.to_dict(rms=True),
+            "constants": self.constants.to_dict(),
             "published": [{"by": source.by, **dict(source.printed)} for source in self.published],
             "law": self.law.to_dict(),
         }
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> Self:
+        """The entry that `to_dict` described, by its definition; law and constants are computed.
+
+        Raises
+        ------
+        InputError
+            If an entry is missing or wrong.
+        """
+        own = ("name", "aliases", "definition", "source", "from_memory", "published")
+        name, aliases, definition, source, from_memory, published = entries_of(data, own, cls._json_name).values()
+        try:
+            printed = tuple(map(_published, published))
+            names = tuple((language, tuple(some)) for language, some in aliases.items())
+            read = cls(name, names, _in_tuples(definition), source, from_memory, printed)
+            read.law  # noqa: B018 - what is wrong is refused at once
+        except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
+            raise InputError(f"this is not {cls._json_name}: {error}") from None
+        return read
+
+
+def _published(row: Mapping[str, Any]) -> Published:
+    return Published(row["by"], tuple((name, text) for name, text in row.items() if name != "by"))
+
+
+def _in_tuples(value: Any) -> Any:  # noqa: ANN401 - plain data
+    return tuple(map(_in_tuples, value)) if isinstance(value, list | tuple) else value
 
 
 def continuity_with_rest(law: MotionLaw) -> int:

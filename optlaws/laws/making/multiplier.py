@@ -26,7 +26,7 @@ Multiplier = Sequence[Any] | NDArray[Any] | Callable[[float], float]
 _ROUNDS, _HALVINGS = 30, 12
 
 
-def multiplied(law: MotionLaw, y: Multiplier) -> MotionLaw:
+def multiplied_law(law: MotionLaw, y: Multiplier) -> MotionLaw:
     """The law with the acceleration s c y (eq. 1.6), s such that the stroke stays what it was (eq. 1.7).
 
     y is even about k = 1/2 and nowhere negative, so that the area of c wanders to the ends of the interval where y
@@ -55,10 +55,10 @@ def multiplied(law: MotionLaw, y: Multiplier) -> MotionLaw:
     --------
     >>> from optlaws.laws import smoothstep
     >>> from optlaws.laws.savin import savin
-    >>> multiplied(smoothstep(4), [2, -6, 6]) == savin("III", alpha=6.0)
+    >>> multiplied_law(smoothstep(4), [2, -6, 6]) == savin("III", alpha=6.0)
     True
     >>> import math
-    >>> multiplied(smoothstep(3), lambda k: math.exp((k - 0.5) ** 2))
+    >>> multiplied_law(smoothstep(3), lambda k: math.exp((k - 0.5) ** 2))
     PolynomialLaw(degree=..., B=1.8..., C=..., D=..., J=...)
     """
     even = _even(y)
@@ -77,12 +77,12 @@ def multiplier_for(
 ) -> tuple[float, ...]:
     """The multiplier y of (1.6) with m coefficients that gives a law m - 1 wanted constants, and its own stroke.
 
-    y is a sum of m even powers of 2k - 1, and is found by a search; `multiplied(law, y)` is the law that has them.
+    y is a sum of m even powers of 2k - 1, and is found by a search; `multiplied_law(law, y)` is the law that has them.
 
     Parameters
     ----------
     law
-        As for `multiplied`.
+        As for `multiplied_law`.
     B, C, D, J
         Peaks of the law that is wanted.
     c0
@@ -102,7 +102,7 @@ def multiplier_for(
     --------
     >>> from optlaws.laws import smoothstep
     >>> y = multiplier_for(smoothstep(4), B=1.9, C=6.5)
-    >>> multiplied(smoothstep(4), y)
+    >>> multiplied_law(smoothstep(4), y)
     PolynomialLaw(degree=11, B=1.9, C=6.5, D=7.14..., J=53.2...)
     """
     targets = _targets({"B": B, "C": C, "D": D, "J": J, "c0": c0})

@@ -18,11 +18,12 @@ from optlaws.mechanisms.machine.masses import Link, MachineModel, assembly
 from optlaws.mechanisms.machine.modes import Mode, modal_model, modes
 from optlaws.mechanisms.machine.over_time import MachineCycle, MachineResponse
 from optlaws.mechanisms.machine.state_space import SYMBOLS, StateSpace
-from optlaws.numbers import not_negative, positive
+from optlaws.numbers import NumberOrQuantity, not_negative, positive
 
 if TYPE_CHECKING:
     from optlaws.mechanisms.machine.output_constants import OutputPeak, OutputRms
     from optlaws.mechanisms.machine.residual_boxes import ModeResidual
+    from optlaws.synthesis.functionals.makers import PeakSide
 
 
 @dataclass(frozen=True, init=False, repr=False)
@@ -62,23 +63,24 @@ class Machine(StateSpace):
     @classmethod
     def from_masses(
         cls,
-        masses: Mapping[str, float],
+        masses: Mapping[str, NumberOrQuantity],
         links: Sequence[Link | Sequence[Any]],
         *,
         drive: str | tuple[str, str],
         outputs: Mapping[str, str] | Sequence[str] | None = None,
-        duration: float = 1.0,
-        stroke: float = 1.0,
+        duration: NumberOrQuantity = 1.0,
+        stroke: NumberOrQuantity = 1.0,
     ) -> Self:
         """The machine of masses, springs and dampers.
 
         Parameters
         ----------
         masses
-            Masses in kg, or moments of inertia in kg m², by name; that of the driven one may be 0.
+            Masses, "2.5 kg", or moments of inertia, "0.02 kg m^2", by name; numbers are in kg or kg m². That of the
+            driven one may be 0.
         links
-            Springs with dampers: `Link("motor", "load", stiffness=400, damping=0.4)`, or such a tuple: N/m and N s/m,
-            no ratio. "ground" is what stands still.
+            Springs with dampers: `Link("motor", "load", stiffness="400 N/m", damping="0.4 N s/m")`, or such a tuple;
+            numbers are in N/m and N s/m, no ratio. "ground" is what stands still.
         drive
             The mass whose displacement is the law; or two, the law being the second one's distance from the first:
             ("camshaft", "roller").
@@ -87,13 +89,14 @@ class Machine(StateSpace):
             "position", "velocity" and "acceleration" of a mass, such as "position load"; "deflection" and "force" of a
             link, such as "force motor-load".
         duration, stroke
-            Duration of the rise, s, and its stroke, m or rad; 1 where all numbers are dimensionless.
+            Duration of the rise, "0.2 s", and its stroke, "35 mm" or "20 deg"; numbers are in s, and in m or rad; 1
+            where all numbers are dimensionless.
 
         Examples
         --------
         >>> axis = Machine.from_masses(
-        ...     {"motor": 1.0, "load": 2.0},
-        ...     [Link("motor", "load", stiffness=800.0, damping=2.0)],
+        ...     {"motor": "1 kg", "load": "2 kg"},
+        ...     [Link("motor", "load", stiffness="0.8 N/mm", damping="2 N s/m")],
         ...     drive="motor",
         ...     outputs={"motor torque": "drive force", "belt force": "force motor-load"},
         ... )
@@ -105,10 +108,10 @@ class Machine(StateSpace):
     @classmethod
     def from_modes(
         cls,
-        modes: Sequence[Sequence[float]],
+        modes: Sequence[Sequence[NumberOrQuantity]],
         *,
-        duration: float,
-        stroke: float = 1.0,
+        duration: NumberOrQuantity,
+        stroke: NumberOrQuantity = 1.0,
         outputs: Mapping[str, str] | Sequence[str] | None = None,
     ) -> Self:
         """The machine of vibrations that were measured: frequencies and damping ratios, and how much of each shows.
@@ -119,12 +122,12 @@ class Machine(StateSpace):
         Parameters
         ----------
         modes
-            For each vibration its frequency in Hz, the undamped one, a number; its damping ratio, the share of the
-            critical damping of what moves relative to the drive (that of a `Follower` is relative to the ground); and
-            its participation: the share of the drive's displacement with which it moves at the place that counts, 1
-            unless given.
+            For each vibration its frequency, the undamped one, "8.5 Hz", "510 1/min", or a number in Hz; its damping
+            ratio, the share of the critical damping of what moves relative to the drive (that of a `Follower` is
+            relative to the ground); and its participation: the share of the drive's displacement with which it moves at
+            the place that counts, 1 unless given.
         duration, stroke
-            Duration of the rise, s, and its stroke, m or rad.
+            Duration of the rise and its stroke, as of `from_masses`.
         outputs
             Outputs by the names they are to have, or a list of them; all there are unless given: "position",
             "velocity" and "acceleration" of that place, "deflection", by how much it is away from where it would be if
@@ -133,7 +136,7 @@ class Machine(StateSpace):
         Examples
         --------
         >>> from optlaws import smoothstep
-        >>> arm = Machine.from_modes([(8.5, 0.02)], duration=0.4, stroke=0.3, outputs=["deflection"])
+        >>> arm = Machine.from_modes([("8.5 Hz", 0.02)], duration="0.4 s", stroke="0.3 m", outputs=["deflection"])
         >>> arm, round(arm.residual().value(smoothstep(3)), 6)
         (Machine(states=2, inputs='ac', outputs=['deflection']), 0.003...)
         """
@@ -146,8 +149,8 @@ class Machine(StateSpace):
         *,
         inputs: str = "a",
         outputs: Sequence[str] = (),
-        duration: float = 1.0,
-        stroke: float = 1.0,
+        duration: NumberOrQuantity = 1.0,
+        stroke: NumberOrQuantity = 1.0,
     ) -> Self:
         """The machine of a system of scipy.signal or python-control, continuous in time.
 
@@ -160,7 +163,7 @@ class Machine(StateSpace):
         outputs
             Names of its outputs.
         duration, stroke
-            Duration of the rise in the system's unit of time, and its stroke.
+            Duration of the rise in the system's unit of time, and its stroke, as of `from_units`.
 
         Examples
         --------
@@ -206,8 +209,8 @@ class Machine(StateSpace):
         given: MachineModel,
         outputs: Mapping[str, str] | Sequence[str] | None,
         *,
-        duration: float,
-        stroke: float,
+        duration: NumberOrQuantity,
+        stroke: NumberOrQuantity,
     ) -> Self:
         """The machine of a model driven by a, b and c, without those that do not enter."""
         names = given.named(outputs)
@@ -293,7 +296,7 @@ class Machine(StateSpace):
         *,
         within: tuple[float, float] = (0.0, 1.0),
         cycle: tuple[float, float] | None = None,
-        side: str = "both",
+        side: PeakSide = "both",
         offset: float = 0.0,
     ) -> OutputPeak:
         """The peak of an output as a constant of the law, to be minimised or bounded; convex.

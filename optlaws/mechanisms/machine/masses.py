@@ -12,14 +12,15 @@ import numpy as np
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
-from optlaws.numbers import Array, not_negative, positive
+from optlaws.motion.quantities import si_number
+from optlaws.numbers import Array, NumberOrQuantity, not_negative, positive
 from optlaws.suggest import unknown_key
 
 GROUND = "ground"
 DRIVE_FORCE = "drive force"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class Link:
     """A spring and a damper side by side between two masses, or between a mass and the ground.
 
@@ -28,9 +29,9 @@ class Link:
     first, second
         Names of the masses; "ground" is what stands still.
     stiffness
-        N/m, or N m/rad, or dimensionless.
+        With its unit, such as "3 N/mm", or a number in N/m or N m/rad, or dimensionless.
     damping
-        N s/m, or N m s/rad, or dimensionless; not a ratio.
+        With its unit, such as "5 N s/m", or a number in N s/m or N m s/rad, or dimensionless; not a ratio.
 
     Raises
     ------
@@ -39,7 +40,7 @@ class Link:
 
     Examples
     --------
-    >>> Link("motor", "load", stiffness=400.0, damping=0.4)
+    >>> Link("motor", "load", stiffness="400 N/m", damping=0.4)
     Link(first='motor', second='load', stiffness=400.0, damping=0.4)
     """
 
@@ -48,13 +49,16 @@ class Link:
     stiffness: float
     damping: float = 0.0
 
-    def __post_init__(self) -> None:
-        for name in (self.first, self.second):
+    def __init__(self, first: str, second: str, stiffness: NumberOrQuantity, damping: NumberOrQuantity = 0.0) -> None:
+        for name in (first, second):
             _check_name(name)
-        if self.first == self.second:
-            raise InputError(f"a link joins two different masses, got {shortened(self.first)} twice")
-        for name in ("stiffness", "damping"):
-            object.__setattr__(self, name, not_negative(getattr(self, name), name))
+        if first == second:
+            raise InputError(f"a link joins two different masses, got {shortened(first)} twice")
+        elastic = si_number(stiffness, ("stiffness", "torsional stiffness"), "stiffness")
+        viscous = si_number(damping, ("viscous friction", "rotary viscous friction"), "damping")
+        numbers = {"stiffness": not_negative(elastic, "stiffness"), "damping": not_negative(viscous, "damping")}
+        for name, value in {"first": first, "second": second, **numbers}.items():
+            object.__setattr__(self, name, value)
 
     @property
     def name(self) -> str:
@@ -212,8 +216,11 @@ def assembly(
             raise InputError(unknown_key(name, [*masses, GROUND], "mass"))
     if driven in {base, GROUND}:
         raise InputError(f"drive must be a mass, moved against another one or the ground, got {shortened(drive)}")
+    numbers = {
+        name: si_number(mass, ("mass", "moment of inertia"), f"the mass {name}") for name, mass in masses.items()
+    }
     checked = {
-        name: (not_negative if name == driven else positive)(mass, f"the mass {name}") for name, mass in masses.items()
+        name: (not_negative if name == driven else positive)(mass, f"the mass {name}") for name, mass in numbers.items()
     }
     _check_joined(checked, joined, driven, base)
     return Assembly(checked, joined, driven, base)

@@ -12,6 +12,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.mechanisms.machine.masses import MachineModel
 from optlaws.mechanisms.machine.state_space import StateSpace
+from optlaws.motion.quantities import either
 from optlaws.numbers import Array, Complex, not_negative, numbers, positive
 from optlaws.numerics.tolerances import DEFECTIVE, SAME_ROOT
 
@@ -136,7 +137,7 @@ def _vibration(number: int, given: Any, example: str) -> tuple[float, float, flo
             f"mode {number} must be a frequency in Hz, a damping ratio and perhaps a participation, {example}, "
             f"got {shortened(given)}"
         )
-    frequency = positive(given[0], f"the frequency of mode {number}")
+    frequency = _hertz(given[0], f"the frequency of mode {number}")
     ratio = not_negative(given[1], f"the damping ratio of mode {number}")
     if ratio >= 1.0:
         raise InputError(
@@ -145,3 +146,11 @@ def _vibration(number: int, given: Any, example: str) -> tuple[float, float, flo
         )
     (share,) = numbers([given[2] if len(given) == 3 else 1.0], f"the participation of mode {number}")
     return 2.0 * pi * frequency, ratio, share
+
+
+def _hertz(value: Any, name: str) -> float:  # noqa: ANN401
+    """A frequency in Hz; an angular velocity, such as "53 rad/s", is that of the phase."""
+    if isinstance(value, str) or hasattr(value, "units"):
+        dimension, number = either(value, ("frequency", "angular velocity"), name)
+        value = number if dimension == "frequency" else number / (2.0 * pi)
+    return positive(value, name)

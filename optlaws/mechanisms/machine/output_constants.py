@@ -33,6 +33,7 @@ from optlaws.numbers import Array, power_of_two
 from optlaws.numerics.tolerances import NEGLIGIBLE_TERM, SHORTEST_STRETCH, VALUE_ROUNDING
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily
+from optlaws.synthesis.functionals.makers import PeakSide
 from optlaws.synthesis.functionals.sizes import Reach, by_norm, reach_of
 from optlaws.synthesis.problem.constants import MAKERS, Functional
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
@@ -346,7 +347,7 @@ def output_peak(
     cycle: tuple[float, float] | None = None,
     output: str | None = None,
     steady: bool = False,
-    side: str = "both",
+    side: PeakSide = "both",
     offset: float = 0.0,
 ) -> OutputPeak:
     """The greatest magnitude of an output of a machine, or its greatest or least value, as `Machine.peak` has it.

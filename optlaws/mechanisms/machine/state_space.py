@@ -5,16 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from math import inf, isfinite
-from typing import Any, Self
+from typing import Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.files.reading import JsonText
 from optlaws.kept import kept_property
 from optlaws.mechanisms.machine.dynamics import Dynamics
-from optlaws.numbers import MAGNITUDE_LIMIT, Array, Complex, positive, real_times
+from optlaws.motion.quantities import si_number
+from optlaws.numbers import MAGNITUDE_LIMIT, Array, Complex, NumberOrQuantity, positive, real_times
 from optlaws.numerics.tolerances import SETTLED, UNSTABLE
 from optlaws.suggest import unknown_key
 
@@ -32,8 +34,10 @@ STIFFEST = 1e8  # the same for what decays
 
 
 @dataclass(frozen=True, init=False, repr=False)
-class StateSpace:
+class StateSpace(JsonText):
     """x' = A x + B w, y = C x + D w in durations of the rise; w are those of a, b and c that `inputs` names: "ab"."""
+
+    _json_name: ClassVar[str] = "a machine"
 
     A: Matrix
     B: Matrix
@@ -86,8 +90,8 @@ class StateSpace:
         C: Rows,
         D: Rows = (),
         *,
-        duration: float,
-        stroke: float = 1.0,
+        duration: NumberOrQuantity,
+        stroke: NumberOrQuantity = 1.0,
         inputs: str = "a",
         outputs: Sequence[str] = (),
     ) -> Self:
@@ -98,13 +102,14 @@ class StateSpace:
         A, B, C, D
             Matrices for time in seconds and for a displacement, velocity and acceleration of the input in its units.
         duration
-            Duration of the rise, s.
+            Duration of the rise, "0.2 s", or a number of seconds.
         stroke
-            Stroke of the rise, in units of the input's displacement.
+            Stroke of the rise, "35 mm" or "20 deg", or a number in units of the input's displacement.
         inputs, outputs
             As of `Machine`.
         """
-        T, h = positive(duration, "duration"), positive(stroke, "stroke")
+        T = positive(si_number(duration, ("time",), "duration"), "duration")
+        h = positive(si_number(stroke, ("length", "angle"), "stroke"), "stroke")
         _check_inputs(inputs)
         if not (0.0 < T * T < inf and isfinite(h / (T * T))):
             raise InputError(f"duration must be a time in s that machines take, got {shortened(duration)}")

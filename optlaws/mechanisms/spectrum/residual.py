@@ -123,7 +123,7 @@ def roots(nu: Any, damping: float) -> tuple[Array, Complex, Array]:  # noqa: ANN
 
 @dataclass(frozen=True, repr=False)
 class Residual(Functional):
-    """Greatest residual acceleration over an interval of frequencies; made by `residual`.
+    """Greatest residual acceleration over an interval of frequencies; made by `residual_vibration`.
 
     Attributes
     ----------
@@ -209,7 +209,7 @@ class Residual(Functional):
         return np.ascontiguousarray(from_values(scale[:, None] * velocity_transforms(space, w, self.high)))
 
 
-def residual(
+def residual_vibration(
     *,
     nu: float | tuple[float, float],
     damping: float = 0.0,
@@ -240,10 +240,10 @@ def residual(
     Examples
     --------
     >>> from optlaws.laws.savin import savin
-    >>> vibration = residual(nu=18)
+    >>> vibration = residual_vibration(nu=18)
     >>> round(vibration.value(savin("III", 7.2)), 6)
     7.204401
-    >>> wide = residual(nu=(18, 22), design=20)
+    >>> wide = residual_vibration(nu=(18, 22), design=20)
     >>> wide, wide.peak(savin("III", 7.2))
     (residual(nu=(18.0, 22.0), design=20.0), Peak(value=1.368836, k=18.0))
     """
@@ -329,4 +329,4 @@ def _gauss_rule(space: LawSpace, highest: float) -> tuple[Array, Array]:
     return k.ravel(), (lengths[:, None] * weights / 2.0).ravel()
 
 
-MAKERS.setdefault("residual", residual)
+MAKERS.setdefault("residual", residual_vibration)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from math import prod
-from typing import Any
+from typing import Any, TypedDict, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +13,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.numbers import MOST_VELOCITY, Array
+from optlaws.suggest import keywords_of
 from optlaws.synthesis.problem.problem import Problem
 
 #: what `Problem` takes for an entry, or arrays of it
@@ -21,13 +22,31 @@ Entry = Any
 NOT_GIVEN = ...
 
 
+class ProblemArrayEntries(TypedDict, total=False):
+    """The entries of a problem, each a value or arrays of it."""
+
+    B: Entry
+    order: Entry
+    basis: Entry
+    minimise: Entry
+    monotone: Entry
+    symmetric: Entry
+    C: Entry
+    D: Entry
+    J: Entry
+    boundary: Entry
+    windows: Entry
+    bounds: Entry
+    inflexion: Entry
+
+
 class ProblemArray:
     """Problems that differ in their entries' numbers: any entry of `Problem` may be an array, or hold some.
 
     Arrays are those of numpy, lists, ranges, and whatever numpy makes arrays of, such as a Series of pandas. They are
     broadcast against each other as numpy does, and each place of their common shape is one problem. What is no array
     is the same for all of them: a pair (low, high) is a tuple, for a list of two numbers is an array; a list of
-    windows alone is a value. Values other than numbers come in arrays made by `each`, too. The array is immutable;
+    windows alone is a value. Values other than numbers come in arrays made by `map_arrays`, too. The array is immutable;
     nothing is checked before a problem is asked for, so that a wrong number spoils its own place alone.
 
     Parameters
@@ -51,29 +70,11 @@ class ProblemArray:
     (3, 2)
     """
 
-    def __init__(
-        self,
-        *,
-        B: Entry = NOT_GIVEN,
-        order: Entry = NOT_GIVEN,
-        basis: Entry = NOT_GIVEN,
-        minimise: Entry = NOT_GIVEN,
-        monotone: Entry = NOT_GIVEN,
-        symmetric: Entry = NOT_GIVEN,
-        C: Entry = NOT_GIVEN,
-        D: Entry = NOT_GIVEN,
-        J: Entry = NOT_GIVEN,
-        boundary: Entry = NOT_GIVEN,
-        windows: Entry = NOT_GIVEN,
-        bounds: Entry = NOT_GIVEN,
-        inflexion: Entry = NOT_GIVEN,
-    ) -> None:
-        named = {"B": B, "order": order, "basis": basis, "minimise": minimise, "monotone": monotone}
-        named |= {"symmetric": symmetric, "C": C, "D": D, "J": J, "boundary": boundary, "windows": windows}
-        named |= {"bounds": bounds, "inflexion": inflexion}
+    @keywords_of(ProblemArrayEntries, **dict.fromkeys(ProblemArrayEntries.__annotations__, NOT_GIVEN))
+    def __init__(self, **entries: Unpack[ProblemArrayEntries]) -> None:
         self._entries = {
             name: _frozen(value if name == "windows" else _with_arrays(value, name))
-            for name, value in named.items()
+            for name, value in entries.items()
             if value is not NOT_GIVEN
         }
         arrays = {name: list(_arrays(value)) for name, value in self._entries.items()}
@@ -222,15 +223,15 @@ class ProblemArray:
         return f"ProblemArray({', '.join(parts)})"
 
 
-def each(function: Callable[..., Any], *arrays: Any) -> NDArray[Any]:  # noqa: ANN401 - what numpy takes for arrays
+def map_arrays(function: Callable[..., Any], *arrays: Any) -> NDArray[Any]:  # noqa: ANN401 - what numpy takes for arrays
     """The values of a function at each place of some arrays, broadcast against each other: an array of any objects.
 
     Examples
     --------
     >>> from optlaws.synthesis.problem.ranges import at_most
-    >>> each(at_most, np.array([60.0, 70.0])).tolist()
+    >>> map_arrays(at_most, np.array([60.0, 70.0])).tolist()
     [at_most(60.0), at_most(70.0)]
-    >>> each("{:g}*C/4 + J/32".format, np.array([0.5, 1.0])).tolist()
+    >>> map_arrays("{:g}*C/4 + J/32".format, np.array([0.5, 1.0])).tolist()
     ['0.5*C/4 + J/32', '1*C/4 + J/32']
     """
     try:

@@ -10,6 +10,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.files.reading import JsonText
 from optlaws.numbers import Array
 from optlaws.numerics.tolerances import UNITS_ROUNDING
 from optlaws.synthesis.families.active_set import ActiveSet
@@ -127,7 +128,7 @@ FOLLOWING = ("objective", "excess")
 
 
 @dataclass(frozen=True, eq=False)
-class SolvedBatch:
+class SolvedBatch(JsonText):
     """Optima of programs that differ in numbers alone, one a row; NaN in the rows of programs that were not solved."""
 
     x: Array  #: the programs' variables, shape (programs, variables)

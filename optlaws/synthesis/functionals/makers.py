@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from math import nan
-from typing import Any
+from typing import Any, Literal
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
@@ -28,10 +28,13 @@ from optlaws.synthesis.functionals.kinds import (
 )
 from optlaws.synthesis.problem.constants import MAKERS, Functional
 
+#: of a peak: the greatest magnitude, the greatest value, or the greatest opposite
+PeakSide = Literal["both", "high", "low"]
+FormulaKind = Literal["peak", "rms", "integral", "value"]
 _SIDES = {"both": (1.0, -1.0), "high": (1.0,), "low": (-1.0,)}
 
 
-def peak(formula: Any, *, side: str = "both", start: float = 0.0, stop: float = 1.0) -> Functional:  # noqa: ANN401
+def peak(formula: Any, *, side: PeakSide = "both", start: float = 0.0, stop: float = 1.0) -> Functional:  # noqa: ANN401
     """The peak of a formula of the motion, over the whole of the interval or a part of it.
 
     Parameters
@@ -130,9 +133,9 @@ def value(formula: Any, *, at: float) -> Functional:  # noqa: ANN401
 
 def functional(
     function: Callable[..., Any],
-    kind: str = "peak",
+    kind: FormulaKind = "peak",
     *,
-    side: str = "both",
+    side: PeakSide = "both",
     start: float = 0.0,
     stop: float = 1.0,
     at: float | None = None,
@@ -254,7 +257,12 @@ def _name(kind: str, motion: MotionFormula, *others: str) -> str:
     return f"{kind}({', '.join(parts)})"
 
 
-_KINDS: dict[str, Callable[..., Functional]] = {"integral": integral, "peak": peak, "rms": rms, "value": value}
+_KINDS: dict[str, Callable[..., Functional]] = {
+    "integral": integral,
+    "peak": peak,
+    "rms": rms,
+    "value": value,
+}
 
 for _kind, _maker in _KINDS.items():
     MAKERS.setdefault(_kind, _maker)

@@ -14,7 +14,7 @@ from optlaws.errors import InputError
 from optlaws.numbers import bounded
 from optlaws.synthesis.problem.ranges import Range
 from optlaws.synthesis.problem.windows import Window
-from optlaws.synthesis.spaces.bases import Basis, basis
+from optlaws.synthesis.spaces.bases import Basis
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 
 #: kinds of numpy's arrays of numbers
@@ -113,6 +113,5 @@ def _read(value: Any) -> Any:  # noqa: ANN401
             objects[i] = _read_object(stored)
         return objects.reshape(value["shape"])
     if "basis" in value:
-        entries = dict(value["basis"])
-        return basis(entries.pop("basis"), entries.pop("degree"), **entries)
+        return Basis.from_dict(value["basis"])
     return {name: _read(part) for name, part in value["named"].items()}

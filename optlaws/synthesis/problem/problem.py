@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from functools import lru_cache
-from typing import Any
+from typing import Any, ClassVar
 
 from optlaws.errors import InputError
+from optlaws.files.reading import JsonText
 from optlaws.kept import kept_property
 from optlaws.numbers import MOST_ORDER
 from optlaws.synthesis.problem.checks import AS_IT_FITS, NotGiven, constant_of_bounds, is_open, order_with
@@ -24,7 +25,7 @@ _NAMED = tuple(FUNCTIONALS[name] for name in CONSTANTS)
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
-class Problem:
+class Problem(JsonText):
     """Minimise an objective over the laws (8) with given end conditions and constants (eq. 10); dimensionless.
 
     Parameters
@@ -69,6 +70,8 @@ class Problem:
     >>> Problem(B=1.859, order=4, basis=Chebyshev(9))
     Problem(B=1.859, order=4, basis=Chebyshev(degree=9), minimise='C')
     """
+
+    _json_name: ClassVar[str] = "a problem"
 
     B: float | Range | None = None
     order: int = NotGiven()

@@ -6,10 +6,11 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import inf, isfinite
-from typing import Any
+from typing import Any, ClassVar
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.files.reading import JsonText
 from optlaws.formulas.of_motion import MotionFormula, of_text
 from optlaws.formulas.scanner import FormulaError
 from optlaws.kept import kept_property
@@ -27,7 +28,7 @@ _LONGEST = 200
 
 
 @dataclass(frozen=True, repr=False)
-class Window:
+class Window(JsonText):
     """A quantity of the law stays between two values at one k or over an interval (dimensionless).
 
     Parameters
@@ -47,11 +48,13 @@ class Window:
 
     Examples
     --------
-    >>> Window("a", 0.4, 0.6, 0.45, 0.55).order
+    >>> Window("a", 0.4, 0.6, 0.45, 0.55).nu
     0
     >>> via("a", 0.3, at=0.4)
     via('a', 0.3, at=0.4)
     """
+
+    _json_name: ClassVar[str] = "a window"
 
     quantity: str
     low: float = -inf
@@ -119,7 +122,7 @@ class Window:
         return 1.0 if self.motion is None else self.motion.scale
 
     @property
-    def order(self) -> int:
+    def nu(self) -> int:
         """Order of the derivative."""
         return QUANTITIES[self.quantity]
 
@@ -136,9 +139,9 @@ class Window:
     def mirrored(self) -> Window:
         """What it asks of a symmetric law on the other side: a(k) + a(1-k) = 1, b and j even, c odd about 1/2."""
         low, high = self.low, self.high
-        if self.order == 0:
+        if self.nu == 0:
             low, high = 1.0 - high, 1.0 - low
-        elif self.order == 2:
+        elif self.nu == 2:
             low, high = -high, -low
         return Window(self.quantity, low, high, 1.0 - self.stop, 1.0 - self.start)
 

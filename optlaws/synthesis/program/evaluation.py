@@ -55,7 +55,7 @@ def worth(problem: Problem, law: MotionLaw) -> Worth:
 def _window_excess(window: Window, law: MotionLaw) -> tuple[float, float]:
     """By how much a law is above and below a window, in units of its scale."""
     if window.motion is None:
-        lowest, highest = law.extrema(window.order, within=(window.start, window.stop))
+        lowest, highest = law.extrema(window.nu, within=(window.start, window.stop))
         return highest.value - window.high, window.low - lowest.value
     bounds = ((1.0, window.high), (-1.0, -window.low))
     above, below = (

@@ -336,12 +336,12 @@ class _Writer:
     def _window(self, name: str, window: Window) -> None:
         ends = (1.0 - 2.0 * window.stop, 1.0 - 2.0 * window.start)
         if window.value:
-            self._value(repr(window), window.order, window.start, window.high)
+            self._value(repr(window), window.nu, window.start, window.high)
             return
         for sign, bound in ((1.0, window.high), (-1.0, -window.low)):
             if isfinite(bound):
                 side = names.window_side(name, sign)
-                family = self.space.derivative(window.order, side, self.spare, bound, (sign,))
+                family = self.space.derivative(window.nu, side, self.spare, bound, (sign,))
                 self.families.append(replace(family, domain=ends))
 
     def _power(self, power: PowerConstant, slack: Array, bound: float) -> None:

@@ -11,12 +11,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import inf, isfinite
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.files.reading import JsonText
 from optlaws.kept import kept_property
 from optlaws.numbers import bounded
 from optlaws.numerics.tolerances import NEIGHBOUR_DISTANCE, NEIGHBOUR_SHARE
@@ -34,7 +35,7 @@ OBJECTIVE, RELAXED, VIOLATION = "objective", "relaxed", "violation"
 
 
 @dataclass(frozen=True)
-class Certificate:
+class Certificate(JsonText):
     """A tree of leaves, splits and tightenings that proves a lower bound of an objective, or that there is no law.
 
     Attributes
@@ -63,6 +64,8 @@ class Certificate:
     >>> power.power_certificate.bound == power.lower_bound, len(power.power_certificate.tree) > 1
     (True, True)
     """
+
+    _json_name: ClassVar[str] = "a certificate"
 
     problem: Problem
     claim: float | None

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from math import isnan
-from typing import Any, TypeVar, overload
+from typing import Any, ClassVar, TypeVar, overload
 
 import msgspec
 import numpy as np
@@ -13,10 +13,11 @@ from numpy.typing import NDArray
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.files.reading import JsonText, entries_of
 from optlaws.kept import kept_property
 from optlaws.laws import Constants, MotionLaw
 from optlaws.laws.making.transform import law_between
-from optlaws.numbers import Array, bounded, real
+from optlaws.numbers import Array, bounded, finite, real
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.evaluation import worth
 from optlaws.synthesis.proof.certificate import OBJECTIVE, Certificate
@@ -62,7 +63,7 @@ class LazySequence(Sequence[T]):
 
 
 @dataclass(frozen=True)
-class FrontPoint:
+class FrontPoint(JsonText):
     """A law of a proven front, with the proof of how much better one could be at most.
 
     Attributes
@@ -83,6 +84,8 @@ class FrontPoint:
     >>> point.problem.B, point.lower_bound <= point.objective == point.constants.C.value
     (1.65, True)
     """
+
+    _json_name: ClassVar[str] = "a point of a front"
 
     value: float
     problem: Problem
@@ -108,14 +111,31 @@ class FrontPoint:
     def to_dict(self) -> dict[str, Any]:
         """Plain JSON-able dict, which `optlaws verify` takes as it takes that of a `Solution`."""
         return {
+            "value": self.value,
             "problem": self.problem.to_dict(),
             "objective": self.objective,
             "lower_bound": bounded(self.lower_bound),
             "gap": bounded(self.gap),
-            "constants": self.constants.to_dict(),
+            "constants": self.constants.to_dict(rms=False),
             "law": self.law.to_dict(),
             "certificate": self.certificate.to_dict(),
         }
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> FrontPoint:
+        """The point that `to_dict` described; objective and bound are computed, not read.
+
+        Raises
+        ------
+        InputError
+            If an entry is missing or wrong.
+        """
+        own = ("value", "problem", "law", "certificate")
+        value, plain, stored, proof = entries_of(data, own, cls._json_name).values()
+        problem, law, certificate = problem_of(plain), MotionLaw.from_dict(stored), Certificate.from_dict(proof)
+        if certificate.problem != problem or certificate.program != OBJECTIVE:
+            raise InputError("the certificate of a point of a front is not of its problem")
+        return cls(finite(value, "value"), problem, law, worth(problem, law).objective, certificate)
 
 
 class StatedPoint(msgspec.Struct, forbid_unknown_fields=True):
@@ -138,7 +158,7 @@ class StatedFront(msgspec.Struct, forbid_unknown_fields=True):
 
 
 @dataclass(frozen=True)
-class ProvenFront:
+class ProvenFront(JsonText):
     """Certified laws along a number, and by convexity a law and a lower bound at every value between.
 
     Calling it with a value gives a `FrontPoint`: the weighted mean of the two laws beside the value, which keeps every
@@ -169,6 +189,8 @@ class ProvenFront:
     >>> round(point.objective, 5), point.gap <= front.gap
     (5.65, True)
     """
+
+    _json_name: ClassVar[str] = "a proven front"
 
     number: SweptParameter
     values: tuple[float, ...]

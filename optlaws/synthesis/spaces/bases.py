@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
 from math import comb
 from numbers import Integral
-from typing import Any, ClassVar, cast
+from typing import Any, ClassVar, Self, cast
 
 import numpy as np
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.files.reading import JsonText, entries_of
 from optlaws.lazy import Registry
 from optlaws.numbers import (
     MOST_DEGREE,
@@ -80,7 +81,7 @@ def read_breaks(text: str) -> int | list[float]:
     return int(places[0]) if len(places) == 1 and places[0].is_integer() else places
 
 
-class Basis(ABC):
+class Basis(JsonText, ABC):
     """In what a law is sought; subclasses are frozen values. `name` calls it in problem files.
 
     Examples
@@ -88,6 +89,8 @@ class Basis(ABC):
     >>> sorted(Basis.kinds)
     ['bernstein', 'bsplines', 'chebyshev', 'periodic', 'pieces', 'powers']
     """
+
+    _json_name: ClassVar[str] = "a basis"
 
     name: ClassVar[str]
     kinds: ClassVar[Registry[type[Basis]]] = Registry("basis")
@@ -109,6 +112,27 @@ class Basis(ABC):
     @abstractmethod
     def to_dict(self) -> dict[str, Any]:
         """Its name and its parameters, plain."""
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> Self:
+        """The basis that `to_dict` described.
+
+        Raises
+        ------
+        InputError
+            If the name is unknown, that of another kind, or a parameter does not fit.
+
+        Examples
+        --------
+        >>> Basis.from_dict(Chebyshev(9).to_dict())
+        Chebyshev(degree=9)
+        """
+        known = entries_of(data, ("basis", "degree"), cls._json_name)
+        others = {name: value for name, value in data.items() if name not in known}
+        read = basis(known["basis"], known["degree"], **others)
+        if not isinstance(read, cls):
+            raise InputError(f"{shortened(data)} is no {cls.__name__}, but {read!r}")
+        return read
 
 
 @dataclass(frozen=True)

@@ -125,16 +125,16 @@ class BoundaryConditions:
 
 
 @overload
-def construct(
+def law_from_z(
     boundary: BoundaryConditions, z: Iterable[Any] = (), basis: PolynomialBasis | None = None
 ) -> PolynomialLaw: ...
 @overload
-def construct(boundary: BoundaryConditions, z: Iterable[Any], basis: PiecewiseBasis) -> PiecewiseLaw: ...
+def law_from_z(boundary: BoundaryConditions, z: Iterable[Any], basis: PiecewiseBasis) -> PiecewiseLaw: ...
 @overload
-def construct(
+def law_from_z(
     boundary: BoundaryConditions, z: Iterable[Any], basis: PolynomialBasis | PiecewiseBasis
 ) -> PolynomialLaw | PiecewiseLaw: ...
-def construct(
+def law_from_z(
     boundary: BoundaryConditions, z: Iterable[Any] = (), basis: PolynomialBasis | PiecewiseBasis | None = None
 ) -> PolynomialLaw | PiecewiseLaw:
     """The law a(k) = a0(k) + k^l [a1(k) + (k-1)^l Z(k)] (eq. 8), built in exact arithmetic and rounded once.
@@ -155,9 +155,9 @@ def construct(
 
     Examples
     --------
-    >>> construct(BoundaryConditions.rest(2), [-3, 6]) == construct(BoundaryConditions.rest(3))
+    >>> law_from_z(BoundaryConditions.rest(2), [-3, 6]) == law_from_z(BoundaryConditions.rest(3))
     True
-    >>> construct(BoundaryConditions(start=(0, 0), end=(1, 0.25))).b([0, 1]).tolist()
+    >>> law_from_z(BoundaryConditions(start=(0, 0), end=(1, 0.25))).b([0, 1]).tolist()
     [0.0, 0.25]
     """
     order = boundary.order

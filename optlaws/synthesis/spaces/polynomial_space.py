@@ -29,7 +29,7 @@ from optlaws.synthesis.families.family import (
     RootFamily,
 )
 from optlaws.synthesis.families.names import RowName
-from optlaws.synthesis.spaces.end_conditions import BoundaryConditions, construct
+from optlaws.synthesis.spaces.end_conditions import BoundaryConditions, law_from_z
 from optlaws.synthesis.spaces.space import LawSpace, Quadrature
 
 
@@ -101,7 +101,7 @@ class PolynomialSpace(LawSpace):
         self.order = boundary.order
         self.at_rest = boundary == BoundaryConditions.rest(self.order)
         self.domain = (0.0, 1.0) if symmetric else (-1.0, 1.0)
-        self.base = construct(boundary)
+        self.base = law_from_z(boundary)
         self.start_velocity = float(self.base.b(0.0))
         self.velocity_change = float(self.base.b(1.0)) - self.start_velocity
         self.stroke = float(self.base.a(1.0)) - float(self.base.a(0.0))

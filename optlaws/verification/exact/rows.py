@@ -398,14 +398,14 @@ def parts(window: Window, *, symmetric: bool) -> Iterator[WindowPart]:
     start, stop = Fraction(window.start), Fraction(window.stop)
     half = Fraction(1, 2)
     if not symmetric or stop <= half:
-        yield WindowPart(window.order, low, high, start, stop)
+        yield WindowPart(window.nu, low, high, start, stop)
         return
     if start < half:
-        yield WindowPart(window.order, low, high, start, half)
-    if window.order % 2 == 0:
-        whole = 1 - window.order // 2
+        yield WindowPart(window.nu, low, high, start, half)
+    if window.nu % 2 == 0:
+        whole = 1 - window.nu // 2
         low, high = (None if bound is None else whole - bound for bound in (high, low))
-    yield WindowPart(window.order, low, high, 1 - stop, 1 - max(start, half))
+    yield WindowPart(window.nu, low, high, 1 - stop, 1 - max(start, half))
 
 
 def _is_bounded(power: PowerConstant, problem: Problem) -> bool:

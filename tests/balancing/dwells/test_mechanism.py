@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 
 from optlaws import InputError, MotionLaw, catalogue, deg, dwell_mechanism, smoothstep
-from optlaws.balancing.dwells.mechanism import DwellMechanism
+from optlaws.balancing.dwells.mechanism import DwellMechanism, DwellType
 from tests.laws.examples import free_function_law
 from tests.mechanisms.reference import rows
 from tests.sampling import examples
@@ -20,7 +20,7 @@ K = catalogue["K"].law
 SIX_DIGITS = 5.1e-6
 
 
-def mechanism(kind: str, row: dict[str, str]) -> DwellMechanism:
+def mechanism(kind: DwellType, row: dict[str, str]) -> DwellMechanism:
     swing, clutch, dwell, rise = (
         radians(float(row[name])) for name in ("gamma_sum", "phi_sp", "phi_dwell", "phi_rise")
     )
@@ -36,7 +36,7 @@ def mechanism(kind: str, row: dict[str, str]) -> DwellMechanism:
     )
 
 
-def example(kind: str, **changed: object) -> DwellMechanism:
+def example(kind: DwellType, **changed: object) -> DwellMechanism:
     data: dict[str, object] = {
         "law": K,
         "dwell": deg(90),
@@ -111,7 +111,7 @@ LAWS: dict[str, dict[str, object]] = {
 @pytest.mark.sample(6)
 @pytest.mark.parametrize("changed", LAWS.values(), ids=LAWS.keys())
 @pytest.mark.parametrize("kind", ["I", "II", "III"])
-def test_the_composed_motion_is_continuous_and_closes(kind: str, changed: dict[str, object]) -> None:
+def test_the_composed_motion_is_continuous_and_closes(kind: DwellType, changed: dict[str, object]) -> None:
     instance = example(kind, **changed)
     motion = instance.motion
     assert motion.jumps(1) == ()
@@ -147,7 +147,7 @@ def test_type_II_has_no_net_travel_in_a_dwell(changed: dict[str, object]) -> Non
 
 @pytest.mark.parametrize("kind", ["II", "III"])
 @pytest.mark.parametrize("changed", LAWS.values(), ids=LAWS.keys())
-def test_criterion_b_is_the_ratio_of_peak_torques(kind: str, changed: dict[str, object]) -> None:
+def test_criterion_b_is_the_ratio_of_peak_torques(kind: DwellType, changed: dict[str, object]) -> None:
     instance = example(kind, **changed)
     k = np.linspace(0.0, 1.0, 40001)
     place = k * instance.cycle
@@ -205,7 +205,8 @@ def test_the_return_must_take_over_the_speed_of_the_loader() -> None:
         ({"dwell": 0.0}, "dwell must be positive"),
         ({"rise": -1.0}, "rise must be positive"),
         ({"swing": float("nan")}, "swing must be positive"),
-        ({"dwell": "90"}, "dwell must be positive and finite, got '90'"),
+        ({"dwell": "90"}, "dwell must be an angle such as '45 deg', got '90' without a unit"),
+        ({"rise": "90 mm"}, "rise must be an angle such as '45 deg', but '90 mm' is a length"),
         ({"rise": True}, "rise must be positive and finite, got True"),
         ({"reverse_share": "half"}, "reverse_share must be a finite real number, got 'half'"),
         ({"clutch_angle": -0.1}, "clutch_angle must be at least 0"),

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 
 from optlaws import InputError, MotionLaw, PiecewiseLaw, PolynomialLaw, catalogue, smoothstep
-from optlaws.balancing.loaders.loader import Loader, loader
+from optlaws.balancing.loaders.loader import Loader, inertial_loader
 from optlaws.laws.making.transform import mirrored_law, reversed_law
 from optlaws.laws.segments.constant_power import PowerSegment
 from optlaws.laws.segments.segment import PolynomialSegment
@@ -44,17 +44,17 @@ def energy_error(one: Loader) -> float:
     ],
 )
 def test_energy_parameters_in_closed_form(name: str, Y: float) -> None:
-    assert pytest.approx(Y, abs=1e-12) == loader(coded(name)).Y
+    assert pytest.approx(Y, abs=1e-12) == inertial_loader(coded(name)).Y
 
 
 @pytest.mark.parametrize(("name", "D"), [("Co", 1.5 * sqrt(3) * pi), ("0000", 2 * sqrt(3))])
 def test_powers_in_closed_form(name: str, D: float) -> None:
-    balanced = loader(coded(name))
+    balanced = inertial_loader(coded(name))
     assert pytest.approx(balanced.Y**2 * D, rel=1e-12) == balanced.D
 
 
 def test_the_loader_of_a_harmonic_law_is_harmonic() -> None:
-    law = loader(coded("K")).law
+    law = inertial_loader(coded("K")).law
     for nu, expected in enumerate(
         [np.sin(pi * K) / 2, pi / 2 * np.cos(pi * K), -(pi**2) / 2 * np.sin(pi * K), -(pi**3) / 2 * np.cos(pi * K)]
     ):
@@ -64,7 +64,7 @@ def test_the_loader_of_a_harmonic_law_is_harmonic() -> None:
 @pytest.mark.sample(2)
 @pytest.mark.parametrize("row", TABLE, ids=[row["code"] for row in TABLE])
 def test_the_table_of_twelve_laws(row: dict[str, str]) -> None:
-    balanced = loader(coded(row["code"]))
+    balanced = inertial_loader(coded(row["code"]))
     peaks = balanced.executive.constants
     found = {
         "B": peaks.B.value,
@@ -86,7 +86,7 @@ def test_the_table_of_twelve_laws(row: dict[str, str]) -> None:
 @pytest.mark.sample(2)
 @pytest.mark.parametrize("name", [row["code"] for row in TABLE])
 def test_the_law_integrates_its_own_derivatives(name: str) -> None:
-    law = loader(coded(name)).law
+    law = inertial_loader(coded(name)).law
     nodes, weights = np.polynomial.legendre.leggauss(40)
     turn = 0.5
     for start, end in zip(law.breaks, law.breaks[1:], strict=False):
@@ -104,7 +104,7 @@ def test_the_law_integrates_its_own_derivatives(name: str) -> None:
 
 
 def test_the_turn_is_smooth_and_signed() -> None:
-    law = loader(coded("Co")).law
+    law = inertial_loader(coded("Co")).law
     near = 0.5 + np.array([-1e-9, 0.0, 1e-9])
     assert law.b(near) == pytest.approx(np.array([1e-9, 0.0, -1e-9]) * -law.c(0.5), rel=1e-6, abs=1e-20)
     assert law.c(near) == pytest.approx(np.full(3, -law.peak(2).value), rel=1e-9)
@@ -112,21 +112,21 @@ def test_the_turn_is_smooth_and_signed() -> None:
 
 
 def test_acceleration_without_bound_is_said_to_be_so() -> None:
-    balanced = loader(coded("0050"))
+    balanced = inertial_loader(coded("0050"))
     assert (balanced.C, balanced.C_at_turn, balanced.law.c(0.5), balanced.law.constants.rms_c) == (inf, inf, -inf, inf)
     assert balanced.law.d(0.5) == pytest.approx(-(balanced.Y**2) * balanced.executive.d(0.5), rel=1e-14)
     assert json.loads(json.dumps(balanced.to_dict()))["constants"]["C"] == {"value": None, "k": 0.5}
 
 
 def test_a_stretch_of_uniform_velocity_is_a_standstill() -> None:
-    balanced = loader(catalogue["trapezoidal velocity in thirds"].law)
+    balanced = inertial_loader(catalogue["trapezoidal velocity in thirds"].law)
     assert (balanced.turn, balanced.law.a(0.6)) == pytest.approx((1 / 3, 0.5), rel=1e-13)
     assert balanced.law.b([0.34, 0.5, 0.66]).tolist() == balanced.law.c([0.34, 0.5, 0.66]).tolist() == [0.0, 0.0, 0.0]
     assert energy_error(balanced) < 1e-14
 
 
 def test_constant_power_is_exchanged_for_constant_power() -> None:
-    balanced = loader(PiecewiseLaw([0, 0.5, 1], [PowerSegment(0.0, 1.5), PowerSegment(1.5, 0.0)]))
+    balanced = inertial_loader(PiecewiseLaw([0, 0.5, 1], [PowerSegment(0.0, 1.5), PowerSegment(1.5, 0.0)]))
     assert balanced.law.d(K[1:250]) == pytest.approx(np.full(249, -balanced.D), rel=1e-13)
     assert pytest.approx(1.0, rel=1e-14) == balanced.Y
 
@@ -135,14 +135,14 @@ def test_several_tops_reverse_the_loader_at_each() -> None:
     # b = 1 - (k - 1/5)² (k - 1/2)² (k - 4/5)² touches its peak three times
     touching = np.polynomial.Polynomial.fromroots([0.2, 0.5, 0.8]) ** 2
     law = PolynomialLaw.from_powers((1.0 - 100.0 * touching).integ().coef)
-    balanced = loader(law)
+    balanced = inertial_loader(law)
     assert np.sign(balanced.law.b([0.1, 0.3, 0.6, 0.9])).tolist() == [1.0, -1.0, 1.0, -1.0]
     assert balanced.law.jumps(2) == ()
     assert energy_error(balanced) < 1e-13
     assert balanced.law.a(0.5) == pytest.approx(0.5, abs=1e-13)
     two = np.polynomial.Polynomial.fromroots([0.3, 0.7]) ** 2
     with pytest.raises(InputError, match=r"odd number of times.*0\.3, 0\.7"):
-        loader(PolynomialLaw.from_powers((1.0 - 10.0 * two).integ().coef))
+        inertial_loader(PolynomialLaw.from_powers((1.0 - 10.0 * two).integ().coef))
 
 
 @pytest.mark.parametrize(
@@ -152,13 +152,13 @@ def test_several_tops_reverse_the_loader_at_each() -> None:
         (PolynomialLaw([]), "must move"),
         (PolynomialLaw.from_powers([0, 0, 1]), "inside the motion.*k = 1"),
         (catalogue["K"].law.to_dict(), "MotionLaw"),
-        (loader(smoothstep(3)).law, "inside the motion"),
+        (inertial_loader(smoothstep(3)).law, "inside the motion"),
         (PiecewiseLaw([0, 0.5, 1], [PolynomialSegment((2.0,)), PolynomialSegment((), b0=1.0)]), "inside the motion"),
     ],
 )
 def test_what_has_no_loader_is_refused(law: MotionLaw, reason: str) -> None:
     with pytest.raises(InputError, match=reason):
-        loader(law)
+        inertial_loader(law)
 
 
 def random_executive(seed: int) -> MotionLaw:
@@ -199,10 +199,10 @@ def test_two_hundred_random_laws(first: int, last: int) -> None:
         law = random_executive(seed)
         if reason := without_loader(law):
             with pytest.raises(InputError, match=reason):
-                loader(law)
+                inertial_loader(law)
             refused += 1
             continue
-        balanced = loader(law)
+        balanced = inertial_loader(law)
         assert energy_error(balanced) < 1e-10
         swing = balanced.law.extrema(0)[1].value - min(0.0, balanced.law.a(1.0))
         assert isfinite(swing)
@@ -227,10 +227,10 @@ symmetric_laws = st.lists(st.floats(-1.0, 1.0), min_size=1, max_size=4).map(
 def test_scaling_the_executive_stroke_leaves_the_loader_as_it_is(law: PolynomialLaw, scale: float) -> None:
     law = PolynomialLaw(law.acceleration, b0=-float(np.asarray(law.b(1.0))) / 2 + 3.0)
     try:
-        balanced = loader(law)
+        balanced = inertial_loader(law)
     except InputError:
         return
-    larger = loader(PolynomialLaw([scale * c for c in law.acceleration], b0=scale * law.b0))
+    larger = inertial_loader(PolynomialLaw([scale * c for c in law.acceleration], b0=scale * law.b0))
     assert pytest.approx(balanced.Y / scale, rel=1e-9) == larger.Y
     assert larger.law(K) == pytest.approx(balanced.law(K), abs=1e-9)
     assert larger.law.d(K) == pytest.approx(balanced.law.d(K), abs=1e-7 * balanced.D)
@@ -241,19 +241,19 @@ def test_scaling_the_executive_stroke_leaves_the_loader_as_it_is(law: Polynomial
 def test_powers_cancel_and_reversal_reverses(seed: int) -> None:
     law = free_function_law(seed, 4, 3)
     try:
-        balanced = loader(law)
+        balanced = inertial_loader(law)
     except InputError:
         return
     assert balanced.law.d(K) == pytest.approx(-(balanced.Y**2) * law.d(K), abs=1e-9 * balanced.D)
     # backwards in time: b(1 - k); the loader runs backwards too, b_l(k) -> -b_l(1 - k)
-    back = loader(reversed_law(law))
+    back = inertial_loader(reversed_law(law))
     assert pytest.approx(balanced.Y, rel=1e-10) == back.Y
     assert back.law.b(K) == pytest.approx(-balanced.law.b(1.0 - K), abs=1e-8 * balanced.B)
-    assert pytest.approx(balanced.Y, rel=1e-10) == loader(mirrored_law(law)).Y
+    assert pytest.approx(balanced.Y, rel=1e-10) == inertial_loader(mirrored_law(law)).Y
 
 
 def test_unsymmetric_laws_swing_by_1_over_rise_and_return() -> None:
-    balanced = loader(free_function_law(3, 4, 6))
+    balanced = inertial_loader(free_function_law(3, 4, 6))
     assert not balanced.symmetric
     reached = balanced.law.a(balanced.turn)
     assert reached != pytest.approx(0.5, abs=1e-4)
@@ -262,7 +262,7 @@ def test_unsymmetric_laws_swing_by_1_over_rise_and_return() -> None:
 
 
 def test_masses_and_strokes() -> None:
-    balanced = loader(smoothstep(3))
+    balanced = inertial_loader(smoothstep(3))
     mass = balanced.mass(executive_mass=2.0, executive_stroke=0.05, stroke=0.03)
     assert pytest.approx(balanced.Y**2 * mass * 0.03**2) == 2.0 * 0.05**2
     assert balanced.stroke(executive_mass=2.0, executive_stroke=0.05, mass=mass) == pytest.approx(0.03)
@@ -278,7 +278,7 @@ def test_masses_and_strokes() -> None:
 
 @pytest.mark.parametrize("name", ["K", "0317(1,5)", "KC05", "trapezoidal velocity in thirds"])
 def test_laws_of_loaders_are_stored_and_copied(name: str) -> None:
-    law = loader(coded(name)).law
+    law = inertial_loader(coded(name)).law
     for back in (MotionLaw.from_json(law.to_json()), copy.deepcopy(law), pickle.loads(pickle.dumps(law))):  # noqa: S301
         assert back == law
         assert np.array_equal(back(K), law(K))
@@ -289,4 +289,4 @@ def test_laws_of_loaders_are_stored_and_copied(name: str) -> None:
 
 
 def test_an_entry_of_the_catalogue_stands_for_its_law() -> None:
-    assert loader(catalogue["cycloidal"]) == loader(catalogue["cycloidal"].law)  # type: ignore[arg-type] # it has one
+    assert inertial_loader(catalogue["cycloidal"]) == inertial_loader(catalogue["cycloidal"].law)  # type: ignore[arg-type] # it has one

@@ -30,7 +30,7 @@ from optlaws import (
 )
 from optlaws.balancing.loaders.constants import B_loader, C_loader, D_loader
 from optlaws.balancing.loaders.limits import loader_acceleration_limit, loader_power_limit, loader_velocity_limit
-from optlaws.balancing.loaders.loader import loader
+from optlaws.balancing.loaders.loader import inertial_loader
 from optlaws.synthesis.families.energy import EnergyFamily
 from optlaws.synthesis.program.writer import model_of, relaxed
 from optlaws.synthesis.proof.duality import row_of
@@ -134,7 +134,7 @@ def test_a_bound_on_the_executive_acceleration_is_kept() -> None:
     own = law.constants.C.value
     found = balanced_law(1.875, order=3, basis=Chebyshev(9), most_C=own)
     assert found.law.constants.C.value <= own * (1 + 1e-9)
-    assert gentle().objective < found.objective < 0.97 * loader(law).C
+    assert gentle().objective < found.objective < 0.97 * inertial_loader(law).C
     mixed = balanced_law(1.875, order=3, basis=Chebyshev(9), minimise="0.5*C/4 + 0.5*C_loader/4")
     C, C_l = mixed.law.constants.C.value, mixed.loader.C
     assert mixed.objective == pytest.approx(0.125 * (C + C_l), rel=1e-12)
@@ -212,9 +212,9 @@ def test_power_of_the_loader_by_mpmath() -> None:
     value = D_loader.value(law)
     assert float(power) <= value * (1.0 + 1e-9)
     assert float(power) == pytest.approx(value, rel=1e-4)
-    assert value == pytest.approx(loader(law).law.power_peak().value, rel=1e-12)
+    assert value == pytest.approx(inertial_loader(law).law.power_peak().value, rel=1e-12)
     k = np.linspace(0.0, 1.0, 40001)
-    assert np.abs(loader(law).law.d(k)).max() == pytest.approx(value, rel=1e-7)
+    assert np.abs(inertial_loader(law).law.d(k)).max() == pytest.approx(value, rel=1e-7)
 
 
 @pytest.mark.parametrize("B", [1.05, 1.2, 1.4, 1.5, 1.875, 2.6])
@@ -286,7 +286,7 @@ def mixed(shares: list[float]) -> np.ndarray:
 @given(SHARES, SHARES)
 def test_no_law_is_below_a_limit_or_a_tangent(first: list[float], second: list[float]) -> None:
     x = mixed(first)
-    balanced = loader(MODEL.space.law(x))
+    balanced = inertial_loader(MODEL.space.law(x))
     assert loader_acceleration_limit(1.7) < balanced.C
     assert loader_velocity_limit(1.7) < balanced.B
     assert loader_power_limit(1.7) < balanced.D
@@ -298,7 +298,7 @@ def test_no_law_is_below_a_limit_or_a_tangent(first: list[float], second: list[f
 @pytest.mark.sample(2)
 @pytest.mark.parametrize("name", CODES)
 def test_printed_laws_are_above_the_limits(name: str) -> None:
-    balanced = loader(catalogue[name].law)
+    balanced = inertial_loader(catalogue[name].law)
     B = balanced.executive.constants.B.value
     assert loader_acceleration_limit(B) < balanced.C
     assert loader_velocity_limit(B) < balanced.B
@@ -316,7 +316,7 @@ def test_the_law_of_constant_acceleration_of_the_loader_attains_its_limit() -> N
 def test_rows_know_the_loader(shares: list[float]) -> None:
     x = mixed(shares)
     law = MODEL.space.law(x)
-    one, k = loader(law), 0.5 * (1.0 - np.linspace(0.05, 1.0, 20))
+    one, k = inertial_loader(law), 0.5 * (1.0 - np.linspace(0.05, 1.0, 20))
     wanted = {B_loader: np.full(20, one.B), C_loader: -one.law.c(k), D_loader: -one.law.d(k)}
     for constant, values in wanted.items():
         (family,) = constant.families(MODEL.space, np.zeros(len(x)), 0.0)

@@ -4,7 +4,7 @@ import pytest
 from scipy.integrate import quad
 
 from optlaws import InputError, catalogue, smoothstep
-from optlaws.balancing.loaders.loader import loader
+from optlaws.balancing.loaders.loader import inertial_loader
 from optlaws.balancing.loaders.trapezium import TrapeziumSubstitute, closed_form_Y
 from tests.mechanisms.reference import rows
 
@@ -15,7 +15,7 @@ NOMOGRAM = rows("loader_nomogram")
 @pytest.mark.parametrize("row", NOMOGRAM[::4], ids=[f"{row['e13']}-{row['gamma_w']}" for row in NOMOGRAM[::4]])
 def test_the_nomogram(row: dict[str, str]) -> None:
     substitute = TrapeziumSubstitute(float(row["e13"]), float(row["gamma_w"]))
-    exact = loader(substitute.law)
+    exact = inertial_loader(substitute.law)
     half_a_digit = 5.1e-6
     assert (substitute.m, substitute.n) == pytest.approx((float(row["m"]), float(row["n"])), rel=1e-5, abs=1e-9)
     assert pytest.approx(float(row["Y_formula25"]), rel=half_a_digit) == substitute.Y
@@ -31,7 +31,7 @@ def test_eq_25_is_off_by_the_terms_that_its_series_leaves_out() -> None:
     worst = 0.0
     for row in NOMOGRAM[::3]:
         substitute = TrapeziumSubstitute(float(row["e13"]), float(row["gamma_w"]))
-        exact = loader(substitute.law).Y
+        exact = inertial_loader(substitute.law).Y
         x = (3.0 * substitute.m * substitute.e13 / substitute.A) ** 2
         left_out = (
             sum(c * x**i / (4 * i + 1) for i, c in ((4, 5 / 128), (5, 7 / 256), (6, 21 / 1024), (7, 33 / 2048)))

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 from optlaws import catalogue
+from optlaws.balancing import DwellType
 from optlaws.balancing.machine_units.dwell_machine import DwellMachine, dwell_machine
 from optlaws.cams.forces import CamForces
 from optlaws.errors import InputError
@@ -21,7 +22,7 @@ DATA: dict[str, Any] = {
 }
 
 
-def machine(kind: str, **said: Any) -> DwellMachine:  # noqa: ANN401 - entries of dwell_machine
+def machine(kind: DwellType, **said: Any) -> DwellMachine:  # noqa: ANN401 - entries of dwell_machine
     return dwell_machine(kind, **DATA | {"speed": "100 rpm", "clutch_time": "20 ms"} | said)
 
 
@@ -32,7 +33,7 @@ def test_the_clutch_s_time_is_an_angle_that_grows_with_the_speed() -> None:
 
 
 @pytest.mark.parametrize("kind", ["I", "II", "III"])
-def test_torques_by_the_paper_s_formulas(kind: str) -> None:
+def test_torques_by_the_paper_s_formulas(kind: DwellType) -> None:
     model = machine(kind)
     law, time, gS = DATA["law"], 0.15, radians(20.0)
     D, C = law.power_peak().value, law.peak(2).value
@@ -49,7 +50,7 @@ def test_torques_by_the_paper_s_formulas(kind: str) -> None:
 
 
 @pytest.mark.parametrize("kind", ["I", "III"])
-def test_both_cams_on_one_shaft_take_no_torque_but_in_the_dwells(kind: str) -> None:
+def test_both_cams_on_one_shaft_take_no_torque_but_in_the_dwells(kind: DwellType) -> None:
     model = machine(kind)
     cams = model.cams("8 mm", "115 mm")
     moved = {

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from optlaws import Clutch, MotionLaw, catalogue, deg, dwell_mechanism, loader, smoothstep
+from optlaws import Clutch, MotionLaw, catalogue, deg, dwell_mechanism, inertial_loader, smoothstep
 from optlaws.cli.app import BAD_INPUT, exit_code
 
 DWELL = (
@@ -29,8 +29,11 @@ def test_a_loader_of_a_file_and_its_mass(tmp_path: Path, capsys: pytest.CaptureF
         file.write_text(text, "utf-8")
         assert exit_code(["loader", str(file), *machine, "--stroke", "0.03", "--output", str(out)]) == 0
         shown = capsys.readouterr().out
-        assert f"{loader(smoothstep(4)).mass(executive_mass=2.5, executive_stroke=0.04, stroke=0.03):.8g}" in shown
-        assert MotionLaw.from_dict(json.loads(out.read_text("utf-8"))["law"]) == loader(smoothstep(4)).law
+        assert (
+            f"{inertial_loader(smoothstep(4)).mass(executive_mass=2.5, executive_stroke=0.04, stroke=0.03):.8g}"
+            in shown
+        )
+        assert MotionLaw.from_dict(json.loads(out.read_text("utf-8"))["law"]) == inertial_loader(smoothstep(4)).law
     assert exit_code(["loader", str(file), *machine, "--mass", "3"]) == 0
     assert "stroke of the loader" in capsys.readouterr().out
 

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, seed, settings
 from hypothesis import strategies as st
 
-from optlaws import BoundaryConditions, Powers, construct
+from optlaws import BoundaryConditions, Powers, law_from_z
 from optlaws.exports.export import export_motion
 from optlaws.motion.motion import Motion, motion_of_law
 from tests.exports.formats.test_controllers import READ, same
@@ -19,7 +19,7 @@ def random_motion(number: int) -> Motion:
     """A law of order 3 with a random Z, in random units."""
     rng = np.random.default_rng(number)
     z = rng.normal(size=rng.integers(1, 8)).tolist()
-    law = construct(BoundaryConditions.rest(3), z, Powers(len(z) - 1))
+    law = law_from_z(BoundaryConditions.rest(3), z, Powers(len(z) - 1))
     return motion_of_law(law, stroke=str(rng.choice(STROKES)), master=str(rng.choice(MASTERS)), duration="0.2 s")
 
 

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw, PolynomialLaw, smoothstep
 from optlaws.laws.catalogue.catalogue import catalogue
-from optlaws.laws.making.multiplier import multiplied, multiplier_for
+from optlaws.laws.making.multiplier import multiplied_law, multiplier_for
 from optlaws.laws.making.transform import with_end_velocity
 from optlaws.laws.making.trapezoids import scca, trapezoid
 from optlaws.laws.savin import SavinFamily, savin
@@ -59,7 +59,7 @@ def stroke(law: MotionLaw, y: Any) -> float:  # noqa: ANN401
 @pytest.mark.parametrize("law", LAWS.values(), ids=LAWS.keys())
 @pytest.mark.parametrize(("y", "values"), MULTIPLIERS.values(), ids=MULTIPLIERS.keys())
 def test_acceleration_is_the_product_and_the_stroke_stays(law: MotionLaw, y: Any, values: Any) -> None:  # noqa: ANN401
-    product = multiplied(law, y)
+    product = multiplied_law(law, y)
     scale = (1.0 - law.b(0.0)) / stroke(law, values)
     assert product.c(K) == pytest.approx(scale * law.c(K) * values(K), abs=5e-13 * product.peak(2).value)
     assert product.a([0.0, 1.0]) == pytest.approx([0.0, 1.0], abs=1e-13)
@@ -74,14 +74,14 @@ def test_quadratic_multipliers_give_savin_s_families(u: int, share: Fraction) ->
     low, high = family.range
     alpha = low + share * (high - low)
     y = [1 + alpha * family.M, -alpha, alpha]
-    assert multiplied(smoothstep(u + 2), y) == savin(u, alpha)  # type: ignore[arg-type] # a Fraction is a number
+    assert multiplied_law(smoothstep(u + 2), y) == savin(u, alpha)  # type: ignore[arg-type] # a Fraction is a number
 
 
 def test_only_the_shape_of_y_counts() -> None:
     law = smoothstep(4)
-    assert multiplied(law, [3, -7, 7]) == multiplied(law, [6, -14, 14])
-    assert multiplied(law, [5]) == law
-    assert multiplied(law, lambda _: 0.1).a(K) == pytest.approx(law.a(K), abs=1e-15)
+    assert multiplied_law(law, [3, -7, 7]) == multiplied_law(law, [6, -14, 14])
+    assert multiplied_law(law, [5]) == law
+    assert multiplied_law(law, lambda _: 0.1).a(K) == pytest.approx(law.a(K), abs=1e-15)
 
 
 def test_pieces_keep_their_kind() -> None:
@@ -92,7 +92,7 @@ def test_pieces_keep_their_kind() -> None:
         (PiecewiseLaw([0, 0.5, 1], [PowerSegment(0.0, 1.5), PowerSegment(1.5, 0.0)]), {"fractional"}),
         (scca(0.25, 0.5, 0.25), {"polynomial"}),  # a sine times a polynomial is none
     ):
-        product = multiplied(law, y)
+        product = multiplied_law(law, y)
         assert isinstance(product, PiecewiseLaw)
         assert {segment.kind for segment in product.segments} == kinds
         assert MotionLaw.from_json(product.to_json()) == product
@@ -100,7 +100,7 @@ def test_pieces_keep_their_kind() -> None:
 
 def test_constant_power_times_y_keeps_a_finite_power() -> None:
     law = PiecewiseLaw([0, 0.5, 1], [PowerSegment(0.0, 1.5), PowerSegment(1.5, 0.0)])
-    product = multiplied(law, [1, -1, 1])
+    product = multiplied_law(law, [1, -1, 1])
     assert product.constants.C.value == np.inf
     k = np.linspace(0.0, 0.499, 1000)
     assert product.constants.D.value == pytest.approx(product.d(k).max(), rel=1e-6)
@@ -109,7 +109,11 @@ def test_constant_power_times_y_keeps_a_finite_power() -> None:
 
 def test_area_wanders_to_where_y_is_large() -> None:
     law = smoothstep(3)
-    assert multiplied(law, [1, -3, 3]).peak(1).value < law.peak(1).value < multiplied(law, [1, 3, -3]).peak(1).value
+    assert (
+        multiplied_law(law, [1, -3, 3]).peak(1).value
+        < law.peak(1).value
+        < multiplied_law(law, [1, 3, -3]).peak(1).value
+    )
 
 
 @pytest.mark.parametrize(
@@ -131,24 +135,24 @@ def test_area_wanders_to_where_y_is_large() -> None:
 def test_wrong_multipliers_are_refused(y: Any, message: str) -> None:  # noqa: ANN401
     for law in (smoothstep(3), scca(0.25, 0.5, 0.25)):
         with pytest.raises(InputError, match=message):
-            multiplied(law, y)
+            multiplied_law(law, y)
 
 
 @pytest.mark.parametrize("law", [random_law(3, 5), cut(random_law(3, 5), 0.4)])
 def test_laws_that_the_method_does_not_fit_are_refused(law: MotionLaw) -> None:
     with pytest.raises(InputError, match=r"change the velocity by .* odd about k = 1/2"):
-        multiplied(law, [2, -1, 1])
+        multiplied_law(law, [2, -1, 1])
 
 
 @pytest.mark.parametrize("law", [smoothstep(1), cut(smoothstep(1), 0.5)])
 def test_uniform_motion_has_no_acceleration_to_multiply(law: MotionLaw) -> None:
     with pytest.raises(InputError, match="no stroke"):
-        multiplied(law, [2, -1, 1])
+        multiplied_law(law, [2, -1, 1])
 
 
 def test_high_degrees_stay_exact() -> None:
     law = smoothstep(25)
-    product = multiplied(law, [2, -1, 1])
+    product = multiplied_law(law, [2, -1, 1])
     assert isinstance(product, PolynomialLaw)
     assert product.a([0.5, 1.0]) == pytest.approx([0.5, 1.0], abs=1e-14)
 
@@ -166,7 +170,7 @@ def test_high_degrees_stay_exact() -> None:
 )
 def test_a_multiplier_is_found_that_gives_the_wanted_constants(law: MotionLaw, constants: dict[str, float]) -> None:
     y = multiplier_for(law, **constants)
-    made = multiplied(law, y)
+    made = multiplied_law(law, y)
     given = {name: made.c(0.0) if name == "c0" else getattr(made.constants, name).value for name in constants}
     assert given == pytest.approx(constants, rel=1e-9)
     assert len(y) == 2 * len(constants) + 1
@@ -178,7 +182,7 @@ def test_a_multiplier_is_found_that_gives_the_wanted_constants(law: MotionLaw, c
 
 
 def test_two_coefficients_and_one_condition_are_savins_family() -> None:
-    made, family = multiplied(smoothstep(4), multiplier_for(smoothstep(4), B=1.9)), savin("III", B=1.9)
+    made, family = multiplied_law(smoothstep(4), multiplier_for(smoothstep(4), B=1.9)), savin("III", B=1.9)
     np.testing.assert_allclose(made(K), family(K), atol=1e-12)
 
 

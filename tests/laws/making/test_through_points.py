@@ -18,7 +18,7 @@ from optlaws import (
     Return,
     Rise,
     catalogue,
-    compare,
+    compare_laws,
     law_through,
     read_law,
     smoothstep,
@@ -225,7 +225,7 @@ def test_tables_that_optlaws_writes_are_read_back(tmp_path: Path) -> None:
         for more in options:
             made = law.export(name, stroke="35 mm", master="120 deg", duration="0.1 s", points=61, **more)
             table = made.write(tmp_path / f"{name}.txt")
-            row = compare(str(table), law).rows[0]
+            row = compare_laws(str(table), law).rows[0]
             assert row["C"] == pytest.approx(law.constants.C.value, rel=2e-3), name
     cycle = Cycle(
         [Rise("35 mm", "120 deg", law=law), Dwell("90 deg"), Return(duration="90 deg"), Dwell()], speed="60 rpm"

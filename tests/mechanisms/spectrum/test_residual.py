@@ -19,7 +19,7 @@ from optlaws import (
     at_most,
     catalogue,
     polydyne,
-    residual,
+    residual_vibration,
     savin,
     synthesize,
 )
@@ -35,7 +35,7 @@ LAWS = [savin("III", 7.2), savin("IV", 11.0), catalogue["modified sine"].law, ca
 @pytest.mark.parametrize("law", LAWS, ids=["III", "IV", "modified sine", "cycloidal"])
 @pytest.mark.parametrize("damping", [0.0, 0.05, 0.7])
 def test_the_greatest_residual_is_that_of_a_fine_grid_and_of_the_response(law: MotionLaw, damping: float) -> None:
-    constant = residual(nu=(18, 22), damping=damping)
+    constant = residual_vibration(nu=(18, 22), damping=damping)
     peak = constant.peak(law)
     grid = residuals(law.b, NU, damping)
     assert grid.max() <= peak.value * (1 + 1e-10)
@@ -47,7 +47,7 @@ def test_the_greatest_residual_is_that_of_a_fine_grid_and_of_the_response(law: M
 @examples(25)
 def test_the_greatest_residual_of_any_interval(low: float, length: float, damping: float) -> None:
     law = savin("III", 7.2)
-    vibration = residual(nu=(low, low + length), damping=damping).value(law)
+    vibration = residual_vibration(nu=(low, low + length), damping=damping).value(law)
     grid = residuals(law.b, np.linspace(low, low + length, 1001), damping)
     assert grid.max() <= vibration * (1 + 1e-9) + 1e-12
     assert grid.max() >= vibration * (1 - 1e-2 - length * 1e-3)
@@ -57,19 +57,28 @@ def test_the_greatest_residual_of_any_interval(low: float, length: float, dampin
 def test_of_a_mass_law_it_is_the_residual_of_its_cam(dampings: tuple[float, float]) -> None:
     damping, made = dampings
     law = savin("IV", 11.0)
-    vibration = residual(nu=(18, 22), damping=damping, design=20, design_damping=made).value(law)
-    assert vibration == pytest.approx(residual(nu=(18, 22), damping=damping).value(polydyne(law, 20, made)), rel=1e-9)
+    vibration = residual_vibration(nu=(18, 22), damping=damping, design=20, design_damping=made).value(law)
+    assert vibration == pytest.approx(
+        residual_vibration(nu=(18, 22), damping=damping).value(polydyne(law, 20, made)), rel=1e-9
+    )
 
 
 CASES = [
-    Problem(order=3, basis=Chebyshev(11), bounds={residual(nu=(18, 22)): at_most(0.1)}),
-    Problem(order=3, basis=Chebyshev(11), bounds={residual(nu=(18, 22)): at_most(0.01)}, B=2.1),
-    Problem(order=3, basis=Chebyshev(11), bounds={residual(nu=(18, 22), damping=0.05): at_most(0.01)}, symmetric=False),
-    Problem(order=3, basis=BSplines(8, 4), bounds={residual(nu=(18, 22)): at_most(0.05)}),
+    Problem(order=3, basis=Chebyshev(11), bounds={residual_vibration(nu=(18, 22)): at_most(0.1)}),
+    Problem(order=3, basis=Chebyshev(11), bounds={residual_vibration(nu=(18, 22)): at_most(0.01)}, B=2.1),
     Problem(
-        order=3, basis=Pieces(12, degree=5, continuity=3), bounds={residual(nu=(18, 22), damping=0.02): at_most(0.1)}
+        order=3,
+        basis=Chebyshev(11),
+        bounds={residual_vibration(nu=(18, 22), damping=0.05): at_most(0.01)},
+        symmetric=False,
     ),
-    Problem(order=3, basis=Chebyshev(11), minimise="J", bounds={residual(nu=(18, 22)): at_most(0.1)}),
+    Problem(order=3, basis=BSplines(8, 4), bounds={residual_vibration(nu=(18, 22)): at_most(0.05)}),
+    Problem(
+        order=3,
+        basis=Pieces(12, degree=5, continuity=3),
+        bounds={residual_vibration(nu=(18, 22), damping=0.02): at_most(0.1)},
+    ),
+    Problem(order=3, basis=Chebyshev(11), minimise="J", bounds={residual_vibration(nu=(18, 22)): at_most(0.1)}),
 ]
 
 
@@ -87,7 +96,7 @@ def test_the_residual_of_a_robust_law_is_below_the_bound_everywhere(problem: Pro
 
 @pytest.mark.parametrize("damping", [0.0, 0.05])
 def test_a_robust_polydyne_law_has_no_residual_at_its_design_and_little_around_it(damping: float) -> None:
-    bound = residual(nu=(18, 22), damping=damping, design=20)
+    bound = residual_vibration(nu=(18, 22), damping=damping, design=20)
     asked = Problem(
         order=4,
         basis=Chebyshev(11),
@@ -109,7 +118,10 @@ def test_a_robust_polydyne_law_has_no_residual_at_its_design_and_little_around_i
 
 def test_a_linear_program_over_all_laws_brackets_the_optimum() -> None:
     asked = Problem(
-        order=3, basis=Chebyshev(9), bounds={residual(nu=(18, 22), damping=0.05): at_most(0.05)}, symmetric=False
+        order=3,
+        basis=Chebyshev(9),
+        bounds={residual_vibration(nu=(18, 22), damping=0.05): at_most(0.05)},
+        symmetric=False,
     )
     solution = synthesize(asked)
     assert solution.status.value == "optimal"
@@ -122,7 +134,7 @@ def test_a_linear_program_over_all_laws_brackets_the_optimum() -> None:
 
 
 def test_the_least_residual_that_an_acceleration_allows() -> None:
-    wide = residual(nu=(18, 22), damping=0.05)
+    wide = residual_vibration(nu=(18, 22), damping=0.05)
     asked = Problem(order=3, C=at_most(6.0), minimise=wide, symmetric=False)
     solution = synthesize(asked)
     assert solution.status.value == "optimal"
@@ -135,7 +147,7 @@ def test_the_least_residual_that_an_acceleration_allows() -> None:
 
 def test_less_residual_costs_acceleration_and_a_higher_degree_helps() -> None:
     def least(degree: int, most: float) -> float:
-        bounds = {residual(nu=(18, 22)): at_most(most)}
+        bounds = {residual_vibration(nu=(18, 22)): at_most(most)}
         return synthesize(Problem(order=3, basis=Chebyshev(degree), bounds=bounds)).objective
 
     by_most = [least(9, most) for most in (1.0, 0.3, 0.1, 0.03)]
@@ -152,8 +164,8 @@ def test_a_single_frequency_is_an_interval_too() -> None:
 
 def test_a_residual_out_of_reach_is_refused_with_proof() -> None:
     for asked in (
-        Problem(order=3, B=1.859375, basis=Chebyshev(9), bounds={residual(nu=(18, 22)): at_most(1e-3)}),
-        Problem(order=3, C=at_most(6), basis=Chebyshev(9), bounds={residual(nu=(18, 22)): at_most(1e-2)}),
+        Problem(order=3, B=1.859375, basis=Chebyshev(9), bounds={residual_vibration(nu=(18, 22)): at_most(1e-3)}),
+        Problem(order=3, C=at_most(6), basis=Chebyshev(9), bounds={residual_vibration(nu=(18, 22)): at_most(1e-2)}),
     ):
         with pytest.raises(InfeasibleProblem, match=r"residual\(nu=\(18.0, 22.0\)\)") as caught:
             synthesize(asked)
@@ -194,11 +206,11 @@ def test_a_spoilt_certificate_proves_less() -> None:
 )
 def test_nonsense_is_refused(given_: dict[str, object], says: str) -> None:
     with pytest.raises(InputError, match=says):
-        residual(**given_)  # type: ignore[arg-type] # that is what is refused
+        residual_vibration(**given_)  # type: ignore[arg-type] # that is what is refused
 
 
 def test_a_law_that_no_cam_can_make_is_refused() -> None:
     with pytest.raises(InputError, match="order 4 at least"):
-        synthesize(Problem(order=3, bounds={residual(nu=(18, 22), design=20): at_most(0.1)}))
+        synthesize(Problem(order=3, bounds={residual_vibration(nu=(18, 22), design=20): at_most(0.1)}))
     with pytest.raises(InputError, match="rest to rest"):
-        synthesize(Problem(order=1, bounds={residual(nu=(18, 22)): at_most(0.1)}))
+        synthesize(Problem(order=1, bounds={residual_vibration(nu=(18, 22)): at_most(0.1)}))

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from optlaws import Chebyshev, Problem, ProblemArray, Solution, at_most, each, synthesize, synthesize_array
+from optlaws import Chebyshev, Problem, ProblemArray, Solution, at_most, map_arrays, synthesize, synthesize_array
 from optlaws.synthesis import solve_many
 from optlaws.synthesis.arrays.continuation import ParametricContinuation
 from optlaws.synthesis.arrays.continued_laws import laws_along
@@ -43,7 +43,7 @@ KINDS: dict[str, dict[str, Any]] = {
     "B, unsymmetric": {"B": np.linspace(1.6, 2.2, COUNT), "symmetric": False, "order": 3, "basis": Chebyshev(5)},
     "most C": {"B": 1.7, "C": (None, np.linspace(5.0, 5.9, COUNT))},
     "most C, any B": {"B": None, "C": (None, np.linspace(4.9, 5.6, COUNT)), "basis": Chebyshev(7)},
-    "weights": {"B": 1.7, "minimise": each("{:.17g}*D".format, np.linspace(0.5, 2.0, COUNT))},
+    "weights": {"B": 1.7, "minimise": map_arrays("{:.17g}*D".format, np.linspace(0.5, 2.0, COUNT))},
 }
 
 

@@ -23,7 +23,7 @@ from optlaws import (
     SolutionArray,
     at_most,
     between,
-    each,
+    map_arrays,
     synthesize,
     synthesize_array,
     synthesize_chunks,
@@ -91,7 +91,7 @@ def test_problems_of_several_kinds_are_solved_in_their_order() -> None:
 
 
 def test_values_that_are_no_numbers_come_from_a_function() -> None:
-    bounds = each(at_most, np.array([60.0, 70.0]))
+    bounds = map_arrays(at_most, np.array([60.0, 70.0]))
     problems = ProblemArray(J=bounds, B=1.7, order=4)
     assert problems[1] == Problem(J=at_most(70.0), B=1.7, order=4)
     assert ProblemArray(J=(None, np.array([60.0, 70.0])), B=1.7, order=4)[0] == problems[0]
@@ -190,19 +190,19 @@ def test_tables_have_a_row_and_datasets_a_place_for_each_problem() -> None:
     [
         ProblemArray(B=np.append(np.linspace(1.5, 2.0, 140), [np.nan, 1.02]), order=4),
         ProblemArray(B=np.array([[1.6], [1.7]]), J=(None, np.array([60.0, 80.0])), order=4, basis=Chebyshev(5)),
-        ProblemArray(B=each(float, np.array([1.6, 0.5, np.nan])), order=4, minimise="J"),
+        ProblemArray(B=map_arrays(float, np.array([1.6, 0.5, np.nan])), order=4, minimise="J"),
         ProblemArray(
             B=1.7,
             order=4,
-            J=each(at_most, np.array([60.0, 80.0])),
-            windows=each(lambda height: via("b", height, at=0.25), np.array([1.0, 1.1])),
-            minimise=each("{:g}*C".format, np.array([1.0, 2.0])),
-            basis=each(Chebyshev, np.array([7, 9])),
+            J=map_arrays(at_most, np.array([60.0, 80.0])),
+            windows=map_arrays(lambda height: via("b", height, at=0.25), np.array([1.0, 1.1])),
+            minimise=map_arrays("{:g}*C".format, np.array([1.0, 2.0])),
+            basis=map_arrays(Chebyshev, np.array([7, 9])),
         ),
         ProblemArray(
             order=3,
             symmetric=False,
-            boundary=each(lambda v: BoundaryConditions((0.0, 0.0, 0.0), (1.0, v, 0.0)), np.array([0.2, 0.4])),
+            boundary=map_arrays(lambda v: BoundaryConditions((0.0, 0.0, 0.0), (1.0, v, 0.0)), np.array([0.2, 0.4])),
         ),
     ],
     ids=["together and alone", "a table", "objects", "objects of many kinds", "end values"],
@@ -252,7 +252,7 @@ def test_each_solution_of_a_stored_array_is_verified() -> None:
 
 
 def test_constants_are_those_of_the_laws_where_the_weight_of_one_varies() -> None:
-    weighted = each("{:.17g}*C".format, np.linspace(1.0, 2.0, 140))
+    weighted = map_arrays("{:.17g}*C".format, np.linspace(1.0, 2.0, 140))
     problems = ProblemArray(B=1.7, minimise=weighted, order=4)
     for laws in (synthesize_array(problems), solved(ProblemArray.of(list(problems)))):
         np.testing.assert_allclose(laws.C, laws[0].constants.C.value, rtol=1e-9)

@@ -5,7 +5,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from optlaws import Chebyshev, Pieces, Problem, Solution, at_least, between, residual, synthesize
+from optlaws import Chebyshev, Pieces, Problem, Solution, at_least, between, residual_vibration, synthesize
 from optlaws.synthesis.families.family import ProductFamily
 from optlaws.synthesis.method.exchange import solve
 from optlaws.synthesis.method.units import units_of
@@ -77,7 +77,7 @@ def test_the_power_of_great_laws_is_bounded() -> None:
     "problem",
     [
         Problem(order=3, B=1e6, minimise="max(C/4, D/2.25)", monotone=True),
-        Problem(order=3, B=at_least(1e6), inflexion=0.5, minimise=residual(nu=7.0, damping=0.1)),
+        Problem(order=3, B=at_least(1e6), inflexion=0.5, minimise=residual_vibration(nu=7.0, damping=0.1)),
         Problem(order=3, B=1e6, minimise="rms_j", symmetric=False, basis=Pieces(4, 6, 3)),
     ],
 )

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from optlaws import Chebyshev, Powers, Problem, Solution, at_most, between, construct, synthesize
+from optlaws import Chebyshev, Powers, Problem, Solution, at_most, between, law_from_z, synthesize
 from optlaws.synthesis import Basis
 from tests.sampling import sampled
 from tests.synthesis.independent import DENSE, z_of
@@ -240,7 +240,7 @@ def test_random_laws_have_no_less_power() -> None:
         step = numbers.normal(size=10) * size
         step[::2] = 0.0
         step[1] -= np.polynomial.Chebyshev(step).deriv()(0.0)
-        law = construct(solution.problem.conditions, z + step, Chebyshev(9))
+        law = law_from_z(solution.problem.conditions, z + step, Chebyshev(9))
         judged = Judged(law)
         low, high = judged.derivatives[1].extremes()
         if high <= 1.859 * (1 + 1e-9) and low > -np.inf:

@@ -33,7 +33,7 @@ from optlaws import (
     at_least,
     at_most,
     between,
-    construct,
+    law_from_z,
     maximum,
     rms_c,
     sweep,
@@ -188,7 +188,7 @@ def test_a_start_that_is_no_solution_is_refused(wrong: Any) -> None:  # noqa: AN
         lambda: Chebyshev(degre=3),  # type: ignore[call-arg]
         lambda: BoundaryConditions(begin=(0,), end=(1,)),  # type: ignore[call-arg]
         lambda: BoundaryConditions.rest(l=2),  # type: ignore[call-arg]
-        lambda: construct(BoundaryConditions.rest(2), zz=[1.0]),  # type: ignore[call-overload]
+        lambda: law_from_z(BoundaryConditions.rest(2), zz=[1.0]),  # type: ignore[call-overload]
         lambda: acceleration_limit(2.0, monoton=True),  # type: ignore[call-arg]
         lambda: synthesize(Problem(B=1.5, order=2), strat=None),  # type: ignore[call-arg]
         lambda: sweep(problem=[]),  # type: ignore[call-overload]
@@ -267,7 +267,7 @@ def test_one_coefficient_cannot_give_b_1_53_at_order_4_but_more_can() -> None:
 
 
 def test_the_law_that_one_coefficient_gives_does_break_b() -> None:
-    law = construct(BoundaryConditions.rest(4), [0.5 * 4**4 * (2.1875 - 1.53), -(4**4) * (2.1875 - 1.53)])
+    law = law_from_z(BoundaryConditions.rest(4), [0.5 * 4**4 * (2.1875 - 1.53), -(4**4) * (2.1875 - 1.53)])
     assert law.b(0.5) == pytest.approx(1.53, abs=1e-12)
     assert law.peak(1).value > 1.53 + 1e-3
 

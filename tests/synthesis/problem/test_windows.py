@@ -36,7 +36,7 @@ def test_windows_hold_on_the_whole_of_their_interval(problem: Problem) -> None:
     law = synthesize(problem).law
     for window in problem.windows:
         k = np.linspace(window.start, window.stop, 2001)
-        values = law(k, window.order)
+        values = law(k, window.nu)
         assert np.all(values <= window.high + 1e-8)
         assert np.all(values >= window.low - 1e-8)
 

@@ -17,8 +17,8 @@ from optlaws import (
     at_least,
     at_most,
     between,
-    construct,
     jounce,
+    law_from_z,
     smoothstep,
     via,
 )
@@ -29,8 +29,8 @@ CUBIC = smoothstep(2)
 SWAYING = PolynomialLaw([7 / 4 * 2 * 3, 0.0, 7 / 4 * 2 * 6], a0=0.0, b0=-2.0)
 ENDS = BoundaryConditions(start=(0.0,), end=(-0.25,))
 #: the cubic turned round, and the cubic at 2/5 of its stroke
-BACK = construct(BoundaryConditions((0, 0), (-1, 0)))
-SHORT = construct(BoundaryConditions((0, 0), (0.4, 0)))
+BACK = law_from_z(BoundaryConditions((0, 0), (-1, 0)))
+SHORT = law_from_z(BoundaryConditions((0, 0), (0.4, 0)))
 
 
 def cubic(**asked: Any) -> Problem:  # noqa: ANN401
@@ -148,7 +148,7 @@ def test_constants_that_are_too_small_are_named_with_their_bound(
 
 def test_a_velocity_is_too_small_only_where_its_place_is_not_asked() -> None:
     ends = BoundaryConditions(start=(0, 0), end=(1, 0.5))
-    law = construct(ends)  # b = 5k - 9k²/2, at most 25/18
+    law = law_from_z(ends)  # b = 5k - 9k²/2, at most 25/18
     for asked, short in ((at_least(1.5), {B: 1.5}), (at_least(1.25), {}), (at_most(2.0), {})):
         assert shortfalls(Problem(boundary=ends, symmetric=False, B=asked), law) == short
     assert shortfalls(Problem(boundary=ends, symmetric=False, B=at_least(1.5), inflexion=5 / 9), law) == {}

@@ -27,7 +27,7 @@ from optlaws import (
     SolverFailure,
     at_most,
     between,
-    construct,
+    law_from_z,
     synthesize,
 )
 from tests.sampling import examples, sampled
@@ -455,7 +455,7 @@ def test_no_feasible_law_beats_the_bound(problem: Problem, seed: int, symmetric:
     start = inner(problem)
     scale = 1.0
     for _ in range(60):
-        law = construct(BoundaryConditions.rest(order), start + scale * step, basis)
+        law = law_from_z(BoundaryConditions.rest(order), start + scale * step, basis)
         b = acceleration_of(law).integ(lbnd=0.0) + law.to_dict()["b0"]
         lowest, highest = extremes(b)
         if highest <= velocity_of(problem) * (1 + 1e-12) and (not problem.monotone or lowest >= -1e-12):
@@ -484,7 +484,7 @@ def test_the_mean_of_a_law_and_its_mirror_image_is_no_worse() -> None:
     step = tangent(4, np.random.default_rng(1).normal(size=10) * 20.0, symmetric=False)
     z = np.asarray(z_of(solution_of(problem))) + step
     mirrored = -z * (-1.0) ** np.arange(10)
-    one, mean = (construct(BoundaryConditions.rest(4), part, Chebyshev(9)) for part in (z, (z + mirrored) / 2))
+    one, mean = (law_from_z(BoundaryConditions.rest(4), part, Chebyshev(9)) for part in (z, (z + mirrored) / 2))
     assert mean.peak(2).value <= one.peak(2).value
     assert mean.b(0.5) == pytest.approx(one.b(0.5), rel=1e-13)
 

@@ -13,7 +13,7 @@ from optlaws import (
     InfeasibleProblem,
     Powers,
     Problem,
-    construct,
+    law_from_z,
     smoothstep,
     sweep,
     synthesize,
@@ -41,7 +41,7 @@ def test_z_reproduces_the_law_through_eq_8(B: float, order: int, degree: int, ki
     basis = kind(degree)
     solution = synthesize(Problem(B=B, order=order, basis=basis))
     assert len(z_of(solution)) == basis.size
-    law = construct(BoundaryConditions.rest(order), z_of(solution), basis)
+    law = law_from_z(BoundaryConditions.rest(order), z_of(solution), basis)
     for nu in range(4):
         wanted = solution.law(K, nu)
         allowed = 1e-9 * float(np.abs(wanted).max())
@@ -53,20 +53,20 @@ def test_z_reproduces_the_law_through_eq_8(B: float, order: int, degree: int, ki
 def rounding(order: int, z: Sequence[float], nu: int) -> float:
     """What rounding each power of Z to a double may change: at degree 15 they reach 5e12."""
     nothing = BoundaryConditions((0,) * order, (0,) * order)
-    sizes = [np.abs(construct(nothing, [0] * i + [1])(K, nu)).max() for i in range(len(z))]
+    sizes = [np.abs(law_from_z(nothing, [0] * i + [1])(K, nu)).max() for i in range(len(z))]
     return float(2.0**-53 * np.abs(z) @ sizes)
 
 
 def test_at_high_degree_z_still_reproduces_the_law_in_the_chebyshev_basis() -> None:
     solution = synthesize(Problem(B=1.859, order=3, basis=Chebyshev(41)))
-    law = construct(BoundaryConditions.rest(3), z_of(solution), Chebyshev(41))
+    law = law_from_z(BoundaryConditions.rest(3), z_of(solution), Chebyshev(41))
     assert law.c(K) == pytest.approx(solution.law.c(K), abs=1e-9 * solution.objective)
 
 
 @every_shape
 def test_z_powers_are_z_in_powers_of_k(B: float, order: int, degree: int) -> None:
     solution = synthesize(Problem(B=B, order=order, basis=Chebyshev(degree)))
-    law = construct(BoundaryConditions.rest(order), z_powers_of(solution))
+    law = law_from_z(BoundaryConditions.rest(order), z_powers_of(solution))
     allowed = 1e-9 * solution.objective if degree <= 11 else rounding(order, z_powers_of(solution), 2)
     assert law.c(K) == pytest.approx(solution.law.c(K), abs=allowed)
     # odd about 1/2
@@ -90,7 +90,7 @@ def test_a_new_basis_is_one_class() -> None:
         solution = synthesize(problem)
         check_solution(solution)
         assert solution.objective == synthesize(replace(problem, basis=Chebyshev(9))).objective
-        law = construct(BoundaryConditions.rest(4), z_of(solution), Odd(9))
+        law = law_from_z(BoundaryConditions.rest(4), z_of(solution), Odd(9))
         assert law.peak(2).value == pytest.approx(solution.objective, rel=1e-11)
         assert Problem.from_dict(problem.to_dict()) == problem
     finally:
@@ -194,7 +194,7 @@ def test_degree_1_leaves_one_law(order: int, kind: Callable[[int], PolynomialBas
     B = base * 1.02
     solution = synthesize(Problem(B=B, order=order, basis=kind(1)))
     z = (B - base) * (-4.0) ** order
-    law = construct(BoundaryConditions.rest(order), [-z / 2, z])
+    law = law_from_z(BoundaryConditions.rest(order), [-z / 2, z])
     assert solution.law.c(K) == pytest.approx(law.c(K), abs=1e-11 * solution.objective)
     assert z_powers_of(solution) == pytest.approx((-z / 2, z), rel=1e-10)
     assert solution.gap <= 1e-8

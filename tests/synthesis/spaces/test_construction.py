@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.special import beta
 
-from optlaws import BoundaryConditions, Chebyshev, InputError, construct, smoothstep
+from optlaws import BoundaryConditions, Chebyshev, InputError, law_from_z, smoothstep
 
 K = np.linspace(0.0, 1.0, 101)
 values = st.floats(-100.0, 100.0, allow_subnormal=False)
@@ -23,7 +23,7 @@ def conditions(draw: st.DrawFn) -> BoundaryConditions:
 
 @given(boundary=conditions(), z=st.lists(values, max_size=8))
 def test_no_choice_of_z_breaks_an_end_condition(boundary: BoundaryConditions, z: list[float]) -> None:
-    law = construct(boundary, z)
+    law = law_from_z(boundary, z)
     start, end = law.boundary_values(boundary.order)
     for nu, (here, there) in enumerate(zip(start, end, strict=True)):
         size = 1e-9 * max(1.0, law.peak(nu).value)
@@ -34,7 +34,7 @@ def test_no_choice_of_z_breaks_an_end_condition(boundary: BoundaryConditions, z:
 @given(boundary=conditions(), z=st.lists(values, max_size=8))
 def test_the_law_is_eq_8_to_the_last_digit(boundary: BoundaryConditions, z: list[float]) -> None:
     order = boundary.order
-    law = construct(boundary, z)
+    law = law_from_z(boundary, z)
     a0, a1 = boundary.a0(), boundary.a1()
     assert len(a0) <= order
     assert len(a1) <= order
@@ -58,20 +58,20 @@ def test_a0_and_a1_alone_meet_the_conditions_exactly(boundary: BoundaryCondition
 
 
 def test_classical_laws_are_z_over_a_lower_order() -> None:
-    assert construct(BoundaryConditions.rest(2), [-3, 6]) == smoothstep(3)
-    assert construct(BoundaryConditions.rest(2), [-3, -4, 30, -20]) == smoothstep(4)
+    assert law_from_z(BoundaryConditions.rest(2), [-3, 6]) == smoothstep(3)
+    assert law_from_z(BoundaryConditions.rest(2), [-3, -4, 30, -20]) == smoothstep(4)
 
 
 @pytest.mark.parametrize("order", range(1, 9))
 def test_rest_to_rest_without_z_is_the_smoothstep(order: int) -> None:
-    law = construct(BoundaryConditions.rest(order))
+    law = law_from_z(BoundaryConditions.rest(order))
     assert law == smoothstep(order)
     assert law.b(K) == pytest.approx((K * (1 - K)) ** (order - 1) / beta(order, order), abs=1e-12)
 
 
 def test_an_end_velocity_and_an_end_acceleration_are_part_of_the_construction() -> None:
     boundary = BoundaryConditions((0, 0.5, -1), (2, 0.25, 3))
-    law = construct(boundary, [7, -5, 2])
+    law = law_from_z(boundary, [7, -5, 2])
     assert law.boundary_values(3)[0] == pytest.approx((0, 0.5, -1), abs=1e-12)
     assert law.boundary_values(3)[1] == pytest.approx((2, 0.25, 3), abs=1e-12)
 
@@ -79,7 +79,7 @@ def test_an_end_velocity_and_an_end_acceleration_are_part_of_the_construction() 
 def test_z_in_the_chebyshev_basis_is_the_same_z() -> None:
     # T_1(2k-1) = 2k - 1, T_2 = 8k² - 8k + 1
     boundary = BoundaryConditions.rest(3)
-    assert construct(boundary, [1.0, 2.0, 3.0], Chebyshev(2)) == construct(boundary, [2.0, -20.0, 24.0])
+    assert law_from_z(boundary, [1.0, 2.0, 3.0], Chebyshev(2)) == law_from_z(boundary, [2.0, -20.0, 24.0])
 
 
 @pytest.mark.parametrize(
@@ -107,7 +107,7 @@ def test_an_order_that_makes_no_sense_is_refused(order: object) -> None:
 @pytest.mark.parametrize("z", [[float("nan")], [1.0, float("inf")], ["1"], [None]])
 def test_a_z_that_makes_no_sense_is_refused(z: list[object]) -> None:
     with pytest.raises(InputError):
-        construct(BoundaryConditions.rest(2), z)
+        law_from_z(BoundaryConditions.rest(2), z)
 
 
 def test_boundary_conditions_are_values() -> None:

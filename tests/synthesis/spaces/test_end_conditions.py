@@ -15,7 +15,7 @@ from optlaws import (
     Powers,
     Problem,
     at_most,
-    construct,
+    law_from_z,
     synthesize,
 )
 from tests.synthesis.judge import broken, judge
@@ -95,7 +95,7 @@ def test_z_reproduces_the_law_through_eq_8() -> None:
     for basis in (Chebyshev(7), Powers(7)):
         solution = synthesize(problem(ENDS[2], basis=basis))
         assert solution.z is not None
-        law = construct(ENDS[2], solution.z, basis)
+        law = law_from_z(ENDS[2], solution.z, basis)
         assert law.peak(2).value == pytest.approx(solution.objective, rel=1e-9)
 
 

@@ -23,7 +23,7 @@ from optlaws import (
     Window,
     at_most,
     between,
-    construct,
+    law_from_z,
     limit,
     synthesize,
     via,
@@ -68,7 +68,7 @@ def test_splines_are_positive_and_add_up_to_1() -> None:
 
 def test_one_piece_is_bernstein() -> None:
     z = [1.5, -2.0, 0.25, 3.0]
-    law, same = (construct(BoundaryConditions.rest(3), z, basis) for basis in (BSplines(1, 3), Bernstein(3)))
+    law, same = (law_from_z(BoundaryConditions.rest(3), z, basis) for basis in (BSplines(1, 3), Bernstein(3)))
     assert isinstance(law, PiecewiseLaw)
     assert law.c(K) == pytest.approx(same.c(K), abs=1e-12)
     found, other = (synthesize(Problem(B=1.9, order=3, basis=basis)) for basis in (BSplines(1, 5), Bernstein(5)))
@@ -79,7 +79,7 @@ def test_one_piece_is_bernstein() -> None:
 @given(bases, st.integers(1, 4), st.integers(0, 1000))
 def test_no_choice_of_z_breaks_the_ends_or_the_continuity(basis: BSplines, order: int, seed: int) -> None:
     conditions = BoundaryConditions((0.0, 0.5, -1.0, 2.0)[:order], (1.0, 0.25, 3.0, 0.0)[:order])
-    law = construct(conditions, np.random.default_rng(seed).normal(size=basis.size), basis)
+    law = law_from_z(conditions, np.random.default_rng(seed).normal(size=basis.size), basis)
     start, end = law.boundary_values(order)
     assert start == pytest.approx(conditions.start, abs=1e-10)
     assert end == pytest.approx(conditions.end, abs=1e-10)
@@ -112,7 +112,7 @@ def test_laws_are_proven_and_their_z_makes_them(problem: Problem) -> None:
     basis = problem.basis
     assert isinstance(basis, BSplines)
     assert solution.z is not None
-    law = construct(problem.conditions, solution.z, basis)
+    law = law_from_z(problem.conditions, solution.z, basis)
     assert law.c(K) == pytest.approx(solution.law.c(K), abs=1e-9 * solution.constants.C.value)
     assert law.a(K) == pytest.approx(solution.law.a(K), abs=1e-12)
     if problem.symmetric:
@@ -120,7 +120,7 @@ def test_laws_are_proven_and_their_z_makes_them(problem: Problem) -> None:
     if problem.monotone:
         assert solution.law.extrema(1)[0].value >= -1e-10
     for window in problem.windows:
-        values = solution.law(np.linspace(window.start, window.stop, 1001), window.order)
+        values = solution.law(np.linspace(window.start, window.stop, 1001), window.nu)
         assert window.low - 1e-9 <= values.min() <= values.max() <= window.high + 1e-9
     assert Problem.from_dict(problem.to_dict()) == problem
     assert MotionLaw.from_dict(solution.law.to_dict()) == solution.law
@@ -204,7 +204,7 @@ def test_symmetric_laws_need_symmetric_breaks_but_no_break_in_the_middle() -> No
         Problem(B=1.7, order=3, basis=BSplines((0.0, 0.3, 1.0)))
     assert len(synthesize(Problem(B=1.7, order=3, basis=BSplines(5))).law.breaks) == 6
     with pytest.raises(InputError, match="takes 7 coefficients"):
-        construct(BoundaryConditions.rest(3), [1.0], BSplines(4))
+        law_from_z(BoundaryConditions.rest(3), [1.0], BSplines(4))
 
 
 def test_a_basis_of_ones_own_is_one_class() -> None:

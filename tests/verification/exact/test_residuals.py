@@ -8,7 +8,7 @@ from typing import Any
 import mpmath  # type: ignore[import-untyped] # ships no types
 import pytest
 
-from optlaws import Certificate, Chebyshev, Contact, Pieces, Problem, Solution, at_most, residual, synthesize
+from optlaws import Certificate, Chebyshev, Contact, Pieces, Problem, Solution, at_most, residual_vibration, synthesize
 from optlaws.laws import smoothstep
 from optlaws.verification import exact_bound, verify
 from optlaws.verification.enclosing.balls import enclosed
@@ -48,7 +48,7 @@ def amplitude(nu: float, damping: float, design: float | None = None, design_dam
 )
 def test_a_residual_is_that_by_hand(asked: dict[str, Any]) -> None:
     with mpmath.workdps(40):
-        low, high = enclosed(ExactLaw(smoothstep(4)).term(residual(**asked)))
+        low, high = enclosed(ExactLaw(smoothstep(4)).term(residual_vibration(**asked)))
         assert low <= amplitude(**asked) <= high
         assert high - low < 1e-14 * high
 
@@ -57,7 +57,7 @@ def test_the_greatest_over_an_interval_is_that_by_hand() -> None:
     # between two frequencies that leave nothing
     with mpmath.workdps(30):
         nu = mpmath.findroot(lambda nu: mpmath.diff(lambda x: amplitude(x, 0.0) ** 2, nu), 24)
-        low, high = enclosed(ExactLaw(smoothstep(4)).term(residual(nu=(22.0, 26.0))))
+        low, high = enclosed(ExactLaw(smoothstep(4)).term(residual_vibration(nu=(22.0, 26.0))))
         wanted = max(amplitude(place, 0.0) for place in (22.0, 26.0, nu))
         assert low <= wanted <= high
         assert high - low < 1e-11 * high

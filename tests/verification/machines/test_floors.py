@@ -5,7 +5,7 @@ from math import inf
 
 import pytest
 
-from optlaws import BoundaryConditions, Link, Machine, construct
+from optlaws import BoundaryConditions, Link, Machine, law_from_z
 from optlaws.synthesis.problem.constants import C
 from optlaws.verification.machines.floors import floor
 
@@ -45,7 +45,7 @@ def test_it_is_the_output_where_the_law_begins(
     machine: Machine, output: str, start: tuple[float, ...], side: str, offset: float
 ) -> None:
     constant = machine.peak(output, side=side, offset=offset)
-    law = construct(conditions(start), [1.0])
+    law = law_from_z(conditions(start), [1.0])
     least = floor(constant, conditions(start))
     assert isinstance(least, Fraction)
     begun = float(constant.curve(law)(0.0))

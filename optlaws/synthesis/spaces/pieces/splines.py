@@ -22,7 +22,7 @@ from optlaws.numerics.chebyshev import from_values, nodes
 from optlaws.numerics.tolerances import EVEN_PART
 from optlaws.synthesis.families.family import ConstraintFamily
 from optlaws.synthesis.families.names import RowName
-from optlaws.synthesis.spaces.end_conditions import BoundaryConditions, construct
+from optlaws.synthesis.spaces.end_conditions import BoundaryConditions, law_from_z
 from optlaws.synthesis.spaces.pieces.rows import PieceFamily, PieceSeries
 from optlaws.synthesis.spaces.pieces.space import PiecewiseSpace
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
@@ -40,7 +40,7 @@ class SplineSpace(PiecewiseSpace):
         super().__init__(basis.breaks, basis.continuity, symmetric=symmetric)
         self.boundary, self.basis, self.order = boundary, basis, boundary.order
         self.at_rest = boundary == BoundaryConditions.rest(self.order)
-        self.base = construct(boundary)
+        self.base = law_from_z(boundary)
         self.start_velocity = float(self.base.b(0.0))
         self.velocity_change = float(self.base.b(1.0)) - self.start_velocity
         self.stroke = float(self.base.a(1.0)) - float(self.base.a(0.0))

@@ -18,7 +18,7 @@ from optlaws import (
     Solution,
     Tightening,
     at_most,
-    loader,
+    inertial_loader,
     synthesize,
 )
 from optlaws.balancing.loaders.constants import NAMES, D_loader
@@ -57,7 +57,7 @@ def values(boxes: BoxRows, law: MotionLaw) -> np.ndarray:
     """The variables of a box that a law has: velocities, peaks of the objective, and the integral."""
     peaks = {name: constant.value(law) for name, constant in NAMES.items()}
     own = [peaks[name] for name in sorted(boxes.model.places, key=boxes.model.places.__getitem__)]
-    return np.array([*law.b(boxes.points), *own, 0.5 / loader(law).Y])
+    return np.array([*law.b(boxes.points), *own, 0.5 / inertial_loader(law).Y])
 
 
 @examples(60)
