@@ -55,7 +55,7 @@ class Row:
     """A printed law with its loader, and its rivals."""
 
     code: str
-    inertial_loader: Loader
+    loader: Loader
     order: int
     least: Mapping[tuple[int, int], BalancedLaw]
     rivals: Mapping[str, BalancedLaw | None]

@@ -45,7 +45,7 @@ class Row:
 
     code: str
     given: Mapping[str, str]
-    inertial_loader: Loader
+    loader: Loader
     on_grid: Mapping[str, float | None]
 
     @property

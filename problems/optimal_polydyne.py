@@ -42,7 +42,7 @@ class Design:
     nu: float
     damping: float
     between: tuple[float, float]
-    residual_vibration: float
+    residual: float
     degree: int
 
     def problem(self, order: int, minimise: Any, *, of_cam: bool = False, **entries: Any) -> Problem:  # noqa: ANN401 - a constant, and entries
@@ -129,7 +129,7 @@ class Study(Entries):
     nu: float
     dampings: list[float]
     between: tuple[float, float]
-    residual_vibration: float
+    residual: float
     degree: int
     member: list[Member]
     catalogue: list[str]

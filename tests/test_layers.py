@@ -53,6 +53,7 @@ MAY_IMPORT = {
     "problems": {"errors", "files", "results", "suggest"},
     "jobs": CORE | {"plots", "studies", "results", "problems"},
     "explorer": CORE | {"plots", "studies", "jobs", "optlaws"},
+    "typing": CORE | {"balancing", "studies"},
     "cli": CORE | {"balancing", "plots", "studies", "jobs", "results", "explorer", "optlaws"},
     "__main__": {"cli"},
 }

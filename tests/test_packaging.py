@@ -43,6 +43,12 @@ def test_a_constraint_is_a_name_and_one_version() -> None:
     assert list(map(str, wrong)) == []
 
 
+def test_every_dependency_has_a_reason() -> None:
+    page = (ROOT / "docs" / "architecture.md").read_text("utf-8").partition("## Dependencies")[2].partition("\n## ")[0]
+    reasons = [line.split("|")[1].strip() for line in page.splitlines() if line.startswith("| ")][1:]
+    assert reasons == sorted(Requirement(line).name for line in PROJECT["dependencies"])
+
+
 @pytest.mark.parametrize("requirement", REQUIRED, ids=str)
 def test_every_dependency_is_pinned_to_a_version_it_allows(requirement: Requirement) -> None:
     pins = [pin for pin in PINS if canonicalize_name(pin.name) == canonicalize_name(requirement.name)]

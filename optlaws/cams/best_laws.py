@@ -32,8 +32,9 @@ from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.expression import maximum
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.windows import Window
-from optlaws.synthesis.solution import Solution, Status
+from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.solve import synthesize
+from optlaws.synthesis.status import Status
 
 
 class SolvedPiece(NamedTuple):

@@ -38,7 +38,8 @@ from optlaws.motion.quantities import TURN, quantity, written
 from optlaws.numbers import MOST_DEGREE, Quantity, derivative, real_times, whole
 from optlaws.numerics.tolerances import CYCLE_OPTIMALITY
 from optlaws.synthesis.problem.problem import Problem
-from optlaws.synthesis.solution import Solution, Status
+from optlaws.synthesis.solution import Solution
+from optlaws.synthesis.status import Status
 
 
 @dataclass(frozen=True, repr=False)

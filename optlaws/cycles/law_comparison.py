@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import isfinite
-from typing import Any, ClassVar, Self
+from typing import Any, Self
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
@@ -52,7 +52,7 @@ class Comparison(JsonText):
     (['modified sine', 'cycloidal'], [5.528, 6.2832])
     """
 
-    _json_name: ClassVar[str] = "a comparison"
+    _json_name = "a comparison"
 
     laws: Mapping[str, MotionLaw]
     stroke: float | None = None
@@ -83,7 +83,8 @@ class Comparison(JsonText):
             {key: value if isinstance(value, str) else bounded(value) for key, value in row.items()}
             for row in self.rows
         ]
-        given = {name: getattr(self, name) for name in _GIVEN}
+        nu = list(self.nu) if isinstance(self.nu, tuple) else self.nu
+        given = {name: getattr(self, name) for name in _GIVEN} | {"nu": nu}
         laws = {name: law.to_dict() for name, law in self.laws.items()}
         return {"rows": rows, "remarks": list(self.remarks), "laws": laws, **given}
 

@@ -19,7 +19,7 @@ from optlaws.laws.exporting import AxesExportOptions
 from optlaws.numbers import Quantity
 from optlaws.numerics.tolerances import CLOSURE
 from optlaws.suggest import keywords_of, unknown_key
-from optlaws.synthesis.solution import Status
+from optlaws.synthesis.status import Status
 
 FORMAT = "optlaws axes 1"
 

@@ -101,9 +101,9 @@ def python(laws: list[LawRequest]) -> str:
     Examples
     --------
     >>> print(python([LawRequest(name="cycloidal")]), end="")
-    from optlaws import compare
+    from optlaws import compare_laws
     <BLANKLINE>
-    comparison = compare('cycloidal')
+    comparison = compare_laws('cycloidal')
     for row in comparison.rows:
         print(row)
     comparison.plot()[0].figure.savefig("laws.png")
@@ -116,7 +116,7 @@ def python(laws: list[LawRequest]) -> str:
             lines.append(f"{name} = {text}")
     lines = [
         *lines,
-        f"comparison = compare({', '.join(given)})",
+        f"comparison = compare_laws({', '.join(given)})",
         "for row in comparison.rows:",
         "    print(row)",
         'comparison.plot()[0].figure.savefig("laws.png")',

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import inf
-from typing import Any, ClassVar, Self
+from typing import Any, Self
 
 from optlaws.files.reading import JsonText, entries_of
 from optlaws.numbers import bounded, finite
@@ -31,7 +31,7 @@ class Constants(JsonText):
     Peak(value=6.0, k=0.0)
     """
 
-    _json_name: ClassVar[str] = "constants"
+    _json_name = "constants"
 
     B: Peak
     C: Peak
@@ -67,8 +67,10 @@ class Constants(JsonText):
         InputError
             If an entry is missing or no number.
         """
-        *peaks, rms_c = entries_of(data, ("B", "C", "D", "J", "rms_c"), cls._json_name).values()
-        return cls(*map(Peak.from_dict, peaks), inf if rms_c is None else finite(rms_c, "rms_c"))
+        entries = entries_of(data, ("B", "C", "D", "J", "rms_c"), cls._json_name)
+        rms_c = entries.pop("rms_c")
+        peaks = {name: Peak.from_dict(peak) for name, peak in entries.items()}
+        return cls(**peaks, rms_c=inf if rms_c is None else finite(rms_c, "rms_c"))
 
     def summary(self) -> Summary:
         """The peaks with their places, and the root mean square of c, as rows.

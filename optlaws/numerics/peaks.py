@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from math import inf
-from typing import Any, ClassVar, Self
+from typing import Any, Self
 
 import numpy as np
 
@@ -26,7 +26,7 @@ class Peak(JsonText):
     Peak(value=1.875, k=0.5)
     """
 
-    _json_name: ClassVar[str] = "a peak"
+    _json_name = "a peak"
 
     value: float
     k: float

@@ -13,7 +13,7 @@ import msgspec
 import numpy as np
 
 from optlaws.echo import cut
-from optlaws.errors import InfeasibleProblem, OptlawsError, SolverFailure
+from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
 from optlaws.files.problem_file import typed
 from optlaws.numbers import bounded
 from optlaws.studies.points import key, keys_along

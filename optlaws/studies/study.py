@@ -197,7 +197,10 @@ class Study:
             [*point.inputs.values(), point.status, *(getattr(point, name) for name in CONSTANTS)]
             for point in islice(self, _SHOWN)
         ]
-        done = {"done": f"{sum(self.counts.values())} of {len(self)}", **self.counts}
+        done = {
+            "done": f"{sum(self.counts.values())} of {len(self)}",
+            **{status.value: count for status, count in self.counts.items()},
+        }
         return page(self.about["title"], facts(done), table((*self.file.names(), "status", *CONSTANTS), lines))
 
     def __repr__(self) -> str:

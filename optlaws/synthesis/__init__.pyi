@@ -38,7 +38,6 @@ from optlaws.synthesis.proven.front import FrontPoint as FrontPoint
 from optlaws.synthesis.proven.front import ProvenFront as ProvenFront
 from optlaws.synthesis.proven.refine import proven_front as proven_front
 from optlaws.synthesis.solution import Solution as Solution
-from optlaws.synthesis.solution import Status as Status
 from optlaws.synthesis.solution_array import SolutionArray as SolutionArray
 from optlaws.synthesis.solve import synthesize as synthesize
 from optlaws.synthesis.solve_many import sweep as sweep
@@ -56,6 +55,7 @@ from optlaws.synthesis.spaces.end_conditions import BoundaryConditions as Bounda
 from optlaws.synthesis.spaces.end_conditions import law_from_z as law_from_z
 from optlaws.synthesis.spaces.splines import BSplines as BSplines
 from optlaws.synthesis.spaces.splines import PiecewiseBasis as PiecewiseBasis
+from optlaws.synthesis.status import Status as Status
 
 __all__ = [
     "FUNCTIONALS",

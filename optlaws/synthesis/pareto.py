@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
+from functools import partial
 from math import inf, log2, sqrt
-from typing import Any, ClassVar
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,10 +15,10 @@ from numpy.typing import NDArray
 from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
 from optlaws.extras import needed
-from optlaws.files.reading import JsonText
+from optlaws.files.reading import JsonText, entries_of
 from optlaws.kept import kept_property
 from optlaws.laws import PolynomialLaw
-from optlaws.numbers import Array, real, whole
+from optlaws.numbers import MOST_VALUES, Array, finite, listed, real, whole
 from optlaws.numerics.tolerances import AGREEMENT, NEARLY_NOTHING, NO_EXCHANGE
 from optlaws.shown.steps import Steps
 from optlaws.synthesis.families.peaks import of_polynomials
@@ -27,10 +28,12 @@ from optlaws.synthesis.problem.fields import CONSTANTS
 from optlaws.synthesis.problem.named_constants import apart, is_named, named, title_of
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
+from optlaws.synthesis.proof.data import as_json, problem_of, stated
 from optlaws.synthesis.program.writer import extreme_velocity
-from optlaws.synthesis.solution import Solution, Status
+from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.solve import Bound, check_bound, synthesize
 from optlaws.synthesis.solve_many import SolvedLine
+from optlaws.synthesis.status import Status
 
 _OF_POINTS = ("lower bound", "gap", "limit", "status")
 #: of fronts of B, C, D and J
@@ -68,7 +71,7 @@ class Front(JsonText):
     ((5, 2), True)
     """
 
-    _json_name: ClassVar[str] = "a front"
+    _json_name = "a front"
 
     over: tuple[str, ...]
     points: tuple[Solution, ...]
@@ -150,7 +153,7 @@ class Front(JsonText):
 
     def to_dict(self) -> dict[str, Any]:
         """Plain JSON-able dict with every solution whole: `optlaws verify` checks it, `from_dict` reads it again."""
-        from optlaws.synthesis.stored_solutions import plain_error
+        from optlaws.synthesis.stored_rows import plain_error
 
         return {
             "over": list(self.over),
@@ -161,7 +164,7 @@ class Front(JsonText):
         }
 
     @classmethod
-    def from_dict(cls, data: Mapping[str, Any]) -> Front:
+    def from_dict(cls, data: Mapping[str, Any]) -> Self:
         """Read what `to_dict` wrote; constants are computed from the laws and held against the values.
 
         Raises
@@ -169,9 +172,19 @@ class Front(JsonText):
         InputError
             If an entry is missing or wrong, or one states what does not follow from problems, laws and proofs.
         """
-        from optlaws.synthesis.stored_solutions import read_front
+        from optlaws.synthesis.stored_rows import StatedError, at, equal_data, read_error
 
-        return read_front(data)
+        entries = entries_of(data, ("over", "values", "points", "failed"), cls._json_name)
+        over, values, points, failed = (listed(entries[name], name, MOST_VALUES) for name in entries)
+        errors: dict[float, OptlawsError] = {finite(value, "failed"): SolverFailure("") for value in failed}
+        for i, (value, row) in enumerate(zip(errors, listed(data.get("errors", ()), "errors"), strict=False)):
+            error = stated(row, StatedError, f"errors[{i}]")
+            errors[value] = at(f"errors[{i}]", partial(read_error, error, partial(problem_of, error.problem or {})))
+        read = [at(f"points[{i}]", partial(Solution.from_dict, row)) for i, row in enumerate(points)]
+        front = cls(tuple(map(named_or_refused, over)), tuple(read), errors)
+        if not read or not equal_data(front.values.tolist(), as_json(values)):
+            raise InputError("the values of a front are other than the constants of its laws")
+        return front
 
     def __len__(self) -> int:
         return len(self.points)
@@ -197,6 +210,24 @@ class Front(JsonText):
             first, last = map(title_of, self.over)
             curve = drawing(f"{last} over {first}", x.tolist(), (y - y.min()).tolist())
         return page(repr(self), table(self.headings, rows), curve)
+
+
+def named_or_refused(name: object) -> str:
+    """The name of a constant, in the text that it prints itself in.
+
+    Raises
+    ------
+    InputError
+        If it is none.
+
+    Examples
+    --------
+    >>> named_or_refused("rms( c )")
+    'rms(c)'
+    """
+    if not isinstance(name, str):
+        raise InputError(f"a constant has a name, got {shortened(name)}")
+    return repr(named(name))
 
 
 def undominated(solutions: Sequence[Solution], over: Sequence[str], values: Array | None = None) -> list[Solution]:

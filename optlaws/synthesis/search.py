@@ -36,7 +36,8 @@ from optlaws.synthesis.proof.infeasible import failure
 from optlaws.synthesis.proof.make import certify, lower_bound
 from optlaws.synthesis.proof.peak_rows import peak_of
 from optlaws.synthesis.proof.power.search import tightened
-from optlaws.synthesis.solution import Solution, Status, measure
+from optlaws.synthesis.solution import Solution
+from optlaws.synthesis.status import Status, status_of
 
 #: of the gap, what the search over the places of a peak leaves
 _LEFT = 0.9
@@ -327,10 +328,3 @@ def _agree(first: Attempt, last: Attempt) -> bool:
     """Whether two starts led to the same objective."""
     same = abs(first.objective - last.objective) <= AGREEMENT * abs(first.objective)
     return first.law is not None and last.law is not None and same
-
-
-def status_of(objective: float, bound: float, scale: float, *, proven: bool) -> Status:
-    """`scale` is the objective's; `proven` says that the bound would meet the objective but for rounding."""
-    if abs(objective - bound) <= OPTIMALITY_GAP * measure(objective, scale):
-        return Status.OPTIMAL
-    return Status.INACCURATE if proven else Status.LOCAL

@@ -4,93 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import MISSING, dataclass, field, fields
-from enum import StrEnum
 from functools import cache
-from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
-from optlaws.errors import InfeasibleProblem, InputError, OptlawsError
 from optlaws.files.reading import JsonText
 from optlaws.kept import kept_property
 from optlaws.laws import Constants, MotionLaw
 from optlaws.laws.exporting import LawExport
-from optlaws.numbers import Array, bounded
-from optlaws.numerics.tolerances import NO_OBJECTIVE
+from optlaws.numbers import bounded
 from optlaws.shown.summary import Row, Summary
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.spaces.bases import PolynomialBasis, Powers
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
-
-#: of one law, or of many
-Objective = TypeVar("Objective", float, Array)
-
-
-def measure(objective: Objective, scale: float | Array) -> Objective:
-    """What gaps of objectives are shares of: these themselves or, where they are 0 but for rounding, their scale.
-
-    Examples
-    --------
-    >>> measure(5.0, 1.0), measure(1e-9, 1.0), measure(np.array([5e-12, 1e-20]), 1e-12).tolist()
-    (5.0, 1.0, [5e-12, 1e-12])
-    """
-    if isinstance(objective, float):
-        return objective if objective > NO_OBJECTIVE * float(scale) else float(scale)
-    return np.where(objective > NO_OBJECTIVE * scale, objective, scale)
-
-
-class Status(StrEnum):
-    """How far a solution can be trusted, or why there is none; `advice` says what to do about it.
-
-    Solutions are optimal, local or inaccurate. Places of arrays, rows of tables and points of studies without a law are
-    infeasible, failed or invalid, as the error of the problem says; points of studies may also exceed a limit of time.
-
-    Examples
-    --------
-    >>> Status.OPTIMAL.advice
-    'The lower bound meets the objective: no law of this problem is better.'
-    >>> Status.of(InputError("order must be at least 1")).value, Status("not found").value
-    ('invalid', 'failed')
-    """
-
-    OPTIMAL = "optimal"
-    LOCAL = "local"
-    INACCURATE = "inaccurate"
-    INFEASIBLE = "infeasible"
-    FAILED = "failed"
-    INVALID = "invalid"
-    TIME_LIMIT = "time limit"
-    DIED = "worker died"
-    ERROR = "error"
-
-    @classmethod
-    def of(cls, error: OptlawsError) -> Status:
-        """The status of a problem that ended in an error."""
-        if isinstance(error, InfeasibleProblem):
-            return cls.INFEASIBLE
-        return cls.INVALID if isinstance(error, InputError) else cls.FAILED
-
-    @classmethod
-    def _missing_(cls, value: object) -> Status | None:
-        # what files of older versions say
-        return {"not found": cls.FAILED, "wrong input": cls.INVALID}.get(str(value))
-
-    @property
-    def advice(self) -> str:
-        """What the status means for the user."""
-        return {
-            Status.OPTIMAL: "The lower bound meets the objective: no law of this problem is better.",
-            Status.LOCAL: "No better law was found from any start; the gap says how much better one could be.",
-            Status.INACCURATE: "The law is sound but the bound does not meet it; change the degree a little.",
-            Status.INFEASIBLE: "No law of this problem exists, and a proof shows it; loosen a bound.",
-            Status.FAILED: "No law was found and none is known not to exist; change the degree, or loosen a bound.",
-            Status.INVALID: "The entries make no problem; the error says which and why.",
-            Status.TIME_LIMIT: "The point took longer than the study's time limit; raise it, or lower the degree.",
-            Status.DIED: "The process ended, mostly for want of memory; solve the point by itself.",
-            Status.ERROR: "An error of the library itself, which its developers would like to see.",
-        }[self]
+from optlaws.synthesis.status import Status, measure
 
 
 @dataclass(frozen=True)
@@ -138,7 +68,7 @@ class Solution(LawExport, JsonText):
     ('optimal', 5.917851, True)
     """
 
-    _json_name: ClassVar[str] = "a solution"
+    _json_name = "a solution"
 
     problem: Problem
     law: MotionLaw
@@ -274,12 +204,12 @@ class Solution(LawExport, JsonText):
 
         `optlaws verify` checks it, and `from_dict` reads it again.
         """
-        from optlaws.synthesis.stored_solutions import plain_state
+        from optlaws.synthesis.stored_rows import plain_state
 
-        return self.claims() | {"state": plain_state(self)}
+        return self.claims() | {"state": plain_state(self.z_series, self.active_set)}
 
     @classmethod
-    def from_dict(cls, data: Mapping[str, Any]) -> Solution:
+    def from_dict(cls, data: Mapping[str, Any]) -> Self:
         """Read what `to_dict` wrote; numbers are held against the law, bounds against the proofs.
 
         Raises
@@ -294,9 +224,9 @@ class Solution(LawExport, JsonText):
         >>> optlaws.Solution.from_json(solution.to_json()) == solution
         True
         """
-        from optlaws.synthesis.stored_solutions import read_solution
+        from optlaws.synthesis.stored_rows import read_row
 
-        return read_solution(data)
+        return cls(**read_row(data))
 
     def claims(self) -> dict[str, Any]:
         """What `to_dict` says but for `state`, which says no more of the law: what can be verified, and how it went."""

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from math import inf
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,12 +29,14 @@ from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model
 from optlaws.synthesis.proof.certificate import OBJECTIVE, Certificate
 from optlaws.synthesis.proof.make import certificate, certify
-from optlaws.synthesis.solution import Solution, Status, measure, partly_known
+from optlaws.synthesis.solution import Solution, partly_known
 from optlaws.synthesis.spaces.bases import PolynomialBasis
 from optlaws.synthesis.spaces.polynomial_space import PolynomialSpace
 from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
-from optlaws.synthesis.stored_solutions import check_status, plain_error, plain_state, read_solutions
+from optlaws.synthesis.status import Status, measure, status_of
+from optlaws.synthesis.stored_rows import check_status, plain_error, plain_state
+from optlaws.synthesis.stored_solutions import read_solutions
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -211,7 +213,7 @@ class SolutionArray(JsonText):
     (5.173677, True)
     """
 
-    _json_name: ClassVar[str] = "an array of solutions"
+    _json_name = "an array of solutions"
 
     problems: ProblemArray
     parts: tuple[SolvedPart, ...]
@@ -401,7 +403,7 @@ class SolutionArray(JsonText):
                 }
                 for part in self.parts
             ],
-            "alone": {str(place): plain_state(solution) for place, solution in self._alone.items()},
+            "alone": {str(place): plain_state(solution.z_series, solution.active_set) for place, solution in self._alone.items()},
         }
 
     @classmethod
@@ -425,7 +427,9 @@ class SolutionArray(JsonText):
         parts = tuple(SolvedPart(*part) for part in stored.parts)
         laws = cls(stored.problems, parts, stored.others, stored.seconds)
         for place, status in enumerate(stored.statuses):
-            check_status(status, laws.result(place), f"solutions[{place}]")
+            result = laws.result(place)
+            if isinstance(result, Solution):
+                check_status(status, result.problem, result.objective, result.lower_bound, f"solutions[{place}]")
         return laws
 
     def summary(self) -> Summary:

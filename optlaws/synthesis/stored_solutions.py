@@ -6,41 +6,40 @@ what the proofs beside them prove, and a problem is said to have no law where it
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
 from dataclasses import dataclass, fields, replace
-from functools import lru_cache, partial
-from math import inf, isfinite, prod
-from typing import Any, TypeVar
+from math import inf, prod
+from typing import Any
 
 import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.echo import shortened
-from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
-from optlaws.laws import MotionLaw, smoothstep
-from optlaws.numerics.tolerances import STORED_COEFFICIENT, STORED_VALUE
+from optlaws.errors import InputError, OptlawsError
 from optlaws.synthesis.arrays.problems import ProblemArray
 from optlaws.synthesis.arrays.programs import FOLLOWING, NO_CONTACT, SolvedBatch
-from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Program
 from optlaws.synthesis.limits.of_problem import known_limit
-from optlaws.synthesis.pareto import Front
 from optlaws.synthesis.problem.fields import differ_in_numbers
 from optlaws.synthesis.problem.plain_entries import read_entries
 from optlaws.synthesis.problem.problem import Problem
-from optlaws.synthesis.program.evaluation import shortfalls, worth
 from optlaws.synthesis.program.writer import Model, model_of
 from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.proof.data import as_json, problem_of, stated
-from optlaws.synthesis.proof.no_law import beyond_limit, proof_of_no_law
-from optlaws.synthesis.search import status_of
-from optlaws.synthesis.solution import Solution, Status
-from optlaws.synthesis.spaces.bases import PolynomialBasis
-from optlaws.synthesis.spaces.splines import PiecewiseBasis
-
-Plain = dict[str, Any]
-Kind = TypeVar("Kind")
+from optlaws.synthesis.solution import Solution
+from optlaws.synthesis.status import Status
+from optlaws.synthesis.stored_rows import (
+    Plain,
+    StatedError,
+    StatedSolution,
+    StatedState,
+    at,
+    attributes,
+    bound_of,
+    check_numbers,
+    equal_data,
+    plainly,
+    read_error,
+)
 
 
 class StatedOptima(msgspec.Struct, forbid_unknown_fields=True):
@@ -66,59 +65,6 @@ class StatedPart(msgspec.Struct, forbid_unknown_fields=True):
     found: StatedOptima
 
 
-class StatedActiveSet(msgspec.Struct, forbid_unknown_fields=True):
-    """What an `ActiveSet` holds."""
-
-    x: list[float]
-    family: list[int]
-    u: list[float]
-    s: list[float]
-    free: list[bool]
-    multipliers: list[float]
-    equality_multipliers: list[float]
-
-
-class StatedState(msgspec.Struct, forbid_unknown_fields=True):
-    """What the claims of a law that was found alone do not say."""
-
-    z_series: list[float]
-    active_set: StatedActiveSet
-
-
-class StatedSolution(msgspec.Struct, forbid_unknown_fields=True):
-    """The row of a problem with a law; what is not read here follows from the law and its proofs."""
-
-    problem: Plain
-    law: Plain
-    certificate: Plain
-    status: Status
-    objective: float
-    lower_bound: float | None
-    iterations: int
-    seconds: float
-    starts: tuple[float, ...]
-    gap: Any = None
-    limit: Any = None
-    constants: Any = None
-    z: Any = None
-    power_certificate: Plain | None = None
-    peak_certificate: Plain | None = None
-    versions: Any = None
-    state: StatedState | None = None
-    about: str = ""
-
-
-class StatedError(msgspec.Struct, forbid_unknown_fields=True):
-    """The row of a problem without a law."""
-
-    status: Status
-    error: str
-    problem: Plain | None = None
-    proof: Plain | None = None
-    tried: str = ""
-    about: str = ""
-
-
 class StatedSolutions(msgspec.Struct, forbid_unknown_fields=True):
     """What `SolutionArray.to_dict` writes."""
 
@@ -128,17 +74,6 @@ class StatedSolutions(msgspec.Struct, forbid_unknown_fields=True):
     problems: Plain | None
     parts: list[StatedPart]
     alone: dict[str, StatedState]
-    about: str = ""
-
-
-class StatedParetoFront(msgspec.Struct, forbid_unknown_fields=True):
-    """What `Front.to_dict` writes."""
-
-    over: list[str]
-    values: list[list[float]]
-    points: list[Plain]
-    failed: list[float] = []
-    errors: list[StatedError] = []
     about: str = ""
 
 
@@ -156,87 +91,14 @@ class StoredSolutions:
     statuses: list[Status]
 
 
-def plain_error(error: OptlawsError) -> Plain:
-    """An error as plain data, from which `read_solutions` makes one that says and proves the same."""
-    data: Plain = {"status": Status.of(error).value, "error": str(error.args[0]) if error.args else ""}
-    for name in ("problem", "proof"):
-        value = getattr(error, name, None)
-        if value is not None:
-            data[name] = value.to_dict()
-    tried = getattr(error, "tried", "")
-    return {**data, "tried": tried} if tried else data
-
-
-def plain_state(solution: Solution) -> Plain:
-    """What is kept of a law that was found alone beside its claims: Z's series, and where a neighbour is begun."""
-    state = solution.active_set
-    return {
-        "z_series": list(solution.z_series),
-        "active_set": {field.name: getattr(state, field.name).tolist() for field in fields(state)},
-    }
-
-
-def read_solution(data: object) -> Solution:
-    """Read what `Solution.to_dict` wrote, and check all that is taken from it.
-
-    Raises
-    ------
-    InputError
-        If an entry is missing or wrong, or states what does not follow from the problem, the law and the proofs.
-    """
-    row = stated(data, StatedSolution, "solution")
-    if row.state is None:
-        raise InputError("this solution has no `state`, without which it is verified but not read: solve it again")
-    state = row.state
-    return _plainly(lambda: _solution(row, state, problem_of(row.problem)), "this is no solution")
-
-
-def read_front(data: object) -> Front:
-    """Read what `Front.to_dict` wrote, and check all that is taken from it.
+def read_solutions(data: object) -> StoredSolutions:
+    """Read what `SolutionArray.to_dict` wrote, and check all that is taken from it.
 
     Raises
     ------
     InputError
         If an entry is missing or wrong, or states what does not follow from the problems, the laws and the proofs.
     """
-    entries = stated(data, StatedParetoFront, "front")
-    points = tuple(_at(f"points[{i}]", partial(read_solution, row)) for i, row in enumerate(entries.points))
-    errors: dict[float, OptlawsError] = {value: SolverFailure("") for value in entries.failed}
-    for i, (value, row) in enumerate(zip(entries.failed, entries.errors, strict=False)):
-        errors[value] = _at(f"errors[{i}]", partial(_error, row, partial(problem_of, row.problem or {})))
-    front = Front(tuple(entries.over), points, errors)
-    if not _plainly(lambda: _same(front.values.tolist(), entries.values), "this is no front"):
-        raise InputError("the values of a front are other than the constants of its laws")
-    return front
-
-
-def statuses_of(result: Solution | OptlawsError) -> list[Status]:
-    """The statuses that a result can have; a law that a lower bound of a constant holds up is proven in part alone."""
-    if not isinstance(result, Solution):
-        return [Status.of(result)]
-    problem = result.problem
-    velocity = problem.range("B")
-    held_up = any(limits.low > 0.0 for _, limits in problem.bounded) or (velocity is not None and velocity.low > 0.0)
-    ways = {True: [True, False] if held_up else [True], False: [False]}[problem.convex]
-    scale = problem.objective.scale
-    return [status_of(result.objective, result.lower_bound, scale, proven=proven) for proven in ways]
-
-
-def check_status(status: Status, result: Solution | OptlawsError, name: str) -> None:
-    """Refuse a status that a result cannot have; `name` is what an error calls it.
-
-    Raises
-    ------
-    InputError
-        If it is another's.
-    """
-    possible = statuses_of(result)
-    if status not in possible:
-        raise InputError(f"the status of {name} is {status.value!r}, but it is {' or '.join(possible)}")
-
-
-def read_solutions(data: object) -> StoredSolutions:
-    """Read what `SolutionArray.to_dict` wrote, and check all that is taken from it."""
     entries = stated(data, StatedSolutions, "stored array of solutions")
     size, shape = prod(entries.shape), tuple(entries.shape)
     if min(shape, default=0) < 0 or size != len(entries.solutions):
@@ -247,7 +109,7 @@ def read_solutions(data: object) -> StoredSolutions:
         raise InputError("the parts of an array of solutions name a place twice, or one that it does not have")
     if not entries.alone.keys() <= alone:
         raise InputError("an array of solutions says of a law that it was found alone and is none of those")
-    return _plainly(lambda: _Reading(entries, shape).stored(), "this is no array of solutions")
+    return plainly(lambda: _Reading(entries, shape).stored(), "this is no array of solutions")
 
 
 @dataclass(frozen=True)
@@ -268,7 +130,7 @@ class _Reading:
         others: dict[int, Solution | OptlawsError] = {}
         parts = [_part(part, problems, rows) for part in entries.parts]
         for place in sorted(set(range(len(rows))) - {place for part in entries.parts for place in part.places}):
-            others[place] = _at(
+            others[place] = at(
                 f"solutions[{place}]",
                 lambda place=place: self._alone(place, rows[place], problems),  # type: ignore[misc]
             )
@@ -289,35 +151,11 @@ class _Reading:
 
     def _alone(self, place: int, row: StatedSolution | StatedError, problems: ProblemArray) -> Solution | OptlawsError:
         if isinstance(row, StatedError):
-            return _error(row, lambda: problems.problem(place))
+            return read_error(row, lambda: problems.problem(place))
         kept = self.entries.alone.get(str(place))
         if kept is None:
             raise InputError("the arrays say nothing of its law")
-        return _solution(row, kept, problems.problem(place))
-
-
-def _solution(row: StatedSolution, state: StatedState, problem: Problem) -> Solution:
-    law = MotionLaw.from_dict(row.law)
-    _check_numbers(row, problem, law)
-    _check_z(state.z_series, problem, law)
-    solution = Solution(
-        problem=problem,
-        law=law,
-        z_series=tuple(state.z_series),
-        objective=row.objective,
-        certificate=Certificate.from_dict(row.certificate),
-        lower_bound=_bound(row),
-        limit=known_limit(problem),
-        status=row.status,
-        iterations=row.iterations,
-        seconds=row.seconds,
-        starts=row.starts,
-        power_certificate=_read(Certificate.from_dict, row.power_certificate),
-        peak_certificate=_read(Certificate.from_dict, row.peak_certificate),
-        active_set=_active_set(state.active_set, model_of(problem).program),
-    )
-    check_status(row.status, solution, "the solution")
-    return solution
+        return Solution(**attributes(row, kept, problems.problem(place)))
 
 
 def _row(data: Plain, name: str) -> StatedSolution | StatedError:
@@ -339,7 +177,7 @@ def _part(
         if isinstance(row, StatedError):
             raise InputError(f"solutions[{place}] has no law, but the arrays have one")
         problem = problems.problem(place)
-        _at(f"solutions[{place}]", lambda: _check_row(row, problem, replace(model, problem=problem), laws, i))  # noqa: B023
+        at(f"solutions[{place}]", lambda: _check_row(row, problem, replace(model, problem=problem), laws, i))  # noqa: B023
     same = problems.problem(part.places[0]) if part.places else model.problem
     if not differ_in_numbers(same, model.problem) or (
         problems.one_objective and repr(same.objective) != repr(model.problem.objective)
@@ -370,11 +208,11 @@ def _check_optima(laws: SolvedBatch, count: int, program: Program) -> None:
 def _check_row(row: StatedSolution, problem: Problem, model: Model, laws: SolvedBatch, i: int) -> None:
     """Refuse a row whose law, whose numbers or whose proof are not those of the arrays."""
     law = model.law(laws.x[i])
-    if not _same(as_json(law.to_dict()), row.law):
+    if not equal_data(as_json(law.to_dict()), row.law):
         raise InputError("its law is another than that of the arrays' coordinates")
-    _check_numbers(row, problem, law)
+    check_numbers(row, problem, law)
     bound, limit = float(laws.bound[i]), known_limit(problem)
-    if max(bound, -inf if limit is None else limit) != _bound(row):
+    if max(bound, -inf if limit is None else limit) != bound_of(row):
         raise InputError(f"its lower bound is {row.lower_bound!r}, but that of the arrays {bound!r}")
     if problem.convex:
         _check_contacts(Certificate.from_dict(row.certificate), model.program, laws, i)
@@ -392,162 +230,5 @@ def _check_contacts(proof: Certificate, program: Program, laws: SolvedBatch, i: 
         (laws.multiplier[i, own], [contact.multiplier for contact in proof.contacts]),
         (laws.equations[i], list(proof.equations)),
     ]
-    if not same or not all(_same(list(map(float, first)), second) for first, second in arrays):
+    if not same or not all(equal_data(list(map(float, first)), second) for first, second in arrays):
         raise InputError("its certificate is another than that of the arrays' contacts and multipliers")
-
-
-def _check_numbers(row: StatedSolution, problem: Problem, law: MotionLaw) -> None:
-    """Refuse an objective that is not the law's, a law that breaks its problem, and a bound that nothing proves."""
-    value, size = worth(problem, law), _size(problem)
-    if not value.sound or shortfalls(problem, law):
-        raise InputError("its law does not keep the constraints of its problem")
-    if not abs(row.objective - value.objective) <= STORED_VALUE * max(abs(value.objective), size):
-        raise InputError(f"the objective is {row.objective!r}, but that of its law {value.objective!r}")
-    bound, proven = _bound(row), max(_proven(row, problem), default=-inf)
-    if not (bound == -inf or bound <= proven + STORED_VALUE * max(abs(proven), size)):
-        raise InputError(f"the lower bound is {bound!r}, but what is proven beside it {proven!r}")
-
-
-def _proven(row: StatedSolution, problem: Problem) -> Iterator[float]:
-    """What the row's proofs prove of its problem in doubles."""
-    for data in (row.certificate, row.power_certificate, row.peak_certificate):
-        proof = _read(Certificate.from_dict, data)
-        if proof is not None and proof.problem != problem:
-            raise InputError("a proof beside its law is of another problem")
-        if proof is not None:
-            yield proof.bound
-    limit = known_limit(problem)
-    if limit is not None:
-        yield limit
-
-
-def _size(problem: Problem) -> float:
-    """How large the objective of a plain law is: what rounding is held against where an objective is nearly 0."""
-    value = _of_plain_law(problem.shape) if isinstance(problem.B, float) else _of_plain_law(problem)
-    return value if isfinite(value) else 0.0
-
-
-@lru_cache(maxsize=256)
-def _of_plain_law(problem: Problem) -> float:
-    return abs(worth(problem, smoothstep(min(problem.order, 10))).objective)
-
-
-def _bound(row: StatedSolution) -> float:
-    return -inf if row.lower_bound is None else row.lower_bound
-
-
-def _check_z(series: list[float], problem: Problem, law: MotionLaw) -> None:
-    """Refuse coefficients of Z that do not make the law."""
-    basis, order = problem.basis, problem.order
-    if not isinstance(basis, PolynomialBasis | PiecewiseBasis):
-        wrong = bool(series)
-    else:
-        k = (1.0 - np.cos((np.arange(2 * len(series) + 8) + 0.5) * (np.pi / (2 * len(series) + 8)))) / 2.0
-        a0, a1 = (
-            np.polynomial.polynomial.polyval(k, list(map(float, part)))
-            for part in (problem.conditions.a0(), problem.conditions.a1())
-        )
-        a = a0 + k**order * (a1 + (k - 1.0) ** order * _z(basis, np.array(series), k))
-        off = np.abs(a - np.array([float(law(place)) for place in k.tolist()]))
-        wrong = not off.max() <= STORED_VALUE
-    if wrong:
-        raise InputError("the coefficients of Z in the arrays do not make its law")
-
-
-def _z(basis: PolynomialBasis | PiecewiseBasis, series: NDArray[np.float64], k: NDArray[np.float64]) -> Any:  # noqa: ANN401
-    """Z at times k, of its Chebyshev series, on each piece where it has some."""
-    if isinstance(basis, PolynomialBasis):
-        return np.polynomial.chebyshev.chebval(2.0 * k - 1.0, series)
-    breaks = np.array(basis.breaks, dtype=np.float64)
-    rows = series.reshape(len(breaks) - 1, -1)
-    i = np.clip(np.searchsorted(breaks, k, side="right") - 1, 0, len(rows) - 1)
-    x = 2.0 * (k - breaks[i]) / (breaks[i + 1] - breaks[i]) - 1.0
-    return (rows[i] * np.cos(np.arange(rows.shape[1]) * np.arccos(np.clip(x, -1.0, 1.0))[:, None])).sum(axis=1)
-
-
-def _active_set(entries: StatedActiveSet, program: Program) -> ActiveSet:
-    """Where a neighbouring problem may begin: any numbers will do that are of the program's shape."""
-    kinds = {"family": np.intp, "free": np.bool_}
-    state = ActiveSet(
-        **{
-            field.name: np.array(getattr(entries, field.name), dtype=kinds.get(field.name, np.float64))
-            for field in fields(ActiveSet)
-        }
-    )
-    counts = {len(part) for part in (state.family, state.u, state.s, state.free, state.multipliers)}
-    finite = all(np.isfinite(getattr(state, field.name)).all() for field in fields(state))
-    known = ((state.family >= 0) & (state.family < len(program.families))).all()
-    sizes = (len(state.x), len(state.equality_multipliers)) == (program.size, len(program.right))
-    if len(counts) != 1 or not finite or not known or not sizes:
-        raise InputError("the contacts and multipliers in the arrays are not of its program")
-    return state
-
-
-def _error(row: StatedError, problem: Callable[[], Problem]) -> OptlawsError:
-    """The error of a row without a law, which has to be so of its problem."""
-    if row.status is Status.INVALID:
-        if row.problem is not None or row.proof is not None:
-            raise InputError(f"a row that is {row.status.value!r} has neither problem nor proof")
-        if _is_problem(problem):
-            raise InputError("it is said to be no problem, but it is one")
-        return InputError(row.error)
-    if row.status is Status.FAILED:
-        if row.proof is not None:
-            raise InputError(f"a row that is {row.status.value!r} has no proof")
-        return SolverFailure(row.error, problem=problem(), tried=row.tried)
-    if row.proof is None:
-        if not beyond_limit(problem()):
-            raise InputError("it is said to have no law, but no proof stands beside it")
-        return InfeasibleProblem(row.error, problem=problem(), tried=row.tried)
-    proof = proof_of_no_law(problem(), Certificate.from_dict(row.proof))
-    if proof is None:
-        raise InputError("it is said to have no law, but its proof does not show that of its problem")
-    return InfeasibleProblem(row.error, problem=problem(), tried=row.tried, proof=proof)
-
-
-def _is_problem(problem: Callable[[], Problem]) -> bool:
-    try:
-        model_of(problem())
-    except InputError:
-        return False
-    return True
-
-
-def _same(first: Any, second: Any) -> bool:  # noqa: ANN401 - JSON
-    """Whether plain data are the same, numbers but for the rounding of the greatest beside them."""
-    if isinstance(first, dict) and isinstance(second, dict):
-        return first.keys() == second.keys() and all(_same(first[name], second[name]) for name in first)
-    if isinstance(first, list) and isinstance(second, list) and first and all(map(_is_number, [*first, *second])):
-        allowed = STORED_COEFFICIENT * max(map(abs, first))
-        return len(first) == len(second) and all(abs(a - b) <= allowed for a, b in zip(first, second, strict=True))
-    if isinstance(first, list) and isinstance(second, list):
-        return len(first) == len(second) and all(map(_same, first, second))
-    if _is_number(first) and _is_number(second):
-        return bool(abs(first - second) <= STORED_COEFFICIENT * max(abs(first), 1.0))
-    return bool(first == second)
-
-
-def _is_number(value: object) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool)
-
-
-def _read(read: Callable[[Plain], Kind], data: Plain | None) -> Kind | None:
-    return None if data is None else read(data)
-
-
-def _at(name: str, read: Callable[[], Kind]) -> Kind:
-    """What is read at a place, which an error names."""
-    try:
-        return read()
-    except InputError as error:
-        raise InputError(f"{name}: {error}") from None
-
-
-def _plainly(read: Callable[[], Kind], name: str) -> Kind:
-    """What is read of data that may be anything."""
-    try:
-        return read()
-    except InputError:
-        raise
-    except (ArithmeticError, AttributeError, LookupError, RecursionError, TypeError, ValueError) as error:
-        raise InputError(f"{name}: {shortened(str(error))}") from None

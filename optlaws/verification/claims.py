@@ -20,7 +20,7 @@ from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
 from optlaws.synthesis.proof.data import problem_of
 from optlaws.synthesis.proven.front import ProvenFront
-from optlaws.synthesis.solution import measure
+from optlaws.synthesis.status import measure
 from optlaws.synthesis.stored_solutions import read_solutions
 from optlaws.verification.conditions import excesses
 from optlaws.verification.enclosing.balls import enclosed

@@ -23,7 +23,7 @@ from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.laws import smoothstep
 from optlaws.motion.piece import Piece
 from optlaws.numerics.enclosures.taylor import Jet
-from optlaws.synthesis.solution import Status
+from optlaws.synthesis.status import Status
 
 Array = NDArray[np.float64]
 

@@ -123,7 +123,7 @@ def test_every_value_is_read_again_as_it_was(jumping: Solution) -> None:
         stored = value.to_json()
         again = type(value).from_json(stored)
         assert type(again) is type(value), name
-        if type(value).__eq__ is object.__eq__ or name == "Front with errors":
+        if name in {"SolutionArray", "Front with errors"}:  # which are equal to themselves alone
             assert strict(again.to_json()) == strict(stored), name
         else:
             assert again == value, name

@@ -18,7 +18,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from optlaws import InputError, open_study, run_study
+from optlaws import InputError, Status, open_study, run_study
 from optlaws.studies.store import Chunks, DamagedTable, StoreFailure, StudyDirectory
 from optlaws.studies.study import Study
 from tests.documents import ROOT
@@ -213,7 +213,7 @@ def test_chunks_are_read_once_and_new_ones_are_seen(tmp_path: Path, monkeypatch:
         assert sum(study.counts.values()) == 15
     assert added == [0, 1, 2]
     Chunks(tmp_path / "chunks").write(4, [b'{"index":27,"key":"","inputs":{},"status":"local"}'])
-    assert study.counts["local"] == 1
+    assert study.counts[Status.LOCAL] == 1
 
 
 @pytest.fixture(params=[2600, 6000], ids=["at a chunk", "at the table"])

@@ -12,6 +12,7 @@ from functools import partial
 
 import optlaws
 from optlaws import Chebyshev, Problem, smoothstep, synthesize
+from optlaws.typing import Bound
 from optlaws.verification import enclosures, verify
 
 PROBLEMS = {
@@ -27,7 +28,7 @@ PROBLEMS = {
 }
 
 
-def solved(name: str, bound: str = "quick") -> str:
+def solved(name: str, bound: Bound = "quick") -> str:
     solution = synthesize(PROBLEMS[name], bound=bound)
     return f"{solution.law.to_dict()} {solution.objective!r} {solution.lower_bound!r}"
 

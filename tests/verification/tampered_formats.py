@@ -47,6 +47,7 @@ from optlaws import (
 )
 from optlaws.studies.executor import Serial
 from optlaws.synthesis.proven.front import ProvenFront
+from optlaws.typing import Bound
 from optlaws.verification import Verification, verify_all
 from tests.verification.tampering import Data, Path, changed, overstated, value_at, wrong_constants
 
@@ -158,13 +159,13 @@ def close(first: object, second: object) -> bool:
     return bool(np.allclose(one, other, rtol=CLOSE, atol=CLOSE * size, equal_nan=True))
 
 
-def solution(problem: Problem, bound: str = "quick") -> Format:
+def solution(problem: Problem, bound: Bound = "quick") -> Format:
     data = plain(synthesize(problem, bound=bound).to_dict())
     (true,) = verify_all(data).values()
     return Format(data, wrong_proven=lambda told, _: overstated(told, true))
 
 
-def array(problems: ProblemArray, places_of: Sequence[int], bound: str = "quick") -> Format:
+def array(problems: ProblemArray, places_of: Sequence[int], bound: Bound = "quick") -> Format:
     true = synthesize_array(problems, bound=bound)[np.array(places_of)]
     data = plain(true.to_dict())
 

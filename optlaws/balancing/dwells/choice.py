@@ -149,7 +149,7 @@ def _compared(
     built, refused = buildable(make)
     if not built:
         raise refused[KINDS[-1]]
-    reasons = {
+    reasons: dict[str, str] = {
         kind: _reason(built[kind], most_torque, most_size) if kind in built else f"cannot be built: {refused[kind]}"
         for kind in KINDS
     }

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import degrees, inf, tau
-from typing import Any, ClassVar, Literal, Self, TypedDict, Unpack
+from typing import Any, Literal, Self, TypedDict, Unpack
 
 from optlaws.balancing.dwells.sections import (
     Section,
@@ -69,7 +69,7 @@ class DwellMechanism(JsonText):
     (DwellMechanism(III, a=1.59434, b=0.15, S1=0, S2=0.666667), ['rise', 'clutch', 'run-out', 'run-up', 'clutch', ...])
     """
 
-    _json_name: ClassVar[str] = "a dwell mechanism"
+    _json_name = "a dwell mechanism"
 
     kind: DwellType
     law: MotionLaw

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import inf, isfinite, sqrt
-from typing import Any, ClassVar, Self
+from typing import Any, Self
 
 from optlaws.balancing.loaders.law import LoaderLaw
 from optlaws.balancing.loaders.tops import is_symmetric, tops
@@ -47,7 +47,7 @@ class Loader(JsonText):
     [1.414812, 0.0, -1.414812]
     """
 
-    _json_name: ClassVar[str] = "a loader"
+    _json_name = "a loader"
 
     executive: MotionLaw
 

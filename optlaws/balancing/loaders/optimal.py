@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any, ClassVar
+from typing import Any
 
 from optlaws.balancing.loaders.constants import objective
 from optlaws.balancing.loaders.limits import loader_velocity_limit
@@ -17,9 +17,10 @@ from optlaws.numbers import bounded, positive
 from optlaws.synthesis.problem.expression import Expression, Term
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import at_most
-from optlaws.synthesis.solution import Solution, Status
+from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.solve import Bound, synthesize
 from optlaws.synthesis.spaces.bases import Basis, Chebyshev, PolynomialBasis
+from optlaws.synthesis.status import Status
 
 _LEAST_DEGREE, _AT_REST = 3, 2
 
@@ -54,10 +55,10 @@ class BalancedLaw(JsonText):
     ('optimal', True, True)
     """
 
-    _json_name: ClassVar[str] = "a balanced law"
+    _json_name = "a balanced law"
 
     law: MotionLaw
-    inertial_loader: Loader
+    loader: Loader
     minimise: Expression
     objective: float
     lower_bound: float

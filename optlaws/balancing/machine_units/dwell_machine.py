@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import pairwise
 from math import tau
-from typing import Any, ClassVar, Self, TypedDict, Unpack
+from typing import Any, Self, TypedDict, Unpack
 
 from optlaws.balancing.dwells.mechanism import DwellMechanism, DwellType, dwell_mechanism
 from optlaws.balancing.dwells.sections import peak_power
@@ -52,7 +52,7 @@ class DwellMachine(JsonText):
     (0.668101, 0.0)
     """
 
-    _json_name: ClassVar[str] = "a dwell machine"
+    _json_name = "a dwell machine"
 
     mechanism: DwellMechanism
     rate: float

@@ -43,10 +43,11 @@ from optlaws.synthesis.problem.constants import FUNCTIONALS, Functional
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
 from optlaws.synthesis.problem.windows import Window
-from optlaws.synthesis.solution import Solution, Status
+from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.solve import synthesize
 from optlaws.synthesis.spaces.bases import Chebyshev, Pieces
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
+from optlaws.synthesis.status import Status
 
 _DRIVEN = (FORCE, POWER)
 _PEAKS = {1: "B", 2: "C", 3: "J"}

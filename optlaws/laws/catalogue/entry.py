@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from math import pi
-from typing import Any, ClassVar, Self
+from typing import Any, Self
 
 import numpy as np
 
@@ -77,7 +77,7 @@ class CatalogueEntry(JsonText):
     ('cycloidal', 2, 2.0)
     """
 
-    _json_name: ClassVar[str] = "an entry of the catalogue"
+    _json_name = "an entry of the catalogue"
 
     name: str
     names: tuple[tuple[str, tuple[str, ...]], ...]
@@ -178,8 +178,8 @@ class CatalogueEntry(JsonText):
         InputError
             If an entry is missing or wrong.
         """
-        own = ("name", "aliases", "definition", "source", "from_memory", "published")
-        name, aliases, definition, source, from_memory, published = entries_of(data, own, cls._json_name).values()
+        keys = ("name", "aliases", "definition", "source", "from_memory", "published")
+        name, aliases, definition, source, from_memory, published = entries_of(data, keys, cls._json_name).values()
         try:
             printed = tuple(map(_published, published))
             names = tuple((language, tuple(some)) for language, some in aliases.items())

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from math import inf, isfinite
-from typing import Any, ClassVar, Self
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,7 +37,7 @@ STIFFEST = 1e8  # the same for what decays
 class StateSpace(JsonText):
     """x' = A x + B w, y = C x + D w in durations of the rise; w are those of a, b and c that `inputs` names: "ab"."""
 
-    _json_name: ClassVar[str] = "a machine"
+    _json_name = "a machine"
 
     A: Matrix
     B: Matrix

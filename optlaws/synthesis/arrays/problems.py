@@ -46,15 +46,15 @@ class ProblemArray:
     Arrays are those of numpy, lists, ranges, and whatever numpy makes arrays of, such as a Series of pandas. They are
     broadcast against each other as numpy does, and each place of their common shape is one problem. What is no array
     is the same for all of them: a pair (low, high) is a tuple, for a list of two numbers is an array; a list of
-    windows alone is a value. Values other than numbers come in arrays made by `map_arrays`, too. The array is immutable;
+    windows alone is a value. Values other than numbers come in arrays made by `map_arrays`. The array is immutable;
     nothing is checked before a problem is asked for, so that a wrong number spoils its own place alone.
 
     Parameters
     ----------
     B, C, D, J, minimise, order, bounds, inflexion, basis, monotone, symmetric, boundary, windows
         As `Problem` takes them, dimensionless: `B=np.linspace(1.5, 2.5, 1000)`, `J=(None, jerks)` for upper bounds,
-        `bounds={"rms_c": (None, sizes)}`, `minimise=each("{:.17g}*C/4 + J/32".format, weights)`. What is not given is
-        as `Problem` has it.
+        `bounds={"rms_c": (None, sizes)}`, `minimise=map_arrays("{:.17g}*C/4 + J/32".format, weights)`. What is not
+        given is as `Problem` has it.
 
     Raises
     ------

@@ -6,7 +6,7 @@ __getattr__, __dir__, __all__ = face(
     __name__,
     {
         "optlaws.synthesis.limits.closed_forms": (
-            "acceleration_limit acceleration_limit_at_jerk jerk_limit limit power_limit rms_limit"
+            "acceleration_limit acceleration_limit_at_jerk limit jerk_limit power_limit rms_limit"
         ),
         "optlaws.synthesis.limits.laws": "limit_law",
     },

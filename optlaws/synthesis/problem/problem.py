@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from functools import lru_cache
-from typing import Any, ClassVar
+from typing import Any
 
 from optlaws.errors import InputError
 from optlaws.files.reading import JsonText
@@ -71,7 +71,7 @@ class Problem(JsonText):
     Problem(B=1.859, order=4, basis=Chebyshev(degree=9), minimise='C')
     """
 
-    _json_name: ClassVar[str] = "a problem"
+    _json_name = "a problem"
 
     B: float | Range | None = None
     order: int = NotGiven()

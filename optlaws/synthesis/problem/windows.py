@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import inf, isfinite
-from typing import Any, ClassVar
+from typing import Any
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
@@ -54,7 +54,7 @@ class Window(JsonText):
     via('a', 0.3, at=0.4)
     """
 
-    _json_name: ClassVar[str] = "a window"
+    _json_name = "a window"
 
     quantity: str
     low: float = -inf

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import inf, isfinite
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 
@@ -65,7 +65,7 @@ class Certificate(JsonText):
     (True, True)
     """
 
-    _json_name: ClassVar[str] = "a certificate"
+    _json_name = "a certificate"
 
     problem: Problem
     claim: float | None

@@ -5,17 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from math import isnan
-from typing import Any, ClassVar, TypeVar, overload
+from typing import Any, TypeVar, overload
 
 import msgspec
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.files.reading import JsonText, entries_of
 from optlaws.kept import kept_property
 from optlaws.laws import Constants, MotionLaw
+from optlaws.laws.curve import Many
 from optlaws.laws.making.transform import law_between
 from optlaws.numbers import Array, bounded, finite, real
 from optlaws.synthesis.problem.problem import Problem
@@ -24,9 +24,8 @@ from optlaws.synthesis.proof.certificate import OBJECTIVE, Certificate
 from optlaws.synthesis.proof.data import StatedContact, brief_sum_of, contacts_of, problem_of, stated
 from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.proven.swept_parameter import SweptParameter, gap_bounds, lower_line
-from optlaws.synthesis.solution import measure
+from optlaws.synthesis.status import measure
 
-Many = NDArray[Any] | Sequence[float] | float
 T = TypeVar("T")
 
 
@@ -85,7 +84,7 @@ class FrontPoint(JsonText):
     (1.65, True)
     """
 
-    _json_name: ClassVar[str] = "a point of a front"
+    _json_name = "a point of a front"
 
     value: float
     problem: Problem
@@ -190,7 +189,7 @@ class ProvenFront(JsonText):
     (5.65, True)
     """
 
-    _json_name: ClassVar[str] = "a proven front"
+    _json_name = "a proven front"
 
     number: SweptParameter
     values: tuple[float, ...]
@@ -277,15 +276,15 @@ class ProvenFront(JsonText):
         places = np.sort(np.concatenate([t, inside]))
         return places, self.upper(places)
 
-    def upper(self, values: Many) -> Array:
+    def upper(self, values: float | Many) -> Array:
         """What the objective is at most at values of the number; shape as that of the values."""
         return self._bounds(values)[1]
 
-    def lower(self, values: Many) -> Array:
+    def lower(self, values: float | Many) -> Array:
         """What the least objective is at least at values of the number; shape as that of the values."""
         return self._bounds(values)[0]
 
-    def _bounds(self, values: Many) -> tuple[Array, Array]:
+    def _bounds(self, values: float | Many) -> tuple[Array, Array]:
         places = np.asarray(values, dtype=np.float64)
         low, high = self.between
         wrong = places[~((places >= low) & (places <= high))]

@@ -25,10 +25,11 @@ from optlaws.synthesis.program.writer import Model, model_of
 from optlaws.synthesis.proof.sublevel_bounds import greatest_values
 from optlaws.synthesis.proven.front import LazySequence, ProvenFront, weighted_value
 from optlaws.synthesis.proven.swept_parameter import SweptParameter, gap_bounds, lower_line
-from optlaws.synthesis.solution import Solution, Status, measure
+from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.solution_array import SolutionArray, SolvedPart
 from optlaws.synthesis.solve import synthesize
 from optlaws.synthesis.solve_many import SolvedLine
+from optlaws.synthesis.status import Status, measure
 
 _FIRST, _MOST_PIECES = 17, 8
 #: of the wanted gap, what is aimed at: widths are whole parts of others

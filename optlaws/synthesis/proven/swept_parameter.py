@@ -26,7 +26,7 @@ from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
 from optlaws.synthesis.proof.certificate import Certificate, weighted_rows
 from optlaws.synthesis.proof.duality import rounding_error_bound, summed
-from optlaws.synthesis.solution import measure
+from optlaws.synthesis.status import measure
 
 Ends = tuple[float, float]
 

@@ -90,7 +90,7 @@ class Basis(JsonText, ABC):
     ['bernstein', 'bsplines', 'chebyshev', 'periodic', 'pieces', 'powers']
     """
 
-    _json_name: ClassVar[str] = "a basis"
+    _json_name = "a basis"
 
     name: ClassVar[str]
     kinds: ClassVar[Registry[type[Basis]]] = Registry("basis")

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from math import degrees, tau
+from typing import cast
 
 import pytest
 from scipy.integrate import quad
@@ -9,6 +10,7 @@ from scipy.integrate import quad
 from optlaws import Clutch, InputError, catalogue, deg, dwell_mechanism, smoothstep
 from optlaws.balancing.dwells.clutch import exact_swing
 from optlaws.balancing.dwells.mechanism import DwellMechanism
+from optlaws.typing import DwellType
 from tests.balancing.dwells.test_mechanism import example, mechanism
 from tests.mechanisms.reference import rows
 
@@ -22,7 +24,7 @@ def test_the_table(kind: str) -> None:
 
 
 def check_clutch(row: dict[str, str]) -> None:
-    clutch = Clutch(mechanism(row["type"], row))
+    clutch = Clutch(mechanism(cast("DwellType", row["type"]), row))
     assert clutch.ratio == pytest.approx(float(row["p_over_N"]), rel=1e-7)
     assert 1.0 / clutch.ratio == pytest.approx(float(row["N_for_p1"]), rel=5.1e-6)
     best = clutch.nearest(120)
@@ -57,7 +59,7 @@ def test_the_ratio_is_what_the_halves_of_the_clutch_turn_against_each_other(one:
 
 
 @pytest.mark.parametrize("kind", ["II", "III"])
-def test_the_changes_that_make_a_clutch_exact_do_so(kind: str) -> None:
+def test_the_changes_that_make_a_clutch_exact_do_so(kind: DwellType) -> None:
     start = example(kind, law=smoothstep(3), clutch_angle=deg(12))
     teeth = Clutch(start).teeth(2, 25)
     assert abs(teeth.error) > 1e-3

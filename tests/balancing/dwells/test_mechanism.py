@@ -179,7 +179,11 @@ def test_unequal_dwells() -> None:
     assert single.motion.b(1.0) == pytest.approx(single.motion.b(0.0))
     shorter = example("III", lower_dwell=deg(60), rise=deg(105), standstill=deg(30))
     assert shorter.motion.a(1.0) == pytest.approx(0.0, abs=1e-12)
-    for kind, why in (("I", "lower_dwell of type I must equal dwell"), ("III", "at least 90 degrees, got 60")):
+    reasons: dict[DwellType, str] = {
+        "I": "lower_dwell of type I must equal dwell",
+        "III": "at least 90 degrees, got 60",
+    }
+    for kind, why in reasons.items():
         with pytest.raises(InputError, match=why):
             example(kind, lower_dwell=deg(60), rise=deg(105))
     with pytest.raises(InputError, match="lower_dwell must exceed"):
@@ -221,7 +225,7 @@ def test_wrong_data_are_refused(changed: dict[str, object], reason: str) -> None
     with pytest.raises(InputError, match=reason):
         example("II", **changed)
     with pytest.raises(InputError, match="kind must be one of I, II, III"):
-        example("IV")
+        example("IV")  # type: ignore[arg-type] # on purpose
 
 
 @examples(30)

@@ -137,7 +137,7 @@ def test_a_stroke_with_its_unit_gives_machine_units(capsys: Capture) -> None:
     answer = machine_follower(frequency="16.7 Hz", speed="105 rpm", rise="120 deg", stroke="35 mm").response(
         catalogue["modified sine"].law
     )
-    assert data["machine"] == answer.to_dict()
+    assert data["machine"] == answer.results()
     code, out, _ = called(
         capsys, "modified sine", "--speed-rpm", 105, "--rise-angle", 120, "--natural-period", 0.06, "--stroke", "35mm"
     )

@@ -7,6 +7,7 @@ import pytest
 
 from optlaws import BoundaryConditions, Link, Machine, law_from_z
 from optlaws.synthesis.problem.constants import C
+from optlaws.typing import PeakSide
 from optlaws.verification.machines.floors import floor
 
 AXIS = Machine.from_masses(
@@ -42,7 +43,7 @@ def conditions(start: tuple[float, ...]) -> BoundaryConditions:
     ids=["force", "sway", "place", "all", "level"],
 )
 def test_it_is_the_output_where_the_law_begins(
-    machine: Machine, output: str, start: tuple[float, ...], side: str, offset: float
+    machine: Machine, output: str, start: tuple[float, ...], side: PeakSide, offset: float
 ) -> None:
     constant = machine.peak(output, side=side, offset=offset)
     law = law_from_z(conditions(start), [1.0])

@@ -1,0 +1,92 @@
+"""How far solutions can be trusted, or why there are none, and what their gaps are shares of."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from typing import overload
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.errors import InfeasibleProblem, InputError, OptlawsError
+from optlaws.numerics.tolerances import NO_OBJECTIVE, OPTIMALITY_GAP
+
+
+@overload
+def measure(objective: float, scale: float) -> float: ...
+@overload
+def measure(objective: NDArray[np.float64], scale: float | NDArray[np.float64]) -> NDArray[np.float64]: ...
+def measure(objective: float | NDArray[np.float64], scale: float | NDArray[np.float64]) -> float | NDArray[np.float64]:
+    """What gaps of objectives are shares of: these themselves or, where they are 0 but for rounding, their scale.
+
+    Examples
+    --------
+    >>> measure(5.0, 1.0), measure(1e-9, 1.0), measure(np.array([5e-12, 1e-20]), 1e-12).tolist()
+    (5.0, 1.0, [5e-12, 1e-12])
+    """
+    if isinstance(objective, float):
+        return objective if objective > NO_OBJECTIVE * float(scale) else float(scale)
+    return np.where(objective > NO_OBJECTIVE * scale, objective, scale)
+
+
+class Status(StrEnum):
+    """How far a solution can be trusted, or why there is none; `advice` says what to do about it.
+
+    Solutions are optimal, local or inaccurate. Places of arrays, rows of tables and points of studies without a law are
+    infeasible, failed or invalid, as the error of the problem says; points of studies may also exceed a limit of time.
+
+    Examples
+    --------
+    >>> Status.OPTIMAL.advice
+    'The lower bound meets the objective: no law of this problem is better.'
+    >>> Status.of(InputError("order must be at least 1")).value, Status("not found").value
+    ('invalid', 'failed')
+    """
+
+    OPTIMAL = "optimal"
+    LOCAL = "local"
+    INACCURATE = "inaccurate"
+    INFEASIBLE = "infeasible"
+    FAILED = "failed"
+    INVALID = "invalid"
+    TIME_LIMIT = "time limit"
+    DIED = "worker died"
+    ERROR = "error"
+
+    @classmethod
+    def of(cls, error: OptlawsError) -> Status:
+        """The status of a problem that ended in an error."""
+        if isinstance(error, InfeasibleProblem):
+            return cls.INFEASIBLE
+        return cls.INVALID if isinstance(error, InputError) else cls.FAILED
+
+    @classmethod
+    def _missing_(cls, value: object) -> Status | None:
+        # what files of older versions say
+        return {"not found": cls.FAILED, "wrong input": cls.INVALID}.get(str(value))
+
+    def __repr__(self) -> str:
+        # as the text that it is: lists of statuses are read by people
+        return repr(self.value)
+
+    @property
+    def advice(self) -> str:
+        """What the status means for the user."""
+        return {
+            Status.OPTIMAL: "The lower bound meets the objective: no law of this problem is better.",
+            Status.LOCAL: "No better law was found from any start; the gap says how much better one could be.",
+            Status.INACCURATE: "The law is sound but the bound does not meet it; change the degree a little.",
+            Status.INFEASIBLE: "No law of this problem exists, and a proof shows it; loosen a bound.",
+            Status.FAILED: "No law was found and none is known not to exist; change the degree, or loosen a bound.",
+            Status.INVALID: "The entries make no problem; the error says which and why.",
+            Status.TIME_LIMIT: "The point took longer than the study's time limit; raise it, or lower the degree.",
+            Status.DIED: "The process ended, mostly for want of memory; solve the point by itself.",
+            Status.ERROR: "An error of the library itself, which its developers would like to see.",
+        }[self]
+
+
+def status_of(objective: float, bound: float, scale: float, *, proven: bool) -> Status:
+    """`scale` is the objective's; `proven` says that the bound would meet the objective but for rounding."""
+    if abs(objective - bound) <= OPTIMALITY_GAP * measure(objective, scale):
+        return Status.OPTIMAL
+    return Status.INACCURATE if proven else Status.LOCAL
