@@ -9,7 +9,7 @@ from decimal import ROUND_DOWN, ROUND_HALF_UP, Decimal, InvalidOperation
 from pathlib import Path
 
 from optlaws.echo import shortened
-from optlaws.errors import InputError
+from optlaws.errors import InputError, located
 from optlaws.files import reading
 
 REPRODUCED = "reproduced to its digits"
@@ -83,10 +83,8 @@ def rows(file: Path, columns: tuple[str, ...] | None = None) -> list[Mapping[str
     InputError
         If the file cannot be read or has other columns.
     """
-    try:
+    with located(f"cannot read the printed data {file}"):
         text = reading.text(file)
-    except InputError as error:
-        raise InputError(f"cannot read the printed data {file}: {error}") from None
     reader = csv.DictReader(line for line in text.splitlines() if line and not line.startswith("#"))
     columns = tuple(reader.fieldnames or ()) if columns is None else columns
     if tuple(reader.fieldnames or ()) != columns:

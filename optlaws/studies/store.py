@@ -17,7 +17,7 @@ from typing import IO, Annotated, Any
 import msgspec
 import numpy as np
 
-from optlaws.errors import InputError
+from optlaws.errors import InputError, located
 from optlaws.files import reading, writing
 from optlaws.files.problem_file import typed
 from optlaws.studies.points import StudyPoints
@@ -163,10 +163,8 @@ class StudyDirectory:
         if not there:
             raise InputError(f"{self.path} holds no study; optlaws study FILE --out {self.path} makes one")
         text = reading.text(self.about)
-        try:
+        with located(f"{self.about} is damaged"):
             about = reading.json_text(text, str(self.about))
-        except InputError as error:
-            raise InputError(f"{self.about} is damaged: {error}") from None
         if isinstance(about, dict) and about.get("format") != FORMAT:
             raise InputError(f"{self.about}: the format is {about.get('format')!r}, this version reads {FORMAT}")
         try:
