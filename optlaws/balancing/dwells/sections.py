@@ -63,14 +63,7 @@ def check_law(name: str, law: Any) -> None:  # noqa: ANN401 - whatever the calle
 class PartSegment(Segment, kind="part"):
     """A law from one k to another, without a break of its own in between, as a segment of any length.
 
-    Parameters
-    ----------
-    law
-        The law, or its plain data.
-    start, end
-        The two k.
-    scale
-        Stroke of the whole law in the composed motion; negative for a motion back.
+    The scale is the stroke of the whole law in the composed motion, negative for a motion back.
 
     Examples
     --------
