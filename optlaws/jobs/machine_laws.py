@@ -66,8 +66,8 @@ class MachineTable(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
                 return Machine.from_modes(self.modes, outputs=outputs, **units)
             if self.masses is not None:
                 return Machine.from_masses(self.masses, self.links, drive=drive, outputs=outputs, **units)
-            matrices = (self.A or [], self.B, self.C, self.D)
-            return Machine.from_units(*matrices, inputs=self.inputs, outputs=list(self.outputs), **units)
+            A, names = self.A or [], list(self.outputs)
+            return Machine.from_units(A, self.B, self.C, self.D, inputs=self.inputs, outputs=names, **units)
 
 
 class Measure(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
