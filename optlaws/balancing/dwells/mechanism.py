@@ -340,23 +340,5 @@ def dwell_mechanism(
     DwellMechanism(II, a=1, b=1.9827, S1=0.333333, S2=0.856932)
     DwellMechanism(III, a=1.59434, b=0.15, S1=0, S2=0.666667)
     """
-    optional: dict[str, Any] = {
-        "law_1": law_1,
-        "law_2": law_2,
-        "return_angle": return_angle,
-        "return_law": return_law,
-        "lower_dwell": lower_dwell,
-    }
-    return DwellMechanism(
-        kind=kind,
-        law=law,
-        dwell=dwell,
-        rise=rise,
-        clutch_angle=clutch_angle,
-        swing=swing,
-        radius_ratio=radius_ratio,
-        inertia_ratio=inertia_ratio,
-        standstill=standstill,
-        reverse_share=reverse_share,
-        **optional,
-    )
+    # each argument is a field of the mechanism, where INSTEAD stands for what is None
+    return DwellMechanism(**locals())
