@@ -91,19 +91,10 @@ def compare_dwell_mechanisms(
     >>> comparison.reasons["II"]
     'no: b = 1.98 exceeds 0.5'
     """
-    make = partial(
-        dwell_mechanism,
-        law=law,
-        dwell=dwell,
-        rise=rise,
-        clutch_angle=clutch_angle,
-        swing=swing,
-        radius_ratio=radius_ratio,
-        inertia_ratio=inertia_ratio,
-        law_1=law_1,
-        law_2=law_2,
-        lower_dwell=lower_dwell,
-    )
+    # all other arguments are those of each mechanism
+    data = dict(locals())
+    del data["most_torque"], data["most_size"]
+    make = partial(dwell_mechanism, **data)
     return _compared(make, most_torque, most_size, _by_rule(dwell, dwell if lower_dwell is None else lower_dwell))
 
 
