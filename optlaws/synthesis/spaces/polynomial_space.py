@@ -297,11 +297,7 @@ class PolynomialSpace(LawSpace):
 
 @lru_cache(maxsize=128)
 def polynomial_space(boundary: BoundaryConditions, degree: int, *, symmetric: bool) -> PolynomialSpace:
-    """The space, kept for the next call.
-
-    >>> polynomial_space(BoundaryConditions.rest(2), 3, symmetric=False).terms
-    4
-    """
+    """The space, kept for the next call."""
     return PolynomialSpace(boundary, degree, symmetric=symmetric)
 
 
