@@ -22,10 +22,9 @@ from optlaws.synthesis.problem.combined import CombinedPeak, CombinedPower
 from optlaws.synthesis.problem.constants import PeakConstant, PeakJerk, PowerConstant, RootMeanSquare
 from optlaws.synthesis.problem.expression import Expression, Maximum, Term
 from optlaws.synthesis.problem.named_constants import is_named
-from optlaws.verification.enclosing.balls import ball, enclosed, rational
+from optlaws.verification.enclosing.balls import Extremes, ball, enclosed, rational
 from optlaws.verification.enclosing.pieces import (
     ExactPiece,
-    Extremes,
     PolynomialPiece,
     PowerPiece,
     SinePiece,
