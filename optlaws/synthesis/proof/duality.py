@@ -129,17 +129,20 @@ def summed(model: Model, lines: list[Line]) -> RowSum:
 
 def _weighted(weights: Array, rows: Array, start: Array) -> Array:
     """Start + weights . rows, rounded once: the great multipliers of laws at the edge of what exists cancel."""
-    products = weights[:, None] * rows
-    high, low = _halves(weights[:, None])
-    upper, lower = _halves(rows)
-    rest = low * lower - (((products - high * upper) - low * upper) - high * lower)
-    columns = np.vstack([start[None, :], products, rest])
+    columns = np.vstack([start[None, :], *product_with_rest(weights[:, None], rows)])
     # fsum refuses what overflows
     return np.array([fsum(column) for column in columns.T.tolist()]) if np.isfinite(columns).all() else start * np.nan
 
 
+def product_with_rest(first: Array, second: Array) -> tuple[Array, Array]:
+    """A product, and what rounding took from it (Dekker 1971)."""
+    product = first * second
+    (a, b), (c, d) = _halves(first), _halves(second)
+    return product, b * d - (((product - a * c) - b * c) - a * d)
+
+
 def _halves(values: Array) -> tuple[Array, Array]:
-    """Each value as a sum of two whose products are exact (Dekker 1971)."""
+    """Each value as a sum of two whose products are exact."""
     scaled = _SPLIT * values
     high = scaled - (scaled - values)
     return high, values - high
