@@ -264,7 +264,7 @@ class SolutionArray:
         """The solution at a place of the flattened array, or the error that `synthesize` raises for its problem."""
         if place in self.others:
             return self.others[place]
-        part, row = self._places[:, place].tolist()
+        part, row = map(int, self._places[:, place])
         return self.parts[part].solution(row, self.problems.problem(place), self.seconds / max(self.size, 1))
 
     @kept_property
