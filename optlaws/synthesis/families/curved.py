@@ -386,9 +386,9 @@ class IntegralFamily(FormulaFamily):
         # in a law so far away that the formula overflows there is no tangent
         with np.errstate(over="ignore", invalid="ignore"):
             gradient = self.slopes.gradient(at) * self.weights
-            value, share = self.outer(np.array(float(self.weights @ self.slopes.value(at))))
+            height, share = self.touched(np.array(float(self.weights @ self.slopes.value(at))))
             row = np.asarray(share * np.einsum("ip,ipn->n", gradient, self.columns))
-            row[-1] += value - share * float((gradient * values).sum())
+            row[-1] += float(height) - share * float((gradient * values).sum())
         return row if np.isfinite(row).all() else None
 
     def outer(self, total: Array) -> tuple[Array, Array]:
@@ -398,20 +398,28 @@ class IntegralFamily(FormulaFamily):
         size = np.sqrt(np.maximum(total, LEAST_ENERGY**2))
         return size, 0.5 / size
 
+    def touched(self, total: Array) -> tuple[Array, Array]:
+        """What a tangent is where the sum over the nodes is this, and its slope by the sum; f is nowhere below it.
+
+        Near 0, where the slope of a root is kept finite, the rest of the tangent is one of slope 0.
+        """
+        share = self.outer(total)[1]
+        return (2.0 * share * np.maximum(total, 0.0) if self.root else total), share
+
     def _at_nodes(self, point: Array) -> dict[str, Array]:
         return self._at((self.columns @ point.T).swapaxes(1, 2))
 
     def _planes(self, names: dict[str, Array]) -> tuple[Array, Array, Array]:
-        """What f is in each law, its slope by the sum over the nodes, and the sum's rows with 1 last."""
+        """What a tangent is in each law, its slope by the sum over the nodes, and the sum's rows with 1 last."""
         weighted = self.slopes.gradient(names) * self.weights
-        value, share = self.outer(self.slopes.value(names) @ self.weights)
-        return value, share, np.asarray((weighted @ self.columns).sum(axis=0))
+        height, share = self.touched(self.slopes.value(names) @ self.weights)
+        return height, share, np.asarray((weighted @ self.columns).sum(axis=0))
 
     def planes(self, u: Array, point: Array) -> tuple[Array, Array, Array]:
         """The plane that touches f in each law."""
-        value, share, rows = self._planes(self._at_nodes(point))
+        height, share, rows = self._planes(self._at_nodes(point))
         plane = share[:, None] * rows
-        plane[:, -1] += value - (plane * point).sum(axis=1)
+        plane[:, -1] += height - (plane * point).sum(axis=1)
         planes = plane[:, None, :].repeat(u.shape[1], axis=1)
         return planes, np.zeros(planes.shape), np.zeros(u.shape)
 
@@ -420,10 +428,10 @@ class IntegralFamily(FormulaFamily):
         names = self._at_nodes(point)
         moved = between(self.slopes.hessian(names) * self.weights, self.columns[:, None, :, :-1])
         if self.root:
-            value, share, rows = self._planes(names)
+            _, share, rows = self._planes(names)
             own = rows[:, :-1]
             across = own[:, :, None] * own[:, None, :]
-            moved = share[:, None, None] * moved - across / (4.0 * value**3)[:, None, None]
+            moved = share[:, None, None] * moved - across * (2.0 * share**3)[:, None, None]
         return np.asarray(moved * weights.sum(axis=1)[:, None, None])
 
     def rounding_errors(self, weights: Array, u: Array, point: Array) -> Array:  # noqa: ARG002 - it has no place

@@ -147,9 +147,9 @@ class KinkedIntegralFamily(IntegralFamily):
         if not self.convex or len(point) != len(self.slack):
             return None
         own = self.split(np.array(point))
-        value, share = self.outer(np.array(own.total))
+        height, share = self.touched(np.array(own.total))
         row: Array = share * own.slope
-        row[-1] += value - row @ np.append(point, 1.0)
+        row[-1] += height - row @ np.append(point, 1.0)
         return row
 
     def jet(self, x: Array, u: Array, s: Array) -> RowJet:
