@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from optlaws.formulas.affine import degree
 from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.formulas.of_motion import MotionFormula
+from optlaws.formulas.quadratic import quadratic
 from optlaws.formulas.slopes import derivative, scaled
 from optlaws.formulas.tree import Call, Exponentiation, Formula, Number, total
 from optlaws.kept import kept_property
@@ -23,8 +24,10 @@ from optlaws.numerics.chebyshev import FEWEST, MOST, from_values, nodes
 from optlaws.numerics.tolerances import FORMULA_RESOLVED, LEAST_ENERGY, ROUNDOFF
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NonlinearFamily, RowJet
 from optlaws.synthesis.families.peaks import peaks
+from optlaws.synthesis.families.squares import SumOfSquares, sum_of_squares
 
 _PLACES_PER_DEGREE = 2
+_SQUARE = 2
 #: roundings of a formula's slope in a row
 _IN_A_ROW = 16
 
@@ -92,6 +95,15 @@ class FormulaFamily(NonlinearFamily):
     """What families of formulas that are not affine have in common: a formula of derivatives of the law and of k."""
 
     formula: Formula
+
+    @property
+    def quadratic(self) -> bool:
+        """Whether f is a convex quadratic function of the variables at each place, or the norm of an affine map."""
+        return False
+
+    def squares(self, u: float) -> SumOfSquares:
+        """What f is at a place, where it is `quadratic`."""
+        raise TypeError(f"{self.formula} is not quadratic at {u:g}")
 
     def scaled_down(self, by: float) -> Self:
         """The same rows, divided by a power of 2: so is the formula."""
@@ -168,6 +180,25 @@ class CurvedFamily(FormulaFamily):
         row = sign * (gradient @ self.columns(np.array([u]))[:, 0, 0])
         row[-1] += sign * float(self.slopes.value(at)[0] - gradient @ values[:, 0])
         return np.asarray(row)
+
+    @kept_property
+    def quadratic(self) -> bool:
+        """Whether the formula is a convex polynomial of degree 2 in its parts, or a norm that is straight in them."""
+        if self.signs != (1.0,) or not self.proving:
+            return False
+        square = self._squares
+        terms = quadratic(self.formula if square is None else square, self.names)
+        return terms is not None and (square is None or all(len(key) == _SQUARE for key in terms))
+
+    @kept_property
+    def _by_parts(self) -> Slopes:
+        return Slopes(self.formula if self._squares is None else self._squares, self.names)
+
+    def squares(self, u: float) -> SumOfSquares:
+        """The formula at a place as a sum of squares."""
+        place, root = np.array([u]), self._squares is not None
+        at = self._at(np.zeros((len(self.parts), 1)), place)
+        return sum_of_squares(self._by_parts, at, self.columns(place)[:, 0], np.ones(1), root=root)
 
     @property
     def continuable(self) -> bool:
@@ -362,6 +393,17 @@ class IntegralFamily(FormulaFamily):
     def proving(self) -> bool:
         """Whether it is convex."""
         return self.convex
+
+    @kept_property
+    def quadratic(self) -> bool:
+        """Whether the formula is a polynomial of degree 2 in its names; under a root of nothing but squares."""
+        terms = quadratic(self.formula, self.names) if self.convex else None
+        return terms is not None and not (self.root and any(len(key) != _SQUARE for key in terms))
+
+    def squares(self, u: float) -> SumOfSquares:  # noqa: ARG002 - it has no place
+        """The integral as a sum of squares."""
+        at = self._at(np.zeros((len(self.names), len(self.places))))
+        return sum_of_squares(self.slopes, at, self.columns, self.weights, root=self.root)
 
     def _at(self, values: Array) -> dict[str, Array]:
         return {**dict(zip(self.names, values, strict=True)), "k": np.broadcast_to(self.places, values.shape[1:])}

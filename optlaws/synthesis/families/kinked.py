@@ -85,6 +85,11 @@ class KinkedIntegralFamily(IntegralFamily):
         return replace(super().in_units(units, unit), units=self.units * np.append(units, 1.0))
 
     @property
+    def quadratic(self) -> bool:
+        """False: between kinks alone may it be."""
+        return False
+
+    @property
     def continuable(self) -> bool:
         """False: kinks move with each law."""
         return False

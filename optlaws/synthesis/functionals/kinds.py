@@ -37,7 +37,7 @@ from optlaws.synthesis.functionals.curved_rows import (
     split,
     squared,
 )
-from optlaws.synthesis.functionals.sizes import known_values, reach
+from optlaws.synthesis.functionals.sizes import by_squares, known_values, reach
 from optlaws.synthesis.functionals.straight_reach import straight_reach
 from optlaws.synthesis.functionals.tangent_reach import tangent_reach
 from optlaws.synthesis.functionals.undefined import check_ends, check_passed, pitfalls
@@ -363,7 +363,9 @@ def _by_tangents(space: LawSpace, motion: MotionFormula, *, root: bool) -> tuple
     plain = integral_rows(space, motion, "", nothing, 0.0, root=False, convex=True).scaled_down(
         unit**2 if root else unit
     )
-    size = tangent_reach(space, plain, replace(plain, root=True) if root else plain)
+    family = replace(plain, root=True) if root else plain
+    size = by_squares(space, family.squares(1.0)) if family.quadratic else None
+    size = size or tangent_reach(space, plain, family)
     return None if size is None else (size[0], size[1] / unit, size[2])
 
 

@@ -11,6 +11,7 @@ from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.vocabulary import ORDERS
 from optlaws.numbers import Array, power_of_two
 from optlaws.numerics.tolerances import INVERSE_AGREES, POSITIVE_WEIGHTS, SIZE_RANK, TINY
+from optlaws.synthesis.families.squares import SumOfSquares
 from optlaws.synthesis.functionals.affine_rows import columns, gauss
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 
@@ -22,6 +23,8 @@ _ROUNDED = 1.0 + 1e-6
 _ORDER = 2
 _MOST_GAIN = 1e6
 _ROOM = 1.01
+#: the least sum of squares, in its unit, by whose root another is bounded
+_LEAST = 1e-3
 #: beyond this a bound says nothing
 _LARGEST = 1e13
 
@@ -118,6 +121,34 @@ def by_norm(space: LawSpace, rows: Array) -> tuple[tuple[int, float, float], ...
         return ()
     factor = _ROOM / least
     return ((2, factor, _ROOM * float(np.linalg.norm(bent @ kept)) + factor * float(np.linalg.norm(rows @ kept))),)
+
+
+def by_squares(space: LawSpace, square: SumOfSquares) -> tuple[int, float, float] | None:
+    """What the RMS of c is at most in laws of a space, by a sum of squares of what is affine in them.
+
+    Those in which it is at most t are an ellipsoid about the law in which it is least, whose size grows with the root
+    of t: that is at most its tangent where t is twice the least. None where the sum does not determine the law.
+    """
+    if square.root:
+        return next(iter(by_norm(space, square.rows)), None)
+    rule = space.quadrature(_ORDER)
+    bent = np.sqrt(rule.weights)[:, None] * rule.values
+    fixed, free = kept_directions(space)
+    rows, height = square.rows[:, :-1] @ free, square.rows @ np.append(fixed, 1.0)
+    if not free.size or len(rows) < free.shape[1]:
+        return None
+    directions, way = np.linalg.qr(rows)
+    sizes = np.linalg.svd(way, compute_uv=False)
+    if sizes[-1] * _MOST_GAIN <= sizes[0]:
+        return None
+    back = np.linalg.inv(way)
+    fixed = fixed - free @ (back @ (directions.T @ height + back.T @ (square.affine[:-1] @ free) / 2.0))
+    lowest = np.append(fixed, 1.0)
+    least = float(((square.rows @ lowest) ** 2).sum() + square.affine @ lowest)
+    gain, root = float(np.linalg.norm(bent[:, :-1] @ free @ back, 2)), float(np.sqrt(max(abs(least), _LEAST)))
+    factor = _ROOM * gain / (2.0 * root)
+    offset = _ROOM * (float(np.linalg.norm(bent @ lowest)) + gain * root / 2.0)
+    return _ORDER, factor, offset - factor * (least - (_ROUNDED - 1.0) * abs(least))
 
 
 def kept_directions(space: LawSpace) -> tuple[Array, Array]:
