@@ -170,6 +170,7 @@ GREAT_MULTIPLIERS = 1e-9  # of an objective: what rounding may leave of it where
 CERTIFIED_PULL = 1e-12  # of the greatest multiplier: by so much one may be below 0, for which the bound counts it as 0
 SMALL_OBJECTIVE = 1e-6  # of an objective's scale: one that is less is measured by that
 WIDE_GAP = 1e-7  # of an objective: gaps below it are worth a sharper bound
+VELOCITY_KEPT = 16.0 * ROUNDOFF  # of accelerations: what their mean may miss of the change of the velocity
 OFF_LINE = 1e-12  # of the size of a program's numbers: by so much they may be off a line
 TANGENT_SETTLED = 1e-11  # of a bound: what its certificate may lose, whose tangent is settled to a millionth
 UNITS_ROUNDING = 1e-14  # of the greatest number of a family: by so much two may differ that are one in different units

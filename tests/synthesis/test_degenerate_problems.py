@@ -7,6 +7,7 @@ from optlaws import (
     BoundaryConditions,
     BSplines,
     Chebyshev,
+    Machine,
     Pieces,
     Powers,
     Problem,
@@ -22,6 +23,8 @@ from optlaws.verification import verify
 PIECES = Pieces(breaks=(0.0, 0.065, 0.2015, 0.4675, 0.5, 0.5325, 0.7985, 0.935, 1.0), degree=5, continuity=3)
 HALVES = Pieces(breaks=(0.0, 0.5, 1.0), degree=4, continuity=3)
 UNEVEN = BSplines(breaks=(0.0, 0.282, 0.307, 0.463, 1.0), degree=3, continuity=2)
+SHORT = Pieces(breaks=(0.0, 0.038, 0.131, 0.169, 0.481, 0.5, 0.519, 0.831, 0.869, 0.962, 1.0), degree=8, continuity=3)
+FAST = Machine.from_modes([(37.2, 0.01)], duration=1.0, stroke=1.0, outputs=["deflection"])
 
 CASES = {
     # a root mean square that is 0 has no direction of its own
@@ -42,6 +45,40 @@ CASES = {
         Problem(
             B=at_least(1.59375), order=3, basis=HALVES, minimise="integral(c^2) + J", symmetric=False, inflexion=0.5
         ),
+        None,
+    ),
+    "root that vanishes": (
+        Problem(
+            order=1,
+            basis=Chebyshev(9),
+            minimise="rms(norm(2e6*c, 1e6*b))",
+            symmetric=False,
+            boundary=BoundaryConditions(start=(0.0,), end=(0.0,)),
+        ),
+        0.0,
+    ),
+    "integral over short pieces": (
+        Problem(
+            order=6,
+            basis=SHORT,
+            minimise="max(1.16e-06*integral(30200*b^2 + 16000*c^2), 0.0708*C_plus_cam(nu=8.79, damping=0.2))",
+        ),
+        None,
+    ),
+    "integral bounded, beside a flat jounce": (
+        Problem(
+            order=5,
+            basis=Pieces(
+                breaks=(0.0, 0.024, 0.184, 0.208, 0.488, 0.5, 0.512, 0.792, 0.816, 0.976, 1.0), degree=7, continuity=3
+            ),
+            minimise="jounce",
+            symmetric=False,
+            bounds={"integral(0.0046*b^2 + 0.00504*c^2)": at_most(0.213875)},
+        ),
+        None,
+    ),
+    "small amplitude of a fast mode": (
+        Problem(order=5, basis=Chebyshev(1), minimise="jounce", bounds={FAST.residual(): at_most(1e-8)}),
         None,
     ),
     "breaks on one side": (

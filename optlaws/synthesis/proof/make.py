@@ -18,6 +18,7 @@ from optlaws.numerics.tolerances import (
     CUTS_ENOUGH,
     DIRECTIONS_BALANCED,
     DIRECTIONS_RANK,
+    EMPTY_ROW,
     PROOF_ENOUGH,
     PROOF_WEIGHTLESS,
 )
@@ -44,6 +45,7 @@ _TANGENTS = 4
 _PLACES = 256
 _NEAR = 0.9
 _MORE = 2.0  # times as much as rounding lets go
+_SETTLINGS = 3
 
 
 def certify(model: Model, optimum: ActiveSet, objective: float, limit: float | None) -> Certificate:
@@ -89,11 +91,87 @@ def _of_convex(model: Model, optimum: ActiveSet, objective: float) -> Certificat
     proof = certificate(model, optimum, OBJECTIVE)
     if objective - proof.bound <= PROOF_ENOUGH * max(abs(objective), PROOF_ENOUGH):
         return proof
+    if any(isinstance(family, FormulaFamily | NormFamily | ConeFamily) for family in model.program.families):
+        proof = _settled(model, optimum, proof)
     # constants that are nowhere below 0 bound their sum without a contact
     proof = max(proof, Certificate.of_leaf(model.problem), key=lambda known: known.bound)
     several = _Tangents(model, optimum).certificate(objective) if _needs_tangents(model) else None
     several = None if several is None else _held(model, several)
     return several if several is not None and several.bound > proof.bound else proof
+
+
+def _settled(model: Model, optimum: ActiveSet, proof: Certificate) -> Certificate:
+    """The certificate with multipliers, directions and places of tangents changed by as little as balances it."""
+    for _ in range(_SETTLINGS):
+        better = _shifted(model, optimum, proof)
+        if better is None or better.bound <= proof.bound:
+            return proof
+        proof = better
+    return proof
+
+
+def _shifted(model: Model, optimum: ActiveSet, proof: Certificate) -> Certificate | None:
+    """One step of that; None where nothing can be changed."""
+    program, contacts = model.program, proof.contacts
+    equations = program.multipliers_of_equations(proof.equations)
+    rows = [row_of(program, contact)[0] for contact in contacts]
+    pulls = [max(contact.multiplier, 0.0) * row[None] for contact, row in zip(contacts, rows, strict=True)]
+    slope = program.objective + np.vstack([*pulls, np.zeros((1, program.size))]).sum(axis=0)
+    slope += program.equalities.T @ equations
+    shifts = [_shifts(model, optimum, contact) for contact in contacts]
+    changes = [contact.multiplier * shift for contact, shift in zip(contacts, shifts, strict=True)]
+    length = np.maximum(np.linalg.norm(program.equalities, axis=1), EMPTY_ROW)
+    matrix = np.vstack([*pulls, program.equalities / length[:, None], *changes])
+    if not len(contacts):
+        return None
+    change = np.linalg.lstsq(matrix.T, -slope, rcond=DIRECTIONS_RANK)[0]
+    count = len(contacts)
+    share, pull, rest = np.split(change, [count, count + len(equations)])
+    parts = np.split(rest, np.cumsum([len(part) for part in changes])[:-1])
+    if (share <= -1.0).any():
+        return None
+    moved = [
+        _touching(model, replace(contact, multiplier=contact.multiplier * (1.0 + grown)), part)
+        for contact, grown, part in zip(contacts, share.tolist(), parts, strict=True)
+    ]
+    stated = program.stated_multipliers(equations + pull / length).tolist()
+    return _held(model, proof.with_leaf(contacts=moved, equations=stated))
+
+
+def _shifts(model: Model, optimum: ActiveSet, contact: Contact) -> Array:
+    """What each parameter of a contact's tangent changes of its row, shape (parameters, variables)."""
+    program = model.program
+    wide = np.zeros((0, program.size))
+    image = _image(model, contact)
+    if image is None:
+        family = _formula_of(model, contact)
+        if family is None:
+            return wide
+        u = np.clip(family.u(np.array([contact.k])), *family.domain)
+        image = family.hessian(optimum.x, u, np.array([contact.sign]))
+        return wide if image is None else np.asarray(image * (family.unit / model.unit))
+    return np.hstack([image, np.zeros((len(image), program.size - image.shape[1]))])
+
+
+def _formula_of(model: Model, contact: Contact) -> FormulaFamily | None:
+    """The family of a formula that a contact is of, if it weighs."""
+    for family in model.program.families:
+        if family.name == contact.constraint and contact.multiplier > 0.0 and isinstance(family, FormulaFamily):
+            return family
+    return None
+
+
+def _touching(model: Model, contact: Contact, change: Array) -> Contact:
+    """The contact with its tangent elsewhere: in another direction, or at another law."""
+    if not len(change):
+        return contact
+    family = _formula_of(model, contact)
+    if family is None:
+        return _with_direction(contact, np.array(contact.direction) + change)
+    u = float(np.clip(family.u(np.array([contact.k])), *family.domain)[0])
+    nothing = np.zeros_like(change)
+    moved = np.subtract(family.touching(change, u), family.touching(nothing, u))
+    return replace(contact, direction=tuple((np.array(contact.direction) + moved).tolist()))
 
 
 def _by_the_peak(problem: Problem) -> Certificate | None:

@@ -15,9 +15,9 @@ from optlaws.numerics.tolerances import EXCESS, LOST
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.energy import EnergyFamily
-from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily, Points, Program
+from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, Points, Program
 from optlaws.synthesis.families.kinked import KinkedIntegralFamily
-from optlaws.synthesis.method.discretised.conic import conic, optimum_on_points
+from optlaws.synthesis.method.discretised.conic import conic, of_cones, optimum_on_points
 from optlaws.synthesis.method.discretised.grids import with_extrema
 from optlaws.synthesis.method.discretised.ipopt import Answer, solve_on_points
 from optlaws.synthesis.method.strategies.identified import as_answered, optimum_near
@@ -79,8 +79,8 @@ class ByInteriorPoints(Strategy[list[Points], ActiveSet]):
         if lost:
             return self.sound, None
         # an optimum may be so flat that no exact active set shows: the contacts on the points are then an answer
-        conic_kinds = _only(self.program, LinearFamily, NormFamily, ConeFamily, KinkedIntegralFamily)
-        if conic_kinds and self.program.violation(answer.x) <= EXCESS and self._is_less(answer.x):
+        whole = all(of_cones(family) or isinstance(family, KinkedIntegralFamily) for family in self.program.families)
+        if whole and self.program.violation(answer.x) <= EXCESS and self._is_less(answer.x):
             self.sound = as_answered(held, answer)
         if self.count == self.rounds:
             flat = _only(self.program, LinearFamily, ConeFamily, KinkedIntegralFamily)
