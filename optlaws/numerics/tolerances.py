@@ -210,6 +210,8 @@ EXCESS = 1e-10  # of a right side, or 1: a residual beyond this is an excess, an
 SAME_HEIGHT = 1e-9  # what an extremum's residual may be below that of a point on its hill: rounding of a series
 EMPTY_ROW = 1e-13  # of a row: one that is shorter says nothing, as b >= 0 at rest, and is not divided by its length
 VANISHED = 1e-13  # amplitudes that are minimised vanish if their sum is less
+NEARLY_APEX = 1e-5  # of what the base law leaves: an amplitude that is less may vanish
+APEX_DIRECTION = 1e-9  # of a multiplier: by so much the parts of an amplitude that vanishes may pull more than it does
 SAME_PLACE = 1e-6  # of u: contacts nearer than this are one, as IPOPT's tolerance may show two where there is one
 PULLING = 1e-10  # of the greatest multiplier: one that is more negative pulls, and its contact is dropped
 WEIGHTLESS = 1e-7  # of the greatest multiplier, of IPOPT: what is less may be its barrier's, not a contact's

@@ -23,6 +23,7 @@ from optlaws.synthesis.method.strategies.quadratics import ByQuadratics, bends_b
 from optlaws.synthesis.method.strategies.strategy import cutting_plane_loop
 from optlaws.synthesis.method.strategies.vertices import ByVertices, many_pieces
 from optlaws.synthesis.method.units import units_of
+from optlaws.synthesis.method.vanishing import at_apex
 
 _ROUNDS = 12
 _DIVERGING = "Diverging_Iterates"
@@ -113,6 +114,12 @@ def _solved(program: Program, start: Array | None, holds: Callable[[Array], bool
             return Outcome(optimum, stepwise.iterations, count, "quadratic programs")
     way = ByInteriorPoints(program, start, holds, rounds)
     optimum, _ = cutting_plane_loop(way, points)
+    if way.vanished:
+        optimum = at_apex(program, way.vanished, lambda without: _in_own_units(without, None, start, None, rounds).optimum)
+        if optimum is not None:
+            return Outcome(optimum, way.iterations, way.count, "amplitudes that vanish")
+        way = replace(way, apex=False, vanished=(), count=0)
+        optimum, _ = cutting_plane_loop(way, points)
     if optimum is None and way.status == _DIVERGING:
         held = grounded(program)
         way = ByInteriorPoints(held, start, None, rounds)

@@ -23,6 +23,7 @@ from optlaws.synthesis.method.discretised.ipopt import Answer, solve_on_points
 from optlaws.synthesis.method.strategies.identified import as_answered, optimum_near
 from optlaws.synthesis.method.strategies.strategy import Strategy, cutting_plane_loop
 from optlaws.synthesis.method.strategies.vertices import ByVertices
+from optlaws.synthesis.method.vanishing import amplitudes, nearly_vanished
 
 _LINEAR_ROUNDS = 6
 _KINKED_ROUNDS = 3
@@ -46,6 +47,10 @@ class ByInteriorPoints(Strategy[list[Points], ActiveSet]):
         How many at most; a linear program is given fewer.
     count, iterations, status
         The rounds so far, those of vertices included where they ended it, IPOPT's iterations, and its last word.
+    apex
+        Whether it ends early where amplitudes next to nothing hide the optimum.
+    vanished
+        Which families they are: those that may vanish.
     sound
         The least answer that breaks no constraint anywhere, with its multipliers on the points: what is left where no
         round shows an exact active set.
@@ -55,6 +60,8 @@ class ByInteriorPoints(Strategy[list[Points], ActiveSet]):
     start: Array | None
     holds: Callable[[Array], bool] | None
     rounds: int
+    apex: bool = True
+    vanished: tuple[int, ...] = ()
     count: int = 0
     iterations: int = 0
     status: str = ""
@@ -76,6 +83,10 @@ class ByInteriorPoints(Strategy[list[Points], ActiveSet]):
             optimum = self._by_vertices(held)
         if optimum is not None:
             return optimum, None
+        if self.apex and not conic(self.program):
+            self.vanished = tuple(amplitudes(self.program) if lost else nearly_vanished(self.program, answer.x))
+            if self.vanished:
+                return None, None
         if lost:
             return self.sound, None
         # an optimum may be so flat that no exact active set shows: the contacts on the points are then an answer
