@@ -212,6 +212,7 @@ EMPTY_ROW = 1e-13  # of a row: one that is shorter says nothing, as b >= 0 at re
 VANISHED = 1e-13  # amplitudes that are minimised vanish if their sum is less
 NEARLY_APEX = 1e-5  # of what the base law leaves: an amplitude that is less may vanish
 APEX_DIRECTION = 1e-9  # of a multiplier: by so much the parts of an amplitude that vanishes may pull more than it does
+SMALL_COST = 3e-2  # an objective that is less is hidden from an interior-point method by its own tolerance
 SAME_PLACE = 1e-6  # of u: contacts nearer than this are one, as IPOPT's tolerance may show two where there is one
 PULLING = 1e-10  # of the greatest multiplier: one that is more negative pulls, and its contact is dropped
 WEIGHTLESS = 1e-7  # of the greatest multiplier, of IPOPT: what is less may be its barrier's, not a contact's

@@ -23,10 +23,13 @@ from optlaws.synthesis.method.discretised.ipopt import Answer, solve_on_points
 from optlaws.synthesis.method.strategies.identified import as_answered, optimum_near
 from optlaws.synthesis.method.strategies.strategy import Strategy, cutting_plane_loop
 from optlaws.synthesis.method.strategies.vertices import ByVertices
+from optlaws.synthesis.method.units import ProgramUnits, units_near
 from optlaws.synthesis.method.vanishing import amplitudes, nearly_vanished
 
 _LINEAR_ROUNDS = 6
 _KINKED_ROUNDS = 3
+#: after so many rounds a small objective is made 1
+_COARSE = 4
 #: beyond so many variables a round of IPOPT costs more than all vertices together
 _LARGE = 24
 
@@ -45,6 +48,8 @@ class ByInteriorPoints(Strategy[list[Points], ActiveSet]):
         May tell from x alone, and more quickly than the families do, whether every constraint holds.
     rounds
         How many at most; a linear program is given fewer.
+    units
+        Of the program: where its objective is small, rounds that show no optimum are followed by ones in its units.
     count, iterations, status
         The rounds so far, those of vertices included where they ended it, IPOPT's iterations, and its last word.
     apex
@@ -62,6 +67,7 @@ class ByInteriorPoints(Strategy[list[Points], ActiveSet]):
     rounds: int
     apex: bool = True
     vanished: tuple[int, ...] = ()
+    units: ProgramUnits | None = None
     count: int = 0
     iterations: int = 0
     status: str = ""
@@ -75,6 +81,10 @@ class ByInteriorPoints(Strategy[list[Points], ActiveSet]):
 
     def answered(self, held: list[Points]) -> tuple[ActiveSet | None, list[Points] | None]:
         """The optimum, or the points with the extrema of IPOPT's answer; neither where IPOPT has lost its way."""
+        optimum, onward = self._round(held)
+        return optimum if optimum is None or self.units is None else self.units.outward(optimum), onward
+
+    def _round(self, held: list[Points]) -> tuple[ActiveSet | None, list[Points] | None]:
         self.count += 1
         answer = self._answer(held)
         lost = _lost(answer)
@@ -96,7 +106,21 @@ class ByInteriorPoints(Strategy[list[Points], ActiveSet]):
         if self.count == self.rounds:
             flat = _only(self.program, LinearFamily, ConeFamily, KinkedIntegralFamily)
             return self.sound or (as_answered(held, answer) if flat else None), None
-        return None, with_extrema(self.program, held, answer.x)
+        onward = with_extrema(self.program, held, answer.x)
+        if self.count == _COARSE and self.program.curved:
+            self._zoom(answer.x)
+        return None, onward
+
+    def _zoom(self, x: Array) -> None:
+        """Go on in units in which the objective is 1, if it is small near x."""
+        self.units = units_near(self.program, x)
+        if self.units is not None:
+            units = self.units
+            self.program = units.program
+            self.start = x / units.variables
+            self.sound = None if self.sound is None else units.inward(self.sound)
+            holds = self.holds
+            self.holds = None if holds is None else lambda x: holds(x * units.variables)
 
     def _is_less(self, x: Array) -> bool:
         """Whether an answer is better than the sound one so far."""
