@@ -230,6 +230,7 @@ SUBLEVEL_RANK = 1e-15  # of the greatest singular value: less is rounding
 NEIGHBOUR_DISTANCE = 2.0**-12  # of u: how far from a contact its neighbours are
 NEIGHBOUR_SHARE = 2.0**-14  # of a contact's multiplier: how much of it each neighbour takes
 CUTS_ENOUGH = 2e-9  # of an objective: what cuts may leave
+LEFT_SHARES = (1e-12, 1e-11, 1e-10)  # of a constant's weight: what a proof leaves of it to pay for rounding
 DIRECTIONS_BALANCED = 1e-13  # a slope that is less is balanced
 DIRECTIONS_RANK = 1e-10  # of the greatest singular value of pulls: less is rounding
 WEIGHTED_ROUNDING = 9 * ROUNDOFF  # roundings in a row before it is weighted, and of the sum

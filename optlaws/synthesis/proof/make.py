@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from math import nextafter
 
 import numpy as np
 
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import APEX, DIRECTIONS_BALANCED, DIRECTIONS_RANK, PROOF_ENOUGH, PROOF_WEIGHTLESS
+from optlaws.numerics.tolerances import APEX, DIRECTIONS_BALANCED, DIRECTIONS_RANK, LEFT_SHARES, PROOF_ENOUGH, PROOF_WEIGHTLESS
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.curved import FormulaFamily
@@ -16,6 +17,7 @@ from optlaws.synthesis.families.energy import EnergyFamily
 from optlaws.synthesis.families.family import NormFamily
 from optlaws.synthesis.families.names import RowName, VariableName, velocity_at_peak
 from optlaws.synthesis.method.exchange import solve
+from optlaws.synthesis.method.newton import newton
 from optlaws.synthesis.problem.constants import D
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, relaxed, relaxed_power
@@ -29,7 +31,7 @@ from optlaws.synthesis.proof.certificate import (
 from optlaws.synthesis.proof.cuts import by_tangents, needs_tangents
 from optlaws.synthesis.proof.duality import row_of, summed
 from optlaws.synthesis.proof.nodes import Contact
-from optlaws.synthesis.proof.sublevel_bounds import least_values
+from optlaws.synthesis.proof.sublevel_bounds import least_values, means_by
 from optlaws.synthesis.spaces.bases import PolynomialBasis
 
 _TANGENTS = 4
@@ -83,9 +85,27 @@ def _of_convex(model: Model, optimum: ActiveSet, objective: float) -> Certificat
         return proof
     # constants that are nowhere below 0 bound their sum without a contact
     proof = max(proof, Certificate.of_leaf(model.problem), key=lambda known: known.bound)
+    if proof.bound == -np.inf:
+        proof = max((proof, *_leaving(model, optimum)), key=lambda known: known.bound)
     several = by_tangents(model, optimum, objective) if needs_tangents(model) else None
     several = None if several is None else _held(model, several)
     return several if several is not None and several.bound > proof.bound else proof
+
+
+def _leaving(model: Model, optimum: ActiveSet) -> Iterator[Certificate]:
+    """Certificates of optima that leave a little of a constant's weight, with which rounding is paid."""
+    program = model.program
+    least = least_values(model.problem, model.space)
+    rows = [family.slack for family in program.families]
+    pulled = sum((m * rows[i] for i, m in zip(optimum.family, optimum.multipliers, strict=True)), np.zeros(program.size))
+    for name, place in model.places.items():
+        if pulled[place] > 0.0 and least.get(name, -np.inf) >= 0.0 and means_by(model, name):
+            for share in LEFT_SHARES:
+                cost = program.objective.copy()
+                cost[place] -= share * pulled[place]
+                state = newton(replace(program, objective=cost), optimum)
+                if state is not None and (state.multipliers >= 0.0).all():
+                    yield certificate(model, state, OBJECTIVE)
 
 
 def _by_the_peak(problem: Problem) -> Certificate | None:
@@ -165,6 +185,11 @@ def _held(model: Model, proof: Certificate) -> Certificate:
         if own and (slope[place] > 0.0 if name in falling else slope[place] < 0.0):
             most = max(own, key=lambda i: contacts[i].multiplier)
             pull = -float(rows[most][place])
+            exact = list(contacts)
+            exact[most] = replace(contacts[most], multiplier=contacts[most].multiplier + float(slope[place]) / pull)
+            if name in falling and summed(model, weighted_rows(proof.with_leaf(contacts=exact))[1]).slope[place] == 0.0:
+                contacts = exact
+                continue
             greater = contacts[most].multiplier + _MORE * float(slope[place]) / pull
             contacts[most] = replace(contacts[most], multiplier=nextafter(greater, np.copysign(np.inf, slope[place])))
     held = proof.with_leaf(contacts=contacts)
