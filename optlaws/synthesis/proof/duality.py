@@ -177,7 +177,7 @@ def _paid_by_variables(model: Model, total: RowSum, least: Mapping[str, float]) 
             for most, extension, growth in means_by(model, name):
                 reach = _reach(extension, total.slope[:terms], total.blur)
                 if _WIDER * growth * float(reach.sum()) <= total.slope[place]:
-                    beyond = min(beyond, float(reach @ most))
+                    beyond = min(beyond, max(float(reach @ most), 0.0))
     return beyond
 
 

@@ -185,15 +185,39 @@ def _held(model: Model, proof: Certificate) -> Certificate:
         if own and (slope[place] > 0.0 if name in falling else slope[place] < 0.0):
             most = max(own, key=lambda i: contacts[i].multiplier)
             pull = -float(rows[most][place])
-            exact = list(contacts)
-            exact[most] = replace(contacts[most], multiplier=contacts[most].multiplier + float(slope[place]) / pull)
-            if name in falling and summed(model, weighted_rows(proof.with_leaf(contacts=exact))[1]).slope[place] == 0.0:
-                contacts = exact
-                continue
             greater = contacts[most].multiplier + _MORE * float(slope[place]) / pull
             contacts[most] = replace(contacts[most], multiplier=nextafter(greater, np.copysign(np.inf, slope[place])))
     held = proof.with_leaf(contacts=contacts)
+    if max(held.bound, proof.bound) == -np.inf:
+        held = _held_exactly(model, proof, [model.places[name] for name in falling])
     return held if held.bound > proof.bound else proof
+
+
+def _held_exactly(model: Model, proof: Certificate, places: list[int]) -> Certificate:
+    """The certificate with multipliers that hold variables to the last bit, as far as there are such."""
+    rows = [row_of(model.program, contact)[0] for contact in proof.contacts]
+    for place in places:
+        own = [i for i, contact in enumerate(proof.contacts) if contact.multiplier > 0.0 and rows[i][place] < 0.0]
+        if summed(model, weighted_rows(proof)[1]).slope[place] != 0.0:
+            proof = _exactly(model, proof, place, own) or proof
+    return proof
+
+
+def _exactly(model: Model, proof: Certificate, place: int, own: list[int]) -> Certificate | None:
+    """The certificate with one of its own contacts' multipliers such that they hold a variable to the last bit.
+
+    The lightest is tried first, whose last bit is finest; None where none does.
+    """
+    for i in sorted(own, key=lambda i: proof.contacts[i].multiplier):
+        contacts = list(proof.contacts)
+        # the sum itself, which is stated a bit below what it is
+        slope = nextafter(float(summed(model, weighted_rows(proof)[1]).slope[place]), np.inf)
+        pull = -float(row_of(model.program, contacts[i])[0][place])
+        contacts[i] = replace(contacts[i], multiplier=contacts[i].multiplier + slope / pull)
+        held = proof.with_leaf(contacts=contacts)
+        if contacts[i].multiplier > 0.0 and summed(model, weighted_rows(held)[1]).slope[place] == 0.0:
+            return held
+    return None
 
 
 def violation_certificate(model: Model, optimum: ActiveSet) -> Certificate:
