@@ -115,7 +115,9 @@ def _solved(program: Program, start: Array | None, holds: Callable[[Array], bool
     way = ByInteriorPoints(program, start, holds, rounds)
     optimum, _ = cutting_plane_loop(way, points)
     if way.vanished:
-        optimum = at_apex(program, way.vanished, lambda without: _in_own_units(without, None, start, None, rounds).optimum)
+        optimum = at_apex(
+            program, way.vanished, lambda without: _in_own_units(without, None, start, None, rounds).optimum
+        )
         if optimum is not None:
             return Outcome(optimum, way.iterations, way.count, "amplitudes that vanish")
         way = replace(way, apex=False, vanished=(), count=0)

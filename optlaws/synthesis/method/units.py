@@ -102,8 +102,7 @@ def units_near(program: Program, x: Array) -> ProgramUnits | None:
             own = np.flatnonzero(family.slack)
             variables[own] = np.minimum(variables[own], power_of_two(right / float(family.slack[own].max())))
     families = tuple(
-        family.in_units(variables, unit)
-        for family, unit in zip(program.families, rows.tolist(), strict=True)
+        family.in_units(variables, unit) for family, unit in zip(program.families, rows.tolist(), strict=True)
     )
     cost = program.objective * variables / value
     scaled = Program(families, program.equalities * variables, program.right, cost)

@@ -9,7 +9,14 @@ from math import nextafter
 import numpy as np
 
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import APEX, DIRECTIONS_BALANCED, DIRECTIONS_RANK, LEFT_SHARES, PROOF_ENOUGH, PROOF_WEIGHTLESS
+from optlaws.numerics.tolerances import (
+    APEX,
+    DIRECTIONS_BALANCED,
+    DIRECTIONS_RANK,
+    LEFT_SHARES,
+    PROOF_ENOUGH,
+    PROOF_WEIGHTLESS,
+)
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.curved import FormulaFamily
@@ -97,7 +104,9 @@ def _leaving(model: Model, optimum: ActiveSet) -> Iterator[Certificate]:
     program = model.program
     least = least_values(model.problem, model.space)
     rows = [family.slack for family in program.families]
-    pulled = sum((m * rows[i] for i, m in zip(optimum.family, optimum.multipliers, strict=True)), np.zeros(program.size))
+    pulled = sum(
+        (m * rows[i] for i, m in zip(optimum.family, optimum.multipliers, strict=True)), np.zeros(program.size)
+    )
     for name, place in model.places.items():
         if pulled[place] > 0.0 and least.get(name, -np.inf) >= 0.0 and means_by(model, name):
             for share in LEFT_SHARES:

@@ -28,7 +28,7 @@ from optlaws.synthesis.method.vanishing import amplitudes, nearly_vanished
 
 _LINEAR_ROUNDS = 6
 _KINKED_ROUNDS = 3
-#: after so many rounds a small objective is made 1
+#: after so many rounds a small objective is made 1, and amplitudes of a conic program may vanish
 _COARSE = 4
 #: beyond so many variables a round of IPOPT costs more than all vertices together
 _LARGE = 24
@@ -93,7 +93,7 @@ class ByInteriorPoints(Strategy[list[Points], ActiveSet]):
             optimum = self._by_vertices(held)
         if optimum is not None:
             return optimum, None
-        if self.apex and not conic(self.program):
+        if self.apex and (self.count == _COARSE or not conic(self.program)):
             self.vanished = tuple(amplitudes(self.program) if lost else nearly_vanished(self.program, answer.x))
             if self.vanished:
                 return None, None
