@@ -103,10 +103,9 @@ def _leaving(model: Model, optimum: ActiveSet) -> Iterator[Certificate]:
     """Certificates of optima that leave a little of a constant's weight, with which rounding is paid."""
     program = model.program
     least = least_values(model.problem, model.space)
-    rows = [family.slack for family in program.families]
-    pulled = sum(
-        (m * rows[i] for i, m in zip(optimum.family, optimum.multipliers, strict=True)), np.zeros(program.size)
-    )
+    pulled = np.zeros(program.size)
+    for i, multiplier in zip(optimum.family, optimum.multipliers, strict=True):
+        pulled += multiplier * program.families[i].slack
     for name, place in model.places.items():
         if pulled[place] > 0.0 and least.get(name, -np.inf) >= 0.0 and means_by(model, name):
             for share in LEFT_SHARES:
