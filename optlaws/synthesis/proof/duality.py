@@ -6,7 +6,7 @@ bounded.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import fsum, inf
 
@@ -20,13 +20,14 @@ from optlaws.synthesis.families.energy import EnergyFamily
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily, Program
 from optlaws.synthesis.program.writer import Model
 from optlaws.synthesis.proof.nodes import Contact, Leaf
-from optlaws.synthesis.proof.sublevel_bounds import greatest_values, least_values, moments
+from optlaws.synthesis.proof.sublevel_bounds import greatest_values, least_values, means_by, moments
 
 #: a multiplier, a row and its right side
 Line = tuple[float, Array, float]
 
 _FACING = {"C_plus": "C_minus", "C_minus": "C_plus"}
 _SPLIT = 2.0**27 + 1.0
+_WIDER = 1.001  # than what rounding in sums of reaches could hide
 
 
 def lines_of(program: Program, leaf: Leaf) -> list[Line]:
@@ -162,8 +163,25 @@ def rounding_error_bound(model: Model, total: RowSum, claim: float) -> float:
             # of the two one-sided peaks one is at least the other's opposite
             facing = greatest.get(_FACING.get(name, ""), inf)
             beyond += slope[place] * max(min(-least.get(name, 0.0), facing), 0.0)
+    if not slope[:terms].any() and not total.blur.any():
+        return beyond
     reaches = (float(_reach(extension, slope[:terms], total.blur) @ most) for most, extension in moments(model, known))
-    return beyond + min(reaches, default=0.0 if not slope[:terms].any() and not total.blur.any() else inf)
+    return beyond + min(reaches, default=_paid_by_variables(model, total, least))
+
+
+def _paid_by_variables(model: Model, total: RowSum, least: Mapping[str, float]) -> float:
+    """The same of the slope by the coordinates, where the sum leaves a variable enough that bounds the law by itself.
+
+    Where laws may be as great as they like, so is the constant, and what the sum leaves of it outweighs the rounding.
+    """
+    terms, beyond = model.space.terms, inf
+    for name, place in model.places.items():
+        if total.slope[place] > 0.0 and least.get(name, -inf) >= 0.0:
+            for most, extension, growth in means_by(model, name):
+                reach = _reach(extension, total.slope[:terms], total.blur)
+                if _WIDER * growth * float(reach.sum()) <= total.slope[place]:
+                    beyond = min(beyond, max(float(reach @ most), 0.0))
+    return beyond
 
 
 def _reach(extension: Array, slope: Array, blur: Array) -> Array:
