@@ -11,10 +11,9 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.formulas.affine import degree
+from optlaws.formulas.affine import degree, quadratic
 from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.formulas.of_motion import MotionFormula
-from optlaws.formulas.quadratic import quadratic
 from optlaws.formulas.slopes import derivative, scaled
 from optlaws.formulas.tree import Call, Exponentiation, Formula, Number, total
 from optlaws.kept import kept_property
