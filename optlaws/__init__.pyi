@@ -87,9 +87,9 @@ from optlaws.mechanisms.machine.machine import Machine as Machine
 from optlaws.mechanisms.machine.masses import Link as Link
 from optlaws.mechanisms.machine.parameters import MachineSpectrum as MachineSpectrum
 from optlaws.mechanisms.machine.parameters import machine_spectrum as machine_spectrum
-from optlaws.mechanisms.spectrum.residual import residual as residual
 from optlaws.mechanisms.spectrum.residual import residual_functional as residual_functional
 from optlaws.mechanisms.spectrum.residual import residual_phasor as residual_phasor
+from optlaws.mechanisms.spectrum.residual import residual_vibration as residual_vibration
 from optlaws.mechanisms.spectrum.spectrum import ResponseSpectrum as ResponseSpectrum
 from optlaws.mechanisms.spectrum.spectrum import response_spectrum as response_spectrum
 from optlaws.motion.polynomials import PiecewiseMotion as PiecewiseMotion
@@ -98,7 +98,7 @@ from optlaws.numerics.peaks import Peak as Peak
 from optlaws.studies.run import run_study as run_study
 from optlaws.studies.study import open_study as open_study
 from optlaws.synthesis.arrays.problems import ProblemArray as ProblemArray
-from optlaws.synthesis.arrays.problems import each as each
+from optlaws.synthesis.arrays.problems import map_arrays as map_arrays
 from optlaws.synthesis.functionals.makers import drive_torque as drive_torque
 from optlaws.synthesis.functionals.makers import functional as functional
 from optlaws.synthesis.functionals.makers import integral as integral
@@ -140,7 +140,6 @@ from optlaws.synthesis.proven.front import FrontPoint as FrontPoint
 from optlaws.synthesis.proven.front import ProvenFront as ProvenFront
 from optlaws.synthesis.proven.refine import proven_front as proven_front
 from optlaws.synthesis.solution import Solution as Solution
-from optlaws.synthesis.solution import Status as Status
 from optlaws.synthesis.solution_array import SolutionArray as SolutionArray
 from optlaws.synthesis.solve import synthesize as synthesize
 from optlaws.synthesis.solve_many import sweep as sweep
@@ -156,6 +155,7 @@ from optlaws.synthesis.spaces.end_conditions import BoundaryConditions as Bounda
 from optlaws.synthesis.spaces.end_conditions import law_from_z as law_from_z
 from optlaws.synthesis.spaces.pieces.periodic import PeriodicPieces as PeriodicPieces
 from optlaws.synthesis.spaces.splines import BSplines as BSplines
+from optlaws.synthesis.status import Status as Status
 
 __version__: str
 

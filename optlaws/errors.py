@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 from optlaws.echo import cut
 
 
@@ -27,6 +30,23 @@ class InputError(OptlawsError, ValueError):
 
     def __init__(self, message: str = "") -> None:
         super().__init__(cut(str(message)))
+
+
+@contextmanager
+def located(where: str) -> Iterator[None]:
+    """Wrong inputs are told with the file or the entry that they came from.
+
+    Examples
+    --------
+    >>> with located("axis slide"):
+    ...     raise InputError("order must be at least 1, got 0")
+    Traceback (most recent call last):
+    optlaws.errors.InputError: axis slide: order must be at least 1, got 0
+    """
+    try:
+        yield
+    except InputError as error:
+        raise InputError(f"{where}: {error}") from None
 
 
 class NotNormalised(UserWarning):

@@ -15,7 +15,7 @@ from optlaws.errors import InfeasibleProblem, InputError, OptlawsError
 
 NOT_PROVEN, BAD_INPUT, INFEASIBLE, SOLVER_FAILURE, INTERRUPTED = 1, 2, 3, 4, 130
 
-#: commands by their files, which are imported when one is asked for; what each does, as its docstring says it
+#: commands by their files, with the name where it is another, imported when one runs; what each does, in a sentence
 COMMANDS = {
     "laws.catalogue": "List the standard laws, or those that a text may mean, the likeliest first.",
     "laws.compare": "Compare laws: their constants, their peaks in a machine, the vibration they leave behind.",
@@ -30,7 +30,7 @@ COMMANDS = {
     "laws.law": (
         "Show a law of the catalogue, a coded law, a member of Savin's families or a stored law, with its constants."
     ),
-    "mechanisms.cam": (
+    "mechanisms.cycle:cam": (
         "Cams of cycles: curves, enclosed pressure angles and curvatures, proof of no undercut, least sizes."
     ),
     "mechanisms.cycle": (
@@ -84,8 +84,9 @@ app = App(
 
 
 for _file, _about in COMMANDS.items():
-    _name = _file.rpartition(".")[2]
-    app.command(f"optlaws.cli.{_file}:{_name}", name=_name, help=_about)
+    _module, _, _name = _file.partition(":")
+    _name = _name or _module.rpartition(".")[2]
+    app.command(f"optlaws.cli.{_module}:{_name}", name=_name, help=_about)
 
 
 class NotProven(OptlawsError):  # noqa: N818

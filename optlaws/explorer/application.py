@@ -18,7 +18,7 @@ from starlette.routing import Route
 
 from optlaws import catalogue
 from optlaws.echo import cut
-from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
+from optlaws.errors import InputError, OptlawsError
 from optlaws.explorer import cam_view, cycle_view, downloads, front_view, law_view
 from optlaws.explorer.requests import LawRequest, LawsRequest, read, ready
 from optlaws.jobs.cam_entries import CamProblemFile
@@ -105,10 +105,8 @@ def _answered(body: bytes, kind: type[msgspec.Struct], answer: Answer) -> Respon
         return _message(str(error), _WRONG)
     try:
         return _json(msgspec.json.encode(answer(question)))
-    except (InfeasibleProblem, SolverFailure) as error:
-        return _message(str(error.args[0]))
     except OptlawsError as error:
-        return _message(str(error))
+        return _message(str(error.args[0]))
 
 
 def _message(text: str, code: int = 200) -> Response:

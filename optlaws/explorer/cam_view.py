@@ -18,7 +18,7 @@ from optlaws.cams.followers.follower import follower_kinds
 from optlaws.cams.forces import CamForces
 from optlaws.cams.least_sizes import least_base_circle
 from optlaws.cams.summary import Labelled, named_forces
-from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
+from optlaws.errors import InfeasibleProblem, InputError, OptlawsError
 from optlaws.explorer.cycle_view import check_axis
 from optlaws.explorer.law_view import digits, drawn, refusal
 from optlaws.files.problem_file import convert
@@ -47,10 +47,8 @@ def answer(request: CamRequest) -> dict[str, Any]:
     """The view of a cam, or why there is none."""
     try:
         return _view(*cams_of(request))
-    except (InfeasibleProblem, SolverFailure) as error:
-        return {"refused": refusal(error)}
-    except InputError as error:
-        return {"refused": {"word": "no such cam", "reason": str(error), "tried": ""}}
+    except OptlawsError as error:
+        return {"refused": refusal(error, "no such cam")}
 
 
 def cams_of(request: CamRequest) -> tuple[CamProblemFile, Cams]:
@@ -235,7 +233,7 @@ def loads(request: CamRequest) -> dict[str, Any]:
     """Panels and words of a cam whose motion has a drive; none where it has none."""
     try:
         return _loads(json.dumps(request.study, sort_keys=True))
-    except (InfeasibleProblem, InputError, SolverFailure) as error:
+    except OptlawsError as error:
         return {"panels": [], "facts": [str(error.args[0])]}
 
 

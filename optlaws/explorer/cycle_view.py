@@ -13,7 +13,7 @@ import msgspec
 from optlaws import Cycle, Status
 from optlaws.cycles.optimisation.objectives import LIMITS, read_limits
 from optlaws.cycles.summary import drive_rows, joint_rows, objective_unit
-from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
+from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
 from optlaws.explorer.law_view import TITLES, digits, drawn, gap_text, refusal
 from optlaws.explorer.requests import MOST_DEGREE, MOST_ORDER
 from optlaws.files.problem_file import convert
@@ -38,10 +38,8 @@ def answer(request: CycleRequest) -> dict[str, Any]:
     """The view of an axis, or why there is none."""
     try:
         return _view(cycle(request))
-    except (InfeasibleProblem, SolverFailure) as error:
+    except OptlawsError as error:
         return {"refused": refusal(error)}
-    except InputError as error:
-        return {"refused": {"word": "not understood", "reason": str(error), "tried": ""}}
 
 
 def nearest(request: CycleRequest) -> dict[str, Any]:

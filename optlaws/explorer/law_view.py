@@ -53,11 +53,13 @@ def view(question: bytes) -> dict[str, Any]:
         return {"title": request.title or request.name or "a stored law", "trust": None} | shown(given_law(request))
     except OptlawsError as error:
         name = request.title or request.name or "a problem"
-        return {"title": name, "refused": {"word": "not understood", "reason": str(error), "tried": ""}}
+        return {"title": name, "refused": refusal(error)}
 
 
-def refusal(error: InfeasibleProblem | SolverFailure) -> dict[str, str]:
-    """Why there is no law, in words."""
+def refusal(error: OptlawsError, word: str = "not understood") -> dict[str, str]:
+    """Why there is no law, in words; the first of them say what is wrong with an input."""
+    if not isinstance(error, InfeasibleProblem | SolverFailure):
+        return {"word": word, "reason": str(error), "tried": ""}
     word = "no such law" if isinstance(error, InfeasibleProblem) else "no law found"
     return {"word": word, "reason": str(error.args[0]), "tried": error.tried}
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from optlaws import Problem
-from optlaws.errors import InputError
+from optlaws.errors import InputError, located
 from optlaws.explorer.requests import MOST_LAWS, LawRequest, problem_of
 from optlaws.files import reading
 from optlaws.files.packaged import is_problem, problem_file
@@ -70,11 +69,8 @@ def _is_sweep(swept: Any) -> bool:  # noqa: ANN401 - of a file
 
 def _problem(entries: dict[str, Any], file: Path) -> dict[str, Any]:
     """A problem as the page keeps it: with weights where one constant is minimised."""
-    try:
-        problem: Problem = problem_of(LawRequest(problem=entries))
-    except InputError as error:
-        raise InputError(f"{file}: {error}") from None
-    plain = problem.to_dict()
+    with located(str(file)):
+        plain = problem_of(LawRequest(problem=entries)).to_dict()
     if plain.get("minimise") in {"C", "D", "J", "rms_c"}:
         return {"weights": {plain.pop("minimise"): 1.0}, "problem": plain}
     return {"problem": plain}

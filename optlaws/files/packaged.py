@@ -31,9 +31,7 @@ def problem_names() -> list[str]:
 def problem_file(given: Path) -> tuple[Path, Path | None]:
     """A problem file: the one given or, where none is there, the one of this name or place that comes with optlaws.
 
-    Returns
-    -------
-    The file, and the folder for its results where that is not the file's own: `results/NAME` where the user is.
+    With it the folder for its results where that is not the file's own: `results/NAME` where the user is.
 
     Examples
     --------
@@ -59,17 +57,7 @@ def is_problem(text: str) -> bool:
 
 
 class GivenProblem(NamedTuple):
-    """A problem file as a command of its job takes it.
-
-    Attributes
-    ----------
-    file
-        The file.
-    results
-        The folder for its results, where that is not the file's own.
-    entries
-        What it holds.
-    """
+    """A problem file, the folder for its results where that is not the file's own, and what the file holds."""
 
     file: Path
     results: Path | None

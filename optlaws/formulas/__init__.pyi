@@ -4,4 +4,9 @@ from optlaws.formulas.arithmetic import evaluate as evaluate
 from optlaws.formulas.reading import read as read
 from optlaws.formulas.tree import Formula as Formula
 
-__all__ = ["NUMPY", "Formula", "evaluate", "read"]
+__all__ = [
+    "NUMPY",
+    "Formula",
+    "evaluate",
+    "read",
+]

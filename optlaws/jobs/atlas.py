@@ -154,18 +154,7 @@ def look_up(
 ) -> AtlasPoint:
     """The point with the nearest B or, where B is free, the best one; among equals the one with the least objective.
 
-    Laws that were made for another objective count too: with a limit they may be the better ones.
-
-    Parameters
-    ----------
-    file
-        The atlas, `atlas.csv`.
-    minimise, order
-        What is minimised, and l, as in the atlas.
-    B
-        Peak velocity.
-    most
-        Greatest values of constants.
+    Laws that were made for another objective count too: with a limit, `most` by constant, they may be the better ones.
     """
     limits = dict(most or {})
     for name in limits:

@@ -11,7 +11,7 @@ import msgspec
 import numpy as np
 
 from optlaws.cams.barrel import SIDES, BarrelCam, SpaceCurve
-from optlaws.errors import InputError
+from optlaws.errors import located
 from optlaws.files import tables
 from optlaws.files.problem_file import convert
 from optlaws.jobs.cam_findings import EXTREMES, enclosure, extreme_row, plain
@@ -80,14 +80,12 @@ def answer(data: Mapping[str, Any], file: Path) -> dict[str, Any]:
 def read(data: Mapping[str, Any], file: Path) -> tuple[BarrelProblemFile, BarrelCam]:
     """The entries of a file, and the cam; an error names the file."""
     spec = convert(data, BarrelProblemFile, file)
-    try:
+    with located(str(file)):
         cycle = cycle_of(spec.motion, spec.speed, spec.period)
         sizes: dict[str, Any] = {**msgspec.structs.asdict(spec.barrel), "turning": spec.turning}
         cam = BarrelCam(cycle, **sizes)
         if spec.cutter_radius is not None:
             cam.cutter_path(spec.cutter_radius)
-    except InputError as error:
-        raise InputError(f"{file}: {error}") from None
     return spec, cam
 
 

@@ -17,7 +17,7 @@ from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.follower import read_follower
 from optlaws.cams.forces import CamForces
 from optlaws.cycles.cycle import Cycle
-from optlaws.errors import InputError
+from optlaws.errors import InputError, located
 from optlaws.files import writing
 from optlaws.files.problem_file import Text, convert
 from optlaws.jobs.cycle_entries import AxisEntries, cycle_of
@@ -158,15 +158,13 @@ class Cams:
 def read(data: Mapping[str, Any], file: Path) -> tuple[CamProblemFile, Cams]:
     """The entries of a file, and the cams; an error names the file."""
     spec = convert(data, CamProblemFile, file)
-    try:
+    with located(str(file)):
         cams = _cams(spec)
         if spec.cutter_radius is not None:
             cams.first.cutter_path(spec.cutter_radius)
         for entry in spec.file:
             entry.check(cams.first)
         cams.forces(spec.forces)
-    except InputError as error:
-        raise InputError(f"{file}: {error}") from None
     return spec, cams
 
 
@@ -194,7 +192,5 @@ def _second(entries: PairEntries | None, cam: DiscCam) -> DiscCam | None:
     if entries is None:
         return None
     follower = None if entries.follower is None else read_follower(entries.follower)
-    try:
+    with located("pair"):
         return conjugate_cam(cam, follower, distance=entries.distance, angle=entries.angle)
-    except InputError as error:
-        raise InputError(f"pair: {error}") from None

@@ -11,12 +11,12 @@ import numpy as np
 
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.summary import drive_rows, joint_rows, proof_rows
-from optlaws.errors import InputError
+from optlaws.errors import InputError, located
 from optlaws.exports.export import Export, export_cycle
 from optlaws.exports.format import FORMATS, format_of
 from optlaws.exports.text import variable_names
 from optlaws.files import tables, writing
-from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile, ExportEntries, read
+from optlaws.jobs.cycle_entries import CycleProblemFile, ExportEntries, read
 from optlaws.numerics.tolerances import CYCLE_ROUNDING
 from optlaws.plots.cycle import QUANTITIES, UNITS, axes_figure, cycle_figure
 from optlaws.results.results import Page, Results
@@ -39,30 +39,20 @@ def exports_of(spec: CycleProblemFile, cycles: Mapping[str, Cycle], file: Path) 
     taken |= {f"{plain_name(axis.name)}{ending}" for axis in spec.axis for ending in (".csv", ".svg", ".png")}
     names = variable_names(axis.name for axis in spec.axis)
     for axis in spec.axis:
-        try:
-            exports[axis.name] = _of_axis(axis, cycles[axis.name], names[axis.name], taken)
-        except InputError as error:
-            raise InputError(f"{file}: axis {axis.name}: export {error}") from None
+        exports[axis.name] = {}
+        for entry in axis.export:
+            with located(f"{file}: axis {axis.name}: export to {entry.to}"):
+                name = _file_name(axis.name, entry)
+                if name in taken:
+                    raise InputError(f"another file is called {name}: give each a name of its own")
+                taken.add(name)
+                exports[axis.name][name] = _export(cycles[axis.name], entry, names[axis.name])
     return exports
 
 
 def plain_name(axis: str) -> str:
     """The name of an axis as files have it."""
     return "".join(letter if letter.isalnum() else "_" for letter in axis.lower())
-
-
-def _of_axis(axis: AxisEntries, cycle: Cycle, variable: str, taken: set[str]) -> dict[str, Export]:
-    exports: dict[str, Export] = {}
-    for entry in axis.export:
-        name = _file_name(axis.name, entry)
-        if name in taken:
-            raise InputError(f"to {entry.to}: another file is called {name}: give each a name of its own")
-        taken.add(name)
-        try:
-            exports[name] = _export(cycle, entry, variable)
-        except InputError as error:
-            raise InputError(f"to {entry.to}: {error}") from None
-    return exports
 
 
 def _export(cycle: Cycle, entry: ExportEntries, variable: str) -> Export:
@@ -77,7 +67,7 @@ def _file_name(axis: str, entry: ExportEntries) -> str:
     form = format_of(entry.to)
     name = entry.file or f"{plain_name(axis)}_{form.name}{FORMATS[form.name].extension}"
     if Path(name).name != name:
-        raise InputError(f"to {entry.to}: file must be a name without a folder, got {name}")
+        raise InputError(f"file must be a name without a folder, got {name}")
     writing.check_name(Path(name))
     return name
 
@@ -113,9 +103,9 @@ def table_of_motion(cycle: Cycle, rows: int, about: str) -> str:
     return tables.to_csv(_columns(cycle), _rows(cycle, rows), about=about)
 
 
-def answer(cycles: Mapping[str, Cycle]) -> dict[str, Any]:
-    """The data of the cycles for programs, in SI units, by the names of the axes."""
-    return {name: _facts(cycle) for name, cycle in cycles.items()}
+def answer(entries: Mapping[str, Any], file: Path) -> dict[str, Any]:
+    """The data of the cycles of a file for programs, in SI units, by the names of the axes."""
+    return {name: _facts(cycle) for name, cycle in read(entries, file)[1].items()}
 
 
 def page(spec: CycleProblemFile, cycles: Mapping[str, Cycle], exports: Exports) -> Page:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 import msgspec
 import numpy as np
 
-from optlaws.errors import InputError
+from optlaws.errors import InputError, located
 from optlaws.files import tables, writing
 from optlaws.files.problem_file import Text
 from optlaws.jobs.job import JobFile
@@ -110,11 +110,9 @@ def _front(spec: FrontsProblemFile, picture: Picture, curve: FrontEntries) -> Fr
     stated = problem(where, spec.problem.given(), curve.given())
     between = curve.between or picture.between
     points = curve.points or picture.points or spec.points
-    try:
-        pair = (between[0], between[1]) if between else None
+    pair = (between[0], between[1]) if between else None
+    with located(where):
         return pareto_front(stated, tuple(picture.over), points=points, between=pair)
-    except InputError as error:
-        raise InputError(f"{where}: {error}") from None
 
 
 def _lines(curve: FrontEntries, front: Front) -> list[list[tables.Cell]]:
@@ -165,10 +163,8 @@ def check_beside(picture: Picture) -> None:
     """Refuse names that are neither a family, nor "smoothstep", nor a law of the catalogue."""
     for name in picture.catalogue:
         if name not in FAMILIES and name != SMOOTHSTEPS:
-            try:
+            with located(f"figure {picture.name}, catalogue"):
                 _ = catalogue[name]
-            except InputError as error:
-                raise InputError(f"figure {picture.name}, catalogue: {error}") from None
 
 
 def draw_beside(axes: Axes, picture: Picture, x: Ends, y: Ends) -> None:

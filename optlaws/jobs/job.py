@@ -56,12 +56,7 @@ JOBS = _Jobs()
 def run(file: Path, out: Path | None = None) -> list[Path]:
     """Do the job of a problem file and return the files written.
 
-    Parameters
-    ----------
-    file
-        The problem file.
-    out
-        Folder for the results; `results/<name of the file>` beside the problem file's folder unless given.
+    They go into a folder, `results/<name of the file>` beside the problem file's folder unless given.
     """
     if file.suffix == ".py":
         raise InputError(

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 import msgspec
 import numpy as np
 
-from optlaws.errors import InputError
+from optlaws.errors import InputError, located
 from optlaws.files import tables, writing
 from optlaws.files.problem_file import Text
 from optlaws.jobs.job import JobFile
@@ -58,26 +58,16 @@ class MachineTable(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
         """The machine of the table, checked."""
         if sum(given is not None for given in (self.masses, self.modes, self.A)) != 1:
             raise InputError("machine: give either masses with links and a drive, or modes, or matrices A, B, C and D")
-        try:
+        units = {"duration": self.duration, "stroke": self.stroke}
+        outputs: Any = self.outputs or None
+        drive: Any = self.drive if isinstance(self.drive, str) else tuple(self.drive)
+        with located("machine"):
             if self.modes is not None:
-                return Machine.from_modes(
-                    self.modes, duration=self.duration, stroke=self.stroke, outputs=self.outputs or None
-                )
-            return self._of_masses(self.masses) if self.masses is not None else self._of_matrices()
-        except InputError as error:
-            raise InputError(f"machine: {error}") from None
-
-    def _of_masses(self, masses: dict[str, float]) -> Machine:
-        drive = self.drive if isinstance(self.drive, str) else tuple(self.drive)
-        outputs = self.outputs or None
-        units = {"duration": self.duration, "stroke": self.stroke}
-        return Machine.from_masses(masses, self.links, drive=drive, outputs=outputs, **units)  # type: ignore[arg-type]
-
-    def _of_matrices(self) -> Machine:
-        names = list(self.outputs)
-        units = {"duration": self.duration, "stroke": self.stroke}
-        assert self.A is not None  # noqa: S101 - as the caller saw
-        return Machine.from_units(self.A, self.B, self.C, self.D, inputs=self.inputs, outputs=names, **units)
+                return Machine.from_modes(self.modes, outputs=outputs, **units)
+            if self.masses is not None:
+                return Machine.from_masses(self.masses, self.links, drive=drive, outputs=outputs, **units)
+            A, names = self.A or [], list(self.outputs)
+            return Machine.from_units(A, self.B, self.C, self.D, inputs=self.inputs, outputs=names, **units)
 
 
 class Measure(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
@@ -129,14 +119,12 @@ class Sought(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 
     def stated(self, machine: Machine) -> Problem:
         """The problem of the law that is sought."""
-        try:
+        with located(f"sought {self.name!r}"):
             entries = from_entries({"order": 3, **self.problem})
             objective = self.minimise if isinstance(self.minimise, str) else self.minimise.constant(machine)
             limits = {bound.bounded(machine): at_most(bound.most) for bound in self.keep}
             entries["bounds"] = {**entries.get("bounds", {}), **limits}
             return Problem(**entries, minimise=objective)
-        except InputError as error:
-            raise InputError(f"sought {self.name!r}: {error}") from None
 
 
 SHAPERS: tuple[Shaper, ...] = ("ZV", "ZVD")
@@ -230,15 +218,11 @@ def _check(spec: MachineLawsProblemFile, machine: Machine) -> None:
         *(("report", heading) for heading in spec.report),
         *(("units", unit) for unit in spec.units),
     ):
-        try:
+        with located(where):
             machine.place(output)
-        except InputError as error:
-            raise InputError(f"{where}: {error}") from None
     for number in (*spec.vibration.modes, spec.vibration.shaped):
-        try:
+        with located("vibration"):
             mode(machine, number)
-        except InputError as error:
-            raise InputError(f"vibration: {error}") from None
     known = _names(spec)
     for name in spec.figure.laws:
         if name not in known:

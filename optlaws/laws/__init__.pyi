@@ -6,4 +6,11 @@ from optlaws.laws.polynomial import PolynomialLaw as PolynomialLaw
 from optlaws.laws.polynomial import smoothstep as smoothstep
 from optlaws.numerics.peaks import Peak as Peak
 
-__all__ = ["Constants", "MotionLaw", "Peak", "PolynomialLaw", "from_half", "smoothstep"]
+__all__ = [
+    "Constants",
+    "MotionLaw",
+    "Peak",
+    "PolynomialLaw",
+    "from_half",
+    "smoothstep",
+]

@@ -9,7 +9,7 @@ from decimal import ROUND_DOWN, ROUND_HALF_UP, Decimal, InvalidOperation
 from pathlib import Path
 
 from optlaws.echo import shortened
-from optlaws.errors import InputError
+from optlaws.errors import InputError, located
 from optlaws.files import reading
 
 REPRODUCED = "reproduced to its digits"
@@ -66,13 +66,15 @@ def compared(
     """
     off = abs(exact / float(printed) - 1.0)
     if misprint is not None:
-        return PrintedNumber(row, quantity, printed, exact, on_grid, MISPRINT, misprint)
-    if same_digits(printed, exact, ROUND_HALF_UP):
-        return PrintedNumber(row, quantity, printed, exact, on_grid, REPRODUCED, "")
-    if on_grid is not None and same_digits(printed, on_grid, ROUND_HALF_UP, ROUND_DOWN):
+        verdict, reason = MISPRINT, misprint
+    elif same_digits(printed, exact, ROUND_HALF_UP):
+        verdict, reason = REPRODUCED, ""
+    elif on_grid is not None and same_digits(printed, on_grid, ROUND_HALF_UP, ROUND_DOWN):
+        verdict = ON_GRID
         reason = f"printed is the greatest value at the grid's points; {peak} is off by {100 * off:.2g} %"
-        return PrintedNumber(row, quantity, printed, exact, on_grid, ON_GRID, reason)
-    return PrintedNumber(row, quantity, printed, exact, on_grid, f"reproduced to {_percent(off)}", "")
+    else:
+        verdict, reason = f"reproduced to {100 * off:.{1 if off < 1e-3 else 2}g} %", ""
+    return PrintedNumber(row, quantity, printed, exact, on_grid, verdict, reason)
 
 
 def rows(file: Path, columns: tuple[str, ...] | None = None) -> list[Mapping[str, str]]:
@@ -83,10 +85,8 @@ def rows(file: Path, columns: tuple[str, ...] | None = None) -> list[Mapping[str
     InputError
         If the file cannot be read or has other columns.
     """
-    try:
+    with located(f"cannot read the printed data {file}"):
         text = reading.text(file)
-    except InputError as error:
-        raise InputError(f"cannot read the printed data {file}: {error}") from None
     reader = csv.DictReader(line for line in text.splitlines() if line and not line.startswith("#"))
     columns = tuple(reader.fieldnames or ()) if columns is None else columns
     if tuple(reader.fieldnames or ()) != columns:
@@ -127,7 +127,3 @@ def same_digits(printed: str, exact: float, *roundings: str) -> bool:
     # what a table prints as 1.53 may come out as 1.5299999999
     tried = Decimal(repr(round(exact, 9)))
     return Decimal(printed) in {tried.quantize(unit, rounding) for rounding in roundings or (ROUND_HALF_UP,)}
-
-
-def _percent(off: float) -> str:
-    return f"{100 * off:.1g} %" if off < 1e-3 else f"{100 * off:.2g} %"

@@ -180,8 +180,8 @@ class StudyPoints:
     Examples
     --------
     >>> from optlaws.studies.specification import read_study
-    >>> points = StudyPoints.of(read_study({"problem": {}, "vary": {"B": [1.5, 1.6, 1.7], "order": [3, 4]}}))
-    >>> len(points), points.inputs(4), [points.index(position) for position in range(6)]
+    >>> points = StudyPoints.of(read_study({"problem": {}, "vary": {"B": [1.5, 1.6, 1.7], "order": [3, 4]}}), 6)
+    >>> len(points), points.inputs(4), list(points.of_chunk(0))
     (6, {'order': 4, 'B': 1.6}, [0, 1, 2, 5, 4, 3])
     """
 
@@ -275,10 +275,6 @@ class StudyPoints:
         for digits, length in zip(np.unravel_index(indices, self.shape), self.shape, strict=True):
             positions = positions * length + np.where(positions % 2, length - 1 - digits, digits)
         return positions // self.chunk
-
-    def index(self, position: int) -> int:
-        """The index of the point that is solved at this position."""
-        return int(np.ravel_multi_index(tuple(self._snake(np.array([position]))), self.shape)[0])
 
     def inputs(self, index: int) -> dict[str, Any]:
         """What varies, at one point."""

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import msgspec
 
-from optlaws.errors import InputError
+from optlaws.errors import located
 from optlaws.files.problem_file import Text
 from optlaws.synthesis import Problem, Range, Solution, Status
 from optlaws.synthesis.problem.fields import ENTRIES, Kind
@@ -80,13 +80,11 @@ def problem(where: str, *parts: Mapping[str, Any]) -> Problem:
     Problem(B=None, order=4, basis=Chebyshev(degree=9), minimise='D')
     """
     entries = {name: value for part in parts for name, value in part.items()}
-    try:
-        entries = {name: value for name, value in entries.items() if value != "free"}
-        if "bounds" in entries:
-            entries["bounds"] = {name: value for name, value in entries["bounds"].items() if value != "free"}
+    entries = {name: value for name, value in entries.items() if value != "free"}
+    if "bounds" in entries:
+        entries["bounds"] = {name: value for name, value in entries["bounds"].items() if value != "free"}
+    with located(where):
         return Problem.from_dict(entries)
-    except InputError as error:
-        raise InputError(f"{where}: {error}") from None
 
 
 def shown(name: str, value: Any) -> str | float | int:  # noqa: ANN401 - an entry

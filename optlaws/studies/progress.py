@@ -27,11 +27,20 @@ class Watch(Protocol):
         """The run ends, finished or not."""
 
 
-class Silent(Watch):
+class Silent:
     """Progress that is not shown."""
 
+    def begin(self, total: int, counts: Mapping[str, int]) -> None:
+        """Show nothing."""
 
-class Bar(Watch):
+    def advance(self, counts: Mapping[str, int]) -> None:
+        """Show nothing."""
+
+    def end(self, counts: Mapping[str, int]) -> None:
+        """Show nothing."""
+
+
+class Bar:
     """A progress bar with rate, time left and counts by status."""
 
     def __init__(self, console: Console) -> None:
@@ -62,7 +71,7 @@ class Bar(Watch):
         self._progress.stop()
 
 
-class Lines(Watch):
+class Lines:
     """A line of text at the beginning, every ten seconds and at the end."""
 
     def __init__(self, console: Console) -> None:

@@ -86,7 +86,7 @@ def run_study(
                 _solve(study, points, chunks, WorkerPool(executor, workers), seen)
             finally:
                 seen.end(chunks.counts)
-            directory.write_table(points)
+            directory.write_table(points, chunks)
         directory.remove_chunks()
     return Study(directory.path)
 

@@ -19,7 +19,7 @@ from optlaws.suggest import unknown_key
 from optlaws.synthesis.problem.fields import CONSTANTS, ENTRIES
 
 #: what varies of the bounds of a constant: what `Problem` takes, the greatest value or the least
-BOUNDS, AT_MOST, AT_LEAST = PREFIXES = ("bounds.", "at_most.", "at_least.")
+BOUNDS, AT_MOST, _ = PREFIXES = ("bounds.", "at_most.", "at_least.")
 FREE = "free"
 _PLACE = re.compile(r"\{(?:1-)?(\w+)\}")
 

@@ -17,7 +17,7 @@ from typing import IO, Annotated, Any
 import msgspec
 import numpy as np
 
-from optlaws.errors import InputError
+from optlaws.errors import InputError, located
 from optlaws.files import reading, writing
 from optlaws.files.problem_file import typed
 from optlaws.studies.points import StudyPoints
@@ -84,8 +84,9 @@ class Chunks:
 
     def lines(self, number: int) -> list[bytes]:
         """The rows of a chunk as JSON; ValueError where they are not as they were written."""
-        checksum, _, text = (self.folder / str(number)).read_bytes().partition(b"\n")
-        if checksum.decode(errors="replace") != hashlib.sha256(text).hexdigest():
+        with (self.folder / str(number)).open("rb") as stream:
+            checksum, text = stream.readline(), stream.read()
+        if checksum != _checksum(text):
             raise ValueError(f"chunk {number} is damaged")
         return text.split(b"\n")
 
@@ -109,7 +110,7 @@ class Chunks:
         try:
             self.folder.mkdir(exist_ok=True)
             with copy.open("wb") as stream:
-                stream.write(hashlib.sha256(text).hexdigest().encode() + b"\n" + text)
+                stream.write(_checksum(text) + text)
             _flush(copy)
             copy.replace(self.folder / str(number))
             _flush(self.folder)
@@ -163,10 +164,8 @@ class StudyDirectory:
         if not there:
             raise InputError(f"{self.path} holds no study; optlaws study FILE --out {self.path} makes one")
         text = reading.text(self.about)
-        try:
+        with located(f"{self.about} is damaged"):
             about = reading.json_text(text, str(self.about))
-        except InputError as error:
-            raise InputError(f"{self.about} is damaged: {error}") from None
         if isinstance(about, dict) and about.get("format") != FORMAT:
             raise InputError(f"{self.about}: the format is {about.get('format')!r}, this version reads {FORMAT}")
         try:
@@ -225,14 +224,14 @@ class StudyDirectory:
                 return not _lock(stream)
         return False
 
-    def write_table(self, points: StudyPoints) -> None:
+    def write_table(self, points: StudyPoints, chunks: Chunks) -> None:
         """Write the table of a finished study, whole or not at all; without pyarrow its chunks stay the store."""
         try:
             import pyarrow.parquet as pq
         except ImportError:
             return
         shape = schema(points, about={"optlaws": self.about.read_bytes()})
-        copy, chunks = self.table.with_suffix(".unfinished"), Chunks(self.chunks)
+        copy = self.table.with_suffix(".unfinished")
         try:
             with pq.ParquetWriter(copy, shape, compression="zstd", write_page_checksum=True) as writer:
                 rows = chunks.in_order(points)
@@ -299,6 +298,11 @@ class StudyDirectory:
     def _begun(self, file: Path) -> bool:
         # a run may have been killed while it wrote the first of its files
         return file.name == self.lock.name or file.name.startswith(f".{self.about.name}")
+
+
+def _checksum(text: bytes) -> bytes:
+    """The first line of a chunk's file."""
+    return hashlib.sha256(text).hexdigest().encode() + b"\n"
 
 
 def _flush(file: Path) -> None:

@@ -1,6 +1,6 @@
 # made by tests/contracts/faces.py from the table in __init__.py
 from optlaws.synthesis.arrays.problems import ProblemArray as ProblemArray
-from optlaws.synthesis.arrays.problems import each as each
+from optlaws.synthesis.arrays.problems import map_arrays as map_arrays
 from optlaws.synthesis.limits.closed_forms import acceleration_limit as acceleration_limit
 from optlaws.synthesis.limits.closed_forms import limit as limit
 from optlaws.synthesis.limits.laws import limit_law as limit_law

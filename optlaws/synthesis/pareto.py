@@ -28,8 +28,8 @@ from optlaws.synthesis.problem.fields import CONSTANTS
 from optlaws.synthesis.problem.named_constants import apart, is_named, named, title_of
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
-from optlaws.synthesis.proof.data import as_json, problem_of, stated
 from optlaws.synthesis.program.writer import extreme_velocity
+from optlaws.synthesis.proof.data import as_json, problem_of, stated
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.solve import Bound, check_bound, synthesize
 from optlaws.synthesis.solve_many import SolvedLine

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from time import perf_counter
 
@@ -24,7 +25,7 @@ from optlaws.synthesis.method import starts
 from optlaws.synthesis.method.exchange import Outcome, solve
 from optlaws.synthesis.method.lower_bounds import active_lower_bounds, active_lower_bounds_at
 from optlaws.synthesis.method.without_interior import fallbacks_without_interior, on_equations
-from optlaws.synthesis.problem.constants import PeakConstant
+from optlaws.synthesis.problem.constants import Functional, PeakConstant
 from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.evaluation import Worth, shortfalls, worth
@@ -46,12 +47,12 @@ _MOVES = 4
 
 
 @dataclass(eq=False)
-class Attempt:
-    """One start: how it ended, and the law recomputed over the whole interval; None where that breaks a constraint."""
+class Candidate:
+    """A law that keeps every constraint, recomputed over the whole interval, and the program's optimum that it is."""
 
-    outcome: Outcome
-    law: MotionLaw | None = None
-    objective: float = np.inf
+    optimum: ActiveSet
+    law: MotionLaw
+    objective: float
 
 
 @dataclass(eq=False)
@@ -61,7 +62,8 @@ class LawSearch:
     model: Model
     tight: bool = False  #: whether to search for a tight bound where the problem is not convex
     warm: ActiveSet | None = None  #: the optimum of a neighbouring problem
-    attempts: list[Attempt] = field(default_factory=list)  #: where the starts led
+    outcomes: list[Outcome] = field(default_factory=list)  #: how each start ended
+    candidates: list[Candidate] = field(default_factory=list)  #: the laws that starts led to, the best first
     power: Certificate | None = None  #: the proof of a tight bound with D
     peaks: Certificate | None = None  #: the proof of a tight bound over the places of a peak bounded from below
     began: float = field(default_factory=perf_counter)
@@ -71,72 +73,70 @@ class LawSearch:
         """What is solved."""
         return self.model.problem
 
-    @property
-    def sound(self) -> list[Attempt]:
-        """The attempts that led to a law, the best first."""
-        laws = (attempt for attempt in self.attempts if attempt.law is not None)
-        return sorted(laws, key=lambda attempt: attempt.objective)
-
     def answer(self) -> Solution | None:
         """The best law that the starts lead to, with its proof; None where they lead to none."""
         self._try_starts()
-        if not self.sound:
+        if not self.candidates:
             return None
-        plain = self._tightened(self.sound[0])
-        best = self._held_up(plain)
-        if best is not plain:
+        plain = best = self._tightened(self.candidates[0])
+        short = shortfalls(self.problem, plain.law)
+        if short:
+            best = self._held_up(plain, short)
             # where the mirror image is as good, places have been tried on either side
-            moved = best if self.problem.mirrored else self._moved(plain, best)
-            best = self._placed(plain, moved) if self.tight else moved
-        return self.certified(plain, best)
+            moved = best if self.problem.mirrored else self._moved(plain, best, *next(iter(short.items())))
+            best = self._placed(plain, moved, short) if self.tight else moved
+        return self.certified(plain.optimum, best, held_up=bool(short))
 
     def least(self) -> float | None:
         """The best objective that the starts lead to, of which nothing is proven; None where they lead to no law."""
         self._try_starts()
-        return self.sound[0].objective if self.sound else None
+        return self.candidates[0].objective if self.candidates else None
 
     def error(self) -> InfeasibleProblem | SolverFailure:
         """Why there is no law."""
-        return failure(self.problem, self.attempts[0].outcome)
+        return failure(self.problem, self.outcomes[0])
 
     def _try_starts(self) -> None:
         """The default start or a neighbour's optimum; where several optima may be, others until two agree."""
-        self.attempts.append(attempt(self.model, self.warm, None))
+        first = self._try(self.warm, None)
         if self.problem.convex or self.warm is not None:
             return
         for point in starts.points(self.model):
-            self.attempts.append(attempt(self.model, None, point))
-            if _agree(self.attempts[0], self.attempts[-1]):
+            last = self._try(None, point)
+            if first is None or last is None:
+                continue
+            if abs(first.objective - last.objective) <= AGREEMENT * abs(first.objective):
                 return
 
-    def _tightened(self, best: Attempt) -> Attempt:
+    def _try(self, warm: ActiveSet | None, point: Array | None) -> Candidate | None:
+        outcome, candidate = attempt(self.model, warm, point)
+        self.outcomes.append(outcome)
+        if candidate is not None:
+            self.candidates = sorted([*self.candidates, candidate], key=lambda law: law.objective)
+        return candidate
+
+    def _tightened(self, best: Candidate) -> Candidate:
         """The best law that the search for a tight bound comes upon; notes its proof."""
         if not self.tight or self.problem.convex:
             return best
         better, scales = [best], self.model.variable_scales
 
         def explore(x: Array) -> bool:
-            tried = attempt(self.model, None, x / scales)
-            if tried.law is not None and tried.objective < better[-1].objective * (1.0 - OPTIMALITY_GAP):
+            _, tried = attempt(self.model, None, x / scales)
+            if tried is not None and tried.objective < better[-1].objective * (1.0 - OPTIMALITY_GAP):
                 better.append(tried)
                 return True
             return False
 
         while True:
             best = better[-1]
-            optimum = best.outcome.optimum
-            if optimum is not None:
-                self.power = tightened(self.problem, best.objective, optimum.x * scales, explore)
+            self.power = tightened(self.problem, best.objective, best.optimum.x * scales, explore)
             if best is better[-1]:
                 return best
 
-    def _held_up(self, plain: Attempt) -> Attempt:
-        """The attempt itself, or, where a constant is below its lower bound, the best one in which it is held up."""
-        optimum = plain.outcome.optimum
-        short = {} if plain.law is None else shortfalls(self.problem, plain.law)
-        if not short or plain.law is None:
-            return plain
-        best = None if optimum is None else self._best_of(plain, active_lower_bounds(self.model, optimum))
+    def _held_up(self, plain: Candidate, short: Mapping[Functional, float]) -> Candidate:
+        """The best law in which constants that are below their lower bounds are held up."""
+        best = self._best_of(active_lower_bounds(self.model, plain.optimum))
         if best is not None:
             return best
         constant, low = next(iter(short.items()))
@@ -147,74 +147,65 @@ class LawSearch:
             tried="every extremum was held up, step by step, and the peak was asked at one place after the other",
         )
 
-    def _moved(self, plain: Attempt, best: Attempt) -> Attempt:
+    def _moved(self, plain: Candidate, best: Candidate, constant: Functional, low: float) -> Candidate:
         """The best law to which steps of the place of a peak lead that is held up, as long as they pay."""
-        optimum = plain.outcome.optimum
-        if plain.law is None or optimum is None:
-            return best
-        constant, low = next(iter(shortfalls(self.problem, plain.law).items()))
         alone = all(leaf == constant for _, leaf in leaves(self.problem.objective))
         if alone or not isinstance(constant, PeakConstant):
             return best
         step, side = FIRST_MOVE, 1.0
         for _ in range(_MOVES):
-            k = (0.5 if best.law is None else best.law.peak(constant.nu).k) + side * step
-            states = active_lower_bounds_at(self.model, optimum, constant, low, k) if 0.0 < k < 1.0 else []
-            moved = self._best_of(plain, states)
+            k = best.law.peak(constant.nu).k + side * step
+            states = active_lower_bounds_at(self.model, plain.optimum, constant, low, k) if 0.0 < k < 1.0 else []
+            moved = self._best_of(states)
             if moved is not None and moved.objective < best.objective * (1.0 - OPTIMALITY_GAP):
                 best, step = moved, 2.0 * step
             else:
                 side, step = -side, step if side > 0.0 else 0.25 * step
         return best
 
-    def _placed(self, plain: Attempt, best: Attempt) -> Attempt:
-        """The best law from a search over the places of a peak that is bounded from below; keeps its proof."""
-        short = {} if plain.law is None else shortfalls(self.problem, plain.law)
+    def _placed(self, plain: Candidate, best: Candidate, short: Mapping[Functional, float]) -> Candidate:
+        """The best law from a search over the places of a peak that is bounded from below; notes its proof."""
         for constant, low in short.items():
             peak, nothing = peak_of(self.problem, constant.name), NO_OBJECTIVE * self.problem.objective.scale
-            while peak is not None and plain.outcome.optimum is not None and best.objective > nothing:
+            while peak is not None and best.objective > nothing:
                 ended = places.search(self.problem, peak, best.objective * (1.0 - _LEFT * OPTIMALITY_GAP))
                 self.peaks = ended.certificate
                 if self.peaks is not None:
                     return best
                 if ended.better_at is None:
                     break
-                states = active_lower_bounds_at(self.model, plain.outcome.optimum, constant, low, ended.better_at)
-                better = self._best_of(plain, states)
+                better = self._best_of(
+                    active_lower_bounds_at(self.model, plain.optimum, constant, low, ended.better_at)
+                )
                 if better is None or better.objective >= best.objective * (1.0 - OPTIMALITY_GAP):
                     break
                 best = better
         return best
 
-    def _best_of(self, plain: Attempt, states: list[ActiveSet]) -> Attempt | None:
-        """The best of the candidates that keep every constraint and every lower bound; None where none does."""
-        candidates = (feasible_attempt(self.model, replace(plain.outcome, optimum=state)) for state in states)
-        feasible = (candidate for candidate in candidates if candidate is not None)
-        return min(feasible, key=lambda candidate: candidate.objective, default=None)
+    def _best_of(self, states: list[ActiveSet]) -> Candidate | None:
+        """The best of the laws that keep every constraint and every lower bound; None where none does."""
+        laws = (feasible(self.model, state) for state in states)
+        return min((law for law in laws if law is not None), key=lambda law: law.objective, default=None)
 
-    def certified(self, plain: Attempt, best: Attempt) -> Solution:
-        """The best attempt without lower bounds of constants, which bounds the objective, and the one with them."""
-        problem, optimum, bounding = self.problem, best.outcome.optimum, plain.outcome.optimum
-        if best.law is None or optimum is None or bounding is None:
-            raise SolverFailure("no start led to a law", problem=problem)
-        limit = known_limit(problem)
+    def certified(self, bounding: ActiveSet, best: Candidate, *, held_up: bool) -> Solution:
+        """The best law with its proof by an optimum without lower bounds of constants, which bounds the objective."""
+        problem, limit = self.problem, known_limit(self.problem)
         proof = certify(self.model, bounding, best.objective, limit)
         searched = [tight.bound for tight in (self.power, self.peaks) if tight is not None]
         bound = max([lower_bound(proof, limit), *searched])
-        held_up = best is not plain and plain.law is not None and bool(shortfalls(problem, plain.law))
-        several = not problem.convex and best in self.sound[:1]
+        several = not problem.convex and best in self.candidates[:1]
         return Solution(
             problem=problem,
             law=best.law,
-            z_series=tuple(self.model.space.z_series(self.model.coordinates(optimum.x)).tolist()),
+            z_series=tuple(self.model.space.z_series(self.model.coordinates(best.optimum.x)).tolist()),
             objective=best.objective,
             certificate=proof,
             lower_bound=bound,
             limit=limit,
             status=status_of(best.objective, bound, problem.objective.scale, proven=problem.convex and not held_up),
-            iterations=sum(attempt.outcome.iterations for attempt in self.attempts),
+            iterations=sum(outcome.iterations for outcome in self.outcomes),
             seconds=perf_counter() - self.began,
-            starts=tuple(attempt.objective for attempt in self.sound) if several else (),
+            starts=tuple(candidate.objective for candidate in self.candidates) if several else (),
             power_certificate=self.power,
             peak_certificate=self.peaks,
             active_set=bounding,
@@ -232,8 +223,8 @@ def best_available(search: LawSearch) -> Solution | None:
     if problem.mirrored and solution.status is Status.INACCURATE:
         unfolded = from_symmetric(search)
         # a law that breaks a bound by the little that is allowed may seem nearer its bound
-        kept = worth(problem, solution.law).excess <= UNDIVIDED_ROUNDING
-        return solution if unfolded is None or (kept and unfolded.gap >= solution.gap) else unfolded
+        exact = worth(problem, solution.law).excess <= UNDIVIDED_ROUNDING
+        return solution if unfolded is None or (exact and unfolded.gap >= solution.gap) else unfolded
     return solution
 
 
@@ -251,23 +242,22 @@ def from_symmetric(search: LawSearch) -> Solution | None:
         return None
     optimum = mirroring.unfolded(model, half, symmetric.active_set)
     at_best = np.append(mirroring.coordinates(model, symmetric.law), optimum.x[model.space.terms :])
-    outcome = Outcome(optimum, symmetric.iterations, 0, "from the symmetric law")
-    best = feasible_attempt(model, replace(outcome, optimum=optimum.at(at_best)))
+    best = feasible(model, optimum.at(at_best))
     if best is None:
         return None
-    plain = _measured(_Laws(model), outcome)
-    return LawSearch(model, attempts=[plain], began=search.began).certified(plain, best)
+    plain = _Laws(model).candidate(optimum)
+    held_up = plain is not None and bool(shortfalls(search.problem, plain.law))
+    outcome = Outcome(optimum, symmetric.iterations, 0, "from the symmetric law")
+    return LawSearch(model, outcomes=[outcome], began=search.began).certified(optimum, best, held_up=held_up)
 
 
 def solved_without_interior(search: LawSearch) -> Solution | None:
     """The best of the laws that keep bounds which leave hardly any room, and what is proven of them."""
     best: Solution | None = None
     for optimum, coordinates in fallbacks_without_interior(search.model):
-        x = np.append(coordinates, optimum.x[len(coordinates) :])
-        moved = feasible_attempt(search.model, Outcome(optimum.at(x), 0, 0, "with bounds loosened"))
-        if moved is not None:
-            plain = replace(moved, outcome=replace(moved.outcome, optimum=optimum))
-            solution = LawSearch(search.model, began=search.began).certified(plain, moved)
+        law = feasible(search.model, optimum.at(np.append(coordinates, optimum.x[len(coordinates) :])))
+        if law is not None:
+            solution = LawSearch(search.model, began=search.began).certified(optimum, law, held_up=False)
             if best is None or _beyond_proof(best) or (not _beyond_proof(solution) and solution.gap < best.gap):
                 best = solution
     return best
@@ -287,44 +277,35 @@ class _Laws:
             self._last = (x, law, worth(self._model.problem, law))
         return self._last[1:]
 
+    def candidate(self, optimum: ActiveSet) -> Candidate | None:
+        """The law of an optimum; None where it breaks a constraint."""
+        law, value = self.at(optimum.x)
+        return Candidate(optimum, law, value.objective) if value.sound else None
 
-def attempt(model: Model, warm: ActiveSet | None, point: Array | None) -> Attempt:
+
+def attempt(model: Model, warm: ActiveSet | None, point: Array | None) -> tuple[Outcome, Candidate | None]:
     """Where a neighbour's optimum or a start leads."""
     claim, laws = model.program.objective * model.unit, _Laws(model)
 
     def holds(x: Array) -> bool:
         law, value = laws.at(x)
-        kept = value.excess <= UNDIVIDED_ROUNDING and value.objective <= float(claim @ x) * (1.0 + UNDIVIDED_ROUNDING)
+        exact = value.excess <= UNDIVIDED_ROUNDING and value.objective <= float(claim @ x) * (1.0 + UNDIVIDED_ROUNDING)
         # a constant that is minimised is a variable, which may have to be above the law's own
-        return kept and not shortfalls(model.problem, law)
+        return exact and not shortfalls(model.problem, law)
 
     outcome = solve(model.program, warm, start=point, holds=holds)
     optimum = outcome.optimum
-    if optimum is not None:
-        outcome = replace(outcome, optimum=optimum.at(on_equations(model.program, optimum.x)))
-    return _measured(laws, outcome)
+    if optimum is None:
+        return outcome, None
+    return outcome, laws.candidate(optimum.at(on_equations(model.program, optimum.x)))
 
 
-def _measured(laws: _Laws, outcome: Outcome) -> Attempt:
-    """What a program ended with as an attempt: its law, if it has one that keeps every constraint."""
-    if outcome.optimum is None:
-        return Attempt(outcome)
-    law, value = laws.at(outcome.optimum.x)
-    return Attempt(outcome, law if value.sound else None, value.objective)
-
-
-def feasible_attempt(model: Model, outcome: Outcome) -> Attempt | None:
-    """The attempt; None where the law breaks a constraint or a lower bound."""
-    measured = _measured(_Laws(model), outcome)
-    return None if measured.law is None or shortfalls(model.problem, measured.law) else measured
+def feasible(model: Model, optimum: ActiveSet) -> Candidate | None:
+    """The law of an optimum; None where it breaks a constraint or a lower bound."""
+    law = _Laws(model).candidate(optimum)
+    return None if law is None or shortfalls(model.problem, law.law) else law
 
 
 def _beyond_proof(solution: Solution) -> bool:
     """Whether the law is better than any law is, so that it breaks a bound by more than rounding."""
     return solution.objective < solution.lower_bound - BEYOND_PROOF * abs(solution.lower_bound)
-
-
-def _agree(first: Attempt, last: Attempt) -> bool:
-    """Whether two starts led to the same objective."""
-    same = abs(first.objective - last.objective) <= AGREEMENT * abs(first.objective)
-    return first.law is not None and last.law is not None and same

@@ -261,7 +261,7 @@ class SolutionArray(JsonText):
         """The solution at a place of the flattened array, or the error that `synthesize` raises for its problem."""
         if place in self.others:
             return self.others[place]
-        part, row = self._places[:, place].tolist()
+        part, row = map(int, self._places[:, place])
         return self.parts[part].solution(row, self.problems.problem(place), self.seconds / max(self.size, 1))
 
     @kept_property
@@ -403,7 +403,10 @@ class SolutionArray(JsonText):
                 }
                 for part in self.parts
             ],
-            "alone": {str(place): plain_state(solution.z_series, solution.active_set) for place, solution in self._alone.items()},
+            "alone": {
+                str(place): plain_state(solution.z_series, solution.active_set)
+                for place, solution in self._alone.items()
+            },
         }
 
     @classmethod

@@ -30,8 +30,7 @@ from optlaws.laws.law import Jumps as Jumps
 from optlaws.laws.making.input_shaping import Shaper as Shaper
 from optlaws.laws.making.multiplier import Multiplier as Multiplier
 from optlaws.laws.segments.segment import Segment as Segment
-from optlaws.mechanisms.follower.off_design import Change as Change
-from optlaws.mechanisms.machine.dynamics import Complex as Complex
+from optlaws.mechanisms.follower.follower import Change as Change
 from optlaws.mechanisms.machine.output_constants import OutputPeak as OutputPeak
 from optlaws.mechanisms.machine.output_constants import OutputRms as OutputRms
 from optlaws.mechanisms.machine.over_time import MachineCycle as MachineCycle
@@ -39,12 +38,13 @@ from optlaws.mechanisms.machine.over_time import MachineResponse as MachineRespo
 from optlaws.mechanisms.machine.residual_boxes import ModeResidual as ModeResidual
 from optlaws.mechanisms.machine.state_space import Rows as Rows
 from optlaws.mechanisms.machine.state_space import StateSpace as StateSpace
-from optlaws.mechanisms.spectrum.robust import Residual as Residual
+from optlaws.mechanisms.spectrum.residual import Residual as Residual
 from optlaws.motion.motion import Motion as Motion
 from optlaws.motion.piece import Piece as Piece
 from optlaws.motion.polynomials import Derivatives as Derivatives
 from optlaws.motion.polynomials import Extreme as Extreme
 from optlaws.numbers import Array as Array
+from optlaws.numbers import Complex as Complex
 from optlaws.numbers import NumberOrQuantity as NumberOrQuantity
 from optlaws.numbers import Quantity as Quantity
 from optlaws.numerics.enclosures.branch_and_bound import Extremes as Extremes
@@ -65,10 +65,10 @@ from optlaws.synthesis.problem.expression import Term as Term
 from optlaws.synthesis.proof.nodes import Node as Node
 from optlaws.synthesis.proven.front import LazySequence as LazySequence
 from optlaws.synthesis.proven.swept_parameter import SweptParameter as SweptParameter
+from optlaws.synthesis.solution_array import SolvedPart as SolvedPart
 from optlaws.synthesis.solve import Bound as Bound
 from optlaws.synthesis.solve_many import Errors as Errors
 from optlaws.synthesis.solve_many import Result as Result
-from optlaws.synthesis.solved_parts import SolvedPart as SolvedPart
 from optlaws.synthesis.spaces.bases import PolynomialBasis as PolynomialBasis
 from optlaws.synthesis.spaces.space import LawSpace as LawSpace
 from optlaws.synthesis.spaces.splines import PiecewiseBasis as PiecewiseBasis

@@ -82,7 +82,13 @@ def _alone(data: Mapping[str, Any]) -> Verification:
         return proven_front(built(ProvenFront.from_dict, data, "the proven front"), number(data, "gap"))
     if "certificate" in data:
         return _solution(data)
-    return _law_alone(data) if "law" in data else _certificate_alone(data)
+    if "law" in data:
+        law = _law(data)
+        claims = tuple(stated_constants(data, law))
+        return Verification(problem=None, bound=None, constants=law.enclosures(), claims=claims)
+    certificate = built(Certificate.from_dict, data, "the certificate")
+    proof = prove(certificate)
+    return _verification(certificate.problem, certificate, proof, list(_proof_claims(proof, certificate, data)))
 
 
 def _arrays(data: Mapping[str, Any]) -> Verification:
@@ -99,18 +105,6 @@ def _arrays(data: Mapping[str, Any]) -> Verification:
 
 def _law(data: Mapping[str, Any]) -> ExactLaw:
     return built(lambda entry: ExactLaw(MotionLaw.from_dict(entry)), data["law"], "law")
-
-
-def _law_alone(data: Mapping[str, Any]) -> Verification:
-    law = _law(data)
-    constants = law.enclosures()
-    return Verification(problem=None, bound=None, constants=constants, claims=tuple(stated_constants(data, law)))
-
-
-def _certificate_alone(data: Mapping[str, Any]) -> Verification:
-    certificate = built(Certificate.from_dict, data, "the certificate")
-    proof = prove(certificate)
-    return _verification(certificate.problem, certificate, proof, list(_proof_claims(proof, certificate, data)))
 
 
 def _solution(data: Mapping[str, Any]) -> Verification:

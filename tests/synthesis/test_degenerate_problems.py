@@ -4,9 +4,12 @@ import numpy as np
 import pytest
 
 from optlaws import (
+    FUNCTIONALS,
+    Bernstein,
     BoundaryConditions,
     BSplines,
     Chebyshev,
+    Machine,
     Pieces,
     Powers,
     Problem,
@@ -14,14 +17,27 @@ from optlaws import (
     Window,
     at_least,
     at_most,
+    maximum,
+    peak,
+    residual_vibration,
+    rms,
     synthesize,
+    value,
     via,
 )
+from optlaws.synthesis.method.exchange import solve
+from optlaws.synthesis.program.writer import model_of
 from optlaws.verification import verify
+from tests.synthesis.judge import Judged, broken
 
 PIECES = Pieces(breaks=(0.0, 0.065, 0.2015, 0.4675, 0.5, 0.5325, 0.7985, 0.935, 1.0), degree=5, continuity=3)
 HALVES = Pieces(breaks=(0.0, 0.5, 1.0), degree=4, continuity=3)
+DAMPED = Machine.from_modes([(49.84, 0.1)], duration=1.0, outputs=["deflection"])
+SHAKEN = Machine.from_modes([(48.1, 0.1)], duration=1.0, outputs=["acceleration"])
+LIGHT = Machine.from_modes([(20.83, 0.01)], duration=1.0, outputs=["position"])
 UNEVEN = BSplines(breaks=(0.0, 0.282, 0.307, 0.463, 1.0), degree=3, continuity=2)
+SHORT = Pieces(breaks=(0.0, 0.038, 0.131, 0.169, 0.481, 0.5, 0.519, 0.831, 0.869, 0.962, 1.0), degree=8, continuity=3)
+FAST = Machine.from_modes([(37.2, 0.01)], duration=1.0, stroke=1.0, outputs=["deflection"])
 
 CASES = {
     # a root mean square that is 0 has no direction of its own
@@ -44,6 +60,40 @@ CASES = {
         ),
         None,
     ),
+    "root that vanishes": (
+        Problem(
+            order=1,
+            basis=Chebyshev(9),
+            minimise="rms(norm(2e6*c, 1e6*b))",
+            symmetric=False,
+            boundary=BoundaryConditions(start=(0.0,), end=(0.0,)),
+        ),
+        0.0,
+    ),
+    "integral over short pieces": (
+        Problem(
+            order=6,
+            basis=SHORT,
+            minimise="max(1.16e-06*integral(30200*b^2 + 16000*c^2), 0.0708*C_plus_cam(nu=8.79, damping=0.2))",
+        ),
+        None,
+    ),
+    "integral bounded, beside a flat jounce": (
+        Problem(
+            order=5,
+            basis=Pieces(
+                breaks=(0.0, 0.024, 0.184, 0.208, 0.488, 0.5, 0.512, 0.792, 0.816, 0.976, 1.0), degree=7, continuity=3
+            ),
+            minimise="jounce",
+            symmetric=False,
+            bounds={"integral(0.0046*b^2 + 0.00504*c^2)": at_most(0.213875)},
+        ),
+        None,
+    ),
+    "small amplitude of a fast mode": (
+        Problem(order=5, basis=Chebyshev(1), minimise="jounce", bounds={FAST.residual(): at_most(1e-8)}),
+        None,
+    ),
     "breaks on one side": (
         Problem(
             B=2.183117744230822,
@@ -53,6 +103,48 @@ CASES = {
             monotone=True,
             symmetric=False,
             bounds={"peak(b*c)": at_most(11.8)},
+        ),
+        None,
+    ),
+    # an amplitude that vanishes beside a peak that does not
+    "cone at its apex": (
+        Problem(
+            B=at_most(2.655),
+            order=4,
+            basis=Powers(8),
+            minimise=65.0 * DAMPED.residual() + peak("0.05*c - 0.027*b", side="high"),
+            bounds={value("c^2 + 1.3*b", at=0.3): at_most(73.4)},
+        ),
+        None,
+    ),
+    "cone at its apex, on pieces": (
+        Problem(
+            B=at_most(3.28),
+            order=5,
+            basis=Pieces(10, 5, 4),
+            minimise=1e5 * LIGHT.residual()
+            + maximum(0.22 * residual_vibration(nu=21.95, damping=0.1), rms("norm(c, b)") / 4.0),
+            symmetric=False,
+            inflexion=0.5,
+        ),
+        None,
+    ),
+    # nothing bounds the value from below, or all laws that have less of it
+    "value beside a peak": (
+        Problem(order=4, basis=BSplines(4, 5, 3), minimise="0.012*value(c^2 + 1.5*b, at=0.3) + 0.093*C"),
+        None,
+    ),
+    "value beside an integral": (
+        Problem(order=4, basis=Chebyshev(9), minimise="value(c^2 + 1.5*b, at=0.3) + 0.02*integral(c^2)"),
+        None,
+    ),
+    "value beside a peak of one side": (
+        Problem(
+            order=2,
+            basis=Bernstein(10),
+            minimise="0.003*value(c^2 + 3.3*b, at=0.3) + 0.001*peak(c^2 + 1.4*c, side=high)",
+            monotone=True,
+            bounds={"peak(c^2 + 3*b^2)": at_most(282.0)},
         ),
         None,
     ),
@@ -111,3 +203,22 @@ def test_the_middle_of_a_flat_optimum_is_taken_where_vertices_stick_out() -> Non
     solution = synthesize(problem)
     assert solution.status.value == "optimal"
     assert solution.objective == pytest.approx(4.5329, rel=1e-2)
+
+
+def test_an_amplitude_that_is_next_to_nothing_is_resolved() -> None:
+    problem = Problem(
+        B=2.2059,
+        order=4,
+        basis=Chebyshev(12),
+        minimise=1.208e-4 * SHAKEN.residual(spread=0.05) + 9.79e-8 * FUNCTIONALS["C_minus"],
+        monotone=True,
+        symmetric=False,
+        bounds={"peak(b*c + 4.85*c)": at_most(52.8)},
+    )
+    model = model_of(problem)
+    optimum = solve(model.program).optimum
+    assert optimum is not None
+    law = model.law(optimum.x)
+    assert broken(problem, law) == []
+    claimed = model.unit * model.program.objective_at(optimum.x)
+    assert Judged(law).worth(problem.objective) == pytest.approx(claimed, rel=1e-6)

@@ -84,7 +84,7 @@ def test_wrong_options_are_refused_at_once() -> None:
     with pytest.raises(InputError, match="did you mean 'return'"):
         synthesize_many([], errors="returns")  # type: ignore[call-overload] # the wrong one is the point
     with pytest.raises(InputError, match="bound"):
-        synthesize_many([], bound="tigt")
+        synthesize_many([], bound="tigt")  # type: ignore[call-overload] # the wrong one is the point
     assert list(synthesize_many([])) == []
 
 

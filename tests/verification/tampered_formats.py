@@ -90,6 +90,21 @@ def changes(value: object) -> list[Any]:
     return [{}, [], None, 7, "law", DROPPED]
 
 
+def changes_by_kind(data: Data, each: int = 6) -> Iterator[tuple[Path, Any]]:
+    """Places with what may stand there: of each kind of value every change at the first, then every so many, in turn.
+
+    Values whose places differ by indices alone are of one kind.
+    """
+    seen: Counter[tuple[str, ...]] = Counter()
+    for path in places(data):
+        kind = tuple("*" if isinstance(key, int) else key for key in path)
+        every = changes(value_at(data, path))
+        yield from (
+            (path, value) for value in (every[seen[kind] % min(each, len(every)) :: each] if seen[kind] else every)
+        )
+        seen[kind] += 1
+
+
 def tampered(data: Data, path: Path, value: object) -> Data:
     """A copy with another value at a place, or without it."""
     copied = changed(data, path, None if value is DROPPED else value)

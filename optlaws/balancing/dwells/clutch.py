@@ -7,7 +7,6 @@ from fractions import Fraction
 from math import inf, isfinite, tau
 
 from optlaws.balancing.dwells.mechanism import DwellMechanism
-from optlaws.balancing.dwells.sections import peak_velocity
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.numbers import MOST_TEETH, whole
@@ -165,7 +164,7 @@ class Clutch:
         turn = mechanism.swing * mechanism.speed / tau
         if mechanism.kind == "II":
             return target / turn
-        slack = 1.0 - 1.0 / peak_velocity(mechanism.law_2)
+        slack = 1.0 - 1.0 / mechanism.law_2.constants.B.value
         still = mechanism.free(self._dwell) - mechanism.phi2
         if slack == 0.0:
             return None

@@ -14,8 +14,6 @@ from optlaws.balancing.dwells.sections import (
     excursion,
     law_of,
     loader_of,
-    peak_power,
-    peak_velocity,
     top,
 )
 from optlaws.balancing.loaders.loader import Loader
@@ -127,14 +125,14 @@ class DwellMechanism(JsonText):
         """Way in the upper dwell (I, eq. 7) or of run-out and run-up together (II, eq. 14), in S; 0 for type III."""
         if self.kind == "I":
             return self.speed * self.dwell
-        return self.speed * self.phi1 / peak_velocity(self.law_1)
+        return self.speed * self.phi1 / self.law_1.constants.B.value
 
     @property
     def S2(self) -> float:
         """Way of the reverse motion (II, eq. 9) or of run-out and run-up together (III, eq. 26), in S; 0 for type I."""
         if self.kind == "I":
             return 0.0
-        return self.S1 + 2.0 * self.S_sp if self.kind == "II" else self.speed * self.phi2 / peak_velocity(self.law_2)
+        return self.S1 + 2.0 * self.S_sp if self.kind == "II" else self.speed * self.phi2 / self.law_2.constants.B.value
 
     @kept_property
     def a(self) -> float:
@@ -148,8 +146,8 @@ class DwellMechanism(JsonText):
         for section in self.sections:
             if section.law is not None and section.name in {"run-out", "reverse", "run-up"}:
                 whole = section.angle / (section.end - section.start)
-                greatest = max(greatest, peak_power(section.law) * section.scale**2 / whole**3)
-        return self.inertia_ratio * greatest * self.rise**3 / peak_power(self.law)
+                greatest = max(greatest, section.law.constants.D.value * section.scale**2 / whole**3)
+        return self.inertia_ratio * greatest * self.rise**3 / self.law.constants.D.value
 
     @kept_property
     def sections(self) -> tuple[Section, ...]:
@@ -224,7 +222,7 @@ class DwellMechanism(JsonText):
         phi2 = self.second(dwell)
         if self.kind == "II":
             phi = self.free(dwell) - phi2
-            law, stroke = self.law_1, self.speed * phi / peak_velocity(self.law_1)
+            law, stroke = self.law_1, self.speed * phi / self.law_1.constants.B.value
             middle = [Section.run("reverse", phi2, self.law_2, -way * (stroke + 2.0 * self.S_sp))]
         else:
             phi, law, stroke = phi2, self.law_2, self.S2

@@ -21,23 +21,8 @@ from optlaws.laws.segments.segment import PolynomialSegment, Segment
 from optlaws.numbers import Array
 from optlaws.numerics.tolerances import AGREEMENT, CLOSURE
 
-
-@lru_cache(maxsize=64)
-def loader_of(law: MotionLaw) -> Loader:
-    """The loader of a law, kept."""
-    return Loader(law)
-
-
-@lru_cache(maxsize=64)
-def peak_velocity(law: MotionLaw) -> float:
-    """B of a law, kept."""
-    return law.peak(1).value
-
-
-@lru_cache(maxsize=64)
-def peak_power(law: MotionLaw) -> float:
-    """D of a law, kept."""
-    return law.power_peak().value
+#: the loader of a law, kept
+loader_of = lru_cache(maxsize=64)(Loader)
 
 
 @lru_cache(maxsize=64)
@@ -55,12 +40,6 @@ def top(law: MotionLaw) -> float:
     return 0.5 * (middle.first + middle.last)
 
 
-@lru_cache(maxsize=64)
-def _ends(law: MotionLaw) -> tuple[float, float, float, float]:
-    (a0, b0), (a1, b1) = law.boundary_values(2)
-    return a0, b0, a1, b1
-
-
 def law_of(given: Any) -> Any:  # noqa: ANN401 - whatever the caller gave, a law or not
     """The law of an entry of the catalogue or of a solution; everything else as it is."""
     law = getattr(given, "law", None)
@@ -71,8 +50,8 @@ def check_law(name: str, law: Any) -> None:  # noqa: ANN401 - whatever the calle
     """Refuse what is no law from rest to rest over a stroke of 1."""
     if not isinstance(law, MotionLaw):
         raise InputError(f"{name} must be a MotionLaw, or what has one in `law`, got {shortened(law)}")
-    a0, b0, a1, b1 = _ends(law)
-    if max(abs(b0), abs(b1)) > AGREEMENT * peak_velocity(law) or abs(a1 - a0 - 1.0) > AGREEMENT:
+    (a0, b0), (a1, b1) = law.boundary_values(2)
+    if max(abs(b0), abs(b1)) > AGREEMENT * law.constants.B.value or abs(a1 - a0 - 1.0) > AGREEMENT:
         raise InputError(
             f"{name} must run from rest to rest over a stroke of 1; it begins with a = {a0:g}, b = {b0:g}, ends with "
             f"a = {a1:g}, b = {b1:g}"
@@ -84,14 +63,7 @@ def check_law(name: str, law: Any) -> None:  # noqa: ANN401 - whatever the calle
 class PartSegment(Segment, kind="part"):
     """A law from one k to another, without a break of its own in between, as a segment of any length.
 
-    Parameters
-    ----------
-    law
-        The law, or its plain data.
-    start, end
-        The two k.
-    scale
-        Stroke of the whole law in the composed motion; negative for a motion back.
+    The scale is the stroke of the whole law in the composed motion, negative for a motion back.
 
     Examples
     --------

@@ -22,18 +22,9 @@ _TRIED = 65
 
 
 def upper_extreme(potential: Function, swing: float, reach: tuple[float, float], guess: float) -> float:
-    """The extreme chi01 from which the link swings to chi01 - swing: both have the same potential energy.
+    """The extreme chi01, nearest to a guess, from which the link swings to chi01 - swing at the same potential energy.
 
-    Parameters
-    ----------
-    potential
-        Potential energy as a function of chi.
-    swing
-        Radians.
-    reach
-        The deviations chi between which the linkage can move, radians.
-    guess
-        Which one, where there are several: that nearest to the guess.
+    The linkage can move between the deviations `reach`; angles in radians.
     """
     from scipy.optimize import brentq
 
@@ -60,14 +51,8 @@ def swung(
     """The motion between the extremes chi01 and chi01 - swing.
 
     The time on the way is integrated over the phase of a cosine, which gives the amplitudes; a few steps of Newton's
-    method on the equation of motion itself, at as many points as there are amplitudes, take them to rounding.
-
-    Parameters
-    ----------
-    potential, moment
-        Potential energy, and the moment M_R with its derivative, as functions of chi.
-    chi01, swing
-        Radians.
+    method on the equation of motion itself, at as many points as there are amplitudes, take them to rounding. `moment`
+    gives M_R with its derivative.
     """
     for points in POINTS:
         amplitudes, frequency = _integrated(potential, chi01, swing, points)

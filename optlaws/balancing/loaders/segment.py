@@ -21,20 +21,9 @@ from optlaws.numerics.tolerances import LEAST_ROOT, PANEL_ROUNDING, SHORTEST_PAN
 
 @dataclass(frozen=True)
 class LoaderStretch:
-    """g(t) = sqrt(B² - b²) for 0 <= t <= length, at k = origin + t or, going back, at k = origin - t.
+    """g(t) = sqrt(B² - b²) for 0 <= t <= length, at k = origin + t or, where the end is before it, at k = origin - t.
 
-    Parameters
-    ----------
-    executive
-        The executive law.
-    B
-        Its peak velocity, unsigned.
-    origin
-        Where t = 0.
-    end
-        Where t is greatest, on either side of the origin.
-    top
-        Whether |b| = B at the origin.
+    B is the executive law's peak velocity, unsigned; `top` says whether |b| = B at the origin.
     """
 
     executive: MotionLaw
@@ -183,16 +172,8 @@ def _panels_of_root(f: panels.Function, low: float, high: float, scale: float) -
 class LoaderSegment(Segment, kind="loader"):
     """b = scale sqrt(B² - b_ex²) between two places of an executive law, smooth inside.
 
-    Parameters
-    ----------
-    executive
-        The executive law, or its plain data.
-    start, end
-        The places.
-    scale
-        Y, negative where the loader moves back.
-    top
-        "start" or "end" where the executive velocity has its peak there, else "".
+    The scale is Y, negative where the loader moves back; `top` is "start" or "end" where the executive velocity has its
+    peak there, else "".
 
     Examples
     --------

@@ -9,7 +9,6 @@ from math import tau
 from typing import Any, Self, TypedDict, Unpack
 
 from optlaws.balancing.dwells.mechanism import DwellMechanism, DwellType, dwell_mechanism
-from optlaws.balancing.dwells.sections import peak_power
 from optlaws.cams.curves.motion_by_angle import CamMotion, CamStretch
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.oscillating_roller import OscillatingRoller
@@ -69,34 +68,22 @@ class DwellMachine(JsonText):
     @property
     def balanced_torque(self) -> float:
         """The greatest torque that the loader takes from the shaft, N m: D I gS²/(ph_v T_v²) (eq. 22)."""
-        mechanism = self.mechanism
-        return (
-            peak_power(mechanism.law)
-            * self.inertia
-            * mechanism.swing**2
-            / (mechanism.rise * (mechanism.rise / self.rate) ** 2)
-        )
+        return self._power(self.mechanism.law, 1.0, self.mechanism.rise, self.inertia)
 
     @property
     def driven_torque(self) -> float:
         """The greatest inertia torque at the executive rocker, N m: C I gS/T_v²."""
-        mechanism = self.mechanism
-        return mechanism.law.peak(2).value * self.inertia * mechanism.swing / (mechanism.rise / self.rate) ** 2
+        return self._torque(self.mechanism.law, 1.0, self.mechanism.rise, self.inertia)
 
     @property
     def residual_torque(self) -> float:
         """The greatest torque of the loader's rocker alone in the dwells, at the shaft, N m (eq. 19); 0 for type I."""
-        return max((self._power(section) for section in self._sections), default=0.0)
+        return max((self._power(*section, self.loader_inertia) for section in self._sections), default=0.0)
 
     @property
     def loader_driven_torque(self) -> float:
         """The greatest inertia torque at the loader's rocker itself, N m (eq. 20)."""
-        torque = 0.0
-        for law, scale, whole in self._sections:
-            torque = max(
-                torque, law.peak(2).value * self._swing(scale) * self.loader_inertia / (whole / self.rate) ** 2
-            )
-        return torque
+        return max((self._torque(*section, self.loader_inertia) for section in self._sections), default=0.0)
 
     @property
     def reduction(self) -> float:
@@ -183,13 +170,15 @@ class DwellMachine(JsonText):
             if section.law is not None and section.name in _DWELL
         ]
 
-    def _swing(self, scale: float) -> float:
-        return scale * self.mechanism.swing
+    def _torque(self, law: MotionLaw, stroke: float, angle: float, inertia: float) -> float:
+        """The greatest inertia torque at a rocker that runs a law over a stroke in S within an angle."""
+        return law.peak(2).value * inertia * (stroke * self.mechanism.swing) / (angle / self.rate) ** 2
 
-    def _power(self, section: tuple[MotionLaw, float, float]) -> float:
-        law, scale, whole = section
-        time = whole / self.rate
-        return peak_power(law) * self.loader_inertia * self._swing(scale) ** 2 / (whole * time**2)
+    def _power(self, law: MotionLaw, stroke: float, angle: float, inertia: float) -> float:
+        """The greatest torque that this rocker takes from the shaft."""
+        return (
+            law.constants.D.value * inertia * (stroke * self.mechanism.swing) ** 2 / (angle * (angle / self.rate) ** 2)
+        )
 
     def _turn(self) -> DwellMechanism:
         if self.mechanism.remarks:

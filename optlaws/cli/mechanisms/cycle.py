@@ -1,7 +1,8 @@
-"""The command `optlaws cycle`: whole cycles of a machine in physical units, from a problem file."""
+"""The commands `optlaws cycle` and `optlaws cam`: whole cycles of a machine, and cams of them, from problem files."""
 
 from __future__ import annotations
 
+from importlib import import_module
 from pathlib import Path
 
 from optlaws.cli.options import AsJson
@@ -21,15 +22,32 @@ def cycle(file: Path, /, *, out: Path | None = None, as_json: AsJson = False) ->
     as_json
         Print one JSON object on stdout and write nothing.
     """
-    from optlaws.files.packaged import problem_of_job
-    from optlaws.jobs.cycle import answer
-    from optlaws.jobs.cycle_entries import read
+    _do("cycle", file, out, as_json=as_json)
 
-    source, results, data = problem_of_job(file, "cycle")
+
+def cam(file: Path, /, *, out: Path | None = None, as_json: AsJson = False) -> None:
+    """Cams of cycles: curves, enclosed pressure angles and curvatures, proof of no undercut, least sizes.
+
+    Parameters
+    ----------
+    file
+        A problem file whose job is "cam", or the name of one that comes with optlaws, such as cam_press.
+    out
+        Folder for the tables; otherwise where `optlaws run` puts them.
+    as_json
+        Print one JSON object on stdout and write nothing.
+    """
+    _do("cam", file, out, as_json=as_json)
+
+
+def _do(job: str, file: Path, out: Path | None, *, as_json: bool) -> None:
+    """The job of a problem file, or its data for programs."""
+    from optlaws.files.packaged import problem_of_job
+
+    source, folder, entries = problem_of_job(file, job)
     if not as_json:
-        run(source, out=out or results)
+        run(source, out=out or folder)
         return
     with busy(f"{file}"):
-        _, cycles = read(data, source)
-        data_of_cycles = answer(cycles)
-    print_json(data_of_cycles)
+        data = import_module(f"optlaws.jobs.{job}").answer(entries, source)
+    print_json(data)

@@ -55,9 +55,10 @@ def ledger(
     broken = [
         f"{judgement.paper} {judgement.item.id}: declared {judgement.item.verdict!s}, found {judgement.verdict!s}"
         for judgement in judged
+        if not judgement.holds
     ]
-    if not all(judgement.holds for judgement in judged):
-        raise NotProven("\n".join(text for judgement, text in zip(judged, broken, strict=True) if not judgement.holds))
+    if broken:
+        raise NotProven("\n".join(broken))
 
 
 def _show(judged: Sequence[Any]) -> None:

@@ -6,4 +6,11 @@ from optlaws.laws.segments.segment import Segment as Segment
 from optlaws.laws.segments.sine import HarmonicSegment as HarmonicSegment
 from optlaws.laws.segments.sine import SineSegment as SineSegment
 
-__all__ = ["FractionalSegment", "HarmonicSegment", "PolynomialSegment", "PowerSegment", "Segment", "SineSegment"]
+__all__ = [
+    "FractionalSegment",
+    "HarmonicSegment",
+    "PolynomialSegment",
+    "PowerSegment",
+    "Segment",
+    "SineSegment",
+]

@@ -19,6 +19,7 @@ from optlaws.numbers import Array, Complex, frequency, not_negative, numbers, po
 from optlaws.numerics.chebyshev import from_values, nodes
 from optlaws.numerics.peaks import Peak
 from optlaws.synthesis.families.cone import ConeFamily, stationary_places
+from optlaws.synthesis.functionals.curved_rows import columns_of
 from optlaws.synthesis.problem.constants import MAKERS, Functional
 from optlaws.synthesis.spaces.space import LawSpace
 
@@ -313,10 +314,10 @@ def velocity_transforms(space: LawSpace, w: Complex, highest: float) -> Complex:
     Roots have real parts of at most 0 and magnitudes of at most `highest`.
     """
     k, weights = _gauss_rule(space, highest)
-    family = space.derivative(1, "b", np.zeros(space.terms))
-    # b of a symmetric law is even about 1/2, and its rows may be those of the first half
-    places = np.abs(1.0 - 2.0 * k) if space.symmetric else 1.0 - 2.0 * k
-    return np.asarray(np.exp(w[:, None] * (1.0 - k)) @ (weights[:, None] * family.columns(places)[0]))
+    # by parts: beside b what a fast vibration leaves would be lost in rounding
+    moved = np.exp(w[:, None] * (1.0 - k)) @ (weights[:, None] * columns_of(space, 2, k))
+    begun, ended = columns_of(space, 1, np.array([0.0, 1.0]))
+    return np.asarray((moved + np.exp(w)[:, None] * begun - ended) / w[:, None])
 
 
 def _gauss_rule(space: LawSpace, highest: float) -> tuple[Array, Array]:

@@ -13,9 +13,9 @@ from optlaws.synthesis.arrays.newton_steps import States, Structure, weighted
 from optlaws.synthesis.arrays.programs import Numbers, Path
 from optlaws.synthesis.families.family import LinearFamily
 from optlaws.synthesis.program.writer import Model
+from optlaws.synthesis.proof.duality import product_with_rest
 from optlaws.synthesis.proof.sublevel_bounds import greatest_values, least_values, moments
 
-_SPLIT = 2.0**27 + 1.0
 #: roundings in a row before it is weighted, as certificates count them, and what sums are off by beyond
 _IN_A_ROW = 9
 #: claims are taken from a geometric row, upward: what is known of laws below them is known of all before
@@ -160,22 +160,9 @@ def sums_of_rows(start: Array, weights: Array, rows: Array) -> Array:
     total = np.broadcast_to(start, (len(weights), rows.shape[-1])).copy()
     rest = np.zeros_like(total)
     for i, weight in enumerate(weights.T):
-        product, beside = _product(weight[:, None], rows[..., i, :])
+        product, beside = product_with_rest(weight[:, None], rows[..., i, :])
         further = total + product
         moved = further - total
         rest += beside + ((total - (further - moved)) + (product - moved))
         total = further
     return np.asarray(total + rest)
-
-
-def _product(first: Array, second: Array) -> tuple[Array, Array]:
-    """A product, and what rounding took from it (Dekker 1971)."""
-    product = first * second
-    (a, b), (c, d) = _halves(first), _halves(second)
-    return product, b * d - (((product - a * c) - b * c) - a * d)
-
-
-def _halves(values: Array) -> tuple[Array, Array]:
-    scaled = _SPLIT * values
-    high = scaled - (scaled - values)
-    return high, values - high

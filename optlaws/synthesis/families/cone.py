@@ -56,7 +56,7 @@ class ConeFamily(SeriesFamily, NonlinearFamily):
     @last_result
     def _jets(self, u: Array, point: Array) -> tuple[Complex, Complex]:
         """The columns with two derivatives by the place, and what they are in each law."""
-        columns = self.columns(u.reshape(-1)).reshape(3, *u.shape, -1)
+        columns: Complex = self.columns(u.reshape(-1)).reshape(3, *u.shape, -1)
         return columns, (columns @ point[:, :, None])[..., 0]
 
     def planes(self, u: Array, point: Array) -> tuple[Array, Array, Array]:

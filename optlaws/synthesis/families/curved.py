@@ -11,7 +11,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.formulas.affine import degree
+from optlaws.formulas.affine import degree, quadratic
 from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.slopes import derivative, scaled
@@ -23,8 +23,10 @@ from optlaws.numerics.chebyshev import FEWEST, MOST, from_values, nodes
 from optlaws.numerics.tolerances import FORMULA_RESOLVED, LEAST_ENERGY, ROUNDOFF
 from optlaws.synthesis.families.family import LinearFamily, NonlinearFamily, RowJet, WholeLawFamily, last_result
 from optlaws.synthesis.families.peaks import peaks
+from optlaws.synthesis.families.squares import SumOfSquares, sum_of_squares
 
 _PLACES_PER_DEGREE = 2
+_SQUARE = 2
 #: roundings of a formula's slope in a row
 _IN_A_ROW = 16
 
@@ -84,6 +86,15 @@ class FormulaFamily(NonlinearFamily):
     """What families of formulas that are not affine have in common: a formula of derivatives of the law and of k."""
 
     formula: Formula
+
+    @property
+    def quadratic(self) -> bool:
+        """Whether f is a convex quadratic function of the variables at each place, or the norm of an affine map."""
+        return False
+
+    def squares(self, u: float) -> SumOfSquares:
+        """What f is at a place, where it is `quadratic`."""
+        raise TypeError(f"{self.formula} is not quadratic at {u:g}")
 
     def scaled_down(self, by: float) -> Self:
         """The same rows, divided by a power of 2: so is the formula."""
@@ -148,6 +159,25 @@ class CurvedFamily(FormulaFamily):
         row = sign * (gradient @ self.columns(np.array([u]))[:, 0, 0])
         row[-1] += sign * float(self.slopes.value(at)[0] - gradient @ values[:, 0])
         return np.asarray(row)
+
+    @kept_property
+    def quadratic(self) -> bool:
+        """Whether the formula is a convex polynomial of degree 2 in its parts, or a norm that is straight in them."""
+        if self.signs != (1.0,) or not self.proving:
+            return False
+        square = self._squares
+        terms = quadratic(self.formula if square is None else square, self.names)
+        return terms is not None and (square is None or all(len(key) == _SQUARE for key in terms))
+
+    @kept_property
+    def _by_parts(self) -> Slopes:
+        return Slopes(self.formula if self._squares is None else self._squares, self.names)
+
+    def squares(self, u: float) -> SumOfSquares:
+        """The formula at a place as a sum of squares."""
+        place, root = np.array([u]), self._squares is not None
+        at = self._at(np.zeros((len(self.parts), 1)), place)
+        return sum_of_squares(self._by_parts, at, self.columns(place)[:, 0], np.ones(1), root=root)
 
     @property
     def continuable(self) -> bool:
@@ -312,6 +342,17 @@ class IntegralFamily(WholeLawFamily, FormulaFamily):
         """Whether it is convex."""
         return self.convex
 
+    @kept_property
+    def quadratic(self) -> bool:
+        """Whether the formula is a polynomial of degree 2 in its names; under a root of nothing but squares."""
+        terms = quadratic(self.formula, self.names) if self.convex else None
+        return terms is not None and not (self.root and any(len(key) != _SQUARE for key in terms))
+
+    def squares(self, u: float) -> SumOfSquares:  # noqa: ARG002 - it has no place
+        """The integral as a sum of squares."""
+        at = self._at(np.zeros((len(self.names), len(self.places))))
+        return sum_of_squares(self.slopes, at, self.columns, self.weights, root=self.root)
+
     def _at(self, values: Array) -> dict[str, Array]:
         return {**dict(zip(self.names, values, strict=True)), "k": np.broadcast_to(self.places, values.shape[1:])}
 
@@ -328,9 +369,9 @@ class IntegralFamily(WholeLawFamily, FormulaFamily):
         # in a law so far away that the formula overflows there is no tangent
         with np.errstate(over="ignore", invalid="ignore"):
             gradient = self.slopes.gradient(at) * self.weights
-            value, share = self.outer(np.array(float(self.weights @ self.slopes.value(at))))
+            height, share = self.touched(np.array(float(self.weights @ self.slopes.value(at))))
             row = np.asarray(share * np.einsum("ip,ipn->n", gradient, self.columns))
-            row[-1] += value - share * float((gradient * values).sum())
+            row[-1] += float(height) - share * float((gradient * values).sum())
         return row if np.isfinite(row).all() else None
 
     def outer(self, total: Array) -> tuple[Array, Array]:
@@ -340,20 +381,28 @@ class IntegralFamily(WholeLawFamily, FormulaFamily):
         size = np.sqrt(np.maximum(total, LEAST_ENERGY**2))
         return size, 0.5 / size
 
+    def touched(self, total: Array) -> tuple[Array, Array]:
+        """What a tangent is where the sum over the nodes is this, and its slope by the sum; f is nowhere below it.
+
+        Near 0, where the slope of a root is kept finite, the rest of the tangent is one of slope 0.
+        """
+        share = self.outer(total)[1]
+        return (2.0 * share * np.maximum(total, 0.0) if self.root else total), share
+
     def _at_nodes(self, point: Array) -> dict[str, Array]:
         return self._at((self.columns @ point.T).swapaxes(1, 2))
 
     def _planes(self, names: dict[str, Array]) -> tuple[Array, Array, Array]:
-        """What f is in each law, its slope by the sum over the nodes, and the sum's rows with 1 last."""
+        """What a tangent is in each law, its slope by the sum over the nodes, and the sum's rows with 1 last."""
         weighted = self.slopes.gradient(names) * self.weights
-        value, share = self.outer(self.slopes.value(names) @ self.weights)
-        return value, share, np.asarray((weighted @ self.columns).sum(axis=0))
+        height, share = self.touched(self.slopes.value(names) @ self.weights)
+        return height, share, np.asarray((weighted @ self.columns).sum(axis=0))
 
     def planes(self, u: Array, point: Array) -> tuple[Array, Array, Array]:
         """The plane that touches f in each law."""
-        value, share, rows = self._planes(self._at_nodes(point))
+        height, share, rows = self._planes(self._at_nodes(point))
         plane = share[:, None] * rows
-        plane[:, -1] += value - (plane * point).sum(axis=1)
+        plane[:, -1] += height - (plane * point).sum(axis=1)
         planes = plane[:, None, :].repeat(u.shape[1], axis=1)
         return planes, np.zeros(planes.shape), np.zeros(u.shape)
 
@@ -362,10 +411,10 @@ class IntegralFamily(WholeLawFamily, FormulaFamily):
         names = self._at_nodes(point)
         moved = between(self.slopes.hessian(names) * self.weights, self.columns[:, None, :, :-1])
         if self.root:
-            value, share, rows = self._planes(names)
+            _, share, rows = self._planes(names)
             own = rows[:, :-1]
             across = own[:, :, None] * own[:, None, :]
-            moved = share[:, None, None] * moved - across / (4.0 * value**3)[:, None, None]
+            moved = share[:, None, None] * moved - across * (2.0 * share**3)[:, None, None]
         return np.asarray(moved * weights.sum(axis=1)[:, None, None])
 
     def rounding_errors(self, weights: Array, u: Array, point: Array) -> Array:  # noqa: ARG002 - it has no place

@@ -71,6 +71,11 @@ class KinkedIntegralFamily(IntegralFamily):
         return replace(super().in_units(units, unit), units=self.units * np.append(units, 1.0))
 
     @property
+    def quadratic(self) -> bool:
+        """False: between kinks alone may it be."""
+        return False
+
+    @property
     def continuable(self) -> bool:
         """False: kinks move with each law."""
         return False
@@ -132,9 +137,9 @@ class KinkedIntegralFamily(IntegralFamily):
         if not self.convex or len(point) != len(self.slack):
             return None
         own = self.split(np.array(point))
-        value, share = self.outer(np.array(own.total))
+        height, share = self.touched(np.array(own.total))
         row: Array = share * own.slope
-        row[-1] += value - row @ np.append(point, 1.0)
+        row[-1] += height - row @ np.append(point, 1.0)
         return row
 
     def jet(self, x: Array, u: Array, s: Array) -> RowJet:

@@ -29,6 +29,7 @@ from optlaws.numerics.tolerances import (
     TINY,
 )
 from optlaws.synthesis.families.curved import IntegralFamily
+from optlaws.synthesis.families.squares import SumOfSquares
 from optlaws.synthesis.functionals.affine_rows import columns, gauss
 from optlaws.synthesis.functionals.curved_rows import columns_of, integral_rows, rule_cells
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
@@ -41,6 +42,8 @@ _ROUNDED = 1.0 + 1e-6
 _ORDER = 2
 _MOST_GAIN = 1e6
 _ROOM = 1.01
+#: the least sum of squares, in its unit, by whose root another is bounded
+_LEAST = 1e-3
 #: beyond this a bound says nothing
 _LARGEST = 1e13
 _CELLS = 6
@@ -148,6 +151,34 @@ def by_norm(space: LawSpace, rows: Array) -> tuple[SizeBound, ...]:
     factor = _ROOM / least
     offset = _ROOM * float(np.linalg.norm(bent @ point)) + factor * float(np.linalg.norm(rows @ point))
     return (SizeBound(2, factor, offset),)
+
+
+def by_squares(space: LawSpace, square: SumOfSquares) -> SizeBound | None:
+    """What the RMS of c is at most in laws of a space, by a sum of squares of what is affine in them.
+
+    Those in which it is at most t are an ellipsoid about the law in which it is least, whose size grows with the root
+    of t: that is at most its tangent where t is twice the least. None where the sum does not determine the law.
+    """
+    if square.root:
+        return next(iter(by_norm(space, square.rows)), None)
+    rule = space.quadrature(_ORDER)
+    bent = np.sqrt(rule.weights)[:, None] * rule.values
+    fixed, free = feasible_directions(space)
+    rows, height = square.rows[:, :-1] @ free, square.rows @ np.append(fixed, 1.0)
+    if not free.size or len(rows) < free.shape[1]:
+        return None
+    directions, way = np.linalg.qr(rows)
+    sizes = np.linalg.svd(way, compute_uv=False)
+    if sizes[-1] * _MOST_GAIN <= sizes[0]:
+        return None
+    back = np.linalg.inv(way)
+    fixed = fixed - free @ (back @ (directions.T @ height + back.T @ (square.affine[:-1] @ free) / 2.0))
+    lowest = np.append(fixed, 1.0)
+    least = float(((square.rows @ lowest) ** 2).sum() + square.affine @ lowest)
+    gain, root = float(np.linalg.norm(bent[:, :-1] @ free @ back, 2)), float(np.sqrt(max(abs(least), _LEAST)))
+    factor = _ROOM * gain / (2.0 * root)
+    offset = _ROOM * (float(np.linalg.norm(bent @ lowest)) + gain * root / 2.0)
+    return SizeBound(_ORDER, factor, offset - factor * (least - (_ROUNDED - 1.0) * abs(least)))
 
 
 def feasible_directions(space: LawSpace) -> tuple[Array, Array]:
@@ -278,7 +309,9 @@ def by_tangents(space: LawSpace, motion: MotionFormula, *, root: bool) -> SizeBo
     unit = power_of_two(np.sqrt(motion.scale)) if root else motion.scale
     rows = integral_rows(space, motion, "", nothing, 0.0, root=False, convex=True)
     plain = rows.scaled_down(unit**2 if root else unit)
-    bound = _by_tangents(space, plain, replace(plain, root=True) if root else plain)
+    family = replace(plain, root=True) if root else plain
+    bound = by_squares(space, family.squares(1.0)) if family.quadratic else None
+    bound = bound or _by_tangents(space, plain, family)
     return None if bound is None else bound.times(1.0 / unit)
 
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from optlaws.numbers import Array
 from optlaws.synthesis.families.active_set import ActiveSet
-from optlaws.synthesis.families.family import LinearFamily, Program
+from optlaws.synthesis.families.family import LinearFamily, Points, Program
 from optlaws.synthesis.method.discretised.grids import first_points
 from optlaws.synthesis.method.equations import contradiction, independent
 from optlaws.synthesis.method.guesses import initial_guess, sizes_only, vanishing
@@ -23,6 +23,7 @@ from optlaws.synthesis.method.strategies.quadratics import ByQuadratics, bends_b
 from optlaws.synthesis.method.strategies.strategy import cutting_plane_loop
 from optlaws.synthesis.method.strategies.vertices import ByVertices, many_pieces
 from optlaws.synthesis.method.units import units_of
+from optlaws.synthesis.method.vanishing import at_apex
 
 _ROUNDS = 12
 _DIVERGING = "Diverging_Iterates"
@@ -111,8 +112,23 @@ def _solved(program: Program, start: Array | None, holds: Callable[[Array], bool
         optimum, count = cutting_plane_loop(stepwise, points)
         if optimum is not None:
             return Outcome(optimum, stepwise.iterations, count, "quadratic programs")
-    way = ByInteriorPoints(program, start, holds, rounds)
+    return _by_interior_points(ByInteriorPoints(program, start, holds, rounds), points)
+
+
+def _by_interior_points(way: ByInteriorPoints, points: list[Points]) -> Outcome:
+    """The solution on few points, with amplitudes that vanish as equations, with the objective held up if it falls."""
+    program, start, rounds = way.program, way.start, way.rounds
     optimum, _ = cutting_plane_loop(way, points)
+    if way.vanished:
+
+        def without_cones(others: Program) -> ActiveSet | None:
+            return _in_own_units(others, None, start, None, rounds).optimum
+
+        optimum = at_apex(program, way.vanished, without_cones)
+        if optimum is not None:
+            return Outcome(optimum, way.iterations, way.count, "amplitudes that vanish")
+        way = replace(way, apex=False, vanished=(), count=0)
+        optimum, _ = cutting_plane_loop(way, points)
     if optimum is None and way.status == _DIVERGING:
         held = grounded(program)
         way = ByInteriorPoints(held, start, None, rounds)

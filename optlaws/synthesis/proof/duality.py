@@ -6,7 +6,7 @@ bounded.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import fsum, inf
 
@@ -20,13 +20,14 @@ from optlaws.synthesis.families.energy import EnergyFamily
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily, Program
 from optlaws.synthesis.program.writer import Model
 from optlaws.synthesis.proof.nodes import Contact, Leaf
-from optlaws.synthesis.proof.sublevel_bounds import greatest_values, least_values, moments
+from optlaws.synthesis.proof.sublevel_bounds import greatest_values, least_values, means_by, moments
 
 #: a multiplier, a row and its right side
 Line = tuple[float, Array, float]
 
 _FACING = {"C_plus": "C_minus", "C_minus": "C_plus"}
 _SPLIT = 2.0**27 + 1.0
+_WIDER = 1.001  # than what rounding in sums of reaches could hide
 
 
 def lines_of(program: Program, leaf: Leaf) -> list[Line]:
@@ -129,17 +130,20 @@ def summed(model: Model, lines: list[Line]) -> RowSum:
 
 def _weighted(weights: Array, rows: Array, start: Array) -> Array:
     """Start + weights . rows, rounded once: the great multipliers of laws at the edge of what exists cancel."""
-    products = weights[:, None] * rows
-    high, low = _halves(weights[:, None])
-    upper, lower = _halves(rows)
-    rest = low * lower - (((products - high * upper) - low * upper) - high * lower)
-    columns = np.vstack([start[None, :], products, rest])
+    columns = np.vstack([start[None, :], *product_with_rest(weights[:, None], rows)])
     # fsum refuses what overflows
     return np.array([fsum(column) for column in columns.T.tolist()]) if np.isfinite(columns).all() else start * np.nan
 
 
+def product_with_rest(first: Array, second: Array) -> tuple[Array, Array]:
+    """A product, and what rounding took from it (Dekker 1971)."""
+    product = first * second
+    (a, b), (c, d) = _halves(first), _halves(second)
+    return product, b * d - (((product - a * c) - b * c) - a * d)
+
+
 def _halves(values: Array) -> tuple[Array, Array]:
-    """Each value as a sum of two whose products are exact (Dekker 1971)."""
+    """Each value as a sum of two whose products are exact."""
     scaled = _SPLIT * values
     high = scaled - (scaled - values)
     return high, values - high
@@ -159,8 +163,25 @@ def rounding_error_bound(model: Model, total: RowSum, claim: float) -> float:
             # of the two one-sided peaks one is at least the other's opposite
             facing = greatest.get(_FACING.get(name, ""), inf)
             beyond += slope[place] * max(min(-least.get(name, 0.0), facing), 0.0)
+    if not slope[:terms].any() and not total.blur.any():
+        return beyond
     reaches = (float(_reach(extension, slope[:terms], total.blur) @ most) for most, extension in moments(model, known))
-    return beyond + min(reaches, default=0.0 if not slope[:terms].any() and not total.blur.any() else inf)
+    return beyond + min(reaches, default=_paid_by_variables(model, total, least))
+
+
+def _paid_by_variables(model: Model, total: RowSum, least: Mapping[str, float]) -> float:
+    """The same of the slope by the coordinates, where the sum leaves a variable enough that bounds the law by itself.
+
+    Where laws may be as great as they like, so is the constant, and what the sum leaves of it outweighs the rounding.
+    """
+    terms, beyond = model.space.terms, inf
+    for name, place in model.places.items():
+        if total.slope[place] > 0.0 and least.get(name, -inf) >= 0.0:
+            for most, extension, growth in means_by(model, name):
+                reach = _reach(extension, total.slope[:terms], total.blur)
+                if _WIDER * growth * float(reach.sum()) <= total.slope[place]:
+                    beyond = min(beyond, max(float(reach @ most), 0.0))
+    return beyond
 
 
 def _reach(extension: Array, slope: Array, blur: Array) -> Array:

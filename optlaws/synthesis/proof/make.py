@@ -7,6 +7,7 @@ have the slope that the optimum asks for, exactly.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from math import nextafter
 
@@ -18,6 +19,8 @@ from optlaws.numerics.tolerances import (
     CUTS_ENOUGH,
     DIRECTIONS_BALANCED,
     DIRECTIONS_RANK,
+    EMPTY_ROW,
+    LEFT_SHARES,
     PROOF_ENOUGH,
     PROOF_WEIGHTLESS,
 )
@@ -31,19 +34,21 @@ from optlaws.synthesis.families.names import RowName, VariableName, velocity_at_
 from optlaws.synthesis.method.discretised.grids import first_points, with_extrema
 from optlaws.synthesis.method.discretised.linear import LinearTable, vertex_on_points
 from optlaws.synthesis.method.exchange import solve
+from optlaws.synthesis.method.newton import newton
 from optlaws.synthesis.problem.constants import D
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, relaxed, relaxed_power
 from optlaws.synthesis.proof.certificate import OBJECTIVE, RELAXED, VIOLATION, Certificate, weighted_rows
 from optlaws.synthesis.proof.duality import row_of, summed
 from optlaws.synthesis.proof.nodes import Contact
-from optlaws.synthesis.proof.sublevel_bounds import least_values
+from optlaws.synthesis.proof.sublevel_bounds import least_values, means_by
 from optlaws.synthesis.spaces.bases import PolynomialBasis
 
 _TANGENTS = 4
 _PLACES = 256
 _NEAR = 0.9
 _MORE = 2.0  # times as much as rounding lets go
+_SETTLINGS = 3
 
 
 def certify(model: Model, optimum: ActiveSet, objective: float, limit: float | None) -> Certificate:
@@ -89,11 +94,106 @@ def _of_convex(model: Model, optimum: ActiveSet, objective: float) -> Certificat
     proof = certificate(model, optimum, OBJECTIVE)
     if objective - proof.bound <= PROOF_ENOUGH * max(abs(objective), PROOF_ENOUGH):
         return proof
+    if any(isinstance(family, FormulaFamily | NormFamily | ConeFamily) for family in model.program.families):
+        proof = _settled(model, optimum, proof)
     # constants that are nowhere below 0 bound their sum without a contact
     proof = max(proof, Certificate.of_leaf(model.problem), key=lambda known: known.bound)
+    if proof.bound == -np.inf:
+        proof = max((proof, *_leaving(model, optimum)), key=lambda known: known.bound)
     several = _Tangents(model, optimum).certificate(objective) if _needs_tangents(model) else None
     several = None if several is None else _held(model, several)
     return several if several is not None and several.bound > proof.bound else proof
+
+
+def _settled(model: Model, optimum: ActiveSet, proof: Certificate) -> Certificate:
+    """The certificate with multipliers, directions and places of tangents changed by as little as balances it."""
+    for _ in range(_SETTLINGS):
+        better = _shifted(model, optimum, proof)
+        if better is None or better.bound <= proof.bound:
+            return proof
+        proof = better
+    return proof
+
+
+def _shifted(model: Model, optimum: ActiveSet, proof: Certificate) -> Certificate | None:
+    """One step of that; None where nothing can be changed."""
+    program, contacts = model.program, proof.contacts
+    equations = program.multipliers_of_equations(proof.equations)
+    rows = [row_of(program, contact)[0] for contact in contacts]
+    pulls = [max(contact.multiplier, 0.0) * row[None] for contact, row in zip(contacts, rows, strict=True)]
+    slope = program.objective + np.vstack([*pulls, np.zeros((1, program.size))]).sum(axis=0)
+    slope += program.equalities.T @ equations
+    shifts = [_shifts(model, optimum, contact) for contact in contacts]
+    changes = [contact.multiplier * shift for contact, shift in zip(contacts, shifts, strict=True)]
+    length = np.maximum(np.linalg.norm(program.equalities, axis=1), EMPTY_ROW)
+    matrix = np.vstack([*pulls, program.equalities / length[:, None], *changes])
+    if not len(contacts):
+        return None
+    change = np.linalg.lstsq(matrix.T, -slope, rcond=DIRECTIONS_RANK)[0]
+    count = len(contacts)
+    share, pull, rest = np.split(change, [count, count + len(equations)])
+    parts = np.split(rest, np.cumsum([len(part) for part in changes])[:-1])
+    if (share <= -1.0).any():
+        return None
+    moved = [
+        _touching(model, replace(contact, multiplier=contact.multiplier * (1.0 + grown)), part)
+        for contact, grown, part in zip(contacts, share.tolist(), parts, strict=True)
+    ]
+    stated = program.stated_multipliers(equations + pull / length).tolist()
+    return _held(model, proof.with_leaf(contacts=moved, equations=stated))
+
+
+def _shifts(model: Model, optimum: ActiveSet, contact: Contact) -> Array:
+    """What each parameter of a contact's tangent changes of its row, shape (parameters, variables)."""
+    program = model.program
+    wide = np.zeros((0, program.size))
+    image = _image(model, contact)
+    if image is None:
+        family = _formula_of(model, contact)
+        if family is None:
+            return wide
+        u = np.clip(family.u(np.array([contact.k])), *family.domain)
+        image = family.hessian(optimum.x, u, np.array([contact.sign]))
+        return wide if image is None else np.asarray(image * (family.unit / model.unit))
+    return np.hstack([image, np.zeros((len(image), program.size - image.shape[1]))])
+
+
+def _formula_of(model: Model, contact: Contact) -> FormulaFamily | None:
+    """The family of a formula that a contact is of, if it weighs."""
+    for family in model.program.families:
+        if family.name == contact.constraint and contact.multiplier > 0.0 and isinstance(family, FormulaFamily):
+            return family
+    return None
+
+
+def _touching(model: Model, contact: Contact, change: Array) -> Contact:
+    """The contact with its tangent elsewhere: in another direction, or at another law."""
+    if not len(change):
+        return contact
+    family = _formula_of(model, contact)
+    if family is None:
+        return _with_direction(contact, np.array(contact.direction) + change)
+    u = float(np.clip(family.u(np.array([contact.k])), *family.domain)[0])
+    nothing = np.zeros_like(change)
+    moved = np.subtract(family.touching(change, u), family.touching(nothing, u))
+    return replace(contact, direction=tuple((np.array(contact.direction) + moved).tolist()))
+
+
+def _leaving(model: Model, optimum: ActiveSet) -> Iterator[Certificate]:
+    """Certificates of optima that leave a little of a constant's weight, with which rounding is paid."""
+    program = model.program
+    least = least_values(model.problem, model.space)
+    pulled = np.zeros(program.size)
+    for i, multiplier in zip(optimum.family, optimum.multipliers, strict=True):
+        pulled += multiplier * program.families[i].slack
+    for name, place in model.places.items():
+        if pulled[place] > 0.0 and least.get(name, -np.inf) >= 0.0 and means_by(model, name):
+            for share in LEFT_SHARES:
+                cost = program.objective.copy()
+                cost[place] -= share * pulled[place]
+                state = newton(replace(program, objective=cost), optimum)
+                if state is not None and (state.multipliers >= 0.0).all():
+                    yield certificate(model, state, OBJECTIVE)
 
 
 def _by_the_peak(problem: Problem) -> Certificate | None:
@@ -173,7 +273,36 @@ def _held(model: Model, proof: Certificate) -> Certificate:
             greater = contacts[most].multiplier + _MORE * float(slope[place]) / pull
             contacts[most] = replace(contacts[most], multiplier=nextafter(greater, np.copysign(np.inf, slope[place])))
     bounding = proof.with_leaf(contacts=contacts)
+    if max(bounding.bound, proof.bound) == -np.inf:
+        bounding = _held_exactly(model, proof, [model.places[name] for name in falling])
     return bounding if bounding.bound > proof.bound else proof
+
+
+def _held_exactly(model: Model, proof: Certificate, places: list[int]) -> Certificate:
+    """The certificate with multipliers that hold variables to the last bit, as far as there are such."""
+    rows = [row_of(model.program, contact)[0] for contact in proof.contacts]
+    for place in places:
+        own = [i for i, contact in enumerate(proof.contacts) if contact.multiplier > 0.0 and rows[i][place] < 0.0]
+        if summed(model, weighted_rows(proof)[1]).slope[place] != 0.0:
+            proof = _exactly(model, proof, place, own) or proof
+    return proof
+
+
+def _exactly(model: Model, proof: Certificate, place: int, own: list[int]) -> Certificate | None:
+    """The certificate with one of its own contacts' multipliers such that they hold a variable to the last bit.
+
+    The lightest is tried first, whose last bit is finest; None where none does.
+    """
+    for i in sorted(own, key=lambda i: proof.contacts[i].multiplier):
+        contacts = list(proof.contacts)
+        # the sum itself, which is stated a bit below what it is
+        slope = nextafter(float(summed(model, weighted_rows(proof)[1]).slope[place]), np.inf)
+        pull = -float(row_of(model.program, contacts[i])[0][place])
+        contacts[i] = replace(contacts[i], multiplier=contacts[i].multiplier + slope / pull)
+        held = proof.with_leaf(contacts=contacts)
+        if contacts[i].multiplier > 0.0 and summed(model, weighted_rows(held)[1]).slope[place] == 0.0:
+            return held
+    return None
 
 
 def violation_certificate(model: Model, optimum: ActiveSet) -> Certificate:

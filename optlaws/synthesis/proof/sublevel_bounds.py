@@ -11,7 +11,7 @@ from math import inf, isfinite
 import numpy as np
 
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import SUBLEVEL_RANK
+from optlaws.numerics.tolerances import SUBLEVEL_RANK, VALUE_ROUNDING
 from optlaws.synthesis.families.names import VariableName
 from optlaws.synthesis.problem.constants import Functional, PeakConstant, PowerConstant
 from optlaws.synthesis.problem.expression import Expression, Maximum, Term, leaves
@@ -68,6 +68,22 @@ def moments(model: Model, greatest: Mapping[str, float]) -> list[tuple[Array, Ar
     return [
         (mean + _base_moments(space, nu), _extension(space, nu)) for nu, mean in means(model.problem, space, greatest)
     ]
+
+
+def means_by(model: Model, name: str) -> list[tuple[Array, Array, float]]:
+    """What the means of derivatives are at most by the variable of a constant, whatever its size.
+
+    For each derivative whose mean the constant bounds in proportion: bounds of its moments where the constant is 0,
+    but for the base law, the matrix of `moments`, and by how much the bounds grow with the variable.
+    """
+    scale, space = model.scales.get(name, 1.0), model.space
+    none, some, more = (dict(means(model.problem, space, {name: size})) for size in (0.0, scale, 2.0 * scale))
+    bounds = []
+    for nu in none.keys() & some.keys() & more.keys():
+        growth = some[nu] - none[nu]
+        if abs(more[nu] - some[nu] - growth) <= VALUE_ROUNDING * abs(more[nu]):
+            bounds.append((none[nu] + _base_moments(space, nu), _extension(space, nu), growth))
+    return bounds
 
 
 def _from_one_sign(problem: Problem, space: LawSpace, greatest: Mapping[str, float]) -> tuple[float, float]:

@@ -57,11 +57,7 @@ def mirrored(breaks: Sequence[float]) -> bool:
 
 
 def order_of_continuity(continuity: int, degree: int) -> int:
-    """The order up to which derivatives are continuous at the breaks, checked.
-
-    >>> order_of_continuity(2, 3)
-    2
-    """
+    """The order up to which derivatives are continuous at the breaks, checked."""
     order = whole(continuity, "continuity", least=1, most=MOST_DEGREE)
     if order >= degree:
         raise InputError(f"continuity must be below the degree {degree}, got {order}")
@@ -342,7 +338,8 @@ def basis(name: str, degree: int, **parameters: Any) -> Basis:  # noqa: ANN401 -
     >>> basis("chebyshev", 9)
     Chebyshev(degree=9)
     """
-    if not isinstance(name, str) or name not in Basis.kinds:
+    stated: object = name
+    if not isinstance(stated, str) or stated not in Basis.kinds:
         raise InputError(f"basis {shortened(name)} is unknown; known are {', '.join(sorted(Basis.kinds))}")
     kind: Any = Basis.kinds[name]
     try:

@@ -23,8 +23,6 @@ from optlaws.synthesis.families.family import (
     EvenFamily,
     LinearFamily,
     MirroredFamily,
-    NormFamily,
-    ProductFamily,
     RatioFamily,
     RootFamily,
 )
@@ -215,17 +213,6 @@ class PolynomialSpace(LawSpace):
         series = self.widened(self.series(1)[::2], len(slack))
         return EvenFamily(RowName.VELOCITY, slack, bound, (-1.0,), series=series)
 
-    def power(self, name: str, slack: Array, bound: float = 0.0, weights: tuple[float, ...] = (1.0,)) -> ProductFamily:
-        """Rows |b c| <= slack . x + bound; with weights, of w0 b + w1 c + ... and its derivative."""
-        first, second = (self.combination(nu, weights, name, slack) for nu in (1, 2))
-        return ProductFamily(name, slack, bound, (1.0, -1.0), self.domain, first=first, second=second)
-
-    def norm(self, nu: int, name: str, slack: Array, bound: float = 0.0) -> NormFamily:
-        """The row RMS of a^(nu) <= slack . x + bound."""
-        rule = self.quadrature(nu)
-        matrix = np.sqrt(rule.weights)[:, None] * rule.values
-        return NormFamily(name, slack, bound, matrix=self.widened(matrix, len(slack)))
-
     def quadrature(self, nu: int) -> Quadrature:
         """Gauss points; moments are Legendre polynomials."""
         series = self.series(nu)
@@ -242,8 +229,7 @@ class PolynomialSpace(LawSpace):
         """The degree of the derivative of order nu."""
         return len(self.series(nu)) - 1
 
-    def row(self, nu: int, k: float) -> Array:
-        """The derivative of order nu at k: free functions, then the base law."""
+    def row(self, nu: int, k: float) -> Array:  # noqa: D102
         if k in {0.0, 1.0} and nu < self.order:
             # the end conditions say it, without rounding
             return np.append(np.zeros(self.terms), float((self.boundary.end if k else self.boundary.start)[nu]))
@@ -269,7 +255,7 @@ class PolynomialSpace(LawSpace):
     def forward(self, slack: Array) -> ConstraintFamily:
         """Rows b >= 0, from rest to rest as b / (k(1-k))^(l-1) >= 0 (in units of the base law's)."""
         if not self.at_rest:
-            return self.derivative(1, RowName.FORWARD, slack, signs=(-1.0,))
+            return super().forward(slack)
         scale = np.append(self._ratio_scale, 1.0)
         columns = gegenbauer(self.order - 0.5, int(self.index[-1]), self._u)[np.append(self.index, 0)] * scale[:, None]
         series = -from_values(columns.T)
@@ -297,11 +283,7 @@ class PolynomialSpace(LawSpace):
 
 @lru_cache(maxsize=128)
 def polynomial_space(boundary: BoundaryConditions, degree: int, *, symmetric: bool) -> PolynomialSpace:
-    """The space, kept for the next call.
-
-    >>> polynomial_space(BoundaryConditions.rest(2), 3, symmetric=False).terms
-    4
-    """
+    """The space, kept for the next call."""
     return PolynomialSpace(boundary, degree, symmetric=symmetric)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
@@ -46,13 +47,19 @@ class LawSpace(ABC):
         Number of coordinates.
     symmetric
         Whether the laws are; then constraints need to hold on the first half only.
+    domain
+        The least and the greatest u = 1 - 2k at which constraints need to hold.
     start_velocity, velocity_change, stroke
         b(0), b(1) - b(0) and a(1) - a(0) of the base law.
     """
 
+    #: the rows of a product of two combinations
+    products: ClassVar[type[ProductFamily]] = ProductFamily
+
     boundary: BoundaryConditions
     terms: int
     symmetric: bool
+    domain: tuple[float, float]
     start_velocity: float
     velocity_change: float
     stroke: float
@@ -102,13 +109,16 @@ class LawSpace(ABC):
         """Rows -b <= slack . x + bound."""
         return self.derivative(1, RowName.VELOCITY, slack, bound, (-1.0,))
 
-    @abstractmethod
     def power(self, name: str, slack: Array, bound: float = 0.0, weights: tuple[float, ...] = (1.0,)) -> ProductFamily:
         """Rows |b c| <= slack . x + bound; with weights, of w0 b + w1 c + ... and its derivative."""
+        first, second = (self.combination(nu, weights, name, slack) for nu in (1, 2))
+        return self.products(name, slack, bound, (1.0, -1.0), self.domain, first=first, second=second)
 
-    @abstractmethod
     def norm(self, nu: int, name: str, slack: Array, bound: float = 0.0) -> NormFamily:
         """The row RMS of a^(nu) <= slack . x + bound."""
+        rule = self.quadrature(nu)
+        matrix = np.sqrt(rule.weights)[:, None] * rule.values
+        return NormFamily(name, slack, bound, matrix=self.widened(matrix, len(slack)))
 
     @abstractmethod
     def columns(self, nu: int, u: Array) -> Array:
@@ -139,9 +149,9 @@ class LawSpace(ABC):
     def below(self, slack: Array, peak: float = 0.5) -> ConstraintFamily:
         """Rows b <= b(peak) of laws with c(peak) = 0; symmetric ones have their peak at 1/2."""
 
-    @abstractmethod
     def forward(self, slack: Array) -> ConstraintFamily:
-        """Rows b >= 0."""
+        """Rows b >= 0; those of laws from rest to rest may be divided by what they vanish like at the ends."""
+        return self.derivative(1, RowName.FORWARD, slack, signs=(-1.0,))
 
     @abstractmethod
     def from_rest(
@@ -159,7 +169,7 @@ class LawSpace(ABC):
 
     def widened(self, columns: Array, size: int) -> Array:
         """Columns for `size` variables: those beyond the coordinates are zero, the base law's stays last."""
-        wide = np.zeros((len(columns), size + 1))
-        wide[:, : self.terms] = columns[:, :-1]
-        wide[:, -1] = columns[:, -1]
+        wide = np.zeros((*columns.shape[:-1], size + 1))
+        wide[..., : self.terms] = columns[..., :-1]
+        wide[..., -1] = columns[..., -1]
         return wide

@@ -19,11 +19,7 @@ _PLACES, _EXACT = 128, 4096
 
 
 def rational(value: float | Fraction) -> fmpq:
-    """The exact value of a float or Fraction.
-
-    >>> rational(0.25)
-    1/4
-    """
+    """The exact value of a float or Fraction."""
     exact = Fraction(value)
     return fmpq(exact.numerator, exact.denominator)
 

@@ -9,7 +9,7 @@ coincide) moments of a derivative join in, which the claim itself bounds: they a
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -18,7 +18,7 @@ from math import inf, isfinite
 from flint import arb, arb_mat, ctx
 
 from optlaws.errors import InputError
-from optlaws.numerics.tolerances import BOUND_ENCLOSED, ROUNDED_MULTIPLIER
+from optlaws.numerics.tolerances import BOUND_ENCLOSED, PAYING_SCALE, ROUNDED_MULTIPLIER
 from optlaws.synthesis.limits.rounding import rounded_up
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
@@ -31,6 +31,8 @@ from optlaws.verification.machines.certificate_rows import BallRow, together
 
 Vector = list[arb]
 
+#: more than what rounding of bounds of means makes of how fast they grow
+_WIDER = 1.0 + 2.0**-20
 _TRIES = 3
 #: how readily moments take part, beside the squares of the multipliers
 _READINESS = (2.0**-60, 1.0)
@@ -121,12 +123,18 @@ def _proof(certificate: Certificate, along: Along | None) -> Proof:
 
 @dataclass(frozen=True, eq=False)
 class _Helper:
-    """A moment or a constant that joins in: its row, and bounds of its value in laws that contradict the claim."""
+    """A moment or a constant that joins in: its row, and bounds of its value in laws that contradict the claim.
+
+    Where nothing bounds a constant that bounds the law, both are bounds where it is 0, which widen with it at a rate:
+    then the constant joins in too, and `pays` for that.
+    """
 
     vector: Vector
     low: arb
     high: arb
     scale: float = 1.0
+    rate: arb | None = None
+    pays: bool = False
 
 
 class _System:
@@ -233,11 +241,16 @@ class _System:
         if not all(bool(m >= 0) for m in multipliers[: self.contacts]):
             return None
         value = sum((m * vector[-1] for m, vector in zip(multipliers, self.vectors, strict=True)), arb(0))
-        charge = arb(0)
+        charge = drawn = arb(0)
         for helper, weight in zip(helpers, changes[len(self.vectors) :], strict=True):
             # the multipliers' sum plus the helpers' is the constant `value`: without them it is that minus their worth
             value += weight * helper.vector[-1]
-            charge += (weight * helper.low).max(weight * helper.high)
+            if not helper.pays:
+                charge += (weight * helper.low).max(weight * helper.high)
+            # the constant that pays is at least 0
+            drawn += weight if helper.pays else arb(0) if helper.rate is None else abs(weight) * helper.rate
+        if not bool(drawn <= 0):
+            return None
         if not value.is_finite() or not charge.is_finite():
             return None
         total = lower(value - charge) * self.unit
@@ -278,12 +291,34 @@ class _System:
             yield constants + [self._moment(moment, mean) for moment in moments]
         if bounded:
             return
+        yield from self._paid_helpers(constants, least)
         # an output may determine the law where nothing else says how large it is
         for name, output in rows.outputs.items():
             if output.exact.both and isfinite(greatest.get(name, inf)):
                 size = ball(greatest[name])
                 scale = output.exact.constant.scale
                 yield constants + [self._moment(moment, size, scale) for moment in output.moments()]
+
+    def _paid_helpers(self, constants: list[_Helper], least: Mapping[str, Fraction | float]) -> Iterator[list[_Helper]]:
+        """Moments that a constant bounds in proportion, however great it is, with the constant itself."""
+        rows, problem = self.rows, self.certificate.problem
+        for i, name in enumerate(rows.names):
+            if least.get(name, 0) < 0:
+                continue
+            size = rows.scales.get(name, 1.0)
+            none, some, more = (means(problem, rows, {name: times * size}) for times in (0.0, 1.0, 2.0))
+            unit = [arb(0)] * (self.size + 1)
+            unit[rows.space.terms + i] = arb(1)
+            payer = _Helper(unit, arb(0), arb(0), size * PAYING_SCALE, pays=True)
+            others = [constant for constant in constants if not bool(constant.vector[rows.space.terms + i] == 1)]
+            for nu in none.keys() & some.keys() & more.keys():
+                growth = (some[nu] - none[nu]) * _WIDER
+                # of several bounds the least is nowhere above a line that it touches at three places
+                if bool(more[nu] - some[nu] <= growth) and bool(some[nu] - none[nu] <= (more[nu] - some[nu]) * _WIDER):
+                    moments = [[arb(entry) for entry in row] for row in rows.space.moments(nu)]
+                    joined = (self._moment(moment, none[nu]) for moment in moments)
+                    rate = growth / ball(size)
+                    yield [*others, payer, *(replace(helper, rate=rate) for helper in joined)]
 
     def _moment(self, moment: Vector, size: arb, scale: float = 1.0) -> _Helper:
         *free, base = moment

@@ -170,13 +170,7 @@ _DEEPEST = 5
 
 
 def tree_holds(certificate: Certificate) -> bool:
-    """Whether the tree of a certificate over boxes leaves none with every rounding enclosed.
-
-    >>> from optlaws import Problem, synthesize
-    >>> solution = synthesize(Problem(B=1.641, order=4, minimise="D"), bound="tight")
-    >>> tree_holds(solution.power_certificate)
-    True
-    """
+    """Whether the tree of a certificate over boxes leaves none with every rounding enclosed."""
     for constant in sorted(certificate.problem.constants, key=repr):
         known(constant)
     kind = _kind(certificate.problem)

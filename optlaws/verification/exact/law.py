@@ -22,10 +22,9 @@ from optlaws.synthesis.problem.combined import CombinedPeak, CombinedPower
 from optlaws.synthesis.problem.constants import PeakConstant, PeakJerk, PowerConstant, RootMeanSquare
 from optlaws.synthesis.problem.expression import Expression, Maximum, Term
 from optlaws.synthesis.problem.named_constants import is_named
-from optlaws.verification.enclosing.balls import ball, enclosed, rational
+from optlaws.verification.enclosing.balls import Extremes, ball, enclosed, rational
 from optlaws.verification.enclosing.pieces import (
     ExactPiece,
-    Extremes,
     PolynomialPiece,
     PowerPiece,
     SinePiece,
@@ -77,10 +76,6 @@ class ExactLaw:
     """The very function that a law's floats describe, piece by piece.
 
     Where a derivative jumps by more than rounding, as `PiecewiseLaw.jumps` tells, those above it are infinite.
-
-    >>> from optlaws.laws import smoothstep
-    >>> ExactLaw(smoothstep(2)).polynomials[0].derivative(1)
-    (-3/2)*x^2 + 3/2
     """
 
     def __init__(self, law: MotionLaw) -> None:
@@ -147,12 +142,9 @@ class ExactLaw:
         """A ball that holds the peak of the magnitude of the derivative of order nu."""
         return arb.pos_inf() if self._impulses(nu) else self.magnitude(self.extremes(nu))
 
+    @kept_property
     def power(self) -> arb:
         """A ball that holds the peak of |b c|."""
-        return self._power
-
-    @kept_property
-    def _power(self) -> arb:
         if self._impulses(2):
             return arb.pos_inf()
         with ctx.workprec(self.precision):
@@ -168,7 +160,7 @@ class ExactLaw:
 
     def constants(self) -> dict[str, arb]:
         """Balls that hold B, C, D, J and rms_c."""
-        peaks = {"B": self.peak(1), "C": self.peak(2), "D": self.power(), "J": self.peak(3)}
+        peaks = {"B": self.peak(1), "C": self.peak(2), "D": self.power, "J": self.peak(3)}
         return {**peaks, "rms_c": self.rms(2)}
 
     def combined_peak(self, constant: CombinedPeak) -> arb:
@@ -252,7 +244,7 @@ class ExactLaw:
 
     def _of_derivative(self, constant: PeakConstant | PowerConstant | RootMeanSquare) -> arb:
         if isinstance(constant, PowerConstant):
-            return self.power()
+            return self.power
         return self.rms(constant.nu) if isinstance(constant, RootMeanSquare) else self._signed_peak(constant)
 
     def _signed_peak(self, constant: PeakConstant) -> arb:

@@ -72,3 +72,16 @@ def test_rows_are_those_of_the_law(basis: Chebyshev | Pieces) -> None:
     for sign in both.signs:
         values = both.jet(x, u, np.full(3, sign)).value
         assert values == pytest.approx(sign * law.c((1.0 - u) / 2.0) - 5.0, abs=1e-8)
+    forward = LawSpace.forward(space, slack)
+    assert forward.jet(x, u, np.full(3, -1.0)).value == pytest.approx(-law.b((1.0 - u) / 2.0), abs=1e-9)
+    power = space.power("D", slack, 2.0)
+    assert power.value(x, u) == pytest.approx(law.b((1.0 - u) / 2.0) * law.c((1.0 - u) / 2.0), abs=1e-8)
+    assert (power.signs, power.domain, power.bound, space.power("D", slack).bound) == (
+        (1.0, -1.0),
+        (-1.0, 1.0),
+        2.0,
+        0.0,
+    )
+    norm = space.norm(2, "rms_c", slack)
+    assert float(np.linalg.norm(norm.matrix @ np.append(x, 1.0))) == pytest.approx(law.rms(2), abs=1e-9)
+    assert (norm.bound, space.norm(2, "rms_c", slack, 3.0).bound) == (0.0, 3.0)

@@ -29,7 +29,9 @@ from optlaws import (
     via,
 )
 from optlaws.synthesis import PiecewiseBasis
+from optlaws.synthesis.spaces.pieces.splines import spline_space
 from tests.synthesis.grids import splines
+from tests.synthesis.judge import Judged
 
 K = np.linspace(0.0, 1.0, 301)
 UNEVEN = (0.0, 0.2, 0.5, 0.8, 1.0)
@@ -238,3 +240,10 @@ def test_a_basis_of_ones_own_is_one_class() -> None:
             assert Problem.from_dict(problem.to_dict()) == problem
     finally:
         del Basis.kinds["hinges"]
+
+
+@pytest.mark.parametrize("order", [4, 5, 6])
+def test_a_law_of_great_coordinates_ends_where_its_accelerations_lead(order: int) -> None:
+    space = spline_space(BoundaryConditions.rest(order), BSplines(10, 5, 3), symmetric=True)
+    law = Judged(space.law(3e3 * np.random.default_rng(order).normal(size=space.terms)))
+    assert abs(law.derivatives[0](1.0) - 1.0) < 5e-14 * law.peak(1)

@@ -10,7 +10,8 @@ import numpy as np
 from optlaws.locks import casadi_lock
 from optlaws.numbers import Array
 from optlaws.numerics.tolerances import EMPTY_ROW
-from optlaws.synthesis.families.family import LinearFamily, Points, Program
+from optlaws.synthesis.families.cone import ConeFamily
+from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, Points, Program
 from optlaws.synthesis.method.discretised.expressions import CONES, RowShape, order_of, shape_and_numbers
 
 _QUIET = {"print_time": False, "show_eval_warnings": False, "ipopt.print_level": 0, "ipopt.sb": "yes"}
@@ -116,6 +117,10 @@ def solve_on_points(
         start[-1] = 10.0
     shape = (_Shapes(program.size, len(rows), tuple(shapes)), careful, fine)
     result = _solved(shape, x0=start, p=parameters, lbg=lower, ubg=upper)
+    if any(family.right_side(result.x) < 0.0 for family in curved if isinstance(family, ConeFamily)):
+        # the square of an amplitude does not tell its bound from the opposite
+        least = _least_of_variables(curved, program.size)
+        result = _solved(shape, x0=np.maximum(start, least), p=parameters, lbg=lower, ubg=upper, lbx=least)
     weights = result.weights
     weights[: len(rows)] /= length
     return Answer(
@@ -125,6 +130,17 @@ def solve_on_points(
         status=result.status,
         iterations=result.iterations,
     )
+
+
+def _least_of_variables(families: list[ConstraintFamily], size: int) -> Array:
+    """What variables must not be below for the right sides of cones to be no less than 0, where one decides that."""
+    least = np.full(size, -np.inf)
+    for family in families:
+        if isinstance(family, ConeFamily) and np.count_nonzero(family.slack) == 1:
+            [place] = np.flatnonzero(family.slack > 0.0).tolist() or [0]
+            if family.slack[place] > 0.0:
+                least[place] = max(least[place], -family.bound / family.slack[place])
+    return least
 
 
 def _split(weights: Array, points: list[Points], order: list[int], shapes: list[RowShape]) -> list[Array]:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import SAME_HEIGHT, SAME_PLACE, WEIGHTLESS, WEIGHTLESS_AT_VERTEX
+from optlaws.numerics.tolerances import BOUND_FEASIBILITY, SAME_HEIGHT, SAME_PLACE, WEIGHTLESS, WEIGHTLESS_AT_VERTEX
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import ConstraintFamily, Points, ProductFamily, Program
 from optlaws.synthesis.method.discretised.ipopt import Answer
@@ -30,7 +30,10 @@ def optimum_near(
         fewer = guess.merged(_OF_SPACING / program.size)
         optimum = polished(program, fewer, holds) if fewer is not guess else None
     sharp = _sharpened(program, points, answer) if optimum is None else None
-    return sharp if sharp is not None and completed(program, sharp) is sharp else optimum
+    if sharp is None or completed(program, sharp) is not sharp:
+        return optimum
+    # beside a contact the law may stick out where the optimum is flat
+    return sharp if program.violation(sharp.x) <= BOUND_FEASIBILITY else optimum
 
 
 def as_answered(points: list[Points], answer: Answer) -> ActiveSet:

@@ -15,17 +15,21 @@ from optlaws.numerics.tolerances import EXCESS, LOST
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.energy import EnergyFamily
-from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily, Points, Program
+from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, Points, Program
 from optlaws.synthesis.families.kinked import KinkedIntegralFamily
-from optlaws.synthesis.method.discretised.conic import conic, optimum_on_points
+from optlaws.synthesis.method.discretised.conic import conic, of_cones, optimum_on_points
 from optlaws.synthesis.method.discretised.grids import with_extrema
 from optlaws.synthesis.method.discretised.ipopt import Answer, solve_on_points
 from optlaws.synthesis.method.strategies.identified import as_answered, optimum_near
 from optlaws.synthesis.method.strategies.strategy import Strategy, cutting_plane_loop
 from optlaws.synthesis.method.strategies.vertices import ByVertices
+from optlaws.synthesis.method.units import ProgramUnits, units_near
+from optlaws.synthesis.method.vanishing import amplitudes, nearly_vanished
 
 _LINEAR_ROUNDS = 6
 _KINKED_ROUNDS = 3
+#: after so many rounds a small objective is made 1, and amplitudes of a conic program may vanish
+_COARSE = 4
 #: beyond so many variables a round of IPOPT costs more than all vertices together
 _LARGE = 24
 
@@ -44,8 +48,14 @@ class ByInteriorPoints(Strategy[list[Points], ActiveSet]):
         May tell from x alone, and more quickly than the families do, whether every constraint holds.
     rounds
         How many at most; a linear program is given fewer.
+    units
+        Of the program: where its objective is small, rounds that show no optimum are followed by ones in its units.
     count, iterations, status
         The rounds so far, those of vertices included where they ended it, IPOPT's iterations, and its last word.
+    apex
+        Whether it ends early where amplitudes next to nothing hide the optimum.
+    vanished
+        Which families they are: those that may vanish.
     sound
         The least answer that breaks no constraint anywhere, with its multipliers on the points: what is left where no
         round shows an exact active set.
@@ -55,6 +65,9 @@ class ByInteriorPoints(Strategy[list[Points], ActiveSet]):
     start: Array | None
     holds: Callable[[Array], bool] | None
     rounds: int
+    apex: bool = True
+    vanished: tuple[int, ...] = ()
+    units: ProgramUnits | None = None
     count: int = 0
     iterations: int = 0
     status: str = ""
@@ -68,6 +81,10 @@ class ByInteriorPoints(Strategy[list[Points], ActiveSet]):
 
     def answered(self, held: list[Points]) -> tuple[ActiveSet | None, list[Points] | None]:
         """The optimum, or the points with the extrema of IPOPT's answer; neither where IPOPT has lost its way."""
+        optimum, onward = self._round(held)
+        return optimum if optimum is None or self.units is None else self.units.outward(optimum), onward
+
+    def _round(self, held: list[Points]) -> tuple[ActiveSet | None, list[Points] | None]:
         self.count += 1
         answer = self._answer(held)
         lost = _lost(answer)
@@ -76,16 +93,34 @@ class ByInteriorPoints(Strategy[list[Points], ActiveSet]):
             optimum = self._by_vertices(held)
         if optimum is not None:
             return optimum, None
+        if self.apex and (self.count == _COARSE or not conic(self.program)):
+            self.vanished = tuple(amplitudes(self.program) if lost else nearly_vanished(self.program, answer.x))
+            if self.vanished:
+                return None, None
         if lost:
             return self.sound, None
         # an optimum may be so flat that no exact active set shows: the contacts on the points are then an answer
-        conic_kinds = _only(self.program, LinearFamily, NormFamily, ConeFamily, KinkedIntegralFamily)
-        if conic_kinds and self.program.violation(answer.x) <= EXCESS and self._is_less(answer.x):
+        whole = all(of_cones(family) or isinstance(family, KinkedIntegralFamily) for family in self.program.families)
+        if whole and self.program.violation(answer.x) <= EXCESS and self._is_less(answer.x):
             self.sound = as_answered(held, answer)
         if self.count == self.rounds:
             flat = _only(self.program, LinearFamily, ConeFamily, KinkedIntegralFamily)
             return self.sound or (as_answered(held, answer) if flat else None), None
-        return None, with_extrema(self.program, held, answer.x)
+        onward = with_extrema(self.program, held, answer.x)
+        if self.count == _COARSE and self.program.curved:
+            self._zoom(answer.x)
+        return None, onward
+
+    def _zoom(self, x: Array) -> None:
+        """Go on in units in which the objective is 1, if it is small near x."""
+        self.units = units_near(self.program, x)
+        if self.units is not None:
+            units = self.units
+            self.program = units.program
+            self.start = x / units.variables
+            self.sound = None if self.sound is None else units.inward(self.sound)
+            holds = self.holds
+            self.holds = None if holds is None else lambda x: holds(x * units.variables)
 
     def _is_less(self, x: Array) -> bool:
         """Whether an answer is better than the sound one so far."""

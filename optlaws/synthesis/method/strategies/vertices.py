@@ -90,7 +90,7 @@ class ByVertices(Strategy[list[Points], ActiveSet]):
     def _vertex(self, points: list[Points]) -> Answer | None:
         """The vertex on the points, exact where it is near the optimum."""
         if self.program.curved or self.central:
-            vertex = optimum_on_points(self.program, points)
+            vertex = optimum_on_points(self.program, points, self.near if self.program.curved else None)
         else:
             vertex = vertex_on_points(self.program, points, self.near)
         if vertex is not None:

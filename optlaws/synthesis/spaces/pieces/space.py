@@ -12,7 +12,7 @@ from numpy.polynomial import chebyshev, legendre
 from optlaws.errors import InputError
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import from_values, nodes, product, real_parts_of_roots
-from optlaws.synthesis.families.family import ConstraintFamily, MirroredFamily, NormFamily, RootFamily
+from optlaws.synthesis.families.family import ConstraintFamily, MirroredFamily, RootFamily
 from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.spaces.pieces.rows import PieceFamily, PieceProductFamily, PieceSeries
 from optlaws.synthesis.spaces.polynomial_space import chord, kink
@@ -115,6 +115,8 @@ def mirrored(pieces: PieceSeries) -> PieceSeries:
 class PiecewiseSpace(LawSpace):
     """A space given by the piecewise series of every derivative, on the first half only where `symmetric`."""
 
+    products = PieceProductFamily
+
     breaks: tuple[float, ...]  #: all breaks of the laws, of both halves
     continuity: int  #: order up to which the derivatives of every law are continuous at the breaks
 
@@ -136,10 +138,7 @@ class PiecewiseSpace(LawSpace):
             )
 
     def _wide(self, pieces: PieceSeries, size: int) -> PieceSeries:
-        wide = np.zeros((*pieces.series.shape[:2], size + 1))
-        wide[:, :, : self.terms] = pieces.series[:, :, :-1]
-        wide[:, :, -1] = pieces.series[:, :, -1]
-        return PieceSeries(pieces.breaks, wide)
+        return PieceSeries(pieces.breaks, self.widened(pieces.series, size))
 
     def combination(
         self,
@@ -168,19 +167,6 @@ class PiecewiseSpace(LawSpace):
             series[:, : terms.shape[1]] += weight * terms[:, : series.shape[1]]
         return PieceSeries(lowest.breaks, series)
 
-    def power(
-        self, name: str, slack: Array, bound: float = 0.0, weights: tuple[float, ...] = (1.0,)
-    ) -> PieceProductFamily:
-        """Rows |b c| <= slack . x + bound; with weights, of w0 b + w1 c + ... and its derivative."""
-        first, second = (self.combination(nu, weights, name, slack) for nu in (1, 2))
-        return PieceProductFamily(name, slack, bound, (1.0, -1.0), self.domain, first=first, second=second)
-
-    def norm(self, nu: int, name: str, slack: Array, bound: float = 0.0) -> NormFamily:
-        """The row RMS of a^(nu) <= slack . x + bound."""
-        rule = self.quadrature(nu)
-        matrix = np.sqrt(rule.weights)[:, None] * rule.values
-        return NormFamily(name, slack, bound, matrix=self.widened(matrix, len(slack)))
-
     def columns(self, nu: int, u: Array) -> Array:
         """The derivative of order nu at places u = 1 - 2k: free functions, then the base law."""
         self._finite(nu)
@@ -199,8 +185,7 @@ class PiecewiseSpace(LawSpace):
         """Whether the derivative of order nu may jump at a break."""
         return nu > self.continuity
 
-    def row(self, nu: int, k: float) -> Array:
-        """The derivative of order nu at k: free functions, then the base law."""
+    def row(self, nu: int, k: float) -> Array:  # noqa: D102
         return np.asarray(self.pieces(nu).values(np.array([1.0 - 2.0 * k]))[0])
 
     def below(self, slack: Array, peak: float = 0.5) -> ConstraintFamily:
@@ -210,10 +195,6 @@ class PiecewiseSpace(LawSpace):
         return PieceFamily(
             RowName.BELOW_PEAK, slack, domain=self.domain, series=np.zeros((1, 1)), pieces=pieces, jumps=True
         )
-
-    def forward(self, slack: Array) -> ConstraintFamily:
-        """Rows b >= 0."""
-        return self.derivative(1, RowName.FORWARD, slack, signs=(-1.0,))
 
     def from_rest(
         self, name: str, slack: Array, *, backward: bool = False, weights: tuple[float, ...] = (1.0,)

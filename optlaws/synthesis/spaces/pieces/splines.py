@@ -19,7 +19,7 @@ from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import from_values, nodes
-from optlaws.numerics.tolerances import EVEN_PART
+from optlaws.numerics.tolerances import EVEN_PART, VELOCITY_KEPT
 from optlaws.synthesis.families.family import ConstraintFamily
 from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions, law_from_z
@@ -54,8 +54,7 @@ class SplineSpace(PiecewiseSpace):
         self._z = self._z @ np.linalg.inv(root)
         self._pieces.clear()
 
-    def pieces(self, nu: int) -> PieceSeries:
-        """Piecewise series of the derivative of order nu, the base law's column last."""
+    def pieces(self, nu: int) -> PieceSeries:  # noqa: D102
         if nu not in self._pieces:
             series = self._series(self._parts, 2 * self.order + self.basis.degree - nu, partial(self._derivative, nu))
             # the local variable falls with k
@@ -108,6 +107,7 @@ class SplineSpace(PiecewiseSpace):
         point = np.append(coordinates, 1.0)
         c = self._accelerations @ point
         starts = self._start_velocities @ point
+        _continue(c, np.diff(self.breaks), np.append(starts, self.start_velocity + self.velocity_change))
         segments = [PolynomialSegment(tuple(series.tolist()), float(b)) for series, b in zip(c, starts, strict=True)]
         return PiecewiseLaw(self.breaks, segments, float(self.boundary.start[0]))
 
@@ -122,6 +122,18 @@ class SplineSpace(PiecewiseSpace):
     def z_series(self, coordinates: Array) -> Array:
         """Chebyshev series of Z on each piece, one after the other."""
         return np.asarray(self._z @ coordinates).reshape(-1)
+
+
+def _continue(c: Array, lengths: Array, velocities: Array) -> None:
+    """Move accelerations so that their integrals lead from velocity to velocity, where more than rounding is missed.
+
+    Great coordinates cancel in them, and a law read from its accelerations alone would add up what is left.
+    """
+    orders = np.arange(0, c.shape[1], 2)
+    means = c[:, ::2] @ (1.0 / (1.0 - orders.astype(np.float64) ** 2))
+    missed = np.diff(velocities) / lengths - means
+    rounding = VELOCITY_KEPT * (np.abs(c).sum(axis=1) + np.abs(velocities[1:]) / lengths)
+    c[:, 0] += np.where(np.abs(missed) > rounding, missed, 0.0)
 
 
 @lru_cache(maxsize=16)

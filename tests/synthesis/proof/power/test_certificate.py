@@ -178,7 +178,7 @@ def test_peaks_of_one_sign_that_may_be_negative_are_left_alone() -> None:
 
 def test_an_unknown_bound_is_refused() -> None:
     with pytest.raises(InputError, match="did you mean 'tight'"):
-        synthesize(FIRST, bound="tigth")
+        synthesize(FIRST, bound="tigth")  # type: ignore[arg-type] # the wrong one is the point
 
 
 def test_the_search_comes_upon_a_better_law_than_it_was_given(first: Solution) -> None:

@@ -1,0 +1,96 @@
+"""Optima in which amplitudes vanish: cones at their apex, where no interior point is near and no direction shows.
+
+There an amplitude is 0 in both of its parts, which are equations that any method can keep. Their multipliers are the
+direction that the cone would have: it is an optimum of the program with cones if that is nowhere longer than 1.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from optlaws.numbers import Array
+from optlaws.numerics.tolerances import APEX_DIRECTION, NEARLY_APEX
+from optlaws.synthesis.families.active_set import ActiveSet
+from optlaws.synthesis.families.cone import ConeFamily
+from optlaws.synthesis.families.family import Program
+
+
+def amplitudes(program: Program) -> list[int]:
+    """The families that are cones of one place, each with a variable of its own for its right side."""
+    return [
+        i
+        for i, family in enumerate(program.families)
+        if isinstance(family, ConeFamily)
+        and family.domain[0] == family.domain[1]
+        and np.count_nonzero(family.slack) == 1
+        and family.slack.max() > 0.0
+        and not any(other.slack[np.argmax(family.slack)] for other in program.families if other is not family)
+    ]
+
+
+def nearly_vanished(program: Program, x: Array) -> list[int]:
+    """Those of the amplitudes that are next to nothing, in units of what a law leaves that minds nothing."""
+    return [i for i in amplitudes(program) if program.families[i].right_side(x) < NEARLY_APEX]
+
+
+def at_apex(
+    program: Program, vanished: Sequence[int], solve: Callable[[Program], ActiveSet | None]
+) -> ActiveSet | None:
+    """The optimum of a program in which some amplitudes vanish; None where that is none.
+
+    Parameters
+    ----------
+    program
+        The program with its cones.
+    vanished
+        Which of its families are amplitudes that vanish, as `amplitudes` has them.
+    solve
+        How a program without these cones is solved.
+    """
+    kept = np.array([i for i in range(len(program.families)) if i not in vanished], dtype=np.intp)
+    blocks, right = [program.equalities], [program.right]
+    for i in vanished:
+        rows, most = _equations(program, i)
+        blocks.append(rows)
+        right.append(most)
+    without = replace(
+        program,
+        families=tuple(program.families[i] for i in kept),
+        equalities=np.vstack(blocks),
+        right=np.concatenate(right),
+        equation_units=None,
+    )
+    optimum = solve(without)
+    if optimum is None:
+        return None
+    own = len(program.right)
+    multipliers, places = [], []
+    for part, i in zip(optimum.equality_multipliers[own:].reshape(-1, 3), vanished, strict=True):
+        real, imaginary, raised = part
+        # what the right side costs is what the amplitude may pull with
+        if not np.hypot(real, imaginary) <= -raised * (1.0 + APEX_DIRECTION):
+            return None
+        multipliers.append(-raised)
+        places.append(program.families[i].domain[0])
+    return replace(
+        optimum,
+        family=np.append(kept[optimum.family], np.array(vanished, dtype=np.intp)),
+        u=np.append(optimum.u, places),
+        s=np.append(optimum.s, np.ones(len(places))),
+        free=np.append(optimum.free, np.zeros(len(places), dtype=np.bool_)),
+        multipliers=np.append(optimum.multipliers, multipliers),
+        equality_multipliers=optimum.equality_multipliers[:own],
+    )
+
+
+def _equations(program: Program, i: int) -> tuple[Array, Array]:
+    """Both parts of an amplitude are 0, and so is its right side."""
+    family = program.families[i]
+    if not isinstance(family, ConeFamily):
+        raise TypeError(f"{type(family).__name__} is no cone")
+    column = family.columns(np.array(family.domain[:1]))[0, 0]
+    rows = np.vstack([column.real[:-1], column.imag[:-1], family.slack])
+    return rows, np.array([-column.real[-1], -column.imag[-1], -family.bound])
