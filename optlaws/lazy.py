@@ -30,8 +30,8 @@ def imported(module: str) -> ModuleType:
 
     Examples
     --------
-    >>> imported("optlaws.mechanisms.angles").__name__
-    'optlaws.mechanisms.angles'
+    >>> imported("optlaws.numbers").__name__
+    'optlaws.numbers'
     """
     with _circles:
         for library in _IN_CIRCLES:
@@ -53,7 +53,7 @@ def face(package: str, modules: Mapping[str, str]) -> tuple[Callable[[str], Any]
 
     Examples
     --------
-    >>> __getattr__, __dir__, names = face("optlaws", {"optlaws.mechanisms.angles": "deg", "math": "pi PI"})
+    >>> __getattr__, __dir__, names = face("optlaws", {"optlaws.numbers": "deg", "math": "pi PI"})
     >>> names
     ['PI', 'deg', 'pi']
     >>> __getattr__("deg")(180.0)

@@ -245,6 +245,7 @@ SUBLEVEL_RANK = 1e-15  # of the greatest singular value: less is rounding
 NEIGHBOUR_DISTANCE = 2.0**-12  # of u: how far from a contact its neighbours are
 NEIGHBOUR_SHARE = 2.0**-14  # of a contact's multiplier: how much of it each neighbour takes
 CUTS_ENOUGH = 2e-9  # of an objective: what cuts may leave
+LEAST_SQUARES = 1e-3  # of the unit of a sum of squares: the least by whose root the size of laws is bounded
 PAYING_SCALE = 2.0**-40  # of the scale of a constant: in such shares is counted what a sum leaves of it alone
 LEFT_SHARES = (1e-12, 1e-11, 1e-10, 1e-9)  # of a constant's weight: what a proof leaves of it to pay for rounding
 DIRECTIONS_BALANCED = 1e-13  # a slope that is less is balanced

@@ -78,6 +78,8 @@ def test_errors_survive_other_processes(error: OptlawsError) -> None:
 
 
 def test_errors_are_one_tree() -> None:
-    for name, member in inspect.getmembers(errors, inspect.isclass):
+    for name, member in inspect.getmembers(errors, lambda member: getattr(member, "__module__", "") == errors.__name__):
+        if not inspect.isclass(member):
+            continue
         assert issubclass(member, OptlawsError | Warning), name
         assert ">>>" in (inspect.getdoc(member) or "")

@@ -1,20 +1,11 @@
-"""The constants of a law as a value, as plain data and in pickles of before."""
+"""The constants of a law as a value and as plain data."""
 
-import base64
-import pickle
 from dataclasses import FrozenInstanceError
 
 import numpy as np
 import pytest
 
-from optlaws.laws import Constants, Peak, smoothstep
-
-# of smoothstep(2), made where `Constants` stood beside the peaks of a function
-PICKLED = (
-    "fCQDW000000001t6mM{JY+-kEE^}paX=QURaAjd@bCiq;LvL<#bYX6EbCi>mDS?z-lqhHbj08|+VQZ9=lqrFfU6d$CKllIu00000"
-    "M?c^I000000A*rm1}TA*U6d$CKo|f300000M*si-000000A*rm1}TA*U6d$CKnu2d=vYjvM?cF9v2@>=#${q?1}TA*U6d$CKqvqJ"
-    "00000M*si-000000A*rFKnu2d=vYjuWnwM"
-)
+from optlaws.laws import Constants, Peak
 
 
 def test_peaks_are_values() -> None:
@@ -30,7 +21,3 @@ def test_constants_as_plain_data() -> None:
     assert constants.to_dict() == plain | {"J": {"value": None, "k": 0.4}}
     assert constants.to_dict() == plain | {"J": {"value": None, "k": 0.4}, "rms_c": None}
     assert Constants(constants.B, constants.C, constants.D, constants.J, 2.5).to_dict(rms=True)["rms_c"] == 2.5
-
-
-def test_a_pickle_names_the_place_where_constants_stood_before() -> None:
-    assert pickle.loads(base64.b85decode(PICKLED)) == smoothstep(2).constants  # noqa: S301

@@ -21,6 +21,7 @@ from optlaws.numerics.tolerances import (
     BALANCED,
     FLAT_INTEGRAL,
     INVERSE_AGREES,
+    LEAST_SQUARES,
     POSITIVE_LEVEL,
     POSITIVE_SHARES,
     POSITIVE_WEIGHTS,
@@ -42,8 +43,6 @@ _ROUNDED = 1.0 + 1e-6
 _ORDER = 2
 _MOST_GAIN = 1e6
 _ROOM = 1.01
-#: the least sum of squares, in its unit, by whose root another is bounded
-_LEAST = 1e-3
 #: beyond this a bound says nothing
 _LARGEST = 1e13
 _CELLS = 6
@@ -175,7 +174,7 @@ def by_squares(space: LawSpace, square: SumOfSquares) -> SizeBound | None:
     fixed = fixed - free @ (back @ (directions.T @ height + back.T @ (square.affine[:-1] @ free) / 2.0))
     lowest = np.append(fixed, 1.0)
     least = float(((square.rows @ lowest) ** 2).sum() + square.affine @ lowest)
-    gain, root = float(np.linalg.norm(bent[:, :-1] @ free @ back, 2)), float(np.sqrt(max(abs(least), _LEAST)))
+    gain, root = float(np.linalg.norm(bent[:, :-1] @ free @ back, 2)), float(np.sqrt(max(abs(least), LEAST_SQUARES)))
     factor = _ROOM * gain / (2.0 * root)
     offset = _ROOM * (float(np.linalg.norm(bent @ lowest)) + gain * root / 2.0)
     return SizeBound(_ORDER, factor, offset - factor * (least - (_ROUNDED - 1.0) * abs(least)))

@@ -282,26 +282,26 @@ def _held_exactly(model: Model, proof: Certificate, places: list[int]) -> Certif
     """The certificate with multipliers that hold variables to the last bit, as far as there are such."""
     rows = [row_of(model.program, contact)[0] for contact in proof.contacts]
     for place in places:
-        own = [i for i, contact in enumerate(proof.contacts) if contact.multiplier > 0.0 and rows[i][place] < 0.0]
+        paying = [i for i, contact in enumerate(proof.contacts) if contact.multiplier > 0.0 and rows[i][place] < 0.0]
         if summed(model, weighted_rows(proof)[1]).slope[place] != 0.0:
-            proof = _exactly(model, proof, place, own) or proof
+            proof = _exactly(model, proof, place, paying) or proof
     return proof
 
 
-def _exactly(model: Model, proof: Certificate, place: int, own: list[int]) -> Certificate | None:
-    """The certificate with one of its own contacts' multipliers such that they hold a variable to the last bit.
+def _exactly(model: Model, proof: Certificate, place: int, paying: list[int]) -> Certificate | None:
+    """The certificate with one of some contacts' multipliers such that they hold a variable to the last bit.
 
     The lightest is tried first, whose last bit is finest; None where none does.
     """
-    for i in sorted(own, key=lambda i: proof.contacts[i].multiplier):
+    for i in sorted(paying, key=lambda i: proof.contacts[i].multiplier):
         contacts = list(proof.contacts)
         # the sum itself, which is stated a bit below what it is
         slope = nextafter(float(summed(model, weighted_rows(proof)[1]).slope[place]), np.inf)
         pull = -float(row_of(model.program, contacts[i])[0][place])
         contacts[i] = replace(contacts[i], multiplier=contacts[i].multiplier + slope / pull)
-        held = proof.with_leaf(contacts=contacts)
-        if contacts[i].multiplier > 0.0 and summed(model, weighted_rows(held)[1]).slope[place] == 0.0:
-            return held
+        balanced = proof.with_leaf(contacts=contacts)
+        if contacts[i].multiplier > 0.0 and summed(model, weighted_rows(balanced)[1]).slope[place] == 0.0:
+            return balanced
     return None
 
 
