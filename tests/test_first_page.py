@@ -1,15 +1,24 @@
 """The first page: its picture is what its script draws."""
 
+import re
 from pathlib import Path
-from shutil import copy
 
 from docs.pictures.gain import draw
 from tests.documents import ROOT
 
+NUMBER = re.compile(r'(?<=[ "])-?\d+\.\d+')
+
 
 def test_the_picture_of_the_gain_is_current(tmp_path: Path) -> None:
-    kept = Path(copy(ROOT / "docs" / "pictures" / "gain.svg", tmp_path)).read_bytes()
+    stored = (ROOT / "docs" / "pictures" / "gain.svg").read_text("utf-8").splitlines()
     vector, raster = draw(tmp_path)
-    # a drawing that shows the same leaves the file as it is
-    assert vector.read_bytes() == kept
+    lines = [line for line in zip(vector.read_text("utf-8").splitlines(), stored, strict=True) if line[0] != line[1]]
+    for line, other in lines:
+        # how far along its flat top a peak is marked, out of 660, is decided by rounding
+        assert "made by optlaws" in line or "<use " in line
+        if "<use " in line:
+            assert NUMBER.sub("", line) == NUMBER.sub("", other)
+            (x, y), (other_x, other_y) = (map(float, NUMBER.findall(text)) for text in (line, other))
+            assert abs(x - other_x) < 4.0
+            assert abs(y - other_y) < 0.05
     assert raster.read_bytes().startswith(b"\x89PNG")

@@ -154,6 +154,9 @@ def _first_peak(curve: Curve, nu: int, k: Array, values: Array) -> tuple[list[fl
     first = int(np.nanargmax(np.abs(values) >= (1.0 - LOOKS_EQUAL) * abs(peak.value)))
     if abs(peak.value) * (1.0 - LOOKS_EQUAL) > abs(values[first]) or abs(k[first] - peak.k) < _BESIDE:
         return [peak.k], [peak.value]
+    # the place where a flat peak comes near its height hangs on roundings, its top does not
+    while first + 1 < len(values) and abs(values[first + 1]) > abs(values[first]):
+        first += 1
     return [float(k[first])], [float(values[first])]
 
 
