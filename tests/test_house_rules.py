@@ -42,7 +42,7 @@ def test_a_name_of_a_class_means_one_class() -> None:
     assert {name for name, count in names.items() if count > 1} == set()
 
 
-MODULE = ROOT / "optlaws" / "numerics" / "tolerances.py"
+MODULE = ROOT / "optlaws" / "tolerances.py"
 LARGEST = 1e-2
 #: rooms whose tolerances stand in that module; those that are missing have some to move
 WITHOUT_TOLERANCES = (

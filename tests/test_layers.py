@@ -22,6 +22,7 @@ BASE = {
     "numbers",
     "shown",
     "suggest",
+    "tolerances",
 }
 KNOWN = BASE | {"numerics"}
 CORE = KNOWN | {"formulas", "laws", "synthesis", "mechanisms", "motion", "cycles", "exports", "cams", "verification"}
@@ -30,14 +31,15 @@ MAY_IMPORT = {
     "errors": {"echo"},
     "formulas": KNOWN,
     "extras": {"errors"},
-    "files": {"echo", "errors", "locks", "suggest", "numerics"},
+    "files": {"echo", "errors", "locks", "suggest", "tolerances"},
     "kept": set[str](),
     "lazy": {"locks"},
     "locks": set[str](),
     "numbers": {"echo", "errors"},
     "shown": set[str](),
     "suggest": {"echo"},
-    "numerics": BASE - {"files", "shown"},
+    "tolerances": set[str](),
+    "numerics": BASE - {"shown"},
     "laws": KNOWN,
     "synthesis": KNOWN | {"formulas", "laws"},
     "mechanisms": KNOWN | {"formulas", "laws", "synthesis", "motion"},

@@ -25,8 +25,8 @@ from optlaws.numbers import Array, Quantity, whole
 from optlaws.numerics.enclosures.branch_and_bound import Function, extremes
 from optlaws.numerics.enclosures.interval import Interval
 from optlaws.numerics.enclosures.taylor import Jet, Pair, turned, variable
-from optlaws.numerics.tolerances import DEVIATIONS, MANUFACTURED_LEAP, MANUFACTURED_PEAKS
 from optlaws.suggest import unknown_key
+from optlaws.tolerances import DEVIATIONS, MANUFACTURED_LEAP, MANUFACTURED_PEAKS
 
 
 @dataclass(frozen=True, eq=False)

@@ -27,7 +27,6 @@ from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import TURN
 from optlaws.numbers import Quantity
-from optlaws.numerics.tolerances import CAM_FEASIBILITY, CAM_GAIN
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.expression import maximum
 from optlaws.synthesis.problem.problem import Problem
@@ -35,6 +34,7 @@ from optlaws.synthesis.problem.windows import Window
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.solve import synthesize
 from optlaws.synthesis.status import Status
+from optlaws.tolerances import CAM_FEASIBILITY, CAM_GAIN
 
 
 class SolvedPiece(NamedTuple):

@@ -26,12 +26,12 @@ from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import TURN
 from optlaws.numbers import Array
 from optlaws.numerics.enclosures.taylor import Jet
-from optlaws.numerics.tolerances import FORMULA_ROUNDING, PLANE_GAIN, PLANE_SLACK
 from optlaws.synthesis.functionals.makers import value
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import at_most
 from optlaws.synthesis.problem.windows import Window
 from optlaws.synthesis.solve import synthesize
+from optlaws.tolerances import FORMULA_ROUNDING, PLANE_GAIN, PLANE_SLACK
 
 Pair = tuple[float, float]
 

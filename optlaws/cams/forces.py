@@ -23,8 +23,8 @@ from optlaws.numerics.enclosures.branch_and_bound import Extremes, Function, ext
 from optlaws.numerics.enclosures.integral import integral
 from optlaws.numerics.enclosures.interval import Interval, highest, middle
 from optlaws.numerics.enclosures.taylor import Jet
-from optlaws.numerics.tolerances import FORCE_EXTREMES, VALUE_ROUNDING
 from optlaws.suggest import unknown_key
+from optlaws.tolerances import FORCE_EXTREMES, VALUE_ROUNDING
 
 #: Young's modulus and Poisson's ratio within the ranges of J. M. Gere, Mechanics of Materials, 5th edition, appendix H
 #: (steel 190 to 210 GPa and 0.27 to 0.30, cast iron 83 to 170 and 0.2 to 0.3, bronze 96 to 120 and 0.34, aluminium

@@ -24,7 +24,7 @@ from optlaws.motion.quantities import quantity
 from optlaws.numbers import Quantity
 from optlaws.numerics.enclosures.interval import Interval, exact
 from optlaws.numerics.enclosures.taylor import Jet
-from optlaws.numerics.tolerances import ROUNDOFF, SIZE_BRACKET, SIZE_MARGIN, SIZE_NUDGE, SMALLEST_BASE
+from optlaws.tolerances import ROUNDOFF, SIZE_BRACKET, SIZE_MARGIN, SIZE_NUDGE, SMALLEST_BASE
 
 Kind = TypeVar("Kind", bound=FollowerContact)
 

@@ -19,7 +19,7 @@ from optlaws.numbers import Array, Quantity
 from optlaws.numerics.enclosures.branch_and_bound import Extremes, Function, extremes
 from optlaws.numerics.enclosures.interval import Interval
 from optlaws.numerics.enclosures.taylor import Jet
-from optlaws.numerics.tolerances import LIFTED, PROGRAM_SLACK, SPRING_EXTREMES
+from optlaws.tolerances import LIFTED, PROGRAM_SLACK, SPRING_EXTREMES
 
 _FIRST = 97
 _STEPS = 40

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
 
 from optlaws.cams.forces import CamForces
 from optlaws.cycles.cycle import Cycle
-from optlaws.numerics.tolerances import SMALLEST_ANGLE
 from optlaws.shown.summary import Row, Summary
+from optlaws.tolerances import SMALLEST_ANGLE
 
 if TYPE_CHECKING:
     from optlaws.cams.curves.extremes import EnclosedExtreme

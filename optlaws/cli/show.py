@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from math import inf
 from typing import TYPE_CHECKING, Any
 
-from optlaws.numerics.tolerances import VALUE_ROUNDING
+from optlaws.tolerances import VALUE_ROUNDING
 
 if TYPE_CHECKING:
     from rich.console import Console

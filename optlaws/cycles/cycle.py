@@ -36,10 +36,10 @@ from optlaws.mechanisms.machine.over_time import RepeatedMotion
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import TURN, quantity, written
 from optlaws.numbers import MOST_DEGREE, Quantity, derivative, real_times, whole
-from optlaws.numerics.tolerances import CYCLE_OPTIMALITY
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.status import Status
+from optlaws.tolerances import CYCLE_OPTIMALITY
 
 
 @dataclass(frozen=True, repr=False)

@@ -18,7 +18,7 @@ from optlaws.mechanisms.follower.polydyne import polydyne
 from optlaws.motion.piece import Piece, unit_of, values_of_pieces
 from optlaws.motion.quantities import TURN, positive_quantity
 from optlaws.numbers import Array, Quantity
-from optlaws.numerics.tolerances import CLOSURE, JUMP
+from optlaws.tolerances import CLOSURE, JUMP
 
 Place = tuple[float, float]
 

@@ -19,7 +19,7 @@ from optlaws.mechanisms.spectrum.residual import residual_vibration
 from optlaws.motion.piece import factor, unit_of
 from optlaws.motion.quantities import either, quantity
 from optlaws.numbers import Quantity, bounded, positive
-from optlaws.numerics.tolerances import AGREEMENT
+from optlaws.tolerances import AGREEMENT
 
 #: what is more than so many times as great is far above
 FAR = 1.5

@@ -17,9 +17,9 @@ from optlaws.files.reading import JsonText
 from optlaws.kept import kept_property
 from optlaws.laws.exporting import AxesExportOptions
 from optlaws.numbers import Quantity
-from optlaws.numerics.tolerances import CLOSURE
 from optlaws.suggest import keywords_of, unknown_key
 from optlaws.synthesis.status import Status
+from optlaws.tolerances import CLOSURE
 
 FORMAT = "optlaws axes 1"
 

@@ -19,8 +19,8 @@ from optlaws.explorer.requests import MOST_DEGREE, MOST_ORDER
 from optlaws.files.problem_file import convert
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile, cycle_of
 from optlaws.laws.catalogue import reading
-from optlaws.numerics.tolerances import AGREEMENT, BOUND_SLACK, CYCLE_ROUNDING
 from optlaws.plots.cycle import QUANTITIES, UNITS, samples
+from optlaws.tolerances import AGREEMENT, BOUND_SLACK, CYCLE_ROUNDING
 
 _EACH = 100
 _TURN = 360.0

@@ -28,9 +28,9 @@ from optlaws.explorer.law_view import digits, drawn, objective_title
 from optlaws.explorer.requests import LawRequest, problem_of, solved, value, without
 from optlaws.laws.savin import FAMILIES
 from optlaws.numbers import bounded
-from optlaws.numerics.tolerances import BOUND_SLACK
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.proof.infeasible import possible_velocities
+from optlaws.tolerances import BOUND_SLACK
 
 #: least and greatest of each axis that is drawn
 RANGES = {"B": (1.1, 2.5), "C": (3.5, 10.0), "D": (2.0, 11.0), "J": (20.0, 140.0), "rms_c": (3.2, 7.0)}

@@ -26,9 +26,9 @@ from optlaws.explorer.requests import (
     without,
 )
 from optlaws.numbers import Array, bounded
-from optlaws.numerics.tolerances import BOUND_SLACK, GAP_ROUNDING, NO_MARK
 from optlaws.synthesis.limits.of_problem import limited_laws
 from optlaws.synthesis.proof.infeasible import possible_velocities
+from optlaws.tolerances import BOUND_SLACK, GAP_ROUNDING, NO_MARK
 
 LETTERS = ("a", "b", "c", "d", "j")
 _ORDERS = {"a": 0, "b": 1, "c": 2, "j": 3}

@@ -16,7 +16,7 @@ from optlaws.motion.motion import Motion
 from optlaws.motion.piece import Piece
 from optlaws.motion.polynomials import PiecewiseMotion
 from optlaws.numbers import Array, whole
-from optlaws.numerics.tolerances import ACCELERATION_HIGHER, AGREEMENT, POSITION_OFF
+from optlaws.tolerances import ACCELERATION_HIGHER, AGREEMENT, POSITION_OFF
 
 MOST = 64
 _EVALUATIONS = 150

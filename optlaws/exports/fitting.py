@@ -17,7 +17,7 @@ from optlaws.motion.motion import Motion
 from optlaws.motion.piece import Piece
 from optlaws.motion.polynomials import PiecewiseMotion, from_exact
 from optlaws.numerics import exact
-from optlaws.numerics.tolerances import ACCELERATION_HIGHER
+from optlaws.tolerances import ACCELERATION_HIGHER
 
 Laid = Callable[[Piece], PiecewiseMotion]
 

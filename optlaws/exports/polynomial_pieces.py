@@ -23,7 +23,7 @@ from optlaws.motion.piece import Piece
 from optlaws.motion.polynomials import PiecewiseMotion, from_exact
 from optlaws.numbers import Array, finite, positive
 from optlaws.numerics import exact
-from optlaws.numerics.tolerances import PIECES_OF_MOTION, POSITION_ROUNDING
+from optlaws.tolerances import PIECES_OF_MOTION, POSITION_ROUNDING
 
 #: a stretch of a law: its first and its last k, and powers of k less the first
 Stretch = tuple[Fraction, Fraction, Sequence[Fraction]]

@@ -17,7 +17,7 @@ from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion
 from optlaws.numbers import Array
 from optlaws.numerics import bernstein
-from optlaws.numerics.tolerances import AS_GOOD, RUN_OFF
+from optlaws.tolerances import AS_GOOD, RUN_OFF
 
 MOST_TRIED = 1001
 _RATIO = 1.12

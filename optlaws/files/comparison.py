@@ -7,7 +7,7 @@ import re
 from decimal import Decimal
 from typing import Any
 
-from optlaws.numerics.tolerances import FILE_NOISE, PEAK_PLACE, SHOWN_DIGITS
+from optlaws.tolerances import FILE_NOISE, PEAK_PLACE, SHOWN_DIGITS
 
 # a printed number of so many digits was rounded, one of fewer is meant so
 ROUNDED = 6

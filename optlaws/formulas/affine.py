@@ -11,7 +11,7 @@ import numpy as np
 from optlaws.formulas.intervals import Endpoints, enclosed
 from optlaws.formulas.slopes import added, constant, multiplied, opposite
 from optlaws.formulas.tree import Call, Exponentiation, Formula, Name, Negative, Number, Product, Sum, Table
-from optlaws.numerics.tolerances import OPERATIONS_ROUNDING
+from optlaws.tolerances import OPERATIONS_ROUNDING
 
 #: factors of products of names: none, one or two of them, sorted
 Terms = dict[tuple[str, ...], Formula]

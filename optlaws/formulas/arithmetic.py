@@ -13,7 +13,7 @@ import numpy as np
 from optlaws.formulas.functions import SMOOTH_FUNCTIONS
 from optlaws.formulas.tree import Call, Exponentiation, Formula, Name, Negative, Number, Product, Reciprocal, Sum, Table
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import NORM_OFFSET
+from optlaws.tolerances import NORM_OFFSET
 
 
 @dataclass(frozen=True)

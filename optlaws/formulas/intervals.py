@@ -19,7 +19,7 @@ from optlaws.formulas.functions import SMOOTH_FUNCTIONS
 from optlaws.formulas.slopes import constant
 from optlaws.formulas.tree import Call, Exponentiation, Formula, Name, Negative, Number, Product, Reciprocal, Sum, Table
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import OPERATIONS_ROUNDING
+from optlaws.tolerances import OPERATIONS_ROUNDING
 
 _MOST_ANGLE = 2.0**24
 

@@ -24,7 +24,7 @@ from optlaws.files import tables
 from optlaws.jobs.cam_entries import CamProblemFile, Cams
 from optlaws.kept import kept_property
 from optlaws.motion.quantities import quantity
-from optlaws.numerics.tolerances import CAM_FEASIBILITY, RADIUS_ROUNDING
+from optlaws.tolerances import CAM_FEASIBILITY, RADIUS_ROUNDING
 
 EXTREMES = ("what", "at least", "at most", "unit", "at, deg")
 #: units of forces and of stiffness by what the follower's way is

@@ -18,7 +18,6 @@ from optlaws.jobs.job import JobFile
 from optlaws.laws import MotionLaw, smoothstep
 from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.laws.savin import FAMILIES, alpha_range, savin
-from optlaws.numerics.tolerances import DRAWN_GAP
 from optlaws.plots.front import draw_front, draw_proven_front
 from optlaws.plots.style import (
     GREEN,
@@ -37,6 +36,7 @@ from optlaws.synthesis.pareto import HEADINGS, Front, pareto_front
 from optlaws.synthesis.problem.fields import CONSTANTS
 from optlaws.synthesis.proven.front import ProvenFront
 from optlaws.synthesis.proven.refine import proven_front
+from optlaws.tolerances import DRAWN_GAP
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

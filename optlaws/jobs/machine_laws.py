@@ -22,13 +22,13 @@ from optlaws.mechanisms.machine.machine import Machine
 from optlaws.mechanisms.machine.modes import mode
 from optlaws.mechanisms.spectrum.transforms import velocity_transform
 from optlaws.numbers import Array, bounded
-from optlaws.numerics.tolerances import RESIDUAL_ROUNDING, SHOWN_RESIDUAL
 from optlaws.plots.style import BLUES, GREEN, GREY, WARM, empty_figure, plot_style
 from optlaws.results.results import Results
 from optlaws.studies.problem_entries import gap, record
 from optlaws.synthesis import Functional, Problem, Solution, at_most, synthesize
 from optlaws.synthesis.problem.fields import from_entries
 from optlaws.synthesis.problem.named_constants import named
+from optlaws.tolerances import RESIDUAL_ROUNDING, SHOWN_RESIDUAL
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -17,7 +17,7 @@ from optlaws.laws.exporting import LawExport
 from optlaws.laws.storage import StoredLaw
 from optlaws.numbers import Array, Quantity, derivative, times
 from optlaws.numerics.peaks import Peak
-from optlaws.numerics.tolerances import JUMP, JUMP_OF_LOWER
+from optlaws.tolerances import JUMP, JUMP_OF_LOWER
 
 Jumps = tuple[tuple[float, float], ...]
 

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from optlaws.files import tables
 from optlaws.laws.law import MotionLaw
 from optlaws.numbers import MOST_VALUES, whole
-from optlaws.numerics.tolerances import VALUE_ROUNDING
+from optlaws.tolerances import VALUE_ROUNDING
 
 LETTERS = ("a", "b", "c", "j", "d")
 #: lines unless others are asked

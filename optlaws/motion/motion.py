@@ -16,7 +16,7 @@ from optlaws.laws import MotionLaw
 from optlaws.motion.piece import Piece, factor, values_of_pieces
 from optlaws.motion.quantities import Given, either, given_quantity, positive_quantity, quantity
 from optlaws.numbers import Quantity, derivative, real_times
-from optlaws.numerics.tolerances import CLOSURE, JUMP
+from optlaws.tolerances import CLOSURE, JUMP
 
 Place = tuple[float, float]
 

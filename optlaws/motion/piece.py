@@ -28,7 +28,7 @@ from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.catalogue.reading import is_file, read_law
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import CLOSURE, INSIDE_PIECE, SAME_TIME
+from optlaws.tolerances import CLOSURE, INSIDE_PIECE, SAME_TIME
 
 
 def named_law(given: Any, where: str) -> MotionLaw:  # noqa: ANN401 - it is checked here

@@ -17,7 +17,7 @@ from optlaws.kept import kept_property
 from optlaws.numbers import MAGNITUDE_LIMIT, Array, derivative, listed, numbers, real_times
 from optlaws.numerics import bernstein
 from optlaws.numerics.bernstein import greatest_difference
-from optlaws.numerics.tolerances import POLISHING_REACH, SAME_TIME
+from optlaws.tolerances import POLISHING_REACH, SAME_TIME
 
 #: a motion by its derivatives: of places and of the order nu of the derivative
 Derivatives = Callable[[Array, int], Array]

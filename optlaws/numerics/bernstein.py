@@ -13,7 +13,7 @@ from optlaws.errors import InputError
 from optlaws.numbers import Array
 from optlaws.numerics import chebyshev
 from optlaws.numerics.chebyshev import nodes
-from optlaws.numerics.tolerances import DIFFERENCE_ROUNDING, DIFFERENCE_SHARE, OPERATIONS_ROUNDING, TIE, TOP_WIDTH
+from optlaws.tolerances import DIFFERENCE_ROUNDING, DIFFERENCE_SHARE, OPERATIONS_ROUNDING, TIE, TOP_WIDTH
 
 PARTS = 8
 _ROUNDS = 20

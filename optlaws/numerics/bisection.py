@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import TOUCHING
+from optlaws.tolerances import TOUCHING
 
 
 def bisect(holds: Callable[[float], bool], inside: float, outside: float, halvings: int = 200) -> tuple[float, float]:

@@ -10,7 +10,7 @@ import numpy as np
 from optlaws.errors import InputError
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import derivative, from_values, interpolated, nodes, real_parts_of_roots
-from optlaws.numerics.tolerances import QUOTIENT_BLUR, VALUE_ROUNDING
+from optlaws.tolerances import QUOTIENT_BLUR, VALUE_ROUNDING
 
 _DEEPEST = 12
 #: for parts so short that nothing is smooth on them

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from optlaws.errors import InputError
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import EPSILON, SERIES_ROUNDING
+from optlaws.tolerances import EPSILON, SERIES_ROUNDING
 
 Place = TypeVar("Place", float, Array)
 Values = TypeVar("Values", Array, NDArray[np.complex128])

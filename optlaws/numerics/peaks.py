@@ -11,7 +11,7 @@ import numpy as np
 
 from optlaws.files.reading import JsonText, entries_of
 from optlaws.numbers import Array, bounded, finite
-from optlaws.numerics.tolerances import POLISHED, POLISHING_REACH, TIE
+from optlaws.tolerances import POLISHED, POLISHING_REACH, TIE
 
 POLISH_STEPS = 3
 

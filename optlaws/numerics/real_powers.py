@@ -10,7 +10,7 @@ import numpy as np
 
 from optlaws.numbers import Array
 from optlaws.numerics.bisection import bisect
-from optlaws.numerics.tolerances import SAME_EXPONENT
+from optlaws.tolerances import SAME_EXPONENT
 
 Sum = Mapping[float, float]  # exponent: coefficient
 

@@ -14,8 +14,8 @@ from optlaws.cams.forces import CamForces
 from optlaws.errors import InputError
 from optlaws.files.writing import MARK
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import OUTLINE_DRAWN
 from optlaws.plots.style import BLUES, GREEN, GREY, WARM, new_figure, plot_style, titled
+from optlaws.tolerances import OUTLINE_DRAWN
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist

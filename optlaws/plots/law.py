@@ -14,11 +14,11 @@ from optlaws.errors import InputError
 from optlaws.laws.curve import Curve
 from optlaws.laws.law import MotionLaw
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import LOOKS_EQUAL
 from optlaws.plots.style import BLUES, BROWN, GREEN, GREY, VIOLET, WARM, new_figure, plot_style
 from optlaws.synthesis.limits.of_problem import limited_laws
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.solution import Solution
+from optlaws.tolerances import LOOKS_EQUAL
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist

@@ -19,7 +19,6 @@ from optlaws.files.reading import JsonText, entries_of
 from optlaws.kept import kept_property
 from optlaws.laws import PolynomialLaw
 from optlaws.numbers import MOST_VALUES, Array, finite, listed, real, whole
-from optlaws.numerics.tolerances import AGREEMENT, NEARLY_NOTHING, NO_EXCHANGE
 from optlaws.shown.steps import Steps
 from optlaws.synthesis.families.peaks import of_polynomials
 from optlaws.synthesis.method.exchange import solve
@@ -34,6 +33,7 @@ from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.solve import Bound, check_bound, synthesize
 from optlaws.synthesis.solve_many import SolvedLine
 from optlaws.synthesis.status import Status
+from optlaws.tolerances import AGREEMENT, NEARLY_NOTHING, NO_EXCHANGE
 
 _OF_POINTS = ("lower bound", "gap", "limit", "status")
 #: of fronts of B, C, D and J

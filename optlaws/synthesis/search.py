@@ -11,14 +11,6 @@ import numpy as np
 from optlaws.errors import InfeasibleProblem, SolverFailure
 from optlaws.laws import MotionLaw
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import (
-    AGREEMENT,
-    BEYOND_PROOF,
-    FIRST_MOVE,
-    NO_OBJECTIVE,
-    OPTIMALITY_GAP,
-    UNDIVIDED_ROUNDING,
-)
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.method import starts
@@ -39,6 +31,14 @@ from optlaws.synthesis.proof.peak_rows import peak_of
 from optlaws.synthesis.proof.power.search import tightened
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.status import Status, status_of
+from optlaws.tolerances import (
+    AGREEMENT,
+    BEYOND_PROOF,
+    FIRST_MOVE,
+    NO_OBJECTIVE,
+    OPTIMALITY_GAP,
+    UNDIVIDED_ROUNDING,
+)
 
 #: of the gap, what the search over the places of a peak leaves
 _LEFT = 0.9

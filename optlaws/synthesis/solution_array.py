@@ -17,7 +17,6 @@ from optlaws.files.reading import JsonText
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import OPTIMALITY_GAP
 from optlaws.shown.summary import Row, Summary
 from optlaws.synthesis.arrays.problems import ProblemArray
 from optlaws.synthesis.arrays.programs import NO_CONTACT, SolvedBatch
@@ -37,6 +36,7 @@ from optlaws.synthesis.spaces.splines import PiecewiseBasis
 from optlaws.synthesis.status import Status, measure, status_of
 from optlaws.synthesis.stored_rows import check_status, plain_error, plain_state
 from optlaws.synthesis.stored_solutions import read_solutions
+from optlaws.tolerances import OPTIMALITY_GAP
 
 if TYPE_CHECKING:
     import pandas as pd

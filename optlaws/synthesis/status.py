@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError
-from optlaws.numerics.tolerances import NO_OBJECTIVE, OPTIMALITY_GAP
+from optlaws.tolerances import NO_OBJECTIVE, OPTIMALITY_GAP
 
 
 @overload

@@ -19,7 +19,6 @@ from numpy.typing import NDArray
 from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
 from optlaws.laws import MotionLaw, smoothstep
-from optlaws.numerics.tolerances import STORED_COEFFICIENT, STORED_VALUE
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Program
 from optlaws.synthesis.limits.of_problem import known_limit
@@ -32,6 +31,7 @@ from optlaws.synthesis.proof.no_law import beyond_limit, proof_of_no_law
 from optlaws.synthesis.spaces.bases import PolynomialBasis
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
 from optlaws.synthesis.status import Status, status_of
+from optlaws.tolerances import STORED_COEFFICIENT, STORED_VALUE
 
 Plain = dict[str, Any]
 Kind = TypeVar("Kind")

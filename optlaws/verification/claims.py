@@ -12,7 +12,6 @@ from typing import Any
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
-from optlaws.numerics.tolerances import CORRECTED_MULTIPLIER, NEGATIVE_MULTIPLIER, OPTIMALITY_GAP
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.limits.rounding import rounded_down, rounded_up
 from optlaws.synthesis.problem.constants import FUNCTIONALS
@@ -22,6 +21,7 @@ from optlaws.synthesis.proof.data import problem_of
 from optlaws.synthesis.proven.front import ProvenFront
 from optlaws.synthesis.status import measure
 from optlaws.synthesis.stored_solutions import read_solutions
+from optlaws.tolerances import CORRECTED_MULTIPLIER, NEGATIVE_MULTIPLIER, OPTIMALITY_GAP
 from optlaws.verification.conditions import excesses
 from optlaws.verification.enclosing.balls import enclosed
 from optlaws.verification.exact.bound import Proof, prove

@@ -11,7 +11,6 @@ from typing import NamedTuple
 
 from flint import arb, ctx, fmpq_poly, fmpz_poly
 
-from optlaws.numerics.tolerances import BOUND_FEASIBILITY, BREAK_ROUNDING, COEFFICIENT_ROUNDING
 from optlaws.synthesis.families import names
 from optlaws.synthesis.limits.rounding import rounded_up
 from optlaws.synthesis.problem.constants import Functional
@@ -21,6 +20,7 @@ from optlaws.synthesis.problem.windows import Window
 from optlaws.synthesis.spaces.bases import Basis, Pieces, PolynomialBasis
 from optlaws.synthesis.spaces.pieces.periodic import PeriodicPieces
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
+from optlaws.tolerances import BOUND_FEASIBILITY, BREAK_ROUNDING, COEFFICIENT_ROUNDING
 from optlaws.verification.enclosing.balls import Extremes, ball, rational, upper
 from optlaws.verification.enclosing.pieces import PolynomialPiece, between, least_and_greatest
 from optlaws.verification.exact.law import ExactLaw

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
 
-from optlaws.numerics.tolerances import CORRECTED_MULTIPLIER, NO_OBJECTIVE, STATED_GAP
 from optlaws.synthesis.limits.rounding import rounded_up
 from optlaws.synthesis.proven.front import FrontPoint, ProvenFront
 from optlaws.synthesis.proven.swept_parameter import SweptParameter
+from optlaws.tolerances import CORRECTED_MULTIPLIER, NO_OBJECTIVE, STATED_GAP
 from optlaws.verification.conditions import Excess, excesses
 from optlaws.verification.enclosing.balls import enclosed
 from optlaws.verification.exact.bound import Along, Proof, prove_along

@@ -11,12 +11,12 @@ from flint import arb, ctx, fmpq, fmpq_poly
 
 from optlaws.errors import InputError
 from optlaws.numbers import real
-from optlaws.numerics.tolerances import COEFFICIENT_ROUNDING, STATED_BOUND, STATED_CONSTANT, STATED_PLACE
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.limits.rounding import rounded_down
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.spaces.bases import PolynomialBasis
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
+from optlaws.tolerances import COEFFICIENT_ROUNDING, STATED_BOUND, STATED_CONSTANT, STATED_PLACE
 from optlaws.verification.enclosing.balls import at, enclosed, rational
 from optlaws.verification.enclosing.pieces import between, least_and_greatest
 from optlaws.verification.exact.law import ExactLaw

@@ -218,7 +218,8 @@ def test_rms_of_acceleration_is_the_integral(law: MotionLaw) -> None:
 @every_law
 def test_constants_as_plain_data(law: MotionLaw) -> None:
     table = law.constants.to_dict()
-    assert list(table) == ["B", "C", "D", "J"]
+    assert list(table) == ["B", "C", "D", "J", "rms_c"]
+    assert list(law.constants.to_dict(rms=False)) == ["B", "C", "D", "J"]
     assert table["C"] == {"value": law.peak(2).value, "k": law.peak(2).k}
     assert law.constants.to_dict()["rms_c"] == law.constants.rms_c
     assert json.loads(json.dumps(table)) == table

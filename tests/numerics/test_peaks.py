@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from optlaws import Chebyshev, PolynomialLaw, Problem, synthesize
 from optlaws.numerics.peaks import Peak, extremes, highest, peak, polished
-from optlaws.numerics.tolerances import POLISHING_REACH
+from optlaws.tolerances import POLISHING_REACH
 
 Array = NDArray[np.float64]
 Residual = Callable[[Array], tuple[Array, Array]]

@@ -25,8 +25,8 @@ from optlaws.laws import MotionLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.motion.quantities import si_number
 from optlaws.numbers import NumberOrQuantity, finite, real
-from optlaws.numerics.tolerances import AGREEMENT
 from optlaws.suggest import keywords_of
+from optlaws.tolerances import AGREEMENT
 
 DwellType = Literal["I", "II", "III"]
 

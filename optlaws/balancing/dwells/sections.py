@@ -19,7 +19,7 @@ from optlaws.laws import MotionLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment, Segment
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import AGREEMENT, CLOSURE
+from optlaws.tolerances import AGREEMENT, CLOSURE
 
 #: the loader of a law, kept
 loader_of = lru_cache(maxsize=64)(Loader)

@@ -14,8 +14,8 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError, OptlawsError
 from optlaws.numbers import Array, NumberOrQuantity, finite
 from optlaws.numerics.bisection import bisect
-from optlaws.numerics.tolerances import LINKAGE_MET, SAME_LINKAGE
 from optlaws.suggest import unknown_key
+from optlaws.tolerances import LINKAGE_MET, SAME_LINKAGE
 
 Span = float | tuple[float, float]
 

@@ -10,7 +10,7 @@ import numpy as np
 from optlaws.balancing.levers.motion import LeverMotion
 from optlaws.errors import InputError, SolverFailure
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import SWING_INTEGRATED, SWING_RESOLVED, SWING_SETTLED
+from optlaws.tolerances import SWING_INTEGRATED, SWING_RESOLVED, SWING_SETTLED
 
 Function = Callable[[Array], Array]
 

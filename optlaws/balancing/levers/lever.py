@@ -17,7 +17,7 @@ from optlaws.kept import kept_property
 from optlaws.laws import PolynomialLaw
 from optlaws.motion.quantities import si_number
 from optlaws.numbers import Array, NumberOrQuantity, finite
-from optlaws.numerics.tolerances import ANGLE_LIMIT
+from optlaws.tolerances import ANGLE_LIMIT
 
 
 @dataclass(frozen=True, init=False)

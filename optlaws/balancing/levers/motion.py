@@ -18,7 +18,7 @@ from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
 from optlaws.numbers import Array, derivative, finite, numbers, positive
 from optlaws.numerics import chebyshev
-from optlaws.numerics.tolerances import EPSILON, OPERATIONS_ROUNDING
+from optlaws.tolerances import EPSILON, OPERATIONS_ROUNDING
 
 _SAMPLES = 129
 _STEPS = 50

@@ -11,7 +11,7 @@ from numpy.polynomial import Polynomial
 from optlaws.balancing.levers.linkage import FourBar
 from optlaws.errors import InputError
 from optlaws.numerics.peaks import polished
-from optlaws.numerics.tolerances import REAL_ROOT
+from optlaws.tolerances import REAL_ROOT
 
 #: least transmission angle that is allowed unless another is given, radians
 LEAST_TRANSMISSION = pi / 6.0

@@ -8,7 +8,7 @@ from math import asin, cos, pi, sin, sqrt
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.numbers import positive
-from optlaws.numerics.tolerances import ANGLE_SHARP
+from optlaws.tolerances import ANGLE_SHARP
 
 HARMLESS = 4.0 / pi  # here the loader can run at constant acceleration, with C = 4
 EVEN_POWER = 1.5  # here it can run at constant power, with D = 9/4

@@ -17,7 +17,7 @@ from optlaws.laws import MotionLaw
 from optlaws.laws.law import motion_law
 from optlaws.motion.quantities import si_number
 from optlaws.numbers import NumberOrQuantity, bounded, real
-from optlaws.numerics.tolerances import AGREEMENT, LOADER_TERM
+from optlaws.tolerances import AGREEMENT, LOADER_TERM
 
 
 @dataclass(frozen=True, repr=False)

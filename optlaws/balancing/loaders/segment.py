@@ -16,7 +16,7 @@ from optlaws.laws import MotionLaw
 from optlaws.laws.segments.segment import Segment
 from optlaws.numbers import Array
 from optlaws.numerics import panels
-from optlaws.numerics.tolerances import LEAST_ROOT, PANEL_ROUNDING, SHORTEST_PANEL
+from optlaws.tolerances import LEAST_ROOT, PANEL_ROUNDING, SHORTEST_PANEL
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
 from optlaws.numbers import Array
 from optlaws.numerics import chebyshev
-from optlaws.numerics.tolerances import AGREEMENT, CONVERGENCE_RADIUS, TOP_POINT, TOP_REACHED, TOP_STEP, VALUE_ROUNDING
+from optlaws.tolerances import AGREEMENT, CONVERGENCE_RADIUS, TOP_POINT, TOP_REACHED, TOP_STEP, VALUE_ROUNDING
 
 MOST = 41
 

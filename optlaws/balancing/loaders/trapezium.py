@@ -11,7 +11,7 @@ from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.making.trapezoids import trapezoid
 from optlaws.laws.segments.piecewise import PiecewiseLaw
-from optlaws.numerics.tolerances import VALUE_ROUNDING
+from optlaws.tolerances import VALUE_ROUNDING
 
 
 def closed_form_Y(e13: float, gamma_w: float) -> float:

@@ -25,7 +25,7 @@ from optlaws.numerics.enclosures.branch_and_bound import Extremes, extremes
 from optlaws.numerics.enclosures.integral import integral
 from optlaws.numerics.enclosures.interval import Interval
 from optlaws.numerics.enclosures.taylor import Jet
-from optlaws.numerics.tolerances import AGREEMENT, BALANCING_EXTREMES
+from optlaws.tolerances import AGREEMENT, BALANCING_EXTREMES
 
 _PARTS = 12
 

@@ -21,7 +21,7 @@ from optlaws.numerics import chebyshev
 from optlaws.numerics.enclosures.branch_and_bound import Extremes, extremes
 from optlaws.numerics.enclosures.interval import Interval
 from optlaws.numerics.enclosures.taylor import Jet, variable
-from optlaws.numerics.tolerances import ROUNDOFF, TORQUE_EXTREMES
+from optlaws.tolerances import ROUNDOFF, TORQUE_EXTREMES
 
 _EDGES = 9
 

@@ -19,7 +19,7 @@ from optlaws.numbers import Array
 from optlaws.numerics import chebyshev, real_powers
 from optlaws.numerics.enclosures.interval import Interval, between, exact
 from optlaws.numerics.enclosures.taylor import Jet
-from optlaws.numerics.tolerances import ROUNDOFF
+from optlaws.tolerances import ROUNDOFF
 
 _MORE = 4  # derivatives that Taylor's formula takes beyond those that are asked
 

@@ -24,8 +24,8 @@ from optlaws.numbers import Array, Quantity, derivative, real_times
 from optlaws.numerics import chebyshev
 from optlaws.numerics.enclosures.interval import Interval, exact, hull
 from optlaws.numerics.enclosures.taylor import Jet
-from optlaws.numerics.tolerances import CLOSURE, ROUNDOFF
 from optlaws.suggest import unknown_key
+from optlaws.tolerances import CLOSURE, ROUNDOFF
 
 Direction = Literal["rise", "return"]
 DIRECTIONS: dict[Direction, float] = {"rise": 1.0, "return": -1.0}

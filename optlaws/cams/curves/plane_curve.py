@@ -13,7 +13,7 @@ from optlaws.numbers import Array, derivative, finite, real_times, whole
 from optlaws.numerics import chebyshev
 from optlaws.numerics.enclosures.interval import Interval
 from optlaws.numerics.enclosures.taylor import Jet, Pair
-from optlaws.numerics.tolerances import CONTROL_POINT_BLUR
+from optlaws.tolerances import CONTROL_POINT_BLUR
 
 _MOST = 1_000_000
 

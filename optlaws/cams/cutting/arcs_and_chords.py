@@ -10,7 +10,7 @@ from optlaws.cams.cutting.outline import Outline, curvature, divided, greatest_d
 from optlaws.numbers import Array
 from optlaws.numerics.enclosures.interval import Interval, middle
 from optlaws.numerics.enclosures.taylor import Jet
-from optlaws.numerics.tolerances import DEVIATIONS, RADIUS_ROUNDING
+from optlaws.tolerances import DEVIATIONS, RADIUS_ROUNDING
 
 GROWTH = 1.06
 FEWEST = 3

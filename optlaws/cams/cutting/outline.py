@@ -14,7 +14,7 @@ from optlaws.numbers import Array
 from optlaws.numerics.enclosures.branch_and_bound import extremes
 from optlaws.numerics.enclosures.interval import Interval
 from optlaws.numerics.enclosures.taylor import Jet, Pair
-from optlaws.numerics.tolerances import OUTLINE_SHARE, SMALLEST_SPEED
+from optlaws.tolerances import OUTLINE_SHARE, SMALLEST_SPEED
 
 Density = Callable[[Array], Array]
 

@@ -14,7 +14,7 @@ from optlaws.kept import kept_property
 from optlaws.numbers import Array
 from optlaws.numerics.enclosures.interval import Interval
 from optlaws.numerics.enclosures.taylor import Jet, Pair
-from optlaws.numerics.tolerances import BEFORE_BREAK
+from optlaws.tolerances import BEFORE_BREAK
 
 DEGREES = (3, 5)
 _FIRST = 48

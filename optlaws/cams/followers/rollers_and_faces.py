@@ -13,7 +13,7 @@ from optlaws.cams.followers.contact import ContactState, CurvatureTerms, Followe
 from optlaws.numbers import Array
 from optlaws.numerics.enclosures.interval import Interval
 from optlaws.numerics.enclosures.taylor import Jet, Pair, Term
-from optlaws.numerics.tolerances import NO_CROSSING
+from optlaws.tolerances import NO_CROSSING
 
 
 class RollerContact(FollowerContact):

@@ -8,7 +8,7 @@ import optlaws
 from optlaws.cli.options import AsJson, Duration, check_files, save_picture
 from optlaws.cli.show import number, print_json, show, table
 from optlaws.errors import InputError
-from optlaws.numerics.tolerances import VALUE_ROUNDING
+from optlaws.tolerances import VALUE_ROUNDING
 
 _ONE, _INTERVAL = 1, 2
 

@@ -24,8 +24,8 @@ from optlaws.cycles.specification.segments import ConstantVelocity, Dwell, Free,
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.laws import MotionLaw
 from optlaws.motion.piece import factor, named_law
-from optlaws.numerics.tolerances import AGREEMENT, DURATION_STEP, SAME_TIME, SHORTEST_MOVE
 from optlaws.synthesis.solve import synthesize
+from optlaws.tolerances import AGREEMENT, DURATION_STEP, SAME_TIME, SHORTEST_MOVE
 
 _REST = State(0.0, 0.0)
 _ROUNDS = 30

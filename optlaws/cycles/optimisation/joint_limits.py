@@ -16,8 +16,8 @@ from optlaws.cycles.specification.programme import TimedSegment, is_optimal
 from optlaws.errors import InfeasibleProblem, SolverFailure
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import in_small_units
-from optlaws.numerics.tolerances import AGREEMENT
 from optlaws.synthesis.solution import Solution
+from optlaws.tolerances import AGREEMENT
 
 _VELOCITY, _ACCELERATION_KNOWN = 1, 3
 

@@ -29,9 +29,9 @@ from optlaws.cycles.specification.joints import LawSpan, Layout
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.kept import kept_property
 from optlaws.motion.piece import Piece, factor
-from optlaws.numerics.tolerances import FEASIBILITY, LEAST_PEAK_SLACK, PEAK_BRACKET
 from optlaws.synthesis.functionals.makers import integral
 from optlaws.synthesis.solution import Solution
+from optlaws.tolerances import FEASIBILITY, LEAST_PEAK_SLACK, PEAK_BRACKET
 
 _ROUNDS = 8
 _FARTHEST = 30.0  # logarithm of what a limit may be worth

@@ -38,7 +38,6 @@ from optlaws.cycles.specification.programme import is_optimal
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.motion.piece import Piece, factor
 from optlaws.motion.quantities import in_small_units
-from optlaws.numerics.tolerances import AGREEMENT
 from optlaws.synthesis.problem.constants import FUNCTIONALS, Functional
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
@@ -48,6 +47,7 @@ from optlaws.synthesis.solve import synthesize
 from optlaws.synthesis.spaces.bases import Chebyshev, Pieces
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 from optlaws.synthesis.status import Status
+from optlaws.tolerances import AGREEMENT
 
 _DRIVEN = (FORCE, POWER)
 _PEAKS = {1: "B", 2: "C", 3: "J"}

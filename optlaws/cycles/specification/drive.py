@@ -14,8 +14,8 @@ from optlaws.laws.storage import PlainNumbers
 from optlaws.motion.piece import Piece, factor
 from optlaws.motion.quantities import quantity, table
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import VALUE_ROUNDING
 from optlaws.suggest import unknown_key
+from optlaws.tolerances import VALUE_ROUNDING
 
 #: entries of a drive with their dimensions, for slides and for tables
 ENTRIES = {

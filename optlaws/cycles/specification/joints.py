@@ -14,7 +14,7 @@ from optlaws.errors import InputError
 from optlaws.laws import smoothstep
 from optlaws.motion.piece import Piece, named_law
 from optlaws.motion.quantities import in_small_units, quantity
-from optlaws.numerics.tolerances import CLOSURE
+from optlaws.tolerances import CLOSURE
 
 UNIFORM = smoothstep(1)
 

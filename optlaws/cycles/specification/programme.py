@@ -20,7 +20,7 @@ from optlaws.cycles.specification.segments import (
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.motion.quantities import TURN, either, in_small_units, positive_quantity, quantity
-from optlaws.numerics.tolerances import CLOSURE
+from optlaws.tolerances import CLOSURE
 
 #: dimensions of the derivatives of a position, for slides and for tables
 AXES = {

@@ -11,7 +11,7 @@ from optlaws.exports.formats.program_polynomials import iec_heading, leaps_in_wo
 from optlaws.exports.text import iec_name, real
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion
-from optlaws.numerics.tolerances import WHOLE_NUMBER
+from optlaws.tolerances import WHOLE_NUMBER
 
 DEGREE = 6
 MOST = 64

@@ -23,7 +23,7 @@ from optlaws.exports.text import plain, plain_column, table_heading
 from optlaws.files.writing import MARK
 from optlaws.motion.motion import Motion
 from optlaws.motion.quantities import quantity
-from optlaws.numerics.tolerances import DECADIC_STEP
+from optlaws.tolerances import DECADIC_STEP
 
 MODELS = {
     "linear": "straight lines",

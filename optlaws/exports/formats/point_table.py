@@ -13,7 +13,7 @@ from optlaws.exports.interpolation import Ends, akima_powers, hermite_powers, li
 from optlaws.exports.spacing import PointTable, chosen, places
 from optlaws.motion.motion import Motion
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import TABLE_ROUNDING
+from optlaws.tolerances import TABLE_ROUNDING
 
 DEGREES = {1: "linear", 2: "cubic Hermite", 3: "quintic Hermite", 4: "Hermite of degree 7"}
 

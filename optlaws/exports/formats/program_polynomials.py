@@ -16,7 +16,7 @@ from optlaws.exports.text import Labels, program_heading, real, rounded_up, safe
 from optlaws.files.writing import MARK
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion
-from optlaws.numerics.tolerances import POLYNOMIAL_ROUNDING, SOURCE_CODE_OFF
+from optlaws.tolerances import POLYNOMIAL_ROUNDING, SOURCE_CODE_OFF
 
 #: of source code: the degree of polynomials for laws that are none, and of laws whose own polynomials are taken
 SOURCE_DEGREE, OWN_DEGREE = 9, 40

@@ -21,7 +21,7 @@ from optlaws.laws.polynomial import smoothstep
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import Segment
 from optlaws.laws.segments.sine import HarmonicSegment, SineSegment
-from optlaws.numerics.tolerances import JUMP
+from optlaws.tolerances import JUMP
 
 BUILDERS = ("smoothstep", "sines", "cosines", "scca", "trapezoid", "code")
 

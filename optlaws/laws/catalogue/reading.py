@@ -17,7 +17,7 @@ from optlaws.laws.law import MotionLaw
 from optlaws.laws.making.through_points import MOST_THROUGH, law_of_table, law_through
 from optlaws.laws.savin import FAMILIES, SavinFamily
 from optlaws.numbers import not_negative
-from optlaws.numerics.tolerances import EXACT_DIGITS
+from optlaws.tolerances import EXACT_DIGITS
 
 _LARGEST = 20_000_000
 _MOST_POINTS = 100_000

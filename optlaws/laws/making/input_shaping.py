@@ -15,7 +15,7 @@ from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
 from optlaws.numbers import Array, frequency, not_negative
 from optlaws.numerics import chebyshev
-from optlaws.numerics.tolerances import AGREEMENT
+from optlaws.tolerances import AGREEMENT
 
 Shaper = Literal["ZV", "ZVD"]
 

@@ -19,7 +19,7 @@ from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import Segment
 from optlaws.numbers import Array, finite, fractions
 from optlaws.numerics import chebyshev, exact
-from optlaws.numerics.tolerances import JUMP, MULTIPLIER_CLOSE, MULTIPLIER_MET, MULTIPLIER_STEP, VALUE_ROUNDING
+from optlaws.tolerances import JUMP, MULTIPLIER_CLOSE, MULTIPLIER_MET, MULTIPLIER_STEP, VALUE_ROUNDING
 
 Multiplier = Sequence[Any] | NDArray[Any] | Callable[[float], float]
 

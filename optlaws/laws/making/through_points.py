@@ -17,7 +17,7 @@ from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
 from optlaws.numbers import Array, not_negative, numbers
 from optlaws.numerics import chebyshev
-from optlaws.numerics.tolerances import THROUGH_POINTS
+from optlaws.tolerances import THROUGH_POINTS
 
 #: displacement to snap run through
 DEGREE = 5

@@ -13,7 +13,7 @@ from optlaws.laws.segments.segment import PolynomialSegment, Segment
 from optlaws.laws.segments.sine import SineSegment
 from optlaws.numbers import finite
 from optlaws.numerics.exact import chebyshev_from_powers
-from optlaws.numerics.tolerances import SHORTEST_STRETCH
+from optlaws.tolerances import SHORTEST_STRETCH
 
 Piece = tuple[float, Segment]
 

@@ -11,7 +11,7 @@ from optlaws.errors import InputError
 from optlaws.laws.segments.segment import Segment
 from optlaws.numbers import Array
 from optlaws.numerics import real_powers
-from optlaws.numerics.tolerances import SAME_EXPONENT, SMALLEST_RATIO
+from optlaws.tolerances import SAME_EXPONENT, SMALLEST_RATIO
 
 
 @dataclass(frozen=True)

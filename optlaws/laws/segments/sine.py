@@ -15,7 +15,7 @@ from optlaws.kept import kept_property
 from optlaws.laws.segments.segment import Segment, Wave, Waves
 from optlaws.numbers import Array
 from optlaws.numerics.panels import of_waves
-from optlaws.numerics.tolerances import SLOWEST_FREQUENCY
+from optlaws.tolerances import SLOWEST_FREQUENCY
 
 
 class SwingingSegment(Segment):

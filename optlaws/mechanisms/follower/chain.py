@@ -15,7 +15,7 @@ from optlaws.mechanisms.follower.vibration import Oscillator
 from optlaws.numbers import Array
 from optlaws.numerics import chebyshev
 from optlaws.numerics.panels import Panels, equal, resolved
-from optlaws.numerics.tolerances import MOTION_RESOLVED, STRETCH_RESOLVED
+from optlaws.tolerances import MOTION_RESOLVED, STRETCH_RESOLVED
 
 State = tuple[float, float]
 #: of a slope on a stretch by its number, at times since its start: the slope itself, or its derivative

@@ -17,7 +17,7 @@ from optlaws.laws.segments.sine import SineSegment
 from optlaws.numbers import Array
 from optlaws.numerics import chebyshev
 from optlaws.numerics.panels import Panels, resolved
-from optlaws.numerics.tolerances import CLOSURE, VELOCITY_ABSORBED, VELOCITY_RESOLVED
+from optlaws.tolerances import CLOSURE, VELOCITY_ABSORBED, VELOCITY_RESOLVED
 
 
 @dataclass(frozen=True, eq=False)

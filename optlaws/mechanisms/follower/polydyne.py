@@ -14,7 +14,7 @@ from optlaws.laws.law import motion_law
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.numbers import Array, not_negative, positive
 from optlaws.numerics import chebyshev
-from optlaws.numerics.tolerances import JUMP
+from optlaws.tolerances import JUMP
 
 
 def polydyne(law: MotionLaw, nu: float, damping: float = 0.0) -> MotionLaw:

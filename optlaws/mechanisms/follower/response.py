@@ -19,7 +19,7 @@ from optlaws.mechanisms.follower.chain import MassChain
 from optlaws.mechanisms.follower.forcing import Forcing, forcings, leads_back, rest
 from optlaws.mechanisms.follower.vibration import Oscillator
 from optlaws.numbers import Array, derivative, real_times
-from optlaws.numerics.tolerances import RESONANCE, SHORTEST_STRETCH
+from optlaws.tolerances import RESONANCE, SHORTEST_STRETCH
 
 
 class MassMotion(Curve):

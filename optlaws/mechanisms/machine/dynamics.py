@@ -17,7 +17,7 @@ import numpy as np
 from optlaws.kept import kept_property
 from optlaws.numbers import Array, Complex
 from optlaws.numerics import chebyshev
-from optlaws.numerics.tolerances import SAME_ROOT, SAME_TIME, VIBRATING
+from optlaws.tolerances import SAME_ROOT, SAME_TIME, VIBRATING
 
 RADIANS = 10.0  # of the fastest vibration in a panel
 DECAY = 40.0  # of the fastest decay in a panel, while it is not over

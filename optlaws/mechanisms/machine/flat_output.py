@@ -14,7 +14,7 @@ from optlaws.laws.law import motion_law
 from optlaws.mechanisms.machine.state_space import StateSpace
 from optlaws.numbers import Array
 from optlaws.numerics import chebyshev
-from optlaws.numerics.tolerances import FEEDTHROUGH, FLAT_OUTPUT_JUMP
+from optlaws.tolerances import FEEDTHROUGH, FLAT_OUTPUT_JUMP
 
 
 def flat_output(machine: StateSpace, output: str | None = None) -> tuple[float, ...]:

@@ -14,7 +14,7 @@ from optlaws.mechanisms.machine.masses import MachineModel
 from optlaws.mechanisms.machine.state_space import StateSpace
 from optlaws.motion.quantities import either
 from optlaws.numbers import Array, Complex, not_negative, numbers, positive
-from optlaws.numerics.tolerances import DEFECTIVE, SAME_ROOT
+from optlaws.tolerances import DEFECTIVE, SAME_ROOT
 
 
 @dataclass(frozen=True)

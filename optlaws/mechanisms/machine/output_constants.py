@@ -30,7 +30,6 @@ from optlaws.mechanisms.machine.over_time import (
 from optlaws.mechanisms.machine.state_space import StateSpace
 from optlaws.mechanisms.machine.texts import check_repeats, check_rest, output_entries, time_of, title_of
 from optlaws.numbers import Array, power_of_two
-from optlaws.numerics.tolerances import NEGLIGIBLE_TERM, SHORTEST_STRETCH, VALUE_ROUNDING
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily
 from optlaws.synthesis.functionals.makers import PeakSide
@@ -39,6 +38,7 @@ from optlaws.synthesis.problem.constants import MAKERS, Functional
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 from optlaws.synthesis.spaces.pieces.rows import PieceFamily, PieceSeries
 from optlaws.synthesis.spaces.space import LawSpace
+from optlaws.tolerances import NEGLIGIBLE_TERM, SHORTEST_STRETCH, VALUE_ROUNDING
 
 _RADIANS = 40.0  # of the fastest vibration on one piece of the rows
 _MOST_GAIN = 1e6

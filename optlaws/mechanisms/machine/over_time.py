@@ -22,7 +22,7 @@ from optlaws.mechanisms.machine.dynamics import RADIANS, DriveStretch, Panel
 from optlaws.mechanisms.machine.state_space import StateSpace
 from optlaws.numbers import Array, Complex, real_times, whole
 from optlaws.numerics import chebyshev
-from optlaws.numerics.tolerances import END_ROUNDING, EPSILON, RESONANCE, SHORTEST_STRETCH
+from optlaws.tolerances import END_ROUNDING, EPSILON, RESONANCE, SHORTEST_STRETCH
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -31,10 +31,10 @@ from optlaws.mechanisms.spectrum.residual import (
 from optlaws.mechanisms.spectrum.transforms import velocity_transform_of
 from optlaws.numbers import Array, Complex, not_negative, numbers, power_of_two
 from optlaws.numerics import chebyshev
-from optlaws.numerics.tolerances import NEGLIGIBLE_TERM
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.problem.constants import MAKERS, Functional
 from optlaws.synthesis.spaces.space import LawSpace
+from optlaws.tolerances import NEGLIGIBLE_TERM
 
 _SPARE = 40
 _WIDEST = 1000.0

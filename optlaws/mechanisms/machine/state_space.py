@@ -17,8 +17,8 @@ from optlaws.kept import kept_property
 from optlaws.mechanisms.machine.dynamics import Dynamics
 from optlaws.motion.quantities import si_number
 from optlaws.numbers import MAGNITUDE_LIMIT, Array, Complex, NumberOrQuantity, positive, real_times
-from optlaws.numerics.tolerances import SETTLED, UNSTABLE
 from optlaws.suggest import unknown_key
+from optlaws.tolerances import SETTLED, UNSTABLE
 
 Matrix = tuple[tuple[float, ...], ...]
 

@@ -10,8 +10,8 @@ from optlaws.errors import InputError
 from optlaws.files import reading
 from optlaws.mechanisms.machine.state_space import StateSpace
 from optlaws.numbers import numbers
-from optlaws.numerics.tolerances import CLOSURE
 from optlaws.synthesis.spaces.space import LawSpace
+from optlaws.tolerances import CLOSURE
 
 _LATEST = 100.0
 

@@ -16,7 +16,7 @@ from optlaws.mechanisms.spectrum.residual import residual_phasor, roots
 from optlaws.mechanisms.spectrum.transforms import legendre_from_chebyshev, moments
 from optlaws.numbers import Array, Complex
 from optlaws.numerics import chebyshev
-from optlaws.numerics.tolerances import BEYOND_CUBIC, LOAD_RESOLVED
+from optlaws.tolerances import BEYOND_CUBIC, LOAD_RESOLVED
 
 RADIANS = 0.7
 TERMS = 9

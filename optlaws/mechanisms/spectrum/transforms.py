@@ -14,7 +14,7 @@ from optlaws.laws.law import motion_law
 from optlaws.mechanisms.follower.forcing import Forcing, forcings
 from optlaws.numbers import Array, Complex
 from optlaws.numerics import chebyshev
-from optlaws.numerics.tolerances import TINY
+from optlaws.tolerances import TINY
 
 
 def moments(sigma: Complex, count: int) -> Complex:

@@ -19,7 +19,7 @@ from optlaws.errors import SolverFailure
 from optlaws.numbers import Array
 from optlaws.numerics.enclosures.interval import Interval, exact
 from optlaws.numerics.enclosures.taylor import Jet
-from optlaws.numerics.tolerances import (
+from optlaws.tolerances import (
     CELL_END,
     EQUAL_EXTREMES,
     EXTREME_POLISHED,

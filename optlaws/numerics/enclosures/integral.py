@@ -10,7 +10,7 @@ from optlaws.errors import SolverFailure
 from optlaws.numbers import Array
 from optlaws.numerics.enclosures.branch_and_bound import Function
 from optlaws.numerics.enclosures.interval import Interval
-from optlaws.numerics.tolerances import ROUNDOFF, SMALLEST_SIZE
+from optlaws.tolerances import ROUNDOFF, SMALLEST_SIZE
 
 _ORDER = 6
 _BLUR = 4.0

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import ROUNDOFF, TINY, WAVE_ROUNDING
+from optlaws.tolerances import ROUNDOFF, TINY, WAVE_ROUNDING
 
 _FEW = 2  # products whose sum is taken one by one
 

@@ -19,8 +19,8 @@ from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import CELL_MARGIN, TANGENT_FALL
 from optlaws.synthesis.families.family import LinearFamily
+from optlaws.tolerances import CELL_MARGIN, TANGENT_FALL
 
 Flags = NDArray[np.bool_]
 

@@ -10,7 +10,13 @@ from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import (
+from optlaws.synthesis.arrays.cells import Cells, Residuals, excess_at
+from optlaws.synthesis.arrays.dual_bounds import lower_bounds, sharp_bounds
+from optlaws.synthesis.arrays.newton_steps import States, Structure, batch_families, locally_optimal, product, with_one
+from optlaws.synthesis.arrays.programs import Numbers, Path
+from optlaws.synthesis.families.family import BatchFamily, LinearFamily, NonlinearFamily
+from optlaws.synthesis.program.writer import Model
+from optlaws.tolerances import (
     CERTIFIED_EXCESS,
     CERTIFIED_PULL,
     FIRST_CERTIFIED_GAP,
@@ -18,12 +24,6 @@ from optlaws.numerics.tolerances import (
     SMALL_OBJECTIVE,
     WIDE_GAP,
 )
-from optlaws.synthesis.arrays.cells import Cells, Residuals, excess_at
-from optlaws.synthesis.arrays.dual_bounds import lower_bounds, sharp_bounds
-from optlaws.synthesis.arrays.newton_steps import States, Structure, batch_families, locally_optimal, product, with_one
-from optlaws.synthesis.arrays.programs import Numbers, Path
-from optlaws.synthesis.families.family import BatchFamily, LinearFamily, NonlinearFamily
-from optlaws.synthesis.program.writer import Model
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,7 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import (
+from optlaws.synthesis.arrays.certification import certification_of
+from optlaws.synthesis.arrays.newton_steps import States, Structure, clipped, converged, structure_of
+from optlaws.synthesis.arrays.programs import Path
+from optlaws.synthesis.families.active_set import ActiveSet
+from optlaws.synthesis.method.exchange import solve
+from optlaws.synthesis.method.strategies.contacts import polished
+from optlaws.tolerances import (
     ASTRAY,
     AT_END,
     BETWEEN_SEGMENTS,
@@ -23,12 +29,6 @@ from optlaws.numerics.tolerances import (
     SAME_STATE,
     VALUE_ROUNDING,
 )
-from optlaws.synthesis.arrays.certification import certification_of
-from optlaws.synthesis.arrays.newton_steps import States, Structure, clipped, converged, structure_of
-from optlaws.synthesis.arrays.programs import Path
-from optlaws.synthesis.families.active_set import ActiveSet
-from optlaws.synthesis.method.exchange import solve
-from optlaws.synthesis.method.strategies.contacts import polished
 
 #: of the path: the first stride
 _FIRST = 0.02

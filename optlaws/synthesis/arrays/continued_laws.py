@@ -14,12 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import AGREEMENT, BEYOND_SEGMENT, CERTIFIED_GAP, INTERPOLATION_TAIL, ROUGH_STEP
 from optlaws.synthesis.arrays.certification import Certification, certification_of
 from optlaws.synthesis.arrays.continuation import ParametricContinuation, StructureSegment
 from optlaws.synthesis.arrays.dual_bounds import lower_bounds
 from optlaws.synthesis.arrays.newton_steps import States, Structure, clipped, converged, step
 from optlaws.synthesis.arrays.programs import Numbers, Path, SolvedBatch
+from optlaws.tolerances import AGREEMENT, BEYOND_SEGMENT, CERTIFIED_GAP, INTERPOLATION_TAIL, ROUGH_STEP
 
 _NODES = 16
 _DEEPEST = 12

@@ -8,13 +8,13 @@ from math import ceil, inf, log
 import numpy as np
 
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import ROUNDOFF, SQUARED_SUMS
 from optlaws.synthesis.arrays.newton_steps import States, Structure, weighted
 from optlaws.synthesis.arrays.programs import Numbers, Path
 from optlaws.synthesis.families.family import LinearFamily
 from optlaws.synthesis.program.writer import Model
 from optlaws.synthesis.proof.duality import product_with_rest
 from optlaws.synthesis.proof.sublevel_bounds import greatest_values, least_values, moments
+from optlaws.tolerances import ROUNDOFF, SQUARED_SUMS
 
 #: roundings in a row before it is weighted, as certificates count them, and what sums are off by beyond
 _IN_A_ROW = 9

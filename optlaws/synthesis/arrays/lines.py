@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import OFF_LINE
 from optlaws.synthesis.arrays.powers import least_power
 from optlaws.synthesis.arrays.programs import Path, between, in_units_of, numbers_of
 from optlaws.synthesis.problem.constants import RootMeanSquare
@@ -19,6 +18,7 @@ from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
 from optlaws.synthesis.program.writer import model_of
 from optlaws.synthesis.spaces.bases import PolynomialBasis
+from optlaws.tolerances import OFF_LINE
 
 #: laws on a line, at least: of jerk structures change often, of root mean squares hardly
 _LEAST, _LEAST_OF_JERK, _LEAST_OF_SMOOTH, _LEAST_OF_POWER = 48, 128, 24, 24

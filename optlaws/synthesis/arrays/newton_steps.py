@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import AGREEMENT
 from optlaws.synthesis.arrays.programs import Numbers
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import BatchFamily, NonlinearFamily
 from optlaws.synthesis.program.writer import Model
+from optlaws.tolerances import AGREEMENT
 
 #: what is given up: a step that is greater than the next ones could mend
 _SIZES = (1e3, 1e3, 10.0, 1.0, 0.3, 0.05, 1e-3, 1e-4)

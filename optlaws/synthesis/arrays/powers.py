@@ -13,7 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import AGREEMENT, TANGENT_SETTLED
 from optlaws.synthesis.arrays.continued_laws import laws_along
 from optlaws.synthesis.arrays.newton_steps import with_one
 from optlaws.synthesis.arrays.programs import Path, SolvedBatch, between
@@ -22,6 +21,7 @@ from optlaws.synthesis.problem.constants import D
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import relaxed
 from optlaws.synthesis.spaces.polynomial_space import PolynomialSpace
+from optlaws.tolerances import AGREEMENT, TANGENT_SETTLED
 
 #: laws sought from all starts: at least and at most on a path, and of how many one
 _LEAST, _MOST, _EACH = 5, 13, 12

@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 
 from optlaws.files.reading import JsonText
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import UNITS_ROUNDING
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.family import ConstraintFamily, Program
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, model_of
+from optlaws.tolerances import UNITS_ROUNDING
 
 
 @dataclass(frozen=True, eq=False)

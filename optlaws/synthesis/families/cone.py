@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import product, real_parts_of_roots
-from optlaws.numerics.tolerances import CONE_NODES, EPSILON, ROW_ROUNDING, TINY
 from optlaws.synthesis.families.family import NonlinearFamily, RowJet, SeriesFamily, last_result
 from optlaws.synthesis.families.peaks import peaks, products
+from optlaws.tolerances import CONE_NODES, EPSILON, ROW_ROUNDING, TINY
 
 Complex = NDArray[np.complex128]
 

@@ -20,10 +20,10 @@ from optlaws.kept import kept_property
 from optlaws.numbers import Array
 from optlaws.numerics.candidates import candidates
 from optlaws.numerics.chebyshev import FEWEST, MOST, from_values, nodes
-from optlaws.numerics.tolerances import FORMULA_RESOLVED, LEAST_ENERGY, ROUNDOFF
 from optlaws.synthesis.families.family import LinearFamily, NonlinearFamily, RowJet, WholeLawFamily, last_result
 from optlaws.synthesis.families.peaks import peaks
 from optlaws.synthesis.families.squares import SumOfSquares, sum_of_squares
+from optlaws.tolerances import FORMULA_RESOLVED, LEAST_ENERGY, ROUNDOFF
 
 _PLACES_PER_DEGREE = 2
 _SQUARE = 2

@@ -17,8 +17,8 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import product, real_parts_of_roots
-from optlaws.numerics.tolerances import ENERGY_ROUNDING, LEAST_ENERGY, RULES_AGREE
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, RowJet
+from optlaws.tolerances import ENERGY_ROUNDING, LEAST_ENERGY, RULES_AGREE
 
 _SPARE = 48
 #: sizes of the rules that must agree on a tangent

@@ -16,8 +16,8 @@ from optlaws.kept import kept_property
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import basis_values, product, real_parts_of_roots
 from optlaws.numerics.gegenbauer import even_gegenbauer_jet
-from optlaws.numerics.tolerances import AT_END, END_OF_U, NO_NORM, ROW_ROUNDING
 from optlaws.synthesis.families.peaks import peaks, products
+from optlaws.tolerances import AT_END, END_OF_U, NO_NORM, ROW_ROUNDING
 
 Result = TypeVar("Result")
 

@@ -11,7 +11,7 @@ from numpy.polynomial import chebyshev
 from optlaws.laws import PolynomialLaw
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import from_values, nodes
-from optlaws.numerics.tolerances import ANGLE_SETTLED
+from optlaws.tolerances import ANGLE_SETTLED
 
 #: points for each degree of the series: between them a peak rises by a share of less than 1/26 (Bernstein)
 _DENSITY = 6

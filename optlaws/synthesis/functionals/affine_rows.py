@@ -13,10 +13,10 @@ from optlaws.formulas.of_motion import MotionFormula
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import from_values, interpolated, nodes
 from optlaws.numerics.chebyshev import gauss as gauss_rule
-from optlaws.numerics.tolerances import VALUE_ROUNDING
 from optlaws.synthesis.families.family import LinearFamily
 from optlaws.synthesis.families.names import mirrored
 from optlaws.synthesis.spaces.pieces.rows import PieceFamily, PieceSeries
+from optlaws.tolerances import VALUE_ROUNDING
 
 if TYPE_CHECKING:
     from optlaws.formulas.tree import Formula

@@ -19,7 +19,7 @@ from optlaws.numbers import Array
 from optlaws.numerics.candidates import candidates, cut_at_all, cut_at_roots, series_between
 from optlaws.numerics.chebyshev import gauss, value
 from optlaws.numerics.peaks import Peak, extremes
-from optlaws.numerics.tolerances import BESIDE_BREAK, INTEGRAL_SETTLED, PIECE_SETTLED
+from optlaws.tolerances import BESIDE_BREAK, INTEGRAL_SETTLED, PIECE_SETTLED
 
 _LARGEST = 400
 #: how often a piece that is not smooth is cut in two, and how many places of Gauss's rule the last ones have

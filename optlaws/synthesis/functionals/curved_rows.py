@@ -17,12 +17,12 @@ from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.tree import ORDERS, Call, Exponentiation, Formula, Name, Negative, Number, number, product, total
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import gauss
-from optlaws.numerics.tolerances import RULES_AGREE
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.curved import CurvedFamily, IntegralFamily
 from optlaws.synthesis.families.family import ConstraintFamily
 from optlaws.synthesis.families.kinked import KinkedIntegralFamily
 from optlaws.synthesis.functionals.affine_rows import Side, edges_of, rows
+from optlaws.tolerances import RULES_AGREE
 
 if TYPE_CHECKING:
     from optlaws.synthesis.spaces.space import LawSpace

@@ -16,7 +16,6 @@ from optlaws.formulas.tree import ORDERS, Negative
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.numbers import Array, power_of_two
-from optlaws.numerics.tolerances import VALUE_ROUNDING
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily
 from optlaws.synthesis.functionals.affine_rows import columns, gauss, rows, sampled, sides
@@ -34,6 +33,7 @@ from optlaws.synthesis.functionals.sizes import SizeBound, by_integral, by_tange
 from optlaws.synthesis.functionals.undefined import check_ends, check_passed, pitfalls
 from optlaws.synthesis.problem.constants import Asked, Functional
 from optlaws.synthesis.problem.ranges import as_range
+from optlaws.tolerances import VALUE_ROUNDING
 
 if TYPE_CHECKING:
     from optlaws.synthesis.spaces.end_conditions import BoundaryConditions

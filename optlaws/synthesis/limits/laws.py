@@ -10,8 +10,8 @@ from typing import TypeVar
 from optlaws.laws.segments.constant_power import PowerSegment
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment, Segment
-from optlaws.numerics.tolerances import STANDSTILL
 from optlaws.synthesis.limits.closed_forms import back_time, back_velocity, best_velocity, limit, run_in
+from optlaws.tolerances import STANDSTILL
 
 Pair = tuple[float, float]
 Piece = TypeVar("Piece")

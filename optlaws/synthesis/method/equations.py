@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import DEPENDENT_ROWS, EMPTY_ROW, EQUATION_OFF, NO_MULTIPLIER
+from optlaws.tolerances import DEPENDENT_ROWS, EMPTY_ROW, EQUATION_OFF, NO_MULTIPLIER
 
 
 def contradiction(rows: Array, right: Array) -> Array | None:

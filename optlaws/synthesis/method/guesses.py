@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import EXCESS, VANISHED
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.curved import IntegralFamily
 from optlaws.synthesis.families.family import ConstraintFamily, NormFamily, Points, Program
+from optlaws.tolerances import EXCESS, VANISHED
 
 #: by how much the room of a start exceeds what its base law needs
 _AMPLE = 1.2

@@ -22,7 +22,6 @@ from numpy.typing import NDArray
 from optlaws.errors import InputError
 from optlaws.numbers import Array
 from optlaws.numerics.bisection import bisect
-from optlaws.numerics.tolerances import LEAST_STEP
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import ConstraintFamily, NormFamily, Program
 from optlaws.synthesis.families.names import at_least
@@ -36,6 +35,7 @@ from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.evaluation import reaches, shortfalls
 from optlaws.synthesis.program.writer import Model, model_of
+from optlaws.tolerances import LEAST_STEP
 
 _FIRST_STEP = 0.25
 _WORTHY = 0.2

@@ -13,9 +13,9 @@ from dataclasses import replace
 import numpy as np
 
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import DEPENDENT_ROWS, NEWTON_CONVERGED, NEWTON_FULFILLED, NEWTON_STALLED, NEWTON_STILL
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Program
+from optlaws.tolerances import DEPENDENT_ROWS, NEWTON_CONVERGED, NEWTON_FULFILLED, NEWTON_STALLED, NEWTON_STILL
 
 _STEPS = 14
 _FAR = 1.05

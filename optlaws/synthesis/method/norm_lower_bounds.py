@@ -14,10 +14,10 @@ from itertools import islice
 import numpy as np
 
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import DIRECTION_SETTLED, FLAT_DIRECTION
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import LinearFamily, NormFamily, Program
 from optlaws.synthesis.method.exchange import solve
+from optlaws.tolerances import DIRECTION_SETTLED, FLAT_DIRECTION
 
 _DIRECTIONS = 12
 _BEGUN = 8

@@ -11,12 +11,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from optlaws.numbers import Array, power_of_two
-from optlaws.numerics.tolerances import SMALL_COST
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.curved import FormulaFamily
 from optlaws.synthesis.families.energy import EnergyFamily
 from optlaws.synthesis.families.family import ConstraintFamily, ProductFamily, Program
+from optlaws.tolerances import SMALL_COST
 
 #: smaller laws are solved as they are
 _GREAT = 100.0

@@ -12,10 +12,10 @@ from dataclasses import replace
 import numpy as np
 
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import APEX_DIRECTION, NEARLY_APEX
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.family import Program
+from optlaws.tolerances import APEX_DIRECTION, NEARLY_APEX
 
 
 def amplitudes(program: Program) -> list[int]:

@@ -15,13 +15,13 @@ import numpy as np
 
 from optlaws.numbers import Array
 from optlaws.numerics.bisection import bisect
-from optlaws.numerics.tolerances import EQUATIONS_RANK, LEAST_INTERIOR
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import NormFamily, Program
 from optlaws.synthesis.method.exchange import solve
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.evaluation import worth
 from optlaws.synthesis.program.writer import Model, least_violation, model_of
+from optlaws.tolerances import EQUATIONS_RANK, LEAST_INTERIOR
 
 #: the shares by which bounds are loosened, one after the other; a norm's optimum moves with the square root
 _LOOSENED = (1e-8, 1e-10, 1e-12)

@@ -10,7 +10,7 @@ from typing import Any
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.numbers import MAGNITUDE_LIMIT, power_of_two, real
-from optlaws.numerics.tolerances import LEAST_WEIGHT
+from optlaws.tolerances import LEAST_WEIGHT
 
 #: weights beyond are part of an objective's scale
 _GREATEST_WEIGHT = 1e3

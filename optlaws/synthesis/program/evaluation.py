@@ -11,12 +11,12 @@ import numpy as np
 
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
-from optlaws.numerics.tolerances import BOUND_FEASIBILITY, BOUND_SHORT, ROWS_AGREE
 from optlaws.synthesis.functionals.kinds import greatest_along
 from optlaws.synthesis.problem.constants import B, Functional
 from optlaws.synthesis.problem.expression import Expression, Maximum
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.windows import Window
+from optlaws.tolerances import BOUND_FEASIBILITY, BOUND_SHORT, ROWS_AGREE
 
 if TYPE_CHECKING:
     from optlaws.synthesis.spaces.space import LawSpace

@@ -13,7 +13,6 @@ import numpy as np
 from optlaws.formulas.of_motion import MotionFormula
 from optlaws.laws import MotionLaw
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import REST_VELOCITY
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, Program
 from optlaws.synthesis.families.names import RowName, VariableName
@@ -28,6 +27,7 @@ from optlaws.synthesis.problem.windows import Window
 from optlaws.synthesis.program.evaluation import check_rows
 from optlaws.synthesis.spaces.of_basis import space_of
 from optlaws.synthesis.spaces.space import LawSpace
+from optlaws.tolerances import REST_VELOCITY
 
 
 @dataclass(frozen=True, eq=False)

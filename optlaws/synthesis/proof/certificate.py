@@ -20,7 +20,6 @@ from optlaws.errors import InputError
 from optlaws.files.reading import JsonText
 from optlaws.kept import kept_property
 from optlaws.numbers import bounded
-from optlaws.numerics.tolerances import NEIGHBOUR_DISTANCE, NEIGHBOUR_SHARE
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, least_violation, model_of, relaxed
 from optlaws.synthesis.proof import data as stored
@@ -30,6 +29,7 @@ from optlaws.synthesis.proof.nodes import Contact, Leaf, Node
 from optlaws.synthesis.proof.peak_rows import PeakRows, peak_of, roots_of
 from optlaws.synthesis.proof.power.box import BoxRows
 from optlaws.synthesis.proof.power.rows import rows_of
+from optlaws.tolerances import NEIGHBOUR_DISTANCE, NEIGHBOUR_SHARE
 
 OBJECTIVE, RELAXED, VIOLATION = "objective", "relaxed", "violation"
 

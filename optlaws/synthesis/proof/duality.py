@@ -13,7 +13,6 @@ from math import fsum, inf
 import numpy as np
 
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import WEIGHTED_ROUNDING
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.curved import FormulaFamily
 from optlaws.synthesis.families.energy import EnergyFamily
@@ -21,6 +20,7 @@ from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, No
 from optlaws.synthesis.program.writer import Model
 from optlaws.synthesis.proof.nodes import Contact, Leaf
 from optlaws.synthesis.proof.sublevel_bounds import greatest_values, least_values, means_by, moments
+from optlaws.tolerances import WEIGHTED_ROUNDING
 
 #: a multiplier, a row and its right side
 Line = tuple[float, Array, float]

@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import FARKAS_FIRM, FARKAS_ROUNDING
+from optlaws.tolerances import FARKAS_FIRM, FARKAS_ROUNDING
 
 #: in units of free functions with peak acceleration 1; of a greater law no double tells whether it keeps the rows
 _GREATEST = 1e12

@@ -8,7 +8,6 @@ from math import ceil, floor
 import numpy as np
 
 from optlaws.errors import InfeasibleProblem, SolverFailure
-from optlaws.numerics.tolerances import DEEP_LAW_EXCESS, INFEASIBLE_WEIGHTLESS
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.family import Points
@@ -27,6 +26,7 @@ from optlaws.synthesis.proof.certificate import OBJECTIVE, VIOLATION, Certificat
 from optlaws.synthesis.proof.make import certificate, violation_certificate
 from optlaws.synthesis.proof.no_law import beyond_limit, convex_part, least_of
 from optlaws.synthesis.spaces.bases import Basis, PolynomialBasis
+from optlaws.tolerances import DEEP_LAW_EXCESS, INFEASIBLE_WEIGHTLESS
 
 _ROUNDS = 6
 _PLAIN = 2  # so few equations contradict each other whatever freedom the law has

@@ -14,16 +14,6 @@ from math import nextafter
 import numpy as np
 
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import (
-    APEX,
-    CUTS_ENOUGH,
-    DIRECTIONS_BALANCED,
-    DIRECTIONS_RANK,
-    EMPTY_ROW,
-    LEFT_SHARES,
-    PROOF_ENOUGH,
-    PROOF_WEIGHTLESS,
-)
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.curved import FormulaFamily, IntegralFamily
@@ -43,6 +33,16 @@ from optlaws.synthesis.proof.duality import row_of, summed
 from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.proof.sublevel_bounds import least_values, means_by
 from optlaws.synthesis.spaces.bases import PolynomialBasis
+from optlaws.tolerances import (
+    APEX,
+    CUTS_ENOUGH,
+    DIRECTIONS_BALANCED,
+    DIRECTIONS_RANK,
+    EMPTY_ROW,
+    LEFT_SHARES,
+    PROOF_ENOUGH,
+    PROOF_WEIGHTLESS,
+)
 
 _TANGENTS = 4
 _PLACES = 256

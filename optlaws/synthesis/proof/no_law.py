@@ -8,12 +8,12 @@ from math import isfinite
 from typing import Any, NamedTuple
 
 from optlaws.errors import InputError
-from optlaws.numerics.tolerances import VALUE_ROUNDING
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.fields import CONSTANTS
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
+from optlaws.tolerances import VALUE_ROUNDING
 
 
 class Ground(NamedTuple):

@@ -13,7 +13,6 @@ from math import factorial, inf
 
 import numpy as np
 
-from optlaws.numerics.tolerances import VALUE_ROUNDING
 from optlaws.synthesis.families.family import LinearFamily
 from optlaws.synthesis.problem.constants import FUNCTIONALS, PeakConstant
 from optlaws.synthesis.problem.problem import Problem
@@ -22,6 +21,7 @@ from optlaws.synthesis.proof.duality import lines_of, sum_of_rows
 from optlaws.synthesis.proof.nodes import Leaf, Node, PlaceRange, Split, Tightening
 from optlaws.synthesis.proof.sublevel_bounds import greatest_values, moments
 from optlaws.synthesis.spaces.bases import PolynomialBasis
+from optlaws.tolerances import VALUE_ROUNDING
 
 CLAIM = "claim"
 #: more than the rounding of the claim's own row, and of the curvature

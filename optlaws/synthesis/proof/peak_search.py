@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from optlaws.numerics.tolerances import HARDLY, LEAST_REACH
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.method.exchange import solve
 from optlaws.synthesis.problem.constants import PeakConstant
@@ -13,6 +12,7 @@ from optlaws.synthesis.proof.certificate import OBJECTIVE, Certificate
 from optlaws.synthesis.proof.make import certificate
 from optlaws.synthesis.proof.nodes import Leaf, Node, PlaceRange, Split
 from optlaws.synthesis.proof.peak_rows import PeakRows
+from optlaws.tolerances import HARDLY, LEAST_REACH
 
 _PROGRAMS = 1500
 _HOPELESS, _NEARLY = 1.5, 4.0

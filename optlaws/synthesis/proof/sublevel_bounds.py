@@ -11,7 +11,6 @@ from math import inf, isfinite
 import numpy as np
 
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import SUBLEVEL_RANK, VALUE_ROUNDING
 from optlaws.synthesis.families.names import VariableName
 from optlaws.synthesis.problem.constants import Functional, PeakConstant, PowerConstant
 from optlaws.synthesis.problem.expression import Expression, Maximum, Term, leaves
@@ -19,6 +18,7 @@ from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, maxima, relaxed_power
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 from optlaws.synthesis.spaces.space import LawSpace
+from optlaws.tolerances import SUBLEVEL_RANK, VALUE_ROUNDING
 
 _ACCELERATION = 2
 

@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
 from optlaws.numbers import Array, positive, real
-from optlaws.numerics.tolerances import NARROWEST, PROVEN_GAP
 from optlaws.synthesis.arrays.dual_bounds import bounds_below, rounding_charge, sharp_sums
 from optlaws.synthesis.families.family import LinearFamily
 from optlaws.synthesis.pareto import least_value, where_it_pays
@@ -30,6 +29,7 @@ from optlaws.synthesis.solution_array import SolutionArray, SolvedPart
 from optlaws.synthesis.solve import synthesize
 from optlaws.synthesis.solve_many import SolvedLine
 from optlaws.synthesis.status import Status, measure
+from optlaws.tolerances import NARROWEST, PROVEN_GAP
 
 _FIRST, _MOST_PIECES = 17, 8
 #: of the wanted gap, what is aimed at: widths are whole parts of others

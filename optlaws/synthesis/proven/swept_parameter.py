@@ -16,7 +16,6 @@ import numpy as np
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import PRODUCT_ROUNDING
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.problem.constants import ALIASES, FUNCTIONALS, MAKERS, Functional
 from optlaws.synthesis.problem.expression import Expression, Term
@@ -27,6 +26,7 @@ from optlaws.synthesis.problem.ranges import Range
 from optlaws.synthesis.proof.certificate import Certificate, weighted_rows
 from optlaws.synthesis.proof.duality import rounding_error_bound, summed
 from optlaws.synthesis.status import measure
+from optlaws.tolerances import PRODUCT_ROUNDING
 
 Ends = tuple[float, float]
 

@@ -29,7 +29,7 @@ from optlaws.numbers import (
     whole,
 )
 from optlaws.numerics.exact import chebyshev_from_powers, exact_powers, powers_from_chebyshev, rounded
-from optlaws.numerics.tolerances import MIRROR
+from optlaws.tolerances import MIRROR
 
 
 def places(breaks: int | Sequence[float]) -> tuple[float, ...]:

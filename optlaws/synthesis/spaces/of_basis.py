@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
-from optlaws.numerics.tolerances import CONVERSION_AGREES
 from optlaws.synthesis.spaces.bases import Basis, Pieces, PolynomialBasis
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 from optlaws.synthesis.spaces.pieces.free import PieceSpace, piece_space
@@ -18,6 +17,7 @@ from optlaws.synthesis.spaces.pieces.splines import SplineSpace, spline_space
 from optlaws.synthesis.spaces.polynomial_space import PolynomialSpace, polynomial_space
 from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
+from optlaws.tolerances import CONVERSION_AGREES
 
 #: the greatest degree at which conversions are compared, where even powers lose no digits, and how near they come
 _CHECKED = 6

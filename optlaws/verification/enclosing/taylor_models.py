@@ -9,7 +9,7 @@ from typing import Any
 
 from flint import arb, arb_poly, arb_series, ctx, fmpq_poly
 
-from optlaws.numerics.tolerances import GREATEST_ENCLOSED, GREATEST_NEGLIGIBLE, TAYLOR_REST
+from optlaws.tolerances import GREATEST_ENCLOSED, GREATEST_NEGLIGIBLE, TAYLOR_REST
 from optlaws.verification.enclosing.balls import Extremes, ball, series_length
 
 #: bits with which the greatest value is searched, and how short a part is cut no further

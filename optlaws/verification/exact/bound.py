@@ -18,11 +18,11 @@ from math import inf, isfinite
 from flint import arb, arb_mat, ctx
 
 from optlaws.errors import InputError
-from optlaws.numerics.tolerances import BOUND_ENCLOSED, PAYING_SCALE, ROUNDED_MULTIPLIER
 from optlaws.synthesis.limits.rounding import rounded_up
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
 from optlaws.synthesis.proof.nodes import Contact
+from optlaws.tolerances import BOUND_ENCLOSED, PAYING_SCALE, ROUNDED_MULTIPLIER
 from optlaws.verification.enclosing.balls import ball, lower, upper
 from optlaws.verification.exact.boxes import tree_holds
 from optlaws.verification.exact.rows import ExactRows

@@ -13,8 +13,8 @@ from flint import acb, acb_series, arb, arb_poly, fmpq
 
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
-from optlaws.numerics.tolerances import SAME_FREQUENCY, SAME_ROOT, TAYLOR_REST, VIBRATING
 from optlaws.synthesis.spaces.space import LawSpace
+from optlaws.tolerances import SAME_FREQUENCY, SAME_ROOT, TAYLOR_REST, VIBRATING
 from optlaws.verification.enclosing.balls import ball
 from optlaws.verification.enclosing.pieces import PolynomialPiece
 from optlaws.verification.enclosing.taylor_models import Taylor, cells, greatest_magnitude

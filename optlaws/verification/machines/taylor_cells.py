@@ -10,7 +10,7 @@ from math import comb, factorial
 from flint import acb, acb_mat, arb, arb_mat, arb_poly
 
 from optlaws.errors import InputError
-from optlaws.numerics.tolerances import OUTPUT_REST
+from optlaws.tolerances import OUTPUT_REST
 from optlaws.verification.enclosing.balls import ball
 from optlaws.verification.enclosing.taylor_models import greatest_magnitude
 from optlaws.verification.machines.output_motion import OutputMotion, OutputStretch

@@ -12,12 +12,12 @@ from typing import Any
 import numpy as np
 
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import CONIC_SOLVER, EMPTY_ROW
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.curved import FormulaFamily
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily, Points, Program
 from optlaws.synthesis.families.squares import SumOfSquares
 from optlaws.synthesis.method.discretised.ipopt import Answer
+from optlaws.tolerances import CONIC_SOLVER, EMPTY_ROW
 
 _USABLE = ("Solved", "AlmostSolved")
 _MAGNIFIED = 2.0**12

@@ -14,12 +14,12 @@ import numpy as np
 from optlaws.formulas.arithmetic import casadi_arithmetic, evaluate
 from optlaws.formulas.branches import rounded
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import KINK_RADIUS, LEAST_ENERGY, LEAST_SUM, SMOOTH_NORM
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.curved import FormulaFamily, IntegralFamily
 from optlaws.synthesis.families.energy import EnergyFamily
 from optlaws.synthesis.families.family import ConstraintFamily, NormFamily, Points, ProductFamily
 from optlaws.synthesis.families.kinked import KinkedIntegralFamily
+from optlaws.tolerances import KINK_RADIUS, LEAST_ENERGY, LEAST_SUM, SMOOTH_NORM
 
 
 def _product_numbers(family: ProductFamily, points: Points) -> list[Array]:

@@ -7,8 +7,8 @@ from numpy.polynomial.chebyshev import chebpts2
 
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import nodes
-from optlaws.numerics.tolerances import NEARLY_BINDING
 from optlaws.synthesis.families.family import ConstraintFamily, EvenFamily, Points, Program
+from optlaws.tolerances import NEARLY_BINDING
 
 
 def first_points(program: Program) -> list[Points]:

@@ -9,10 +9,10 @@ import numpy as np
 
 from optlaws.locks import casadi_lock
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import EMPTY_ROW
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, Points, Program
 from optlaws.synthesis.method.discretised.expressions import CONES, RowShape, order_of, shape_and_numbers
+from optlaws.tolerances import EMPTY_ROW
 
 _QUIET = {"print_time": False, "show_eval_warnings": False, "ipopt.print_level": 0, "ipopt.sb": "yes"}
 # nobody asks how the optimum depends on the parameters, which are all the rows

@@ -16,10 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import FLAT_GAP, SIZE_RANK, VERTEX_BALANCED, VERTEX_HELD
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import LinearFamily, Points, Program
 from optlaws.synthesis.method.discretised.ipopt import Answer
+from optlaws.tolerances import FLAT_GAP, SIZE_RANK, VERTEX_BALANCED, VERTEX_HELD
 
 #: a row binds if its multiplier exceeds its distance times this, in units in which it has length 1; the more rows hold
 #: together, the better they say where x is: as few as their own number, hardly independent, miss by 1e-10 in between

@@ -13,7 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import (
+from optlaws.synthesis.families.curved import IntegralFamily
+from optlaws.synthesis.families.family import LinearFamily, Points, Program
+from optlaws.synthesis.method.discretised.conic import conic_optimum
+from optlaws.synthesis.method.discretised.ipopt import Answer
+from optlaws.tolerances import (
     EMPTY_ROW,
     QUADRATIC_SOLVER,
     STEP_FEASIBILITY,
@@ -21,10 +25,6 @@ from optlaws.numerics.tolerances import (
     STEP_PAYS,
     STEP_SETTLED,
 )
-from optlaws.synthesis.families.curved import IntegralFamily
-from optlaws.synthesis.families.family import LinearFamily, Points, Program
-from optlaws.synthesis.method.discretised.conic import conic_optimum
-from optlaws.synthesis.method.discretised.ipopt import Answer
 
 _STEPS = 80
 #: of what a step promises: the share that it must keep, and that with which the damping falls

@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import EXCESS, PULLING, SAME_PLACE
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Program
 from optlaws.synthesis.method.newton import newton
 from optlaws.synthesis.method.strategies.strategy import Strategy, cutting_plane_loop
+from optlaws.tolerances import EXCESS, PULLING, SAME_PLACE
 
 _CORRECTIONS = 8
 

@@ -8,13 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import BOUND_FEASIBILITY, SAME_HEIGHT, SAME_PLACE, WEIGHTLESS, WEIGHTLESS_AT_VERTEX
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import ConstraintFamily, Points, ProductFamily, Program
 from optlaws.synthesis.method.discretised.ipopt import Answer
 from optlaws.synthesis.method.discretised.linear import sharpened
 from optlaws.synthesis.method.newton import newton
 from optlaws.synthesis.method.strategies.contacts import completed, polished
+from optlaws.tolerances import BOUND_FEASIBILITY, SAME_HEIGHT, SAME_PLACE, WEIGHTLESS, WEIGHTLESS_AT_VERTEX
 
 #: times the variables: contacts that are nearer to each other may be one that IPOPT's tolerance shows as two
 _OF_SPACING = 1.0

@@ -11,7 +11,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import EXCESS, LOST
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.energy import EnergyFamily
@@ -25,6 +24,7 @@ from optlaws.synthesis.method.strategies.strategy import Strategy, cutting_plane
 from optlaws.synthesis.method.strategies.vertices import ByVertices
 from optlaws.synthesis.method.units import ProgramUnits, units_near
 from optlaws.synthesis.method.vanishing import amplitudes, nearly_vanished
+from optlaws.tolerances import EXCESS, LOST
 
 _LINEAR_ROUNDS = 6
 _KINKED_ROUNDS = 3

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import EXCESS
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.curved import IntegralFamily
 from optlaws.synthesis.families.family import Points, Program
@@ -18,6 +17,7 @@ from optlaws.synthesis.method.discretised.quadratic_steps import stepwise_on_poi
 from optlaws.synthesis.method.discretised.straight import is_straight, straight_step
 from optlaws.synthesis.method.strategies.identified import as_answered, optimum_near
 from optlaws.synthesis.method.strategies.strategy import Strategy
+from optlaws.tolerances import EXCESS
 
 #: how far a linear program may go, in times the greatest variable: beyond what laws of the field have
 _REACH = 1e4

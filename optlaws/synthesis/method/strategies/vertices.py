@@ -13,7 +13,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import EXCESS, VERTEX_FINE, VERTEX_NEAR
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Points, Program
 from optlaws.synthesis.method.discretised.conic import conic, optimum_on_points
@@ -23,6 +22,7 @@ from optlaws.synthesis.method.discretised.linear import LinearTable, by_family, 
 from optlaws.synthesis.method.strategies.identified import of_vertex, optimum_near
 from optlaws.synthesis.method.strategies.strategy import Strategy
 from optlaws.synthesis.spaces.pieces.rows import PieceFamily
+from optlaws.tolerances import EXCESS, VERTEX_FINE, VERTEX_NEAR
 
 _ROUNDS = 40
 _PIECES = 12

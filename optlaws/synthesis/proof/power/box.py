@@ -14,12 +14,12 @@ import numpy as np
 
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import ENERGY_ROUNDING
 from optlaws.synthesis.families.family import ConstraintFamily
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import model_of
 from optlaws.synthesis.proof.duality import row_of
 from optlaws.synthesis.proof.nodes import Contact, Leaf, Node, Split, Tightening
+from optlaws.tolerances import ENERGY_ROUNDING
 
 _WORST = 1e10
 

@@ -18,7 +18,6 @@ from optlaws.formulas.intervals import Endpoints, enclosed
 from optlaws.formulas.tree import ORDERS
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import BENEATH_ROUNDING, TINY
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.curved import CurvedFamily, IntegralFamily
 from optlaws.synthesis.families.family import ConstraintFamily
@@ -33,6 +32,7 @@ from optlaws.synthesis.proof.power.box import Box, BoxRows, Places
 from optlaws.synthesis.proof.power.integral_underestimators import ConvexUnderestimator
 from optlaws.synthesis.proof.sublevel_bounds import asked_or_claimed, means
 from optlaws.synthesis.spaces.polynomial_space import PolynomialSpace
+from optlaws.tolerances import BENEATH_ROUNDING, TINY
 
 #: constants whose bound is one of a derivative's magnitude everywhere
 PEAKS = {"b": "B", "c": "C", "j": "J"}

@@ -12,10 +12,10 @@ from numpy.polynomial.chebyshev import chebpts2
 from numpy.typing import NDArray
 
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import GRID_EMPTY, GRID_LIGHT, GRID_NEAR
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily
 from optlaws.synthesis.proof.nodes import Contact, Leaf, Tightening
 from optlaws.synthesis.proof.power.box import Box, BoxRows, Places
+from optlaws.tolerances import GRID_EMPTY, GRID_LIGHT, GRID_NEAR
 
 _PLACES = 16
 _INFEASIBLE = 2

@@ -22,9 +22,9 @@ from optlaws.formulas.tree import ORDERS, Formula
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import gauss
-from optlaws.numerics.tolerances import BENEATH_ROUNDING, INTEGRAL_BLUR, RULE_ROUNDING, TINY
 from optlaws.synthesis.families.curved import IntegralFamily
 from optlaws.synthesis.functionals.curved_rows import columns_of, rule_cells
+from optlaws.tolerances import BENEATH_ROUNDING, INTEGRAL_BLUR, RULE_ROUNDING, TINY
 
 if TYPE_CHECKING:
     from optlaws.synthesis.proof.power.box import Box, BoxRows

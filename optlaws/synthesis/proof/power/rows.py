@@ -13,7 +13,6 @@ from math import inf, isfinite, sqrt
 import numpy as np
 
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import AWAY_FROM_REST
 from optlaws.synthesis.families.family import ConstraintFamily, ProductFamily
 from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.problem.constants import D, PeakConstant
@@ -24,6 +23,7 @@ from optlaws.synthesis.proof.power import formula_underestimators, shared_energy
 from optlaws.synthesis.proof.power.box import Box, BoxRows, Places
 from optlaws.synthesis.proof.sublevel_bounds import asked_or_claimed
 from optlaws.synthesis.spaces.polynomial_space import PolynomialSpace
+from optlaws.tolerances import AWAY_FROM_REST
 
 POWER_ROWS = (RowName.POWER, RowName.POWER_FROM_LEAST)
 

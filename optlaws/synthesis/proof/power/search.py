@@ -9,7 +9,6 @@ import numpy as np
 
 from optlaws.errors import InputError
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import GIVEN_VARIABLE, NARROW_RANGE, TINY
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import model_of
 from optlaws.synthesis.proof.certificate import Certificate
@@ -17,6 +16,7 @@ from optlaws.synthesis.proof.nodes import Node, Split
 from optlaws.synthesis.proof.power.box import Box, BoxRows
 from optlaws.synthesis.proof.power.grid import Grid
 from optlaws.synthesis.proof.power.rows import rows_of
+from optlaws.tolerances import GIVEN_VARIABLE, NARROW_RANGE, TINY
 
 #: tells from the variables of some law whether its neighbourhood has a better one than the best known
 Explore = Callable[[Array], bool]

@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
-from optlaws.numerics.tolerances import AWAY_FROM_REST, ENERGY_OUTWARD, FLAT_SECANT, MIDDLE, SECANT_SERIES
 from optlaws.synthesis.families.energy import Energy, EnergyFamily
 from optlaws.synthesis.families.family import ConstraintFamily
 from optlaws.synthesis.problem.expression import leaves
@@ -25,6 +24,7 @@ from optlaws.synthesis.program.writer import model_of
 from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.proof.power.box import Box, BoxRows, Places
 from optlaws.synthesis.proof.sublevel_bounds import asked_or_claimed
+from optlaws.tolerances import AWAY_FROM_REST, ENERGY_OUTWARD, FLAT_SECANT, MIDDLE, SECANT_SERIES
 
 #: X² (1 - X) is nowhere above
 _MOST = 4.0 / 27.0

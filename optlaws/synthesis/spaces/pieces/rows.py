@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import nodes, product, real_parts_of_roots
-from optlaws.numerics.tolerances import BESIDE_BREAK, FLAT_SLOPE
 from optlaws.synthesis.families.family import LinearFamily, ProductFamily
+from optlaws.tolerances import BESIDE_BREAK, FLAT_SLOPE
 
 _MOST, _LEAST = 6000, 8  # nodes of a family, and of a piece: its extrema join them
 _SHARING = 8  # points of a piece, in the mean, from which on no copy of its series is made for each

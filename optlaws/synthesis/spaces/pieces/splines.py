@@ -19,13 +19,13 @@ from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import from_values, nodes
-from optlaws.numerics.tolerances import EVEN_PART, VELOCITY_KEPT
 from optlaws.synthesis.families.family import ConstraintFamily
 from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions, law_from_z
 from optlaws.synthesis.spaces.pieces.rows import PieceFamily, PieceSeries
 from optlaws.synthesis.spaces.pieces.space import PiecewiseSpace
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
+from optlaws.tolerances import EVEN_PART, VELOCITY_KEPT
 
 
 class SplineSpace(PiecewiseSpace):
