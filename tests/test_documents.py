@@ -8,9 +8,9 @@ import pytest
 
 from docs._ext.docstrings import finish, prepare
 from docs._ext.module_tree import PAGE, page_with_tree
-from optlaws.cli.app import COMMANDS
-from optlaws.jobs.job import JOBS
 from tests.documents import PROGRAMS, ROOT, Command, commands, failure
+from tests.internals.cli import COMMANDS
+from tests.internals.jobs import JOBS
 
 # What is executed or parsed (tests/documents.py), and what has nothing to execute.
 LANGUAGES = {"python", "pycon", "console", "toml", "text", "csv", "bibtex"}

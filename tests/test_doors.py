@@ -13,15 +13,13 @@ from hypothesis import HealthCheck, example, given, seed, settings
 from hypothesis import strategies as st
 
 import optlaws
-from optlaws.cli.app import exit_code
-from optlaws.errors import OptlawsError
-from optlaws.files import reading
-from optlaws.jobs import job
-from optlaws.studies.points import StudyPoints
-from optlaws.studies.run import check
-from optlaws.studies.specification import read_study
-from optlaws.synthesis.problem.fields import ENTRIES
+from optlaws import OptlawsError
 from tests.documents import ROOT
+from tests.internals.cli import exit_code
+from tests.internals.files import reading
+from tests.internals.jobs import job
+from tests.internals.studies import StudyPoints, check, read_study
+from tests.internals.synthesis import ENTRIES
 from tests.sampling import examples
 
 DEEP: Any = 1

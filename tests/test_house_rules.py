@@ -115,3 +115,16 @@ def test_a_tolerance_is_seen() -> None:
         "C",
         "D",
     ]
+
+
+def test_tests_look_inside_a_room_through_one_file() -> None:
+    """A module that moves is followed in `tests/internals/` alone."""
+    deep = {
+        str(path.relative_to(ROOT)): node.module
+        for path, node in nodes(ROOT / "tests")
+        if isinstance(node, ast.ImportFrom)
+        and "internals" not in path.parts
+        and (node.module or "").count(".") > 1
+        and (node.module or "").startswith("optlaws.")
+    }
+    assert deep == {}

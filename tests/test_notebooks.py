@@ -24,7 +24,7 @@ from optlaws import (
     synthesize,
     synthesize_array,
 )
-from optlaws.shown.showing import cell, drawing, facts, page, table
+from tests.internals.shown import cell, drawing, facts, page, table
 
 VOID = {"path", "line"}
 

@@ -6,7 +6,7 @@ from math import nan
 
 import pytest
 
-from optlaws.shown import showing, steps
+from tests.internals.shown import showing, steps
 
 
 def curve(svg: str) -> str:

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from optlaws import Problem, ProblemArray, pareto_front, synthesize_array
-from optlaws.shown import steps
-from optlaws.studies.progress import Bar, Silent, watching
+from tests.internals.shown import steps
+from tests.internals.studies import Bar, Silent, watching
 
 
 class Terminal(StringIO):

@@ -18,7 +18,7 @@ from optlaws import (
     synthesize,
     synthesize_array,
 )
-from optlaws.shown.summary import Row, Summary
+from tests.internals.shown import Row, Summary
 
 CYCLE = Cycle(
     [Rise("25 mm", "150 deg", law="3-4-5"), Return(law="3-4-5")],

@@ -26,10 +26,7 @@ def measured(degree: int) -> tuple[list[float], list[float]]:
     """Milliseconds from each input to its paint, and of the server's answer alone."""
     from playwright.sync_api import sync_playwright
 
-    from optlaws.explorer.law_view import answer
-    from optlaws.explorer.requests import LawRequest, LawsRequest
-    from optlaws.explorer.server import opened, server
-    from optlaws.explorer.start import start
+    from tests.internals.explorer import LawRequest, LawsRequest, answer, opened, server, start
 
     first = start(None)
     # every step is a law that was not solved before

@@ -20,10 +20,8 @@ import msgspec
 from rich.console import Console
 from rich.table import Table
 
-from optlaws.studies.chunk import Task, blocks
-from optlaws.studies.points import StudyPoints
-from optlaws.studies.run import run_study, task
-from optlaws.studies.specification import read_study
+from optlaws import run_study
+from tests.internals.studies import StudyPoints, Task, blocks, read_study, task
 
 RATE, EFFICIENCY = 300.0, 0.9
 #: seconds for a million laws

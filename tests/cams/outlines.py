@@ -6,9 +6,8 @@ from math import pi, tau
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.cams.curves.plane_curve import CurveByJets
-from optlaws.numerics.enclosures.interval import Interval
-from optlaws.numerics.enclosures.taylor import Pair, variable
+from tests.internals.cams import CurveByJets
+from tests.internals.numerics import Interval, Pair, variable
 
 Array = NDArray[np.float64]
 

@@ -7,16 +7,20 @@ from math import acos, asin, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.cams.disc import DiscCam
-from optlaws.cams.followers.follower import CamFollower
-from optlaws.cams.followers.inclined_flat import InclinedFlat
-from optlaws.cams.followers.oscillating_flat import OscillatingFlat
-from optlaws.cams.followers.oscillating_roller import OscillatingRoller
-from optlaws.cams.followers.translating_flat import TranslatingFlat
-from optlaws.cams.followers.translating_roller import TranslatingRoller
-from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.specification.segments import Dwell, Return, Rise
-from optlaws.motion.quantities import either
+from optlaws import (
+    Cycle,
+    DiscCam,
+    Dwell,
+    InclinedFlat,
+    OscillatingFlat,
+    OscillatingRoller,
+    Return,
+    Rise,
+    TranslatingFlat,
+    TranslatingRoller,
+)
+from tests.internals.cams import CamFollower
+from tests.internals.motion import either
 
 Array = NDArray[np.float64]
 Points = NDArray[np.complex128]

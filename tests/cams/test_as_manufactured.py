@@ -5,15 +5,23 @@ import pytest
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
-from optlaws import Chebyshev, Cycle, Dwell, Problem, Return, Rise, synthesize
-from optlaws.cams.as_manufactured import ArcChain, PointSpline, as_made, run_against, with_profile_error
-from optlaws.cams.cutting.cam_files import write_outline
-from optlaws.cams.cutting.spline import Spline
-from optlaws.cams.disc import DiscCam
-from optlaws.cams.followers.translating_flat import TranslatingFlat
-from optlaws.cams.followers.translating_roller import TranslatingRoller
-from optlaws.errors import InputError
+from optlaws import (
+    Chebyshev,
+    Cycle,
+    DiscCam,
+    Dwell,
+    InputError,
+    Problem,
+    Return,
+    Rise,
+    TranslatingFlat,
+    TranslatingRoller,
+    as_made,
+    synthesize,
+    with_profile_error,
+)
 from tests.cams.cutting import readers
+from tests.internals.cams import ArcChain, PointSpline, Spline, run_against, write_outline
 
 Array = NDArray[np.float64]
 
@@ -112,7 +120,7 @@ def test_what_cannot_be_run_says_why(cam: DiscCam) -> None:
 
 
 def test_a_chain_of_arcs_and_lines_is_a_curve() -> None:
-    from optlaws.cams.cutting.arcs_and_chords import Arcs
+    from tests.internals.cams import Arcs
 
     stadium = ArcChain(Arcs(np.array([[1.0, -1], [1, 1], [-1, 1], [-1, -1]]), np.array([0.0, 1.0, 0.0, 1.0]), 0.0))
     assert stadium(np.array([0.5, 1.5, 3.5])) == pytest.approx(np.array([[1.0, 0], [0, 2], [0, -2]]))

@@ -6,13 +6,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from optlaws.cams.barrel import BarrelCam
-from optlaws.cams.curves.extremes import FREE, UNDERCUT
-from optlaws.cams.curves.motion_by_angle import CamMotion
-from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.specification.segments import Dwell, Return, Rise
-from optlaws.errors import InputError
+from optlaws import BarrelCam, CamMotion, Cycle, Dwell, InputError, Return, Rise
 from tests.cams.placed import TURNINGS, cycle_of
+from tests.internals.cams import FREE, UNDERCUT
 
 Array = NDArray[np.float64]
 

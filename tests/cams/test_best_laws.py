@@ -7,23 +7,28 @@ import pytest
 from numpy.typing import NDArray
 from scipy.optimize import linprog
 
-from optlaws.cams import curved_limits
-from optlaws.cams.best_laws import best_base_circle, best_cam, linear_limits
-from optlaws.cams.curved_limits import curvature_of
-from optlaws.cams.disc import DiscCam
-from optlaws.cams.followers.contact import PRESSURE
-from optlaws.cams.followers.oscillating_flat import OscillatingFlat
-from optlaws.cams.followers.oscillating_roller import OscillatingRoller, SwingingRoller
-from optlaws.cams.followers.translating_flat import TranslatingFlat
-from optlaws.cams.followers.translating_roller import SlidingRoller, TranslatingRoller
-from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.specification.segments import Dwell, Return, Rise
-from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
-from optlaws.formulas.arithmetic import NUMPY, evaluate
-from optlaws.laws import smoothstep
-from optlaws.motion.piece import Piece
-from optlaws.numerics.enclosures.taylor import Jet
-from optlaws.synthesis.status import Status
+from optlaws import (
+    Cycle,
+    DiscCam,
+    Dwell,
+    InfeasibleProblem,
+    InputError,
+    OscillatingFlat,
+    OscillatingRoller,
+    Return,
+    Rise,
+    SolverFailure,
+    Status,
+    TranslatingFlat,
+    TranslatingRoller,
+    best_base_circle,
+    best_cam,
+    smoothstep,
+)
+from tests.internals.cams import PRESSURE, SlidingRoller, SwingingRoller, curvature_of, curved_limits, linear_limits
+from tests.internals.formulas import NUMPY, evaluate
+from tests.internals.motion import Piece
+from tests.internals.numerics import Jet
 
 Array = NDArray[np.float64]
 

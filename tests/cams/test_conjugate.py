@@ -5,11 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from optlaws.cams.conjugate import conjugate_cam
-from optlaws.cams.followers.oscillating_roller import OscillatingRoller
-from optlaws.cams.followers.translating_flat import TranslatingFlat
-from optlaws.cams.followers.translating_roller import TranslatingRoller
-from optlaws.errors import InputError
+from optlaws import InputError, OscillatingRoller, TranslatingFlat, TranslatingRoller, conjugate_cam
 from tests.cams.placed import TURNINGS, cam_of, face_lines, points
 
 ANGLES = np.linspace(0.0, 2.0 * np.pi, 121)[:-1] + 0.01

@@ -7,19 +7,22 @@ from typing import Any
 import numpy as np
 import pytest
 
-from optlaws.cams.curves.motion_by_angle import CamMotion
-from optlaws.cams.disc import DiscCam
-from optlaws.cams.followers.follower import CamFollower
-from optlaws.cams.followers.oscillating_flat import OscillatingFlat
-from optlaws.cams.followers.oscillating_roller import OscillatingRoller
-from optlaws.cams.followers.translating_flat import TranslatingFlat
-from optlaws.cams.followers.translating_roller import TranslatingRoller
-from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.specification.segments import Return, Rise
-from optlaws.errors import InputError
-from optlaws.laws.segments.piecewise import PiecewiseLaw
-from optlaws.laws.segments.segment import PolynomialSegment
+from optlaws import (
+    CamMotion,
+    Cycle,
+    DiscCam,
+    InputError,
+    OscillatingFlat,
+    OscillatingRoller,
+    PiecewiseLaw,
+    Return,
+    Rise,
+    TranslatingFlat,
+    TranslatingRoller,
+)
 from tests.cams.placed import FOLLOWERS, TURNINGS, cam_of, cycle_of, face_lines, points, roller_centres
+from tests.internals.cams import CamFollower
+from tests.internals.laws import PolynomialSegment
 
 ANGLES = np.linspace(0.0, 2 * np.pi, 241)[:-1] + 0.003
 BOTH = [(kind, turning) for kind in FOLLOWERS for turning in TURNINGS]

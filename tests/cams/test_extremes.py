@@ -12,23 +12,24 @@ import pytest
 from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
 
-from optlaws.cams.curves.extremes import FREE, UNDERCUT, EnclosedExtreme, enclosed_extremes
-from optlaws.cams.curves.motion_by_angle import CamMotion
-from optlaws.cams.disc import DiscCam
-from optlaws.cams.followers.oscillating_roller import OscillatingRoller
-from optlaws.cams.followers.rollers_and_faces import FaceContact, RollerContact
-from optlaws.cams.followers.translating_flat import TranslatingFlat
-from optlaws.cams.followers.translating_roller import TranslatingRoller
-from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.specification.segments import Dwell, Return, Rise
-from optlaws.errors import InputError
-from optlaws.laws.polynomial import PolynomialLaw
-from optlaws.laws.segments.constant_power import PowerSegment
-from optlaws.laws.segments.fractional import FractionalSegment
-from optlaws.laws.segments.piecewise import PiecewiseLaw
-from optlaws.numerics import chebyshev
-from optlaws.numerics.enclosures.interval import Interval
+from optlaws import (
+    CamMotion,
+    Cycle,
+    DiscCam,
+    Dwell,
+    InputError,
+    OscillatingRoller,
+    PiecewiseLaw,
+    PolynomialLaw,
+    Return,
+    Rise,
+    TranslatingFlat,
+    TranslatingRoller,
+)
 from tests.cams.placed import FOLLOWERS, cam_of, cycle_of, face_lines, points, roller_centres
+from tests.internals.cams import FREE, UNDERCUT, EnclosedExtreme, FaceContact, RollerContact, enclosed_extremes
+from tests.internals.laws import FractionalSegment, PowerSegment
+from tests.internals.numerics import Interval, chebyshev
 
 Array = NDArray[np.float64]
 

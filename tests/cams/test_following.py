@@ -5,20 +5,31 @@ from typing import Any
 import numpy as np
 import pytest
 
-from optlaws import Cycle, Dwell, Return, Rise
-from optlaws.cams.as_manufactured import ArcChain, Following, PointSpline, PolarSpline, run_against
-from optlaws.cams.curves.plane_curve import PlaneCurve
-from optlaws.cams.cutting.arcs_and_chords import arcs
-from optlaws.cams.cutting.cam_files import polar
-from optlaws.cams.cutting.outline import Outline
-from optlaws.cams.cutting.spline import spline
-from optlaws.cams.disc import DiscCam
-from optlaws.cams.followers.follower import CamFollower
-from optlaws.cams.followers.inclined_flat import InclinedFlat
-from optlaws.cams.followers.oscillating_flat import OscillatingFlat
-from optlaws.cams.followers.oscillating_roller import OscillatingRoller
-from optlaws.cams.followers.translating_flat import TranslatingFlat
-from optlaws.cams.followers.translating_roller import TranslatingRoller
+from optlaws import (
+    Cycle,
+    DiscCam,
+    Dwell,
+    InclinedFlat,
+    OscillatingFlat,
+    OscillatingRoller,
+    Return,
+    Rise,
+    TranslatingFlat,
+    TranslatingRoller,
+)
+from tests.internals.cams import (
+    ArcChain,
+    CamFollower,
+    Following,
+    Outline,
+    PlaneCurve,
+    PointSpline,
+    PolarSpline,
+    arcs,
+    polar,
+    run_against,
+    spline,
+)
 
 FOLLOWERS: list[tuple[CamFollower, str]] = [
     (TranslatingRoller("12 mm", offset="10 mm"), "40 mm"),

@@ -6,13 +6,20 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from optlaws import Cycle, Dwell, OscillatingFlat, Return, Rise
-from optlaws.cams.curves.motion_by_angle import CamMotion
-from optlaws.cams.disc import DiscCam
-from optlaws.cams.followers.translating_roller import TranslatingRoller
-from optlaws.cams.forces import CamForces, line_contact
-from optlaws.errors import InputError
+from optlaws import (
+    CamForces,
+    CamMotion,
+    Cycle,
+    DiscCam,
+    Dwell,
+    InputError,
+    OscillatingFlat,
+    Return,
+    Rise,
+    TranslatingRoller,
+)
 from tests.cams.placed import FOLLOWERS, TURNINGS, cam_of
+from tests.internals.cams import line_contact
 
 Array = NDArray[np.float64]
 

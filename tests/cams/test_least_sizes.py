@@ -7,15 +7,19 @@ from typing import Any
 import numpy as np
 import pytest
 
-from optlaws.cams.disc import DiscCam
-from optlaws.cams.followers.follower import CamFollower
-from optlaws.cams.followers.oscillating_flat import OscillatingFlat
-from optlaws.cams.followers.oscillating_roller import OscillatingRoller
-from optlaws.cams.followers.translating_flat import TranslatingFlat
-from optlaws.cams.followers.translating_roller import TranslatingRoller
-from optlaws.cams.least_sizes import greatest_roller, least_base_circle
-from optlaws.errors import InfeasibleProblem, InputError
+from optlaws import (
+    DiscCam,
+    InfeasibleProblem,
+    InputError,
+    OscillatingFlat,
+    OscillatingRoller,
+    TranslatingFlat,
+    TranslatingRoller,
+    greatest_roller,
+    least_base_circle,
+)
 from tests.cams.placed import cycle_of
+from tests.internals.cams import CamFollower
 
 ANGLES = np.linspace(0.0, 2.0 * np.pi, 2001)
 CASES: list[tuple[CamFollower, str, float | None, float | None]] = [

@@ -4,9 +4,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from optlaws.cams.forces import CamForces
-from optlaws.cams.springs import least_spring
-from optlaws.errors import InfeasibleProblem, InputError
+from optlaws import CamForces, InfeasibleProblem, InputError, least_spring
 from tests.cams.placed import cam_of
 
 MASS = {"mass": "2 kg", "viscous": "12 N s/m", "dry": "4 N", "gravity": "5 N"}

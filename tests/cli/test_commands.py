@@ -11,8 +11,8 @@ import pytest
 
 import optlaws
 from optlaws import BoundaryConditions, MotionLaw, Problem, Solution, SolverFailure, law_from_z
-from optlaws.cli import app
 from tests.documents import ROOT
+from tests.internals.cli import app_of_cli as app
 from tests.jobs.examples import SOLUTIONS, SOLUTIONS_PRINTED
 
 KEYS = ["status", "objective", "lower_bound", "gap", "limit", "constants", "z", "law", "iterations", "seconds"]

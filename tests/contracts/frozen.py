@@ -20,9 +20,9 @@ import msgspec
 from cyclopts import App
 
 import optlaws
-from optlaws.cli.app import app
-from optlaws.jobs.job import JOBS
 from optlaws.results import Results
+from tests.internals.cli import app_of_app as app
+from tests.internals.jobs import JOBS
 
 FROZEN = Path(__file__).with_name("frozen.json")
 Table = dict[str, dict[str, str]]

@@ -29,11 +29,10 @@ from optlaws import (
     law_from_z,
 )
 from optlaws.synthesis import PiecewiseBasis, PolynomialBasis
-from optlaws.synthesis.spaces.bases import basis as basis_called
-from optlaws.synthesis.spaces.of_basis import space_of
-from optlaws.synthesis.spaces.space import LawSpace
 from tests.contracts.kinds import kinds
 from tests.contracts.test_families import coordinates
+from tests.internals.synthesis import LawSpace, space_of
+from tests.internals.synthesis import basis as basis_called
 
 Array = NDArray[np.float64]
 

@@ -11,10 +11,10 @@ from unittest.mock import patch
 import pytest
 
 import optlaws
-from optlaws.cli import app
-from optlaws.cli.app import BAD_INPUT, exit_code
 from tests.contracts.frozen import Table, commands
 from tests.documents import ROOT
+from tests.internals.cli import BAD_INPUT, exit_code
+from tests.internals.cli import app_of_cli as app
 
 STUDY = "[problem]\norder = 2\nbasis = 'pieces'\nbreaks = 4\ncontinuity = 1\ndegree = 3\n[vary]\nB = [1.8]\n"
 #: a call of each that has something infinite to tell where it can have it

@@ -15,28 +15,40 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from optlaws import BoundaryConditions, BSplines, Chebyshev, Functional, InputError, Machine, MotionLaw, Pieces
-from optlaws.balancing.loaders.constants import LoaderPeak
-from optlaws.formulas.tree import ORDERS
-from optlaws.mechanisms.follower.cam_constants import CamPeak, CamPower
-from optlaws.mechanisms.machine.output_constants import OutputConstant
-from optlaws.mechanisms.machine.residual_boxes import ModeResidual
-from optlaws.mechanisms.spectrum.residual import Residual
-from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaPeak, FormulaRms, FormulaValue, OfFormula
-from optlaws.synthesis.problem.constants import (
-    ALIASES,
+from optlaws import (
     FUNCTIONALS,
+    BoundaryConditions,
+    BSplines,
+    Chebyshev,
+    Functional,
+    InputError,
+    Machine,
+    MotionLaw,
+    Pieces,
+)
+from tests.contracts.kinds import kinds
+from tests.contracts.test_families import coordinates
+from tests.internals.balancing import LoaderPeak
+from tests.internals.formulas import ORDERS
+from tests.internals.mechanisms import CamPeak, CamPower, ModeResidual, OutputConstant, Residual
+from tests.internals.synthesis import (
+    ALIASES,
     MAKERS,
     PLAIN,
+    FormulaIntegral,
+    FormulaPeak,
+    FormulaRms,
+    FormulaValue,
+    LawSpace,
+    OfFormula,
     PeakConstant,
     PowerConstant,
     RootMeanSquare,
+    expression,
+    is_named,
+    named,
+    space_of,
 )
-from optlaws.synthesis.problem.named_constants import expression, is_named, named
-from optlaws.synthesis.spaces.of_basis import space_of
-from optlaws.synthesis.spaces.space import LawSpace
-from tests.contracts.kinds import kinds
-from tests.contracts.test_families import coordinates
 from tests.synthesis.judge import Judged
 
 Array = NDArray[np.float64]

@@ -10,13 +10,12 @@ from typing import Any
 import pytest
 
 import optlaws
-from optlaws.laws import MotionLaw
-from optlaws.laws.segments import Segment
+from optlaws import Basis, MotionLaw
 from optlaws.lazy import Registry
-from optlaws.synthesis import Basis
-from optlaws.synthesis.problem.constants import MAKERS, PLAIN
 from tests.contracts.faces import faces, stub
 from tests.documents import ROOT
+from tests.internals.laws import Segment
+from tests.internals.synthesis import MAKERS, PLAIN
 
 FACES = dict(faces())
 REGISTRIES: dict[str, Registry[Any]] = {

@@ -9,19 +9,20 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from optlaws import BoundaryConditions, BSplines, Chebyshev, Pieces
-from optlaws.balancing.loaders.constants import B_loader, C_loader, D_loader
-from optlaws.mechanisms.spectrum.residual import residual_vibration
-from optlaws.synthesis.families.cone import ConeFamily
-from optlaws.synthesis.families.curved import FormulaFamily
-from optlaws.synthesis.families.energy import EnergyFamily
-from optlaws.synthesis.families.family import ConstraintFamily, ProductFamily
-from optlaws.synthesis.families.kinked import KinkedIntegralFamily
-from optlaws.synthesis.problem.named_constants import named
-from optlaws.synthesis.spaces.bases import Basis
-from optlaws.synthesis.spaces.of_basis import space_of
-from optlaws.synthesis.spaces.space import LawSpace
+from optlaws import Basis, BoundaryConditions, BSplines, Chebyshev, Pieces, residual_vibration
 from tests.contracts.kinds import kinds
+from tests.internals.balancing import B_loader, C_loader, D_loader
+from tests.internals.synthesis import (
+    ConeFamily,
+    ConstraintFamily,
+    EnergyFamily,
+    FormulaFamily,
+    KinkedIntegralFamily,
+    LawSpace,
+    ProductFamily,
+    named,
+    space_of,
+)
 
 Array = NDArray[np.float64]
 

@@ -9,9 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from optlaws.errors import InputError
-from optlaws.files import tables, writing
-from optlaws.jobs import job
+from optlaws import InputError
+from tests.internals.files import tables, writing
+from tests.internals.jobs import job
 from tests.jobs.examples import EXAMPLES
 from tests.sampling import sampled
 

@@ -24,9 +24,9 @@ from optlaws import (
     pareto_front,
     synthesize,
 )
-from optlaws.laws.segments import Segment
 from tests.contracts.faces import faces
 from tests.contracts.test_faces import package
+from tests.internals.laws import Segment
 from tests.laws.examples import EXAMPLES
 
 #: an acceleration that jumps: J has no bound

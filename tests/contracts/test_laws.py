@@ -31,12 +31,10 @@ from optlaws import (
     smoothstep,
     with_end_velocity,
 )
-from optlaws.balancing.dwells.sections import PartSegment
-from optlaws.balancing.loaders.law import LoaderLaw
-from optlaws.laws.curve import Curve
-from optlaws.laws.segments import FractionalSegment, HarmonicSegment, PolynomialSegment, PowerSegment, SineSegment
-from optlaws.mechanisms.follower.response import MassMotion
 from tests.contracts.kinds import kinds
+from tests.internals.balancing import LoaderLaw, PartSegment
+from tests.internals.laws import Curve, FractionalSegment, HarmonicSegment, PolynomialSegment, PowerSegment, SineSegment
+from tests.internals.mechanisms import MassMotion
 from tests.laws.examples import EXAMPLES, cut_sine, free_function_law
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(60)

@@ -19,24 +19,23 @@ from optlaws import (
     MotionLaw,
     Powers,
     Problem,
+    acceleration_limit,
     at_least,
     law_from_z,
+    limit,
+    limit_law,
     synthesize,
 )
-from optlaws.laws.making.trapezoids import from_half
-from optlaws.laws.segments import PolynomialSegment
-from optlaws.synthesis.limits import closed_forms
-from optlaws.synthesis.limits.closed_forms import (
-    acceleration_limit,
+from tests.internals.laws import PolynomialSegment, from_half
+from tests.internals.synthesis import (
     acceleration_limit_at_jerk,
     best_velocity,
+    closed_forms,
     jerk_limit,
-    limit,
+    known_limit,
     power_limit,
     rms_limit,
 )
-from optlaws.synthesis.limits.laws import limit_law
-from optlaws.synthesis.limits.of_problem import known_limit
 
 
 class Limit(NamedTuple):

@@ -9,16 +9,12 @@ import pytest
 
 import optlaws
 from optlaws import BSplines, InputError, Problem, SolverFailure, Window, via
-from optlaws.cli.app import exit_code
-from optlaws.cli.problem_options import options_of
-from optlaws.jobs import fronts, solutions
 from optlaws.results import Results
-from optlaws.studies.points import StudyPoints
-from optlaws.studies.specification import entries as entries_of_point
-from optlaws.studies.specification import read_study
-from optlaws.synthesis.problem.fields import ENTRIES, FIELDS
-from optlaws.synthesis.problem.windows import read_window
-from optlaws.synthesis.solve import _neighbours
+from tests.internals.cli import exit_code, options_of
+from tests.internals.jobs import fronts, solutions
+from tests.internals.studies import StudyPoints, read_study
+from tests.internals.studies import entries as entries_of_point
+from tests.internals.synthesis import ENTRIES, FIELDS, _neighbours, read_window
 
 SPLINES = {"basis": "bsplines", "breaks": 4, "degree": 3}
 ENDS = {"start": [0, 0.5], "end": [1, 0.25], "symmetric": False, "order": 2}

@@ -28,18 +28,17 @@ from optlaws import (
     smoothstep,
     with_end_velocity,
 )
-from optlaws.balancing.dwells.sections import PartSegment
-from optlaws.balancing.loaders.segment import LoaderSegment
-from optlaws.laws.making.trapezoids import from_half
-from optlaws.laws.segments import (
+from tests.contracts.kinds import kinds
+from tests.internals.balancing import LoaderSegment, PartSegment
+from tests.internals.laws import (
     FractionalSegment,
     HarmonicSegment,
     PolynomialSegment,
     PowerSegment,
     Segment,
     SineSegment,
+    from_half,
 )
-from tests.contracts.kinds import kinds
 
 Array = NDArray[np.float64]
 Example = tuple[Segment, float]

@@ -8,9 +8,9 @@ import pytest
 from matplotlib.figure import Figure
 
 from optlaws import Axes, Cycle, Dwell, InputError, Move, Return, Rise
-from optlaws.exports.format import FORMATS
-from optlaws.files import reading
-from optlaws.jobs.cycle_entries import read
+from tests.internals.exports import FORMATS
+from tests.internals.files import reading
+from tests.internals.jobs import read_of_cycle_entries as read
 
 TABLE: dict[str, Any] = {"segments": [Rise("45 deg", "400 ms", law="345"), Dwell()], "advance": "45 deg"}
 HEAD = [Dwell("400 ms", name="up"), Rise("250 mm", "200 ms", law="345"), Dwell("1200 ms"), Return(law="345")]

@@ -9,10 +9,10 @@ import pytest
 from matplotlib.figure import Figure
 
 from optlaws import ConstantVelocity, Cycle, Dwell, Free, InputError, Machine, Move, Return, Rise, smoothstep
-from optlaws.cli.app import exit_code
-from optlaws.files import reading
-from optlaws.jobs.cycle_entries import read
 from tests.documents import ROOT
+from tests.internals.cli import exit_code
+from tests.internals.files import reading
+from tests.internals.jobs import read_of_cycle_entries as read
 
 PRESS = Cycle(
     [Rise("35 mm", "120 deg", name="up"), Dwell("90 deg"), Return("35 mm", "100 deg", law="modified sine"), Dwell()],

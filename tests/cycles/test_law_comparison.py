@@ -17,7 +17,7 @@ from optlaws import (
     smoothstep,
     synthesize,
 )
-from optlaws.cli.app import exit_code
+from tests.internals.cli import exit_code
 
 SINE = catalogue["modified sine"].law
 

@@ -10,10 +10,10 @@ from optlaws import (
     driving_law,
     dwell_mechanism,
     machine_follower,
+    mass_law,
     off_design,
     polydyne,
 )
-from optlaws.mechanisms.follower.polydyne import mass_law
 
 OSCILLATOR = Machine([[0, 1], [-400, -2]], [[0], [400]], [[1, 0]], outputs=["position"])
 MACHINE = {"frequency": "16.7 Hz", "speed": "105 rpm", "rise": "120 deg", "stroke": "35 mm"}

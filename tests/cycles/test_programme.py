@@ -21,9 +21,9 @@ from optlaws import (
     catalogue,
     smoothstep,
 )
-from optlaws.cli.app import exit_code
-from optlaws.motion.quantities import TURN
 from tests.documents import ROOT
+from tests.internals.cli import exit_code
+from tests.internals.motion import TURN
 
 SINE = "modified sine"
 

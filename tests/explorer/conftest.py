@@ -10,9 +10,8 @@ from urllib.parse import urlsplit
 
 import pytest
 
-from optlaws.explorer.server import ADDRESS, opened, server
-from optlaws.explorer.start import start
 from tests.explorer.talk import Server
+from tests.internals.explorer import ADDRESS, opened, server, start
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Page, Request

@@ -11,19 +11,29 @@ from typing import Any
 import numpy as np
 import pytest
 
-from optlaws import Problem, Range, Solution, at_most, between, synthesize
-from optlaws.cams.cutting import cam_files
-from optlaws.cams.forces import CamForces
-from optlaws.errors import InputError
-from optlaws.explorer import cam_view, cycle_view, downloads, front_view, law_view
-from optlaws.explorer.cam_view import CamRequest
-from optlaws.explorer.cycle_view import CycleRequest, example
-from optlaws.explorer.downloads import FileRequest
-from optlaws.explorer.requests import LawRequest, LawsRequest, given_law, law_of, problem_of, solved
-from optlaws.explorer.start import start
-from optlaws.files.tables import to_toml
+from optlaws import CamForces, InputError, Problem, Range, Solution, at_most, between, synthesize
 from tests.documents import ROOT
 from tests.explorer.talk import OPTIMAL
+from tests.internals.cams import cam_files
+from tests.internals.explorer import (
+    CamRequest,
+    CycleRequest,
+    FileRequest,
+    LawRequest,
+    LawsRequest,
+    cam_view,
+    cycle_view,
+    downloads,
+    example,
+    front_view,
+    given_law,
+    law_of,
+    law_view,
+    problem_of,
+    solved,
+    start,
+)
+from tests.internals.files import to_toml
 
 STORED = {"law": given_law(LawRequest(name="cubic")).to_dict()}
 FORMULA = {"problem": {"order": 3, "B": 1.8, "degree": 7, "minimise": "max(C/4, J/32)", "bounds": {"rms_c": [0, 4.5]}}}

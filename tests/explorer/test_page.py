@@ -8,9 +8,9 @@ from xml.etree import ElementTree as ET
 
 import pytest
 
-from optlaws.explorer import cam_view
 from tests.explorer.conftest import Watch
 from tests.explorer.talk import OPTIMAL, Server
+from tests.internals.explorer import cam_view
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page

@@ -10,10 +10,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from optlaws.errors import InputError
-from optlaws.explorer.application import MOST_BYTES, QUESTIONS, page
-from optlaws.explorer.server import opened, server
+from optlaws import InputError
 from tests.explorer.talk import OPTIMAL, Server
+from tests.internals.explorer import MOST_BYTES, QUESTIONS, opened, page, server
 from tests.sampling import examples
 
 ANSWERS = {200, 400, 413, 422}

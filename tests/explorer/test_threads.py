@@ -5,8 +5,8 @@ import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
 
-from optlaws.explorer.cycle_view import example
 from tests.explorer.talk import OPTIMAL, Server
+from tests.internals.explorer import example
 
 QUESTIONS = {
     "laws": {"laws": [OPTIMAL, {"name": "cubic"}]},

@@ -3,8 +3,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.exports.interpolation import Ends, akima_powers, hermite_powers, linear_powers, spline_powers
-from optlaws.motion.polynomials import PiecewiseMotion
+from optlaws import PiecewiseMotion
+from tests.internals.exports import Ends, akima_powers, hermite_powers, linear_powers, spline_powers
 
 Array = NDArray[np.float64]
 

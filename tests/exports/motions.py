@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from optlaws.motion.polynomials import PiecewiseMotion
+from optlaws import PiecewiseMotion
 
 
 def random_motion(number: int, pieces: int = 5, degree: int = 7) -> PiecewiseMotion:

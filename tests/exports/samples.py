@@ -4,7 +4,7 @@ from functools import cache
 from typing import Any
 
 from optlaws import Chebyshev, ConstantVelocity, Cycle, Dwell, MotionLaw, Problem, Return, Rise, synthesize
-from optlaws.motion.motion import Motion, motion_of_law
+from tests.internals.motion import Motion, motion_of_law
 
 SAID: dict[str, Any] = {"stroke": "35 mm", "master": "120 deg", "duration": "0.1 s"}
 

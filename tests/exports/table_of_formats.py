@@ -4,9 +4,9 @@ from math import isfinite
 
 import numpy as np
 
-from optlaws.exports.export import export_motion
 from tests.exports.samples import one_shot
 from tests.exports.test_tables import TABLES, curve
+from tests.internals.exports import export_motion
 
 BY = {
     "codesys-xyva": "own parser, BPoly",

@@ -3,11 +3,9 @@
 import numpy as np
 import pytest
 
-from optlaws import Chebyshev, InputError, Problem, catalogue, limit_law, smoothstep, synthesize
-from optlaws.exports.best_breaks import best_breaks
-from optlaws.exports.fitting import fitted
-from optlaws.laws.making.trapezoids import scca
-from optlaws.motion.motion import motion_of_law
+from optlaws import Chebyshev, InputError, Problem, best_breaks, catalogue, limit_law, scca, smoothstep, synthesize
+from tests.internals.exports import fitted
+from tests.internals.motion import motion_of_law
 
 SAID = {"stroke": "35 mm", "duration": "0.1 s"}
 

@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import Akima1DInterpolator, BPoly, CubicHermiteSpline, CubicSpline
 
-from optlaws import InputError, smoothstep
-from optlaws.motion.polynomials import PiecewiseMotion
+from optlaws import InputError, PiecewiseMotion, smoothstep
 from tests.documents import ROOT
 from tests.exports.interpolations import akima, cubic_spline, hermite, linear, sampled
 from tests.exports.samples import optimal

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from optlaws import InputError, MotionLaw, PiecewiseLaw, catalogue, smoothstep
-from optlaws.laws.segments import PowerSegment
 from tests.exports.samples import optimal, press, shearing
+from tests.internals.laws import PowerSegment
 
 
 @pytest.mark.parametrize("law", [optimal(), smoothstep(20), smoothstep(30), catalogue["constant acceleration"].law])

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from optlaws import MotionLaw, catalogue, smoothstep
-from optlaws.exports.export import export_motion
-from optlaws.motion.motion import Motion, motion_of_law
 from tests.exports.interpolations import cubic_spline
 from tests.exports.samples import optimal
+from tests.internals.exports import export_motion
+from tests.internals.motion import Motion, motion_of_law
 
 FORMATS = ("csv", "rockwell-cam", "rockwell-cam-extended", "lenze", "kas")
 

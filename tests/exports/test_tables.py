@@ -11,15 +11,19 @@ import pytest
 from numpy.typing import NDArray
 
 from optlaws import Cycle, InputError, PolynomialLaw, catalogue, reversed_law, smoothstep
-from optlaws.exports.export import Export, export_motion
-from optlaws.exports.format import FORMATS
-from optlaws.exports.formats.point_table import NumberFormat, spline_table
-from optlaws.exports.formats.rockwell import profile_motion, profile_rows
-from optlaws.motion.motion import Motion, Units, motion_of_law
-from optlaws.motion.piece import Piece
 from tests.exports import readers
 from tests.exports.interpolations import cubic_spline
 from tests.exports.samples import SAID, one_shot, optimal, press, repeating, shearing, turning
+from tests.internals.exports import (
+    FORMATS,
+    Export,
+    NumberFormat,
+    export_motion,
+    profile_motion,
+    profile_rows,
+    spline_table,
+)
+from tests.internals.motion import Motion, Piece, Units, motion_of_law
 
 Array = NDArray[np.float64]
 

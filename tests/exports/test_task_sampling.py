@@ -4,11 +4,10 @@ import numpy as np
 import pytest
 
 from optlaws import InputError, smoothstep
-from optlaws.exports.export import export_motion
-from optlaws.exports.report import task_sampling
-from optlaws.motion.motion import motion_of_law
 from tests.exports.interpolations import linear
 from tests.exports.samples import one_shot, optimal, press, turning
+from tests.internals.exports import export_motion, task_sampling
+from tests.internals.motion import motion_of_law
 
 
 def test_straight_lines_are_heard_as_in_the_table() -> None:

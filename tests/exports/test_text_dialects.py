@@ -8,10 +8,9 @@ from hypothesis import given, seed
 from hypothesis import strategies as st
 
 from optlaws import smoothstep
-from optlaws.exports.export import export_motion
-from optlaws.exports.text import plain
-from optlaws.motion.motion import motion_of_law
 from tests.exports import readers
+from tests.internals.exports import export_motion, plain
+from tests.internals.motion import motion_of_law
 from tests.sampling import examples
 
 READERS = {

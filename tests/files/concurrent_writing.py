@@ -12,7 +12,7 @@ from tempfile import TemporaryDirectory
 from threading import BrokenBarrierError
 from typing import Any
 
-from optlaws.files import writing
+from tests.internals.files import writing
 
 MINE = "mine, by hand\n"
 PROCESSES = 2

@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from optlaws.files.comparison import say_the_same
+from tests.internals.files import say_the_same
 
 LAW: dict[str, Any] = {
     "status": "optimal",

@@ -10,9 +10,9 @@ from typing import Any
 import pytest
 
 from optlaws import Axes, Cycle, InputError, Machine, MotionLaw, Problem, at_least, open_study, read_law
-from optlaws.files import reading, writing
-from optlaws.mechanisms.machine.output_constants import output_peak
 from optlaws.verification import verify, verify_all
+from tests.internals.files import reading, writing
+from tests.internals.mechanisms import output_peak
 
 READERS: list[Callable[[Path], Any]] = [verify, verify_all, read_law, lambda file: open_study(file.parent)]
 TEXTS: list[Callable[[str], Any]] = [

@@ -7,12 +7,11 @@ import pytest
 from hatchling.builders.wheel import WheelBuilder
 
 from optlaws import InputError, catalogue
-from optlaws.cli.app import exit_code
-from optlaws.cli.show import show
-from optlaws.explorer.start import start
-from optlaws.files import packaged
-from optlaws.jobs import job
 from tests.documents import ROOT
+from tests.internals.cli import exit_code, show
+from tests.internals.explorer import start
+from tests.internals.files import packaged
+from tests.internals.jobs import job
 
 
 def test_a_wheel_holds_the_package_the_problems_and_the_atlas_and_nothing_else() -> None:

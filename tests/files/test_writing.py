@@ -7,10 +7,10 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
-from optlaws.errors import InputError
-from optlaws.files import tables, writing
-from optlaws.plots.style import empty_figure, plot_style, save_picture
+from optlaws import InputError
 from tests.files.concurrent_writing import outcomes
+from tests.internals.files import tables, writing
+from tests.internals.plots import empty_figure, plot_style, save_picture
 
 MINE = f"# {writing.MARK}\n"
 SEALED = writing.sealed(MINE.encode()).decode()

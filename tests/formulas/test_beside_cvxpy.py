@@ -13,11 +13,9 @@ import numpy as np
 import pytest
 
 from optlaws import Chebyshev, PolynomialLaw, Problem, synthesize
-from optlaws.formulas.arithmetic import NUMPY, evaluate
-from optlaws.formulas.convexity import Judge
-from optlaws.formulas.reading import read
-from optlaws.synthesis.spaces.of_basis import space_of
 from tests.formulas.trees import convex_text
+from tests.internals.formulas import NUMPY, Judge, evaluate, read
+from tests.internals.synthesis import space_of
 from tests.sampling import sampled
 from tests.synthesis.judge import Judged
 

@@ -5,10 +5,8 @@ from random import Random
 import numpy as np
 import pytest
 
-from optlaws.formulas.arithmetic import NUMPY, evaluate
-from optlaws.formulas.convexity import Curvature, Judge, judge
-from optlaws.formulas.reading import read
 from tests.formulas.trees import convex_text
+from tests.internals.formulas import NUMPY, Curvature, Judge, evaluate, judge, read
 
 RULES = Judge(frozenset("bc"))
 

@@ -5,9 +5,8 @@ from random import Random
 import pytest
 
 from optlaws import InputError
-from optlaws.formulas.reading import DEEPEST, LONGEST, read
-from optlaws.formulas.tree import Formula, Name, Table
 from tests.formulas.trees import text
+from tests.internals.formulas import DEEPEST, LONGEST, Formula, Name, Table, read
 
 
 @pytest.mark.parametrize(

@@ -10,15 +10,23 @@ from flint import arb
 from scipy.interpolate import CubicSpline
 
 from optlaws import InputError
-from optlaws.formulas.affine import affine, degree, quadratic
-from optlaws.formulas.arithmetic import NUMPY, casadi_arithmetic, evaluate, mpmath_arithmetic
-from optlaws.formulas.intervals import Endpoints, enclosed
-from optlaws.formulas.reading import read
-from optlaws.formulas.slopes import derivative
-from optlaws.formulas.tree import Formula
-from optlaws.verification.enclosing.ball_formulas import BALLS
 from tests.formulas.by_python import by_python
 from tests.formulas.trees import NAMES, text
+from tests.internals.formulas import (
+    NUMPY,
+    Endpoints,
+    Formula,
+    affine,
+    casadi_arithmetic,
+    degree,
+    derivative,
+    enclosed,
+    evaluate,
+    mpmath_arithmetic,
+    quadratic,
+    read,
+)
+from tests.internals.verification import BALLS
 
 
 def drawn(seed: int, depth: int = 4) -> tuple[str, Formula, dict[str, float]]:

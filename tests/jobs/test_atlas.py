@@ -10,11 +10,11 @@ from typing import Any
 import pytest
 
 from optlaws import Chebyshev, InfeasibleProblem, InputError, Problem, Solution, at_most, sweep, synthesize
-from optlaws.cli.app import exit_code
-from optlaws.jobs.atlas import COLUMNS, best_law, look_up, read
-from optlaws.jobs.job import run
-from optlaws.studies.specification import read_study
 from tests.documents import ROOT
+from tests.internals.cli import exit_code
+from tests.internals.jobs import COLUMNS, best_law, look_up, run
+from tests.internals.jobs import read_of_atlas as read
+from tests.internals.studies import read_study
 from tests.jobs import examples
 from tests.sampling import sampled
 

@@ -6,11 +6,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from optlaws import Problem, synthesize
-from optlaws.jobs import job
-from optlaws.plots.front import draw_front
-from optlaws.synthesis.pareto import pareto_front
+from optlaws import Problem, pareto_front, synthesize
 from tests.documents import ROOT
+from tests.internals.jobs import job
+from tests.internals.plots import draw_front
 from tests.jobs.examples import FRONTS
 from tests.problems.written import table
 

@@ -3,7 +3,7 @@
 import pytest
 
 from optlaws import InputError, Machine
-from optlaws.jobs.machine_laws import MachineTable, Measure
+from tests.internals.jobs import MachineTable, Measure
 
 
 def test_measured_modes_are_a_machine() -> None:

@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 from optlaws import Certificate, MotionLaw, Problem, synthesize
-from optlaws.jobs import job
 from tests.documents import ROOT
+from tests.internals.jobs import job
 from tests.jobs.examples import SOLUTIONS
 from tests.problems.written import table
 from tests.sampling import sampled

@@ -4,17 +4,21 @@ import itertools
 
 import numpy as np
 
-from optlaws.laws import MotionLaw, PolynomialLaw, smoothstep
-from optlaws.laws.catalogue.catalogue import catalogue
-from optlaws.laws.making.multiplier import multiplied_law
-from optlaws.laws.making.transform import mirrored_law, reversed_law, with_end_velocity
-from optlaws.laws.making.trapezoids import scca, trapezoid
-from optlaws.laws.savin import savin
-from optlaws.laws.segments.constant_power import PowerSegment
-from optlaws.laws.segments.fractional import FractionalSegment
-from optlaws.laws.segments.piecewise import PiecewiseLaw
-from optlaws.laws.segments.segment import PolynomialSegment, Segment
-from optlaws.laws.segments.sine import SineSegment
+from optlaws import (
+    MotionLaw,
+    PiecewiseLaw,
+    PolynomialLaw,
+    catalogue,
+    mirrored_law,
+    multiplied_law,
+    reversed_law,
+    savin,
+    scca,
+    smoothstep,
+    trapezoid,
+    with_end_velocity,
+)
+from tests.internals.laws import FractionalSegment, PolynomialSegment, PowerSegment, Segment, SineSegment
 
 
 def random_law(seed: int, count: int, decay: float = 1.0, b0: float = 0.0) -> PolynomialLaw:

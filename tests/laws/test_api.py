@@ -7,9 +7,17 @@ import sys
 
 import pytest
 
-from optlaws import errors, laws
-from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
-from optlaws.laws import MotionLaw, PolynomialLaw, smoothstep
+from optlaws import (
+    InfeasibleProblem,
+    InputError,
+    MotionLaw,
+    OptlawsError,
+    PolynomialLaw,
+    SolverFailure,
+    errors,
+    laws,
+    smoothstep,
+)
 
 
 @pytest.mark.parametrize("name", laws.__all__)

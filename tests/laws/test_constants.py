@@ -5,7 +5,7 @@ from dataclasses import FrozenInstanceError
 import numpy as np
 import pytest
 
-from optlaws.laws import Constants, Peak
+from optlaws import Constants, Peak
 
 
 def test_peaks_are_values() -> None:

@@ -8,7 +8,7 @@ import pytest
 from mpmath import mp, mpf  # type: ignore[import-untyped]
 from numpy.typing import NDArray
 
-from optlaws.laws import PolynomialLaw, smoothstep
+from optlaws import PolynomialLaw, smoothstep
 from tests.laws.examples import free_function_law, random_law
 
 DENSE = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, 20001))

@@ -9,9 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from optlaws.errors import InputError
-from optlaws.laws import MotionLaw, Peak, PolynomialLaw, smoothstep
-from optlaws.numerics.exact import chebyshev_from_powers, powers_from_chebyshev
+from optlaws import InputError, MotionLaw, Peak, PolynomialLaw, smoothstep
+from tests.internals.numerics import chebyshev_from_powers, powers_from_chebyshev
 
 numbers = st.floats(-1e6, 1e6, allow_subnormal=False)
 

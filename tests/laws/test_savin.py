@@ -9,9 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from optlaws.errors import InputError
-from optlaws.laws import PolynomialLaw, smoothstep
-from optlaws.laws.savin import SavinFamily, alpha_range, savin
+from optlaws import InputError, PolynomialLaw, SavinFamily, savin, smoothstep
+from tests.internals.laws import alpha_range
 from tests.laws.reference import rows
 from tests.sampling import examples
 

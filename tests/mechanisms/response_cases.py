@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from optlaws import MotionLaw, PiecewiseLaw, PolynomialLaw
-from optlaws.laws.segments.segment import PolynomialSegment, Segment
-from optlaws.laws.segments.sine import SineSegment
+from tests.internals.laws import PolynomialSegment, Segment, SineSegment
 
 Array = NDArray[np.float64]
 CRITICAL = (1.0, 1.0 - 1e-12, 1.0 + 1e-12, 1.0 - 1e-6, 1.0 + 1e-6)

@@ -3,8 +3,7 @@
 import csv
 from functools import cache
 
-from optlaws import MotionLaw, polydyne, savin
-from optlaws.laws.catalogue.catalogue import catalogue
+from optlaws import MotionLaw, catalogue, polydyne, savin
 from tests.documents import ROOT
 
 ALPHA = {"III": 7.2, "IV": 11.0}

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from optlaws import Cycle, Dwell, InputError, Return, Rise, catalogue, smoothstep
-from optlaws.exports.text import iec_name
-from optlaws.motion.motion import Motion, motion_of_law
+from tests.internals.exports import iec_name
+from tests.internals.motion import Motion, motion_of_law
 
 
 def press(law: str = "cycloidal") -> Cycle:

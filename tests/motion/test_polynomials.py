@@ -8,12 +8,10 @@ from hypothesis import given, seed
 from hypothesis import strategies as st
 from scipy.interpolate import CubicSpline, PPoly
 
-from optlaws import Pieces, Problem, catalogue, smoothstep, synthesize
-from optlaws.errors import InputError
-from optlaws.exports.polynomial_pieces import polynomials_of_law
-from optlaws.motion.polynomials import PiecewiseMotion
-from optlaws.numerics import bernstein
+from optlaws import InputError, Pieces, PiecewiseMotion, Problem, catalogue, smoothstep, synthesize
 from tests.exports.motions import random_motion
+from tests.internals.exports import polynomials_of_law
+from tests.internals.numerics import bernstein
 from tests.sampling import examples
 
 

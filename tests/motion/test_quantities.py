@@ -29,9 +29,9 @@ from optlaws import (
     machine_follower,
     smoothstep,
 )
-from optlaws.files import reading
-from optlaws.jobs.cycle_entries import read
-from optlaws.motion.quantities import DIMENSIONS, either, quantity
+from tests.internals.files import reading
+from tests.internals.jobs import read_of_cycle_entries as read
+from tests.internals.motion import DIMENSIONS, either, quantity
 
 
 @pytest.mark.parametrize(

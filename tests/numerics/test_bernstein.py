@@ -8,9 +8,7 @@ import numpy as np
 import pytest
 
 from optlaws import InputError
-from optlaws.numerics import bernstein
-from optlaws.numerics.bernstein import greatest_difference
-from optlaws.numerics.chebyshev import nodes
+from tests.internals.numerics import bernstein, greatest_difference, nodes
 
 
 @pytest.mark.parametrize("degree", [0, 1, 5, 9])

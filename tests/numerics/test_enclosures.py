@@ -7,11 +7,10 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from optlaws.errors import SolverFailure
-from optlaws.numerics.enclosures.branch_and_bound import extremes
-from optlaws.numerics.enclosures.integral import integral
-from optlaws.numerics.enclosures.interval import Interval, bearing, between, dot, exact
-from optlaws.numerics.enclosures.taylor import Jet, variable
+from optlaws import SolverFailure
+from tests.internals.numerics import Interval, Jet, bearing, between, dot, exact, variable
+from tests.internals.numerics import extremes_of_branch_and_bound as extremes
+from tests.internals.numerics import integral_of_integral as integral
 
 Array = NDArray[np.float64]
 Plain = Callable[[Array], Array]

@@ -6,10 +6,9 @@ import pytest
 from numpy.typing import NDArray
 from scipy.special import j0, j1, jn_zeros
 
-from optlaws.errors import InputError
-from optlaws.numerics import chebyshev
-from optlaws.numerics.bisection import bisect
-from optlaws.numerics.panels import Panels, equal, integral, of_waves, resolved
+from optlaws import InputError
+from tests.internals.numerics import Panels, bisect, chebyshev, equal, of_waves, resolved
+from tests.internals.numerics import integral_of_panels as integral
 
 Array = NDArray[np.float64]
 

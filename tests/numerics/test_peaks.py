@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from optlaws import Chebyshev, PolynomialLaw, Problem, synthesize
-from optlaws.numerics.peaks import Peak, extremes, highest, peak, polished
+from optlaws import Chebyshev, Peak, PolynomialLaw, Problem, synthesize
 from optlaws.tolerances import POLISHING_REACH
+from tests.internals.numerics import extremes_of_peaks as extremes
+from tests.internals.numerics import highest, peak, polished
 
 Array = NDArray[np.float64]
 Residual = Callable[[Array], tuple[Array, Array]]

@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from optlaws import Chebyshev, Problem, at_most, catalogue, pareto_front, smoothstep, synthesize, via
-from optlaws.errors import InputError
-from optlaws.plots.law import broken
+from optlaws import Chebyshev, InputError, Problem, at_most, catalogue, pareto_front, smoothstep, synthesize, via
+from tests.internals.plots import broken
 
 
 def axes(count: int) -> np.ndarray:

@@ -4,9 +4,9 @@ import re
 
 import pytest
 
-from optlaws.plots.style import DISTINCT, WARM, shades
 from problems.dwell_drawing import SHADES
 from tests.documents import ROOT
+from tests.internals.plots import DISTINCT, WARM, shades
 
 
 def texts(picture: str) -> list[str]:

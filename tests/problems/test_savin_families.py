@@ -3,8 +3,8 @@
 import pytest
 
 from optlaws import savin
-from optlaws.laws.savin import alpha_range
 from tests.documents import ROOT
+from tests.internals.laws import alpha_range
 from tests.laws.reference import rows
 from tests.problems.written import table
 

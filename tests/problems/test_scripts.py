@@ -14,11 +14,11 @@ from hatchling.builders.wheel import WheelBuilder
 
 import optlaws
 from optlaws import InputError, OptlawsError, problems
-from optlaws.cli.app import exit_code
-from optlaws.files import writing
-from optlaws.jobs import job
 from optlaws.results import Entries, Results
 from tests.documents import ROOT
+from tests.internals.cli import exit_code
+from tests.internals.files import writing
+from tests.internals.jobs import job
 
 SCRIPTS = sorted((ROOT / "problems").rglob("*.py"))
 #: those that take more than some seconds; make check-results runs them too

@@ -6,11 +6,8 @@ from typing import Any
 
 import msgspec
 
-from optlaws.studies.chunk import Task, blocks
-from optlaws.studies.executor import Serial
-from optlaws.studies.run import run_study
-from optlaws.studies.study import Study
-from optlaws.studies.tables import StudyPoint
+from optlaws import run_study
+from tests.internals.studies import Serial, Study, StudyPoint, Task, blocks
 
 SMALL: dict[str, Any] = {
     "problem": {"order": 4, "degree": 5},

@@ -17,8 +17,8 @@ import pytest
 
 from optlaws import open_study
 from optlaws.cli import exit_code
-from optlaws.studies.store import StudyDirectory
 from tests.documents import ROOT
+from tests.internals.studies import StudyDirectory
 from tests.studies.sweeping import rows, serially
 
 pytestmark = pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="processes are found by Linux's /proc")

@@ -10,8 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from optlaws import InputError, Problem, Range, at_most, between
-from optlaws.studies.points import StudyPoints, axes, key
-from optlaws.studies.specification import entries, filled, read_study
+from tests.internals.studies import StudyPoints, axes, entries, filled, key, read_study
 
 
 def points(**study: object) -> StudyPoints:

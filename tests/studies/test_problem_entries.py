@@ -7,8 +7,8 @@ import msgspec
 import pytest
 
 from optlaws import BSplines, InputError, Pieces, Problem, at_most, between
-from optlaws.files.problem_file import convert
-from optlaws.studies.problem_entries import ProblemEntries, problem
+from tests.internals.files import convert
+from tests.internals.studies import ProblemEntries, problem
 
 
 def asked(**entries: Any) -> Problem:  # noqa: ANN401

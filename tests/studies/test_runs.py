@@ -13,10 +13,8 @@ import pytest
 
 import optlaws
 from optlaws import FUNCTIONALS, InputError, MotionLaw, Problem, SolverFailure, open_study, run_study, synthesize
-from optlaws.files import writing
-from optlaws.studies.specification import read_study
-from optlaws.studies.store import digest
-from optlaws.studies.study import Study
+from tests.internals.files import writing
+from tests.internals.studies import Study, digest, read_study
 from tests.studies.sweeping import SMALL, rows, serially, troubled
 
 P = ParamSpec("P")

@@ -19,9 +19,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from optlaws import InputError, Status, open_study, run_study
-from optlaws.studies.store import Chunks, DamagedTable, StoreFailure, StudyDirectory
-from optlaws.studies.study import Study
 from tests.documents import ROOT
+from tests.internals.studies import Chunks, DamagedTable, StoreFailure, Study, StudyDirectory
 from tests.sampling import examples
 from tests.studies.sweeping import SMALL, rows, serially
 
@@ -99,7 +98,7 @@ class After:
 
 
 def interrupted(out: Path, chunks: int) -> None:
-    from optlaws.studies.executor import Serial
+    from tests.internals.studies import Serial
 
     with pytest.raises(Enough):
         run_study(SMALL, out, executor=Serial(), watch=After(chunks))

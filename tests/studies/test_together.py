@@ -10,12 +10,19 @@ import numpy as np
 import pytest
 
 from optlaws import Problem, ProblemArray, Solution, open_study, run_study, synthesize_array
-from optlaws.studies.chunk import Task, along_B, array_along_B, blocks
-from optlaws.studies.executor import Serial
-from optlaws.studies.points import StudyPoints, key
-from optlaws.studies.progress import Silent
-from optlaws.studies.run import task
-from optlaws.studies.specification import entries, read_study
+from tests.internals.studies import (
+    Serial,
+    Silent,
+    StudyPoints,
+    Task,
+    along_B,
+    array_along_B,
+    blocks,
+    entries,
+    key,
+    read_study,
+    task,
+)
 from tests.sampling import sampled
 from tests.studies.sweeping import solved
 

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from optlaws import FUNCTIONALS, MotionLaw
-from optlaws.synthesis.problem.constants import PeakConstant
+from tests.internals.synthesis import PeakConstant
 
 TROUBLED_B = 1.7
 

@@ -17,9 +17,8 @@ from numpy.typing import NDArray
 from scipy.sparse import csc_matrix
 
 from optlaws import Functional, Problem
-from optlaws.mechanisms.follower.cam_constants import CamPeak
-from optlaws.mechanisms.spectrum.residual import Residual
 from optlaws.synthesis import Maximum, Term
+from tests.internals.mechanisms import CamPeak, Residual
 from tests.synthesis.judge import SQUARES, as_range, peak_in_the_middle
 from tests.synthesis.numpy_laws import Laws, Undecided, grid, laws_of
 

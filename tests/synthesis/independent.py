@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 from scipy.optimize import linprog
 
 from optlaws import Chebyshev as ChebyshevBasis
-from optlaws import Problem, Solution
-from optlaws.laws import MotionLaw
+from optlaws import MotionLaw, Problem, Solution
 from optlaws.synthesis import PolynomialBasis
 
 Array = NDArray[np.float64]

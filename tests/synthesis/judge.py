@@ -13,16 +13,11 @@ from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
 
 from optlaws import Expression, Functional, MotionLaw, Problem, Range, Solution, Window, peak
-from optlaws.formulas.of_motion import MotionFormula
-from optlaws.formulas.tree import Table
-from optlaws.mechanisms.follower.cam_constants import CamPeak, CamPower
-from optlaws.mechanisms.machine.output_constants import OutputConstant
-from optlaws.mechanisms.machine.residual_boxes import ModeResidual
-from optlaws.mechanisms.spectrum.residual import Residual
 from optlaws.synthesis import Maximum
-from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaPeak, FormulaRms, FormulaValue, OfFormula
-from optlaws.synthesis.problem.expression import leaves
 from tests.formulas.by_python import by_python
+from tests.internals.formulas import MotionFormula, Table
+from tests.internals.mechanisms import CamPeak, CamPower, ModeResidual, OutputConstant, Residual
+from tests.internals.synthesis import FormulaIntegral, FormulaPeak, FormulaRms, FormulaValue, OfFormula, leaves
 from tests.mechanisms.machine.stepped import machine_value
 from tests.synthesis.independent import DENSE
 

@@ -33,6 +33,7 @@ from optlaws import (
     between,
     cam_constant,
     integral,
+    law_from_z,
     maximum,
     peak,
     residual_vibration,
@@ -40,8 +41,8 @@ from optlaws import (
     value,
     via,
 )
-from optlaws.synthesis import PiecewiseBasis, PolynomialBasis, law_from_z
-from optlaws.synthesis.functionals.kinds import OfFormula
+from optlaws.synthesis import PiecewiseBasis, PolynomialBasis
+from tests.internals.synthesis import OfFormula
 from tests.synthesis.judge import Judged, broken
 
 Numbers = np.random.Generator

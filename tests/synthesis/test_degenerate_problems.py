@@ -25,9 +25,8 @@ from optlaws import (
     value,
     via,
 )
-from optlaws.synthesis.method.exchange import solve
-from optlaws.synthesis.program.writer import model_of
 from optlaws.verification import verify
+from tests.internals.synthesis import model_of, solve
 from tests.synthesis.judge import Judged, broken
 
 PIECES = Pieces(breaks=(0.0, 0.065, 0.2015, 0.4675, 0.5, 0.5325, 0.7985, 0.935, 1.0), degree=5, continuity=3)

@@ -9,9 +9,8 @@ import numpy as np
 import pytest
 
 from optlaws import BSplines, Chebyshev, Pieces, Problem, at_least, at_most, between, synthesize
-from optlaws.synthesis.program.writer import model_of
-from optlaws.synthesis.search import LawSearch, from_symmetric
 from optlaws.verification import verify
+from tests.internals.synthesis import LawSearch, from_symmetric, model_of
 
 KINDS: list[dict[str, Any]] = [
     {"B": 1.8},

@@ -8,8 +8,17 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from optlaws import BoundaryConditions, Chebyshev, Powers, Problem, Solution, law_from_z, smoothstep, synthesize
-from optlaws.laws import PolynomialLaw
+from optlaws import (
+    BoundaryConditions,
+    Chebyshev,
+    PolynomialLaw,
+    Powers,
+    Problem,
+    Solution,
+    law_from_z,
+    smoothstep,
+    synthesize,
+)
 from tests.documents import ROOT
 
 

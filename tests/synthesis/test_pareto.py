@@ -6,11 +6,8 @@ from time import perf_counter
 import numpy as np
 import pytest
 
-from optlaws import Chebyshev, InputError, Problem, Solution, Status, synthesize
-from optlaws.synthesis.limits.closed_forms import limit
-from optlaws.synthesis.pareto import HEADINGS, Front, pareto_front, undominated, value_of
-from optlaws.synthesis.problem.named_constants import named
-from optlaws.synthesis.problem.ranges import Range
+from optlaws import Chebyshev, Front, InputError, Problem, Range, Solution, Status, limit, pareto_front, synthesize
+from tests.internals.synthesis import HEADINGS, named, undominated, value_of
 
 L4 = Problem(order=4)
 

@@ -9,8 +9,7 @@ import pytest
 
 from optlaws import FUNCTIONALS, Basis, BoundaryConditions, Chebyshev, Expression, Functional, Problem, Range
 from optlaws.synthesis import Maximum
-from optlaws.synthesis.problem.constants import MAKERS
-from optlaws.synthesis.problem.windows import QUANTITIES
+from tests.internals.synthesis import MAKERS, QUANTITIES
 from tests.synthesis.count_statuses import kinds, outcome, table
 from tests.synthesis.judge import Judged, as_range
 from tests.synthesis.random_options import ASKED, BASES, CONSTANTS, Drawn, every_option

@@ -6,10 +6,8 @@ import sys
 import pytest
 
 from optlaws import Chebyshev, Problem
-from optlaws.synthesis.method.discretised import ipopt
-from optlaws.synthesis.method.discretised.expressions import KINDS, RowShape
-from optlaws.synthesis.program import writer
 from tests.documents import ROOT
+from tests.internals.synthesis import KINDS, RowShape, ipopt, writer
 
 
 @pytest.mark.parametrize("rounds", [2, pytest.param(60, marks=pytest.mark.long)])

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from optlaws import Chebyshev, InfeasibleProblem, InputError, Problem, Solution, sweep, synthesize
-from optlaws.synthesis.solve_many import _together
+from tests.internals.synthesis import _together
 
 FIRST = Problem(B=1.6, order=4, basis=Chebyshev(5))
 

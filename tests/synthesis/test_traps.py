@@ -9,9 +9,7 @@ import numpy as np
 import pytest
 
 from optlaws import Chebyshev, Problem, Solution, Status, smoothstep, synthesize
-from optlaws.synthesis.families.family import LinearFamily, Points, Program
-from optlaws.synthesis.method.discretised import ipopt
-from optlaws.synthesis.method.strategies import interior_points
+from tests.internals.synthesis import LinearFamily, Points, Program, interior_points, ipopt
 from tests.synthesis.independent import acceleration_of, check_solution, extremes, velocity_of, z_of
 
 SHAPES = [

@@ -11,9 +11,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from optlaws import (
+    C,
     Certificate,
     Chebyshev,
     Expression,
+    Functional,
     InfeasibleProblem,
     Machine,
     Pieces,
@@ -26,14 +28,16 @@ from optlaws import (
     between,
     integral,
     maximum,
+    pareto_front,
     peak,
+    proven_front,
     rms,
     sweep,
     synthesize,
     synthesize_array,
     value,
 )
-from optlaws.synthesis import C, Functional, Term, pareto_front, proven_front
+from optlaws.synthesis import Term
 from optlaws.verification import verify
 
 UNITS = (3.7e-15, 1e12)

@@ -32,6 +32,7 @@ from optlaws import (
     Pieces,
     Problem,
     ProblemArray,
+    ProvenFront,
     Return,
     Rise,
     SolutionArray,
@@ -45,10 +46,9 @@ from optlaws import (
     synthesize,
     synthesize_array,
 )
-from optlaws.studies.executor import Serial
-from optlaws.synthesis.proven.front import ProvenFront
 from optlaws.typing import Bound
 from optlaws.verification import Verification, verify_all
+from tests.internals.studies import Serial
 from tests.verification.tampering import Data, Path, changed, overstated, value_at, wrong_constants
 
 #: by how much a number may be off that rounding explains

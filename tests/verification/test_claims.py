@@ -11,12 +11,9 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from optlaws import Chebyshev, InputError, Pieces, Problem, pareto_front
-from optlaws.cli.app import exit_code
-from optlaws.errors import InfeasibleProblem
-from optlaws.synthesis.proof.certificate import Certificate
-from optlaws.synthesis.solve import synthesize
+from optlaws import Certificate, Chebyshev, InfeasibleProblem, InputError, Pieces, Problem, pareto_front, synthesize
 from optlaws.verification import verify, verify_all
+from tests.internals.cli import exit_code
 from tests.sampling import examples
 from tests.verification.tampering import Data, Path, changed, data_of, places, value_at
 

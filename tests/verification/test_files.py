@@ -8,9 +8,9 @@ import pytest
 from cyclopts import App
 
 from optlaws import Chebyshev, InputError, Problem, synthesize
-from optlaws.cli.app import NotProven
-from optlaws.cli.synthesis.verify import verify as command
 from optlaws.verification import verify
+from tests.internals.cli import NotProven
+from tests.internals.cli import verify as command
 
 pytest.importorskip("flint")
 

@@ -16,13 +16,15 @@ from optlaws import (
     InputError,
     MotionLaw,
     Problem,
+    Window,
+    at_least,
+    at_most,
+    between,
     law_from_z,
     synthesize,
 )
-from optlaws.synthesis import Window, at_least, at_most, between
-from optlaws.synthesis.families.family import ConstraintFamily
-from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.verification import exact_bound, verify
+from tests.internals.synthesis import ConstraintFamily, LawSpace
 from tests.sampling import examples
 from tests.verification.tampering import data_of
 

@@ -11,15 +11,16 @@ from hypothesis import strategies as st
 from optlaws import (
     BoundaryConditions,
     Chebyshev,
+    InfeasibleProblem,
     Pieces,
     Problem,
     Solution,
+    SolverFailure,
     at_least,
     at_most,
     cam_constant,
     synthesize,
 )
-from optlaws.errors import InfeasibleProblem, SolverFailure
 from optlaws.verification import exact_bound, verify
 from tests.sampling import examples
 from tests.synthesis.random_general import random_problems

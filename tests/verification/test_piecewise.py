@@ -9,8 +9,18 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from optlaws import BoundaryConditions, BSplines, Certificate, InfeasibleProblem, Pieces, Problem, synthesize
-from optlaws.synthesis import Window, at_most, via
+from optlaws import (
+    BoundaryConditions,
+    BSplines,
+    Certificate,
+    InfeasibleProblem,
+    Pieces,
+    Problem,
+    Window,
+    at_most,
+    synthesize,
+    via,
+)
 from optlaws.verification import exact_bound, verify
 from tests.sampling import examples
 from tests.verification.tampering import Data, data_of

@@ -7,13 +7,11 @@ from typing import Any
 
 import pytest
 
-from optlaws import Chebyshev, Functional, InputError, Problem, smoothstep
-from optlaws.cli.app import exit_code
-from optlaws.synthesis.spaces.bases import Basis
+from optlaws import Basis, Chebyshev, Functional, InputError, Problem, smoothstep
 from optlaws.verification import exact_bound, verify, verify_all
-from optlaws.verification.exact.of_basis import exact_space
-from optlaws.verification.reading import built, number, read
 from tests.documents import ROOT
+from tests.internals.cli import exit_code
+from tests.internals.verification import built, exact_space, number, read
 from tests.verification.tampering import data_of, text_of
 
 pytest.importorskip("flint")
@@ -176,7 +174,7 @@ def test_own_constants_are_refused_even_if_they_look_like_known_ones() -> None:
     from dataclasses import dataclass
 
     from optlaws import synthesize
-    from optlaws.synthesis.problem.constants import PeakConstant
+    from tests.internals.synthesis import PeakConstant
 
     @dataclass(frozen=True, repr=False)
     class Half(PeakConstant):

@@ -6,8 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from optlaws import BSplines, Chebyshev, InputError, Pieces, Problem
-from optlaws.synthesis import Window, between
+from optlaws import BSplines, Chebyshev, InputError, Pieces, Problem, Window, between
 from optlaws.verification import verify
 from tests.sampling import examples
 from tests.verification.tampering import changed, data_of, numbers, overstated, places, value_at

@@ -22,10 +22,12 @@ from optlaws import (
     InfeasibleProblem,
     InputError,
     Problem,
+    Window,
+    at_most,
     synthesize,
     verification,
+    via,
 )
-from optlaws.synthesis import Window, at_most, via
 from optlaws.verification import Verification, enclosures, exact_bound, verify
 from tests.sampling import examples
 

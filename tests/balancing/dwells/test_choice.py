@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 
 from optlaws import InfeasibleProblem, InputError, catalogue, compare_dwell_mechanisms, deg, dwell_mechanism
-from optlaws.balancing.dwells.choice import least_dwell
+from tests.internals.balancing import least_dwell
 from tests.mechanisms.reference import rows
 
 K = catalogue["K"].law

@@ -8,10 +8,9 @@ import pytest
 from scipy.integrate import quad
 
 from optlaws import Clutch, InputError, catalogue, deg, dwell_mechanism, smoothstep
-from optlaws.balancing.dwells.clutch import exact_swing
-from optlaws.balancing.dwells.mechanism import DwellMechanism
 from optlaws.typing import DwellType
 from tests.balancing.dwells.test_mechanism import example, mechanism
+from tests.internals.balancing import DwellMechanism, exact_swing
 from tests.mechanisms.reference import rows
 
 

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 
 from optlaws import InputError, MotionLaw, catalogue, deg, dwell_mechanism, smoothstep
-from optlaws.balancing.dwells.mechanism import DwellMechanism, DwellType
+from tests.internals.balancing import DwellMechanism, DwellType
 from tests.laws.examples import free_function_law
 from tests.mechanisms.reference import rows
 from tests.sampling import examples

@@ -7,9 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws import TorsionLever, deg
-from optlaws.balancing.levers.exact_swing import swung, upper_extreme
-from optlaws.balancing.levers.motion import LeverMotion
 from tests.documents import ROOT
+from tests.internals.balancing import LeverMotion, swung, upper_extreme
 
 Array = NDArray[np.float64]
 Row = Mapping[str, str]

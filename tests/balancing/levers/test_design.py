@@ -3,7 +3,7 @@
 import pytest
 
 from optlaws import InputError, TorsionLever, deg, find_torsion_levers
-from optlaws.balancing.levers.design import QUANTITIES
+from tests.internals.balancing import QUANTITIES
 
 GIVEN = {"rho": 0.15, "nu": 0.15, "swing": deg(60)}
 

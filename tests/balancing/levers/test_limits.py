@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from optlaws import InputError, TorsionLever, deg
-from optlaws.balancing.levers.linkage import FourBar
-from optlaws.balancing.levers.motion import LeverMotion
+from tests.internals.balancing import FourBar, LeverMotion
 
 GIVEN = {"beta": 0.75, "lam": 1.0, "rho": 0.15, "nu": 0.15, "swing": deg(60)}
 

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from optlaws import InputError, TorsionLever, deg
-from optlaws.balancing.levers.linkage import FourBar
 from tests.balancing.levers.cases import Row, apart, lever, rows, truncated
+from tests.internals.balancing import FourBar
 
 CASES = rows("lever_asym_vs_ode")
 STUDY = rows("lever_parametric")

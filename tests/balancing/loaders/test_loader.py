@@ -11,11 +11,19 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
-from optlaws import InputError, MotionLaw, PiecewiseLaw, PolynomialLaw, catalogue, smoothstep
-from optlaws.balancing.loaders.loader import Loader, inertial_loader
-from optlaws.laws.making.transform import mirrored_law, reversed_law
-from optlaws.laws.segments.constant_power import PowerSegment
-from optlaws.laws.segments.segment import PolynomialSegment
+from optlaws import (
+    InputError,
+    Loader,
+    MotionLaw,
+    PiecewiseLaw,
+    PolynomialLaw,
+    catalogue,
+    inertial_loader,
+    mirrored_law,
+    reversed_law,
+    smoothstep,
+)
+from tests.internals.laws import PolynomialSegment, PowerSegment
 from tests.laws.examples import free_function_law, random_law
 from tests.mechanisms.reference import rows
 from tests.sampling import examples

@@ -17,6 +17,7 @@ from scipy.optimize import minimize
 from optlaws import (
     BalancedLaw,
     Chebyshev,
+    Contact,
     InfeasibleProblem,
     InputError,
     MotionLaw,
@@ -25,16 +26,19 @@ from optlaws import (
     Problem,
     balanced_law,
     catalogue,
+    inertial_loader,
     smoothstep,
     synthesize,
 )
-from optlaws.balancing.loaders.constants import B_loader, C_loader, D_loader
-from optlaws.balancing.loaders.limits import loader_acceleration_limit, loader_power_limit, loader_velocity_limit
-from optlaws.balancing.loaders.loader import inertial_loader
-from optlaws.synthesis.families.energy import EnergyFamily
-from optlaws.synthesis.program.writer import model_of, relaxed
-from optlaws.synthesis.proof.duality import row_of
-from optlaws.synthesis.proof.nodes import Contact
+from tests.internals.balancing import (
+    B_loader,
+    C_loader,
+    D_loader,
+    loader_acceleration_limit,
+    loader_power_limit,
+    loader_velocity_limit,
+)
+from tests.internals.synthesis import EnergyFamily, model_of, relaxed, row_of
 
 CODES = ("K", "Co", "3-4-5 polynomial", "0510", "0307(1,5)", "0317(1,5)", "KC00", "KC05", "0040", "0000")
 MODEL = model_of(Problem(B=1.7, order=3, minimise="B_loader", monotone=True))

@@ -3,9 +3,8 @@
 import pytest
 from scipy.integrate import quad
 
-from optlaws import InputError, catalogue, smoothstep
-from optlaws.balancing.loaders.loader import inertial_loader
-from optlaws.balancing.loaders.trapezium import TrapeziumSubstitute, closed_form_Y
+from optlaws import InputError, TrapeziumSubstitute, catalogue, inertial_loader, smoothstep
+from tests.internals.balancing import closed_form_Y
 from tests.mechanisms.reference import rows
 
 NOMOGRAM = rows("loader_nomogram")

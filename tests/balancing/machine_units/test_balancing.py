@@ -3,14 +3,8 @@ from math import pi
 import numpy as np
 import pytest
 
-from optlaws import Cycle, Dwell, Return, Rise
-from optlaws.balancing.loaders.loader import Loader
-from optlaws.balancing.machine_units.balancing import Balancing
-from optlaws.cams.disc import DiscCam
-from optlaws.cams.followers.translating_roller import TranslatingRoller
-from optlaws.cams.forces import CamForces
-from optlaws.cycles.specification.drive import effort
-from optlaws.errors import InputError
+from optlaws import Balancing, CamForces, Cycle, DiscCam, Dwell, InputError, Loader, Return, Rise, TranslatingRoller
+from tests.internals.cycles import effort
 
 
 def cycle(law: str, back: str = "90 deg", **drive: str) -> Cycle:

@@ -4,11 +4,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from optlaws import catalogue
+from optlaws import CamForces, DwellMachine, InputError, catalogue, dwell_machine
 from optlaws.balancing import DwellType
-from optlaws.balancing.machine_units.dwell_machine import DwellMachine, dwell_machine
-from optlaws.cams.forces import CamForces
-from optlaws.errors import InputError
 
 DATA: dict[str, Any] = {
     "law": catalogue["3-4-5"].law,

@@ -3,11 +3,7 @@ from math import radians
 import numpy as np
 import pytest
 
-from optlaws.balancing.levers.lever import TorsionLever
-from optlaws.balancing.machine_units.lever_cam import LeverCam, rocker_law
-from optlaws.cams.disc import DiscCam
-from optlaws.cams.followers.oscillating_roller import OscillatingRoller
-from optlaws.errors import InputError
+from optlaws import DiscCam, InputError, LeverCam, OscillatingRoller, TorsionLever, rocker_law
 
 LEVER = TorsionLever(beta=0.75, lam=1.0, rho=0.15, nu=0.15, swing=radians(60.0))
 

@@ -4,13 +4,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from optlaws.cams.curves.motion_by_angle import CamMotion
-from optlaws.cams.curves.plane_curve import PlaneCurve
-from optlaws.cams.disc import DiscCam
-from optlaws.cams.followers.translating_roller import TranslatingRoller
-from optlaws.errors import InputError
+from optlaws import CamMotion, DiscCam, InputError, TranslatingRoller
 from tests.cams.cutting import readers
 from tests.cams.placed import cam_of
+from tests.internals.cams import PlaneCurve
 
 
 def test_each_curve_of_a_cam_is_exported(tmp_path: Path) -> None:

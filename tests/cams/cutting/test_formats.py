@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from scipy.interpolate import BPoly
 
-from optlaws.cams.cutting.cam_files import ENDINGS, FORMATS, write_outline
-from optlaws.errors import InputError
+from optlaws import InputError
 from tests.cams.cutting import readers
 from tests.cams.outlines import Ellipse
+from tests.internals.cams import ENDINGS, FORMATS, write_outline
 
 ELLIPSE = Ellipse(0.06, 0.03, (0.0, 1.0, 2 * np.pi))
 ANGLES = np.linspace(0.0, 2 * np.pi, 1501)

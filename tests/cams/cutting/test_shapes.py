@@ -2,10 +2,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from optlaws.cams.cutting.arcs_and_chords import Arcs, arcs, polygon
-from optlaws.cams.cutting.spline import even, spline, through
-from optlaws.errors import InputError
+from optlaws import InputError
 from tests.cams.outlines import Bumped, Ellipse
+from tests.internals.cams import Arcs, arcs, even, polygon, spline, through
 
 Array = NDArray[np.float64]
 

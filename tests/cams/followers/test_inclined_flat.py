@@ -16,6 +16,8 @@ from optlaws import (
     DiscCam,
     Dwell,
     InclinedFlat,
+    InfeasibleProblem,
+    InputError,
     Return,
     Rise,
     TranslatingFlat,
@@ -26,9 +28,8 @@ from optlaws import (
     least_base_circle,
     least_spring,
 )
-from optlaws.errors import InfeasibleProblem, InputError
-from optlaws.jobs import job
 from tests.cams.placed import TURNINGS, face_lines, points
+from tests.internals.jobs import job
 
 Array = NDArray[np.float64]
 

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import optlaws
-from optlaws.cams.followers.follower import follower_kinds, read_follower
-from optlaws.errors import InputError
+from optlaws import InputError
+from tests.internals.cams import follower_kinds, read_follower
 
 PACKAGE = Path(optlaws.__file__).parent
 FOLDER = PACKAGE / "cams" / "followers"

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from optlaws.cli.app import BAD_INPUT, exit_code
-from optlaws.exports.format import FORMATS
 from tests.documents import ROOT
+from tests.internals.cli import BAD_INPUT, exit_code
+from tests.internals.exports import FORMATS
 
 Capture = pytest.CaptureFixture[str]
 LAW = ["cycloidal", "--stroke", "35 mm", "--master", "120 deg", "--time", "0.1 s"]

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from optlaws import Cycle, Dwell, MotionLaw, Return, Rise, SavinFamily, catalogue, read_law, savin, smoothstep
-from optlaws.cli.app import exit_code
+from tests.internals.cli import exit_code
 
 
 def output(capsys: pytest.CaptureFixture[str], *arguments: str) -> str:

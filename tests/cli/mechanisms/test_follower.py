@@ -6,9 +6,8 @@ from typing import Any
 
 import pytest
 
-from optlaws import Follower, MotionLaw, machine_follower, polydyne, savin, smoothstep
-from optlaws.cli import app
-from optlaws.laws.catalogue.catalogue import catalogue
+from optlaws import Follower, MotionLaw, catalogue, machine_follower, polydyne, savin, smoothstep
+from tests.internals.cli import app_of_cli as app
 
 Capture = pytest.CaptureFixture[str]
 KEYS = [

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from optlaws import MotionLaw
-from optlaws.cli import app
+from tests.internals.cli import app_of_cli as app
 
 Capture = pytest.CaptureFixture[str]
 EXAMPLE = ["lever", "--beta", "0.75", "--lam", "1", "--swing", "60"]

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from optlaws import Clutch, MotionLaw, catalogue, deg, dwell_mechanism, inertial_loader, smoothstep
-from optlaws.cli.app import BAD_INPUT, exit_code
+from tests.internals.cli import BAD_INPUT, exit_code
 
 DWELL = (
     "--dwell 90 --rise 90 --swing 20 --clutch-angle 15 --radius-ratio 1.0026761 --inertia-ratio 0.1 --most-torque 0.5"

@@ -10,8 +10,8 @@ from scipy.interpolate import CubicSpline
 from scipy.optimize import linprog
 
 from optlaws import ConstantVelocity, Cycle, Dwell, Free, InputError, Move, PeriodicPieces
-from optlaws.cli.app import exit_code
-from optlaws.cycles.optimisation.search_spaces import halved
+from tests.internals.cli import exit_code
+from tests.internals.cycles import halved
 
 WAYS = [Free("30 mm", "0.2 s"), Free("20 mm", "0.2 s"), Free("-50 mm", "0.3 s"), Free("25 mm", "0.1 s"), Free("-25 mm")]
 TIMES = np.array([0.0, 0.2, 0.4, 0.7, 0.8, 1.0])

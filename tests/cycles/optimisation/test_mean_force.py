@@ -21,9 +21,8 @@ from optlaws import (
     smoothstep,
     synthesize,
 )
-from optlaws.cycles.optimisation.objectives import FORCE, POWER
-from optlaws.cycles.specification.drive import peak_of, read_drive
-from optlaws.motion.piece import Piece
+from tests.internals.cycles import FORCE, POWER, peak_of, read_drive
+from tests.internals.motion import Piece
 from tests.sampling import sampled
 
 INERTIA: dict[str, Any] = {"inertia": "0.02 kg m^2"}

@@ -12,14 +12,9 @@ import pytest
 from hypothesis import given, seed
 from hypothesis import strategies as st
 
-from optlaws import Pieces, Problem, smoothstep, synthesize
-from optlaws.errors import InputError
-from optlaws.exports.error_bounds import DOUBLE, SINGLE, as_stored, error_bounds
-from optlaws.exports.formats.c99 import c_name, header
-from optlaws.exports.polynomial_pieces import polynomials_of_law
-from optlaws.exports.text import Labels
-from optlaws.motion.polynomials import PiecewiseMotion
+from optlaws import InputError, Pieces, PiecewiseMotion, Problem, smoothstep, synthesize
 from tests.exports.motions import random_motion
+from tests.internals.exports import DOUBLE, SINGLE, Labels, as_stored, c_name, error_bounds, header, polynomials_of_law
 from tests.sampling import examples
 
 COMPILER = shutil.which("gcc") or shutil.which("cc")

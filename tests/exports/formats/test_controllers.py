@@ -16,7 +16,9 @@ from optlaws import (
     Cycle,
     Dwell,
     InputError,
+    MotionLaw,
     Pieces,
+    PiecewiseMotion,
     Problem,
     Return,
     Rise,
@@ -25,14 +27,11 @@ from optlaws import (
     smoothstep,
     synthesize,
 )
-from optlaws.exports.export import Export, export_motion
-from optlaws.exports.format import FORMATS
-from optlaws.laws import MotionLaw
-from optlaws.motion.motion import Motion, motion_of_law
-from optlaws.motion.polynomials import PiecewiseMotion
 from tests.exports.formats import readers
 from tests.exports.samples import repeating
 from tests.exports.structured_text import Block, parsed
+from tests.internals.exports import FORMATS, Export, export_motion
+from tests.internals.motion import Motion, motion_of_law
 
 READ: dict[str, Callable[[str], PPoly]] = {
     "codesys-cambuilder": readers.cam_builder,

@@ -6,9 +6,9 @@ from hypothesis import given, seed, settings
 from hypothesis import strategies as st
 
 from optlaws import BoundaryConditions, Powers, law_from_z
-from optlaws.exports.export import export_motion
-from optlaws.motion.motion import Motion, motion_of_law
 from tests.exports.formats.test_controllers import READ, same
+from tests.internals.exports import export_motion
+from tests.internals.motion import Motion, motion_of_law
 from tests.sampling import examples
 
 STROKES = ("35 mm", "-20 deg", "1200 mm", "7 deg")

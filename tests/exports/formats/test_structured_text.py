@@ -6,15 +6,19 @@ from math import perm
 import numpy as np
 import pytest
 
-from optlaws import Pieces, Problem, smoothstep, synthesize
-from optlaws.errors import InputError
-from optlaws.exports.error_bounds import DOUBLE, SINGLE, as_stored, error_bounds
-from optlaws.exports.formats.structured_text import function_block
-from optlaws.exports.polynomial_pieces import polynomials_of_law
-from optlaws.exports.text import Labels, real
-from optlaws.motion.polynomials import PiecewiseMotion
+from optlaws import InputError, Pieces, PiecewiseMotion, Problem, smoothstep, synthesize
 from tests.exports.motions import random_motion
 from tests.exports.structured_text import Block, parsed
+from tests.internals.exports import (
+    DOUBLE,
+    SINGLE,
+    Labels,
+    as_stored,
+    error_bounds,
+    function_block,
+    polynomials_of_law,
+    real,
+)
 
 OUTPUTS = ("position", "velocity", "acceleration", "jerk")
 

@@ -10,7 +10,9 @@ import pytest
 from optlaws import (
     BarrelCam,
     Cycle,
+    DiscCam,
     Dwell,
+    InputError,
     OscillatingRoller,
     Return,
     Rise,
@@ -20,11 +22,8 @@ from optlaws import (
     best_cam,
     conjugate_cam,
 )
-from optlaws.cams.disc import DiscCam
-from optlaws.errors import InputError
-from optlaws.files import reading
-from optlaws.jobs import job
-from optlaws.jobs.cam import answer
+from tests.internals.files import reading
+from tests.internals.jobs import answer, job
 
 MOTION = """
 [motion]

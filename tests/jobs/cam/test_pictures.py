@@ -3,10 +3,9 @@ import re
 import numpy as np
 import pytest
 
-from optlaws.cams.forces import CamForces
-from optlaws.errors import InputError
-from optlaws.plots.cam import animated, forces_figure
+from optlaws import CamForces, InputError
 from tests.cams.placed import FOLLOWERS, cam_of
+from tests.internals.plots import animated, forces_figure
 
 
 @pytest.mark.parametrize("kind", sorted(FOLLOWERS))

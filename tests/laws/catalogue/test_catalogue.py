@@ -9,10 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from optlaws.errors import InputError
-from optlaws.laws.catalogue.catalogue import catalogue, plain
-from optlaws.laws.catalogue.tyr_codes import canonical
+from optlaws import InputError, catalogue
 from tests.documents import ROOT
+from tests.internals.laws import canonical, plain
 from tests.laws.reference import rows
 
 NAMES = {  # keys of the reference table that are no name of the catalogue

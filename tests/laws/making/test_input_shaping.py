@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from optlaws import Follower, InputError, MotionLaw, catalogue, savin, shaped_law, smoothstep
-from optlaws.laws.making.input_shaping import Shaper
+from tests.internals.laws import Shaper
 
 LAWS: dict[str, MotionLaw] = {
     "polynomial": smoothstep(3),

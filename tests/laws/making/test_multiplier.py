@@ -10,15 +10,22 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from optlaws.errors import InputError
-from optlaws.laws import MotionLaw, PolynomialLaw, smoothstep
-from optlaws.laws.catalogue.catalogue import catalogue
-from optlaws.laws.making.multiplier import multiplied_law, multiplier_for
-from optlaws.laws.making.transform import with_end_velocity
-from optlaws.laws.making.trapezoids import scca, trapezoid
-from optlaws.laws.savin import SavinFamily, savin
-from optlaws.laws.segments.constant_power import PowerSegment
-from optlaws.laws.segments.piecewise import PiecewiseLaw
+from optlaws import (
+    InputError,
+    MotionLaw,
+    PiecewiseLaw,
+    PolynomialLaw,
+    SavinFamily,
+    catalogue,
+    multiplied_law,
+    multiplier_for,
+    savin,
+    scca,
+    smoothstep,
+    trapezoid,
+    with_end_velocity,
+)
+from tests.internals.laws import PowerSegment
 from tests.laws.examples import cut, random_law
 from tests.sampling import examples
 

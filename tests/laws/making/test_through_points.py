@@ -23,9 +23,8 @@ from optlaws import (
     read_law,
     smoothstep,
 )
-from optlaws.jobs.cycle import table_of_motion
-from optlaws.laws.making.through_points import law_of_table
-from optlaws.laws.values import table_of_values
+from tests.internals.jobs import table_of_motion
+from tests.internals.laws import law_of_table, table_of_values
 
 DENSE = np.linspace(0.0, 1.0, 1001)
 #: laws from rest to rest: a velocity that jumps at the ends is no rounding

@@ -7,13 +7,19 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from optlaws.errors import InputError
-from optlaws.laws import MotionLaw, PolynomialLaw, smoothstep
-from optlaws.laws.making.transform import as_polynomial, mirrored_law, reversed_law, with_end_velocity
-from optlaws.laws.making.trapezoids import scca, trapezoid
-from optlaws.laws.segments.constant_power import PowerSegment
-from optlaws.laws.segments.piecewise import PiecewiseLaw
-from optlaws.laws.segments.segment import PolynomialSegment, Segment
+from optlaws import (
+    InputError,
+    MotionLaw,
+    PiecewiseLaw,
+    PolynomialLaw,
+    mirrored_law,
+    reversed_law,
+    scca,
+    smoothstep,
+    trapezoid,
+    with_end_velocity,
+)
+from tests.internals.laws import PolynomialSegment, PowerSegment, Segment, as_polynomial
 from tests.laws.examples import EXAMPLES
 
 Array = NDArray[np.float64]

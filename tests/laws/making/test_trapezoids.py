@@ -8,10 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from optlaws.errors import InputError
-from optlaws.laws import smoothstep
-from optlaws.laws.catalogue.tyr_codes import canonical, coded
-from optlaws.laws.making.trapezoids import scca, trapezoid
+from optlaws import InputError, scca, smoothstep, trapezoid
+from tests.internals.laws import canonical, coded
 from tests.sampling import examples
 
 K = np.linspace(0.0, 1.0, 101)

@@ -11,12 +11,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from optlaws.errors import InputError
-from optlaws.laws import MotionLaw, Peak, smoothstep
-from optlaws.laws.segments.constant_power import PowerSegment
-from optlaws.laws.segments.piecewise import PiecewiseLaw
-from optlaws.laws.segments.segment import PolynomialSegment, Segment
-from optlaws.laws.segments.sine import SineSegment
+from optlaws import InputError, MotionLaw, Peak, PiecewiseLaw, smoothstep
+from tests.internals.laws import PolynomialSegment, PowerSegment, Segment, SineSegment
 from tests.laws.examples import cut, cut_power, cut_sine
 
 Array = NDArray[np.float64]

@@ -8,13 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from optlaws.errors import InputError
-from optlaws.laws import MotionLaw
-from optlaws.laws.segments.fractional import FractionalSegment
-from optlaws.laws.segments.piecewise import PiecewiseLaw
-from optlaws.laws.segments.segment import Segment
-from optlaws.laws.segments.sine import HarmonicSegment
-from optlaws.numerics import real_powers
+from optlaws import InputError, MotionLaw, PiecewiseLaw
+from tests.internals.laws import FractionalSegment, HarmonicSegment, Segment
+from tests.internals.numerics import real_powers
 
 mpf = mpmath.mpf
 CASES: list[tuple[Segment, Any]] = [  # a segment on [0, 1] and its velocity

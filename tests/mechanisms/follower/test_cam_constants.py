@@ -25,7 +25,7 @@ from optlaws import (
     smoothstep,
     synthesize,
 )
-from optlaws.mechanisms.follower.cam_constants import gain
+from tests.internals.mechanisms import gain
 from tests.mechanisms.cam_programs import PLACES, integrated, least_cam_acceleration
 from tests.mechanisms.reference import rows
 

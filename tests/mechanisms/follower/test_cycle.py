@@ -7,8 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from optlaws import CycleResponse, Follower, InputError, PolynomialLaw, polydyne, savin, smoothstep
-from optlaws.laws.catalogue.catalogue import catalogue
+from optlaws import CycleResponse, Follower, InputError, PolynomialLaw, catalogue, polydyne, savin, smoothstep
 from tests.mechanisms.response_cases import random_case
 from tests.sampling import examples
 

@@ -15,16 +15,14 @@ from optlaws import (
     PiecewiseLaw,
     PolynomialLaw,
     Problem,
+    catalogue,
     mass_law,
     polydyne,
     savin,
     smoothstep,
     synthesize,
 )
-from optlaws.laws.catalogue.catalogue import catalogue
-from optlaws.laws.segments.constant_power import PowerSegment
-from optlaws.laws.segments.segment import PolynomialSegment
-from optlaws.laws.segments.sine import SineSegment
+from tests.internals.laws import PolynomialSegment, PowerSegment, SineSegment
 from tests.laws.examples import cut
 from tests.mechanisms.response_cases import Case, integrated
 from tests.sampling import examples

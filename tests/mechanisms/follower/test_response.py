@@ -5,9 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from optlaws import Follower, InputError, MotionLaw, PiecewiseLaw, PolynomialLaw, savin, smoothstep
-from optlaws.laws.catalogue.catalogue import catalogue
-from optlaws.laws.segments.segment import PolynomialSegment
+from optlaws import Follower, InputError, MotionLaw, PiecewiseLaw, PolynomialLaw, catalogue, savin, smoothstep
+from tests.internals.laws import PolynomialSegment
 from tests.laws.examples import EXAMPLES, cut, cut_power, cut_sine, random_law
 from tests.mechanisms.response_cases import CRITICAL, Case, exact, integrated, random_case
 from tests.sampling import examples

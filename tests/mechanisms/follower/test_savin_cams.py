@@ -5,7 +5,7 @@ from fractions import Fraction
 import pytest
 
 from optlaws import Follower, savin
-from optlaws.mechanisms.follower.polydyne import cam_powers
+from tests.internals.mechanisms import cam_powers
 from tests.mechanisms.savin_cases import cam, reference, rows
 
 COEFFICIENTS, PEAKS, OFF_DESIGN = rows("cam_coeffs"), rows("cam_peaks"), rows("off_design")

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from optlaws.mechanisms.follower.vibration import Oscillator
+from tests.internals.mechanisms import Oscillator
 
 NEAR_ONE = [1.0, 1.0 - 1e-15, 1.0 + 1e-15, 1.0 - 1e-9, 1.0 + 1e-9, 1.0 - 1e-4, 1.0 + 1e-4]
 DAMPINGS = st.one_of(st.sampled_from([0.0, *NEAR_ONE]), st.floats(0.0, 1.5))

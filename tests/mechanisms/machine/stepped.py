@@ -11,9 +11,7 @@ from numpy.typing import NDArray
 from scipy.linalg import expm
 from scipy.optimize import minimize_scalar
 
-from optlaws.mechanisms.machine.output_constants import OutputConstant, OutputPeak
-from optlaws.mechanisms.machine.residual_boxes import ModeResidual
-from optlaws.mechanisms.machine.state_space import StateSpace
+from tests.internals.mechanisms import ModeResidual, OutputConstant, OutputPeak, StateSpace
 
 Array = NDArray[np.float64]
 

@@ -8,8 +8,8 @@ import pytest
 from numpy.typing import NDArray
 
 from optlaws import Chebyshev, Machine, MotionLaw, Problem, at_most, synthesize
-from optlaws.synthesis.spaces.of_basis import space_of
 from optlaws.typing import PeakSide
+from tests.internals.synthesis import space_of
 from tests.mechanisms.machine.test_optimal import chain
 from tests.sampling import sampled
 

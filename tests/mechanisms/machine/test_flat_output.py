@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from optlaws import InputError, Link, Machine, driving_law, flat_output, polydyne, savin, smoothstep
-from optlaws.mechanisms.follower.polydyne import cam_factors
+from tests.internals.mechanisms import cam_factors
 
 
 def chain(count: int, damping: float = 0.0) -> Machine:

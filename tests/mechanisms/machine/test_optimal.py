@@ -30,10 +30,8 @@ from optlaws import (
     smoothstep,
     synthesize,
 )
-from optlaws.mechanisms.machine.output_constants import output_peak, output_rms
-from optlaws.synthesis.problem.named_constants import named
-from optlaws.synthesis.proof.sublevel_bounds import means
-from optlaws.synthesis.spaces.of_basis import space_of
+from tests.internals.mechanisms import output_peak, output_rms
+from tests.internals.synthesis import means, named, space_of
 from tests.sampling import sampled
 from tests.synthesis.judge import Judged
 

@@ -9,7 +9,7 @@ import pytest
 from scipy import signal
 
 from optlaws import Follower, InputError, Link, Machine, MotionLaw, PiecewiseLaw, catalogue, savin, smoothstep
-from optlaws.laws.segments.segment import PolynomialSegment
+from tests.internals.laws import PolynomialSegment
 from tests.mechanisms.machine.random_machines import KINDS, integrated, random_case
 from tests.sampling import sampled
 

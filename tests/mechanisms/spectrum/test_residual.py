@@ -14,6 +14,7 @@ from optlaws import (
     Follower,
     InfeasibleProblem,
     InputError,
+    MotionLaw,
     Pieces,
     Problem,
     at_most,
@@ -23,7 +24,6 @@ from optlaws import (
     savin,
     synthesize,
 )
-from optlaws.laws import MotionLaw
 from tests.mechanisms.cam_programs import integrated, least_acceleration, residuals
 from tests.sampling import examples
 

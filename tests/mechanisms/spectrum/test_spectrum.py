@@ -13,6 +13,7 @@ from optlaws import (
     Follower,
     InputError,
     PolynomialLaw,
+    catalogue,
     off_design,
     polydyne,
     residual_functional,
@@ -21,8 +22,7 @@ from optlaws import (
     savin,
     smoothstep,
 )
-from optlaws.laws.catalogue.catalogue import catalogue
-from optlaws.mechanisms.spectrum.transforms import legendre_from_chebyshev, moments
+from tests.internals.mechanisms import legendre_from_chebyshev, moments
 from tests.laws.examples import EXAMPLES, cut_power, random_law
 from tests.mechanisms.response_cases import random_case
 from tests.sampling import examples, sampled

@@ -15,6 +15,7 @@ from optlaws import (
     Problem,
     ProblemArray,
     Solution,
+    SolutionArray,
     Window,
     at_most,
     map_arrays,
@@ -22,13 +23,18 @@ from optlaws import (
     synthesize,
     synthesize_array,
 )
-from optlaws.synthesis.arrays.continuation import ParametricContinuation, StructureSegment, _event
-from optlaws.synthesis.arrays.continued_laws import laws_along, laws_on
-from optlaws.synthesis.arrays.newton_steps import converged
-from optlaws.synthesis.arrays.programs import Path, between
-from optlaws.synthesis.solution_array import SolutionArray
 from optlaws.verification import verify
 from tests.bench.plain import Rows, highs
+from tests.internals.synthesis import (
+    ParametricContinuation,
+    Path,
+    StructureSegment,
+    _event,
+    between,
+    converged,
+    laws_along,
+    laws_on,
+)
 
 ENDS = (1.42, 2.6)
 COUNT = 400

@@ -4,9 +4,7 @@ import numpy as np
 import pytest
 
 from optlaws import Chebyshev, Problem, ProblemArray, synthesize, synthesize_array
-from optlaws.synthesis.arrays.programs import between
-from optlaws.synthesis.families.curved import FormulaFamily
-from optlaws.synthesis.program.writer import model_of
+from tests.internals.synthesis import FormulaFamily, between, model_of
 from tests.sampling import sampled
 
 KINDS = (

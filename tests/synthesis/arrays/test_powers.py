@@ -6,16 +6,31 @@ from typing import Any
 import numpy as np
 import pytest
 
-from optlaws import Chebyshev, Problem, ProblemArray, Solution, at_most, map_arrays, synthesize, synthesize_array
-from optlaws.synthesis import solve_many
-from optlaws.synthesis.arrays.continuation import ParametricContinuation
-from optlaws.synthesis.arrays.continued_laws import laws_along
-from optlaws.synthesis.arrays.newton_steps import States, locally_optimal
-from optlaws.synthesis.arrays.powers import least_power, on_global_branch
-from optlaws.synthesis.arrays.programs import Path, SolvedBatch, between
-from optlaws.synthesis.search import LawSearch
-from optlaws.synthesis.solution_array import SolutionArray
+from optlaws import (
+    Chebyshev,
+    Problem,
+    ProblemArray,
+    Solution,
+    SolutionArray,
+    at_most,
+    map_arrays,
+    synthesize,
+    synthesize_array,
+)
 from optlaws.verification import verify
+from tests.internals.synthesis import (
+    LawSearch,
+    ParametricContinuation,
+    Path,
+    SolvedBatch,
+    States,
+    between,
+    laws_along,
+    least_power,
+    locally_optimal,
+    on_global_branch,
+    solve_many,
+)
 
 ENDS = (1.42, 2.6)
 COUNT = 60

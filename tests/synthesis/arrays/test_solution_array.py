@@ -29,8 +29,8 @@ from optlaws import (
     synthesize_chunks,
     via,
 )
-from optlaws.synthesis.solve_many import solved
 from optlaws.verification import verify_all
+from tests.internals.synthesis import solved
 
 B = np.array([[1.6, np.nan, 1.7], [1.8, 0.5, 1.9]])
 

@@ -4,7 +4,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from optlaws.synthesis.arrays.dual_bounds import sums_of_rows
+from tests.internals.synthesis import sums_of_rows
 
 
 def test_sums_that_cancel_are_rounded_once() -> None:

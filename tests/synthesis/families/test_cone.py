@@ -6,8 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from optlaws import Chebyshev, Problem, at_most, synthesize
-from optlaws.synthesis.families.cone import stationary_places
 from tests.contracts.test_families import random_cone
+from tests.internals.synthesis import stationary_places
 from tests.synthesis.judge import judge
 
 

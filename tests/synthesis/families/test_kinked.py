@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from optlaws import Chebyshev, Problem
-from optlaws.synthesis.families.kinked import KinkedIntegralFamily
-from optlaws.synthesis.program.writer import model_of
+from tests.internals.synthesis import KinkedIntegralFamily, model_of
 
 KINDS = ("integral(abs(c - 2*a))", "integral(max((c + 0.5*b)*b, 0))", "integral(max(c, 0.5*b, 0)^2)", "rms(max(c, 0))")
 

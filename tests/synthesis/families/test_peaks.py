@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.polynomial import chebyshev
 
-from optlaws.synthesis.families.peaks import peaks
+from tests.internals.synthesis import peaks
 
 
 @pytest.mark.parametrize("count", [4, 12, 40])

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from optlaws import BoundaryConditions, Chebyshev, Problem, integral, law_from_z, rms, synthesize
-from optlaws.synthesis.spaces.of_basis import space_of
+from tests.internals.synthesis import space_of
 from tests.sampling import sampled
 
 CONSTANTS = [

@@ -11,7 +11,7 @@ from scipy.integrate import fixed_quad
 from scipy.optimize import brentq
 
 from optlaws import Chebyshev, MotionLaw, Problem, drive_torque, integral, rms, smoothstep, synthesize, via
-from optlaws.formulas.of_motion import MotionFormula, of_text
+from tests.internals.formulas import MotionFormula, of_text
 
 Array = NDArray[np.float64]
 

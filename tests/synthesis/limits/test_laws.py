@@ -7,12 +7,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from optlaws.errors import InputError
-from optlaws.laws import MotionLaw
-from optlaws.laws.segments.constant_power import PowerSegment
-from optlaws.laws.segments.piecewise import PiecewiseLaw
-from optlaws.synthesis.limits.closed_forms import jerk_limit, limit
-from optlaws.synthesis.limits.laws import limit_law
+from optlaws import InputError, MotionLaw, PiecewiseLaw, limit, limit_law
+from tests.internals.laws import PowerSegment
+from tests.internals.synthesis import jerk_limit
 from tests.sampling import examples
 
 K = np.linspace(0.0, 1.0, 401)

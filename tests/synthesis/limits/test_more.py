@@ -10,14 +10,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from optlaws import Chebyshev, InputError, Problem, acceleration_limit, savin, smoothstep, synthesize
-from optlaws.synthesis.limits.closed_forms import (
-    acceleration_limit_at_jerk,
-    jerk_limit,
-    limit,
-    power_limit,
-    rms_limit,
-)
+from optlaws import Chebyshev, InputError, Problem, acceleration_limit, limit, savin, smoothstep, synthesize
+from tests.internals.synthesis import acceleration_limit_at_jerk, jerk_limit, power_limit, rms_limit
 from tests.sampling import sampled
 from tests.synthesis.limit_programs import least_by_steps, least_by_velocities, least_of_polynomials
 

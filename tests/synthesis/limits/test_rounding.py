@@ -12,11 +12,16 @@ import mpmath  # type: ignore[import-untyped]
 import numpy as np
 import pytest
 
-from optlaws import BoundaryConditions, BSplines, Chebyshev, Pieces, Problem, at_least, at_most, synthesize
-from optlaws.synthesis.limits.closed_forms import acceleration_limit_at_jerk, limit
-from optlaws.synthesis.limits.of_problem import known_limit
-from optlaws.synthesis.limits.rounding import not_above, root_rounded_down, rounded_down, rounded_up
-from optlaws.verification.exact.bound import prove
+from optlaws import BoundaryConditions, BSplines, Chebyshev, Pieces, Problem, at_least, at_most, limit, synthesize
+from tests.internals.synthesis import (
+    acceleration_limit_at_jerk,
+    known_limit,
+    not_above,
+    root_rounded_down,
+    rounded_down,
+    rounded_up,
+)
+from tests.internals.verification import prove
 
 mpmath.mp.dps = 60
 

@@ -5,15 +5,19 @@ from dataclasses import replace
 import pytest
 
 from optlaws import BoundaryConditions, Chebyshev, Problem, at_most, synthesize
-from optlaws.synthesis.families.active_set import ActiveSet
-from optlaws.synthesis.families.family import Points, Program
-from optlaws.synthesis.method import exchange
-from optlaws.synthesis.method.discretised.grids import first_points
-from optlaws.synthesis.method.discretised.ipopt import Answer
-from optlaws.synthesis.method.discretised.linear import sharpened, vertex_on_points
-from optlaws.synthesis.method.strategies import identified
-from optlaws.synthesis.program.writer import model_of
-from optlaws.verification.exact.bound import prove
+from tests.internals.synthesis import (
+    ActiveSet,
+    Answer,
+    Points,
+    Program,
+    exchange,
+    first_points,
+    identified,
+    model_of,
+    sharpened,
+    vertex_on_points,
+)
+from tests.internals.verification import prove
 from tests.synthesis.judge import judge
 
 pytestmark = pytest.mark.filterwarnings("ignore::optlaws.errors.NotNormalised")

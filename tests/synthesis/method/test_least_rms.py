@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from optlaws import (
+    FUNCTIONALS,
     Bernstein,
     BoundaryConditions,
     Chebyshev,
@@ -15,7 +16,6 @@ from optlaws import (
     between,
     synthesize,
 )
-from optlaws.synthesis.problem.constants import FUNCTIONALS
 from tests.synthesis.judge import judge
 
 ENDS = BoundaryConditions((0, 0, 0), (1, 1.357, 1.348))

@@ -21,7 +21,7 @@ from optlaws import (
     limit,
     synthesize,
 )
-from optlaws.verification.exact.bound import prove
+from tests.internals.verification import prove
 from tests.synthesis.judge import Judged, judge
 
 pytestmark = pytest.mark.filterwarnings("ignore::optlaws.errors.NotNormalised")

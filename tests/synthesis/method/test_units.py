@@ -6,11 +6,8 @@ import numpy as np
 import pytest
 
 from optlaws import Chebyshev, Pieces, Problem, Solution, at_least, between, residual_vibration, synthesize
-from optlaws.synthesis.families.family import ProductFamily
-from optlaws.synthesis.method.exchange import solve
-from optlaws.synthesis.method.units import units_of
-from optlaws.synthesis.program.writer import model_of
 from optlaws.verification import exact_bound
+from tests.internals.synthesis import ProductFamily, model_of, solve, units_of
 from tests.synthesis.judge import Judged
 
 GREAT = (1e4, 1e6, 1e9)

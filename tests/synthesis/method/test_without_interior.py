@@ -3,7 +3,7 @@
 import pytest
 
 from optlaws import Basis, BSplines, Chebyshev, Pieces, Problem, at_most, synthesize
-from optlaws.synthesis.program.evaluation import worth
+from tests.internals.synthesis import worth
 from tests.sampling import sampled
 
 UNSYMMETRIC = [Chebyshev(5), Pieces(8, 5, 3), BSplines(4, 4, 3)]

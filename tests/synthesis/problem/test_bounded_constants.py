@@ -24,7 +24,7 @@ from optlaws import (
     rms_c,
     synthesize,
 )
-from optlaws.synthesis.problem.ranges import Bounds, read_bounds
+from tests.internals.synthesis import Bounds, read_bounds
 from tests.synthesis.grids import polynomials
 from tests.synthesis.judge import Judged
 

@@ -7,8 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from optlaws import Chebyshev, Powers, Problem, Solution, at_most, between, law_from_z, synthesize
-from optlaws.synthesis import Basis
+from optlaws import Basis, Chebyshev, Powers, Problem, Solution, at_most, between, law_from_z, synthesize
 from tests.sampling import sampled
 from tests.synthesis.independent import DENSE, z_of
 from tests.synthesis.judge import Judged, judge

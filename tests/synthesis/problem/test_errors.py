@@ -40,11 +40,8 @@ from optlaws import (
     synthesize,
     via,
 )
-from optlaws.synthesis import basis, search
-from optlaws.synthesis.families.family import Points, Program
-from optlaws.synthesis.method.discretised import ipopt
-from optlaws.synthesis.method.strategies import interior_points, vertices
-from optlaws.synthesis.proof import make
+from optlaws.synthesis import basis
+from tests.internals.synthesis import Points, Program, interior_points, ipopt, make, search, vertices
 
 GOOD: dict[str, Any] = {"B": 1.859, "order": 4}
 

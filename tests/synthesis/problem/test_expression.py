@@ -26,7 +26,7 @@ from optlaws import (
     rms_j,
     synthesize,
 )
-from optlaws.synthesis.problem.named_constants import parse
+from tests.internals.synthesis import parse
 
 pytestmark = pytest.mark.filterwarnings("ignore::optlaws.errors.NotNormalised")
 NAMES: dict[str, Any] = {**FUNCTIONALS, "max": maximum}

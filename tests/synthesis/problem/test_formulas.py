@@ -27,13 +27,8 @@ from optlaws import (
     value,
     via,
 )
-from optlaws.synthesis.families.curved import CurvedFamily
-from optlaws.synthesis.method.exchange import Outcome, solve
-from optlaws.synthesis.problem.named_constants import named
-from optlaws.synthesis.program.writer import model_of
-from optlaws.synthesis.proof.infeasible import failure
-from optlaws.synthesis.spaces.of_basis import space_of
 from optlaws.verification import verify
+from tests.internals.synthesis import CurvedFamily, Outcome, failure, model_of, named, solve, space_of
 from tests.sampling import sampled
 from tests.synthesis.judge import Judged, broken
 

@@ -5,7 +5,7 @@ import warnings
 import pytest
 
 from optlaws import FUNCTIONALS, C, Chebyshev, D, J, NotNormalised, Problem, limit, rms_c, synthesize
-from optlaws.synthesis.problem.constants import warn_of_mixture
+from tests.internals.synthesis import warn_of_mixture
 
 
 @pytest.mark.parametrize("order", [2, 3, 4, 6])

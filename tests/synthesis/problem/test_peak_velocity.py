@@ -13,15 +13,15 @@ from optlaws import (
     BSplines,
     Chebyshev,
     Pieces,
+    PolynomialLaw,
     Problem,
     at_least,
     at_most,
     between,
     synthesize,
 )
-from optlaws.laws.polynomial import PolynomialLaw
-from optlaws.synthesis.program.evaluation import worth
 from optlaws.verification import verify
+from tests.internals.synthesis import worth
 from tests.synthesis.judge import judge
 
 K = np.linspace(0.0, 1.0, 4001)

@@ -6,12 +6,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from optlaws import Functional, InputError, Problem, synthesize
-from optlaws.laws import MotionLaw
+from optlaws import Basis, Functional, InputError, MotionLaw, Problem, synthesize
 from optlaws.synthesis import PolynomialBasis
-from optlaws.synthesis.families.family import ConstraintFamily
-from optlaws.synthesis.spaces.bases import Basis
-from optlaws.synthesis.spaces.space import LawSpace
+from tests.internals.synthesis import ConstraintFamily, LawSpace
 
 Array = NDArray[np.float64]
 

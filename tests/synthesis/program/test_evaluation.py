@@ -22,7 +22,7 @@ from optlaws import (
     smoothstep,
     via,
 )
-from optlaws.synthesis.program.evaluation import shortfalls, worth
+from tests.internals.synthesis import shortfalls, worth
 
 CUBIC = smoothstep(2)
 #: b = 7/4 T3(2k-1) - 1/4, from -2 at k = 0 and 3/4 up to 3/2 at k = 1/4 and 1; c(1/4) = 0

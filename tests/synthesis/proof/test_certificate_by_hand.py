@@ -23,9 +23,16 @@ from optlaws import (
     at_least,
     at_most,
 )
-from optlaws.synthesis.problem.named_constants import expression
-from optlaws.synthesis.proof.certificate import RELAXED, VIOLATION, _model
-from optlaws.synthesis.proof.sublevel_bounds import greatest_values, least_values, means, spread
+from tests.internals.synthesis import (
+    RELAXED,
+    VIOLATION,
+    _model,
+    expression,
+    greatest_values,
+    least_values,
+    means,
+    spread,
+)
 
 pytestmark = pytest.mark.filterwarnings("ignore::optlaws.errors.NotNormalised")
 #: roots of P3 and of P3'

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from optlaws import Chebyshev, Problem
-from optlaws.synthesis.program.writer import least_violation
-from optlaws.synthesis.proof.duality import _weighted, sum_of_rows
+from tests.internals.synthesis import _weighted, least_violation, sum_of_rows
 
 
 @pytest.mark.parametrize("seed", range(4))

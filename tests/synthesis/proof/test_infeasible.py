@@ -10,6 +10,7 @@ import pytest
 
 from optlaws import (
     BoundaryConditions,
+    Certificate,
     Chebyshev,
     InfeasibleProblem,
     Pieces,
@@ -21,10 +22,8 @@ from optlaws import (
     synthesize,
     via,
 )
-from optlaws.synthesis.method.equations import contradiction, independent
-from optlaws.synthesis.proof.certificate import Certificate
-from optlaws.synthesis.proof.farkas import farkas_margin
-from optlaws.verification.exact.bound import prove
+from tests.internals.synthesis import contradiction, farkas_margin, independent
+from tests.internals.verification import prove
 
 CONTRADICTIONS = [
     (Problem(order=3, windows=(via("a", 0.3, at=0.3), via("a", 0.4, at=0.3))), ["via('a', 0.3", "via('a', 0.4"]),

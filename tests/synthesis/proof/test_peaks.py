@@ -8,10 +8,12 @@ import numpy as np
 import pytest
 
 from optlaws import (
+    B,
     BoundaryConditions,
     Certificate,
     Chebyshev,
     InputError,
+    J,
     Leaf,
     Pieces,
     Problem,
@@ -21,10 +23,8 @@ from optlaws import (
     at_most,
     synthesize,
 )
-from optlaws.synthesis.problem.constants import B, J
-from optlaws.synthesis.proof.nodes import PlaceRange
-from optlaws.synthesis.proof.peak_rows import PeakRows
 from optlaws.verification import verify
+from tests.internals.synthesis import PeakRows, PlaceRange
 from tests.sampling import sampled
 from tests.synthesis.judge import Judged, judge
 

@@ -16,11 +16,11 @@ from optlaws import (
     SolverFailure,
     at_least,
     proven_front,
+    smoothstep,
     synthesize,
 )
-from optlaws.laws import smoothstep
-from optlaws.laws.making.transform import law_between
-from optlaws.synthesis.program.evaluation import worth
+from tests.internals.laws import law_between
+from tests.internals.synthesis import worth
 from tests.sampling import sampled
 
 REST = Problem(order=4)

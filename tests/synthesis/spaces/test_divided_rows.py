@@ -5,9 +5,8 @@ import pytest
 from scipy.optimize import linprog
 
 from optlaws import BoundaryConditions, Chebyshev, Pieces, Problem, synthesize
-from optlaws.synthesis.spaces.pieces.free import PieceSpace, piece_space
-from optlaws.synthesis.spaces.polynomial_space import polynomial_space
-from optlaws.verification.exact.bound import prove
+from tests.internals.synthesis import PieceSpace, piece_space, polynomial_space
+from tests.internals.verification import prove
 from tests.synthesis.judge import judge
 
 

@@ -12,6 +12,7 @@ from optlaws import (
     Chebyshev,
     InputError,
     Pieces,
+    PiecewiseLaw,
     Problem,
     Status,
     Window,
@@ -19,7 +20,6 @@ from optlaws import (
     limit_law,
     synthesize,
 )
-from optlaws.laws.segments.piecewise import PiecewiseLaw
 from tests.sampling import sampled
 
 LIMIT_C = limit_law("C", 1.859).breaks

@@ -5,8 +5,7 @@ import pytest
 from numpy.typing import NDArray
 
 from optlaws import BoundaryConditions, Chebyshev, Pieces, Problem
-from optlaws.synthesis.program.writer import model_of
-from optlaws.synthesis.spaces.space import LawSpace
+from tests.internals.synthesis import LawSpace, model_of
 
 
 def space_of(**entries: object) -> LawSpace:

@@ -29,7 +29,7 @@ from optlaws import (
     via,
 )
 from optlaws.synthesis import PiecewiseBasis
-from optlaws.synthesis.spaces.pieces.splines import spline_space
+from tests.internals.synthesis import spline_space
 from tests.synthesis.grids import splines
 from tests.synthesis.judge import Judged
 

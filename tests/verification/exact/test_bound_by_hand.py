@@ -11,18 +11,17 @@ from typing import Any
 import pytest
 
 from optlaws import BoundaryConditions, Certificate, Chebyshev, Contact, Problem, at_least, at_most
-from optlaws.synthesis.problem.named_constants import expression
-from optlaws.synthesis.proof.certificate import RELAXED, VIOLATION
 from optlaws.verification import exact_bound
-from optlaws.verification.exact.bound import prove
-from optlaws.verification.exact.rows import ExactRows
-from optlaws.verification.exact.sublevel_bounds import (
+from tests.internals.synthesis import RELAXED, VIOLATION, expression
+from tests.internals.verification import (
+    ExactRows,
     _spread,
     greatest_values,
     least_objective,
     least_values,
     means,
     never_negative,
+    prove,
 )
 
 pytestmark = pytest.mark.filterwarnings("ignore::optlaws.errors.NotNormalised")

@@ -13,9 +13,16 @@ from optlaws.verification import enclosures
 
 flint = pytest.importorskip("flint")
 
-from optlaws.synthesis.limits.rounding import rounded_down, rounded_up  # noqa: E402
-from optlaws.verification.enclosing.balls import enclosure, lower, upper  # noqa: E402
-from optlaws.verification.exact.law import ExactLaw  # noqa: E402
+from tests.internals.synthesis import (  # noqa: E402
+    rounded_down,
+    rounded_up,
+)
+from tests.internals.verification import (  # noqa: E402
+    ExactLaw,
+    enclosure,
+    lower,
+    upper,
+)
 
 
 def peaks(law: PolynomialLaw) -> dict[str, float]:

@@ -9,16 +9,13 @@ import mpmath as mp  # type: ignore[import-untyped]
 import pytest
 
 from optlaws import Chebyshev, Problem, integral, peak, smoothstep, synthesize
-from optlaws.formulas.arithmetic import evaluate, horner, mpmath_arithmetic, pieces
-from optlaws.formulas.of_motion import of_text
-from optlaws.formulas.tree import Formula, Table
 from optlaws.verification import verify
+from tests.internals.formulas import Formula, Table, evaluate, horner, mpmath_arithmetic, of_text, pieces
 from tests.sampling import sampled
 from tests.verification.tampering import overstated
 
 pytest.importorskip("flint")
-from optlaws.verification.exact.law import ExactLaw
-from optlaws.verification.exact.sublevel_bounds import exact_limit
+from tests.internals.verification import ExactLaw, exact_limit
 
 TABLE = "table(k, 0:1, 0.3:2, 0.7:1, 1:3)"
 SPLINE = "spline(a, 0:0, 0.3:0.1, 0.6:0.5, 1:1.2)"

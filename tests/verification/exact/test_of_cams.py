@@ -8,13 +8,9 @@ from math import perm
 import mpmath  # type: ignore[import-untyped] # ships no types
 import pytest
 
-from optlaws import Chebyshev, Functional, Problem, Solution, cam_constant, synthesize
-from optlaws.errors import InputError
-from optlaws.laws import smoothstep
-from optlaws.synthesis.problem.expression import maximum
+from optlaws import Chebyshev, Functional, InputError, Problem, Solution, cam_constant, maximum, smoothstep, synthesize
 from optlaws.verification import exact_bound, verify
-from optlaws.verification.enclosing.balls import enclosed
-from optlaws.verification.exact.law import ExactLaw
+from tests.internals.verification import ExactLaw, enclosed
 
 NU, DAMPING = 12.0, 0.25
 

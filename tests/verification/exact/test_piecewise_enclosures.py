@@ -8,13 +8,16 @@ import numpy as np
 import pytest
 from mpmath import mp, mpf  # type: ignore[import-untyped]
 
-from optlaws import BSplines, InputError, Pieces, Problem, synthesize
-from optlaws.laws.segments.constant_power import PowerSegment
-from optlaws.laws.segments.fractional import FractionalSegment
-from optlaws.laws.segments.piecewise import PiecewiseLaw
-from optlaws.laws.segments.segment import PolynomialSegment, Segment
-from optlaws.laws.segments.sine import HarmonicSegment, SineSegment
+from optlaws import BSplines, InputError, Pieces, PiecewiseLaw, Problem, synthesize
 from optlaws.verification import enclosures
+from tests.internals.laws import (
+    FractionalSegment,
+    HarmonicSegment,
+    PolynomialSegment,
+    PowerSegment,
+    Segment,
+    SineSegment,
+)
 
 pytest.importorskip("flint")
 

@@ -3,7 +3,7 @@
 import pytest
 from flint import fmpq, fmpq_poly
 
-from optlaws.verification.enclosing.pieces import between, real_roots
+from tests.internals.verification import between, real_roots
 
 
 def product(*roots: fmpq | int) -> fmpq_poly:

@@ -8,12 +8,20 @@ from typing import Any
 import mpmath  # type: ignore[import-untyped] # ships no types
 import pytest
 
-from optlaws import Certificate, Chebyshev, Contact, Pieces, Problem, Solution, at_most, residual_vibration, synthesize
-from optlaws.laws import smoothstep
+from optlaws import (
+    Certificate,
+    Chebyshev,
+    Contact,
+    Pieces,
+    Problem,
+    Solution,
+    at_most,
+    residual_vibration,
+    smoothstep,
+    synthesize,
+)
 from optlaws.verification import exact_bound, verify
-from optlaws.verification.enclosing.balls import enclosed
-from optlaws.verification.exact.law import ExactLaw
-from optlaws.verification.exact.rows import ExactRows
+from tests.internals.verification import ExactLaw, ExactRows, enclosed
 
 INTERVAL = "residual(nu=(9, 12), damping=0.03)"
 

@@ -5,10 +5,9 @@ from math import inf
 
 import pytest
 
-from optlaws import BoundaryConditions, Link, Machine, law_from_z
-from optlaws.synthesis.problem.constants import C
+from optlaws import BoundaryConditions, C, Link, Machine, law_from_z
 from optlaws.typing import PeakSide
-from optlaws.verification.machines.floors import floor
+from tests.internals.verification import floor
 
 AXIS = Machine.from_masses(
     {"motor": 0.5, "carriage": 0.25},

@@ -7,9 +7,7 @@ import pytest
 from flint import ctx
 
 from optlaws import InputError, Link, Machine, smoothstep
-from optlaws.verification.enclosing.balls import enclosed, lower, upper
-from optlaws.verification.exact.law import ExactLaw
-from optlaws.verification.machines.residuals import ExactModeResidual
+from tests.internals.verification import ExactLaw, ExactModeResidual, enclosed, lower, upper
 
 ORDER = 3
 CHAIN = Machine.from_masses(

@@ -9,11 +9,19 @@ import pytest
 from flint import arb, ctx
 
 from optlaws import InputError, Machine, PiecewiseLaw, smoothstep
-from optlaws.laws.segments.segment import PolynomialSegment
-from optlaws.verification.enclosing.balls import ball, enclosed, lower, upper
-from optlaws.verification.exact.law import ExactLaw
-from optlaws.verification.machines.output_motion import cycle, followed, of_pieces, response
-from optlaws.verification.machines.transfer import Transfer
+from tests.internals.laws import PolynomialSegment
+from tests.internals.verification import (
+    ExactLaw,
+    Transfer,
+    ball,
+    cycle,
+    enclosed,
+    followed,
+    lower,
+    of_pieces,
+    response,
+    upper,
+)
 from tests.mechanisms.machine.random_machines import random_case
 from tests.sampling import sampled
 

@@ -7,8 +7,7 @@ from typing import Any
 
 import pytest
 
-from optlaws import Chebyshev, Cycle, Link, Machine, Pieces, Problem, Return, Rise, Solution, at_most, synthesize
-from optlaws.synthesis.problem.constants import C
+from optlaws import C, Chebyshev, Cycle, Link, Machine, Pieces, Problem, Return, Rise, Solution, at_most, synthesize
 from optlaws.verification import exact_bound, verify, verify_all
 from tests.documents import ROOT
 from tests.sampling import sampled

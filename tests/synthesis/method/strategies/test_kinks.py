@@ -5,9 +5,20 @@ import pytest
 from numpy.typing import NDArray
 from scipy.optimize import linprog, minimize
 
-from optlaws import Chebyshev, Functional, Problem, Status, at_most, drive_torque, integral, peak, rms, synthesize
-from optlaws.laws import smoothstep
-from optlaws.verification.exact.bound import prove
+from optlaws import (
+    Chebyshev,
+    Functional,
+    Problem,
+    Status,
+    at_most,
+    drive_torque,
+    integral,
+    peak,
+    rms,
+    smoothstep,
+    synthesize,
+)
+from tests.internals.verification import prove
 from tests.synthesis.grids import Grid, polynomials
 
 Array = NDArray[np.float64]

@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 
 import pytest
 
-from optlaws.synthesis.method.strategies.strategy import Strategy, cutting_plane_loop
+from tests.internals.synthesis import Strategy, cutting_plane_loop
 
 
 @dataclass

@@ -25,11 +25,7 @@ from optlaws import (
     between,
     synthesize,
 )
-from optlaws.synthesis.families.names import RowName
-from optlaws.synthesis.program.writer import model_of
-from optlaws.synthesis.proof.power.box import Box
-from optlaws.synthesis.proof.power.rows import Anchors, PowerRows, velocity_brackets
-from optlaws.synthesis.proof.power.search import searched
+from tests.internals.synthesis import Anchors, Box, PowerRows, RowName, model_of, searched, velocity_brackets
 from tests.sampling import examples
 from tests.synthesis.power_proof import proven_exactly
 

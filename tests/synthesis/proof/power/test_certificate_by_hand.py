@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from optlaws import Certificate, Chebyshev, Contact, Leaf, Problem, Split, Tightening, synthesize
-from optlaws.synthesis.proof.power.box import Box
-from optlaws.synthesis.proof.power.rows import PowerRows
+from tests.internals.synthesis import Box, PowerRows
 
 ONE_LAW = Problem(B=1.75, order=4, basis=Chebyshev(1), minimise="D")
 CLAIM = 10.0

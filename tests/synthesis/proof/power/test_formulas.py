@@ -6,14 +6,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from optlaws import Certificate, Chebyshev, Problem, at_most, peak, synthesize
-from optlaws.synthesis.problem.constants import Functional
-from optlaws.synthesis.problem.expression import leaves
-from optlaws.synthesis.program.writer import model_of
-from optlaws.synthesis.proof.power.box import Box
-from optlaws.synthesis.proof.power.formula_underestimators import FormulaRows, applies
-from optlaws.synthesis.proof.power.search import searched
+from optlaws import Certificate, Chebyshev, Functional, Problem, at_most, peak, synthesize
 from optlaws.verification import verify
+from tests.internals.synthesis import Box, FormulaRows, applies, leaves, model_of, searched
 from tests.sampling import sampled
 
 SMALL = Problem(B=1.8, order=3, basis=Chebyshev(5))

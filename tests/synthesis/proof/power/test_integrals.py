@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 
 from optlaws import Certificate, Chebyshev, Problem, at_most, integral, rms, synthesize
-from optlaws.synthesis.proof.power.box import Box
-from optlaws.synthesis.proof.power.formula_underestimators import FormulaRows, applies
+from tests.internals.synthesis import Box, FormulaRows, applies
 from tests.sampling import sampled
 
 SMALL = Problem(B=1.8, order=3, basis=Chebyshev(3))

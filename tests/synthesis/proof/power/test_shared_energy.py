@@ -21,12 +21,9 @@ from optlaws import (
     inertial_loader,
     synthesize,
 )
-from optlaws.balancing.loaders.constants import NAMES, D_loader
-from optlaws.synthesis.proof.power.box import Box, BoxRows
-from optlaws.synthesis.proof.power.rows import rows_of
-from optlaws.synthesis.proof.power.search import _points
-from optlaws.synthesis.proof.power.shared_energy import secant_over_inverse, secant_over_root
 from optlaws.verification import verify
+from tests.internals.balancing import NAMES, D_loader
+from tests.internals.synthesis import Box, BoxRows, _points, rows_of, secant_over_inverse, secant_over_root
 from tests.sampling import examples
 
 PROBLEM = Problem(B=1.7, order=3, basis=Chebyshev(7), monotone=True, minimise="C_loader")

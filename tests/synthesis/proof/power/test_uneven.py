@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from optlaws import Chebyshev, Problem, limit, synthesize
-from optlaws.synthesis.limits.of_problem import known_limit
+from tests.internals.synthesis import known_limit
 from tests.sampling import sampled
 
 

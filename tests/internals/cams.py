@@ -1,0 +1,19 @@
+"""Internals of `optlaws.cams` that tests look at by themselves."""
+
+from optlaws.cams import curved_limits
+from optlaws.cams.as_manufactured import ArcChain, Following, PointSpline, PolarSpline, run_against
+from optlaws.cams.best_laws import linear_limits
+from optlaws.cams.curved_limits import curvature_of
+from optlaws.cams.curves.extremes import FREE, UNDERCUT, EnclosedExtreme, enclosed_extremes
+from optlaws.cams.curves.plane_curve import CurveByJets, PlaneCurve
+from optlaws.cams.cutting import cam_files
+from optlaws.cams.cutting.arcs_and_chords import Arcs, arcs, polygon
+from optlaws.cams.cutting.cam_files import ENDINGS, FORMATS, polar, write_outline
+from optlaws.cams.cutting.outline import Outline
+from optlaws.cams.cutting.spline import Spline, even, spline, through
+from optlaws.cams.followers.contact import PRESSURE
+from optlaws.cams.followers.follower import CamFollower, follower_kinds, read_follower
+from optlaws.cams.followers.oscillating_roller import SwingingRoller
+from optlaws.cams.followers.rollers_and_faces import FaceContact, RollerContact
+from optlaws.cams.followers.translating_roller import SlidingRoller
+from optlaws.cams.forces import line_contact

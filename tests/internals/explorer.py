@@ -1,0 +1,11 @@
+"""Internals of `optlaws.explorer` that tests look at by themselves."""
+
+from optlaws.explorer import cam_view, cycle_view, downloads, front_view, law_view
+from optlaws.explorer.application import MOST_BYTES, QUESTIONS, page
+from optlaws.explorer.cam_view import CamRequest
+from optlaws.explorer.cycle_view import CycleRequest, example
+from optlaws.explorer.downloads import FileRequest
+from optlaws.explorer.law_view import answer
+from optlaws.explorer.requests import LawRequest, LawsRequest, given_law, law_of, problem_of, solved
+from optlaws.explorer.server import ADDRESS, opened, server
+from optlaws.explorer.start import start

@@ -1,0 +1,10 @@
+"""Internals of `optlaws.jobs` that tests look at by themselves."""
+
+from optlaws.jobs import fronts, job, solutions
+from optlaws.jobs.atlas import COLUMNS, best_law, look_up
+from optlaws.jobs.atlas import read as read_of_atlas
+from optlaws.jobs.cam import answer
+from optlaws.jobs.cycle import table_of_motion
+from optlaws.jobs.cycle_entries import read as read_of_cycle_entries
+from optlaws.jobs.job import JOBS, run
+from optlaws.jobs.machine_laws import MachineTable, Measure

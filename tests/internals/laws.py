@@ -1,0 +1,15 @@
+"""Internals of `optlaws.laws` that tests look at by themselves."""
+
+from optlaws.laws.catalogue.catalogue import plain
+from optlaws.laws.catalogue.tyr_codes import canonical, coded
+from optlaws.laws.curve import Curve
+from optlaws.laws.making.input_shaping import Shaper
+from optlaws.laws.making.through_points import law_of_table
+from optlaws.laws.making.transform import as_polynomial, law_between
+from optlaws.laws.making.trapezoids import from_half
+from optlaws.laws.savin import alpha_range
+from optlaws.laws.segments.constant_power import PowerSegment
+from optlaws.laws.segments.fractional import FractionalSegment
+from optlaws.laws.segments.segment import PolynomialSegment, Segment
+from optlaws.laws.segments.sine import HarmonicSegment, SineSegment
+from optlaws.laws.values import table_of_values

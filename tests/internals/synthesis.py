@@ -1,0 +1,79 @@
+"""Internals of `optlaws.synthesis` that tests look at by themselves."""
+
+from optlaws.synthesis import search, solve_many
+from optlaws.synthesis.arrays.continuation import ParametricContinuation, StructureSegment, _event
+from optlaws.synthesis.arrays.continued_laws import laws_along, laws_on
+from optlaws.synthesis.arrays.dual_bounds import sums_of_rows
+from optlaws.synthesis.arrays.newton_steps import States, converged, locally_optimal
+from optlaws.synthesis.arrays.powers import least_power, on_global_branch
+from optlaws.synthesis.arrays.programs import Path, SolvedBatch, between
+from optlaws.synthesis.families.active_set import ActiveSet
+from optlaws.synthesis.families.cone import ConeFamily, stationary_places
+from optlaws.synthesis.families.curved import CurvedFamily, FormulaFamily
+from optlaws.synthesis.families.energy import EnergyFamily
+from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, Points, ProductFamily, Program
+from optlaws.synthesis.families.kinked import KinkedIntegralFamily
+from optlaws.synthesis.families.names import RowName
+from optlaws.synthesis.families.peaks import peaks
+from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaPeak, FormulaRms, FormulaValue, OfFormula
+from optlaws.synthesis.limits import closed_forms
+from optlaws.synthesis.limits.closed_forms import (
+    acceleration_limit_at_jerk,
+    best_velocity,
+    jerk_limit,
+    power_limit,
+    rms_limit,
+)
+from optlaws.synthesis.limits.of_problem import known_limit
+from optlaws.synthesis.limits.rounding import not_above, root_rounded_down, rounded_down, rounded_up
+from optlaws.synthesis.method import exchange
+from optlaws.synthesis.method.discretised import ipopt
+from optlaws.synthesis.method.discretised.expressions import KINDS, RowShape
+from optlaws.synthesis.method.discretised.grids import first_points
+from optlaws.synthesis.method.discretised.ipopt import Answer
+from optlaws.synthesis.method.discretised.linear import sharpened, vertex_on_points
+from optlaws.synthesis.method.equations import contradiction, independent
+from optlaws.synthesis.method.exchange import Outcome, solve
+from optlaws.synthesis.method.strategies import identified, interior_points, vertices
+from optlaws.synthesis.method.strategies.strategy import Strategy, cutting_plane_loop
+from optlaws.synthesis.method.units import units_of
+from optlaws.synthesis.pareto import HEADINGS, undominated, value_of
+from optlaws.synthesis.problem.constants import (
+    ALIASES,
+    MAKERS,
+    PLAIN,
+    PeakConstant,
+    PowerConstant,
+    RootMeanSquare,
+    warn_of_mixture,
+)
+from optlaws.synthesis.problem.expression import leaves
+from optlaws.synthesis.problem.fields import ENTRIES, FIELDS
+from optlaws.synthesis.problem.named_constants import expression, is_named, named, parse
+from optlaws.synthesis.problem.ranges import Bounds, read_bounds
+from optlaws.synthesis.problem.windows import QUANTITIES, read_window
+from optlaws.synthesis.program import writer
+from optlaws.synthesis.program.evaluation import shortfalls, worth
+from optlaws.synthesis.program.writer import least_violation, model_of, relaxed
+from optlaws.synthesis.proof import make
+from optlaws.synthesis.proof.certificate import RELAXED, VIOLATION, _model
+from optlaws.synthesis.proof.duality import _weighted, row_of, sum_of_rows
+from optlaws.synthesis.proof.farkas import farkas_margin
+from optlaws.synthesis.proof.infeasible import failure
+from optlaws.synthesis.proof.nodes import PlaceRange
+from optlaws.synthesis.proof.peak_rows import PeakRows
+from optlaws.synthesis.proof.power.box import Box, BoxRows
+from optlaws.synthesis.proof.power.formula_underestimators import FormulaRows, applies
+from optlaws.synthesis.proof.power.rows import Anchors, PowerRows, rows_of, velocity_brackets
+from optlaws.synthesis.proof.power.search import _points, searched
+from optlaws.synthesis.proof.power.shared_energy import secant_over_inverse, secant_over_root
+from optlaws.synthesis.proof.sublevel_bounds import greatest_values, least_values, means, spread
+from optlaws.synthesis.search import LawSearch, from_symmetric
+from optlaws.synthesis.solve import _neighbours
+from optlaws.synthesis.solve_many import _together, solved
+from optlaws.synthesis.spaces.bases import basis
+from optlaws.synthesis.spaces.of_basis import space_of
+from optlaws.synthesis.spaces.pieces.free import PieceSpace, piece_space
+from optlaws.synthesis.spaces.pieces.splines import spline_space
+from optlaws.synthesis.spaces.polynomial_space import polynomial_space
+from optlaws.synthesis.spaces.space import LawSpace

@@ -1,0 +1,27 @@
+"""Internals of `optlaws.verification` that tests look at by themselves."""
+
+import pytest
+
+pytest.importorskip("flint")
+
+from optlaws.verification.enclosing.ball_formulas import BALLS
+from optlaws.verification.enclosing.balls import ball, enclosed, enclosure, lower, upper
+from optlaws.verification.enclosing.pieces import between, real_roots
+from optlaws.verification.exact.bound import prove
+from optlaws.verification.exact.law import ExactLaw
+from optlaws.verification.exact.of_basis import exact_space
+from optlaws.verification.exact.rows import ExactRows
+from optlaws.verification.exact.sublevel_bounds import (
+    _spread,
+    exact_limit,
+    greatest_values,
+    least_objective,
+    least_values,
+    means,
+    never_negative,
+)
+from optlaws.verification.machines.floors import floor
+from optlaws.verification.machines.output_motion import cycle, followed, of_pieces, response
+from optlaws.verification.machines.residuals import ExactModeResidual
+from optlaws.verification.machines.transfer import Transfer
+from optlaws.verification.reading import built, number, read
