@@ -99,7 +99,7 @@ def rows(file: Path, columns: tuple[str, ...] | None = None) -> list[Mapping[str
 
 
 def number(text: str, where: str) -> float:
-    """A printed number.
+    """A number as it is printed.
 
     Raises
     ------

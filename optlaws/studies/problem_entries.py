@@ -53,10 +53,10 @@ def _struct(name: str, doc: str, types: Mapping[str, Any]) -> Any:  # noqa: ANN4
 if TYPE_CHECKING:
 
     class ProblemEntries(OptionalEntries):
-        """A problem."""
+        """The entries of one problem."""
 
     class EntryLists(OptionalEntries):
-        """Lists of values."""
+        """Lists of values, one for each entry that varies."""
 
 else:
     ProblemEntries = _struct(

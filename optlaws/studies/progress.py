@@ -31,13 +31,13 @@ class Silent:
     """Progress that is not shown."""
 
     def begin(self, total: int, counts: Mapping[str, int]) -> None:
-        """Show nothing."""
+        """Show nothing at the start."""
 
     def advance(self, counts: Mapping[str, int]) -> None:
-        """Show nothing."""
+        """Show nothing at a step."""
 
     def end(self, counts: Mapping[str, int]) -> None:
-        """Show nothing."""
+        """Show nothing at the end."""
 
 
 class Bar:
@@ -54,14 +54,14 @@ class Bar:
         )
 
     def begin(self, total: int, counts: Mapping[str, int]) -> None:
-        """Show the bar."""
+        """Show the bar, at its start."""
         self._rate = _Rate(total, counts)
         done = sum(counts.values())
         self._task = self._progress.add_task("", total=total, completed=done, rate="", counts=listed(counts))
         self._progress.start()
 
     def advance(self, counts: Mapping[str, int]) -> None:
-        """Move it."""
+        """Move the bar by some steps."""
         rate, _ = self._rate.texts(counts)
         self._progress.update(self._task, completed=sum(counts.values()), rate=rate, counts=listed(counts))
 
@@ -78,18 +78,18 @@ class Lines:
         self._console = console
 
     def begin(self, total: int, counts: Mapping[str, int]) -> None:
-        """The first line."""
+        """Print the line of the start."""
         self._rate, self._total, self._last = _Rate(total, counts), total, monotonic()
         self._print(f"{sum(counts.values())} of {total} points done before")
 
     def advance(self, counts: Mapping[str, int]) -> None:
-        """Perhaps a line."""
+        """Print a line where enough has been done since the last."""
         if monotonic() - self._last >= _SECONDS:
             self._last = monotonic()
             self.end(counts)
 
     def end(self, counts: Mapping[str, int]) -> None:
-        """The last line."""
+        """Print the line of the end."""
         parts = (f"{sum(counts.values())} of {self._total}", *self._rate.texts(counts), listed(counts))
         self._print(", ".join(part for part in parts if part))
 

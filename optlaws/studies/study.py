@@ -50,7 +50,7 @@ class Study:
 
     @property
     def path(self) -> Path:
-        """The directory."""
+        """The directory of the study."""
         return self._directory.path
 
     @property

@@ -70,7 +70,7 @@ class LawSearch:
 
     @property
     def problem(self) -> Problem:
-        """What is solved."""
+        """The problem that is solved."""
         return self.model.problem
 
     def answer(self) -> Solution | None:

@@ -66,7 +66,7 @@ class StatedPart(msgspec.Struct, forbid_unknown_fields=True):
 
 
 class StatedSolutions(msgspec.Struct, forbid_unknown_fields=True):
-    """What `SolutionArray.to_dict` writes."""
+    """The data that `SolutionArray.to_dict` writes."""
 
     shape: list[int]
     seconds: float

@@ -110,7 +110,7 @@ class StructureSegment:
         return self.states(np.einsum("tn,tnk->tk", weights, self.rows[chosen]))
 
     def joined(self, t: Array, rows: Array) -> None:
-        """Know more states."""
+        """A continuation that knows more states."""
         every, unique = np.unique(np.concatenate([self.t, t]), return_index=True)
         self.t, self.rows = every, np.concatenate([self.rows, rows])[unique]
 

@@ -171,7 +171,7 @@ class States:
         return len(self.x)
 
     def taken(self, rows: NDArray[np.intp] | NDArray[np.bool_] | slice) -> States:
-        """Some of them."""
+        """The steps of some of the laws."""
         return States(self.x[rows], self.u[rows], self.weights[rows], self.equations[rows])
 
     @property

@@ -40,16 +40,16 @@ class Slopes:
 
     @kept_property
     def first(self) -> list[Formula]:
-        """By each name."""
+        """Derivatives by each of the names."""
         return [derivative(self.formula, name) for name in self.names]
 
     @kept_property
     def second(self) -> list[list[Formula]]:
-        """By each two."""
+        """Second derivatives by each two names."""
         return [[derivative(slope, name) for name in self.names] for slope in self.first]
 
     def value(self, at: Mapping[str, Array]) -> Array:
-        """The formula's values."""
+        """Values of the formula at the places."""
         return _values(self.formula, at)
 
     def gradient(self, at: Mapping[str, Array]) -> Array:

@@ -57,7 +57,7 @@ class Energy:
         return t * t, 0.25 * weights * t, below, above
 
     def value(self, x: Array) -> float:
-        """The integral."""
+        """The integral over the interval."""
         return float(self._integral(x).value[0])
 
     def majorant(self, x: Array) -> Array:
@@ -127,7 +127,7 @@ class Taylor:
         )
 
     def scaled(self, factor: float) -> Taylor:
-        """Times a number."""
+        """The same energy times a number."""
         return Taylor(factor * self.value, factor * self.gradient, factor * self.curvature)
 
     def raised(self, least: Array) -> Taylor:
@@ -183,7 +183,7 @@ class EnergyFamily(ConstraintFamily):
         return self.factors[0].k(u)
 
     def u(self, k: Array) -> Array:
-        """The factors' places."""
+        """Places of the factors, 2k - 1."""
         return self.factors[0].u(k)
 
     def nodes(self) -> Array | None:

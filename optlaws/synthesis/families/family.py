@@ -109,7 +109,7 @@ class ConstraintFamily(ABC):
         return 1.0 - 2.0 * k
 
     def right_side(self, x: Array) -> float:
-        """The right side."""
+        """The right side of the row."""
         return float(self.slack @ x) + self.bound
 
     def extremes(self, x: Array) -> tuple[Array, Array, Array]:
@@ -332,7 +332,7 @@ class MirroredFamily(RootFamily):
         return 0.5 * (1.0 + u)
 
     def u(self, k: Array) -> Array:
-        """2k - 1."""
+        """Places of the rows, 2k - 1."""
         return 2.0 * k - 1.0
 
 
@@ -520,7 +520,7 @@ class Program:
 
     @property
     def size(self) -> int:
-        """Number of variables."""
+        """The number of the variables."""
         return len(self.objective)
 
     @property

@@ -179,7 +179,7 @@ class KinkedIntegralFamily(IntegralFamily):
         return matrix
 
     def value(self, x: Array, u: Array) -> Array:
-        """f."""
+        """Values of f at the places."""
         return np.full(len(u), self.outer(np.array(self.split(x).total))[0])
 
 

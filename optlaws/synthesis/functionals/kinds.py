@@ -136,7 +136,7 @@ class OfFormula(Functional):
         return self._families(space, slack, bound)
 
     def _families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConstraintFamily, ...]:
-        """The rows themselves."""
+        """The families of the rows themselves."""
         return tuple(branch_rows(space, branch, slack, bound) for branch in self.branches(symmetric=space.symmetric))
 
 
@@ -221,7 +221,7 @@ class FormulaRms(OfFormula):
 
     @property
     def of_magnitude(self) -> bool:
-        """It is squared."""
+        """Whether the formula is that of a magnitude: here it is squared."""
         return True
 
     @property
@@ -278,7 +278,7 @@ class FormulaIntegral(OfFormula):
         return by_integral(space, self.motion) if self.convex and not self.affine else None
 
     def _families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConstraintFamily, ...]:
-        """One row."""
+        """A family of a single row."""
         return (integral_rows(space, self.motion, self.name, slack, bound, root=False, convex=self.convex),)
 
 
@@ -287,7 +287,7 @@ class FormulaValue(OfFormula):
     """Value of a formula at one k; made by `value`."""
 
     def value(self, law: MotionLaw) -> float:
-        """The value."""
+        """The value along a law."""
         return value_along(self.motion, law)
 
     def branches(self, *, symmetric: bool) -> list[Branch]:

@@ -125,14 +125,14 @@ def order_with(given: int, ends: BoundaryConditions | None) -> int:
 
 
 def chosen_basis(given: Any) -> Basis:  # noqa: ANN401 - it is checked here
-    """A basis."""
+    """The entry `basis`, a basis of Z."""
     if not isinstance(given, Basis):
         raise InputError(f"basis must be a Basis such as Powers(9) or Chebyshev(9), got {shortened(given)}")
     return given
 
 
 def switch(given: Any, name: str) -> bool:  # noqa: ANN401 - it is checked here
-    """True or False."""
+    """An entry that is True or False."""
     if not isinstance(given, bool):
         raise InputError(f"{name} must be True or False, got {shortened(given)}")
     return given

@@ -94,7 +94,7 @@ def facing(weights: tuple[Fraction, ...]) -> tuple[Fraction, ...]:
 
 
 def floats(weights: tuple[Fraction, ...]) -> tuple[float, ...]:
-    """The weights rounded.
+    """The weights, rounded to doubles.
 
     >>> floats((Fraction(1), Fraction(1, 200)))
     (1.0, 0.005)

@@ -266,7 +266,7 @@ class PowerConstant(_InUnitsOfLaws):
         return law.power_peak().value
 
     def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConstraintFamily, ...]:
-        """The product's family."""
+        """The family of rows of the product."""
         return (space.power(self.name, slack, bound),)
 
 

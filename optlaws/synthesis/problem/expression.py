@@ -81,7 +81,7 @@ class Expression:
         object.__setattr__(self, "terms", tuple(pair for pair in pairs if pair[0]) or pairs)
 
     def expression(self) -> Expression:
-        """Itself."""
+        """The constant itself, as an expression."""
         return self
 
     @property

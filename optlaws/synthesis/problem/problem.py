@@ -122,12 +122,12 @@ class Problem(JsonText):
 
     @kept_property
     def objective(self) -> Expression:
-        """What is minimised."""
+        """The constants that are minimised, with their weights."""
         return expression(self.minimise) if isinstance(self.minimise, str) else self.minimise.expression()
 
     @property
     def conditions(self) -> BoundaryConditions:
-        """The end conditions."""
+        """The conditions at both ends of the motion."""
         return self.boundary if self.boundary is not None else _at_rest(self.order)
 
     @kept_property
@@ -224,7 +224,7 @@ class Problem(JsonText):
         return problem
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain JSON-able dict.
+        """The problem as plain data for JSON.
 
         Examples
         --------

@@ -69,7 +69,7 @@ def between(low: float, high: float) -> Range:
 
 
 def at_most(high: float) -> Range:
-    """At most `high`.
+    """A range of values at most `high`.
 
     Raises
     ------
@@ -85,7 +85,7 @@ def at_most(high: float) -> Range:
 
 
 def at_least(low: float) -> Range:
-    """At least `low`.
+    """A range of values at least `low`.
 
     Raises
     ------

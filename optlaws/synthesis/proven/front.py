@@ -147,7 +147,7 @@ class StatedPoint(msgspec.Struct, forbid_unknown_fields=True):
 
 
 class StatedFront(msgspec.Struct, forbid_unknown_fields=True):
-    """What `ProvenFront.to_dict` writes."""
+    """The data that `ProvenFront.to_dict` writes."""
 
     runs: str
     problem: dict[str, Any]

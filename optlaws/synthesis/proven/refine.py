@@ -197,7 +197,7 @@ class _Refined:
 
     @property
     def _scale(self) -> float:
-        """Of the objective."""
+        """The scale of the objective."""
         return self.number.problem.objective.scale
 
     @property

@@ -172,7 +172,7 @@ class PolynomialBasis(Basis):
             )
 
     def to_dict(self) -> dict[str, Any]:
-        """Name and degree."""
+        """The name and the degree."""
         return {"basis": self.name, "degree": self.degree}
 
     @abstractmethod
@@ -220,7 +220,7 @@ class Chebyshev(PolynomialBasis):
         return _fitted(series, self.size)
 
     def series(self, z: Sequence[float]) -> Array:
-        """The coefficients themselves."""
+        """The coefficients themselves: they are a series."""
         return np.asarray(_sized(z, self), dtype=float)
 
 

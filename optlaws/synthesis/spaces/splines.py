@@ -124,7 +124,7 @@ class BSplines(PiecewiseBasis):
 
     @property
     def size(self) -> int:
-        """Number of B-splines."""
+        """The number of the B-splines."""
         return (len(self.breaks) - 1) * (self.degree - self.continuity) + self.continuity + 1
 
     @kept_property

@@ -51,7 +51,7 @@ class _Block:
 
     @property
     def cones(self) -> list[Any]:
-        """Clarabel's cones."""
+        """The cones as Clarabel takes them."""
         import clarabel
 
         if self.linear:

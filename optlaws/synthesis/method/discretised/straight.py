@@ -190,7 +190,7 @@ class _Blocks:
         self._sums.append((row, {begins[i]: share * weights * own for i, own in whole.own.items()}, right))
 
     def joined(self) -> tuple[Any, Array]:
-        """All of them."""
+        """The rows of all families together."""
         from scipy import sparse
 
         matrices, rights = [], []

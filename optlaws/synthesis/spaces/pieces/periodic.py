@@ -72,7 +72,7 @@ class PeriodicPieces(Pieces):
         return False
 
     def check(self, *, symmetric: bool) -> None:
-        """Refuse symmetric laws."""
+        """Refuse symmetric laws, which are not periodic."""
         if symmetric:
             raise InputError("a law that repeats is not symmetric about 1/2: ask symmetric=False")
 
