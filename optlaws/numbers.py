@@ -128,7 +128,7 @@ def positive(value: Any, name: str) -> float:  # noqa: ANN401
     return number
 
 
-def frequency(value: Any, name: str = "nu") -> float:  # noqa: ANN401
+def circular_frequency(value: Any, name: str = "frequency") -> float:  # noqa: ANN401
     """Radians of a free vibration in the rise, as a float above 0 and at most 100 000."""
     number = positive(value, name)
     if number > MOST_FREQUENCY:

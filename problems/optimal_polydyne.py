@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 class Design:
     """For what the cams are made: frequency, damping ratio, the interval and the most residual of robust laws."""
 
-    nu: float
+    frequency: float
     damping: float
     between: tuple[float, float]
     residual: float
@@ -68,22 +68,22 @@ class Compared:
     @cached_property
     def cam(self) -> MotionLaw:
         """What is cut on the cam."""
-        return polydyne(self.law, self.design.nu, self.design.damping) if self.polydyne else self.law
+        return polydyne(self.law, self.design.frequency, self.design.damping) if self.polydyne else self.law
 
     @cached_property
     def worst(self) -> float:
         """The greatest residual acceleration over the interval."""
-        return residual_vibration(nu=self.design.between, damping=self.design.damping).value(self.cam)
+        return residual_vibration(frequency=self.design.between, damping=self.design.damping).value(self.cam)
 
     @cached_property
     def at_design(self) -> float:
         """The residual acceleration at the design frequency."""
-        return residual_vibration(nu=self.design.nu, damping=self.design.damping).value(self.cam)
+        return residual_vibration(frequency=self.design.frequency, damping=self.design.damping).value(self.cam)
 
 
 def compared(design: Design, members: Sequence[tuple[str, float]], known: Sequence[str]) -> Iterator[Compared]:
     """All laws of a design, in the order of the table."""
-    C_cam = cam_constant("C", nu=design.nu, damping=design.damping)
+    C_cam = cam_constant("C", frequency=design.frequency, damping=design.damping)
     orders: dict[int, str] = {}
     for family, alpha in members:
         member = SavinFamily.of(family)
@@ -97,11 +97,11 @@ def compared(design: Design, members: Sequence[tuple[str, float]], known: Sequen
         solution = synthesize(design.problem(order, C_cam))
         yield Compared(f"optimal, order {order}, free B", "optimal", design, solution.law, solution=solution)
     most = at_most(design.residual)
-    mine = residual_vibration(nu=design.between, damping=design.damping, design=design.nu)
+    mine = residual_vibration(frequency=design.between, damping=design.damping, design=design.frequency)
     for order in orders:
         solution = synthesize(design.problem(order, C_cam, bounds={mine: most}))
         yield Compared(f"robust polydyne, order {order}", "robust", design, solution.law, solution=solution)
-        cut = residual_vibration(nu=design.between, damping=design.damping)
+        cut = residual_vibration(frequency=design.between, damping=design.damping)
         solution = synthesize(design.problem(order - 2, "C", of_cam=True, bounds={cut: most}))
         yield Compared(
             f"robust on the cam, order {order - 2}", "robust", design, solution.law, polydyne=False, solution=solution
@@ -126,7 +126,7 @@ class Member(msgspec.Struct):
 class Study(Entries):
     """The problem file."""
 
-    nu: float
+    frequency: float
     dampings: list[float]
     between: tuple[float, float]
     residual: float
@@ -140,13 +140,13 @@ def run(results: Results) -> None:
     """Table the laws of every damping ratio with what is proven of them, and draw residuals and accelerations."""
     spec = results.read(Study)
     members = [(entry.family, entry.alpha) for entry in spec.member]
-    designs = [Design(spec.nu, damping, spec.between, spec.residual, spec.degree) for damping in spec.dampings]
+    designs = [Design(spec.frequency, damping, spec.between, spec.residual, spec.degree) for damping in spec.dampings]
     comparisons = [list(compared(design, members, spec.catalogue)) for design in designs]
     rows = [_line(law) for laws in comparisons for law in laws]
     results.table("table", HEADINGS, rows)
     results.picture("figure", draw(spec.title, comparisons, spec.figure))
     page = results.page("table").text(spec.text).figure("figure", spec.title)
-    page.text(f"Greatest residual over nu = {spec.between[0]:g} to {spec.between[1]:g}; nu = {spec.nu:g}.")
+    page.text(f"Greatest residual over nu = {spec.between[0]:g} to {spec.between[1]:g}; nu = {spec.frequency:g}.")
     page.table(HEADINGS, rows, digits=6)
     least = {law.name: law.cam.constants.C.value for law in comparisons[0]}
     assert abs(least["optimal, order 4, same B"] - 4.3665175) < 1e-6
@@ -194,7 +194,7 @@ _STROKES = ("-", (0, (4, 1.5)), "-.", (0, (1, 1.2)))
 
 
 def draw(title: str, comparisons: Sequence[Sequence[Compared]], between: tuple[float, float]) -> Figure:
-    """Residual accelerations over nu and accelerations over k, for each group two panels for each damping."""
+    """Residual accelerations over frequencies and accelerations over k, for each group two panels for each damping."""
     with plot_style():
         figure = empty_figure(9.6, 2 * (3.1 * len(comparisons) + 1.3))
         figure.suptitle(title, x=0.01, ha="left", fontsize=11.0)
@@ -228,10 +228,10 @@ def _draw_group(
 
 def _residuals(axes: Axes, laws: Sequence[Compared], between: tuple[float, float]) -> None:
     design = laws[0].design
-    nu = np.linspace(*between, _POINTS)
+    frequencies = np.linspace(*between, _POINTS)
     for law, style in zip(laws, _styles(laws), strict=True):
-        amplitudes = nu**2 * np.abs(residual_phasor(law.cam, nu, design.damping))
-        axes.semilogy(nu, np.maximum(amplitudes, _LEAST / 10), label=law.name, **style)
+        amplitudes = frequencies**2 * np.abs(residual_phasor(law.cam, frequencies, design.damping))
+        axes.semilogy(frequencies, np.maximum(amplitudes, _LEAST / 10), label=law.name, **style)
     axes.axvspan(*design.between, color="#f2f2f2", zorder=0)
     axes.plot(
         design.between, [design.residual] * 2, color="black", linewidth=0.9, linestyle=":", label="most that is asked"

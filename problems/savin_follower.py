@@ -38,7 +38,7 @@ class CutCam(msgspec.Struct):
 
 
 class Run(msgspec.Struct):
-    """A cam on followers whose nu deviates."""
+    """A cam on followers whose frequency deviates."""
 
     cam: str
     damping: float
@@ -67,7 +67,7 @@ class CurvePicture(msgspec.Struct):
 class Study(Entries):
     """The problem file."""
 
-    nu: float
+    frequency: float
     deviations: list[float]
     cam: list[CutCam]
     off_design: list[Run]
@@ -90,7 +90,7 @@ Runs = list[tuple[Run, tuple[Deviation, ...]]]
 def run(results: Results) -> None:
     """Table what the mass does under every cam at and off its design, and draw accelerations and spectra."""
     spec = results.read(Study)
-    cams = {entry.name: _cam(entry, spec.nu) for entry in spec.cam}
+    cams = {entry.name: _cam(entry, spec.frequency) for entry in spec.cam}
     runs = [(entry, _deviations(spec, cams[entry.cam], entry)) for entry in spec.off_design]
     rows = [_line(entry, deviation) for entry, deviations in runs for deviation in deviations]
     results.table("coefficients", COEFFICIENTS, _coefficients(cams))
@@ -107,9 +107,9 @@ def run(results: Results) -> None:
             assert as_designed.response.residual_acceleration < 1e-9, entry
 
 
-def _cam(entry: CutCam, nu: float) -> Cam:
+def _cam(entry: CutCam, frequency: float) -> Cam:
     reference = catalogue[entry.law].law if entry.alpha is None else savin(entry.law, entry.alpha)
-    law = reference if entry.design_damping is None else polydyne(reference, nu, entry.design_damping)
+    law = reference if entry.design_damping is None else polydyne(reference, frequency, entry.design_damping)
     return Cam(entry.name, reference, law)
 
 
@@ -122,7 +122,7 @@ OFF_DESIGN = (
 
 
 def _deviations(spec: Study, cam: Cam, run: Run) -> tuple[Deviation, ...]:
-    design = Follower(spec.nu, run.damping)
+    design = Follower(spec.frequency, run.damping)
     return off_design(cam.law, cam.reference, design, deviations=spec.deviations, change=run.change)
 
 
@@ -133,8 +133,8 @@ def _line(run: Run, deviation: Deviation) -> list[Cell]:
         run.damping,
         run.change,
         deviation.percent,
-        response.nu,
-        response.nu * response.damping,
+        response.frequency,
+        response.frequency * response.damping,
         deviation.reference.constants.C.value,
         peak.value,
         round(peak.k, 6),
@@ -209,12 +209,14 @@ def curves(spec: Study, cams: Sequence[Cam]) -> Figure:
         panels = figure.subplots(len(cams), 1, sharex=True, sharey=True, squeeze=False)[:, 0]
         for axes, cam in zip(panels, cams, strict=True):
             axes.plot(rise, cam.law.c(rise), color=GREY, linestyle="--", label="cam")
-            exact = Follower(spec.nu, shown.damping).response(cam.law)
-            axes.plot(k, exact.c(k), color=BLUES[4], label=f"mass, nu = {spec.nu:g}", zorder=4)
+            exact = Follower(spec.frequency, shown.damping).response(cam.law)
+            axes.plot(k, exact.c(k), color=BLUES[4], label=f"mass, nu = {spec.frequency:g}", zorder=4)
             for percent, colour in zip(shown.deviations, _OFF, strict=False):
-                nu = spec.nu * (1.0 + percent / 100.0)
-                response = Follower(nu, shown.damping).response(cam.law)
-                axes.plot(k, response.c(k), color=colour, linewidth=1.2, label=f"mass, nu = {nu:g} ({percent:+g} %)")
+                frequency = spec.frequency * (1.0 + percent / 100.0)
+                response = Follower(frequency, shown.damping).response(cam.law)
+                axes.plot(
+                    k, response.c(k), color=colour, linewidth=1.2, label=f"mass, nu = {frequency:g} ({percent:+g} %)"
+                )
             axes.axvline(1.0, color=GREY, linewidth=0.8)
             axes.set_title(cam.name)
             axes.set_ylabel("acceleration a''")
@@ -228,24 +230,24 @@ def curves(spec: Study, cams: Sequence[Cam]) -> Figure:
 
 
 def spectrum(spec: Study, cams: Sequence[Cam]) -> Figure:
-    """Residual acceleration and dynamic factor over nu."""
+    """Residual acceleration and dynamic factor over the frequency."""
     shown = spec.spectrum
-    nu = np.linspace(shown.least, shown.most, shown.points)
+    frequencies = np.linspace(shown.least, shown.most, shown.points)
     with plot_style():
         figure = empty_figure(8.6, 6.4)
         upper, lower = figure.subplots(2, 1, sharex=True)
         for i, cam in enumerate(cams):
-            response = response_spectrum(cam.law, nu, shown.damping)
+            response = response_spectrum(cam.law, frequencies, shown.damping)
             look: dict[str, Any] = {"color": _COLOURS[i % len(_COLOURS)], "linestyle": _STROKES[i % len(_STROKES)]}
             C = cam.reference.constants.C.value
             draw_spectrum(response, upper, over=C, label=cam.name, **look)
             draw_spectrum(response, lower, what="peak", over=C, **look)
         for axes in (upper, lower):
-            axes.axvline(spec.nu, color=GREY, linewidth=0.8, zorder=1)
+            axes.axvline(spec.frequency, color=GREY, linewidth=0.8, zorder=1)
         upper.set(xlabel="", xlim=(shown.least, shown.most), ylim=(0.0, None), ylabel="residual acceleration / C")
         lower.set(ylim=(0.0, None), ylabel="dynamic factor max |a''| / C")
         figure.suptitle(
-            f"Response spectra, damping ratio {shown.damping:g}; design at nu = {spec.nu:g}",
+            f"Response spectra, damping ratio {shown.damping:g}; design at nu = {spec.frequency:g}",
             x=0.01,
             ha="left",
             fontsize=11.0,

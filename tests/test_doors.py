@@ -209,7 +209,7 @@ def test_values_of_the_command(capsys: pytest.CaptureFixture[str], value: str) -
         ["solve", "--order", value, "--degree", "5"],
         [*solve, "--basis", "pieces", "--breaks", value, "--most", "J=-1"],
         ["solve", "--order", "3", "--degree", "5", "--peak-velocity", value, "--most-jerk", "0"],
-        ["follower", "cycloidal", "--nu", value, "--damping", "-1"],
+        ["follower", "cycloidal", "--frequency", value, "--damping", "-1"],
         ["catalogue", value or "x"],
     ):
         with a_door():

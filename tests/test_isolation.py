@@ -31,7 +31,7 @@ VALUES: dict[str, Callable[[], Any]] = {
     "front": lambda: pareto_front(Problem(order=4), over=("B", "C"), points=3, between=(1.5, 1.8)),
     "balanced law": lambda: balanced_law(1.8, order=2, basis=Chebyshev(5), minimise="B_loader"),
     "spectrum": lambda: response_spectrum(savin("III", 7.2), [18.0, 20.0]),
-    "response": lambda: Follower(nu=20, damping=0.05).response(savin("III", 7.2)),
+    "response": lambda: Follower(frequency=20, damping=0.05).response(savin("III", 7.2)),
 }
 
 
@@ -72,7 +72,7 @@ uses = [
     lambda: optlaws.savin("III", 7.2).constants,
     lambda: optlaws.smoothstep(3).export("csv", stroke="35 mm", duration="0.1 s", points=21).text,
     lambda: optlaws.read_law("0317(1,5)").constants,
-    lambda: optlaws.Follower(nu=19, damping=0.05).response(optlaws.smoothstep(4)).peak(2),
+    lambda: optlaws.Follower(frequency=19, damping=0.05).response(optlaws.smoothstep(4)).peak(2),
     lambda: optlaws.catalogue["cycloidal"].law.constants,
     lambda: optlaws.Cycle([optlaws.Rise("1 mm", "0.1 s"), optlaws.Return(duration="0.1 s")], period="0.2 s"),
     lambda: optlaws.MotionLaw.from_json('{"format":1,"kind":"polynomial","acceleration":[],"a0":0.0,"b0":1.0}'),

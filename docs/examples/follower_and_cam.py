@@ -10,7 +10,7 @@ from matplotlib import pyplot as plt
 from optlaws import Follower, catalogue
 
 law = catalogue["modified sine"].law
-response = Follower(nu=20, damping=0.02).response(law)
+response = Follower(frequency=20, damping=0.02).response(law)
 k = np.linspace(0.0, 1.6, 1601)
 plt.plot(k[k <= 1], law.c(k[k <= 1]), "--", label="cam")
 plt.plot(k, response.c(k), label="mass, nu = 20")

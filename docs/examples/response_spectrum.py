@@ -9,10 +9,12 @@ from matplotlib import pyplot as plt
 
 from optlaws import Chebyshev, Problem, at_most, catalogue, residual_vibration, response_spectrum, synthesize
 
-nu = np.linspace(8, 40, 2000)
-robust = synthesize(Problem(order=3, basis=Chebyshev(15), bounds={residual_vibration(nu=(18, 22)): at_most(0.1)})).law
+frequencies = np.linspace(8, 40, 2000)
+robust = synthesize(
+    Problem(order=3, basis=Chebyshev(15), bounds={residual_vibration(frequency=(18, 22)): at_most(0.1)})
+).law
 for law, name in ((catalogue["modified sine"].law, "modified sine"), (robust, "least C, residual at most 0.1")):
-    plt.semilogy(nu, response_spectrum(law, nu).residual_acceleration, label=name)
+    plt.semilogy(frequencies, response_spectrum(law, frequencies).residual_acceleration, label=name)
 plt.ylim(1e-2, None)
 plt.xlabel("nu, radians of the free vibration in the rise")
 plt.ylabel("residual acceleration (dimensionless)")

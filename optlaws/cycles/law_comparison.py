@@ -25,7 +25,7 @@ from optlaws.tolerances import AGREEMENT
 FAR = 1.5
 CONSTANTS = ("B", "C", "D", "J", "rms_c")
 _MACHINE = {1: "velocity, {}/s", 2: "acceleration, {}/s²", 3: "jerk, {}/s³"}
-_GIVEN = ("stroke", "duration", "unit", "nu", "damping")
+_GIVEN = ("stroke", "duration", "unit", "frequency", "damping")
 _PEAKS = {"D": "power", "J": "jerk"}
 
 
@@ -41,8 +41,8 @@ class Comparison(JsonText):
         Stroke (m or rad) and duration (s) of the machine; None where peaks stay dimensionless.
     unit
         That of the stroke, "m" or "rad".
-    nu, damping
-        Of the follower whose residual acceleration is told, in units of a''; nu may be an interval, or None.
+    frequency, damping
+        Of the follower whose residual acceleration is told, in units of a''; the frequency may be an interval, or None.
 
     Examples
     --------
@@ -58,7 +58,7 @@ class Comparison(JsonText):
     stroke: float | None = None
     duration: float | None = None
     unit: str = "m"
-    nu: float | tuple[float, float] | None = None
+    frequency: float | tuple[float, float] | None = None
     damping: float = 0.0
 
     @kept_property
@@ -74,7 +74,7 @@ class Comparison(JsonText):
         return tuple(
             f"{name}: {cost}"
             for name in names[1:]
-            for cost in costs(self.laws[name], reference, names[0], nu=self.nu, damping=self.damping)
+            for cost in costs(self.laws[name], reference, names[0], frequency=self.frequency, damping=self.damping)
         )
 
     def to_dict(self) -> dict[str, Any]:
@@ -83,8 +83,8 @@ class Comparison(JsonText):
             {key: value if isinstance(value, str) else bounded(value) for key, value in row.items()}
             for row in self.rows
         ]
-        nu = list(self.nu) if isinstance(self.nu, tuple) else self.nu
-        given = {name: getattr(self, name) for name in _GIVEN} | {"nu": nu}
+        frequency = list(self.frequency) if isinstance(self.frequency, tuple) else self.frequency
+        given = {name: getattr(self, name) for name in _GIVEN} | {"frequency": frequency}
         laws = {name: law.to_dict() for name, law in self.laws.items()}
         return {"rows": rows, "remarks": list(self.remarks), "laws": laws, **given}
 
@@ -101,8 +101,8 @@ class Comparison(JsonText):
         laws = given.pop("laws")
         if not isinstance(laws, Mapping):
             raise InputError(f"the laws of a comparison must be a table, got {shortened(laws)}")
-        if isinstance(given["nu"], list):
-            given["nu"] = tuple(given["nu"])
+        if isinstance(given["frequency"], list):
+            given["frequency"] = tuple(given["frequency"])
         comparison = cls({name: MotionLaw.from_dict(law) for name, law in laws.items()}, **given)
         comparison.rows  # noqa: B018 - what is wrong is refused at once
         return comparison
@@ -135,8 +135,8 @@ class Comparison(JsonText):
                 text.format(self.unit): factor(self.stroke, self.duration, nu) * law.peak(nu).value
                 for nu, text in _MACHINE.items()
             }
-        if self.nu is not None:
-            row["residual"] = residual_vibration(nu=self.nu, damping=self.damping).value(law)
+        if self.frequency is not None:
+            row["residual"] = residual_vibration(frequency=self.frequency, damping=self.damping).value(law)
         return row
 
 
@@ -144,7 +144,7 @@ def compare_laws(
     *laws: Any,  # noqa: ANN401 - whatever names or has a law
     stroke: Quantity | None = None,
     duration: Quantity | None = None,
-    nu: float | tuple[float, float] | None = None,
+    frequency: float | tuple[float, float] | None = None,
     damping: float = 0.0,
 ) -> Comparison:
     """Laws side by side.
@@ -157,8 +157,8 @@ def compare_laws(
     stroke, duration
         Stroke and duration with their units, such as "35 mm" (or "45 deg") and "0.1 s", for the peaks in the machine:
         v = B h/T, a = C h/T², j = J h/T³.
-    nu, damping
-        Frequency of an elastic follower (radians of its free vibration in the motion), or an interval (low, high), and
+    frequency, damping
+        Frequency nu of an elastic follower (radians of its free vibration in the motion), or an interval (low, high), and
         its damping ratio: the greatest residual acceleration is told too.
 
     Raises
@@ -168,7 +168,7 @@ def compare_laws(
 
     Examples
     --------
-    >>> comparison = compare_laws("modified sine", "cycloidal", stroke="35 mm", duration="0.1 s", nu=20)
+    >>> comparison = compare_laws("modified sine", "cycloidal", stroke="35 mm", duration="0.1 s", frequency=20)
     >>> [round(row["acceleration, m/s²"], 3) for row in comparison.rows]
     [19.348, 21.991]
     """
@@ -180,15 +180,15 @@ def compare_laws(
     seconds = None if duration is None else positive(quantity(duration, "time", "duration"), "duration")
     if height is not None:
         positive(height, "stroke")
-    if nu is not None:
-        residual_vibration(nu=nu, damping=damping)
+    if frequency is not None:
+        residual_vibration(frequency=frequency, damping=damping)
     named: dict[str, MotionLaw] = {}
     for place, given_law in enumerate(laws, 1):
         name, law = _named(given_law, place)
         if name in named:
             raise InputError(f"{name} is given twice")
         named[name] = law
-    return Comparison(named, height, seconds, unit_of(kind), nu, damping)
+    return Comparison(named, height, seconds, unit_of(kind), frequency, damping)
 
 
 def costs(
@@ -196,7 +196,7 @@ def costs(
     reference: MotionLaw,
     name: str,
     *,
-    nu: float | tuple[float, float] | None = None,
+    frequency: float | tuple[float, float] | None = None,
     damping: float = 0.0,
 ) -> list[str]:
     """The costs of a smaller C than that of a named standard law: power, jerk or vibration far above its own."""
@@ -206,8 +206,8 @@ def costs(
         f"{letter} = ": (getattr(law.constants, letter).value, getattr(reference.constants, letter).value)
         for letter in _PEAKS
     }
-    if nu is not None:
-        of = residual_vibration(nu=nu, damping=damping)
+    if frequency is not None:
+        of = residual_vibration(frequency=frequency, damping=damping)
         values["a residual acceleration of "] = of.value(law), of.value(reference)
     return [_cost(what, value, other, name) for what, (value, other) in values.items() if value > FAR * other]
 

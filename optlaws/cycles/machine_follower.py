@@ -15,7 +15,7 @@ from optlaws.motion.piece import factor, unit_of
 from optlaws.motion.quantities import either, quantity
 from optlaws.numbers import Quantity, positive
 
-_WAYS = "give frequency, such as '16.7 Hz', or period, such as '60 ms', and not both"
+_WAYS = "give natural_frequency, such as '16.7 Hz', or natural_period, such as '60 ms', and not both"
 _DURATIONS = "give duration, such as '0.1 s', or speed and rise, such as '105 rpm' and '120 deg'"
 
 
@@ -37,9 +37,11 @@ class MachineFollower:
     Examples
     --------
     >>> from optlaws import catalogue
-    >>> press = machine_follower(frequency="16.7 Hz", speed="105 rpm", rise="120 deg", stroke="35 mm", damping=0.05)
+    >>> press = machine_follower(
+    ...     natural_frequency="16.7 Hz", speed="105 rpm", rise="120 deg", stroke="35 mm", damping=0.05
+    ... )
     >>> press.follower
-    Follower(nu=19.986513, damping=0.05)
+    Follower(frequency=19.986513, damping=0.05)
     >>> answer = press.response(catalogue["modified sine"])
     >>> round(answer.peak_acceleration, 3), round(1e3 * answer.residual_displacement, 3)  # m/s², mm
     (9.07, 0.51)
@@ -106,7 +108,7 @@ class MachineAnswer:
         Examples
         --------
         >>> from optlaws import smoothstep
-        >>> machine = machine_follower(period="60 ms", duration="0.2 s", stroke="35 mm")
+        >>> machine = machine_follower(natural_period="60 ms", duration="0.2 s", stroke="35 mm")
         >>> list(machine.response(smoothstep(4)).results())[:3]
         ['stroke, m', 'time, s', 'dynamic factor']
         """
@@ -125,7 +127,7 @@ class MachineAnswer:
     def __repr__(self) -> str:
         unit = self.machine.unit
         return (
-            f"MachineAnswer(nu={self.response.nu:g}, dynamic factor={self.dynamic_factor:g}, "
+            f"MachineAnswer(frequency={self.response.frequency:g}, dynamic factor={self.dynamic_factor:g}, "
             f"peak acceleration={self.peak_acceleration:g} {unit}/s², "
             f"residual displacement={self.residual_displacement:g} {unit})"
         )
@@ -137,8 +139,8 @@ class MachineAnswer:
 def machine_follower(
     *,
     stroke: Quantity,
-    frequency: Quantity | None = None,
-    period: Quantity | None = None,
+    natural_frequency: Quantity | None = None,
+    natural_period: Quantity | None = None,
     duration: Quantity | None = None,
     speed: Quantity | None = None,
     rise: Quantity | None = None,
@@ -150,7 +152,7 @@ def machine_follower(
     ----------
     stroke
         Stroke of the cam, such as "35 mm" or "20 deg".
-    frequency, period
+    natural_frequency, natural_period
         Of the undamped free vibration of the mass on its cam: "16.7 Hz", or "60 ms"; one of them.
     duration
         Duration of the rise, such as "0.1 s".
@@ -166,24 +168,24 @@ def machine_follower(
 
     Examples
     --------
-    >>> machine_follower(frequency="16.7 Hz", speed="105 rpm", rise="120 deg", stroke="35 mm").duration
+    >>> machine_follower(natural_frequency="16.7 Hz", speed="105 rpm", rise="120 deg", stroke="35 mm").duration
     0.190476
-    >>> machine_follower(frequency="16.7", duration="0.1 s", stroke="35 mm")
+    >>> machine_follower(natural_frequency="16.7", duration="0.1 s", stroke="35 mm")
     Traceback (most recent call last):
-    optlaws.errors.InputError: frequency must be a frequency such as '16.7 Hz', got '16.7' without a unit: ...
+    optlaws.errors.InputError: natural_frequency must be a frequency such as '16.7 Hz', got '16.7' without a unit: ...
     """
     kind, height = either(stroke, ("length", "angle"), "stroke")
     seconds = _duration(duration, speed, rise)
-    nu = tau * seconds * _frequency(frequency, period)
-    return MachineFollower(Follower(nu, damping), positive(height, "stroke"), seconds, unit_of(kind))
+    frequency = tau * seconds * _natural_frequency(natural_frequency, natural_period)
+    return MachineFollower(Follower(frequency, damping), positive(height, "stroke"), seconds, unit_of(kind))
 
 
-def _frequency(frequency: Quantity | None, period: Quantity | None) -> float:
+def _natural_frequency(frequency: Quantity | None, period: Quantity | None) -> float:
     if (frequency is None) == (period is None):
         raise InputError(_WAYS)
     if frequency is not None:
-        return positive(quantity(frequency, "frequency", "frequency"), "frequency")
-    return 1.0 / positive(quantity(period, "time", "period"), "period")
+        return positive(quantity(frequency, "frequency", "natural_frequency"), "natural_frequency")
+    return 1.0 / positive(quantity(period, "time", "natural_period"), "natural_period")
 
 
 def _duration(duration: Quantity | None, speed: Quantity | None, rise: Quantity | None) -> float:

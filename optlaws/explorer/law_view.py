@@ -285,25 +285,29 @@ _LOW = 2.0
 
 
 class ResidualRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """Laws, and the follower whose mass they drive: nu up to which is drawn, the nu that is read, the damping ratio."""
+    """Laws, and the follower whose mass they drive: the frequency up to which is drawn, the one that is read, the damping ratio."""
 
     laws: Annotated[list[LawRequest], msgspec.Meta(min_length=1, max_length=MOST_LAWS)]
-    nu: Annotated[float, msgspec.Meta(gt=0.0, le=1000.0)] = 20.0
+    frequency: Annotated[float, msgspec.Meta(gt=0.0, le=1000.0)] = 20.0
     most: Annotated[float, msgspec.Meta(ge=10.0, le=1000.0)] = 80.0
     damping: Annotated[float, msgspec.Meta(ge=0.0, lt=1.0)] = 0.0
 
 
 def residuals(request: ResidualRequest) -> dict[str, Any]:
-    """Residual acceleration over nu for each law, in units of a'', and its value at one nu; None without a law."""
-    nu = np.linspace(_LOW, request.most, _COUNT)
-    return {"nu": drawn(nu), "laws": [_spectrum(law, nu, request) for law in request.laws], "at": request.nu}
+    """Residual acceleration over the frequency for each law, in units of a'', and its value at one; None without a law."""
+    frequencies = np.linspace(_LOW, request.most, _COUNT)
+    return {
+        "frequencies": drawn(frequencies),
+        "laws": [_spectrum(law, frequencies, request) for law in request.laws],
+        "at": request.frequency,
+    }
 
 
-def _spectrum(request: LawRequest, nu: Any, follower: ResidualRequest) -> dict[str, Any] | None:  # noqa: ANN401 - an array
+def _spectrum(request: LawRequest, frequencies: Any, follower: ResidualRequest) -> dict[str, Any] | None:  # noqa: ANN401 - an array
     try:
         law = law_of(request)
     except OptlawsError:  # the view of the law says why
         return None
-    values = response_spectrum(law, nu, follower.damping).residual_acceleration
-    here = residual_vibration(nu=follower.nu, damping=follower.damping).value(law)
+    values = response_spectrum(law, frequencies, follower.damping).residual_acceleration
+    here = residual_vibration(frequency=follower.frequency, damping=follower.damping).value(law)
     return {"values": drawn(values), "value": here, "text": digits(here, 6)}

@@ -30,7 +30,7 @@ def draw_spectrum(
     axes = axes or new_axes()
     values = spectrum.residual_acceleration if what == "residual" else spectrum.peak_acceleration
     axes.set(xlabel="nu, radians of the free vibration in the rise", ylabel=f"{what} acceleration")
-    return list(axes.plot(spectrum.nu, values / over, **style))
+    return list(axes.plot(spectrum.frequency, values / over, **style))
 
 
 def draw_output(

@@ -326,7 +326,7 @@ def pareto_front(
         What else is asked; its `minimise` does not count.
     over
         Two or three constants, by their names or themselves: B, C, D, J, or any that can be minimised and bounded,
-        such as "peak(c + 0.2*b)", "residual(nu=20)" or `machine.peak("torque")`.
+        such as "peak(c + 0.2*b)", "residual(frequency=20)" or `machine.peak("torque")`.
     points
         How many laws; fewer where nothing is exchanged, laws are not found, or with three constants.
     between

@@ -95,9 +95,9 @@ def follower(draw: np.random.Generator, family: str = "III") -> Quantities:
     T, m, kappa = float(draw.uniform(0.05, 0.3)), float(draw.uniform(0.5, 3.0)), float(draw.uniform(2e4, 9e4))
     system = Follower.from_units(mass=m, stiffness=kappa, duration=T, damping=float(draw.uniform(5.0, 60.0)))
     cam, k = savin(family, float(draw.uniform(1.0, 5.0))), float(draw.uniform(0.2, 0.8))
-    response, forced = system.response(cam), mass_law(cam, system.nu, system.damping)
+    response, forced = system.response(cam), mass_law(cam, system.frequency, system.damping)
     h = 2.0 * system.n * m / T
-    quantities = {"k": k, "T": T, "m": m, "kappa": kappa, "h": h, "nu": system.nu, "n": system.n, "a": cam(k)}
+    quantities = {"k": k, "T": T, "m": m, "kappa": kappa, "h": h, "nu": system.frequency, "n": system.n, "a": cam(k)}
     quantities |= {f"am{i}": float(response(k, i)) for i in range(3)}
     quantities |= {
         "psi": quantities["am0"],
@@ -105,7 +105,12 @@ def follower(draw: np.random.Generator, family: str = "III") -> Quantities:
         "psi2": quantities["am2"] / T**2,
         "gamma": cam(k),
     }
-    quantities |= {"P": forced(k), "P0": forced(0.0), "P1": forced.b(0.0), "lam": sqrt(system.nu**2 - system.n**2)}
+    quantities |= {
+        "P": forced(k),
+        "P0": forced(0.0),
+        "P1": forced.b(0.0),
+        "lam": sqrt(system.frequency**2 - system.n**2),
+    }
     free = {
         "A": sqrt(quantities["P0"] ** 2 + ((quantities["P1"] + system.n * quantities["P0"]) / quantities["lam"]) ** 2)
     }
@@ -123,7 +128,7 @@ def _powers(letter: str, law: PolynomialLaw) -> dict[str, float]:
 def _operating(system: Follower, T: float, draw: np.random.Generator) -> dict[str, float]:
     n_c = float(draw.uniform(60.0, 300.0))
     phi = 2.0 * np.pi * n_c / 60.0 * T
-    return {"n_c": n_c, "phi": float(phi), "T_k": 2.0 * np.pi * T / system.nu}
+    return {"n_c": n_c, "phi": float(phi), "T_k": 2.0 * np.pi * T / system.frequency}
 
 
 @computation("savin.synthesis")
@@ -143,7 +148,7 @@ def entry(cam: str, name: str, problems: Path) -> Number:
     """A number of the experiment's problem file: nu, or alpha of a cam."""
     spec = entries(problems / _EXPERIMENT)
     if name == "nu":
-        return Number(float(spec["nu"]))
+        return Number(float(spec["frequency"]))
     return Number(float(next(entry for entry in spec["cam"] if entry["name"] == cam)[name]))
 
 
@@ -339,6 +344,6 @@ def steps() -> Claim:
     """The greatest distance of the mass from the law meant for it, by the four steps from a machine's numbers."""
     system = Follower.from_speed(speed_rpm=105.0, rise_angle_deg=120.0, natural_period=0.0598, damping=0.05)
     law = savin("III", 7.2)
-    cam = polydyne(law, system.nu, system.damping)
+    cam = polydyne(law, system.frequency, system.damping)
     k = np.linspace(0.0, 1.0, 361)
     return Claim(float(np.abs(system.response(cam)(k) - law(k)).max()), "<=", 1e-9)

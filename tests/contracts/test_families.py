@@ -55,7 +55,7 @@ def random_cone(seed: int) -> ConeFamily:
 
 def vibration(laws: LawSpace) -> ConstraintFamily:
     """The rows of a residual vibration."""
-    return residual_vibration(nu=(11, 14), damping=0.02).families(laws, slack(laws), BOUND)[0]
+    return residual_vibration(frequency=(11, 14), damping=0.02).families(laws, slack(laws), BOUND)[0]
 
 
 def of_text(text: str, laws: LawSpace, room: Array) -> ConstraintFamily:

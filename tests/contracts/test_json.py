@@ -98,7 +98,9 @@ def values(jumping: Solution) -> dict[str, Any]:
         "BalancedLaw": optlaws.balanced_law(order=4, B=1.8, basis=Chebyshev(3)),
         "DwellMechanism": replace(mechanism, law_1=optlaws.smoothstep(3)),
         "DwellMachine": DwellMachine(mechanism, 10.0, 0.05, 0.005, 0.1, 0.035),
-        "Comparison": optlaws.compare_laws("0050", "cycloidal", stroke="35 mm", duration="0.1 s", nu=(18.0, 20.0)),
+        "Comparison": optlaws.compare_laws(
+            "0050", "cycloidal", stroke="35 mm", duration="0.1 s", frequency=(18.0, 20.0)
+        ),
         "CatalogueEntry": optlaws.catalogue["constant velocity"],
         "CatalogueEntry of terms": optlaws.catalogue["modified sine"],
         "Segment": EXAMPLES["power of time"].segments[0],  # type: ignore[attr-defined] # a piecewise law

@@ -67,14 +67,14 @@ LAWS = EXAMPLES | OTHERS
 KNOWN = {*LAWS.values(), *ROUGH.values()}
 STANDARD = {f"{name}, catalogue": catalogue[name].law for name in catalogue if catalogue[name].law not in KNOWN}
 ALL = LAWS | ROUGH | STANDARD
-UNDAMPED, DAMPED = Follower(nu=18.0), Follower(nu=25.0, damping=0.03)
+UNDAMPED, DAMPED = Follower(frequency=18.0), Follower(frequency=25.0, damping=0.03)
 MASSES: dict[str, MassMotion] = {
     "response to a polynomial": DAMPED.response(smoothstep(4)),
     "response to sines": UNDAMPED.response(catalogue["modified sine"].law),
     "response to powers of time": DAMPED.response(EXAMPLES["fall like x^4.5"]),
     "response to jumps of c": DAMPED.response(ROUGH["jumps of c"]),
-    "slow follower": Follower(nu=2.5, damping=0.2).response(smoothstep(4)),
-    "overdamped follower": Follower(nu=30.0, damping=1.5).response(EXAMPLES["S-curve"]),
+    "slow follower": Follower(frequency=2.5, damping=0.2).response(smoothstep(4)),
+    "overdamped follower": Follower(frequency=30.0, damping=1.5).response(EXAMPLES["S-curve"]),
     "cycle": DAMPED.cycle(smoothstep(4), dwell=0.5, rest=1.0),
     "cycle of a sine and a polynomial": DAMPED.cycle(
         catalogue["cycloidal"].law, dwell=0.0, fall=smoothstep(4), fall_duration=2.0, rest=0.25

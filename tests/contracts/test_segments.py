@@ -331,7 +331,7 @@ def test_a_new_kind_drives_a_follower_and_is_driven_by_a_cam(exponential: Any) -
     # between stretches at rest, and without the ends where its acceleration starts: what a cam can make is continuous
     joined = PiecewiseLaw([0, 1], [exponential(0.5)])
     with pytest.raises(InputError, match="the mass law has velocity"):
-        polydyne(joined, nu=20)
+        polydyne(joined, frequency=20)
 
 
 def test_a_new_kind_goes_through_a_cam(exponential: Any) -> None:  # noqa: ANN401
@@ -371,10 +371,10 @@ def test_a_polynomial_by_another_name_is_driven_like_one() -> None:
         plain = smoothstep(4)
         assert isinstance(plain, PolynomialLaw)
         law = PiecewiseLaw([0, 1], [Disguised(plain.acceleration)])
-        cam, known = polydyne(law, nu=20, damping=0.05), polydyne(plain, nu=20, damping=0.05)
+        cam, known = polydyne(law, frequency=20, damping=0.05), polydyne(plain, frequency=20, damping=0.05)
         k = np.linspace(0.0, 1.0, 101)
         assert cam.c(k) == pytest.approx(known.c(k), abs=1e-10)
-        factor = Follower(nu=20, damping=0.05).response(cam).dynamic_factor(reference=plain)
+        factor = Follower(frequency=20, damping=0.05).response(cam).dynamic_factor(reference=plain)
         assert factor == pytest.approx(1.0, abs=1e-9)
         assert MotionLaw.from_dict(law.to_dict()) == law
     finally:

@@ -24,14 +24,14 @@ SINE = catalogue["modified sine"].law
 
 def test_numbers_are_those_of_the_laws() -> None:
     comparison = compare_laws(
-        "modified sine", smoothstep(3), stroke="35 mm", duration="100 ms", nu=(12, 32), damping=0.05
+        "modified sine", smoothstep(3), stroke="35 mm", duration="100 ms", frequency=(12, 32), damping=0.05
     )
     sine, poly = comparison.rows
     assert (sine["law"], poly["law"]) == ("modified sine", "law 2")
     assert [sine[name] for name in "BCDJ"] == [getattr(SINE.constants, name).value for name in "BCDJ"]
     assert poly["velocity, m/s"] == pytest.approx(1.875 * 0.035 / 0.1)
     assert poly["jerk, m/s³"] == pytest.approx(60 * 0.035 / 0.1**3)
-    assert sine["residual"] == residual_vibration(nu=(12, 32), damping=0.05).value(SINE)
+    assert sine["residual"] == residual_vibration(frequency=(12, 32), damping=0.05).value(SINE)
     turned = compare_laws(catalogue["modified sine"], stroke="180 deg", duration="1 s").rows[0]
     assert turned["acceleration, rad/s²"] == pytest.approx(np.pi * SINE.constants.C.value)
 
@@ -53,7 +53,9 @@ def test_what_a_small_C_costs_is_said() -> None:
     assert remark.startswith("constant acceleration: J = inf, without bound")
     assert compare_laws("constant acceleration", "modified sine").remarks == ()
     assert (
-        compare_laws("cycloidal", "constant acceleration", nu=6 * np.pi).remarks[-1].endswith("16; cycloidal has none")
+        compare_laws("cycloidal", "constant acceleration", frequency=6 * np.pi)
+        .remarks[-1]
+        .endswith("16; cycloidal has none")
     )
 
 
@@ -75,7 +77,7 @@ def test_all_laws_are_drawn_into_the_axes_given() -> None:
         (("cubic",), {"stroke": "35 kg", "duration": "1 s"}, "mass"),
         (("cubic",), {"stroke": "35 mm", "duration": "0 s"}, "duration"),
         (("cubic", 3), {}, "motion law"),
-        (("cubic",), {"nu": -1}, "nu"),
+        (("cubic",), {"frequency": -1}, "frequency"),
     ],
 )
 def test_wrong_input_is_refused(laws: tuple[object, ...], given: dict[str, object], says: str) -> None:
@@ -84,10 +86,22 @@ def test_wrong_input_is_refused(laws: tuple[object, ...], given: dict[str, objec
 
 
 def test_the_command_says_the_same(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
-    arguments = ["compare", "MODSINE", "III(7.2)", "--stroke", "35mm", "--time", "0.1s", "--nu", "12", "--nu", "32"]
+    arguments = [
+        "compare",
+        "MODSINE",
+        "III(7.2)",
+        "--stroke",
+        "35mm",
+        "--time",
+        "0.1s",
+        "--frequency",
+        "12",
+        "--frequency",
+        "32",
+    ]
     assert exit_code([*arguments, "--json"]) == 0
     said = json.loads(capsys.readouterr().out)
-    assert said == compare_laws("MODSINE", "III(7.2)", stroke="35 mm", duration="0.1 s", nu=(12, 32)).to_dict()
+    assert said == compare_laws("MODSINE", "III(7.2)", stroke="35 mm", duration="0.1 s", frequency=(12, 32)).to_dict()
     assert exit_code([*arguments, "--plot", str(tmp_path / "a.svg"), "--csv", str(tmp_path / "a.csv")]) == 0
     assert (tmp_path / "a.svg").is_file()
     assert (tmp_path / "a.csv").read_text("utf-8").count("\n") == 4

@@ -22,7 +22,7 @@ MACHINE = {"frequency": "16.7 Hz", "speed": "105 rpm", "rise": "120 deg", "strok
 def test_answers_are_those_of_the_follower_in_units() -> None:
     machine = machine_follower(**MACHINE, damping=0.05)
     same = Follower.from_speed(speed_rpm=105, rise_angle_deg=120, natural_period=1 / 16.7, damping=0.05)
-    assert machine.follower.nu == pytest.approx(same.nu, rel=1e-14)
+    assert machine.follower.frequency == pytest.approx(same.frequency, rel=1e-14)
     answer = machine.response(catalogue["modified sine"].law)
     response = machine.follower.response(catalogue["modified sine"].law)
     size = 0.035 / machine.duration**2
@@ -34,7 +34,7 @@ def test_answers_are_those_of_the_follower_in_units() -> None:
 
 
 def test_a_rotary_stroke_is_in_radians() -> None:
-    machine = machine_follower(period="60 ms", duration="0.2 s", stroke="20 deg")
+    machine = machine_follower(natural_period="60 ms", duration="0.2 s", stroke="20 deg")
     assert machine.unit == "rad"
     assert machine.stroke == pytest.approx(0.349065850)
 

@@ -108,10 +108,10 @@ def test_a_problem_without_a_law_says_why_and_how_far_to_go_back(page: Page, ser
 
 def test_a_link_is_a_study(page: Page, served: Server) -> None:
     laws = [at_velocity(1.859), {"name": "modified sine"}, {"name": "III(7.2)"}]
-    go(page, served.link(laws=laws, active=1, picture="residual", nu=15.5, damping=0.02))
+    go(page, served.link(laws=laws, active=1, picture="residual", frequency=15.5, damping=0.02))
     assert page.locator("#table tbody tr").count() == 3
     assert texts(page, 1) == told(served, laws[1])
-    left = served.ask("residual", {"laws": laws, "nu": 15.5, "damping": 0.02})["laws"]
+    left = served.ask("residual", {"laws": laws, "frequency": 15.5, "damping": 0.02})["laws"]
     words = ", ".join(f"{name} {one['text']}" for name, one in zip("ABC", left, strict=True))
     assert page.locator("#words").inner_text().endswith(words)
     assert page.get_by_label("Frequency nu of the follower, number").input_value() == "15.5"
@@ -128,7 +128,7 @@ def test_a_link_is_a_study(page: Page, served: Server) -> None:
     [
         "#law=%7B",
         "#law=3&active=9&picture=7",
-        "#view=%22nothing%22&nu=%22x%22",
+        "#view=%22nothing%22&frequency=%22x%22",
         "#%%%",
         "#law=%7B%22name%22%3A%22nobody%22%7D",
     ],

@@ -24,4 +24,4 @@ def reference(law: str) -> MotionLaw:
 @cache
 def cam(law: str, n_design: str) -> MotionLaw:
     """What is cut on the cam: for nu = 20 and n_design, or the law itself where there is none."""
-    return polydyne(reference(law), nu=20, damping=float(n_design) / 20) if n_design else reference(law)
+    return polydyne(reference(law), frequency=20, damping=float(n_design) / 20) if n_design else reference(law)

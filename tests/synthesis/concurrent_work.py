@@ -23,8 +23,8 @@ PROBLEMS = {
     "greatest": Problem(B=1.8, order=3, minimise="max(C/4, J/32)", basis=Chebyshev(9)),
     "pieces": Problem(B=1.8, order=2, basis=optlaws.Pieces(4)),
     "splines": Problem(B=1.8, order=3, basis=optlaws.BSplines(5)),
-    "residual": Problem(B=1.9, order=3, basis=Chebyshev(9), minimise="residual(nu=(8, 10))"),
-    "cam": Problem(B=1.9, order=5, basis=Chebyshev(9), minimise="C_cam(nu=20)"),
+    "residual": Problem(B=1.9, order=3, basis=Chebyshev(9), minimise="residual(frequency=(8, 10))"),
+    "cam": Problem(B=1.9, order=5, basis=Chebyshev(9), minimise="C_cam(frequency=20)"),
 }
 
 
@@ -47,7 +47,7 @@ def front() -> str:
 def mechanisms() -> str:
     law = smoothstep(4)
     loader = optlaws.Loader(law)
-    response = optlaws.Follower(nu=20.0, damping=0.05).response(law)
+    response = optlaws.Follower(frequency=20.0, damping=0.05).response(law)
     phasor = optlaws.residual_phasor(law, [9.5]).tolist()
     return f"{loader.to_dict()} {phasor} {response(0.5)!r} {response.residual_displacement!r}"
 

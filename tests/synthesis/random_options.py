@@ -191,7 +191,7 @@ def _named(name: str) -> Callable[[Numbers], Functional]:
 def _cam(name: str) -> Callable[[Numbers], Functional]:
     def made(numbers: Numbers) -> Functional:
         damping = round(float(numbers.choice([0.0, 0.05, 0.2, 0.6])), 3)
-        return cam_constant(name, nu=round(float(numbers.uniform(5.0, 40.0)), 2), damping=damping)
+        return cam_constant(name, frequency=round(float(numbers.uniform(5.0, 40.0)), 2), damping=damping)
 
     return made
 
@@ -202,7 +202,7 @@ def _residual(numbers: Numbers) -> Functional:
     damping = float(numbers.choice([0.0, 0.03, 0.1]))
     design = round(low * 1.1, 2) if numbers.random() < 0.3 else None
     design_damping = 0.02 if design is not None and numbers.random() < 0.5 else None
-    return residual_vibration(nu=nu, damping=damping, design=design, design_damping=design_damping)
+    return residual_vibration(frequency=nu, damping=damping, design=design, design_damping=design_damping)
 
 
 #: by the name that text calls them by, all constants there are

@@ -45,7 +45,7 @@ CASES = {
         -0.48,
     ),
     "amplitude that vanishes": (
-        Problem(order=5, basis=Chebyshev(7), minimise="residual(nu=27.8)", symmetric=False),
+        Problem(order=5, basis=Chebyshev(7), minimise="residual(frequency=27.8)", symmetric=False),
         0.0,
     ),
     "value that vanishes": (
@@ -73,7 +73,7 @@ CASES = {
         Problem(
             order=6,
             basis=SHORT,
-            minimise="max(1.16e-06*integral(30200*b^2 + 16000*c^2), 0.0708*C_plus_cam(nu=8.79, damping=0.2))",
+            minimise="max(1.16e-06*integral(30200*b^2 + 16000*c^2), 0.0708*C_plus_cam(frequency=8.79, damping=0.2))",
         ),
         None,
     ),
@@ -122,7 +122,7 @@ CASES = {
             order=5,
             basis=Pieces(10, 5, 4),
             minimise=1e5 * LIGHT.residual()
-            + maximum(0.22 * residual_vibration(nu=21.95, damping=0.1), rms("norm(c, b)") / 4.0),
+            + maximum(0.22 * residual_vibration(frequency=21.95, damping=0.1), rms("norm(c, b)") / 4.0),
             symmetric=False,
             inflexion=0.5,
         ),

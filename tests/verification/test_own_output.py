@@ -50,37 +50,39 @@ ONCE_REFUSED = {
 }
 
 OF_CAMS = {
-    "acceleration": Problem(order=4, minimise=cam_constant("C", nu=20), basis=Chebyshev(7)),
-    "damped": Problem(order=4, minimise=cam_constant("C", nu=20, damping=0.1), basis=Chebyshev(7)),
+    "acceleration": Problem(order=4, minimise=cam_constant("C", frequency=20), basis=Chebyshev(7)),
+    "damped": Problem(order=4, minimise=cam_constant("C", frequency=20, damping=0.1), basis=Chebyshev(7)),
     "one-sided": Problem(
-        order=4, minimise=cam_constant("C_plus", nu=15, damping=0.1), symmetric=False, basis=Chebyshev(6)
+        order=4, minimise=cam_constant("C_plus", frequency=15, damping=0.1), symmetric=False, basis=Chebyshev(6)
     ),
-    "pieces": Problem(order=4, minimise=cam_constant("C_minus", nu=20, damping=0.1), basis=Pieces(4, 6, 3)),
-    "sum": Problem(order=5, minimise="0.5*C + 0.1*J_cam(nu=12, damping=0.05)", basis=Chebyshev(7)),
-    "bounded": Problem(order=4, minimise="C", bounds={"C_cam(nu=10)": at_most(7.0)}, basis=Chebyshev(9)),
-    "velocity": Problem(order=4, minimise="C", bounds={"B_cam(nu=9)": at_most(1.7)}, basis=Chebyshev(9)),
-    "power": Problem(order=4, minimise=cam_constant("D", nu=20, damping=0.1), basis=Chebyshev(7)),
+    "pieces": Problem(order=4, minimise=cam_constant("C_minus", frequency=20, damping=0.1), basis=Pieces(4, 6, 3)),
+    "sum": Problem(order=5, minimise="0.5*C + 0.1*J_cam(frequency=12, damping=0.05)", basis=Chebyshev(7)),
+    "bounded": Problem(order=4, minimise="C", bounds={"C_cam(frequency=10)": at_most(7.0)}, basis=Chebyshev(9)),
+    "velocity": Problem(order=4, minimise="C", bounds={"B_cam(frequency=9)": at_most(1.7)}, basis=Chebyshev(9)),
+    "power": Problem(order=4, minimise=cam_constant("D", frequency=20, damping=0.1), basis=Chebyshev(7)),
     "power, not symmetric": Problem(
-        order=4, minimise=cam_constant("D", nu=20, damping=0.1), symmetric=False, basis=Chebyshev(4)
+        order=4, minimise=cam_constant("D", frequency=20, damping=0.1), symmetric=False, basis=Chebyshev(4)
     ),
-    "both powers": Problem(order=4, minimise="D + D_cam(nu=20)", basis=Chebyshev(7)),
+    "both powers": Problem(order=4, minimise="D + D_cam(frequency=20)", basis=Chebyshev(7)),
 }
 
 RESIDUALS = {
-    "one frequency": Problem(order=4, minimise="residual(nu=18) + 0.1*C", C=at_most(7), basis=Chebyshev(7)),
-    "nothing left": Problem(order=4, minimise="residual(nu=18)", C=at_most(7), basis=Chebyshev(7)),
+    "one frequency": Problem(order=4, minimise="residual(frequency=18) + 0.1*C", C=at_most(7), basis=Chebyshev(7)),
+    "nothing left": Problem(order=4, minimise="residual(frequency=18)", C=at_most(7), basis=Chebyshev(7)),
     "interval": Problem(
-        order=4, minimise="residual(nu=(9, 12), damping=0.03)", B=1.8, C=at_most(7), basis=Chebyshev(7)
+        order=4, minimise="residual(frequency=(9, 12), damping=0.03)", B=1.8, C=at_most(7), basis=Chebyshev(7)
     ),
-    "bounded": Problem(order=4, minimise="C", bounds={"residual(nu=(18, 22))": at_most(0.5)}, basis=Chebyshev(9)),
+    "bounded": Problem(
+        order=4, minimise="C", bounds={"residual(frequency=(18, 22))": at_most(0.5)}, basis=Chebyshev(9)
+    ),
     "with a design": Problem(
         order=4,
         minimise="C",
         symmetric=False,
-        bounds={"residual(nu=(18, 22), damping=0.02, design=20)": at_most(0.5)},
+        bounds={"residual(frequency=(18, 22), damping=0.02, design=20)": at_most(0.5)},
         basis=Pieces(4, 6, 3),
     ),
-    "symmetric pieces": Problem(order=4, minimise="0.2*C + residual(nu=(12, 14))", basis=Pieces(4, 6, 3)),
+    "symmetric pieces": Problem(order=4, minimise="0.2*C + residual(frequency=(12, 14))", basis=Pieces(4, 6, 3)),
 }
 
 

@@ -17,7 +17,7 @@ def compare(
     *laws: str,
     stroke: str | None = None,
     duration: Duration = None,
-    nu: list[float] | None = None,
+    frequency: list[float] | None = None,
     damping: float = 0.0,
     plot: Path | None = None,
     csv: Path | None = None,
@@ -34,8 +34,8 @@ def compare(
         Stroke of the machine with its unit, such as 35mm or 45deg; with --duration gives peaks in machine units.
     duration
         Duration of the motion with its unit, such as 0.1s.
-    nu
-        Frequency of an elastic follower, radians of its free vibration in the motion, or twice for an interval: the
+    frequency
+        Frequency nu of an elastic follower, radians of its free vibration in the motion, or twice for an interval: the
         greatest residual acceleration is told.
     damping
         Damping ratio of the follower.
@@ -47,10 +47,12 @@ def compare(
         Print one JSON object on stdout and nothing else.
     """
     check_files(csv, plot=plot)
-    if nu is not None and len(nu) > _INTERVAL:
-        raise InputError(f"--nu is given once for a frequency or twice for an interval, got {len(nu)} times")
-    frequency = None if nu is None else nu[0] if len(nu) == _ONE else (nu[0], nu[1])
-    comparison = optlaws.compare_laws(*laws, stroke=stroke, duration=duration, nu=frequency, damping=damping)
+    if frequency is not None and len(frequency) > _INTERVAL:
+        raise InputError(
+            f"--frequency is given once for a single one or twice for an interval, got {len(frequency)} times"
+        )
+    swept = None if frequency is None else frequency[0] if len(frequency) == _ONE else (frequency[0], frequency[1])
+    comparison = optlaws.compare_laws(*laws, stroke=stroke, duration=duration, frequency=swept, damping=damping)
     if csv is not None:
         _save(comparison, csv)
     if plot is not None:

@@ -19,22 +19,22 @@ _POINTS = 2001
 @Parameter(name="*")
 @dataclass(frozen=True, kw_only=True)
 class FollowerOptions:
-    """The follower, by its nu or by data of its machine.
+    """The follower, by its dimensionless frequency or by data of its machine.
 
     Parameters
     ----------
-    nu
-        Frequency of the follower: radians of its undamped free vibration in the rise.
+    frequency
+        Frequency nu of the follower: radians of its undamped free vibration in the rise.
     speed_rpm
-        In place of --nu: speed of the cam, revolutions per minute.
+        In place of --frequency: speed of the cam, revolutions per minute.
     rise_angle
         With --speed-rpm: angle of the cam during the rise, degrees.
     natural_period
         With --speed-rpm: period of the undamped free vibration, s.
-    frequency
-        In place of --nu: frequency of the undamped free vibration with its unit, such as "16.7 Hz".
+    natural_frequency
+        In place of --frequency: frequency of the undamped free vibration with its unit, such as "16.7 Hz".
     speed
-        With --frequency: speed of the cam with its unit, such as "105 rpm".
+        With --natural-frequency: speed of the cam with its unit, such as "105 rpm".
     rise
         With --speed: angle of the cam during the rise with its unit, such as "120 deg".
     duration
@@ -45,11 +45,11 @@ class FollowerOptions:
         Damping ratio of the follower.
     """
 
-    nu: float | None = None
+    frequency: float | None = None
     speed_rpm: float | None = None
     rise_angle: float | None = None
     natural_period: float | None = None
-    frequency: str | None = None
+    natural_frequency: str | None = None
     speed: str | None = None
     rise: str | None = None
     duration: Duration = None
@@ -59,7 +59,7 @@ class FollowerOptions:
     @property
     def quantities(self) -> dict[str, str | None]:
         """What is given with a unit, beside the stroke."""
-        return {name: getattr(self, name) for name in ("frequency", "speed", "rise", "duration")}
+        return {name: getattr(self, name) for name in ("natural_frequency", "speed", "rise", "duration")}
 
     @property
     def numbers(self) -> tuple[float | None, ...]:
@@ -76,7 +76,7 @@ def follower(
     *,
     alpha: float | None = None,
     options: FollowerOptions = _NO_FOLLOWER,
-    design_nu: float | None = None,
+    design_frequency: float | None = None,
     design_damping: float | None = None,
     spectrum: tuple[float, float] | None = None,
     plot: Path | None = None,
@@ -91,12 +91,12 @@ def follower(
         `optlaws solve --output`, or a CSV file with a table of points.
     alpha
         Member of the family, where the law is I, II, III or IV.
-    design_nu
-        Cut the cam so that the mass moves by the law at this nu; without it the law itself is cut.
+    design_frequency
+        Cut the cam so that the mass moves by the law at this frequency; without it the law itself is cut.
     design_damping
         Damping ratio for which the cam is cut; that of the follower unless given.
     spectrum
-        Range of nu for --plot.
+        Range of frequencies for --plot.
     plot
         Draw the response spectrum into this file, PNG or SVG.
     as_json
@@ -104,14 +104,14 @@ def follower(
     """
     check_files(plot=plot)
     if (plot is None) != (spectrum is None):
-        raise InputError("--spectrum LOW HIGH gives the range of nu for --plot FILE: name both or neither")
+        raise InputError("--spectrum LOW HIGH gives the range of frequencies for --plot FILE: name both or neither")
     mass, machine = _follower_and_machine(options)
     reference = read_law(law, alpha, by="--alpha")
-    if design_nu is None and design_damping is not None:
-        raise InputError("--design-damping needs --design-nu")
+    if design_frequency is None and design_damping is not None:
+        raise InputError("--design-damping needs --design-frequency")
     cam = reference
-    if design_nu is not None:
-        cam = optlaws.polydyne(reference, design_nu, mass.damping if design_damping is None else design_damping)
+    if design_frequency is not None:
+        cam = optlaws.polydyne(reference, design_frequency, mass.damping if design_damping is None else design_damping)
     response = mass.response(cam)
     if plot is not None and spectrum is not None:
         _draw(cam, reference, mass.damping, spectrum, plot)
@@ -128,9 +128,9 @@ def _follower_and_machine(options: FollowerOptions) -> tuple[optlaws.Follower, o
     """The follower, and the machine that it is of, where a stroke is given."""
     stroke, damping = options.stroke, options.damping
     if any(quantity is not None for quantity in options.quantities.values()):
-        if options.nu is not None or any(number is not None for number in options.numbers):
+        if options.frequency is not None or any(number is not None for number in options.numbers):
             raise InputError(
-                "--frequency, --speed, --rise and --duration are of a machine: give no --nu or numbers beside"
+                "--natural-frequency, --speed, --rise and --duration are of a machine: give no --frequency or numbers beside"
             )
         machine = optlaws.machine_follower(stroke=stroke or "1 m", damping=damping, **options.quantities)
         return machine.follower, machine if stroke else None
@@ -139,22 +139,24 @@ def _follower_and_machine(options: FollowerOptions) -> tuple[optlaws.Follower, o
     if stroke is None:
         return mass, None
     if rpm is None or angle is None:
-        raise InputError("--stroke needs the time of the rise: give --frequency with --speed and --rise, or --duration")
+        raise InputError(
+            "--stroke needs the time of the rise: give --natural-frequency with --speed and --rise, or --duration"
+        )
     return mass, optlaws.machine_follower(
-        stroke=stroke, period=f"{period!r} s", speed=f"{rpm!r} rpm", rise=f"{angle!r} deg", damping=damping
+        stroke=stroke, natural_period=f"{period!r} s", speed=f"{rpm!r} rpm", rise=f"{angle!r} deg", damping=damping
     )
 
 
 def _follower(options: FollowerOptions) -> optlaws.Follower:
-    nu, damping = options.nu, options.damping
+    frequency, damping = options.frequency, options.damping
     rpm, angle, period = options.numbers
-    if nu is not None and rpm is None and angle is None and period is None:
-        return optlaws.Follower(nu, damping)
-    if nu is None and rpm is not None and angle is not None and period is not None:
+    if frequency is not None and rpm is None and angle is None and period is None:
+        return optlaws.Follower(frequency, damping)
+    if frequency is None and rpm is not None and angle is not None and period is not None:
         return optlaws.Follower.from_speed(speed_rpm=rpm, rise_angle_deg=angle, natural_period=period, damping=damping)
     raise InputError(
-        "give either --nu or all of --speed-rpm, --rise-angle and --natural-period, or, with units, --frequency with "
-        "--duration or with --speed and --rise"
+        "give either --frequency or all of --speed-rpm, --rise-angle and --natural-period, or, with units, "
+        "--natural-frequency with --duration or with --speed and --rise"
     )
 
 
@@ -162,7 +164,7 @@ def _summary(
     mass: optlaws.Follower, cam: optlaws.MotionLaw, reference: optlaws.MotionLaw, response: optlaws.Response
 ) -> dict[str, Any]:
     return {
-        "nu": mass.nu,
+        "frequency": mass.frequency,
         "damping": mass.damping,
         "dynamic_factor": response.dynamic_factor(reference),
         "peak_acceleration": response.peak(2).to_dict(),
@@ -172,7 +174,7 @@ def _summary(
         "off_design": [
             {
                 "percent": deviation.percent,
-                "nu": deviation.response.nu,
+                "frequency": deviation.response.frequency,
                 "dynamic_factor": deviation.dynamic_factor,
                 "residual_acceleration": deviation.response.residual_acceleration,
             }
@@ -184,7 +186,7 @@ def _summary(
 
 def _show(summary: dict[str, Any]) -> None:
     facts = table()
-    facts.add_row("follower", f"nu {summary['nu']:.8g}, damping ratio {summary['damping']:g}")
+    facts.add_row("follower", f"frequency {summary['frequency']:.8g}, damping ratio {summary['damping']:g}")
     facts.add_row("dynamic factor", f"{summary['dynamic_factor']:.8g}")
     for key, text in (("peak_acceleration", "in the rise"), ("dwell_acceleration", "in the dwell")):
         peak = summary[key]
@@ -193,9 +195,9 @@ def _show(summary: dict[str, Any]) -> None:
     facts.add_row("residual displacement", f"{summary['residual_displacement']:.8g}")
     cam = summary["cam"]["constants"]
     facts.add_row("cam", ", ".join(f"{name} {_number(cam[name]['value'])}" for name in "BCDJ"))
-    off = table("nu off by", "nu", "dynamic factor", "residual acceleration")
+    off = table("frequency off by", "frequency", "dynamic factor", "residual acceleration")
     for deviation in summary["off_design"]:
-        cells = (f"{deviation[key]:.6g}" for key in ("nu", "dynamic_factor", "residual_acceleration"))
+        cells = (f"{deviation[key]:.6g}" for key in ("frequency", "dynamic_factor", "residual_acceleration"))
         off.add_row(f"{deviation['percent']:+g} %" if deviation["percent"] else "0 %", *cells)
     for name, value in summary.get("machine", {}).items():
         if name != "dynamic factor":
@@ -217,7 +219,9 @@ def _draw(
     from optlaws.plots.style import BLUES, WARM, empty_figure, plot_style, rendered
 
     if not 0.0 < span[0] < span[1]:
-        raise InputError(f"--spectrum takes a range of nu, two rising numbers above 0, got {span[0]:g} {span[1]:g}")
+        raise InputError(
+            f"--spectrum takes a range of frequencies, two rising numbers above 0, got {span[0]:g} {span[1]:g}"
+        )
     spectrum = optlaws.response_spectrum(cam, np.linspace(*span, _POINTS), damping)
     C = reference.constants.C.value
     with plot_style():

@@ -32,7 +32,7 @@ def front(
     Parameters
     ----------
     over
-        Two or three constants, separated by commas, such as "residual(nu=20),C"; the last is minimised at given values
+        Two or three constants, separated by commas, such as "residual(frequency=20),C"; the last is minimised at given values
         of the others.
     points
         How many laws.

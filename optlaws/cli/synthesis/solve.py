@@ -72,9 +72,10 @@ def _remarks(solution: optlaws.Solution) -> list[str]:
     from optlaws.cycles.law_comparison import costs
 
     usual = optlaws.catalogue[_USUAL].law
-    prices = costs(solution.law, usual, _USUAL, nu=_FREQUENCIES)
+    prices = costs(solution.law, usual, _USUAL, frequency=_FREQUENCIES)
     low, high = _FREQUENCIES
     return [
-        f"note: the least C alone has {text}" + (f" (worst of nu {low:g} to {high:g})" if "residual" in text else "")
+        f"note: the least C alone has {text}"
+        + (f" (worst of frequencies {low:g} to {high:g})" if "residual" in text else "")
         for text in prices
     ] + (["bound what matters, for example by --most-jerk"] if prices else [])

@@ -66,7 +66,7 @@ export class Laws {
     this.#controls.show(state.laws[state.active]);
     this.#follower(state);
     this.#askLaws(state);
-    if (isResidual) this.#residuals.ask({ laws: state.laws, nu: state.nu, damping: state.damping });
+    if (isResidual) this.#residuals.ask({ laws: state.laws, frequency: state.frequency, damping: state.damping });
     else this.#askFront(state);
   }
 
@@ -153,15 +153,15 @@ export class Laws {
 
   #followerFields() {
     const field = (name, title, key, high, step) => slider({
-      name, title, low: key === "nu" ? 2 : 0, high, step,
+      name, title, low: key === "frequency" ? 2 : 0, high, step,
       changed: (value) => this.#study.change(key, (state) => (state[key] = value)),
       rested: () => this.#study.rest(),
     });
-    const nu = field("frequency ν", "Frequency nu of the follower", "nu", 80, 0.5);
+    const frequency = field("frequency ν", "Frequency nu of the follower", "frequency", 80, 0.5);
     const damping = field("damping ζ", "Damping ratio of the follower", "damping", 0.3, 0.005);
-    element("follower").append(nu.element, damping.element);
+    element("follower").append(frequency.element, damping.element);
     return (state) => {
-      nu.set(state.nu);
+      frequency.set(state.frequency);
       damping.set(state.damping);
     };
   }

@@ -10,7 +10,7 @@ export const FIRST = {
   active: 0,
   picture: "B-C",
   axis: 0,
-  nu: 20,
+  frequency: 20,
   damping: 0,
 };
 
@@ -44,7 +44,7 @@ export function read(fragment) {
     if (name !== "law" && value !== undefined && value !== null) state[name] = value;
   }
   if (!Number.isInteger(state.active) || state.active < 0 || state.active >= state.laws.length) state.active = 0;
-  for (const name of ["nu", "damping", "axis"]) if (typeof state[name] !== "number") state[name] = FIRST[name];
+  for (const name of ["frequency", "damping", "axis"]) if (typeof state[name] !== "number") state[name] = FIRST[name];
   for (const name of ["view", "picture"]) if (typeof state[name] !== "string") state[name] = FIRST[name];
   for (const name of ["cycle", "cam", "machine"]) if (typeof state[name] !== "object") delete state[name];
   return state;

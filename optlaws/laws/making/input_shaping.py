@@ -13,7 +13,7 @@ from optlaws.errors import InputError
 from optlaws.laws.law import MotionLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
-from optlaws.numbers import Array, frequency, not_negative
+from optlaws.numbers import Array, circular_frequency, not_negative
 from optlaws.numerics import chebyshev
 from optlaws.tolerances import AGREEMENT
 
@@ -22,7 +22,7 @@ Shaper = Literal["ZV", "ZVD"]
 _LEAST_TIME = 0.05
 
 
-def shaped_law(law: MotionLaw, nu: float, damping: float = 0.0, shaper: Shaper = "ZV") -> PiecewiseLaw:
+def shaped_law(law: MotionLaw, frequency: float, damping: float = 0.0, shaper: Shaper = "ZV") -> PiecewiseLaw:
     """A law shaped for one vibration, in the same total time: repeated half a period later, and itself as much faster.
 
     Zero vibration (ZV) has two repetitions and leaves nothing of that vibration; zero vibration and derivative (ZVD)
@@ -32,8 +32,8 @@ def shaped_law(law: MotionLaw, nu: float, damping: float = 0.0, shaper: Shaper =
     ----------
     law
         A law from rest to rest, or an entry of the catalogue or a solution, which stand for theirs.
-    nu
-        Undamped circular frequency, radians in the total time.
+    frequency
+        Undamped circular frequency nu, radians in the total time.
     damping
         Ratio zeta, below 1.
     shaper
@@ -55,12 +55,12 @@ def shaped_law(law: MotionLaw, nu: float, damping: float = 0.0, shaper: Shaper =
     law = getattr(law, "law", law)
     if not isinstance(law, MotionLaw):
         raise InputError(f"law must be a motion law such as smoothstep(4), got {shortened(law)}")
-    impulses = _impulses(frequency(nu), not_negative(damping, "damping"), shaper)
+    impulses = _impulses(circular_frequency(frequency), not_negative(damping, "damping"), shaper)
     duration = 1.0 - impulses[-1][0]
     if duration < _LEAST_TIME:
         periods = "half a period" if len(impulses) == 2 else "a period"
         raise InputError(
-            f"{shaper} takes {periods} of the vibration, {impulses[-1][0]:.3g} of the total time at nu = {nu:g}, and "
+            f"{shaper} takes {periods} of the vibration, {impulses[-1][0]:.3g} of the total time at the frequency {frequency:g}, and "
             "leaves no time for the law; a slower motion or a stiffer machine has room for it"
         )
     inner = np.array(law.breaks if isinstance(law, PiecewiseLaw) else (0.0, 1.0))
@@ -71,14 +71,14 @@ def shaped_law(law: MotionLaw, nu: float, damping: float = 0.0, shaper: Shaper =
     return PiecewiseLaw(breaks, segments, float(law.a(0.0)))
 
 
-def _impulses(nu: float, damping: float, shaper: object) -> list[tuple[float, float]]:
+def _impulses(frequency: float, damping: float, shaper: object) -> list[tuple[float, float]]:
     """Times and shares of the repetitions."""
     if damping >= 1.0:
         raise InputError(f"damping must be below 1, got {damping:g}: from the critical damping on nothing vibrates")
     if shaper not in {"ZV", "ZVD"}:
         raise InputError(f'shaper must be "ZV" or "ZVD", got {shortened(shaper)}')
     root = sqrt(1.0 - damping * damping)
-    half, left = pi / (nu * root), exp(-damping * pi / root)
+    half, left = pi / (frequency * root), exp(-damping * pi / root)
     if shaper == "ZV":
         return [(0.0, 1.0 / (1.0 + left)), (half, left / (1.0 + left))]
     total = (1.0 + left) ** 2

@@ -70,15 +70,15 @@ class CamPower(CombinedPower):
         return ((1, gain(self.frequency, self.damping)),)
 
 
-def cam_constant(name: str, *, nu: float, damping: float = 0.0) -> Functional:
+def cam_constant(name: str, *, frequency: float, damping: float = 0.0) -> Functional:
     """A constant of the cam law that makes an elastic follower's mass move by the law that is sought.
 
     Parameters
     ----------
     name
         "B", "C", "C_plus", "C_minus", "D" or "J": which constant of the cam.
-    nu
-        Frequency at which the cam is to run.
+    frequency
+        Frequency nu at which the cam is to run.
     damping
         Ratio zeta = n/nu.
 
@@ -90,14 +90,14 @@ def cam_constant(name: str, *, nu: float, damping: float = 0.0) -> Functional:
     Examples
     --------
     >>> from optlaws.laws.savin import savin
-    >>> C_cam = cam_constant("C", nu=20, damping=0.05)
+    >>> C_cam = cam_constant("C", frequency=20, damping=0.05)
     >>> C_cam, round(C_cam.value(savin("III", 7.2)), 6)
-    (C_cam(nu=20.0, damping=0.05), 5.755781)
+    (C_cam(frequency=20.0, damping=0.05), 5.755781)
     """
     if name not in _BASES:
         raise InputError(unknown_key(name, _BASES, "constant of the cam"))
-    frequency, ratio = positive(nu, "nu"), not_negative(damping, "damping")
-    written = f"{name}_cam(nu={frequency!r}{f', damping={ratio!r}' if ratio else ''})"
+    frequency, ratio = positive(frequency, "frequency"), not_negative(damping, "damping")
+    written = f"{name}_cam(frequency={frequency!r}{f', damping={ratio!r}' if ratio else ''})"
     weights = (Fraction(1), *cam_factors(frequency, ratio))
     known = FUNCTIONALS[name]
     if name == "D":
@@ -114,11 +114,11 @@ def cam_constant(name: str, *, nu: float, damping: float = 0.0) -> Functional:
     )
 
 
-def cam_law(law: MotionLaw, nu: float, damping: float) -> MotionLaw:
+def cam_law(law: MotionLaw, frequency: float, damping: float) -> MotionLaw:
     """The law of `polydyne`, computed quickly and without checks for a polynomial, whose ends the problem checks."""
     if not isinstance(law, PolynomialLaw):
-        return polydyne(law, nu, damping)
-    once, twice = map(float, cam_factors(nu, damping))
+        return polydyne(law, frequency, damping)
+    once, twice = map(float, cam_factors(frequency, damping))
     series = np.array(law.acceleration or (0.0,))
     slope = chebyshev.derivative(series)
     series[: len(slope)] += once * slope
@@ -127,7 +127,7 @@ def cam_law(law: MotionLaw, nu: float, damping: float) -> MotionLaw:
     return PolynomialLaw(series, a0=law.a0, b0=law.b0)
 
 
-def gain(nu: float, damping: float) -> float:
+def gain(frequency: float, damping: float) -> float:
     """The greatest mean of |c| of the mass, in units of the mean of |c| of its cam.
 
     It is nu² times the integral over the rise of the magnitude of the response to an impulse, which is at most k,
@@ -136,8 +136,8 @@ def gain(nu: float, damping: float) -> float:
     >>> gain(20.0, 0.0), gain(0.5, 0.0), gain(20.0, 1.0)
     (20.0, 0.125, 1.0)
     """
-    greatest = 0.5 * nu**2
-    return min(greatest, nu / sqrt(1.0 - damping**2) if damping < 1.0 else 1.0)
+    greatest = 0.5 * frequency**2
+    return min(greatest, frequency / sqrt(1.0 - damping**2) if damping < 1.0 else 1.0)
 
 
 def check_order(name: str, space: LawSpace, order: int) -> None:
@@ -163,8 +163,8 @@ def check_order(name: str, space: LawSpace, order: int) -> None:
 
 
 def _maker(name: str) -> Any:  # noqa: ANN401 - a callable with two numbers by name
-    def make(*, nu: float, damping: float = 0.0) -> Functional:
-        return cam_constant(name, nu=nu, damping=damping)
+    def make(*, frequency: float, damping: float = 0.0) -> Functional:
+        return cam_constant(name, frequency=frequency, damping=damping)
 
     return make
 

@@ -151,7 +151,7 @@ class MassChain:
 
         if order < 2 or stretch.closed:
             return stretch.cam(s, order) + off(order)
-        twice, square = 2.0 * self.oscillator.n, self.oscillator.nu**2
+        twice, square = 2.0 * self.oscillator.n, self.oscillator.frequency**2
         value = stretch.cam(s, 1) + off(1)
         for m in range(order - 1):
             value = -twice * value - square * off(m)

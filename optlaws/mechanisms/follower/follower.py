@@ -12,7 +12,7 @@ from optlaws.errors import InputError
 from optlaws.laws import MotionLaw, Peak
 from optlaws.laws.law import motion_law
 from optlaws.mechanisms.follower.response import CycleResponse, Response
-from optlaws.numbers import frequency, not_negative, numbers, positive
+from optlaws.numbers import circular_frequency, not_negative, numbers, positive
 
 _SHOWN = 240
 
@@ -26,8 +26,8 @@ class Follower:
 
     Parameters
     ----------
-    nu
-        Dimensionless circular frequency, above 0.
+    frequency
+        Dimensionless circular frequency nu, above 0.
     damping
         Ratio zeta = n/nu of the damping to the critical one, at least 0; 1 and more are allowed. The damper is between
         mass and ground, not between mass and cam, as that of a `Machine.from_modes` is.
@@ -40,18 +40,18 @@ class Follower:
     Examples
     --------
     >>> from optlaws.laws import smoothstep
-    >>> response = Follower(nu=20, damping=0.05).response(smoothstep(4))
+    >>> response = Follower(frequency=20, damping=0.05).response(smoothstep(4))
     >>> response
-    Response(nu=20, damping=0.05, peak acceleration=10.254, residual acceleration=1.65015)
+    Response(frequency=20, damping=0.05, peak acceleration=10.254, residual acceleration=1.65015)
     >>> response(0.5), response.residual_displacement
     (0.489570, 0.004125)
     """
 
-    nu: float
+    frequency: float
     damping: float = 0.0
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "nu", frequency(self.nu))
+        object.__setattr__(self, "frequency", circular_frequency(self.frequency))
         object.__setattr__(self, "damping", not_negative(self.damping, "damping"))
 
     @property
@@ -60,10 +60,10 @@ class Follower:
 
         Examples
         --------
-        >>> Follower(nu=20, damping=0.05).n
+        >>> Follower(frequency=20, damping=0.05).n
         1.0
         """
-        return self.damping * self.nu
+        return self.damping * self.frequency
 
     @classmethod
     def from_units(cls, *, mass: float, stiffness: float, duration: float, damping: float = 0.0) -> Follower:
@@ -83,7 +83,7 @@ class Follower:
         Examples
         --------
         >>> Follower.from_units(mass=2.0, stiffness=80e3, duration=0.1, damping=40.0)
-        Follower(nu=20.0, damping=0.05)
+        Follower(frequency=20.0, damping=0.05)
         """
         m, kappa = positive(mass, "mass"), positive(stiffness, "stiffness")
         h = not_negative(damping, "damping")
@@ -109,7 +109,7 @@ class Follower:
         Examples
         --------
         >>> Follower.from_speed(speed_rpm=105, rise_angle_deg=120, natural_period=0.06, damping=0.05)
-        Follower(nu=19.9466, damping=0.05)
+        Follower(frequency=19.9466, damping=0.05)
         """
         turn = positive(speed_rpm, "speed_rpm") * positive(natural_period, "natural_period")
         return cls(pi / 3.0 * positive(rise_angle_deg, "rise_angle_deg") / turn, damping)
@@ -119,17 +119,17 @@ class Follower:
 
         Examples
         --------
-        >>> Follower(nu=20).speed_rpm(rise_angle_deg=120, natural_period=0.06)
+        >>> Follower(frequency=20).speed_rpm(rise_angle_deg=120, natural_period=0.06)
         104.72
         """
         angle, period = positive(rise_angle_deg, "rise_angle_deg"), positive(natural_period, "natural_period")
-        return pi / 3.0 * angle / (self.nu * period)
+        return pi / 3.0 * angle / (self.frequency * period)
 
     def _repr_html_(self) -> str:
         from optlaws.shown.showing import drawing, facts, page
 
-        nu, zeta = self.nu, self.damping
-        known = {"nu": nu, "damping ratio": zeta, "n": self.n, "free vibrations in the rise": nu / tau}
+        nu, zeta = self.frequency, self.damping
+        known = {"frequency": nu, "damping ratio": zeta, "n": self.n, "free vibrations in the rise": nu / tau}
         k = [i / _SHOWN for i in range(_SHOWN + 1)]
         decay = [exp(-self.n * place) * cos(nu * sqrt(max(0.0, 1.0 - zeta**2)) * place) for place in k]
         return page("Follower", facts(known), drawing("free vibration", k, decay))
@@ -147,12 +147,12 @@ class Follower:
         Examples
         --------
         >>> from optlaws.laws import smoothstep
-        >>> Follower(nu=20).response(smoothstep(4), initial=(0.01, 0.0))(0.0)
+        >>> Follower(frequency=20).response(smoothstep(4), initial=(0.01, 0.0))(0.0)
         0.01
         """
         cam = motion_law(law)
         at_start = (float(cam.a(0.0)), 0.0) if initial is None else _state(initial)
-        return Response(self.nu, self.damping, cam, at_start)
+        return Response(self.frequency, self.damping, cam, at_start)
 
     def cycle(
         self, rise: MotionLaw, fall: MotionLaw | None = None, *, dwell: float, fall_duration: float = 1.0, rest: float
@@ -179,12 +179,12 @@ class Follower:
         Examples
         --------
         >>> from optlaws.laws import smoothstep
-        >>> steady = Follower(nu=20, damping=0.05).cycle(smoothstep(4), dwell=0.5, rest=1.0)
+        >>> steady = Follower(frequency=20, damping=0.05).cycle(smoothstep(4), dwell=0.5, rest=1.0)
         >>> steady.period, round(steady(0.0) - steady(3.5), 12)
         (3.5, 0.0)
         """
         return CycleResponse(
-            self.nu,
+            self.frequency,
             self.damping,
             motion_law(rise, "rise"),
             motion_law(rise if fall is None else fall, "fall"),
@@ -223,7 +223,7 @@ class Deviation:
     Examples
     --------
     >>> from optlaws.laws.savin import savin
-    >>> worst = off_design(savin("III", 7.2), savin("III", 7.2), Follower(nu=20))[0]
+    >>> worst = off_design(savin("III", 7.2), savin("III", 7.2), Follower(frequency=20))[0]
     >>> worst.percent, worst.dynamic_factor
     (-10.0, 2.035976)
     """
@@ -279,7 +279,10 @@ def off_design(
     >>> from optlaws.laws.savin import savin
     >>> from optlaws.mechanisms import polydyne
     >>> law = savin("IV", 11.0)
-    >>> [round(deviation.dynamic_factor, 6) for deviation in off_design(polydyne(law, nu=20), law, Follower(nu=20))]
+    >>> [
+    ...     round(deviation.dynamic_factor, 6)
+    ...     for deviation in off_design(polydyne(law, frequency=20), law, Follower(frequency=20))
+    ... ]
     [1.185564, 1.102502, 1.0, 0.963659, 0.945973]
     """
     meant = motion_law(reference, "reference")
@@ -292,5 +295,5 @@ def off_design(
     for percent in percents:
         factor = 1.0 + percent / 100.0
         ratio = design.damping if change == "speed" else design.damping / factor
-        compared.append(Deviation(percent, Follower(design.nu * factor, ratio).response(cam), meant))
+        compared.append(Deviation(percent, Follower(design.frequency * factor, ratio).response(cam), meant))
     return tuple(compared)

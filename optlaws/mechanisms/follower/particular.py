@@ -87,7 +87,7 @@ def closed_form(load: Array, oscillator: Oscillator, length: float) -> Polynomia
     size = len(load)
     u, v, w = np.zeros(size + 2), np.zeros(size + 2), np.zeros(size + 2)
     steps = 4.0 / length * np.arange(size + 2)
-    twice, square = 2.0 * oscillator.n, oscillator.nu**2
+    twice, square = 2.0 * oscillator.n, oscillator.frequency**2
     most = GROWTH * float(np.abs(load).sum())
     sum_of_u = 0.0
     for i in range(size - 1, -1, -1):
@@ -109,7 +109,7 @@ def _load(acceleration: Array, velocity: Array, oscillator: Oscillator) -> Array
 
 
 def _closed(forcing: Forcing, oscillator: Oscillator) -> Particular | None:
-    n, square = oscillator.n, oscillator.nu**2
+    n, square = oscillator.n, oscillator.frequency**2
     waves: list[tuple[complex, float]] = []
     b0 = forcing.b0
     for sine in forcing.sines:
@@ -140,7 +140,7 @@ def _solved(forcing: Forcing, oscillator: Oscillator) -> list[ForcedStretch]:
     load = np.zeros((size, count))
     load[:terms] = chebyshev.from_values(values)
     integral = length * _integration(size)
-    matrix = np.eye(size) + 2.0 * oscillator.n * integral + oscillator.nu**2 * (integral @ integral)
+    matrix = np.eye(size) + 2.0 * oscillator.n * integral + oscillator.frequency**2 * (integral @ integral)
     coefficients: Array = np.asarray(np.linalg.solve(matrix, -load), dtype=np.float64)
     solved = []
     for i in range(count):

@@ -17,7 +17,7 @@ from optlaws.numerics import chebyshev
 from optlaws.tolerances import JUMP
 
 
-def polydyne(law: MotionLaw, nu: float, damping: float = 0.0) -> MotionLaw:
+def polydyne(law: MotionLaw, frequency: float, damping: float = 0.0) -> MotionLaw:
     """The cam law whose follower's mass, at rest at first, moves exactly by `law`: a + 2 n b/nu² + c/nu² (1.27).
 
     A polynomial gives a polynomial, by exact arithmetic. A piecewise law gives a piecewise law: polynomials, sines
@@ -27,8 +27,8 @@ def polydyne(law: MotionLaw, nu: float, damping: float = 0.0) -> MotionLaw:
     ----------
     law
         Motion meant for the mass, from rest to rest: b, c and j zero at both ends, j continuous in between.
-    nu
-        Frequency at which the cam is to run.
+    frequency
+        Frequency nu at which the cam is to run.
     damping
         Ratio zeta = n/nu.
 
@@ -42,16 +42,16 @@ def polydyne(law: MotionLaw, nu: float, damping: float = 0.0) -> MotionLaw:
     >>> from optlaws.laws.savin import savin
     >>> from optlaws.mechanisms import Follower
     >>> law = savin("III", 7.2)
-    >>> cam = polydyne(law, nu=20, damping=0.05)
+    >>> cam = polydyne(law, frequency=20, damping=0.05)
     >>> cam.c(0.0), cam.constants.C
     (4.62, Peak(value=5.755781, k=0.772243))
-    >>> Follower(nu=20, damping=0.05).response(cam).dynamic_factor(reference=law)
+    >>> Follower(frequency=20, damping=0.05).response(cam).dynamic_factor(reference=law)
     1.000000
-    >>> polydyne(savin("II", 7.0), nu=20)
+    >>> polydyne(savin("II", 7.0), frequency=20)
     Traceback (most recent call last):
     optlaws.errors.InputError: the mass law has jerk j(0) = 120, so the velocity of the cam would jump there; ...
     """
-    frequency, ratio = positive(nu, "nu"), not_negative(damping, "damping")
+    frequency, ratio = positive(frequency, "frequency"), not_negative(damping, "damping")
     law = motion_law(law)
     check_mass_law(law)
     if isinstance(law, PolynomialLaw):
@@ -72,7 +72,7 @@ def polydyne(law: MotionLaw, nu: float, damping: float = 0.0) -> MotionLaw:
     return PolynomialLaw(chebyshev.interpolated(c, "acceleration of the cam"), float(law.a(0.0)))
 
 
-def mass_law(cam: MotionLaw, nu: float, damping: float = 0.0) -> PolynomialLaw:
+def mass_law(cam: MotionLaw, frequency: float, damping: float = 0.0) -> PolynomialLaw:
     """The polynomial by which the mass moves under a polynomial cam if it starts on it without vibration (1.25).
 
     It is the particular solution Pk; the mass, at rest at first, follows it where Pk and its velocity start from
@@ -83,8 +83,8 @@ def mass_law(cam: MotionLaw, nu: float, damping: float = 0.0) -> PolynomialLaw:
     ----------
     cam
         Law of the cam.
-    nu
-        Frequency of the follower.
+    frequency
+        Frequency nu of the follower.
     damping
         Ratio zeta = n/nu.
 
@@ -96,42 +96,42 @@ def mass_law(cam: MotionLaw, nu: float, damping: float = 0.0) -> PolynomialLaw:
     Examples
     --------
     >>> from optlaws.laws import smoothstep
-    >>> back = mass_law(polydyne(smoothstep(4), nu=20), nu=20)
+    >>> back = mass_law(polydyne(smoothstep(4), frequency=20), frequency=20)
     >>> [round(value, 9) for value in back.to_powers()]
     [0.0, 0.0, 0.0, 0.0, 35.0, -84.0, 70.0, -20.0]
     """
     moves = motion_law(cam, "cam")
     if not isinstance(moves, PolynomialLaw):
         raise InputError(
-            f"cam must be a PolynomialLaw; Follower(nu, damping).response(cam) takes any law, got {shortened(cam)}"
+            f"cam must be a PolynomialLaw; Follower(frequency, damping).response(cam) takes any law, got {shortened(cam)}"
         )
-    frequency, ratio = positive(nu, "nu"), not_negative(damping, "damping")
+    frequency, ratio = positive(frequency, "frequency"), not_negative(damping, "damping")
     return PolynomialLaw.from_powers(mass_powers(moves.exact_powers(), frequency, ratio))
 
 
-def cam_powers(mass: tuple[Fraction, ...], nu: float, damping: float) -> list[Fraction]:
+def cam_powers(mass: tuple[Fraction, ...], frequency: float, damping: float) -> list[Fraction]:
     """Coefficients q of the cam from Q of the mass, in ascending powers of k, exactly (1.27).
 
     >>> cam_powers((Fraction(0), Fraction(0), Fraction(1)), 2.0, 0.5)
     [Fraction(1, 2), Fraction(1, 1), Fraction(1, 1)]
     """
-    once, twice = cam_factors(nu, damping)
+    once, twice = cam_factors(frequency, damping)
     Q = [*mass, Fraction(0), Fraction(0)]
     return [Q[i] + (i + 1) * (once * Q[i + 1] + (i + 2) * twice * Q[i + 2]) for i in range(len(mass))]
 
 
-def mass_powers(cam: tuple[Fraction, ...], nu: float, damping: float) -> list[Fraction]:
+def mass_powers(cam: tuple[Fraction, ...], frequency: float, damping: float) -> list[Fraction]:
     """Coefficients Q of the mass's particular solution from q of the cam, exactly (1.25)."""
-    once, twice = cam_factors(nu, damping)
+    once, twice = cam_factors(frequency, damping)
     Q = [*cam, Fraction(0), Fraction(0)]
     for i in range(len(cam) - 1, -1, -1):
         Q[i] -= (i + 1) * (once * Q[i + 1] + (i + 2) * twice * Q[i + 2])
     return Q[: len(cam)]
 
 
-def cam_factors(nu: float, damping: float) -> tuple[Fraction, Fraction]:
+def cam_factors(frequency: float, damping: float) -> tuple[Fraction, Fraction]:
     """Factors 2 n/nu² of b and 1/nu² of c in (1.27), exactly."""
-    exact = Fraction(nu)
+    exact = Fraction(frequency)
     return 2 * Fraction(damping) / exact, 1 / exact**2
 
 

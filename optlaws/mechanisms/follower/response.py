@@ -29,7 +29,7 @@ class MassMotion(Curve):
     --------
     >>> from optlaws.laws import smoothstep
     >>> from optlaws.mechanisms import Follower
-    >>> motion = Follower(nu=20, damping=0.05).cycle(smoothstep(4), dwell=0.5, rest=1.0)
+    >>> motion = Follower(frequency=20, damping=0.05).cycle(smoothstep(4), dwell=0.5, rest=1.0)
     >>> isinstance(motion, MassMotion), motion.interval
     (True, (0.0, 3.5))
     """
@@ -74,7 +74,7 @@ class Response(MassMotion):
 
     Parameters
     ----------
-    nu, damping
+    frequency, damping
         The follower's frequency and damping ratio.
     law
         Motion of the cam.
@@ -85,12 +85,12 @@ class Response(MassMotion):
     --------
     >>> from optlaws.laws.savin import savin
     >>> from optlaws.mechanisms import Follower
-    >>> response = Follower(nu=18).response(savin("III", 7.2))
+    >>> response = Follower(frequency=18).response(savin("III", 7.2))
     >>> response.dynamic_factor(), response.residual_acceleration
     (2.035976, 7.204401)
     """
 
-    nu: float
+    frequency: float
     damping: float
     law: MotionLaw
     initial: tuple[float, float]
@@ -114,7 +114,7 @@ class Response(MassMotion):
         --------
         >>> from optlaws.laws import smoothstep
         >>> from optlaws.mechanisms import Follower
-        >>> Follower(nu=200).response(smoothstep(4)).dynamic_factor()
+        >>> Follower(frequency=200).response(smoothstep(4)).dynamic_factor()
         1.003417
         """
         law = self.law if reference is None else motion_law(reference, "reference")
@@ -137,7 +137,7 @@ class Response(MassMotion):
     @property
     def residual_acceleration(self) -> float:
         """nu² times the residual displacement: without damping, the amplitude of a_m'' in the dwell."""
-        return self.nu**2 * self.residual_displacement
+        return self.frequency**2 * self.residual_displacement
 
     @property
     def final(self) -> tuple[float, float]:
@@ -151,7 +151,7 @@ class Response(MassMotion):
         --------
         >>> from optlaws.laws import smoothstep
         >>> from optlaws.mechanisms import Follower
-        >>> Follower(nu=20, damping=0.05).response(smoothstep(4)).dwell_peak(2)
+        >>> Follower(frequency=20, damping=0.05).response(smoothstep(4)).dwell_peak(2)
         Peak(value=1.620669, k=1.016776)
         """
         peak = self._oscillator.peak(*self._off, derivative(nu))
@@ -159,13 +159,13 @@ class Response(MassMotion):
 
     def __repr__(self) -> str:
         return (
-            f"Response(nu={self.nu:g}, damping={self.damping:g}, peak acceleration={self.peak(2).value:g}, "
+            f"Response(frequency={self.frequency:g}, damping={self.damping:g}, peak acceleration={self.peak(2).value:g}, "
             f"residual acceleration={self.residual_acceleration:g})"
         )
 
     @property
     def _oscillator(self) -> Oscillator:
-        return Oscillator(self.nu, self.damping)
+        return Oscillator(self.frequency, self.damping)
 
     @kept_property
     def _motion(self) -> MassChain:
@@ -203,7 +203,7 @@ class CycleResponse(MassMotion):
 
     Parameters
     ----------
-    nu, damping
+    frequency, damping
         The follower's frequency and damping ratio.
     rise, fall
         Laws of the rise and of the return.
@@ -214,11 +214,11 @@ class CycleResponse(MassMotion):
     --------
     >>> from optlaws.laws import smoothstep
     >>> from optlaws.mechanisms import Follower
-    >>> Follower(nu=20, damping=0.05).cycle(smoothstep(4), dwell=0.5, rest=1.0)
-    CycleResponse(nu=20, damping=0.05, period=3.5, peak acceleration=11.018)
+    >>> Follower(frequency=20, damping=0.05).cycle(smoothstep(4), dwell=0.5, rest=1.0)
+    CycleResponse(frequency=20, damping=0.05, period=3.5, peak acceleration=11.018)
     """
 
-    nu: float
+    frequency: float
     damping: float
     rise: MotionLaw
     fall: MotionLaw
@@ -242,7 +242,7 @@ class CycleResponse(MassMotion):
 
     def __repr__(self) -> str:
         return (
-            f"CycleResponse(nu={self.nu:g}, damping={self.damping:g}, period={self.period:g}, "
+            f"CycleResponse(frequency={self.frequency:g}, damping={self.damping:g}, period={self.period:g}, "
             f"peak acceleration={self.peak(2).value:g})"
         )
 
@@ -260,18 +260,19 @@ class CycleResponse(MassMotion):
     @kept_property
     def _initial(self) -> tuple[float, float]:
         """State that comes back after one period."""
-        oscillator = Oscillator(self.nu, self.damping)
+        oscillator = Oscillator(self.frequency, self.damping)
         low = float(self.rise.a(0.0))
         forced = MassChain(oscillator, self._forcings, (low, 0.0)).end
         end = np.array([self.period])
         columns = [
-            [oscillator.motion(*unit, end, order)[0] for order in (0, 1)] for unit in ((1.0, 0.0), (0.0, self.nu))
+            [oscillator.motion(*unit, end, order)[0] for order in (0, 1)]
+            for unit in ((1.0, 0.0), (0.0, self.frequency))
         ]
-        matrix = np.eye(2) - np.array([columns[0], np.array(columns[1]) / self.nu]).T
-        scaled = matrix * np.array([[1.0, self.nu], [1.0 / self.nu, 1.0]])
+        matrix = np.eye(2) - np.array([columns[0], np.array(columns[1]) / self.frequency]).T
+        scaled = matrix * np.array([[1.0, self.frequency], [1.0 / self.frequency, 1.0]])
         if np.linalg.svd(scaled, compute_uv=False)[-1] < RESONANCE:
             raise InputError(
-                f"an undamped follower of nu = {self.nu:g} is in resonance with a cycle of {self.period:g} durations "
+                f"an undamped follower of nu = {self.frequency:g} is in resonance with a cycle of {self.period:g} durations "
                 "of the rise (nu period / 2 pi is whole): it has no steady motion; give it damping or change the cycle"
             )
         start = np.linalg.solve(matrix, np.array([forced[0] - low, forced[1]]))
@@ -279,7 +280,7 @@ class CycleResponse(MassMotion):
 
     @kept_property
     def _motion(self) -> MassChain:
-        return MassChain(Oscillator(self.nu, self.damping), self._forcings, self._initial)
+        return MassChain(Oscillator(self.frequency, self.damping), self._forcings, self._initial)
 
     def _derivative(self, k: Array, nu: int) -> Array:
         return self._motion.derivative(np.mod(k, self.period), nu)

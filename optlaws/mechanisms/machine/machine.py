@@ -179,7 +179,7 @@ class Machine(StateSpace):
         """The elastic follower as a machine: outputs "position", "acceleration" and "deflection" of the mass.
 
         The deflection is that of the spring, from the cam to the mass. `Follower` itself has closed forms of its own,
-        with some more digits of the little that smooth laws leave after the motion at large nu.
+        with some more digits of the little that smooth laws leave after the motion at high frequencies.
 
         Parameters
         ----------
@@ -189,14 +189,14 @@ class Machine(StateSpace):
         Examples
         --------
         >>> from optlaws import smoothstep
-        >>> machine = Machine.from_follower(Follower(nu=20, damping=0.05))
+        >>> machine = Machine.from_follower(Follower(frequency=20, damping=0.05))
         >>> machine.residual(1, "acceleration").value(smoothstep(4))
         1.650151
         """
         if not isinstance(follower, Follower):
             raise InputError(f"follower must be a Follower, got {shortened(follower)}")
         # by its deflection, which is small: the displacements of cam and mass would cancel nu² times their rounding
-        square, drag = follower.nu**2, 2.0 * follower.n
+        square, drag = follower.frequency**2, 2.0 * follower.n
         bending = [-square, -drag]
         rows, direct = [[1.0, 0.0], bending, [1.0, 0.0]], [[1.0, 0.0, 0.0], [0.0, -drag, 0.0], [0.0, 0.0, 0.0]]
         names = ["position", "acceleration", "deflection"]

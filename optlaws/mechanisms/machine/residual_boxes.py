@@ -57,8 +57,8 @@ class BoxEdge:
     def roots(self, u: Array) -> Complex:
         """The roots at places from -1 to 1."""
         share = 0.5 * (1.0 + u)
-        nu, angle = (a + share * (b - a) for a, b in zip(self.first, self.last, strict=True))
-        return np.asarray(1j * nu * np.exp(1j * angle))
+        frequency, angle = (a + share * (b - a) for a, b in zip(self.first, self.last, strict=True))
+        return np.asarray(1j * frequency * np.exp(1j * angle))
 
     @property
     def nodes(self) -> Array:
@@ -148,7 +148,7 @@ class ModeResidual(Functional):
 
     def where(self, k: float) -> str:
         """The frequency of a place on the first edge."""
-        return f"nu = {abs(self.edges[0].roots(np.array([2.0 * k - 1.0]))[0]):.5g}"
+        return f"frequency = {abs(self.edges[0].roots(np.array([2.0 * k - 1.0]))[0]):.5g}"
 
     def _columns(self, space: LawSpace, edge: int) -> Complex:
         """Chebyshev series of the complex amplitude: free functions, then the base law."""

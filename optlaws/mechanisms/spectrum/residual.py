@@ -15,7 +15,7 @@ from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.follower.cam_constants import check_order
 from optlaws.mechanisms.spectrum.transforms import legendre_from_chebyshev, moments, velocity_transform
-from optlaws.numbers import Array, Complex, frequency, not_negative, numbers, positive, whole
+from optlaws.numbers import Array, Complex, circular_frequency, not_negative, numbers, positive, whole
 from optlaws.numerics.chebyshev import from_values, nodes
 from optlaws.numerics.peaks import Peak
 from optlaws.synthesis.families.cone import ConeFamily, stationary_places
@@ -28,7 +28,7 @@ _SPARE = 40
 _MOST_POLYDYNE = 4
 
 
-def residual_phasor(law: MotionLaw, nu: Any, damping: float = 0.0) -> Complex:  # noqa: ANN401 - numbers of any kind
+def residual_phasor(law: MotionLaw, frequency: Any, damping: float = 0.0) -> Complex:  # noqa: ANN401 - numbers of any kind
     """Complex amplitude Z of the free vibration after a law, the mass at rest at first; linear in the law.
 
     For k >= 1 the mass moves by a_m = a(1) + Re(Z exp(w (k - 1))), w = -n + i lambda, lambda = nu sqrt(1 - zeta²). |Z|
@@ -39,8 +39,8 @@ def residual_phasor(law: MotionLaw, nu: Any, damping: float = 0.0) -> Complex:  
     ----------
     law
         Motion of the cam.
-    nu
-        Frequencies, above 0; a number or shape (m,).
+    frequency
+        Frequencies nu, above 0; a number or shape (m,).
     damping
         Ratio zeta, below 1.
 
@@ -59,23 +59,23 @@ def residual_phasor(law: MotionLaw, nu: Any, damping: float = 0.0) -> Complex:  
     >>> 18**2 * abs(residual_phasor(savin("III", 7.2), 18)).round(12)
     array([7.204401])
     """
-    _, w, damped = roots(nu, damping)
+    _, w, damped = roots(frequency, damping)
     return -1j * w.conj() / damped * velocity_transform(law, w)
 
 
-def residual_functional(count: int, nu: Any, damping: float = 0.0) -> tuple[Complex, Complex]:  # noqa: ANN401
+def residual_functional(count: int, frequency: Any, damping: float = 0.0) -> tuple[Complex, Complex]:  # noqa: ANN401
     """The rows that turn a polynomial law's coefficients into the complex amplitude of its free vibration.
 
-    With ``rows, start = residual_functional(len(law.acceleration), nu, damping)`` the residual acceleration is
+    With ``rows, start = residual_functional(len(law.acceleration), frequency, damping)`` the residual acceleration is
     ``abs(rows @ law.acceleration + start * law.b0)``: nu² times `residual_phasor`, affine in whatever the law is
-    affine in, so that a bound on it is a second-order cone for each nu.
+    affine in, so that a bound on it is a second-order cone for each frequency.
 
     Parameters
     ----------
     count
         Number of Chebyshev coefficients of c.
-    nu
-        Frequencies, above 0; a number or shape (m,).
+    frequency
+        Frequencies nu, above 0; a number or shape (m,).
     damping
         Ratio zeta, below 1.
 
@@ -96,7 +96,7 @@ def residual_functional(count: int, nu: Any, damping: float = 0.0) -> tuple[Comp
     >>> abs(rows @ law.acceleration + start * law.b0).round(6)
     array([1.650151])
     """
-    frequencies, w, damped = roots(nu, damping)
+    frequencies, w, damped = roots(frequency, damping)
     terms = whole(count, "count", least=1)
     scale = (-1j * frequencies**2 * w.conj() / (damped * w))[:, None]
     n = np.arange(terms)
@@ -105,14 +105,14 @@ def residual_functional(count: int, nu: Any, damping: float = 0.0) -> tuple[Comp
     return scale * rows, scale[:, 0] * np.expm1(w)
 
 
-def roots(nu: Any, damping: float) -> tuple[Array, Complex, Array]:  # noqa: ANN401 - numbers of any kind
+def roots(frequency: Any, damping: float) -> tuple[Array, Complex, Array]:  # noqa: ANN401 - numbers of any kind
     """Frequencies nu, roots w = -n + i lambda and lambda of followers below critical damping."""
-    frequencies = np.array(numbers(np.atleast_1d(np.asarray(nu)).tolist(), "nu"))
+    frequencies = np.array(numbers(np.atleast_1d(np.asarray(frequency)).tolist(), "frequency"))
     ratio = not_negative(damping, "damping")
     if not (frequencies > 0.0).all():
-        raise InputError(f"nu must be above 0, got {float(frequencies.min())!r}")
+        raise InputError(f"frequency must be above 0, got {float(frequencies.min())!r}")
     if frequencies.size:
-        frequency(frequencies.max())
+        circular_frequency(frequencies.max())
     if ratio >= 1.0:
         raise InputError(
             f"damping must be below 1, got {shortened(damping)}: from the critical damping on nothing vibrates; "
@@ -129,7 +129,7 @@ class Residual(Functional):
     Attributes
     ----------
     low, high
-        The interval of nu.
+        The interval of frequencies nu.
     damping
         Ratio zeta.
     design
@@ -169,7 +169,7 @@ class Residual(Functional):
 
     def where(self, k: float) -> str:
         """The frequency of a place."""
-        return f"nu = {self.frequency(k):.5g}"
+        return f"frequency = {self.frequency(k):.5g}"
 
     def frequency(self, place: float) -> float:
         """The frequency of a certificate's contact, which stands there as a number k from 0 to 1."""
@@ -212,7 +212,7 @@ class Residual(Functional):
 
 def residual_vibration(
     *,
-    nu: float | tuple[float, float],
+    frequency: float | tuple[float, float],
     damping: float = 0.0,
     design: float | None = None,
     design_damping: float | None = None,
@@ -224,8 +224,8 @@ def residual_vibration(
 
     Parameters
     ----------
-    nu
-        The interval (low, high) of frequencies, or one of them.
+    frequency
+        The interval (low, high) of frequencies nu, or one of them.
     damping
         Ratio zeta of the follower, below 1.
     design
@@ -241,26 +241,28 @@ def residual_vibration(
     Examples
     --------
     >>> from optlaws.laws.savin import savin
-    >>> vibration = residual_vibration(nu=18)
+    >>> vibration = residual_vibration(frequency=18)
     >>> round(vibration.value(savin("III", 7.2)), 6)
     7.204401
-    >>> wide = residual_vibration(nu=(18, 22), design=20)
+    >>> wide = residual_vibration(frequency=(18, 22), design=20)
     >>> wide, wide.peak(savin("III", 7.2))
-    (residual(nu=(18.0, 22.0), design=20.0), Peak(value=1.368836, k=18.0))
+    (residual(frequency=(18.0, 22.0), design=20.0), Peak(value=1.368836, k=18.0))
     """
-    pair = tuple(nu) if isinstance(nu, list | tuple) else (nu, nu)
+    pair = tuple(frequency) if isinstance(frequency, list | tuple) else (frequency, frequency)
     if len(pair) != 2:
-        raise InputError(f"nu must be a frequency or two, (low, high), got {shortened(nu)}")
-    low, high = (positive(number, "nu") for number in pair)
+        raise InputError(f"frequency must be a frequency or two, (low, high), got {shortened(frequency)}")
+    low, high = (positive(number, "frequency") for number in pair)
     if low > high or high - low > _WIDEST:
-        raise InputError(f"nu must be an interval (low, high) no longer than {_WIDEST:g}, got {shortened(nu)}")
+        raise InputError(
+            f"frequency must be an interval (low, high) no longer than {_WIDEST:g}, got {shortened(frequency)}"
+        )
     ratio = not_negative(damping, "damping")
     roots(low, ratio)
     if design is None and design_damping is not None:
         raise InputError("design_damping belongs to a design frequency: give design too")
     design_frequency = None if design is None else positive(design, "design")
     made_ratio = ratio if design_damping is None else not_negative(design_damping, "design_damping")
-    parts = [f"nu={low!r}" if low == high else f"nu=({low!r}, {high!r})"]
+    parts = [f"frequency={low!r}" if low == high else f"frequency=({low!r}, {high!r})"]
     parts += [f"damping={ratio!r}"] if ratio else []
     parts += [f"design={design_frequency!r}"] if design_frequency else []
     parts += [f"design_damping={made_ratio!r}"] if design_frequency and made_ratio != ratio else []

@@ -36,21 +36,21 @@ def peak_accelerations(law: MotionLaw, frequencies: Array, w: Complex) -> Array:
     return peaks
 
 
-def _peaks(pieces: tuple[Forcing, ...], nu: Array, w: Complex) -> Array:
-    n, square, damped = -w.real, nu * nu, w.imag
-    state = np.zeros(len(nu), dtype=np.complex128)
+def _peaks(pieces: tuple[Forcing, ...], frequency: Array, w: Complex) -> Array:
+    n, square, damped = -w.real, frequency * frequency, w.imag
+    state = np.zeros(len(frequency), dtype=np.complex128)
     state -= pieces[0].derivative(np.zeros(1), 1)  # the mass is at rest, so that u' = -b
-    best = np.zeros(len(nu))
+    best = np.zeros(len(frequency))
     for before, piece in zip((None, *pieces), pieces, strict=False):
         if before is not None:
             last = before.derivative(np.array([before.length]), 1)
             state += last - piece.derivative(np.zeros(1), 1)
-        count, b_terms, c_terms, b, c = _panels(piece, float(nu.max()))
+        count, b_terms, c_terms, b, c = _panels(piece, float(frequency.max()))
         length = piece.length / count
         basis = moments(0.5 * length * w, TERMS) * length
         load = basis @ c_terms.T + 2.0 * n[:, None] * (basis @ b_terms.T)
         step = np.exp(w * length)
-        states = np.empty((len(nu), count + 1), dtype=np.complex128)
+        states = np.empty((len(frequency), count + 1), dtype=np.complex128)
         states[:, 0] = state
         for i in range(count):
             state = step * state - load[:, i]
@@ -144,8 +144,8 @@ class ResponseSpectrum:
         Motion of the cam.
     damping
         Ratio zeta of all followers.
-    nu
-        Their frequencies, shape (m,).
+    frequency
+        Their frequencies nu, shape (m,).
     phasor
         Complex amplitudes of their free vibrations at k = 1.
 
@@ -159,7 +159,7 @@ class ResponseSpectrum:
 
     law: MotionLaw
     damping: float
-    nu: Array
+    frequency: Array
     phasor: Complex
 
     def __eq__(self, other: object) -> bool:
@@ -169,7 +169,7 @@ class ResponseSpectrum:
         return hash(self._contents())
 
     def _contents(self) -> tuple[MotionLaw, float, tuple[float, ...], tuple[complex, ...]]:
-        return self.law, self.damping, tuple(self.nu.tolist()), tuple(self.phasor.tolist())
+        return self.law, self.damping, tuple(self.frequency.tolist()), tuple(self.phasor.tolist())
 
     @property
     def residual_displacement(self) -> Array:
@@ -179,24 +179,24 @@ class ResponseSpectrum:
     @property
     def residual_acceleration(self) -> Array:
         """nu² times the residual displacement, shape (m,)."""
-        return self.nu**2 * self.residual_displacement
+        return self.frequency**2 * self.residual_displacement
 
     @kept_property
     def peak_acceleration(self) -> Array:
         """Greatest |a_m''| of the rise, shape (m,), to about 1e-6; computed when first asked for."""
-        _, w, _ = roots(self.nu, self.damping)
-        return peak_accelerations(self.law, self.nu, w)
+        _, w, _ = roots(self.frequency, self.damping)
+        return peak_accelerations(self.law, self.frequency, w)
 
 
-def response_spectrum(law: MotionLaw, nu: Any, damping: float = 0.0) -> ResponseSpectrum:  # noqa: ANN401 - numbers of any kind
+def response_spectrum(law: MotionLaw, frequency: Any, damping: float = 0.0) -> ResponseSpectrum:  # noqa: ANN401 - numbers of any kind
     """The response spectrum of a law, the mass at rest at first.
 
     Parameters
     ----------
     law
         Motion of the cam.
-    nu
-        Frequencies, above 0; shape (m,).
+    frequency
+        Frequencies nu, above 0; shape (m,).
     damping
         Ratio zeta, below 1, the same for all.
 
@@ -210,8 +210,8 @@ def response_spectrum(law: MotionLaw, nu: Any, damping: float = 0.0) -> Response
     >>> from optlaws.laws import smoothstep
     >>> import numpy as np
     >>> spectrum = response_spectrum(smoothstep(4), np.linspace(2.0, 200.0, 10_000))
-    >>> float(spectrum.residual_acceleration[spectrum.nu > 100].max())
+    >>> float(spectrum.residual_acceleration[spectrum.frequency > 100].max())
     0.167...
     """
-    frequencies, _, _ = roots(nu, damping)
+    frequencies, _, _ = roots(frequency, damping)
     return ResponseSpectrum(motion_law(law), float(damping), frequencies, residual_phasor(law, frequencies, damping))

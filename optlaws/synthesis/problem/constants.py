@@ -313,7 +313,7 @@ ALIASES: dict[str, Functional] = {"rms": rms_c}
 PLAIN: Registry[Functional] = Registry("plain constant")
 #: every constant that a name alone stands for
 WITHOUT_ARGUMENTS: Mapping[str, Functional] = ChainMap(FUNCTIONALS, ALIASES, PLAIN)
-#: what makes a constant from arguments, by the name that text calls it by: `C_cam(nu=20)`
+#: what makes a constant from arguments, by the name that text calls it by: `C_cam(frequency=20)`
 MAKERS: Registry[Callable[..., Functional]] = Registry("constant")
 
 

@@ -1,4 +1,4 @@
-"""Objectives and constants as text: 0.6*C/4 + rms_c, C_cam(nu=20, damping=0.05). Nothing is ever evaluated as Python.
+"""Objectives and constants as text: 0.6*C/4 + rms_c, C_cam(frequency=20, damping=0.05). Nothing is evaluated as Python.
 
 sum     = product { "+" product }
 product = factor { ("*" | "/") factor }
@@ -151,7 +151,7 @@ class _Reader(Scanner):
     def _made(self, token: Token) -> Term:
         formulas = token.text in OF_FORMULAS
         if self.token.text != "(":
-            example = "(c + 0.2*b)" if formulas else "(nu=20)"
+            example = "(c + 0.2*b)" if formulas else "(frequency=20)"
             self.refuse(f"{token.text} needs its arguments, such as {token.text}{example}")
         begin, formula = self.token.place, []
         if formulas:
@@ -188,7 +188,7 @@ class _Reader(Scanner):
             self.take()
             name = self.take()
             if name.kind != "name" or self.token.text != "=":
-                example = "start=0.1" if token.text in OF_FORMULAS else "nu=20"
+                example = "start=0.1" if token.text in OF_FORMULAS else "frequency=20"
                 self.refuse(f"expected an argument of {token.text} such as {example}", name.place)
             if name.text in given:
                 self.refuse(f"{name.text} is given twice", name.place)
@@ -249,8 +249,8 @@ class _Reader(Scanner):
 def expression(text: str) -> Expression:
     """The objective that a text says.
 
-    >>> expression("0.5*C/4 + C_cam(nu=20)")
-    0.125*C + C_cam(nu=20.0)
+    >>> expression("0.5*C/4 + C_cam(frequency=20)")
+    0.125*C + C_cam(frequency=20.0)
     """
     return parse(text, WITHOUT_ARGUMENTS, MAKERS)
 
@@ -258,8 +258,8 @@ def expression(text: str) -> Expression:
 def named(text: str) -> Functional:
     """The constant that a text names.
 
-    >>> named("rms_c"), named("residual(nu=(18, 22))")
-    (rms_c, residual(nu=(18.0, 22.0)))
+    >>> named("rms_c"), named("residual(frequency=(18, 22))")
+    (rms_c, residual(frequency=(18.0, 22.0)))
     """
     terms = expression(text).terms
     (weight, constant), *others = terms
@@ -303,8 +303,8 @@ def is_named(term: Term) -> bool:
 def apart(text: str) -> list[str]:
     """What stands between the commas that are in no bracket.
 
-    >>> apart("residual(nu=(18, 22)), C")
-    ['residual(nu=(18, 22))', 'C']
+    >>> apart("residual(frequency=(18, 22)), C")
+    ['residual(frequency=(18, 22))', 'C']
     """
     parts, depth = [""], 0
     for character in text:

@@ -138,31 +138,33 @@ class ExactResidual:
         self.damping, self.design_damping = Fraction(constant.damping), Fraction(constant.design_damping)
         self.design = None if constant.design is None else Fraction(constant.design)
 
-    def amplitudes(self, nu: Number, breaks: Sequence[Fraction], columns: Sequence[Sequence[Ends]]) -> list[Number]:
+    def amplitudes(
+        self, frequency: Number, breaks: Sequence[Fraction], columns: Sequence[Sequence[Ends]]
+    ) -> list[Number]:
         """Of laws given by the ends of their pieces; where the breaks end at 1/2, b(1-k) = b(k)."""
         sine = ball((1 - self.damping) * (1 + self.damping)).sqrt()
         root = acb(ball(-self.damping), sine)
-        w = nu * root
-        scale = nu * nu * self._detuning(nu, w) * (-_I * acb(ball(-self.damping), -sine) / sine)
+        w = frequency * root
+        scale = frequency * frequency * self._detuning(frequency, w) * (-_I * acb(ball(-self.damping), -sine) / sine)
         return [scale * transform for transform in velocity_transforms(w, breaks, columns)]
 
-    def _detuning(self, nu: Number, w: Number) -> Number:
+    def _detuning(self, frequency: Number, w: Number) -> Number:
         """What the cam made for the design frequency leaves."""
         if self.design is None:
-            return nu * 0 + 1
+            return frequency * 0 + 1
         square = 1 / ball(self.design**2)
-        apart = nu * acb(ball(-self.damping)) + acb(ball(self.design_damping * self.design))
-        return 1 - nu * nu * acb(square) + apart * w * acb(2 * square)
+        apart = frequency * acb(ball(-self.damping)) + acb(ball(self.design_damping * self.design))
+        return 1 - frequency * frequency * acb(square) + apart * w * acb(2 * square)
 
     def rows(self, space: Space, place: Fraction) -> list[acb]:
         """Amplitudes of a space's free functions and of its base law, at the frequency of a certificate's place."""
-        nu = (1 - place) * self.low + place * self.high
-        return self.amplitudes(acb(ball(nu)), space.breaks, ends_of(space))
+        frequency = (1 - place) * self.low + place * self.high
+        return self.amplitudes(acb(ball(frequency)), space.breaks, ends_of(space))
 
     def peak(self, pieces: Sequence[PolynomialPiece]) -> arb:
         """A ball that holds the greatest magnitude over the interval of frequencies, at the precision at work."""
         breaks, ends = ends_of_law(pieces)
-        return greatest_modulus([lambda nu: self.amplitudes(nu, breaks, ends)[0]], self.low, self.high)
+        return greatest_modulus([lambda frequency: self.amplitudes(frequency, breaks, ends)[0]], self.low, self.high)
 
 
 Corner = tuple[arb, arb]
@@ -190,7 +192,7 @@ class ModeConstant(MachineConstant, Protocol):
 
 @dataclass(frozen=True)
 class ExactEdge:
-    """Roots i nu exp(i angle) between two corners (nu, angle), sin(angle) being the damping ratio."""
+    """Roots i nu exp(i angle) between two corners (frequency, angle), sin(angle) being the damping ratio."""
 
     first: Corner
     last: Corner
@@ -198,8 +200,8 @@ class ExactEdge:
 
     def root(self, place: Number) -> Number:
         """The root at a place from 0 to 1."""
-        nu, angle = (acb(a) + place * acb(b - a) for a, b in zip(self.first, self.last, strict=True))
-        return _I * nu * (_I * angle).exp()
+        frequency, angle = (acb(a) + place * acb(b - a) for a, b in zip(self.first, self.last, strict=True))
+        return _I * frequency * (_I * angle).exp()
 
 
 class ExactModeResidual:

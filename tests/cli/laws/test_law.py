@@ -57,7 +57,7 @@ def test_a_member_is_named_in_one_text(capsys: pytest.CaptureFixture[str]) -> No
     asked = json.loads(output(capsys, "law", "iii(7.2)", "--json"))
     assert asked == json.loads(output(capsys, "law", "III", "--alpha", "7.2", "--json"))
     assert json.loads(output(capsys, "law", "Family III (B = 1.75)", "--json"))["constants"]["B"]["value"] == 1.75
-    assert json.loads(output(capsys, "follower", "III(7.2)", "--nu", "20", "--json"))["nu"] == 20
+    assert json.loads(output(capsys, "follower", "III(7.2)", "--frequency", "20", "--json"))["frequency"] == 20
 
 
 def test_what_solve_wrote_is_shown_as_any_law(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:

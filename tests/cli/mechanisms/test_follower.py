@@ -11,7 +11,7 @@ from tests.internals.cli import app_of_cli as app
 
 Capture = pytest.CaptureFixture[str]
 KEYS = [
-    "nu",
+    "frequency",
     "damping",
     "dynamic_factor",
     "peak_acceleration",
@@ -37,7 +37,7 @@ def printed(capsys: Capture, *arguments: object) -> dict[str, Any]:
 
 
 def test_a_polydyne_cam_off_its_design(capsys: Capture) -> None:
-    numbers = printed(capsys, "III", "--alpha", 7.2, "--nu", 19, "--damping", 0.05, "--design-nu", 20)
+    numbers = printed(capsys, "III", "--alpha", 7.2, "--frequency", 19, "--damping", 0.05, "--design-frequency", 20)
     law = savin("III", 7.2)
     cam = polydyne(law, 20, 0.05)
     response = Follower(19, 0.05).response(cam)
@@ -49,15 +49,15 @@ def test_a_polydyne_cam_off_its_design(capsys: Capture) -> None:
 
 
 def test_a_design_without_damping_on_a_damped_follower(capsys: Capture) -> None:
-    options = ("--nu", 20, "--damping", 0.05, "--design-nu", 20, "--design-damping", 0)
+    options = ("--frequency", 20, "--damping", 0.05, "--design-frequency", 20, "--design-damping", 0)
     numbers = printed(capsys, "IV", "--alpha", 11, *options)
     assert numbers["dynamic_factor"] == pytest.approx(0.983268, abs=1e-6)
 
 
 def test_a_law_of_the_catalogue_at_a_speed(capsys: Capture) -> None:
     numbers = printed(capsys, "BESTEHORN", "--speed-rpm", 105, "--rise-angle", 120, "--natural-period", 0.06)
-    response = Follower(numbers["nu"]).response(catalogue["cycloidal"].law)
-    assert numbers["nu"] == pytest.approx(60 * 2.0943951 / (105 * 0.06))
+    response = Follower(numbers["frequency"]).response(catalogue["cycloidal"].law)
+    assert numbers["frequency"] == pytest.approx(60 * 2.0943951 / (105 * 0.06))
     assert numbers["residual_displacement"] == response.residual_displacement
 
 
@@ -65,19 +65,19 @@ def test_a_law_from_a_file(capsys: Capture, tmp_path: Path) -> None:
     for content in (smoothstep(4).to_json(), json.dumps({"status": "optimal", "law": smoothstep(4).to_dict()})):
         file = tmp_path / "law.json"
         file.write_text(content, "utf-8")
-        numbers = printed(capsys, file, "--nu", 20)
+        numbers = printed(capsys, file, "--frequency", 20)
         assert MotionLaw.from_dict(numbers["cam"]["law"]) == smoothstep(4)
 
 
 def test_an_unbounded_jerk_is_null(capsys: Capture) -> None:
-    assert printed(capsys, "constant acceleration", "--nu", 20)["cam"]["constants"]["J"]["value"] is None
-    code, out, _ = called(capsys, "constant acceleration", "--nu", 20)
+    assert printed(capsys, "constant acceleration", "--frequency", 20)["cam"]["constants"]["J"]["value"] is None
+    code, out, _ = called(capsys, "constant acceleration", "--frequency", 20)
     assert code == 0
     assert "J inf" in out
 
 
 def test_what_a_person_reads(capsys: Capture) -> None:
-    code, out, err = called(capsys, "IV", "--alpha", 11, "--nu", 18, "--design-nu", 20)
+    code, out, err = called(capsys, "IV", "--alpha", 11, "--frequency", 18, "--design-frequency", 20)
     assert (code, err) == (0, "")
     for part in ("dynamic factor", "1.1855643", "residual acceleration", "2.8075126", "C 6.292874", "-10 %"):
         assert part in out
@@ -86,28 +86,31 @@ def test_what_a_person_reads(capsys: Capture) -> None:
 def test_the_spectrum_is_drawn(capsys: Capture, tmp_path: Path) -> None:
     for kind in ("png", "svg"):
         file = tmp_path / f"spectrum.{kind}"
-        assert called(capsys, "modified sine", "--nu", 20, "--spectrum", 5, 40, "--plot", file)[0] == 0
+        assert called(capsys, "modified sine", "--frequency", 20, "--spectrum", 5, 40, "--plot", file)[0] == 0
         assert len(file.read_bytes()) > 5000
 
 
 @pytest.mark.parametrize(
     ("arguments", "says"),
     [
-        (["II", "--alpha", "7", "--nu", "20", "--design-nu", "20"], "jerk j(0) = 120, so the velocity of the cam"),
-        (["IV", "--nu", "20"], "need --alpha"),
-        (["cycloidal", "--alpha", "1", "--nu", "20"], "no other takes it"),
-        (["IV", "--alpha", "20", "--nu", "20"], "alpha"),
-        (["cycloidl", "--nu", "20"], "did you mean 'cycloidal'"),
-        (["cycloidal"], "either --nu or all of --speed-rpm, --rise-angle and --natural-period"),
-        (["cycloidal", "--nu", "20", "--speed-rpm", "100"], "either --nu or"),
-        (["cycloidal", "--nu", "-20"], "nu must be above 0"),
-        (["cycloidal", "--nu", "20", "--damping", "-1"], "damping must be at least 0"),
-        (["cycloidal", "--nu", "20", "--design-damping", "0.1"], "--design-damping needs --design-nu"),
-        (["cycloidal", "--nu", "20", "--plot", "x.pdf", "--spectrum", "1", "2"], "ends in .png or .svg"),
-        (["cycloidal", "--nu", "20", "--plot", "x.png"], "name both or neither"),
-        (["cycloidal", "--nu", "20", "--plot", "x.png", "--spectrum", "9", "2"], "two rising numbers above 0"),
-        (["missing.json", "--nu", "20"], "missing.json"),
-        (["cycloidal", "--nue", "20"], "--nu"),
+        (
+            ["II", "--alpha", "7", "--frequency", "20", "--design-frequency", "20"],
+            "jerk j(0) = 120, so the velocity of the cam",
+        ),
+        (["IV", "--frequency", "20"], "need --alpha"),
+        (["cycloidal", "--alpha", "1", "--frequency", "20"], "no other takes it"),
+        (["IV", "--alpha", "20", "--frequency", "20"], "alpha"),
+        (["cycloidl", "--frequency", "20"], "did you mean 'cycloidal'"),
+        (["cycloidal"], "either --frequency or all of --speed-rpm, --rise-angle and --natural-period"),
+        (["cycloidal", "--frequency", "20", "--speed-rpm", "100"], "either --frequency or"),
+        (["cycloidal", "--frequency", "-20"], "frequency must be above 0"),
+        (["cycloidal", "--frequency", "20", "--damping", "-1"], "damping must be at least 0"),
+        (["cycloidal", "--frequency", "20", "--design-damping", "0.1"], "--design-damping needs --design-frequency"),
+        (["cycloidal", "--frequency", "20", "--plot", "x.pdf", "--spectrum", "1", "2"], "ends in .png or .svg"),
+        (["cycloidal", "--frequency", "20", "--plot", "x.png"], "name both or neither"),
+        (["cycloidal", "--frequency", "20", "--plot", "x.png", "--spectrum", "9", "2"], "two rising numbers above 0"),
+        (["missing.json", "--frequency", "20"], "missing.json"),
+        (["cycloidal", "--frequenzy", "20"], "--frequency"),
     ],
 )
 def test_nonsense_is_refused(capsys: Capture, arguments: list[str], says: str) -> None:
@@ -121,19 +124,19 @@ def test_a_file_that_is_no_law_is_refused(capsys: Capture, tmp_path: Path) -> No
     file = tmp_path / "law.json"
     for content, says in (("{", "is not JSON"), ("[]", "a law must be a dict"), ('{"law": {}}', "format of a law")):
         file.write_text(content, "utf-8")
-        code, _, err = called(capsys, file, "--nu", 20)
+        code, _, err = called(capsys, file, "--frequency", 20)
         assert code == 2
         assert says in err
 
 
-MACHINE = ("--frequency", "16.7 Hz", "--speed", "105 rpm", "--rise", "120 deg")
+MACHINE = ("--natural-frequency", "16.7 Hz", "--speed", "105 rpm", "--rise", "120 deg")
 
 
 def test_a_stroke_with_its_unit_gives_machine_units(capsys: Capture) -> None:
     code, out, _ = called(capsys, "modified sine", *MACHINE, "--stroke", "35mm", "--json")
     assert code == 0
     data = json.loads(out)
-    answer = machine_follower(frequency="16.7 Hz", speed="105 rpm", rise="120 deg", stroke="35 mm").response(
+    answer = machine_follower(natural_frequency="16.7 Hz", speed="105 rpm", rise="120 deg", stroke="35 mm").response(
         catalogue["modified sine"].law
     )
     assert data["machine"] == answer.results()
@@ -142,16 +145,16 @@ def test_a_stroke_with_its_unit_gives_machine_units(capsys: Capture) -> None:
     )
     assert code == 0
     assert "residual displacement, m" in out
-    assert printed(capsys, "modified sine", *MACHINE)["nu"] == data["nu"]
+    assert printed(capsys, "modified sine", *MACHINE)["frequency"] == data["frequency"]
 
 
 @pytest.mark.parametrize(
     ("options", "why"),
     [
-        ((*MACHINE, "--nu", 20), "give no --nu"),
-        (("--nu", 20, "--stroke", "35mm"), "--stroke needs the time"),
-        (("--frequency", "16.7 Hz"), "give duration"),
-        (("--frequency", 16.7, "--time", "0.1 s"), "without a unit"),
+        ((*MACHINE, "--frequency", 20), "give no --frequency"),
+        (("--frequency", 20, "--stroke", "35mm"), "--stroke needs the time"),
+        (("--natural-frequency", "16.7 Hz"), "give duration"),
+        (("--natural-frequency", 16.7, "--time", "0.1 s"), "without a unit"),
     ],
 )
 def test_what_is_wrong_with_quantities_is_said(capsys: Capture, options: tuple[object, ...], why: str) -> None:

@@ -47,7 +47,7 @@ def test_three_repetitions_forgive_more_than_two() -> None:
         ("takes a period", (6.3, 0.0, "ZVD")),
         ("damping must be below 1", (20.0, 1.0, "ZV")),
         ("shaper must be", (20.0, 0.0, "EI")),
-        ("nu must be", (0.0, 0.0, "ZV")),
+        ("frequency must be", (0.0, 0.0, "ZV")),
     ],
 )
 def test_wrong_shapers_are_named(says: str, arguments: tuple[float, float, Shaper]) -> None:

@@ -34,7 +34,7 @@ CASES = [(*member, damping) for member in (("III", 7.2, 4), ("IV", 11.0, 5)) for
 
 def problem(family: str, alpha: float, order: int, damping: float) -> Problem:
     """The least C of the cam at the B of a member of a family, over laws of its order."""
-    C_cam = cam_constant("C", nu=20, damping=damping)
+    C_cam = cam_constant("C", frequency=20, damping=damping)
     fixed = savin(family, alpha).constants.B.value
     return Problem(B=fixed, order=order, basis=Chebyshev(11), minimise=C_cam, symmetric=damping == 0.0)
 
@@ -43,15 +43,15 @@ def problem(family: str, alpha: float, order: int, damping: float) -> Problem:
 def test_constants_of_the_cam_are_those_of_the_reference(row: dict[str, str]) -> None:
     law = savin(row["family"], float(row["alpha"]))
     for name in ("B", "C"):
-        constant = cam_constant(name, nu=20, damping=float(row["n"]) / 20)
+        constant = cam_constant(name, frequency=20, damping=float(row["n"]) / 20)
         assert constant.value(law) == pytest.approx(float(row[f"{name}_cam"]), rel=1e-9)
 
 
 @pytest.mark.parametrize("name", ["B", "C", "D", "J"])
 def test_constants_of_the_cam_are_those_of_its_law(name: str) -> None:
     for law in (savin("IV", 3.0), synthesize(Problem(B=1.8, order=5, basis=BSplines(4, 4))).law):
-        cam = polydyne(law, nu=15, damping=0.1)
-        assert cam_constant(name, nu=15, damping=0.1).value(law) == pytest.approx(
+        cam = polydyne(law, frequency=15, damping=0.1)
+        assert cam_constant(name, frequency=15, damping=0.1).value(law) == pytest.approx(
             getattr(cam.constants, name).value, rel=1e-9
         )
 
@@ -62,12 +62,12 @@ def test_the_optimum_is_proven_and_clearly_below_the_family_at_the_same_B(
 ) -> None:
     asked = problem(family, alpha, order, damping)
     solution = synthesize(asked)
-    known = cam_constant("C", nu=20, damping=damping).value(savin(family, alpha))
+    known = cam_constant("C", frequency=20, damping=damping).value(savin(family, alpha))
     assert solution.status.value == "optimal"
     assert solution.gap < 1e-8
     assert solution.objective < 0.85 * known
     assert solution.constants.B.value == pytest.approx(asked.B, rel=1e-9)
-    cam = polydyne(solution.law, nu=20, damping=damping)
+    cam = polydyne(solution.law, frequency=20, damping=damping)
     assert np.abs(cam.c(PLACES)).max() <= solution.objective * (1 + 1e-9)
     assert np.abs(cam.c(PLACES)).max() == pytest.approx(solution.objective, rel=1e-5)
 
@@ -77,7 +77,7 @@ def test_the_mass_moves_by_the_law_when_the_cam_is_integrated(
     family: str, alpha: float, order: int, damping: float
 ) -> None:
     law = synthesize(problem(family, alpha, order, damping)).law
-    moved = integrated(polydyne(law, nu=20, damping=damping).a, 20.0, damping)
+    moved = integrated(polydyne(law, frequency=20, damping=damping).a, 20.0, damping)
     assert np.abs(moved.a - law.a(PLACES)).max() < 1e-10
     assert np.abs(moved.c - law.c(PLACES)).max() < 1e-7
     assert moved.residual < 1e-8
@@ -96,7 +96,7 @@ def test_a_linear_program_over_all_laws_finds_the_same(family: str, alpha: float
 
 @pytest.mark.parametrize("damping", [0.0, 0.05])
 def test_a_higher_degree_is_never_worse(damping: float) -> None:
-    C_cam = cam_constant("C", nu=20, damping=damping)
+    C_cam = cam_constant("C", frequency=20, damping=damping)
     found = [
         synthesize(Problem(order=4, basis=Chebyshev(degree), minimise=C_cam)).objective for degree in range(5, 18, 3)
     ]
@@ -106,7 +106,7 @@ def test_a_higher_degree_is_never_worse(damping: float) -> None:
 
 def test_slow_machines_need_no_correction_and_the_optimum_is_the_law_s_own() -> None:
     rigid = synthesize(Problem(B=1.8, order=4))
-    stiff = synthesize(Problem(B=1.8, order=4, minimise="C_cam(nu=100000)"))
+    stiff = synthesize(Problem(B=1.8, order=4, minimise="C_cam(frequency=100000)"))
     assert stiff.objective == pytest.approx(rigid.objective, rel=1e-5)
 
 
@@ -114,26 +114,28 @@ def test_slow_machines_need_no_correction_and_the_optimum_is_the_law_s_own() -> 
 def test_every_convex_constant_of_the_cam_is_proven(name: str) -> None:
     for symmetric in (True, False):
         asked = Problem(
-            order=5, basis=Chebyshev(7), minimise=cam_constant(name, nu=12, damping=0.1), symmetric=symmetric
+            order=5, basis=Chebyshev(7), minimise=cam_constant(name, frequency=12, damping=0.1), symmetric=symmetric
         )
         solution = synthesize(asked)
         assert solution.status.value == "optimal", (name, symmetric)
-        c = polydyne(solution.law, nu=12, damping=0.1)(PLACES, {"B": 1, "J": 3}.get(name, 2))
+        c = polydyne(solution.law, frequency=12, damping=0.1)(PLACES, {"B": 1, "J": 3}.get(name, 2))
         peak = {"C_plus": c.max(), "C_minus": -c.min()}.get(name, np.abs(c).max())
         assert peak == pytest.approx(solution.objective, rel=1e-5)
 
 
 def test_the_power_of_the_cam_is_not_convex_and_bounded_from_below() -> None:
     for damping in (0.0, 0.05):
-        solution = synthesize(Problem(order=4, basis=Chebyshev(11), minimise=cam_constant("D", nu=20, damping=damping)))
+        solution = synthesize(
+            Problem(order=4, basis=Chebyshev(11), minimise=cam_constant("D", frequency=20, damping=damping))
+        )
         assert solution.status.value == "local"
         assert 2.25 - 1e-9 <= solution.lower_bound < solution.objective < 3.2
-        d = polydyne(solution.law, nu=20, damping=damping).d(PLACES)
+        d = polydyne(solution.law, frequency=20, damping=damping).d(PLACES)
         assert np.abs(d).max() == pytest.approx(solution.objective, rel=1e-5)
 
 
 def test_a_constant_of_the_cam_can_be_bounded_or_fixed() -> None:
-    C_cam, B_cam = (cam_constant(name, nu=20) for name in ("C", "B"))
+    C_cam, B_cam = (cam_constant(name, frequency=20) for name in ("C", "B"))
     free = synthesize(Problem(order=4, minimise=C_cam))
     slow = synthesize(Problem(order=4, minimise=C_cam, bounds={B_cam: at_most(1.5)}))
     assert slow.status.value == "optimal"
@@ -150,15 +152,15 @@ def test_a_constant_of_the_cam_can_be_bounded_or_fixed() -> None:
 @pytest.mark.parametrize("basis", [Pieces(8, degree=6, continuity=3), BSplines(6, 4)], ids=repr)
 def test_laws_of_pieces_take_constants_of_the_cam(basis: Pieces | BSplines) -> None:
     for symmetric in (True, False):
-        C_cam = cam_constant("C", nu=20, damping=0.05)
+        C_cam = cam_constant("C", frequency=20, damping=0.05)
         solution = synthesize(Problem(order=4, basis=basis, minimise=C_cam, symmetric=symmetric))
         assert solution.status.value == "optimal"
         assert np.abs(polydyne(solution.law, 20, 0.05).c(PLACES)).max() <= solution.objective * (1 + 1e-9)
 
 
 def test_sums_and_maxima_with_the_mass_s_own_constants() -> None:
-    mixed = synthesize(Problem(order=4, minimise="max(C/4, C_cam(nu=20, damping=0.05)/4)"))
-    C_cam = cam_constant("C", nu=20, damping=0.05)
+    mixed = synthesize(Problem(order=4, minimise="max(C/4, C_cam(frequency=20, damping=0.05)/4)"))
+    C_cam = cam_constant("C", frequency=20, damping=0.05)
     assert mixed.status.value == "optimal"
     assert mixed.objective == pytest.approx(max(mixed.constants.C.value, C_cam.value(mixed.law)) / 4, rel=1e-9)
 
@@ -174,13 +176,13 @@ def test_a_mass_accelerates_in_the_mean_at_most_gain_times_as_much_as_its_cam(nu
 def test_problem_and_certificate_are_stored_as_text() -> None:
     asked = Problem(
         order=4,
-        minimise=0.5 * cam_constant("C", nu=20, damping=0.05) / 4 + 0.5 * B,
-        bounds={cam_constant("J", nu=30): at_most(500.0)},
+        minimise=0.5 * cam_constant("C", frequency=20, damping=0.05) / 4 + 0.5 * B,
+        bounds={cam_constant("J", frequency=30): at_most(500.0)},
     )
     with pytest.raises(InputError, match="order 5"):
         synthesize(asked)
     asked = replace(asked, order=5)
-    assert asked.minimise == "0.125*C_cam(nu=20.0, damping=0.05) + 0.5*B"
+    assert asked.minimise == "0.125*C_cam(frequency=20.0, damping=0.05) + 0.5*B"
     assert Problem.from_dict(json.loads(json.dumps(asked.to_dict()))) == asked
     proof = synthesize(asked).certificate
     read = Certificate.from_dict(json.loads(json.dumps(proof.to_dict())))
@@ -192,14 +194,14 @@ def test_problem_and_certificate_are_stored_as_text() -> None:
     ("given_", "says"),
     [
         ({"order": 3}, "order 4 at least"),
-        ({"order": 4, "minimise": "J_cam(nu=20)"}, "order 5 at least"),
+        ({"order": 4, "minimise": "J_cam(frequency=20)"}, "order 5 at least"),
         ({"order": 4, "basis": Pieces(8, degree=5, continuity=2)}, "continuity of at least 3"),
         ({"boundary": BoundaryConditions((0, 1, 0, 0), (1, 1, 0, 0)), "symmetric": False}, "zero at both ends"),
     ],
 )
 def test_laws_that_no_cam_can_make_are_refused(given_: dict[str, object], says: str) -> None:
     with pytest.raises(InputError, match=says):
-        synthesize(Problem(**({"minimise": "C_cam(nu=20)"} | given_)))  # type: ignore[arg-type] # entries of one case
+        synthesize(Problem(**({"minimise": "C_cam(frequency=20)"} | given_)))  # type: ignore[arg-type] # entries of one case
 
 
 @pytest.mark.parametrize(
@@ -207,13 +209,13 @@ def test_laws_that_no_cam_can_make_are_refused(given_: dict[str, object], says: 
     [
         ("C_cam", "needs its arguments"),
         ("C_cam()", "an argument of C_cam"),
-        ("C_cam(nu=20", r"expected , or \)"),
-        ("C_cam(nu=-20)", "nu must be above 0, got -20"),
-        ("C_cam(nu=0)", "nu must be above 0"),
-        ("C_cam(nu=20, nu=21)", "nu is given twice"),
+        ("C_cam(frequency=20", r"expected , or \)"),
+        ("C_cam(frequency=-20)", "frequency must be above 0, got -20"),
+        ("C_cam(frequency=0)", "frequency must be above 0"),
+        ("C_cam(frequency=20, frequency=21)", "frequency is given twice"),
         ("C_cam(speed=20)", "does not take the arguments speed"),
         ("C_cm(nu=20)", "C_cam"),
-        ("2*C_cam(nu=(18, 22))", "must be a finite real number"),
+        ("2*C_cam(frequency=(18, 22))", "must be a finite real number"),
     ],
 )
 def test_text_that_names_no_constant_is_refused(text: str, says: str) -> None:
@@ -223,4 +225,4 @@ def test_text_that_names_no_constant_is_refused(text: str, says: str) -> None:
 
 def test_an_unknown_constant_of_the_cam_is_refused() -> None:
     with pytest.raises(InputError, match="constant of the cam"):
-        cam_constant("K", nu=20)
+        cam_constant("K", frequency=20)

@@ -25,7 +25,7 @@ def transient(one: CycleResponse, periods: int) -> np.ndarray:
     ]
     for _, (law, duration, a0, sign) in itertools.product(range(periods), parts):
         if duration:
-            follower = Follower(one.nu * duration, one.damping)
+            follower = Follower(one.frequency * duration, one.damping)
             initial = (sign * (state[0] - a0), sign * state[1] * duration)
             a, b = follower.response(law, initial=initial).final
             state = (a0 + sign * a, sign * b / duration)
@@ -74,7 +74,7 @@ def test_a_cycle_of_a_polydyne_cam_at_rest_leaves_nothing() -> None:
 def test_repeating_makes_a_residual_worse_near_resonance() -> None:
     law = catalogue["simple harmonic"].law
     period = 3.0
-    resonant = Follower(nu=2 * np.pi * 9 / period, damping=0.002)
+    resonant = Follower(frequency=2 * np.pi * 9 / period, damping=0.002)
     once, again = resonant.response(law), resonant.cycle(law, dwell=0.5, rest=0.5)
     assert again.peak(2).value > 1.5 * once.peak(2).value
 
@@ -95,5 +95,5 @@ def test_nonsense_is_refused(change: dict[str, float], says: str) -> None:
 
 def test_an_undamped_cycle_in_resonance_has_no_steady_motion() -> None:
     with pytest.raises(InputError, match="in resonance"):
-        Follower(nu=4 * np.pi).cycle(smoothstep(4), dwell=0.5, rest=0.5)
-    assert Follower(nu=4 * np.pi, damping=1e-3).cycle(smoothstep(4), dwell=0.5, rest=0.5).period == 3.0
+        Follower(frequency=4 * np.pi).cycle(smoothstep(4), dwell=0.5, rest=0.5)
+    assert Follower(frequency=4 * np.pi, damping=1e-3).cycle(smoothstep(4), dwell=0.5, rest=0.5).period == 3.0

@@ -184,10 +184,10 @@ def test_a_jump_within_the_motion_is_refused(bump: tuple[float, ...], says: str)
 @pytest.mark.parametrize(
     ("call", "says"),
     [
-        (lambda: polydyne(smoothstep(4), 0.0), "nu must be above 0"),
+        (lambda: polydyne(smoothstep(4), 0.0), "frequency must be above 0"),
         (lambda: polydyne(smoothstep(4), 20.0, -1.0), "damping must be at least 0"),
         (lambda: mass_law(catalogue["cycloidal"].law, 20.0), "cam must be a PolynomialLaw; Follower"),
-        (lambda: mass_law(smoothstep(4), -20.0), "nu must be above 0"),
+        (lambda: mass_law(smoothstep(4), -20.0), "frequency must be above 0"),
     ],
 )
 def test_nonsense_is_refused(call: object, says: str) -> None:

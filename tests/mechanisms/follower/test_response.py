@@ -202,10 +202,10 @@ def test_a_jump_of_velocity_is_an_impulse() -> None:
 
 def test_a_machine_is_a_dimensionless_follower() -> None:
     machine = Follower.from_units(mass=3.0, stiffness=1.2e5, duration=0.08, damping=120.0)
-    assert (machine.nu, machine.n) == pytest.approx((0.08 * 200.0, 120.0 * 0.08 / (2 * 3.0)))
+    assert (machine.frequency, machine.n) == pytest.approx((0.08 * 200.0, 120.0 * 0.08 / (2 * 3.0)))
     turning = Follower.from_speed(speed_rpm=105, rise_angle_deg=150, natural_period=0.05, damping=0.1)
     duration = 150 / 360 * 60 / 105
-    assert (turning.nu, turning.damping) == pytest.approx((2 * np.pi * duration / 0.05, 0.1))
+    assert (turning.frequency, turning.damping) == pytest.approx((2 * np.pi * duration / 0.05, 0.1))
     assert turning.speed_rpm(rise_angle_deg=150, natural_period=0.05) == pytest.approx(105)
     # 105 rpm and nu = 20 belong together where phi/T is 35 rad/s
     assert Follower(20.0).speed_rpm(rise_angle_deg=np.degrees(35.0 * 0.06), natural_period=0.06) == pytest.approx(105)
@@ -214,9 +214,9 @@ def test_a_machine_is_a_dimensionless_follower() -> None:
 @pytest.mark.parametrize(
     ("call", "says"),
     [
-        (lambda: Follower(nu=0.0), "nu must be above 0"),
-        (lambda: Follower(nu=float("nan")), "nu must be a finite real number"),
-        (lambda: Follower(nu=20, damping=-0.1), "damping must be at least 0"),
+        (lambda: Follower(frequency=0.0), "frequency must be above 0"),
+        (lambda: Follower(frequency=float("nan")), "frequency must be a finite real number"),
+        (lambda: Follower(frequency=20, damping=-0.1), "damping must be at least 0"),
         (lambda: Follower(20).response("IV"), "law must be a motion law"),  # type: ignore[arg-type]
         (lambda: Follower(20).response(smoothstep(3), initial=(1.0,)), "initial"),  # type: ignore[arg-type]
         (lambda: Follower(20).response(smoothstep(3)).a(-0.1), "k must be at least 0"),

@@ -35,7 +35,7 @@ LAWS = [savin("III", 7.2), savin("IV", 11.0), catalogue["modified sine"].law, ca
 @pytest.mark.parametrize("law", LAWS, ids=["III", "IV", "modified sine", "cycloidal"])
 @pytest.mark.parametrize("damping", [0.0, 0.05, 0.7])
 def test_the_greatest_residual_is_that_of_a_fine_grid_and_of_the_response(law: MotionLaw, damping: float) -> None:
-    constant = residual_vibration(nu=(18, 22), damping=damping)
+    constant = residual_vibration(frequency=(18, 22), damping=damping)
     peak = constant.peak(law)
     grid = residuals(law.b, NU, damping)
     assert grid.max() <= peak.value * (1 + 1e-10)
@@ -47,7 +47,7 @@ def test_the_greatest_residual_is_that_of_a_fine_grid_and_of_the_response(law: M
 @examples(25)
 def test_the_greatest_residual_of_any_interval(low: float, length: float, damping: float) -> None:
     law = savin("III", 7.2)
-    vibration = residual_vibration(nu=(low, low + length), damping=damping).value(law)
+    vibration = residual_vibration(frequency=(low, low + length), damping=damping).value(law)
     grid = residuals(law.b, np.linspace(low, low + length, 1001), damping)
     assert grid.max() <= vibration * (1 + 1e-9) + 1e-12
     assert grid.max() >= vibration * (1 - 1e-2 - length * 1e-3)
@@ -57,28 +57,28 @@ def test_the_greatest_residual_of_any_interval(low: float, length: float, dampin
 def test_of_a_mass_law_it_is_the_residual_of_its_cam(dampings: tuple[float, float]) -> None:
     damping, made = dampings
     law = savin("IV", 11.0)
-    vibration = residual_vibration(nu=(18, 22), damping=damping, design=20, design_damping=made).value(law)
+    vibration = residual_vibration(frequency=(18, 22), damping=damping, design=20, design_damping=made).value(law)
     assert vibration == pytest.approx(
-        residual_vibration(nu=(18, 22), damping=damping).value(polydyne(law, 20, made)), rel=1e-9
+        residual_vibration(frequency=(18, 22), damping=damping).value(polydyne(law, 20, made)), rel=1e-9
     )
 
 
 CASES = [
-    Problem(order=3, basis=Chebyshev(11), bounds={residual_vibration(nu=(18, 22)): at_most(0.1)}),
-    Problem(order=3, basis=Chebyshev(11), bounds={residual_vibration(nu=(18, 22)): at_most(0.01)}, B=2.1),
+    Problem(order=3, basis=Chebyshev(11), bounds={residual_vibration(frequency=(18, 22)): at_most(0.1)}),
+    Problem(order=3, basis=Chebyshev(11), bounds={residual_vibration(frequency=(18, 22)): at_most(0.01)}, B=2.1),
     Problem(
         order=3,
         basis=Chebyshev(11),
-        bounds={residual_vibration(nu=(18, 22), damping=0.05): at_most(0.01)},
+        bounds={residual_vibration(frequency=(18, 22), damping=0.05): at_most(0.01)},
         symmetric=False,
     ),
-    Problem(order=3, basis=BSplines(8, 4), bounds={residual_vibration(nu=(18, 22)): at_most(0.05)}),
+    Problem(order=3, basis=BSplines(8, 4), bounds={residual_vibration(frequency=(18, 22)): at_most(0.05)}),
     Problem(
         order=3,
         basis=Pieces(12, degree=5, continuity=3),
-        bounds={residual_vibration(nu=(18, 22), damping=0.02): at_most(0.1)},
+        bounds={residual_vibration(frequency=(18, 22), damping=0.02): at_most(0.1)},
     ),
-    Problem(order=3, basis=Chebyshev(11), minimise="J", bounds={residual_vibration(nu=(18, 22)): at_most(0.1)}),
+    Problem(order=3, basis=Chebyshev(11), minimise="J", bounds={residual_vibration(frequency=(18, 22)): at_most(0.1)}),
 ]
 
 
@@ -96,11 +96,11 @@ def test_the_residual_of_a_robust_law_is_below_the_bound_everywhere(problem: Pro
 
 @pytest.mark.parametrize("damping", [0.0, 0.05])
 def test_a_robust_polydyne_law_has_no_residual_at_its_design_and_little_around_it(damping: float) -> None:
-    bound = residual_vibration(nu=(18, 22), damping=damping, design=20)
+    bound = residual_vibration(frequency=(18, 22), damping=damping, design=20)
     asked = Problem(
         order=4,
         basis=Chebyshev(11),
-        minimise=f"C_cam(nu=20, damping={damping})",
+        minimise=f"C_cam(frequency=20, damping={damping})",
         bounds={bound: at_most(0.1)},
         symmetric=damping == 0.0,
     )
@@ -120,7 +120,7 @@ def test_a_linear_program_over_all_laws_brackets_the_optimum() -> None:
     asked = Problem(
         order=3,
         basis=Chebyshev(9),
-        bounds={residual_vibration(nu=(18, 22), damping=0.05): at_most(0.05)},
+        bounds={residual_vibration(frequency=(18, 22), damping=0.05): at_most(0.05)},
         symmetric=False,
     )
     solution = synthesize(asked)
@@ -134,7 +134,7 @@ def test_a_linear_program_over_all_laws_brackets_the_optimum() -> None:
 
 
 def test_the_least_residual_that_an_acceleration_allows() -> None:
-    wide = residual_vibration(nu=(18, 22), damping=0.05)
+    wide = residual_vibration(frequency=(18, 22), damping=0.05)
     asked = Problem(order=3, C=at_most(6.0), minimise=wide, symmetric=False)
     solution = synthesize(asked)
     assert solution.status.value == "optimal"
@@ -147,7 +147,7 @@ def test_the_least_residual_that_an_acceleration_allows() -> None:
 
 def test_less_residual_costs_acceleration_and_a_higher_degree_helps() -> None:
     def least(degree: int, most: float) -> float:
-        bounds = {residual_vibration(nu=(18, 22)): at_most(most)}
+        bounds = {residual_vibration(frequency=(18, 22)): at_most(most)}
         return synthesize(Problem(order=3, basis=Chebyshev(degree), bounds=bounds)).objective
 
     by_most = [least(9, most) for most in (1.0, 0.3, 0.1, 0.03)]
@@ -157,22 +157,26 @@ def test_less_residual_costs_acceleration_and_a_higher_degree_helps() -> None:
 
 
 def test_a_single_frequency_is_an_interval_too() -> None:
-    solution = synthesize(Problem(order=3, bounds={"residual(nu=20)": at_most(0.01)}))
+    solution = synthesize(Problem(order=3, bounds={"residual(frequency=20)": at_most(0.01)}))
     assert solution.status.value == "optimal"
     assert residuals(solution.law.b, np.array([20.0]), 0.0)[0] <= 0.01 * (1 + 1e-8)
 
 
 def test_a_residual_out_of_reach_is_refused_with_proof() -> None:
     for asked in (
-        Problem(order=3, B=1.859375, basis=Chebyshev(9), bounds={residual_vibration(nu=(18, 22)): at_most(1e-3)}),
-        Problem(order=3, C=at_most(6), basis=Chebyshev(9), bounds={residual_vibration(nu=(18, 22)): at_most(1e-2)}),
+        Problem(
+            order=3, B=1.859375, basis=Chebyshev(9), bounds={residual_vibration(frequency=(18, 22)): at_most(1e-3)}
+        ),
+        Problem(
+            order=3, C=at_most(6), basis=Chebyshev(9), bounds={residual_vibration(frequency=(18, 22)): at_most(1e-2)}
+        ),
     ):
-        with pytest.raises(InfeasibleProblem, match=r"residual\(nu=\(18.0, 22.0\)\)") as caught:
+        with pytest.raises(InfeasibleProblem, match=r"residual\(frequency=\(18.0, 22.0\)\)") as caught:
             synthesize(asked)
         proof = caught.value.proof
         assert isinstance(proof, Certificate)
-        assert proof.proves_infeasible or proof.bound > asked.bounds["residual(nu=(18.0, 22.0))"].high
-        assert "nu = 18" in str(caught.value) or "below" in str(caught.value)
+        assert proof.proves_infeasible or proof.bound > asked.bounds["residual(frequency=(18.0, 22.0))"].high
+        assert "frequency = 18" in str(caught.value) or "below" in str(caught.value)
 
 
 def test_problem_and_certificate_are_stored_as_text() -> None:
@@ -196,12 +200,12 @@ def test_a_spoilt_certificate_proves_less() -> None:
 @pytest.mark.parametrize(
     ("given_", "says"),
     [
-        ({"nu": (22, 18)}, "nu must be an interval"),
-        ({"nu": (1, 2, 3)}, "a frequency or two"),
-        ({"nu": (0, 3)}, "nu must be above 0"),
-        ({"nu": (1, 3000)}, "no longer than 1000"),
-        ({"nu": 20, "damping": 1.0}, "damping must be below 1"),
-        ({"nu": 20, "design_damping": 0.1}, "give design too"),
+        ({"frequency": (22, 18)}, "frequency must be an interval"),
+        ({"frequency": (1, 2, 3)}, "a frequency or two"),
+        ({"frequency": (0, 3)}, "frequency must be above 0"),
+        ({"frequency": (1, 3000)}, "no longer than 1000"),
+        ({"frequency": 20, "damping": 1.0}, "damping must be below 1"),
+        ({"frequency": 20, "design_damping": 0.1}, "give design too"),
     ],
 )
 def test_nonsense_is_refused(given_: dict[str, object], says: str) -> None:
@@ -211,6 +215,6 @@ def test_nonsense_is_refused(given_: dict[str, object], says: str) -> None:
 
 def test_a_law_that_no_cam_can_make_is_refused() -> None:
     with pytest.raises(InputError, match="order 4 at least"):
-        synthesize(Problem(order=3, bounds={residual_vibration(nu=(18, 22), design=20): at_most(0.1)}))
+        synthesize(Problem(order=3, bounds={residual_vibration(frequency=(18, 22), design=20): at_most(0.1)}))
     with pytest.raises(InputError, match="rest to rest"):
-        synthesize(Problem(order=1, bounds={residual_vibration(nu=(18, 22)): at_most(0.1)}))
+        synthesize(Problem(order=1, bounds={residual_vibration(frequency=(18, 22)): at_most(0.1)}))

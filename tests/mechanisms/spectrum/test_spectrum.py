@@ -144,9 +144,9 @@ def test_off_design_changes_speed_or_stiffness() -> None:
         off_design(cam, law, Follower(20.0, 0.05), deviations=[-10, 0, 10], change=change)
         for change in ("speed", "stiffness")
     )
-    assert [one.response.nu for one in speed] == pytest.approx([18.0, 20.0, 22.0])
+    assert [one.response.frequency for one in speed] == pytest.approx([18.0, 20.0, 22.0])
     assert [one.response.damping for one in speed] == [0.05] * 3
-    assert [one.response.damping * one.response.nu for one in stiffness] == pytest.approx([1.0] * 3)
+    assert [one.response.damping * one.response.frequency for one in stiffness] == pytest.approx([1.0] * 3)
     assert speed[1].dynamic_factor == pytest.approx(1.0, abs=1e-12)
     assert speed[0].peak.value == speed[0].response.peak(2).value
 
@@ -154,8 +154,8 @@ def test_off_design_changes_speed_or_stiffness() -> None:
 @pytest.mark.parametrize(
     ("call", "says"),
     [
-        (lambda: response_spectrum(smoothstep(4), [20.0, 0.0]), "nu must be above 0, got 0.0"),
-        (lambda: response_spectrum(smoothstep(4), [20.0, "x"]), "nu"),
+        (lambda: response_spectrum(smoothstep(4), [20.0, 0.0]), "frequency must be above 0, got 0.0"),
+        (lambda: response_spectrum(smoothstep(4), [20.0, "x"]), "frequency"),
         (lambda: response_spectrum(smoothstep(4), 20.0, 1.0), "from the critical damping on nothing vibrates"),
         (lambda: residual_phasor(smoothstep(4), 20.0, -0.1), "damping must be at least 0"),
         (lambda: residual_functional(0, 20.0), "count must be an integer of at least 1"),

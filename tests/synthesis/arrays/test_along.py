@@ -152,17 +152,17 @@ KINDS: dict[str, dict[str, Any]] = {
     "most root mean square": {"B": 1.7, "bounds": {"rms_c": (None, np.linspace(3.8, 4.2, COUNT))}},
     "most residual": {
         "order": 3,
-        "bounds": {residual_vibration(nu=(18, 22)): (None, np.linspace(0.1, 0.4, COUNT // 2))},
+        "bounds": {residual_vibration(frequency=(18, 22)): (None, np.linspace(0.1, 0.4, COUNT // 2))},
     },
     "B with a residual": {
         "order": 3,
         "B": np.linspace(1.6, 2.2, COUNT // 2),
-        "bounds": {residual_vibration(nu=20): at_most(0.1)},
+        "bounds": {residual_vibration(frequency=20): at_most(0.1)},
     },
     "least residual": {
         "order": 3,
         "B": np.linspace(1.6, 2.2, COUNT // 2),
-        "minimise": residual_vibration(nu=(18, 22), damping=0.02),
+        "minimise": residual_vibration(frequency=(18, 22), damping=0.02),
         "symmetric": False,
         "J": (None, 80.0),
     },

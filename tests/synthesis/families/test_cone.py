@@ -30,9 +30,9 @@ def test_an_amplitude_that_is_zero_has_no_stationary_places() -> None:
 @pytest.mark.parametrize(
     "problem",
     [
-        Problem(order=4, basis=Chebyshev(5), minimise="residual(nu=31.59)", symmetric=False),
-        Problem(order=4, basis=Chebyshev(5), minimise="residual(nu=23.92, damping=0.1)", B=2.2803558066964698),
-        Problem(order=3, basis=Chebyshev(11), minimise="residual(nu=23.92)", B=1.9, C=at_most(8.0)),
+        Problem(order=4, basis=Chebyshev(5), minimise="residual(frequency=31.59)", symmetric=False),
+        Problem(order=4, basis=Chebyshev(5), minimise="residual(frequency=23.92, damping=0.1)", B=2.2803558066964698),
+        Problem(order=3, basis=Chebyshev(11), minimise="residual(frequency=23.92)", B=1.9, C=at_most(8.0)),
     ],
 )
 def test_a_vibration_that_can_vanish_does(problem: Problem) -> None:

@@ -74,7 +74,7 @@ def test_the_power_of_great_laws_is_bounded() -> None:
     "problem",
     [
         Problem(order=3, B=1e6, minimise="max(C/4, D/2.25)", monotone=True),
-        Problem(order=3, B=at_least(1e6), inflexion=0.5, minimise=residual_vibration(nu=7.0, damping=0.1)),
+        Problem(order=3, B=at_least(1e6), inflexion=0.5, minimise=residual_vibration(frequency=7.0, damping=0.1)),
         Problem(order=3, B=1e6, minimise="rms_j", symmetric=False, basis=Pieces(4, 6, 3)),
     ],
 )

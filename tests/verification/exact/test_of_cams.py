@@ -17,7 +17,7 @@ NU, DAMPING = 12.0, 0.25
 
 @cache
 def damped() -> Solution:
-    return synthesize(Problem(order=4, minimise=cam_constant("C", nu=NU, damping=DAMPING), basis=Chebyshev(7)))
+    return synthesize(Problem(order=4, minimise=cam_constant("C", frequency=NU, damping=DAMPING), basis=Chebyshev(7)))
 
 
 def cam(k: mpmath.mpf | float, order: int) -> mpmath.mpf | float:
@@ -45,7 +45,7 @@ def greatest(order: int, sign: int) -> mpmath.mpf:
 def test_peaks_of_cams_are_those_by_hand(name: str, order: int, signs: tuple[int, ...]) -> None:
     with mpmath.workdps(40):
         wanted = max(greatest(order, sign) for sign in signs)
-        low, high = enclosed(ExactLaw(smoothstep(4)).term(cam_constant(name, nu=NU, damping=DAMPING)))
+        low, high = enclosed(ExactLaw(smoothstep(4)).term(cam_constant(name, frequency=NU, damping=DAMPING)))
         assert low <= wanted <= high
         assert high - low < 1e-14 * high
 
@@ -54,7 +54,7 @@ def test_the_power_of_a_cam_is_that_by_hand() -> None:
     with mpmath.workdps(40):
         peak = mpmath.mpf(max(range(1001), key=lambda i: abs(cam(i / 1000, 1) * cam(i / 1000, 2)))) / 1000
         k = mpmath.findroot(lambda k: cam(k, 2) ** 2 + cam(k, 1) * cam(k, 3), peak)
-        low, high = enclosed(ExactLaw(smoothstep(4)).term(cam_constant("D", nu=NU, damping=DAMPING)))
+        low, high = enclosed(ExactLaw(smoothstep(4)).term(cam_constant("D", frequency=NU, damping=DAMPING)))
         assert low <= abs(cam(k, 1) * cam(k, 2)) <= high
 
 
@@ -65,7 +65,7 @@ def test_tampered_claims_are_refused() -> None:
     for key, change in (("objective", 1e-8), ("objective", -1e-8), ("lower_bound", 1e-7)):
         assert not verify({**data, key: data[key] + change}).proven, key
     # the problem of a stiffer follower
-    other = {**data["problem"], "minimise": repr(cam_constant("C", nu=NU + 0.001, damping=DAMPING))}
+    other = {**data["problem"], "minimise": repr(cam_constant("C", frequency=NU + 0.001, damping=DAMPING))}
     assert not verify({**data, "problem": other}).proven
     assert not verify({**data, "problem": other, "certificate": {**data["certificate"], "problem": other}}).proven
 
@@ -80,14 +80,14 @@ def test_no_bound_of_other_multipliers_exceeds_the_optimum(factor: float) -> Non
 
 
 def test_a_cam_that_is_not_smooth_enough_has_no_rows() -> None:
-    constant = cam_constant("C", nu=NU)
+    constant = cam_constant("C", frequency=NU)
     asked = replace(damped().certificate, problem=Problem(order=3, minimise=constant, basis=Chebyshev(7)))
     with pytest.raises(InputError, match="needs mass laws of order 4 at least"):
         exact_bound(asked)
 
 
 def test_a_constant_that_only_looks_like_a_cams_is_refused() -> None:
-    constant = cam_constant("C", nu=NU)
+    constant = cam_constant("C", frequency=NU)
     other: Functional = replace(constant, weights=(Fraction(1),))  # type: ignore[call-arg]
     with pytest.raises(InputError, match="as optlaws defines them, not C_cam"):
         ExactLaw(smoothstep(4)).sum(maximum(other, other).expression())

@@ -23,7 +23,7 @@ from optlaws import (
 from optlaws.verification import exact_bound, verify
 from tests.internals.verification import ExactLaw, ExactRows, enclosed
 
-INTERVAL = "residual(nu=(9, 12), damping=0.03)"
+INTERVAL = "residual(frequency=(9, 12), damping=0.03)"
 
 
 @cache
@@ -35,23 +35,25 @@ def velocity(k: mpmath.mpf) -> mpmath.mpf:
     return 140 * k**3 * (1 - k) ** 3
 
 
-def amplitude(nu: float, damping: float, design: float | None = None, design_damping: float = 0.0) -> mpmath.mpf:
+def amplitude(frequency: float, damping: float, design: float | None = None, design_damping: float = 0.0) -> mpmath.mpf:
     """Of 35 k^4 - 84 k^5 + 70 k^6 - 20 k^7, by Duhamel's integral."""
-    n, ratio = mpmath.mpf(damping) * nu, mpmath.mpf(damping)
-    w = mpmath.mpc(-n, nu * mpmath.sqrt(1 - ratio**2))
-    size = nu**2 * abs(w) / w.imag * abs(mpmath.quad(lambda k: mpmath.exp(w * (1 - k)) * velocity(k), [0, 0.5, 1]))
+    n, ratio = mpmath.mpf(damping) * frequency, mpmath.mpf(damping)
+    w = mpmath.mpc(-n, frequency * mpmath.sqrt(1 - ratio**2))
+    size = (
+        frequency**2 * abs(w) / w.imag * abs(mpmath.quad(lambda k: mpmath.exp(w * (1 - k)) * velocity(k), [0, 0.5, 1]))
+    )
     if design is None:
         return size
     n0 = mpmath.mpf(design_damping) * design
-    return size * abs(1 - (nu / mpmath.mpf(design)) ** 2 + 2 * (n0 - n) * w / mpmath.mpf(design) ** 2)
+    return size * abs(1 - (frequency / mpmath.mpf(design)) ** 2 + 2 * (n0 - n) * w / mpmath.mpf(design) ** 2)
 
 
 @pytest.mark.parametrize(
     "asked",
     [
-        {"nu": 18.0, "damping": 0.0},
-        {"nu": 7.5, "damping": 0.25},
-        {"nu": 12.0, "damping": 0.0625, "design": 10.0, "design_damping": 0.125},
+        {"frequency": 18.0, "damping": 0.0},
+        {"frequency": 7.5, "damping": 0.25},
+        {"frequency": 12.0, "damping": 0.0625, "design": 10.0, "design_damping": 0.125},
     ],
 )
 def test_a_residual_is_that_by_hand(asked: dict[str, Any]) -> None:
@@ -65,14 +67,14 @@ def test_the_greatest_over_an_interval_is_that_by_hand() -> None:
     # between two frequencies that leave nothing
     with mpmath.workdps(30):
         nu = mpmath.findroot(lambda nu: mpmath.diff(lambda x: amplitude(x, 0.0) ** 2, nu), 24)
-        low, high = enclosed(ExactLaw(smoothstep(4)).term(residual_vibration(nu=(22.0, 26.0))))
+        low, high = enclosed(ExactLaw(smoothstep(4)).term(residual_vibration(frequency=(22.0, 26.0))))
         wanted = max(amplitude(place, 0.0) for place in (22.0, 26.0, nu))
         assert low <= wanted <= high
         assert high - low < 1e-11 * high
 
 
 def test_rows_of_all_bases_give_the_amplitude_of_their_base_law() -> None:
-    contact = Contact("residual(nu=(9.0, 12.0), damping=0.03)", 1.0, 0.25, 1.0, (0.6, 0.8))
+    contact = Contact("residual(frequency=(9.0, 12.0), damping=0.03)", 1.0, 0.25, 1.0, (0.6, 0.8))
     for symmetric in (True, False):
         pieces = Problem(order=4, minimise=INTERVAL, symmetric=symmetric, basis=Pieces([0, 0.5, 1], 7, 3))
         whole = replace(pieces, basis=Chebyshev(3))
@@ -94,7 +96,7 @@ def test_tampered_claims_are_refused() -> None:
     assert verify(data).proven
     for key, change in (("objective", 1e-8), ("objective", -1e-8), ("lower_bound", 1e-7)):
         assert not verify({**data, key: data[key] + change}).proven, key
-    other = {**data["problem"], "minimise": "residual(nu=(9, 12.001), damping=0.03)"}
+    other = {**data["problem"], "minimise": "residual(frequency=(9, 12.001), damping=0.03)"}
     assert not verify({**data, "problem": other}).proven
     assert not verify({**data, "problem": other, "certificate": {**data["certificate"], "problem": other}}).proven
 
