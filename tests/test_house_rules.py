@@ -42,6 +42,17 @@ def test_a_name_of_a_class_means_one_class() -> None:
     assert {name for name, count in names.items() if count > 1} == set()
 
 
+def test_nu_is_the_order_of_a_derivative() -> None:
+    # but for the torsion lever, whose paper calls a share of its twist so
+    for path, node in nodes(ROOT / "optlaws"):
+        if "lever" in str(path.relative_to(ROOT)):
+            continue
+        named = node.target if isinstance(node, ast.AnnAssign) else node
+        name = getattr(named, "arg" if isinstance(node, ast.arg) else "id", None)
+        kind = getattr(node, "annotation", None)
+        assert name != "nu" or kind is None or ast.unparse(kind) == "int", f"{path.name}: {ast.unparse(node)}"
+
+
 MODULE = ROOT / "optlaws" / "tolerances.py"
 LARGEST = 1e-2
 #: rooms whose tolerances stand in that module; those that are missing have some to move

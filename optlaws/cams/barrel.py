@@ -140,10 +140,10 @@ class BarrelCam:
 
     def pressure_angle(self, angle: Any, nu: int = 0, radius: float | None = None) -> Any:  # noqa: ANN401
         """The pressure angle at a distance from the shaft's axis, the bottom of the groove unless given, rad."""
-        order = derivative(nu)
+        nu = derivative(nu)
         at = self.radii[1] if radius is None else self._within(radius)
-        slope = self.displacement.jet(real_times(angle), order + 1).slope()
-        values = (slope * (1.0 / at)).arctangent().derivative(order)
+        slope = self.displacement.jet(real_times(angle), nu + 1).slope()
+        values = (slope * (1.0 / at)).arctangent().derivative(nu)
         return values if np.ndim(values) else float(values)
 
     @kept_property

@@ -209,9 +209,9 @@ class DiscCam:
 
     def pressure_angle(self, angle: Any, nu: int = 0) -> Any:  # noqa: ANN401 - a number for a number, arrays for arrays
         """The angle between the force on the follower and its way, rad, or a derivative of it by the cam's angle."""
-        order = derivative(nu)
-        s = self.displacement.jet(real_times(angle), order + 2)
-        return _plain(self.contact.pressure(s).cut(order).arctangent().derivative(order))
+        nu = derivative(nu)
+        s = self.displacement.jet(real_times(angle), nu + 2)
+        return _plain(self.contact.pressure(s).cut(nu).arctangent().derivative(nu))
 
     def radius_of_curvature(self, angle: Any) -> Any:  # noqa: ANN401 - as for pressure angles
         """The radius of curvature of the profile, m: above 0 where it bulges outward, below where it is hollow."""

@@ -217,10 +217,10 @@ class Cycle(CycleInterchange):
 
     def peak(self, nu: int) -> float:
         """The greatest magnitude of the derivative of order nu over the cycle, up to the jerk, in SI units."""
-        order = derivative(nu)
-        if order > 3:
-            raise InputError(f"nu must be at most 3, the jerk, got {order}")
-        return max(peak.peak(order) for peak in self.peaks)
+        nu = derivative(nu)
+        if nu > 3:
+            raise InputError(f"nu must be at most 3, the jerk, got {nu}")
+        return max(peak.peak(nu) for peak in self.peaks)
 
     @property
     def joints(self) -> tuple[dict[str, Any], ...]:

@@ -285,7 +285,7 @@ _LOW = 2.0
 
 
 class ResidualRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """Laws, and the follower whose mass they drive: the frequency up to which is drawn, the one that is read, the damping ratio."""
+    """Laws, and the follower whose mass they drive: the highest frequency drawn, the one that is read, the damping."""
 
     laws: Annotated[list[LawRequest], msgspec.Meta(min_length=1, max_length=MOST_LAWS)]
     frequency: Annotated[float, msgspec.Meta(gt=0.0, le=1000.0)] = 20.0
@@ -294,7 +294,7 @@ class ResidualRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 
 
 def residuals(request: ResidualRequest) -> dict[str, Any]:
-    """Residual acceleration over the frequency for each law, in units of a'', and its value at one; None without a law."""
+    """Residual acceleration over frequencies for each law, in units of a'', and its value at one; None without law."""
     frequencies = np.linspace(_LOW, request.most, _COUNT)
     return {
         "frequencies": drawn(frequencies),

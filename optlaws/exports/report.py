@@ -198,8 +198,8 @@ def _at_ends(
 def _deviation(run: PiecewiseMotion, motion: Motion, nu: int, rate: float, *, has: bool) -> Extreme:
     """The greatest difference; beyond the motion, where roundings of the master may lead, it goes on as it ends."""
 
-    def law(x: Array, order: int) -> Array:
-        return np.asarray(motion(np.clip(x, motion.start, motion.stop), order))
+    def law(x: Array, nu: int) -> Array:
+        return np.asarray(motion(np.clip(x, motion.start, motion.stop), nu))
 
     if not has:
         return Extreme(inf, motion.start)

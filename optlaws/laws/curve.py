@@ -156,8 +156,8 @@ class Curve(ABC):
         >>> smoothstep(2).extrema(2)
         (Peak(value=-6.0, k=1.0), Peak(value=6.0, k=0.0))
         """
-        order = derivative(nu)
-        return self._extremes(lambda: self._whole(order), lambda k: self._derivative(k, order), within)
+        nu = derivative(nu)
+        return self._extremes(lambda: self._whole(nu), lambda k: self._derivative(k, nu), within)
 
     def where(self, value: float, nu: int = 0) -> Array:
         """Every k of the interval, ascending, where the derivative of order nu has a value; of a rest there, both ends.
@@ -182,13 +182,13 @@ class Curve(ABC):
         >>> smoothstep(3).where(0.0, nu=2).tolist()
         [0.0, 0.5, 1.0]
         """
-        order, height = derivative(nu), finite(value, "value")
-        turns, _ = self._sides(order)
+        nu, height = derivative(nu), finite(value, "value")
+        turns, _ = self._sides(nu)
         places = np.unique(np.concatenate([turns, self.breaks]))
-        after = self._derivative(places, order)
+        after = self._derivative(places, nu)
         before = after.copy()
-        before[np.searchsorted(places, self.breaks[1:-1])] = self._before_breaks(order)
-        return crossings(lambda k: float(self._derivative(np.array(k), order)), places, after, before, height)
+        before[np.searchsorted(places, self.breaks[1:-1])] = self._before_breaks(nu)
+        return crossings(lambda k: float(self._derivative(np.array(k), nu)), places, after, before, height)
 
     def power_peak(self) -> Peak:
         """Peak of |d| over the whole interval, d = b c.
@@ -236,8 +236,8 @@ class Curve(ABC):
         >>> round(smoothstep(2).rms(2) ** 2, 12)
         12.0
         """
-        order = derivative(nu)
-        return inf if self._impulses(order)[0].size else float(np.sqrt(self._mean_square(order)))
+        nu = derivative(nu)
+        return inf if self._impulses(nu)[0].size else float(np.sqrt(self._mean_square(nu)))
 
     def samples(self, count: int = 201, nu: int = 0) -> tuple[Array, Array]:
         """Equally spaced k over the interval with the derivative of order nu there, to draw or to write down.
@@ -262,11 +262,11 @@ class Curve(ABC):
         >>> [column.tolist() for column in smoothstep(2).samples(3, nu=1)]
         [[0.0, 0.5, 1.0], [0.0, 1.5, 0.0]]
         """
-        order = derivative(nu)
+        nu = derivative(nu)
         even = np.linspace(*self.interval, whole(count, "count", least=2, most=MOST_VALUES))
         inner = np.array(self.breaks[1:-1])
         k = np.concatenate([inner, even, inner])
-        values = np.concatenate([self._before_breaks(order), self._derivative(k[len(inner) :], order)])
+        values = np.concatenate([self._before_breaks(nu), self._derivative(k[len(inner) :], nu)])
         after = np.arange(len(k)) >= len(inner)
         ordered = np.lexsort((after, k))
         return k[ordered], values[ordered]

@@ -88,12 +88,12 @@ class MotionLaw(Curve, LawExport, StoredLaw):
         >>> PiecewiseLaw([0, 0.5, 1], [PolynomialSegment([], b0=b) for b in (0.5, 1.5)]).jumps(1)
         ((0.5, 1.0),)
         """
-        order = derivative(nu)
-        if order == 0 or len(self.breaks) == 2:
+        nu = derivative(nu)
+        if nu == 0 or len(self.breaks) == 2:
             return ()
-        if order not in self._known_jumps:
-            self._known_jumps[order] = self._jumps(order)
-        return self._known_jumps[order]
+        if nu not in self._known_jumps:
+            self._known_jumps[nu] = self._jumps(nu)
+        return self._known_jumps[nu]
 
     @property
     def continuity(self) -> int:

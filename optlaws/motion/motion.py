@@ -113,12 +113,12 @@ class Motion:
 
     def __call__(self, x: Any, nu: int = 0) -> Any:  # noqa: ANN401 - a number for a number, an array for arrays
         """The derivative of order nu at x; at a break just after it, at the end just before it."""
-        places, order = real_times(x), derivative(nu)
+        places, nu = real_times(x), derivative(nu)
         beyond = (places < self.start) | (places > self.stop)
         if beyond.any():
             wrong = float(places[beyond].flat[0])
             raise InputError(f"x must be from {self.start:g} to {self.stop:g} {self.units.master}, got {wrong!r}")
-        values = values_of_pieces(self.pieces, places, order)
+        values = values_of_pieces(self.pieces, places, nu)
         return values if np.ndim(values) else float(values)
 
     def sides(self, nu: int) -> Iterator[tuple[float, float, float]]:

@@ -82,11 +82,11 @@ class PiecewiseMotion:
         >>> PiecewiseMotion([0, 2], [[0, 0, 1]])([0.5, 2.0], 1).tolist()
         [1.0, 4.0]
         """
-        places, order = real_times(x), derivative(nu)
+        places, nu = real_times(x), derivative(nu)
         outside = places[(places < self.start) | (places > self.stop)]
         if outside.size:
             raise InputError(f"x must be from {self.start!r} to {self.stop!r}, got {float(outside.flat[0])!r}")
-        values = self._values(places, order)
+        values = self._values(places, nu)
         return values if values.ndim else float(values)
 
     @property
@@ -233,10 +233,10 @@ class PiecewiseMotion:
         >>> round(greatest.value, 9), round(greatest.x, 6)
         (0.210513662, 0.880689)
         """
-        order = derivative(nu)
+        nu = derivative(nu)
         if isinstance(motion, PiecewiseMotion):
-            return self.minus(motion).peak(order)
-        greatest = greatest_difference(lambda x: self._values(x, order), lambda x: motion(x, order), self._with(breaks))
+            return self.minus(motion).peak(nu)
+        greatest = greatest_difference(lambda x: self._values(x, nu), lambda x: motion(x, nu), self._with(breaks))
         return Extreme(*greatest)
 
     def minus(self, other: PiecewiseMotion) -> PiecewiseMotion:
@@ -319,7 +319,7 @@ class PiecewiseMotion:
     def _stationary(self, row: int, s: float, nu: int) -> float:
         """The place near one found by halving where the derivative is stationary, as a share of the piece."""
         length = float(self.lengths[row])
-        slope, bend = (self.powers(nu + order)[row] for order in (1, 2))
+        slope, bend = (self.powers(nu + further)[row] for further in (1, 2))
         for _ in range(_STEPS):
             steepness, curvature = float(_horner(slope, s)), float(_horner(bend, s))
             step = steepness / curvature if curvature else 0.0

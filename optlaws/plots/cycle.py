@@ -144,11 +144,11 @@ def draw_axes(
     **style: Any,  # noqa: ANN401 - matplotlib's
 ) -> list[Artist]:
     """Draw a derivative of every axis over time, and return the artists."""
-    order = derivative(nu)
-    if order >= len(QUANTITIES):
-        raise InputError(f"nu must be at most 3, the jerk, got {order}")
+    nu = derivative(nu)
+    if nu >= len(QUANTITIES):
+        raise InputError(f"nu must be at most 3, the jerk, got {nu}")
     if hasattr(axes, "plot"):
-        return _draw_in_one(cycles, axes, order, style)
+        return _draw_in_one(cycles, axes, nu, style)
     if axes is None:
         with plot_style():
             figure = new_figure(8.6, 0.8 + _HEIGHT * len(cycles))
@@ -158,8 +158,8 @@ def draw_axes(
         raise InputError(f"{len(cycles)} axes are drawn into one pair of axes or into as many, got {len(panels)}")
     artists: list[Artist] = []
     for panel, (name, cycle) in zip(panels, cycles.items(), strict=True):
-        artists += draw_curve(cycle, panel, order, {"color": BLUES[3]} | style)
-        panel.set_ylabel(f"{name}\n{QUANTITIES[order]}, {UNITS[cycle.axis][order][0]}")
+        artists += draw_curve(cycle, panel, nu, {"color": BLUES[3]} | style)
+        panel.set_ylabel(f"{name}\n{QUANTITIES[nu]}, {UNITS[cycle.axis][nu][0]}")
         mark_segments(cycle, panel)
         name_segments(cycle, panel)
     _set_time(panels[-1], cycles)

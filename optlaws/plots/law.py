@@ -116,7 +116,7 @@ def _jumps(curve: Curve, nu: int) -> Array:
     """The places where the curve's derivative jumps; those of lower order make it infinite there."""
     if not isinstance(curve, MotionLaw):
         return np.empty(0)
-    return np.unique([place for order in range(1, nu + 1) for place, _ in curve.jumps(order)])
+    return np.unique([place for lower in range(1, nu + 1) for place, _ in curve.jumps(lower)])
 
 
 def _line(curve: Curve, axes: Axes, nu: int, **style: Any) -> Artist:  # noqa: ANN401 - matplotlib's

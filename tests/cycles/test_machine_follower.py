@@ -16,7 +16,7 @@ from optlaws import (
 )
 
 OSCILLATOR = Machine([[0, 1], [-400, -2]], [[0], [400]], [[1, 0]], outputs=["position"])
-MACHINE = {"frequency": "16.7 Hz", "speed": "105 rpm", "rise": "120 deg", "stroke": "35 mm"}
+MACHINE = {"natural_frequency": "16.7 Hz", "speed": "105 rpm", "rise": "120 deg", "stroke": "35 mm"}
 
 
 def test_answers_are_those_of_the_follower_in_units() -> None:
@@ -42,10 +42,10 @@ def test_a_rotary_stroke_is_in_radians() -> None:
 @pytest.mark.parametrize(
     ("changed", "said"),
     [
-        ({"frequency": "16.7"}, "without a unit"),
-        ({"frequency": "0 Hz"}, "frequency must be above 0"),
-        ({"period": "60 ms"}, "not both"),
-        ({"frequency": None}, "give frequency"),
+        ({"natural_frequency": "16.7"}, "without a unit"),
+        ({"natural_frequency": "0 Hz"}, "frequency must be above 0"),
+        ({"natural_period": "60 ms"}, "not both"),
+        ({"natural_frequency": None}, "give natural_frequency"),
         ({"duration": "1 s"}, "give duration"),
         ({"rise": None}, "give duration"),
         ({"stroke": "35 kg"}, "stroke must be a length"),

@@ -37,18 +37,18 @@ class LoaderStretch:
         """The length of the stretch, the greatest t."""
         return abs(self.end - self.origin)
 
-    def value(self, t: Array, order: int) -> Array:
+    def value(self, t: Array, nu: int) -> Array:
         """Derivative of some order of g with respect to t."""
         values = np.empty(t.shape)
         near, between = t <= self._root_reach, (t > self._root_reach) & (t <= self._reach)
         far = ~(near | between)
         if self._deficit is not None:
             if near.any():
-                values[near] = self._deficit.root.derivative(t[near], order)
+                values[near] = self._deficit.root.derivative(t[near], nu)
             if between.any():
-                values[between] = _root(self._deficit.energy(t[between], self.B, order))
+                values[between] = _root(self._deficit.energy(t[between], self.B, nu))
         if far.any():
-            values[far] = _root(self._energy(t[far], order))
+            values[far] = _root(self._energy(t[far], nu))
         return values
 
     def integral(self, t: Array) -> Array:
@@ -58,30 +58,30 @@ class LoaderStretch:
         close = self._deficit.root.integral(np.minimum(t, self._root_reach))
         return close + self._far_integral(np.maximum(t, self._root_reach)) if self._panels.edges else close
 
-    def roots(self, order: int) -> Array:
-        """Every t among which is each root of the derivative of some order."""
-        far = self._panels.roots(lambda t: self.value(t, order), lambda t: self.value(t, order + 1))
-        return far if self._deficit is None else np.concatenate([self._deficit.root.roots(order), far])
+    def roots(self, nu: int) -> Array:
+        """Every t among which is each root of the derivative of order nu."""
+        far = self._panels.roots(lambda t: self.value(t, nu), lambda t: self.value(t, nu + 1))
+        return far if self._deficit is None else np.concatenate([self._deficit.root.roots(nu), far])
 
     def power_roots(self) -> Array:
         """Every t among which is each extreme of b c of the executive law."""
 
         def slope(t: Array) -> Array:
-            b, c, j = (self._executive(t, order) for order in range(3))
+            b, c, j = (self._executive(t, nu) for nu in range(3))
             return c * c + b * j
 
         def curvature(t: Array) -> Array:
-            b, c, j, s = (self._executive(t, order) for order in range(4))
+            b, c, j, s = (self._executive(t, nu) for nu in range(4))
             return 3.0 * c * j + b * s
 
         least = 0.0 if self._deficit is None or self._deficit.deficit.step == 1.0 else 1e-6 * self.length
         edges = (least, *(t for t in self._panels.edges if t > least)) if self._panels.edges else (least, self.length)
         return panels.Panels(edges).roots(slope, curvature)
 
-    def square(self, order: int) -> float:
-        """Integral over the stretch of the square of the derivative of some order."""
-        near = 0.0 if self._deficit is None else self._deficit.root.square(order)
-        return near if near == inf else near + self._panels.square(lambda t: self.value(t, order))
+    def square(self, nu: int) -> float:
+        """Integral over the stretch of the square of the derivative of order nu."""
+        near = 0.0 if self._deficit is None else self._deficit.root.square(nu)
+        return near if near == inf else near + self._panels.square(lambda t: self.value(t, nu))
 
     @kept_property
     def _deficit(self) -> VelocityDeficit | None:
@@ -105,30 +105,30 @@ class LoaderStretch:
     def _far_integral(self) -> panels.Integral:
         return panels.integral(lambda t: self.value(t, 0), self._panels)
 
-    def _one(self, t: float, order: int) -> float:
-        return float(self._executive(np.array([t]), order)[0])
+    def _one(self, t: float, nu: int) -> float:
+        return float(self._executive(np.array([t]), nu)[0])
 
-    def _executive(self, t: Array, order: int) -> Array:
+    def _executive(self, t: Array, nu: int) -> Array:
         """Derivative of some order of |b| with respect to t, one-sided at both ends."""
         forward = self.end > self.origin
         low, high = min(self.origin, self.end), max(self.origin, self.end)
         k = self.origin + t if forward else self.origin - t
         # at a break a law has its right-hand value
         last = high if high == 1.0 else np.nextafter(high, low)
-        values = self.executive(np.clip(k, low, last), order + 1)
-        return values * (1.0 if forward else -1.0) ** order * self._sign
+        values = self.executive(np.clip(k, low, last), nu + 1)
+        return values * (1.0 if forward else -1.0) ** nu * self._sign
 
     @kept_property
     def _sign(self) -> float:
         middle = 0.5 * (self.origin + self.end)
         return 1.0 if self.executive.b(self.origin if self.top else middle) >= 0.0 else -1.0
 
-    def _energy(self, t: Array, order: int) -> list[Array]:
-        """Derivatives 0 to `order` of B² - b² with respect to t."""
-        b = [self._executive(t, i) for i in range(order + 1)]
+    def _energy(self, t: Array, nu: int) -> list[Array]:
+        """Derivatives 0 to `nu` of B² - b² with respect to t."""
+        b = [self._executive(t, i) for i in range(nu + 1)]
         energies = [(self.B - np.abs(b[0])) * (self.B + np.abs(b[0]))]
         energies[0] = np.maximum(energies[0], 0.0)
-        for n in range(1, order + 1):
+        for n in range(1, nu + 1):
             square = sum((comb(n, i) * b[i] * b[n - i] for i in range(n + 1)), np.zeros_like(t))
             energies.append(-square)
         return energies

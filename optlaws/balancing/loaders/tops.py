@@ -144,9 +144,9 @@ class PuiseuxSeries:
     coefficients: tuple[float, ...]
     reach: float
 
-    def derivative(self, t: Array, order: int) -> Array:
-        """Derivative of some order with respect to t; inf or -inf at t = 0 where it grows without limit."""
-        first, values = self._factored(order)
+    def derivative(self, t: Array, nu: int) -> Array:
+        """Derivative of order nu with respect to t; inf or -inf at t = 0 where it grows without limit."""
+        first, values = self._factored(nu)
         lead, rest = first, np.polynomial.polynomial.polyval(t**self.step, values)
         with np.errstate(divide="ignore"):
             return np.asarray(np.where(rest == 0.0, 0.0, t**lead * np.where(rest == 0.0, 1.0, rest)))
@@ -157,31 +157,31 @@ class PuiseuxSeries:
         values = np.array(self.coefficients) / powers
         return np.asarray(t ** (self.exponent + 1.0) * np.polynomial.polynomial.polyval(t**self.step, values))
 
-    def roots(self, order: int) -> Array:
-        """Every t in (0, reach) where the derivative of some order may be zero."""
+    def roots(self, nu: int) -> Array:
+        """Every t in (0, reach) where the derivative of order nu may be zero."""
         half = 0.5 * self.reach**self.step
         powers = half * (chebyshev.nodes(TERMS) + 1.0)
-        series = chebyshev.from_values(np.polynomial.polynomial.polyval(powers, self._factored(order)[1]))
+        series = chebyshev.from_values(np.polynomial.polynomial.polyval(powers, self._factored(nu)[1]))
         return np.asarray((half * (chebyshev.real_parts_of_roots(series) + 1.0)) ** (1.0 / self.step))
 
-    def square(self, order: int) -> float:
-        """Integral over 0 <= t <= reach of the square of the derivative of some order; inf where it diverges."""
-        first, values = self._factored(order)
+    def square(self, nu: int) -> float:
+        """Integral over 0 <= t <= reach of the square of the derivative of order nu; inf where it diverges."""
+        first, values = self._factored(nu)
         both = np.convolve(values, values)
         powers = 2.0 * first + self.step * np.arange(len(both)) + 1.0
         if powers[0] <= 0.0:
             return inf
         return float(both @ (self.reach**powers / powers))
 
-    def _factored(self, order: int) -> tuple[float, Array]:
+    def _factored(self, nu: int) -> tuple[float, Array]:
         """The derivative as t^first times a polynomial in t^step, led by a term that does not vanish."""
         powers = self.exponent + self.step * np.arange(len(self.coefficients))
         values = np.array(self.coefficients)
-        for i in range(order):
+        for i in range(nu):
             values = values * (powers - i)
         nonzero = np.flatnonzero(values)
         lead = int(nonzero[0]) if len(nonzero) else 0
-        return float(powers[lead] - order), values[lead:]
+        return float(powers[lead] - nu), values[lead:]
 
 
 @dataclass(frozen=True, slots=True)
@@ -191,11 +191,11 @@ class VelocityDeficit:
     deficit: PuiseuxSeries
     root: PuiseuxSeries
 
-    def energy(self, t: Array, B: float, order: int) -> list[Array]:
-        """Derivatives 0 to `order` of w (2B - w) with respect to t > 0."""
-        w = [self.deficit.derivative(t, i) for i in range(order + 1)]
+    def energy(self, t: Array, B: float, nu: int) -> list[Array]:
+        """Derivatives 0 to `nu` of w (2B - w) with respect to t > 0."""
+        w = [self.deficit.derivative(t, i) for i in range(nu + 1)]
         orders = [w[0] * (2.0 * B - w[0])]
-        for n in range(1, order + 1):
+        for n in range(1, nu + 1):
             cross = sum(comb(n, i) * w[i] * w[n - i] for i in range(1, n))
             orders.append(2.0 * (B - w[0]) * w[n] - cross)
         return orders

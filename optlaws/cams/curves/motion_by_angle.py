@@ -54,32 +54,31 @@ class CamStretch:
         values = factor(self.stroke, self.duration, nu) * self.segment.derivative(u, self.length, nu)
         return self.offset + values if nu == 0 else values
 
-    def jet(self, angle: Array | Interval, order: int) -> Jet:
-        """The displacement with its derivatives; in intervals of angles all that they may be."""
+    def jet(self, angle: Array | Interval, nu: int) -> Jet:
+        """The displacement with its derivatives up to order nu; in intervals of angles all that they may be."""
         if not isinstance(angle, Interval):
-            return Jet(tuple(self.values(angle, nu) / factorial(nu) for nu in range(order + 1)))
+            return Jet(tuple(self.values(angle, i) / factorial(i) for i in range(nu + 1)))
         if self.stroke == 0.0:
             still = exact(np.zeros(angle.middle.shape))
-            return Jet((still + self.offset, *(still,) * order))
-        values = enclosed_derivatives(self.segment, self.length, *self._cells(angle), order)
-        factors = [self.stroke / self.duration**nu / factorial(nu) for nu in range(order + 1)]
+            return Jet((still + self.offset, *(still,) * nu))
+        values = enclosed_derivatives(self.segment, self.length, *self._cells(angle), nu)
+        factors = [self.stroke / self.duration**i / factorial(i) for i in range(nu + 1)]
         terms = [
-            value * Interval(np.array(by), np.array(abs(by) * (nu + 3) * ROUNDOFF))
-            for nu, (value, by) in enumerate(zip(values, factors, strict=True))
+            value * Interval(np.array(by), np.array(abs(by) * (i + 3) * ROUNDOFF))
+            for i, (value, by) in enumerate(zip(values, factors, strict=True))
         ]
         return Jet((terms[0] + self.offset, *terms[1:]))
 
-    def power(self, angle: Interval, order: int) -> Jet:
+    def power(self, angle: Interval, nu: int) -> Jet:
         """The velocity times the acceleration, by the angle, in intervals of angles: finite where d of the law is."""
         if self.stroke == 0.0:
-            return Jet((exact(np.zeros(angle.middle.shape)),) * (order + 1))
-        power = enclosed_power(self.segment, self.length, *self._cells(angle), order)
+            return Jet((exact(np.zeros(angle.middle.shape)),) * (nu + 1))
+        power = enclosed_power(self.segment, self.length, *self._cells(angle), nu)
         by = self.stroke**2 / self.duration**3
         return Jet(
             tuple(
-                term
-                * Interval(np.array(by / self.duration**nu), np.array(by / self.duration**nu * (nu + 6) * ROUNDOFF))
-                for nu, term in enumerate(power.terms)
+                term * Interval(np.array(by / self.duration**i), np.array(by / self.duration**i * (i + 6) * ROUNDOFF))
+                for i, term in enumerate(power.terms)
             )
         )
 
@@ -212,29 +211,28 @@ class CamMotion:
 
     def __call__(self, angle: Any, nu: int = 0) -> Any:  # noqa: ANN401 - a number for a number, an array for arrays
         """The derivative of order nu by the angle in rad; at a break that just after it."""
-        order = derivative(nu)
-        values = self.jet(real_times(angle), order).derivative(order)
+        nu = derivative(nu)
+        values = self.jet(real_times(angle), nu).derivative(nu)
         return values if np.ndim(values) else float(values)
 
-    def jet(self, angle: Array | Interval, order: int, *, before: bool = False) -> Jet:
-        """The displacement with its derivatives up to an order; at a break those just after it, or just before it.
+    def jet(self, angle: Array | Interval, nu: int, *, before: bool = False) -> Jet:
+        """The displacement with its derivatives up to order nu; at a break those just after it, or just before it.
 
         In an interval of angles they are those of the stretch in which its middle lies, which it must not leave.
         """
         at = angle if isinstance(angle, Interval) else self.within(angle)
-        return self._by_stretch(lambda stretch, some: stretch.jet(some, order), at, before=before)
+        return self._by_stretch(lambda stretch, some: stretch.jet(some, nu), at, before=before)
 
-    def power(self, angle: Interval, order: int) -> Jet:
+    def power(self, angle: Interval, nu: int) -> Jet:
         """The velocity times the acceleration by the angle, in intervals each within a stretch."""
-        return self._by_stretch(lambda stretch, some: stretch.power(some, order), angle)
+        return self._by_stretch(lambda stretch, some: stretch.power(some, nu), angle)
 
     def _by_stretch(self, jet: Callable[[CamStretch, Any], Jet], at: Array | Interval, *, before: bool = False) -> Jet:
         middle = at.middle if isinstance(at, Interval) else at
         which = np.searchsorted(self.breaks[1:-1], middle, side="left" if before else "right")
         pieces = [(which == i, jet(self.stretches[i], at[which == i]).terms) for i in np.unique(which)]
-        order = len(pieces[0][1]) - 1
         return Jet(
-            tuple(_joined(middle.shape, [(here, terms[nu]) for here, terms in pieces]) for nu in range(order + 1))
+            tuple(_joined(middle.shape, [(here, terms[i]) for here, terms in pieces]) for i in range(len(pieces[0][1])))
         )
 
     def along(self, angle: Jet) -> Jet:
@@ -248,20 +246,20 @@ class CamMotion:
         first, *rest = (angle.terms[1], *angle.terms[2:3])
         return Jet((s[0], s[1] * first, *(s[1] * term + s[2] * (first * first) for term in rest)))
 
-    def _over(self, angle: Array | Interval, order: int) -> Jet:
+    def _over(self, angle: Array | Interval, nu: int) -> Jet:
         if not isinstance(angle, Interval):
-            return self.jet(angle, order)
+            return self.jet(angle, nu)
         start, stop = self.interval
         known_at = np.isfinite(angle.radius)
         turns = np.floor((angle.middle - start) / (stop - start)) if self.closed else 0.0 * angle.middle
         at = angle - turns * Interval(np.array(stop - start), np.array(2.0 * ROUNDOFF * (stop - start)))
-        known = self.jet(at, order)
+        known = self.jet(at, nu)
         for way in (-1.0, 1.0):
             # what an interval has beyond an end of its stretch belongs to the next one
-            known = self._with_next(known, at, order, way)
+            known = self._with_next(known, at, nu, way)
         return Jet(tuple(Interval(term.middle, np.where(known_at, term.radius, np.inf)) for term in known.terms))
 
-    def _with_next(self, known: Jet, at: Interval, order: int, way: float) -> Jet:
+    def _with_next(self, known: Jet, at: Interval, nu: int, way: float) -> Jet:
         which = np.searchsorted(self.breaks[1:-1], at.middle, side="right")
         ends, (start, stop) = np.array(self.breaks)[which + (way > 0.0)], self.interval
         beyond = np.flatnonzero(at.high > ends if way > 0.0 else at.low < ends)
@@ -271,7 +269,7 @@ class CamMotion:
             stretch = self.stretches[(i + int(way)) % len(self.stretches)]
             moved = at[here] - wrapped * (stop - start)
             wide = moved.radius > 0.5 * (stretch.stop - stretch.start)
-            for term, more in zip(terms, stretch.jet(moved, order).terms, strict=True):
+            for term, more in zip(terms, stretch.jet(moved, nu).terms, strict=True):
                 both = hull(term[here], more)
                 term.middle[here], term.radius[here] = both.middle, np.where(wide, np.inf, both.radius)
         return Jet(tuple(terms))

@@ -106,9 +106,9 @@ class CurveByAngle(ABC):
         InputError
             If an angle is no finite number, or out of the interval of a curve that is not closed; so do other methods.
         """
-        order = derivative(nu)
-        jets = self.jets(real_times(angle), order, before=before)
-        return np.stack([jet.derivative(order) for jet in jets], axis=-1)
+        nu = derivative(nu)
+        jets = self.jets(real_times(angle), nu, before=before)
+        return np.stack([jet.derivative(nu) for jet in jets], axis=-1)
 
 
 class PlaneCurve(CurveByAngle):

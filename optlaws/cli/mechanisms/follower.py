@@ -130,7 +130,8 @@ def _follower_and_machine(options: FollowerOptions) -> tuple[optlaws.Follower, o
     if any(quantity is not None for quantity in options.quantities.values()):
         if options.frequency is not None or any(number is not None for number in options.numbers):
             raise InputError(
-                "--natural-frequency, --speed, --rise and --duration are of a machine: give no --frequency or numbers beside"
+                "--natural-frequency, --speed, --rise and --duration are of a machine: give no --frequency or numbers "
+                "beside"
             )
         machine = optlaws.machine_follower(stroke=stroke or "1 m", damping=damping, **options.quantities)
         return machine.follower, machine if stroke else None

@@ -32,8 +32,8 @@ def front(
     Parameters
     ----------
     over
-        Two or three constants, separated by commas, such as "residual(frequency=20),C"; the last is minimised at given values
-        of the others.
+        Two or three constants, separated by commas, such as "residual(frequency=20),C"; the last is minimised at given
+        values of the others.
     points
         How many laws.
     between

@@ -60,8 +60,8 @@ def shaped_law(law: MotionLaw, frequency: float, damping: float = 0.0, shaper: S
     if duration < _LEAST_TIME:
         periods = "half a period" if len(impulses) == 2 else "a period"
         raise InputError(
-            f"{shaper} takes {periods} of the vibration, {impulses[-1][0]:.3g} of the total time at the frequency {frequency:g}, and "
-            "leaves no time for the law; a slower motion or a stiffer machine has room for it"
+            f"{shaper} takes {periods} of the vibration, {impulses[-1][0]:.3g} of the total time at the frequency "
+            f"{frequency:g}, and leaves no time for the law; a slower motion or a stiffer machine has room for it"
         )
     inner = np.array(law.breaks if isinstance(law, PiecewiseLaw) else (0.0, 1.0))
     places = np.unique(np.concatenate([start + duration * inner for start, _ in impulses]).round(15))
@@ -91,10 +91,10 @@ def _segment(
     middle = 0.5 * (low + high)
     running = [(start, share) for start, share in impulses if start < middle < start + duration]
 
-    def total(k: Array, order: int) -> Array:
+    def total(k: Array, nu: int) -> Array:
         values = np.zeros(np.shape(k))
         for start, share in running:
-            values += share / duration**order * np.asarray(law(np.clip((k - start) / duration, 0.0, 1.0), order))
+            values += share / duration**nu * np.asarray(law(np.clip((k - start) / duration, 0.0, 1.0), nu))
         return values
 
     c = chebyshev.interpolated(lambda x: total(low + 0.5 * (high - low) * (x + 1.0), 2), "the acceleration")

@@ -156,7 +156,7 @@ class Segment(JsonText, ABC):
         return float(self.derivative(_END if last else _START, length, 1)[0])
 
     def _velocity_plus(self, length: float, once: float, twice: float) -> float:
-        b, c, j = (float(self.derivative(_START, length, order)[0]) for order in (1, 2, 3))
+        b, c, j = (float(self.derivative(_START, length, nu)[0]) for nu in (1, 2, 3))
         return b + once * c + twice * j
 
     def to_dict(self) -> dict[str, Any]:

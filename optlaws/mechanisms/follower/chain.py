@@ -49,7 +49,7 @@ class MassChain:
         u, v = 0.0, 0.0
         for stretch in self.stretches:
             if stretch.forcing is not before:
-                cam = [float(stretch.cam(end, order)[0]) for order in (0, 1)]
+                cam = [float(stretch.cam(end, nu)[0]) for nu in (0, 1)]
                 if before is None:
                     u, v = self.initial[0] - cam[0], self.initial[1] - cam[1]
                 else:  # displacement and velocity of the mass are continuous, whatever the cam does
@@ -64,8 +64,8 @@ class MassChain:
             starts.append(free)
             last = np.array([stretch.length])
             u, v = (
-                float(stretch.particular.derivative(last, order)[0] + self.oscillator.motion(*free, last, order)[0])
-                for order in (0, 1)
+                float(stretch.particular.derivative(last, nu)[0] + self.oscillator.motion(*free, last, nu)[0])
+                for nu in (0, 1)
             )
         return starts, (u, v)
 
@@ -75,11 +75,11 @@ class MassChain:
         last = self.forcings[-1]
         return (*(forcing.start for forcing in self.forcings), last.start + last.length)
 
-    def before_breaks(self, order: int) -> Array:
-        """The derivative of order `order` of a_m just before every break inside."""
+    def before_breaks(self, nu: int) -> Array:
+        """The derivative of order `nu` of a_m just before every break inside."""
         pairs = zip(self.stretches, self.stretches[1:], strict=False)
         last = [i for i, (before, after) in enumerate(pairs) if after.forcing is not before.forcing]
-        return np.array([float(self._values(i, np.array([self.stretches[i].length]), order)[0]) for i in last])
+        return np.array([float(self._values(i, np.array([self.stretches[i].length]), nu)[0]) for i in last])
 
     @property
     def off_at_end(self) -> State:
@@ -90,44 +90,44 @@ class MassChain:
     def end(self) -> State:
         """Displacement and velocity of the mass at the end."""
         last = self.stretches[-1]
-        cam = [float(last.cam(np.array([last.length]), order)[0]) for order in (0, 1)]
+        cam = [float(last.cam(np.array([last.length]), nu)[0]) for nu in (0, 1)]
         return cam[0] + self.off_at_end[0], cam[1] + self.off_at_end[1]
 
-    def derivative(self, time: Array, order: int) -> Array:
-        """Derivative of order `order` of a_m at times of any shape within the chain."""
+    def derivative(self, time: Array, nu: int) -> Array:
+        """Derivative of order `nu` of a_m at times of any shape within the chain."""
         starts = np.array([stretch.start for stretch in self.stretches])
         places = np.clip(np.searchsorted(starts, time, side="right") - 1, 0, len(starts) - 1)
         values = np.empty(np.shape(time))
         for i in np.unique(places):
             here = places == i
             s = np.clip(np.asarray(time)[here] - starts[i], 0.0, self.stretches[i].length)
-            values[here] = self._values(int(i), s, order)
+            values[here] = self._values(int(i), s, nu)
         return values
 
-    def candidates(self, order: int) -> tuple[Array, Array]:
-        """Times, and values there, among which the extremes of the derivative of order `order` are."""
+    def candidates(self, nu: int) -> tuple[Array, Array]:
+        """Times, and values there, among which the extremes of the derivative of order `nu` are."""
         return self._gathered(
-            lambda i, s: self._values(i, s, order), lambda i, s, nu: self._values(i, s, order + 1 + nu)
+            lambda i, s: self._values(i, s, nu), lambda i, s, further: self._values(i, s, nu + 1 + further)
         )
 
     def power_candidates(self) -> tuple[Array, Array]:
         """Times, and values there, among which the extremes of the kinetic power d = b c are."""
 
-        def slope(i: int, s: Array, nu: int) -> Array:
-            b, c, j = (self._values(i, s, order) for order in (1, 2, 3))
-            return 3.0 * c * j + b * self._values(i, s, 4) if nu else c * c + b * j
+        def slope(i: int, s: Array, further: int) -> Array:
+            b, c, j = (self._values(i, s, nu) for nu in (1, 2, 3))
+            return 3.0 * c * j + b * self._values(i, s, 4) if further else c * c + b * j
 
         return self._gathered(lambda i, s: self._values(i, s, 1) * self._values(i, s, 2), slope)
 
-    def mean_square(self, order: int) -> float:
-        """Mean of the square of the derivative of order `order` over the chain."""
-        total = sum(self._square(i, stretch.length, order) for i, stretch in enumerate(self.stretches))
+    def mean_square(self, nu: int) -> float:
+        """Mean of the square of the derivative of order `nu` over the chain."""
+        total = sum(self._square(i, stretch.length, nu) for i, stretch in enumerate(self.stretches))
         return total / sum(stretch.length for stretch in self.stretches)
 
-    def _square(self, i: int, length: float, order: int) -> float:
+    def _square(self, i: int, length: float, nu: int) -> float:
         """Integral over a stretch, halved until the product of its series is known to rounding."""
-        negligible = STRETCH_RESOLVED * float(np.abs(self._values(i, length * SAMPLES, order)).max())
-        panels, series = self._resolved(lambda s: self._values(i, s, order), length, negligible)
+        negligible = STRETCH_RESOLVED * float(np.abs(self._values(i, length * SAMPLES, nu)).max())
+        panels, series = self._resolved(lambda s: self._values(i, s, nu), length, negligible)
         pieces = zip(np.diff(panels.edges).tolist(), series.T, strict=True)
         return float(sum(span * chebyshev.mean_product(column, column) for span, column in pieces))
 
@@ -142,18 +142,18 @@ class MassChain:
             heights.append(values(i, s))
         return np.concatenate(times), np.concatenate(heights)
 
-    def _values(self, i: int, s: Array, order: int) -> Array:
+    def _values(self, i: int, s: Array, nu: int) -> Array:
         """a + u where u is small beside a; else, from a_m'' on, the equation of motion, which cancels less."""
         stretch, free = self.stretches[i], self._joints[0][i]
 
-        def off(order: int) -> Array:
-            return np.asarray(stretch.particular.derivative(s, order) + self.oscillator.motion(*free, s, order))
+        def off(nu: int) -> Array:
+            return np.asarray(stretch.particular.derivative(s, nu) + self.oscillator.motion(*free, s, nu))
 
-        if order < 2 or stretch.closed:
-            return stretch.cam(s, order) + off(order)
+        if nu < 2 or stretch.closed:
+            return stretch.cam(s, nu) + off(nu)
         twice, square = 2.0 * self.oscillator.n, self.oscillator.frequency**2
         value = stretch.cam(s, 1) + off(1)
-        for m in range(order - 1):
+        for m in range(nu - 1):
             value = -twice * value - square * off(m)
         return value
 

@@ -27,18 +27,18 @@ class PolynomialMotion:
     length: float
     series: tuple[Array, Array, Array]
 
-    def derivative(self, s: Array, order: int) -> Array:
-        """Derivative of order `order` at s."""
-        return chebyshev.value(self._series(order), 2.0 * s / self.length - 1.0)
+    def derivative(self, s: Array, nu: int) -> Array:
+        """Derivative of order `nu` at s."""
+        return chebyshev.value(self._series(nu), 2.0 * s / self.length - 1.0)
 
     @kept_property
     def _known(self) -> dict[int, Array]:
         return dict(enumerate(self.series))
 
-    def _series(self, order: int) -> Array:
-        if order not in self._known:
-            self._known[order] = chebyshev.derivative(self._series(order - 1)) / self.length
-        return self._known[order]
+    def _series(self, nu: int) -> Array:
+        if nu not in self._known:
+            self._known[nu] = chebyshev.derivative(self._series(nu - 1)) / self.length
+        return self._known[nu]
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,13 +60,13 @@ class Forcing:
     acceleration: Array
     sines: tuple[Wave, ...] = ()
 
-    def derivative(self, s: Array, order: int) -> Array:
-        """Derivative of order `order` of a at s."""
+    def derivative(self, s: Array, nu: int) -> Array:
+        """Derivative of order `nu` of a at s."""
         if not self.sines:
-            return self._polynomial.derivative(s, order)
-        first, *others = (motion.derivative(s, 1.0, order) for motion in self._swings)
+            return self._polynomial.derivative(s, nu)
+        first, *others = (motion.derivative(s, 1.0, nu) for motion in self._swings)
         swing: Array = sum(others, first)
-        return swing if order > 1 and not self.acceleration.any() else swing + self._polynomial.derivative(s, order)
+        return swing if nu > 1 and not self.acceleration.any() else swing + self._polynomial.derivative(s, nu)
 
     @kept_property
     def _swings(self) -> tuple[SineSegment, ...]:

@@ -29,8 +29,8 @@ SPARE = 31  # coefficients beyond those of the forcing that resolve the vibratio
 class Particular(Protocol):
     """One solution over one stretch."""
 
-    def derivative(self, s: Array, order: int) -> Array:
-        """Derivative of order `order` of u, s counted from the stretch's start."""
+    def derivative(self, s: Array, nu: int) -> Array:
+        """Derivative of order `nu` of u, s counted from the stretch's start."""
         ...
 
 
@@ -49,9 +49,9 @@ class ForcedStretch:
         """Time at which it begins."""
         return self.forcing.start + self.offset
 
-    def cam(self, s: Array, order: int) -> Array:
-        """Derivative of order `order` of the cam's displacement, s counted from the stretch's start."""
-        return self.forcing.derivative(np.minimum(self.offset + s, self.forcing.length), order)
+    def cam(self, s: Array, nu: int) -> Array:
+        """Derivative of order `nu` of the cam's displacement, s counted from the stretch's start."""
+        return self.forcing.derivative(np.minimum(self.offset + s, self.forcing.length), nu)
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,11 +61,11 @@ class SineSolution:
     steady: PolynomialMotion
     waves: tuple[tuple[complex, float], ...]
 
-    def derivative(self, s: Array, order: int) -> Array:
-        """Derivative of order `order` at s."""
-        values = self.steady.derivative(s, order)
+    def derivative(self, s: Array, nu: int) -> Array:
+        """Derivative of order `nu` at s."""
+        values = self.steady.derivative(s, nu)
         for amplitude, frequency in self.waves:
-            turned = amplitude * (1j * frequency) ** order
+            turned = amplitude * (1j * frequency) ** nu
             values += turned.real * np.cos(frequency * s) - turned.imag * np.sin(frequency * s)
         return values
 

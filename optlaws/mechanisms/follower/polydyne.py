@@ -103,7 +103,8 @@ def mass_law(cam: MotionLaw, frequency: float, damping: float = 0.0) -> Polynomi
     moves = motion_law(cam, "cam")
     if not isinstance(moves, PolynomialLaw):
         raise InputError(
-            f"cam must be a PolynomialLaw; Follower(frequency, damping).response(cam) takes any law, got {shortened(cam)}"
+            f"cam must be a PolynomialLaw; Follower(frequency, damping).response(cam) takes any law, "
+            f"got {shortened(cam)}"
         )
     frequency, ratio = positive(frequency, "frequency"), not_negative(damping, "damping")
     return PolynomialLaw.from_powers(mass_powers(moves.exact_powers(), frequency, ratio))
@@ -165,6 +166,6 @@ def check_mass_law(law: MotionLaw) -> None:
             )
 
 
-def _size(law: MotionLaw, order: int) -> float:
-    size = np.abs(law(np.linspace(0.0, 1.0, 33), order))
+def _size(law: MotionLaw, nu: int) -> float:
+    size = np.abs(law(np.linspace(0.0, 1.0, 33), nu))
     return max(1.0, float(size[np.isfinite(size)].max(initial=0.0)))

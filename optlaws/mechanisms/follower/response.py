@@ -159,8 +159,8 @@ class Response(MassMotion):
 
     def __repr__(self) -> str:
         return (
-            f"Response(frequency={self.frequency:g}, damping={self.damping:g}, peak acceleration={self.peak(2).value:g}, "
-            f"residual acceleration={self.residual_acceleration:g})"
+            f"Response(frequency={self.frequency:g}, damping={self.damping:g}, "
+            f"peak acceleration={self.peak(2).value:g}, residual acceleration={self.residual_acceleration:g})"
         )
 
     @property
@@ -265,15 +265,15 @@ class CycleResponse(MassMotion):
         forced = MassChain(oscillator, self._forcings, (low, 0.0)).end
         end = np.array([self.period])
         columns = [
-            [oscillator.motion(*unit, end, order)[0] for order in (0, 1)]
-            for unit in ((1.0, 0.0), (0.0, self.frequency))
+            [oscillator.motion(*unit, end, nu)[0] for nu in (0, 1)] for unit in ((1.0, 0.0), (0.0, self.frequency))
         ]
         matrix = np.eye(2) - np.array([columns[0], np.array(columns[1]) / self.frequency]).T
         scaled = matrix * np.array([[1.0, self.frequency], [1.0 / self.frequency, 1.0]])
         if np.linalg.svd(scaled, compute_uv=False)[-1] < RESONANCE:
             raise InputError(
-                f"an undamped follower of nu = {self.frequency:g} is in resonance with a cycle of {self.period:g} durations "
-                "of the rise (nu period / 2 pi is whole): it has no steady motion; give it damping or change the cycle"
+                f"an undamped follower of frequency {self.frequency:g} is in resonance with a cycle of {self.period:g} "
+                "durations of the rise (frequency times period / 2 pi is whole): it has no steady motion; give it "
+                "damping or change the cycle"
             )
         start = np.linalg.solve(matrix, np.array([forced[0] - low, forced[1]]))
         return low + float(start[0]), float(start[1])

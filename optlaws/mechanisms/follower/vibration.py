@@ -14,7 +14,7 @@ from optlaws.numbers import Array
 
 @dataclass(frozen=True)
 class Oscillator:
-    """The homogeneous equation of a follower: frequency nu in radians in the rise's duration, damping as the ratio zeta = n/nu.
+    """The homogeneous equation of a follower: frequency nu in radians in the rise's duration, ratio zeta = n/nu.
 
     >>> Oscillator(5.0, 0.6).damped, Oscillator(5.0, 1.25).damped
     (4.0, 0.0)
@@ -53,9 +53,9 @@ class Oscillator:
         ratio = np.where(twice == 0.0, 1.0, -np.expm1(-safe) / safe)
         return 0.5 * slow * (1.0 + np.exp(-twice)), slow * s * ratio
 
-    def motion(self, h0: float, v0: float, s: Array, order: int) -> Array:
-        """Derivative of order `order` at s of the vibration with displacement h0 and velocity v0 at s = 0."""
-        for _ in range(order):
+    def motion(self, h0: float, v0: float, s: Array, nu: int) -> Array:
+        """Derivative of order `nu` at s of the vibration with displacement h0 and velocity v0 at s = 0."""
+        for _ in range(nu):
             h0, v0 = v0, -2.0 * self.n * v0 - self.frequency**2 * h0
         even, odd = self.even_odd(s)
         return h0 * even + (v0 + self.n * h0) * odd
@@ -66,9 +66,9 @@ class Oscillator:
             return hypot(h0, (v0 + self.n * h0) / self.damped)
         return self.peak(h0, v0, 0).value
 
-    def peak(self, h0: float, v0: float, order: int) -> Peak:
-        """Greatest magnitude of the derivative of order `order` from s = 0 on, and its place s."""
-        for _ in range(order):
+    def peak(self, h0: float, v0: float, nu: int) -> Peak:
+        """Greatest magnitude of the derivative of order `nu` from s = 0 on, and its place s."""
+        for _ in range(nu):
             h0, v0 = v0, -2.0 * self.n * v0 - self.frequency**2 * h0
         places = np.array([0.0, self._first_stop(h0, v0)])
         size = np.abs(self.motion(h0, v0, places, 0))

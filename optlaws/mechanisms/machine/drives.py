@@ -86,7 +86,7 @@ def _drives(forcing: Forcing) -> list[DriveStretch]:
     drives = []
     for i in range(count):
         s = np.minimum(i * length + places, forcing.length)
-        values = np.column_stack([forcing.derivative(s, order) for order in range(3)])
+        values = np.column_stack([forcing.derivative(s, nu) for nu in range(3)])
         series = np.asarray(chebyshev.from_values(values))[:, :, None]
         drives.append(DriveStretch(forcing.start + i * length, length, series))
     return drives

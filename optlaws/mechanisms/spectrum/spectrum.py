@@ -72,7 +72,7 @@ def _panels(piece: Forcing, fastest: float) -> tuple[int, Array, Array, Array, A
     while True:
         starts = np.arange(count) / count * piece.length
         s = starts[:, None] + 0.5 * piece.length / count * (x + 1.0)
-        b, c = (chebyshev.from_values(piece.derivative(s, order).T).T for order in (1, 2))
+        b, c = (chebyshev.from_values(piece.derivative(s, nu).T).T for nu in (1, 2))
         size = float(np.abs(c).max())
         if np.abs(c[:, -2:]).max() <= LOAD_RESOLVED * size and np.abs(c[:, 4:]).max() <= BEYOND_CUBIC * size:
             break

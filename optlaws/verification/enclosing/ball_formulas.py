@@ -107,8 +107,8 @@ def exact_pieces(table: Table) -> list[list[fmpq]]:
     return [_differentiated([y, (z - y) / (w - x)], table.order) for (x, y), (w, z) in pairwise(points)]
 
 
-def _differentiated(row: list[fmpq], order: int) -> list[fmpq]:
-    for _ in range(order):
+def _differentiated(row: list[fmpq], nu: int) -> list[fmpq]:
+    for _ in range(nu):
         row = [i * value for i, value in enumerate(row)][1:] or [fmpq(0)]
     return row
 

@@ -132,13 +132,13 @@ def _piece(table: Table, low: Fraction, high: Fraction) -> Formula:
     return table
 
 
-def _differentiated(row: list[float], off: Formula, order: int) -> Formula:
+def _differentiated(row: list[float], off: Formula, nu: int) -> Formula:
     """The derivative of a sum of powers; its coefficients are floats, and so are these times their small factors."""
     terms = []
     for power, value in enumerate(row):
-        factors = [Number(float(i)) for i in range(power - order + 1, power + 1)]
-        if power >= order:
-            lower = [Exponentiation(off, Number(float(power - order)))] if power > order else []
+        factors = [Number(float(i)) for i in range(power - nu + 1, power + 1)]
+        if power >= nu:
+            lower = [Exponentiation(off, Number(float(power - nu)))] if power > nu else []
             # a product that is not worked out: its floats are rounded nowhere
             terms.append(product([*factors, number(value), *lower]))
     return added(terms)

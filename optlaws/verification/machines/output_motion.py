@@ -230,11 +230,9 @@ class _Chains:
         return arb_mat(turn) * arb_mat(powers)
 
 
-def _driving(drive: DrivenStretch, order: int) -> DrivenStretch:
+def _driving(drive: DrivenStretch, nu: int) -> DrivenStretch:
     """The derivative that drives the machine."""
-    return (
-        DrivenStretch(drive.start, drive.length, [column.derivative() for column in drive.columns]) if order else drive
-    )
+    return DrivenStretch(drive.start, drive.length, [column.derivative() for column in drive.columns]) if nu else drive
 
 
 def _coefficients(drive: DrivenStretch) -> list[list[arb]]:

@@ -48,7 +48,7 @@ def test_no_later_value_exceeds_the_peak(nu: float, damping: float, h0: float, s
 @given(st.floats(0.5, 60.0), st.floats(0.0, 0.99), st.floats(-1.0, 1.0), st.floats(-1.0, 1.0))
 def test_the_envelope_touches_the_motion(nu: float, damping: float, h0: float, speed: float) -> None:
     one, v0 = Oscillator(nu, damping), speed * nu
-    s = np.linspace(0.0, 2 * np.pi / one.frequency, 2001)
+    s = np.linspace(0.0, 2 * np.pi / one.damped, 2001)
     envelope = one.amplitude(h0, v0) * np.exp(-one.n * s)
     size = np.abs(one.motion(h0, v0, s, 0))
     assert (size <= envelope * (1 + 1e-9) + 1e-15).all()
