@@ -40,9 +40,9 @@ def imported(module: str) -> ModuleType:
 
 
 def face(package: str, modules: Mapping[str, str]) -> tuple[Callable[[str], Any], Callable[[], list[str]], list[str]]:
-    """`__getattr__`, `__dir__` and `__all__` of a package whose names live in modules (PEP 562).
+    """`__getattr__`, `__dir__` and `__all__` of a package or module whose names live in other modules (PEP 562).
 
-    Type checkers read the same names in the `__init__.pyi` beside it, which `python -m tests.contracts.faces` writes.
+    Type checkers read the same names in the `.pyi` beside it, which `python -m tests.contracts.faces` writes.
 
     Parameters
     ----------

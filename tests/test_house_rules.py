@@ -71,7 +71,6 @@ WITHOUT_TOLERANCES = (
     "motion",
     "numerics",
     "plots",
-    "results",
     "shown",
     "studies",
     "synthesis",

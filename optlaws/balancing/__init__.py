@@ -20,8 +20,8 @@ __getattr__, __dir__, __all__ = face(
         "optlaws.balancing.loaders.loader": "Loader inertial_loader",
         "optlaws.balancing.loaders.optimal": "BalancedLaw balanced_law",
         "optlaws.balancing.loaders.trapezium": "TrapeziumSubstitute closed_form_Y",
-        "optlaws.balancing.machine_units.balancing": "Balancing",
-        "optlaws.balancing.machine_units.dwell_machine": "DwellMachine dwell_machine",
-        "optlaws.balancing.machine_units.lever_cam": "LeverCam rocker_law",
+        "optlaws.balancing.balancing": "Balancing",
+        "optlaws.balancing.dwells.dwell_machine": "DwellMachine dwell_machine",
+        "optlaws.balancing.levers.lever_cam": "LeverCam rocker_law",
     },
 )

@@ -9,12 +9,12 @@ from typing import Any, Literal
 
 import numpy as np
 
+from optlaws.cams.curves.arcs_and_chords import Arcs, arcs
+from optlaws.cams.curves.cam_files import polar
+from optlaws.cams.curves.file_options import Cutting
+from optlaws.cams.curves.outline import Outline
 from optlaws.cams.curves.plane_curve import CurveAlongNormals, CurveByJets, PiecewiseCurve
-from optlaws.cams.cutting.arcs_and_chords import Arcs, arcs
-from optlaws.cams.cutting.cam_files import polar
-from optlaws.cams.cutting.file_options import Cutting
-from optlaws.cams.cutting.outline import Outline
-from optlaws.cams.cutting.spline import spline
+from optlaws.cams.curves.spline import spline
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.contact import FollowerContact, shifted
 from optlaws.errors import InputError
@@ -22,9 +22,9 @@ from optlaws.kept import kept_property
 from optlaws.laws.storage import PlainNumbers
 from optlaws.motion.quantities import positive_quantity, quantity
 from optlaws.numbers import Array, Quantity, whole
-from optlaws.numerics.enclosures.branch_and_bound import Function, extremes
-from optlaws.numerics.enclosures.interval import Interval
-from optlaws.numerics.enclosures.taylor import Jet, Pair, turned, variable
+from optlaws.numerics.branch_and_bound import Function, extremes
+from optlaws.numerics.interval import Interval
+from optlaws.numerics.taylor import Jet, Pair, turned, variable
 from optlaws.suggest import unknown_key
 from optlaws.tolerances import DEVIATIONS, MANUFACTURED_LEAP, MANUFACTURED_PEAKS
 

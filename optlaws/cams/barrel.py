@@ -29,7 +29,7 @@ from optlaws.cycles.cycle import Cycle
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.numbers import Array, Quantity, derivative, real_times
-from optlaws.numerics.enclosures.taylor import Jet, variable
+from optlaws.numerics.taylor import Jet, variable
 from optlaws.suggest import unknown_key
 
 Side = Literal["upper", "lower"]

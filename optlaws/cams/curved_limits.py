@@ -25,7 +25,7 @@ from optlaws.kept import kept_property
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import TURN
 from optlaws.numbers import Array
-from optlaws.numerics.enclosures.taylor import Jet
+from optlaws.numerics.taylor import Jet
 from optlaws.synthesis.functionals.makers import value
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import at_most

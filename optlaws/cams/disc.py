@@ -10,9 +10,9 @@ from typing import Any, Literal, Unpack
 import numpy as np
 
 from optlaws.cams.curves.extremes import CamExtremes
+from optlaws.cams.curves.file_options import CutFormat, CuttingOptions
 from optlaws.cams.curves.motion_by_angle import CamMotion, as_motion
 from optlaws.cams.curves.plane_curve import PlaneCurve
-from optlaws.cams.cutting.file_options import CutFormat, CuttingOptions
 from optlaws.cams.followers.contact import FollowerContact
 from optlaws.cams.followers.follower import CamFollower, Place, follower_names, positive
 from optlaws.cycles.cycle import Cycle
@@ -21,8 +21,8 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.motion.quantities import quantity
 from optlaws.numbers import Array, Quantity, derivative, real_times
-from optlaws.numerics.enclosures.interval import Interval
-from optlaws.numerics.enclosures.taylor import Pair, turned, variable
+from optlaws.numerics.interval import Interval
+from optlaws.numerics.taylor import Pair, turned, variable
 from optlaws.shown.summary import Summary
 from optlaws.suggest import keywords_of, unknown_key
 
@@ -174,7 +174,7 @@ class DiscCam:
         InputError
             If an entry is unknown or out of its range, the motion is no whole turn, or the file cannot be written.
         """
-        from optlaws.cams.cutting.cam_files import format_of, write_outline
+        from optlaws.cams.curves.cam_files import format_of, write_outline
 
         format_of(Path(file), as_)
         return write_outline(self.outline(curve, cutter_radius), file, as_, **options)

@@ -19,10 +19,10 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.motion.quantities import TURN, positive_quantity, quantity
 from optlaws.numbers import Array, Quantity, finite, real_times
-from optlaws.numerics.enclosures.branch_and_bound import Extremes, Function, extremes
-from optlaws.numerics.enclosures.integral import integral
-from optlaws.numerics.enclosures.interval import Interval, highest, middle
-from optlaws.numerics.enclosures.taylor import Jet
+from optlaws.numerics.branch_and_bound import Extremes, Function, extremes
+from optlaws.numerics.integral import integral
+from optlaws.numerics.interval import Interval, highest, middle
+from optlaws.numerics.taylor import Jet
 from optlaws.suggest import unknown_key
 from optlaws.tolerances import FORCE_EXTREMES, VALUE_ROUNDING
 

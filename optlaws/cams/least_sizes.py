@@ -22,8 +22,8 @@ from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.motion.quantities import quantity
 from optlaws.numbers import Quantity
-from optlaws.numerics.enclosures.interval import Interval, exact
-from optlaws.numerics.enclosures.taylor import Jet
+from optlaws.numerics.interval import Interval, exact
+from optlaws.numerics.taylor import Jet
 from optlaws.tolerances import ROUNDOFF, SIZE_BRACKET, SIZE_MARGIN, SIZE_NUDGE, SMALLEST_BASE
 
 Kind = TypeVar("Kind", bound=FollowerContact)

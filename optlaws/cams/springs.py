@@ -16,9 +16,9 @@ from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.laws.storage import PlainNumbers
 from optlaws.motion.quantities import quantity
 from optlaws.numbers import Array, Quantity
-from optlaws.numerics.enclosures.branch_and_bound import Extremes, Function, extremes
-from optlaws.numerics.enclosures.interval import Interval
-from optlaws.numerics.enclosures.taylor import Jet
+from optlaws.numerics.branch_and_bound import Extremes, Function, extremes
+from optlaws.numerics.interval import Interval
+from optlaws.numerics.taylor import Jet
 from optlaws.tolerances import LIFTED, PROGRAM_SLACK, SPRING_EXTREMES
 
 _FIRST = 97

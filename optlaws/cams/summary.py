@@ -13,7 +13,7 @@ from optlaws.tolerances import SMALLEST_ANGLE
 if TYPE_CHECKING:
     from optlaws.cams.curves.extremes import EnclosedExtreme
     from optlaws.cams.disc import DiscCam
-    from optlaws.numerics.enclosures.branch_and_bound import Extremes
+    from optlaws.numerics.branch_and_bound import Extremes
 
 T = TypeVar("T")
 

@@ -30,22 +30,22 @@ COMMANDS = {
     "laws.law": (
         "Show a law of the catalogue, a coded law, a member of Savin's families or a stored law, with its constants."
     ),
-    "mechanisms.cycle:cam": (
+    "laws.cycle:cam": (
         "Cams of cycles: curves, enclosed pressure angles and curvatures, proof of no undercut, least sizes."
     ),
-    "mechanisms.cycle": (
+    "laws.cycle": (
         "Whole cycles of a machine in physical units, optimal as a whole: peaks, joints, drives, tables and pictures."
     ),
-    "balancing.dwell": (
+    "laws.dwell": (
         "Balancing mechanisms of types I, II and III for an executive link that dwells, and which of them to take."
     ),
-    "mechanisms.follower": (
+    "laws.follower": (
         "Response of an elastic follower's mass: peaks, dynamic factor, residual vibration, and the same off design."
     ),
-    "balancing.lever": (
+    "laws.lever": (
         "Law of motion of a mass that swings between torsion bars on a cam-lever mechanism: exact and asymptotic."
     ),
-    "balancing.loader": (
+    "laws.loader": (
         "Inertial loader that balances a law: energy parameter Y, peaks of its motion, its mass or stroke."
     ),
     "synthesis.atlas": (

@@ -14,7 +14,7 @@ from optlaws.cycles.specification.segments import ConstantVelocity, CycleSegment
 from optlaws.errors import InputError
 from optlaws.laws.making.transform import section
 from optlaws.laws.segments.piecewise import PiecewiseLaw
-from optlaws.mechanisms.follower.polydyne import polydyne
+from optlaws.mechanisms.polydyne_cam import polydyne
 from optlaws.motion.piece import Piece, unit_of, values_of_pieces
 from optlaws.motion.quantities import TURN, positive_quantity
 from optlaws.numbers import Array, Quantity

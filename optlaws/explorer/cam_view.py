@@ -26,7 +26,7 @@ from optlaws.jobs.cam_entries import CamProblemFile, Cams, ForcesEntries, read
 from optlaws.jobs.cam_findings import FORCE, STIFFNESS, Findings
 from optlaws.motion.quantities import quantity
 from optlaws.numbers import Array
-from optlaws.numerics.enclosures.branch_and_bound import Extremes
+from optlaws.numerics.branch_and_bound import Extremes
 from optlaws.tolerances import FORCE_ROUNDING
 
 _MILLI = 1e3

@@ -13,8 +13,8 @@ import msgspec
 
 import optlaws
 from optlaws import Cycle, Problem, Solution
-from optlaws.cams.cutting import cam_files
-from optlaws.cams.cutting.file_options import Cutting
+from optlaws.cams.curves import cam_files
+from optlaws.cams.curves.file_options import Cutting
 from optlaws.errors import InputError
 from optlaws.explorer import cam_view, cycle_view
 from optlaws.explorer.law_view import digits, title

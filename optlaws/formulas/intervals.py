@@ -1,7 +1,7 @@
 """Between which values a formula stays while its names stay between theirs: interval arithmetic, many boxes at once.
 
 Intervals are known by their ends, since boxes may have no bound on one side; functions in narrow cells have the
-middles and radii of `optlaws.numerics.enclosures`. Every operation is rounded outward by itself: terms that cancel each
+middles and radii of `optlaws.numerics.interval`. Every operation is rounded outward by itself: terms that cancel each
 other would else leave less than what they are rounded by.
 """
 

@@ -15,7 +15,7 @@ import numpy as np
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.files import reading, tables
 from optlaws.plots.style import DISTINCT, GREY, empty_figure, plot_style
-from optlaws.results.results import Page, Results
+from optlaws.results import Page, Results
 from optlaws.studies.run import run_study
 from optlaws.studies.specification import read_study
 from optlaws.studies.tables import StudyPoint

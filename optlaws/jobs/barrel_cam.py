@@ -19,7 +19,7 @@ from optlaws.jobs.cycle_entries import AxisEntries, cycle_of
 from optlaws.jobs.job import JobFile
 from optlaws.numbers import Array
 from optlaws.plots.style import BLUES, GREY, WARM, new_figure, plot_style, titled
-from optlaws.results.results import Results
+from optlaws.results import Results
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -27,7 +27,7 @@ from optlaws.jobs.cam_entries import CamProblemFile, Cams, FileEntries, read
 from optlaws.jobs.cam_findings import EXTREMES, FORCE, STIFFNESS, Findings, Limits, enclosure, extreme_rows, plain
 from optlaws.plots.cam import animated, cam_figure, forces_figure, pair_figure
 from optlaws.plots.cycle import UNITS
-from optlaws.results.results import Page, Results
+from optlaws.results import Page, Results
 from optlaws.tolerances import FORCE_ROUNDING, SIZE_MET
 
 _MILLI, _MICRO = 1e3, 1e6

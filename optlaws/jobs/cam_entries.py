@@ -11,8 +11,8 @@ import msgspec
 
 from optlaws.cams.best_laws import BestBaseCircle, BestCam, best_base_circle, best_cam
 from optlaws.cams.conjugate import conjugate_cam
-from optlaws.cams.cutting.cam_files import format_of
-from optlaws.cams.cutting.file_options import Cutting
+from optlaws.cams.curves.cam_files import format_of
+from optlaws.cams.curves.file_options import Cutting
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.follower import read_follower
 from optlaws.cams.forces import CamForces

@@ -18,7 +18,7 @@ from optlaws.exports.text import variable_names
 from optlaws.files import tables, writing
 from optlaws.jobs.cycle_entries import CycleProblemFile, ExportEntries, read
 from optlaws.plots.cycle import QUANTITIES, UNITS, axes_figure, cycle_figure
-from optlaws.results.results import Page, Results
+from optlaws.results import Page, Results
 from optlaws.tolerances import CYCLE_ROUNDING
 
 #: the exports of each axis by the names of their files

@@ -16,7 +16,7 @@ from optlaws.jobs.job import JobFile
 from optlaws.laws import MotionLaw
 from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.plots.style import BLUES, GREY, empty_figure, plot_style
-from optlaws.results.results import Results
+from optlaws.results import Results
 from optlaws.studies.problem_entries import ProblemEntries, gap, problem
 from optlaws.synthesis import Solution, synthesize
 from optlaws.synthesis.functionals.makers import drive_torque, peak, rms

@@ -28,7 +28,7 @@ from optlaws.plots.style import (
     plot_style,
     shades,
 )
-from optlaws.results.results import Page, Results
+from optlaws.results import Page, Results
 from optlaws.studies.problem_entries import Positive, ProblemEntries, gap, problem
 from optlaws.synthesis import FUNCTIONALS, Problem
 from optlaws.synthesis.limits.of_problem import known_limit

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from optlaws.errors import InputError
 from optlaws.files.packaged import packaged
-from optlaws.results.results import Entries, Results
+from optlaws.results import Entries, Results
 from optlaws.suggest import unknown_key
 
 #: puts what a problem file asks for into its results

@@ -20,10 +20,10 @@ from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.laws.making.input_shaping import Shaper, shaped_law
 from optlaws.mechanisms.machine.machine import Machine
 from optlaws.mechanisms.machine.modes import mode
-from optlaws.mechanisms.spectrum.transforms import velocity_transform
+from optlaws.mechanisms.transforms import velocity_transform
 from optlaws.numbers import Array, bounded
 from optlaws.plots.style import BLUES, GREEN, GREY, WARM, empty_figure, plot_style
-from optlaws.results.results import Results
+from optlaws.results import Results
 from optlaws.studies.problem_entries import gap, record
 from optlaws.synthesis import Functional, Problem, Solution, at_most, synthesize
 from optlaws.synthesis.problem.fields import from_entries

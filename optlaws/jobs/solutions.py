@@ -12,11 +12,10 @@ from typing import Annotated, Any, Literal
 import msgspec
 
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
-from optlaws.files import tables, writing
+from optlaws.files import printed, tables, writing
 from optlaws.files.problem_file import Text
 from optlaws.jobs.job import JobFile
-from optlaws.results import printed
-from optlaws.results.results import Results
+from optlaws.results import Results
 from optlaws.studies.problem_entries import EntryLists, ProblemEntries, Some, gap, problem, record, shown
 from optlaws.suggest import unknown_key
 from optlaws.synthesis import FUNCTIONALS, Certificate, Problem, Solution, Status, synthesize

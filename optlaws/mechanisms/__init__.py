@@ -1,4 +1,4 @@
-"""What laws do in machines: elastic followers and the cams made for them."""
+"""What laws do in machines: elastic followers, their response spectra and the cams made for them; linear machines."""
 
 from optlaws.lazy import face
 
@@ -6,12 +6,12 @@ __getattr__, __dir__, __all__ = face(
     __name__,
     {
         "optlaws.numbers": "deg",
-        "optlaws.mechanisms.follower.response": "CycleResponse Response",
-        "optlaws.mechanisms.follower.follower": "Deviation Follower off_design",
+        "optlaws.mechanisms.response": "CycleResponse Response",
+        "optlaws.mechanisms.follower": "Deviation Follower off_design",
         "optlaws.mechanisms.machine.machine": "Machine",
         "optlaws.mechanisms.machine.masses": "Link",
-        "optlaws.mechanisms.follower.polydyne": "mass_law polydyne",
-        "optlaws.mechanisms.spectrum.residual": "residual_functional residual_phasor",
-        "optlaws.mechanisms.spectrum.spectrum": "ResponseSpectrum response_spectrum",
+        "optlaws.mechanisms.polydyne_cam": "mass_law polydyne",
+        "optlaws.mechanisms.residual": "residual_functional residual_phasor",
+        "optlaws.mechanisms.spectrum": "ResponseSpectrum response_spectrum",
     },
 )

@@ -1,1 +1,1 @@
-"""Numbers and functions of one variable: series, roots, bisection, enclosures, tolerances. Knows no law."""
+"""Functions of one variable and numbers: series, roots, enclosures by intervals and Taylor jets. Knows no law."""

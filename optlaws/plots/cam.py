@@ -219,8 +219,8 @@ _MARGIN = 6.0
 
 def animated(cam: DiscCam, seconds: float = 4.0) -> str:
     """The picture of one turn in so many seconds, over and over, in millimetres; y points up."""
-    from optlaws.cams.cutting.cam_files import beziers
-    from optlaws.cams.cutting.spline import spline
+    from optlaws.cams.curves.cam_files import beziers
+    from optlaws.cams.curves.spline import spline
 
     outline = beziers(spline(cam.profile, OUTLINE_DRAWN)) * [_MILLI, -_MILLI]
     curves = " ".join(f"C {_pair(a)} {_pair(b)} {_pair(c)}" for _, a, b, c in outline)

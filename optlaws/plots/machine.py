@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
     from optlaws.mechanisms.machine.over_time import OutputCurve
     from optlaws.mechanisms.machine.parameters import MachineSpectrum
-    from optlaws.mechanisms.spectrum.spectrum import ResponseSpectrum
+    from optlaws.mechanisms.spectrum import ResponseSpectrum
 
 
 def draw_spectrum(

@@ -11,7 +11,7 @@ from traceback import extract_tb
 
 from optlaws.errors import InputError, OptlawsError
 from optlaws.files.packaged import packaged
-from optlaws.results.results import Results
+from optlaws.results import Results
 from optlaws.suggest import unknown_key
 
 __path__ = [str(packaged("problems"))]

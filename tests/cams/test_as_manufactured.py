@@ -20,7 +20,7 @@ from optlaws import (
     synthesize,
     with_profile_error,
 )
-from tests.cams.cutting import readers
+from tests.cams.curves import readers
 from tests.internals.cams import ArcChain, PointSpline, Spline, run_against, write_outline
 
 Array = NDArray[np.float64]

@@ -1,4 +1,4 @@
-"""What type checkers read of the packages whose names are imported when first used: their `__init__.pyi`.
+"""What type checkers read of modules and packages whose names are imported when first used: the `.pyi` beside them.
 
 `python -m tests.contracts.faces` writes them again; tests/contracts/test_faces.py holds them to the tables.
 """
@@ -11,8 +11,8 @@ from tests.documents import ROOT
 
 
 def faces() -> Iterator[tuple[Path, dict[str, str]]]:
-    """Every `__init__.py` with a table of names, and the table."""
-    for file in sorted((ROOT / "optlaws").rglob("__init__.py")):
+    """Every file with a table of names, and the table."""
+    for file in sorted((ROOT / "optlaws").rglob("*.py")):
         for call in ast.walk(ast.parse(file.read_text("utf-8"))):
             if isinstance(call, ast.Call) and isinstance(call.func, ast.Name) and call.func.id == "face":
                 yield file, ast.literal_eval(call.args[1])
@@ -21,7 +21,7 @@ def faces() -> Iterator[tuple[Path, dict[str, str]]]:
 def stub(file: Path, table: dict[str, str]) -> str:
     """The names of a face as imports."""
     own = file == ROOT / "optlaws" / "__init__.py"
-    lines = ["# made by tests/contracts/faces.py from the table in __init__.py"]
+    lines = [f"# made by tests/contracts/faces.py from the table in {file.name}"]
     lines += [f"from optlaws import {name} as {name}" for name in ("laws", "mechanisms", "synthesis")] if own else []
     lines += [
         f"from {module} import {name} as {name}"

@@ -28,7 +28,7 @@ REGISTRIES: dict[str, Registry[Any]] = {
 
 
 def package(file: Path) -> str:
-    return ".".join(file.parent.relative_to(ROOT).parts)
+    return ".".join(file.with_suffix("").relative_to(ROOT).parts).removesuffix(".__init__")
 
 
 def python(script: str) -> str:

@@ -4,13 +4,13 @@ from optlaws.cams import curved_limits
 from optlaws.cams.as_manufactured import ArcChain, Following, PointSpline, PolarSpline, run_against
 from optlaws.cams.best_laws import linear_limits
 from optlaws.cams.curved_limits import curvature_of
+from optlaws.cams.curves import cam_files
+from optlaws.cams.curves.arcs_and_chords import Arcs, arcs, polygon
+from optlaws.cams.curves.cam_files import ENDINGS, FORMATS, polar, write_outline
 from optlaws.cams.curves.extremes import FREE, UNDERCUT, EnclosedExtreme, enclosed_extremes
+from optlaws.cams.curves.outline import Outline
 from optlaws.cams.curves.plane_curve import CurveByJets, PlaneCurve
-from optlaws.cams.cutting import cam_files
-from optlaws.cams.cutting.arcs_and_chords import Arcs, arcs, polygon
-from optlaws.cams.cutting.cam_files import ENDINGS, FORMATS, polar, write_outline
-from optlaws.cams.cutting.outline import Outline
-from optlaws.cams.cutting.spline import Spline, even, spline, through
+from optlaws.cams.curves.spline import Spline, even, spline, through
 from optlaws.cams.followers.contact import PRESSURE
 from optlaws.cams.followers.follower import CamFollower, follower_kinds, read_follower
 from optlaws.cams.followers.oscillating_roller import SwingingRoller

@@ -1,1 +1,1 @@
-"""What cams are made of: motions by the cam's angle, Taylor arithmetic, and plane curves with all their derivatives."""
+"""Curves of cams: motions by the cam's angle, plane curves, extremes; splines, chords, arcs and files that cut them."""

@@ -17,8 +17,8 @@ from optlaws.laws.segments.fractional import FractionalSegment
 from optlaws.laws.segments.segment import Segment, Waves
 from optlaws.numbers import Array
 from optlaws.numerics import chebyshev, real_powers
-from optlaws.numerics.enclosures.interval import Interval, between, exact
-from optlaws.numerics.enclosures.taylor import Jet
+from optlaws.numerics.interval import Interval, between, exact
+from optlaws.numerics.taylor import Jet
 from optlaws.tolerances import ROUNDOFF
 
 _MORE = 4  # derivatives that Taylor's formula takes beyond those that are asked

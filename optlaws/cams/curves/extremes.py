@@ -8,8 +8,8 @@ from math import atan, degrees, inf, nextafter
 from typing import Literal, TypeAlias
 
 from optlaws.cams.curves.motion_by_angle import CamMotion
-from optlaws.numerics.enclosures.branch_and_bound import extremes
-from optlaws.numerics.enclosures.taylor import Jet
+from optlaws.numerics.branch_and_bound import extremes
+from optlaws.numerics.taylor import Jet
 from optlaws.tolerances import CAM_EXTREMES, EQUAL_EXTREMES, ROUNDOFF
 
 #: of the displacement's jet; shorter than it by as many orders as the function takes derivatives

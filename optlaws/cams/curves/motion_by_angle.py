@@ -22,8 +22,8 @@ from optlaws.motion.piece import Piece, factor, named_law
 from optlaws.motion.quantities import TURN, either, in_small_units, quantity
 from optlaws.numbers import Array, Quantity, derivative, real_times
 from optlaws.numerics import chebyshev
-from optlaws.numerics.enclosures.interval import Interval, exact, hull
-from optlaws.numerics.enclosures.taylor import Jet
+from optlaws.numerics.interval import Interval, exact, hull
+from optlaws.numerics.taylor import Jet
 from optlaws.suggest import unknown_key
 from optlaws.tolerances import CLOSURE, ROUNDOFF
 

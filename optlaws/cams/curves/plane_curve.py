@@ -11,8 +11,8 @@ import numpy as np
 
 from optlaws.numbers import Array, derivative, finite, real_times, whole
 from optlaws.numerics import chebyshev
-from optlaws.numerics.enclosures.interval import Interval
-from optlaws.numerics.enclosures.taylor import Jet, Pair
+from optlaws.numerics.interval import Interval
+from optlaws.numerics.taylor import Jet, Pair
 from optlaws.tolerances import CONTROL_POINT_BLUR
 
 _MOST = 1_000_000

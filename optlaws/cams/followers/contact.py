@@ -13,8 +13,8 @@ from optlaws.cams.curves.extremes import CamExtremes, EnclosedExtreme, angle_of_
 from optlaws.cams.curves.motion_by_angle import CamMotion
 from optlaws.errors import InputError
 from optlaws.motion.piece import Piece
-from optlaws.numerics.enclosures.interval import Interval
-from optlaws.numerics.enclosures.taylor import Jet, Pair, Term
+from optlaws.numerics.interval import Interval
+from optlaws.numerics.taylor import Jet, Pair, Term
 from optlaws.synthesis.functionals.makers import peak
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.windows import Window

@@ -14,7 +14,7 @@ from optlaws.errors import InputError
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import quantity
 from optlaws.numbers import Quantity
-from optlaws.numerics.enclosures.taylor import Jet, Pair
+from optlaws.numerics.taylor import Jet, Pair
 
 
 @dataclass(frozen=True)

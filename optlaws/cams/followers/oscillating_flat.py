@@ -12,7 +12,7 @@ from optlaws.cams.followers.rollers_and_faces import FaceContact, sign
 from optlaws.errors import InputError
 from optlaws.motion.quantities import quantity
 from optlaws.numbers import Quantity
-from optlaws.numerics.enclosures.taylor import Jet, Pair
+from optlaws.numerics.taylor import Jet, Pair
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ from optlaws.cams.followers.rollers_and_faces import RollerContact, half_turn
 from optlaws.errors import InputError
 from optlaws.motion.piece import Piece
 from optlaws.numbers import Array, Quantity
-from optlaws.numerics.enclosures.taylor import Jet, Pair
+from optlaws.numerics.taylor import Jet, Pair
 
 _LINES, _PARTS, _LOOKS = 16, 24, 2001
 

@@ -11,8 +11,8 @@ from optlaws.cams.curves.extremes import CamExtremes, EnclosedExtreme, Undercut,
 from optlaws.cams.curves.motion_by_angle import CamMotion
 from optlaws.cams.followers.contact import ContactState, CurvatureTerms, FollowerContact, bearing, shifted
 from optlaws.numbers import Array
-from optlaws.numerics.enclosures.interval import Interval
-from optlaws.numerics.enclosures.taylor import Jet, Pair, Term
+from optlaws.numerics.interval import Interval
+from optlaws.numerics.taylor import Jet, Pair, Term
 from optlaws.tolerances import NO_CROSSING
 
 

@@ -10,7 +10,7 @@ from optlaws.cams.followers.contact import CURVATURE, ContactState, Drag, Linear
 from optlaws.cams.followers.follower import CamFollower, Place
 from optlaws.cams.followers.rollers_and_faces import FaceContact
 from optlaws.motion.piece import Piece
-from optlaws.numerics.enclosures.taylor import Jet, Pair
+from optlaws.numerics.taylor import Jet, Pair
 
 
 @dataclass(frozen=True)

@@ -1,1 +1,1 @@
-"""Commands that show laws: the catalogue, its laws, constants of a given law."""
+"""Commands that show laws and what they do in machines: the catalogue, followers, cycles, loaders, dwells, levers."""

@@ -13,7 +13,7 @@ from optlaws.synthesis.problem.constants import FUNCTIONALS, RootMeanSquare
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.windows import Window, via
 from optlaws.synthesis.spaces.bases import Pieces, PolynomialBasis
-from optlaws.synthesis.spaces.pieces.periodic import PeriodicPieces
+from optlaws.synthesis.spaces.periodic_pieces import PeriodicPieces
 
 _MOST = 600  # pieces of a law
 #: pieces of a stretch where what is minimised has its peaks inside of pieces: the velocity, what a load does, power

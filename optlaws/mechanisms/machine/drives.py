@@ -9,11 +9,11 @@ from math import ceil
 import numpy as np
 
 from optlaws.laws import MotionLaw
-from optlaws.mechanisms.follower.forcing import Forcing, forcings
+from optlaws.mechanisms.forcing import Forcing, forcings
 from optlaws.mechanisms.machine.dynamics import DriveStretch
 from optlaws.numbers import Array
 from optlaws.numerics import chebyshev
-from optlaws.synthesis.spaces.pieces.rows import PieceFamily
+from optlaws.synthesis.spaces.piecewise_families import PieceFamily
 from optlaws.synthesis.spaces.space import LawSpace
 
 _RADIANS = 10.0

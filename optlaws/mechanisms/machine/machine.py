@@ -13,7 +13,7 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.law import motion_law
-from optlaws.mechanisms.follower.follower import Follower
+from optlaws.mechanisms.follower import Follower
 from optlaws.mechanisms.machine.masses import Link, MachineModel, assembly
 from optlaws.mechanisms.machine.modes import Mode, modal_model, modes
 from optlaws.mechanisms.machine.over_time import MachineCycle, MachineResponse

@@ -36,7 +36,7 @@ from optlaws.synthesis.functionals.makers import PeakSide
 from optlaws.synthesis.functionals.sizes import Reach, by_norm, reach_of
 from optlaws.synthesis.problem.constants import MAKERS, Functional
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
-from optlaws.synthesis.spaces.pieces.rows import PieceFamily, PieceSeries
+from optlaws.synthesis.spaces.piecewise_families import PieceFamily, PieceSeries
 from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.tolerances import NEGLIGIBLE_TERM, SHORTEST_STRETCH, VALUE_ROUNDING
 

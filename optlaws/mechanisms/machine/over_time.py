@@ -16,7 +16,7 @@ from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, Peak
 from optlaws.laws.curve import Curve, Sides
 from optlaws.laws.segments.piecewise import PiecewiseLaw
-from optlaws.mechanisms.follower.forcing import leads_back
+from optlaws.mechanisms.forcing import leads_back
 from optlaws.mechanisms.machine import drives
 from optlaws.mechanisms.machine.dynamics import RADIANS, DriveStretch, Panel
 from optlaws.mechanisms.machine.state_space import StateSpace

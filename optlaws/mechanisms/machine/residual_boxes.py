@@ -21,14 +21,14 @@ from optlaws.laws import MotionLaw, Peak
 from optlaws.mechanisms.machine.modes import mode, participation
 from optlaws.mechanisms.machine.state_space import StateSpace
 from optlaws.mechanisms.machine.texts import check_rest, machine_of, text_of, title_of
-from optlaws.mechanisms.spectrum.residual import (
+from optlaws.mechanisms.residual import (
     cached_columns,
     domain_of,
     greatest_modulus,
     velocity_transforms,
     widened,
 )
-from optlaws.mechanisms.spectrum.transforms import velocity_transform_of
+from optlaws.mechanisms.transforms import velocity_transform_of
 from optlaws.numbers import Array, Complex, not_negative, numbers, power_of_two
 from optlaws.numerics import chebyshev
 from optlaws.synthesis.families.cone import ConeFamily

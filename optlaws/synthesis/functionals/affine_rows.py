@@ -15,7 +15,7 @@ from optlaws.numerics.chebyshev import from_values, interpolated, nodes
 from optlaws.numerics.chebyshev import gauss as gauss_rule
 from optlaws.synthesis.families.family import LinearFamily
 from optlaws.synthesis.families.names import mirrored
-from optlaws.synthesis.spaces.pieces.rows import PieceFamily, PieceSeries
+from optlaws.synthesis.spaces.piecewise_families import PieceFamily, PieceSeries
 from optlaws.tolerances import VALUE_ROUNDING
 
 if TYPE_CHECKING:

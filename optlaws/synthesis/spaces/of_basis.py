@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 from optlaws.errors import InputError
 from optlaws.synthesis.spaces.bases import Basis, Pieces, PolynomialBasis
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
-from optlaws.synthesis.spaces.pieces.free import PieceSpace, piece_space
-from optlaws.synthesis.spaces.pieces.periodic import PeriodicPieces, PeriodicSpace, periodic_space
-from optlaws.synthesis.spaces.pieces.splines import SplineSpace, spline_space
+from optlaws.synthesis.spaces.free_pieces import PieceSpace, piece_space
+from optlaws.synthesis.spaces.periodic_pieces import PeriodicPieces, PeriodicSpace, periodic_space
 from optlaws.synthesis.spaces.polynomial_space import PolynomialSpace, polynomial_space
 from optlaws.synthesis.spaces.space import LawSpace
+from optlaws.synthesis.spaces.spline_space import SplineSpace, spline_space
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
 from optlaws.tolerances import CONVERSION_AGREES
 

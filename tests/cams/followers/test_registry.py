@@ -15,7 +15,7 @@ PACKAGE = Path(optlaws.__file__).parent
 FOLDER = PACKAGE / "cams" / "followers"
 #: modules that make a follower of one kind, and ask of no other: arms with rollers, and the cam that is shown first
 MAKERS = {
-    "balancing/machine_units/dwell_machine.py": {"OscillatingRoller"},
+    "balancing/dwells/dwell_machine.py": {"OscillatingRoller"},
     "explorer/cam_view.py": {"translating roller"},
 }
 

@@ -21,7 +21,7 @@ from optlaws.synthesis.method.discretised.ipopt import Answer
 from optlaws.synthesis.method.discretised.linear import LinearTable, by_family, vertex_on_points
 from optlaws.synthesis.method.strategies.identified import of_vertex, optimum_near
 from optlaws.synthesis.method.strategies.strategy import Strategy
-from optlaws.synthesis.spaces.pieces.rows import PieceFamily
+from optlaws.synthesis.spaces.piecewise_families import PieceFamily
 from optlaws.tolerances import EXCESS, VERTEX_FINE, VERTEX_NEAR
 
 _ROUNDS = 40

@@ -1,0 +1,173 @@
+"""The cam of a torsion lever: the rocker's motion as a law to cut, and the torque that is left on the cam's shaft."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import pi
+from typing import Any
+
+import numpy as np
+
+from optlaws.balancing.levers.lever import TorsionLever
+from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.specification.segments import Dwell, Return, Rise
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.kept import kept_property
+from optlaws.laws import PolynomialLaw
+from optlaws.motion.quantities import TURN, quantity
+from optlaws.numbers import Array, positive
+from optlaws.numerics import chebyshev
+from optlaws.numerics.branch_and_bound import Extremes, extremes
+from optlaws.numerics.interval import Interval
+from optlaws.numerics.taylor import Jet, variable
+from optlaws.tolerances import ROUNDOFF, TORQUE_EXTREMES
+
+_EDGES = 9
+
+
+def rocker_law(lever: TorsionLever) -> PolynomialLaw:
+    """The law of the cam's rocker over a stroke of a torsion lever, from chi01 to chi02, exact to rounding.
+
+    The driven link swings as its bars would have it; the rocker goes with it through the linkage, and this is what its
+    cam is cut for: a = (gamma01 - gamma)/(gamma01 - gamma02) over k = 2t/T.
+
+    Examples
+    --------
+    >>> from math import radians
+    >>> law = rocker_law(TorsionLever(beta=0.75, lam=1, rho=0.15, nu=0.15, swing=radians(60)))
+    >>> round(law.constants.B.value, 6), round(law.a(1.0), 12)
+    (1.615143, 1.0)
+    """
+    high, low = (float(lever.linkage.rocker(chi)) for chi in (lever.exact.chi01, lever.exact.chi02))
+
+    def c(x: Array) -> Array:
+        half = 0.5 * lever.exact.period
+        time = 0.5 * (x + 1.0) * half
+        at = lever.linkage.at(lever.exact.chi(time))
+        bent = at.ratio * lever.exact.chi(time, 2) + at.slope * lever.exact.chi(time, 1) ** 2
+        return np.asarray(-(half**2) / (high - low) * bent)
+
+    return PolynomialLaw(tuple(chebyshev.interpolated(c, "acceleration of the rocker").tolist()))
+
+
+@dataclass(frozen=True)
+class LeverCam:
+    """A torsion lever in a machine: its bars made for the cam's speed, and the torque at the cam's shaft.
+
+    At the speed for which the bars are made they swing the link by themselves, and the cam only keeps the time. At
+    another the difference of the inertia is left: (w²/w0² - 1) I chi'', and without bars all of it.
+
+    Parameters
+    ----------
+    lever
+        The lever.
+    inertia
+        Moment of inertia of what the driven link moves, such as "0.05 kg m^2".
+    stroke
+        Angle of the cam in which the link swings from one extreme to the other, such as "120 deg".
+    speed
+        Of the cam, for which the bars are made, such as "150 rpm".
+
+    Raises
+    ------
+    InputError
+        If a quantity is of another dimension or out of its range.
+
+    Examples
+    --------
+    >>> from math import radians
+    >>> lever = TorsionLever(beta=0.75, lam=1, rho=0.15, nu=0.15, swing=radians(60))
+    >>> lever_cam = LeverCam(lever, inertia="0.05 kg m^2", stroke="120 deg", speed="150 rpm")
+    >>> round(lever_cam.stiffness, 3), round(lever_cam.torque(1.0).peak, 9), round(lever_cam.torque(1.1).peak, 6)
+    (26.17, 0.0, 1.23782)
+    >>> round(lever_cam.unbalanced(1.0).peak, 6)
+    5.89438
+    """
+
+    lever: TorsionLever
+    inertia: Any
+    stroke: Any
+    speed: Any
+
+    def __post_init__(self) -> None:
+        self.moved, self.angle, self.rate  # noqa: B018 - what is wrong is refused at once
+
+    @kept_property
+    def moved(self) -> float:
+        """The moment of inertia, kg m²."""
+        inertia = quantity(self.inertia, "moment of inertia", "inertia")
+        if inertia <= 0.0:
+            raise InputError(f"inertia must be above 0, got {shortened(self.inertia)}")
+        return inertia
+
+    @kept_property
+    def angle(self) -> float:
+        """The angle of the cam during the stroke, rad."""
+        angle = quantity(self.stroke, "angle", "stroke")
+        if not 0.0 < angle <= pi:
+            raise InputError(f"stroke must be above 0 and at most 180 deg, got {shortened(self.stroke)}")
+        return angle
+
+    @kept_property
+    def rate(self) -> float:
+        """The cam's angular velocity, rad/s."""
+        rate = quantity(self.speed, "angular velocity", "speed")
+        if rate <= 0.0:
+            raise InputError(f"speed must be above 0, got {shortened(self.speed)}")
+        return rate
+
+    @property
+    def stiffness(self) -> float:
+        """Stiffness c1 of the first bar, N m/rad; the second one's is `lever.xi` times that."""
+        return self.lever.exact.stiffness(2.0 * self.angle / self.rate, self.moved)
+
+    @kept_property
+    def cycle(self) -> Cycle:
+        """The rocker's motion as a cycle for a cam: forth, rest, back, rest; the two rests are alike."""
+        exact, linkage = self.lever.exact, self.lever.linkage
+        swing = float(linkage.rocker(exact.chi01) - linkage.rocker(exact.chi02))
+        turn, rest = f"{self.angle!r} rad", f"{0.5 * (TURN - 2.0 * self.angle)!r} rad"
+        law = rocker_law(self.lever)
+        rests = [Dwell(rest)] if self.angle < pi else []
+        back = Return(f"{swing!r} rad", turn, law=law)
+        return Cycle([Rise(f"{swing!r} rad", turn, law=law), *rests, back, *rests], speed=f"{self.rate!r} rad/s")
+
+    def torque(self, speed_ratio: float = 1.0) -> Extremes:
+        """The torque at the cam's shaft over the stroke, enclosed, at a speed over the one the bars are made for; N m.
+
+        The bars balance the inertia at their own speed as the equation of motion has it, which the swing keeps to
+        rounding; what is enclosed is the rest.
+
+        Raises
+        ------
+        InputError
+            If the ratio is not above 0.
+        """
+        return self._inertia_torque(positive(speed_ratio, "speed_ratio") ** 2 - 1.0)
+
+    def unbalanced(self, speed_ratio: float = 1.0) -> Extremes:
+        """The torque at the cam's shaft over the stroke without torsion bars, enclosed, N m."""
+        return self._inertia_torque(positive(speed_ratio, "speed_ratio") ** 2)
+
+    def at(self, k: Array, speed_ratio: float) -> Array:
+        """The torque at k of the stroke: the inertia that the bars do not balance, times the velocity of the link."""
+        moment = self.stiffness * self.lever.moment(self._chi(k, 0))
+        inertia = self.moved * self.rate**2 * self._chi(k, 2)
+        return np.asarray((speed_ratio**2 * inertia + moment) * self._chi(k, 1))
+
+    def _inertia_torque(self, share: float) -> Extremes:
+        """A share of the inertia's torque at the bars' own speed."""
+
+        def torque(k: Interval, order: int) -> Jet:
+            phase = variable(k, order + 2) * Interval(np.array(pi), np.array(2.0 * ROUNDOFF * pi))
+            waves = [(phase * float(i)).waves()[1] * size for i, size in enumerate(self.lever.exact.amplitudes) if i]
+            slope = sum(waves[1:], start=waves[0]).slope()
+            return slope * slope.slope() * (share * self.moved * self.rate**2 / self.angle**3)
+
+        return extremes(torque, np.linspace(0.0, 1.0, _EDGES), share=TORQUE_EXTREMES)
+
+    def _chi(self, k: Array, nu: int) -> Array:
+        """Derivatives of the link's deviation by the cam's angle."""
+        half = 0.5 * self.lever.exact.period
+        return self.lever.exact.chi(np.asarray(k) * half, nu) * (half / self.angle) ** nu

@@ -1,1 +1,0 @@
-"""The cams of mechanisms that balance: inertial loaders, dwell mechanisms and torsion levers, in machine units."""

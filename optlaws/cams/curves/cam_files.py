@@ -1,0 +1,312 @@
+"""Files that cut a cam: tables of points, G-code, SVG and DXF, by name and by the ending of the file."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from logging import ERROR, getLogger
+from math import atan2, degrees, tau
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Unpack
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.cams.curves.arcs_and_chords import arcs, polygon
+from optlaws.cams.curves.file_options import Cutting, CuttingOptions
+from optlaws.cams.curves.outline import Outline
+from optlaws.cams.curves.spline import Spline, spline
+from optlaws.errors import InputError
+from optlaws.files import writing
+from optlaws.files.writing import MARK
+from optlaws.locks import process_lock
+from optlaws.numbers import Array
+from optlaws.numerics.bisection import bisect_each
+from optlaws.suggest import unknown_key
+
+if TYPE_CHECKING:
+    from ezdxf.layouts.layout import Modelspace
+
+
+_SAMPLES = 7201
+
+
+def as_points(outline: Outline, options: Cutting) -> str:
+    """Angle of the cam in degrees, x and y in millimetres; the angles are even."""
+    angles = np.linspace(0.0, tau, options.points)
+    rows = zip(np.degrees(angles), *(1e3 * outline(angles)).T, strict=True)
+    return _table(
+        "cam angle (deg),x (mm),y (mm)", [[_decimal(t), *map(options.rounded, xy)] for t, *xy in rows], options
+    )
+
+
+def as_polar(outline: Outline, options: Cutting) -> str:
+    """Angle around the centre in degrees, counterclockwise, and the radius in millimetres; the angles are even."""
+    rows = zip(np.linspace(0.0, 360.0, options.points), 1e3 * polar(outline, options.points), strict=True)
+    return _table("polar angle (deg),radius (mm)", [[_decimal(t), options.rounded(r)] for t, r in rows], options)
+
+
+def polar(outline: Outline, points: int) -> Array:
+    """Radii at even angles around the centre, m, from the direction of x on; the last is the first again."""
+    bearings = np.linspace(0.0, tau, points)
+    met = outline(_met(outline, bearings[:-1]))
+    radii = np.hypot(met[:, 0], met[:, 1])
+    return np.append(radii, radii[0])
+
+
+def _table(heading: str, rows: list[list[str]], options: Cutting) -> str:
+    return "\n".join([f"# {options.line}; {MARK}", heading, *(",".join(row) for row in rows), ""])
+
+
+def _decimal(angle: float) -> str:
+    return f"{angle:.9f}".rstrip("0").rstrip(".")
+
+
+def _met(outline: Outline, bearings: Array) -> Array:
+    """The cam's angles at which rays from the centre meet the curve."""
+    angles = np.linspace(0.0, tau, _SAMPLES)
+    points = outline(angles)
+    swept = np.unwrap(np.arctan2(points[:, 1], points[:, 0]))
+    sign = float(np.sign(swept[-1] - swept[0]))
+    swept = sign * (swept - swept[0])
+    if sign == 0.0 or np.any(np.diff(swept) <= 0.0) or abs(swept[-1] - tau) > 1e-6:
+        raise InputError(
+            "the curve turns back as seen from the centre, so that it has no radius over the polar angle: take the "
+            "table of x and y"
+        )
+    first = float(np.arctan2(points[0, 1], points[0, 0]))
+    turns = np.mod(sign * (bearings - first), tau)
+    which = np.clip(np.searchsorted(swept, turns, side="right") - 1, 0, _SAMPLES - 2)
+
+    def before(angle: Array) -> NDArray[np.bool_]:
+        x, y = outline(angle).T
+        return np.asarray(~(sign * (y * np.cos(bearings) - x * np.sin(bearings)) > 0.0))
+
+    low, high = bisect_each(before, angles[which], angles[which + 1])
+    return 0.5 * (low + high)
+
+
+def as_line_moves(outline: Outline, options: Cutting) -> str:
+    """G1 from corner to corner, once around, back to the first."""
+    corners = 1e3 * polygon(outline, options.metres).corners
+    moves = [f"G1 {_at(corner, options)}" for corner in (*corners[1:], corners[0])]
+    return _program(corners[0], moves, options)
+
+
+def as_arc_moves(outline: Outline, options: Cutting) -> str:
+    """G2 (clockwise) and G3 with I and J from where the move begins, G1 where it is straight."""
+    chain = arcs(outline, options.metres)
+    rows = zip(1e3 * chain.points, 1e3 * chain.ends, 1e3 * chain.centres, chain.bulges, strict=True)
+    moves = []
+    for start, stop, centre, bulge in rows:
+        if bulge == 0.0:
+            moves.append(f"G1 {_at(stop, options)}")
+            continue
+        i, j = centre - start
+        turn = "G3" if bulge > 0.0 else "G2"
+        moves.append(f"{turn} {_at(stop, options)} I{options.rounded(float(i))} J{options.rounded(float(j))}")
+    return _program(1e3 * chain.points[0], moves, options)
+
+
+def _program(start: np.ndarray, moves: list[str], options: Cutting) -> str:
+    """Units, plane and mode, the way to the start, and the moves: spindle, depth and compensation are the user's."""
+    feed = f" F{options.feed_rate:.9g}" if options.feed is not None else ""
+    return "\n".join(
+        [
+            f"({options.line}; {MARK})",
+            "G21 G17 G90 G40",
+            f"G0 {_at(start, options)}",
+            moves[0] + feed,
+            *moves[1:],
+            "",
+        ]
+    )
+
+
+def _at(point: np.ndarray, options: Cutting) -> str:
+    return f"X{options.rounded(float(point[0]))} Y{options.rounded(float(point[1]))}"
+
+
+_MARGIN = 5.0
+_CROSS = 3.0
+
+
+def as_svg(outline: Outline, options: Cutting) -> str:
+    """The curve as one closed path, with a cross at the cam's centre; y points up on the paper."""
+    # SVG's y points down
+    points = beziers(spline(outline, options.metres)) * [1e3, -1e3]
+    low, high = points.min(axis=(0, 1)) - _MARGIN, points.max(axis=(0, 1)) + _MARGIN
+    box = [options.rounded(length) for length in (*low, *(high - low))]
+    pieces = "\n".join(f"C {_pair(a, options)} {_pair(b, options)} {_pair(c, options)}" for _, a, b, c in points)
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{box[2]}mm" height="{box[3]}mm" viewBox="{" ".join(box)}">\n'
+        f"<desc>{options.line}; {MARK}</desc>\n"
+        f'<path id="profile" fill="none" stroke="black" stroke-width="0.1" d="M {_pair(points[0, 0], options)}\n'
+        f'{pieces}\nZ"/>\n'
+        f'<path id="centre" fill="none" stroke="black" stroke-width="0.1" '
+        f'd="M {-_CROSS} 0 H {_CROSS} M 0 {-_CROSS} V {_CROSS}"/>\n</svg>\n'
+    )
+
+
+def beziers(curve: Spline) -> Array:
+    """The Bézier control points of each piece of a cubic spline, m, shape (n, 4, 2)."""
+    places = np.array(curve.breaks)
+    third = np.diff(places)[:, None] / 3.0
+    points, tangents = curve(places), curve(places, 1)
+    return np.stack(
+        [points[:-1], points[:-1] + third * tangents[:-1], points[1:] - third * tangents[1:], points[1:]], axis=1
+    )
+
+
+def _pair(point: Array, options: Cutting) -> str:
+    return f"{options.rounded(float(point[0]))},{options.rounded(float(point[1]))}"
+
+
+LAYER, CENTRE = "PROFILE", "CENTRE"
+_MILLIMETRES = 4
+_OLD = "R12"  # knows no units
+_lock = process_lock()
+
+
+def as_spline(outline: Outline, options: Cutting) -> str:
+    """One clamped SPLINE of degree 3 or 5 whose parameter is the cam's angle in radians."""
+    fitted = spline(outline, options.metres, options.degree)
+
+    def draw(space: Modelspace) -> None:
+        from ezdxf.math import BSpline
+
+        points = [(1e3 * x, 1e3 * y, 0.0) for x, y in fitted.controls.tolist()]
+        curve = BSpline(points, order=fitted.degree + 1, knots=fitted.knots.tolist())
+        space.add_spline(dxfattribs={"layer": LAYER}).apply_construction_tool(curve)
+
+    return _document("R2000", options, draw)
+
+
+def as_polyline(outline: Outline, options: Cutting) -> str:
+    """One closed LWPOLYLINE with its corners on the curve."""
+    corners = np.round(1e3 * polygon(outline, options.metres).corners, options.decimals)
+
+    def draw(space: Modelspace) -> None:
+        space.add_lwpolyline(corners.tolist(), format="xy", close=True, dxfattribs={"layer": LAYER})
+
+    return _document("R2000", options, draw)
+
+
+def as_arcs(outline: Outline, options: Cutting) -> str:
+    """ARCs that touch each other, and LINEs where it is straight, in a file of release 12, which all cutters read."""
+    chain = arcs(outline, options.metres)
+    rows = zip(1e3 * chain.points, 1e3 * chain.ends, 1e3 * chain.centres, 1e3 * chain.radii, chain.bulges, strict=True)
+
+    def draw(space: Modelspace) -> None:
+        for start, stop, centre, radius, bulge in rows:
+            attributes = {"layer": LAYER}
+            if bulge == 0.0:
+                space.add_line(start.tolist(), stop.tolist(), dxfattribs=attributes)
+                continue
+            first, last = (degrees(atan2(*(point - centre)[::-1])) for point in (start, stop))
+            # an ARC always runs counterclockwise
+            first, last = (first, last) if bulge > 0.0 else (last, first)
+            space.add_arc(centre.tolist(), float(radius), first, last, dxfattribs=attributes)
+
+    return _document(_OLD, options, draw)
+
+
+def _document(release: str, options: Cutting, draw: Callable[[Modelspace], None]) -> str:
+    """The text of a file with a drawing and the cam's centre, the same whenever it is written."""
+    ezdxf = _ezdxf()
+    stream = io.StringIO()
+    with _without_date(ezdxf):
+        document = ezdxf.new(release, units=0 if release == _OLD else _MILLIMETRES)
+        for name in (LAYER, CENTRE):
+            document.layers.add(name)
+        draw(document.modelspace())
+        document.modelspace().add_point((0.0, 0.0), dxfattribs={"layer": CENTRE})
+        document.write(stream)
+    return f"999\n{options.line}; {MARK}\n{stream.getvalue()}"
+
+
+def _ezdxf() -> Any:  # noqa: ANN401 - a module
+    try:
+        import ezdxf
+    except ImportError:
+        raise InputError("DXF files are written by ezdxf: pip install 'optlaws[cad]'") from None
+    return ezdxf
+
+
+@contextmanager
+def _without_date(ezdxf: Any) -> Iterator[None]:  # noqa: ANN401 - a module
+    with _lock:
+        # it warns of the units of release 12 even where there are none
+        logger = getLogger("ezdxf")
+        previous, level = ezdxf.options.write_fixed_meta_data_for_testing, logger.level
+        ezdxf.options.write_fixed_meta_data_for_testing = True
+        logger.setLevel(ERROR)
+        try:
+            yield
+        finally:
+            ezdxf.options.write_fixed_meta_data_for_testing = previous
+            logger.setLevel(level)
+
+
+Format = Callable[[Outline, Cutting], str]
+
+#: formats by their names; one is added by an entry
+FORMATS: dict[str, Format] = {
+    "dxf spline": as_spline,
+    "dxf polyline": as_polyline,
+    "dxf arcs": as_arcs,
+    "svg": as_svg,
+    "csv": as_points,
+    "csv polar": as_polar,
+    "g-code": as_line_moves,
+    "g-code arcs": as_arc_moves,
+}
+#: which of them a file is written in unless it is said
+ENDINGS = {
+    ".dxf": "dxf spline",
+    ".svg": "svg",
+    ".csv": "csv",
+    ".nc": "g-code",
+    ".ngc": "g-code",
+    ".gcode": "g-code",
+    ".tap": "g-code",
+}
+
+
+def format_of(file: Path, name: str | None = None) -> str:
+    """The format that a file is written in."""
+    if name is not None:
+        if name not in FORMATS:
+            raise InputError(unknown_key(name, FORMATS, "format"))
+        return name
+    known = ENDINGS.get(file.suffix.lower())
+    if known is None:
+        raise InputError(
+            f"the ending of {file.name!r} says no format: end it with {', '.join(sorted(ENDINGS))}, or name one of "
+            f"{', '.join(FORMATS)}"
+        )
+    return known
+
+
+def text(outline: Outline, name: str, options: Cutting) -> str:
+    """The text of a file in a format."""
+    return FORMATS[name](outline, options)
+
+
+def write_outline(
+    outline: Outline, file: str | Path, as_: str | None = None, **options: Unpack[CuttingOptions]
+) -> Path:
+    """The file of a closed curve, written whole or not at all: a profile, a pitch curve, the path of a cutter.
+
+    `as_` is one of `FORMATS`, that of the file's ending unless given; options are those of `Cutting`.
+    """
+    place = Path(file)
+    name = format_of(place, as_)
+    given: dict[str, Any] = {key: value for key, value in options.items() if value is not None}
+    for key in given:
+        if key not in Cutting.__dataclass_fields__:
+            raise InputError(unknown_key(key, Cutting.__dataclass_fields__, "entry"))
+    cutting = Cutting(**given)
+    writing.check_place(place)
+    return writing.write(place, text(outline, name, cutting), exact=True)

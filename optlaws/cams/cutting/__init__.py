@@ -1,1 +1,0 @@
-"""What cuts a cam: splines, chords and arcs within a tolerance, and the files that hold them."""

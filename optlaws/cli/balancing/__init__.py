@@ -1,1 +1,0 @@
-"""Commands for mechanisms that balance others."""

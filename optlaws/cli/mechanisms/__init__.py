@@ -1,1 +1,0 @@
-"""Commands for what laws do in machines: followers, loaders, dwells, levers."""

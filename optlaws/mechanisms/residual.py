@@ -1,0 +1,335 @@
+"""The vibration that a law leaves: in closed form, linear in it, and its greatest over frequencies as a constant."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import ceil, nan
+from typing import Any
+
+import numpy as np
+from numpy.polynomial import legendre
+
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.laws import MotionLaw
+from optlaws.mechanisms.cam_constants import check_order
+from optlaws.mechanisms.transforms import legendre_from_chebyshev, moments, velocity_transform
+from optlaws.numbers import Array, Complex, circular_frequency, not_negative, numbers, positive, whole
+from optlaws.numerics.chebyshev import from_values, nodes
+from optlaws.numerics.peaks import Peak
+from optlaws.synthesis.families.cone import ConeFamily, stationary_places
+from optlaws.synthesis.functionals.curved_rows import columns_of
+from optlaws.synthesis.problem.constants import MAKERS, Functional
+from optlaws.synthesis.spaces.space import LawSpace
+
+_WIDEST = 1000.0
+_SPARE = 40
+_MOST_POLYDYNE = 4
+
+
+def residual_phasor(law: MotionLaw, frequency: Any, damping: float = 0.0) -> Complex:  # noqa: ANN401 - numbers of any kind
+    """Complex amplitude Z of the free vibration after a law, the mass at rest at first; linear in the law.
+
+    For k >= 1 the mass moves by a_m = a(1) + Re(Z exp(w (k - 1))), w = -n + i lambda, lambda = nu sqrt(1 - zeta²). |Z|
+    is the residual displacement and nu² |Z| the residual acceleration. With wbar the conjugate of w,
+    Z = -i wbar/lambda times the integral of exp(w (1 - k)) b(k), in closed form for polynomials and sines.
+
+    Parameters
+    ----------
+    law
+        Motion of the cam.
+    frequency
+        Frequencies nu, above 0; a number or shape (m,).
+    damping
+        Ratio zeta, below 1.
+
+    Returns
+    -------
+    Complex array, shape (m,).
+
+    Raises
+    ------
+    InputError
+        If a number is out of range.
+
+    Examples
+    --------
+    >>> from optlaws.laws.savin import savin
+    >>> 18**2 * abs(residual_phasor(savin("III", 7.2), 18)).round(12)
+    array([7.204401])
+    """
+    _, w, damped = roots(frequency, damping)
+    return -1j * w.conj() / damped * velocity_transform(law, w)
+
+
+def residual_functional(count: int, frequency: Any, damping: float = 0.0) -> tuple[Complex, Complex]:  # noqa: ANN401
+    """The rows that turn a polynomial law's coefficients into the complex amplitude of its free vibration.
+
+    With ``rows, start = residual_functional(len(law.acceleration), frequency, damping)`` the residual acceleration is
+    ``abs(rows @ law.acceleration + start * law.b0)``: nu² times `residual_phasor`, affine in whatever the law is
+    affine in, so that a bound on it is a second-order cone for each frequency.
+
+    Parameters
+    ----------
+    count
+        Number of Chebyshev coefficients of c.
+    frequency
+        Frequencies nu, above 0; a number or shape (m,).
+    damping
+        Ratio zeta, below 1.
+
+    Returns
+    -------
+    Complex arrays of shape (m, count) and (m,).
+
+    Raises
+    ------
+    InputError
+        If a number is out of range.
+
+    Examples
+    --------
+    >>> from optlaws.laws import smoothstep
+    >>> law = smoothstep(4)
+    >>> rows, start = residual_functional(len(law.acceleration), [20.0], 0.05)
+    >>> abs(rows @ law.acceleration + start * law.b0).round(6)
+    array([1.650151])
+    """
+    frequencies, w, damped = roots(frequency, damping)
+    terms = whole(count, "count", least=1)
+    scale = (-1j * frequencies**2 * w.conj() / (damped * w))[:, None]
+    n = np.arange(terms)
+    mean = np.where(n % 2 == 0, 1.0 / (1.0 - n * n + (n % 2)), 0.0)
+    rows = moments(0.5 * w, terms) @ legendre_from_chebyshev(terms) - mean
+    return scale * rows, scale[:, 0] * np.expm1(w)
+
+
+def roots(frequency: Any, damping: float) -> tuple[Array, Complex, Array]:  # noqa: ANN401 - numbers of any kind
+    """Frequencies nu, roots w = -n + i lambda and lambda of followers below critical damping."""
+    frequencies = np.array(numbers(np.atleast_1d(np.asarray(frequency)).tolist(), "frequency"))
+    ratio = not_negative(damping, "damping")
+    if not (frequencies > 0.0).all():
+        raise InputError(f"frequency must be above 0, got {float(frequencies.min())!r}")
+    if frequencies.size:
+        circular_frequency(frequencies.max())
+    if ratio >= 1.0:
+        raise InputError(
+            f"damping must be below 1, got {shortened(damping)}: from the critical damping on nothing vibrates; "
+            "Follower.response tells how the mass comes to rest"
+        )
+    damped = frequencies * np.sqrt((1.0 - ratio) * (1.0 + ratio))
+    return frequencies, -ratio * frequencies + 1j * damped, damped
+
+
+@dataclass(frozen=True, repr=False)
+class Residual(Functional):
+    """Greatest residual acceleration over an interval of frequencies; made by `residual_vibration`.
+
+    Attributes
+    ----------
+    low, high
+        The interval of frequencies nu.
+    damping
+        Ratio zeta.
+    design
+        Frequency for which the cam is made if the law is the mass's; None if the law is the cam's own.
+    design_damping
+        The ratio for which it is made.
+    """
+
+    low: float
+    high: float
+    damping: float = 0.0
+    design: float | None = None
+    design_damping: float = 0.0
+
+    #: as of the law's acceleration, and in units of a bound where there is one
+    scale = 1.0
+    normalised = True
+
+    def value(self, law: MotionLaw) -> float:
+        """The greatest over the whole interval."""
+        return self.peak(law).value
+
+    def peak(self, law: MotionLaw) -> Peak:
+        """The greatest over the whole interval; its `k` is the frequency at which it is."""
+        value, place = greatest_modulus(lambda u: self._phasors(law, self._frequencies(u)), self._nodes)
+        return Peak(value, float(self._frequencies(np.array([place]))[0]))
+
+    def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConeFamily, ...]:
+        """One cone for each frequency. A bound becomes 1, so that residuals are measured by it."""
+        if self.design is not None:
+            check_order(self.name, space, _MOST_POLYDYNE)
+        elif space.start_velocity != 0.0 or space.velocity_change != 0.0 or space.boundary.order < 2:
+            raise InputError(f"{self.name} needs laws from rest to rest, of order 2 at least")
+        unit = bound or 1.0
+        series = widened(self._columns(space), len(slack)) / unit
+        return (ConeFamily(self.name, slack, bound / unit, domain=domain_of(self._nodes), series=series),)
+
+    def where(self, k: float) -> str:
+        """The frequency of a place."""
+        return f"frequency = {self.frequency(k):.5g}"
+
+    def frequency(self, place: float) -> float:
+        """The frequency of a certificate's contact, which stands there as a number k from 0 to 1."""
+        return float(self._frequencies(np.array([2.0 * place - 1.0]))[0])
+
+    def _frequencies(self, u: Array) -> Array:
+        inner: Array = 0.5 * ((1.0 - u) * self.low + (1.0 + u) * self.high)
+        return inner
+
+    def _phasors(self, law: MotionLaw, frequencies: Array) -> Complex:
+        phasors = residual_phasor(law, frequencies, self.damping)
+        return np.asarray(frequencies**2 * self._detuning(frequencies) * phasors)
+
+    def _detuning(self, frequencies: Array) -> Complex:
+        """The share that a polydyne cam leaves of the residual of its mass law cut directly on a cam."""
+        if self.design is None:
+            return np.ones(len(frequencies), dtype=np.complex128)
+        _, w, _ = roots(frequencies, self.damping)
+        n = self.damping * frequencies
+        n0 = self.design_damping * self.design
+        ratio = frequencies / self.design
+        return np.asarray(1.0 - ratio**2 + 2.0 * (n0 - n) * w / self.design**2)
+
+    @property
+    def _nodes(self) -> Array:
+        """Chebyshev nodes, enough for functions of exponential type 1 in nu; a single place where there is no more."""
+        length = self.high - self.low
+        return nodes(ceil(0.75 * length) + _SPARE) if length else np.ones(1)
+
+    def _columns(self, space: LawSpace) -> Complex:
+        """Chebyshev series in u of nu² times the complex amplitude: free functions, then the base law."""
+        return cached_columns(space, ("residual", self.name), lambda: self._computed(space))
+
+    def _computed(self, space: LawSpace) -> Complex:
+        frequencies = self._frequencies(self._nodes)
+        _, w, damped = roots(frequencies, self.damping)
+        scale = -1j * frequencies**2 * w.conj() / damped * self._detuning(frequencies)
+        return np.ascontiguousarray(from_values(scale[:, None] * velocity_transforms(space, w, self.high)))
+
+
+def residual_vibration(
+    *,
+    frequency: float | tuple[float, float],
+    damping: float = 0.0,
+    design: float | None = None,
+    design_damping: float | None = None,
+) -> Residual:
+    """The greatest residual acceleration of an elastic follower over a whole interval of frequencies.
+
+    In units of a'': nu² times the amplitude of the free vibration at k = 1, its envelope where damped, as
+    `Response.residual_acceleration`.
+
+    Parameters
+    ----------
+    frequency
+        The interval (low, high) of frequencies nu, or one of them.
+    damping
+        Ratio zeta of the follower, below 1.
+    design
+        If given, the law is the mass's and the cam is made from it for this frequency; otherwise it is the cam's own.
+    design_damping
+        The ratio for which that cam is made; `damping` unless given.
+
+    Raises
+    ------
+    InputError
+        If a number is out of range.
+
+    Examples
+    --------
+    >>> from optlaws.laws.savin import savin
+    >>> vibration = residual_vibration(frequency=18)
+    >>> round(vibration.value(savin("III", 7.2)), 6)
+    7.204401
+    >>> wide = residual_vibration(frequency=(18, 22), design=20)
+    >>> wide, wide.peak(savin("III", 7.2))
+    (residual(frequency=(18.0, 22.0), design=20.0), Peak(value=1.368836, k=18.0))
+    """
+    pair = tuple(frequency) if isinstance(frequency, list | tuple) else (frequency, frequency)
+    if len(pair) != 2:
+        raise InputError(f"frequency must be a frequency or two, (low, high), got {shortened(frequency)}")
+    low, high = (positive(number, "frequency") for number in pair)
+    if low > high or high - low > _WIDEST:
+        raise InputError(
+            f"frequency must be an interval (low, high) no longer than {_WIDEST:g}, got {shortened(frequency)}"
+        )
+    ratio = not_negative(damping, "damping")
+    roots(low, ratio)
+    if design is None and design_damping is not None:
+        raise InputError("design_damping belongs to a design frequency: give design too")
+    design_frequency = None if design is None else positive(design, "design")
+    made_ratio = ratio if design_damping is None else not_negative(design_damping, "design_damping")
+    parts = [f"frequency={low!r}" if low == high else f"frequency=({low!r}, {high!r})"]
+    parts += [f"damping={ratio!r}"] if ratio else []
+    parts += [f"design={design_frequency!r}"] if design_frequency else []
+    parts += [f"design_damping={made_ratio!r}"] if design_frequency and made_ratio != ratio else []
+    name = f"residual({', '.join(parts)})"
+    return Residual(
+        name,
+        nan,
+        convex=True,
+        low=low,
+        high=high,
+        damping=ratio,
+        design=design_frequency,
+        design_damping=made_ratio if design_frequency else 0.0,
+    )
+
+
+def greatest_modulus(amplitude: Callable[[Array], Complex], nodes: Array) -> tuple[float, float]:
+    """The greatest magnitude of an analytic amplitude from -1 to 1, by nodes that resolve it, and its place.
+
+    >>> greatest_modulus(lambda u: 1.0 + 1j * u * u, np.ones(1))
+    (1.414214, 1.0)
+    """
+    places = nodes
+    if len(nodes) > 1:
+        places = np.concatenate([[-1.0, 1.0], stationary_places(from_values(amplitude(nodes)))])
+    sizes = np.abs(amplitude(places))
+    best = int(np.argmax(sizes))
+    return float(sizes[best]), float(places[best])
+
+
+def domain_of(nodes: Array) -> tuple[float, float]:
+    """The places that nodes stand for: all from -1 to 1, or the single one."""
+    return (-1.0, 1.0) if len(nodes) > 1 else (1.0, 1.0)
+
+
+def widened(columns: Complex, count: int) -> Complex:
+    """Columns of the free functions and of the base law, with columns of 0 for further variables between them."""
+    wide = np.zeros((len(columns), count + 1), dtype=np.complex128)
+    wide[:, : columns.shape[1] - 1], wide[:, -1] = columns[:, :-1], columns[:, -1]
+    return wide
+
+
+def cached_columns(space: LawSpace, key: tuple[object, ...], computed: Callable[[], Complex]) -> Complex:
+    """Complex columns that a space keeps as the real ones that it can keep."""
+    return space.cached(key, lambda: computed().view(np.float64)).view(np.complex128)
+
+
+def velocity_transforms(space: LawSpace, w: Complex, highest: float) -> Complex:
+    """Integrals of exp(w (1 - k)) b(k), a row for each root w, for the free functions and the base law of a space.
+
+    Roots have real parts of at most 0 and magnitudes of at most `highest`.
+    """
+    k, weights = _gauss_rule(space, highest)
+    # by parts: beside b what a fast vibration leaves would be lost in rounding
+    moved = np.exp(w[:, None] * (1.0 - k)) @ (weights[:, None] * columns_of(space, 2, k))
+    begun, ended = columns_of(space, 1, np.array([0.0, 1.0]))
+    return np.asarray((moved + np.exp(w)[:, None] * begun - ended) / w[:, None])
+
+
+def _gauss_rule(space: LawSpace, highest: float) -> tuple[Array, Array]:
+    """Gauss points on every piece of the law, enough for a vibration of the highest frequency, and weights."""
+    breaks = np.array(getattr(space, "breaks", (0.0, 1.0)))
+    degree = len(space.derivative(1, "b", np.zeros(space.terms)).series)
+    x, weights = legendre.leggauss(degree + ceil(0.5 * highest) + _SPARE)
+    lengths = np.diff(breaks)
+    k = breaks[:-1, None] + lengths[:, None] * (1.0 + x) / 2.0
+    return k.ravel(), (lengths[:, None] * weights / 2.0).ravel()
+
+
+MAKERS.setdefault("residual", residual_vibration)

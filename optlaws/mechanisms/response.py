@@ -1,0 +1,286 @@
+"""What the mass of a follower does: after one rise with its dwell, and over a cycle that repeats."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from dataclasses import dataclass
+from math import inf
+from typing import Any
+
+import numpy as np
+
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.kept import kept_property
+from optlaws.laws import MotionLaw, Peak
+from optlaws.laws.curve import Curve, Sides
+from optlaws.laws.law import motion_law
+from optlaws.mechanisms.chain import MassChain
+from optlaws.mechanisms.forcing import Forcing, forcings, leads_back, rest
+from optlaws.mechanisms.vibration import Oscillator
+from optlaws.numbers import Array, derivative, real_times
+from optlaws.tolerances import RESONANCE, SHORTEST_STRETCH
+
+
+class MassMotion(Curve):
+    """Displacement a_m of the mass with its derivatives, dimensionless like a law; k in durations of the rise.
+
+    Examples
+    --------
+    >>> from optlaws.laws import smoothstep
+    >>> from optlaws.mechanisms import Follower
+    >>> motion = Follower(frequency=20, damping=0.05).cycle(smoothstep(4), dwell=0.5, rest=1.0)
+    >>> isinstance(motion, MassMotion), motion.interval
+    (True, (0.0, 3.5))
+    """
+
+    @property
+    @abstractmethod
+    def _motion(self) -> MassChain:
+        """The motion over the interval."""
+
+    @property
+    def _breaks(self) -> tuple[float, ...]:
+        return self._motion.breaks
+
+    def _before_breaks(self, nu: int) -> Array:
+        return self._motion.before_breaks(nu)
+
+    def _repr_html_(self) -> str:
+        from optlaws.laws.html import drawings
+        from optlaws.shown.showing import page
+
+        return page(repr(self), drawings(self))
+
+    def _times(self, k: Any) -> Array:  # noqa: ANN401 - whatever users give
+        return real_times(k)
+
+    def _sides(self, nu: int) -> Sides:
+        return self._motion.candidates(nu)
+
+    def _power_sides(self) -> Sides:
+        return self._motion.power_candidates()
+
+    def _mean_square(self, nu: int) -> float:
+        return self._motion.mean_square(nu)
+
+
+@dataclass(frozen=True, repr=False)
+class Response(MassMotion):
+    """Motion of the mass during the rise, 0 <= k <= 1, and in the dwell after it, k > 1; made by a `Follower`.
+
+    Call it like a law: ``response(k, nu=2)``, ``response.c(k)``. Its interval is the rise: `peak`, `extrema`,
+    `power_peak`, `rms` and `samples` look at its whole length, `dwell_peak` at all that follows.
+
+    Parameters
+    ----------
+    frequency, damping
+        The follower's frequency and damping ratio.
+    law
+        Motion of the cam.
+    initial
+        Displacement and velocity of the mass at k = 0.
+
+    Examples
+    --------
+    >>> from optlaws.laws.savin import savin
+    >>> from optlaws.mechanisms import Follower
+    >>> response = Follower(frequency=18).response(savin("III", 7.2))
+    >>> response.dynamic_factor(), response.residual_acceleration
+    (2.035976, 7.204401)
+    """
+
+    frequency: float
+    damping: float
+    law: MotionLaw
+    initial: tuple[float, float]
+
+    def dynamic_factor(self, reference: MotionLaw | None = None, *, dwell: bool = False) -> float:
+        """Greatest acceleration of the mass over that of a law, max |a_m''| / C.
+
+        Parameters
+        ----------
+        reference
+            The law whose C counts: the one meant for the mass; the cam's own unless given.
+        dwell
+            Look at the dwell as well as at the rise.
+
+        Raises
+        ------
+        InputError
+            If C of the reference is zero or infinite.
+
+        Examples
+        --------
+        >>> from optlaws.laws import smoothstep
+        >>> from optlaws.mechanisms import Follower
+        >>> Follower(frequency=200).response(smoothstep(4)).dynamic_factor()
+        1.003417
+        """
+        law = self.law if reference is None else motion_law(reference, "reference")
+        C = law.constants.C.value
+        if not 0.0 < C < inf:
+            raise InputError(
+                f"reference must have a finite C above 0 to compare with, got {shortened(law)}; name another law"
+            )
+        highest = self.peak(2).value
+        return (max(highest, self.dwell_peak(2).value) if dwell else highest) / C
+
+    @property
+    def residual_displacement(self) -> float:
+        """Amplitude of the free vibration at k = 1, its envelope if damped (1.21).
+
+        At and above critical damping nothing vibrates, and this is the greatest deviation from rest in the dwell.
+        """
+        return self._oscillator.amplitude(*self._off)
+
+    @property
+    def residual_acceleration(self) -> float:
+        """nu² times the residual displacement: without damping, the amplitude of a_m'' in the dwell."""
+        return self.frequency**2 * self.residual_displacement
+
+    @property
+    def final(self) -> tuple[float, float]:
+        """Displacement and velocity of the mass at k = 1."""
+        return self._motion.end
+
+    def dwell_peak(self, nu: int) -> Peak:
+        """Greatest magnitude from k = 1 on of the derivative of order `nu`, for nu = 0 of the deviation from rest.
+
+        Examples
+        --------
+        >>> from optlaws.laws import smoothstep
+        >>> from optlaws.mechanisms import Follower
+        >>> Follower(frequency=20, damping=0.05).response(smoothstep(4)).dwell_peak(2)
+        Peak(value=1.620669, k=1.016776)
+        """
+        peak = self._oscillator.peak(*self._off, derivative(nu))
+        return Peak(peak.value, 1.0 + peak.k)
+
+    def __repr__(self) -> str:
+        return (
+            f"Response(frequency={self.frequency:g}, damping={self.damping:g}, "
+            f"peak acceleration={self.peak(2).value:g}, residual acceleration={self.residual_acceleration:g})"
+        )
+
+    @property
+    def _oscillator(self) -> Oscillator:
+        return Oscillator(self.frequency, self.damping)
+
+    @kept_property
+    def _motion(self) -> MassChain:
+        return MassChain(self._oscillator, forcings(self.law), self.initial)
+
+    @kept_property
+    def _off(self) -> tuple[float, float]:
+        """Displacement and velocity at k = 1 relative to the dwell, where the cam stands still."""
+        last = self._motion.stretches[-1]
+        velocity = float(last.cam(np.array([last.length]), 1)[0])
+        off = self._motion.off_at_end
+        return off[0], off[1] + velocity
+
+    def _times(self, k: Any) -> Array:  # noqa: ANN401 - whatever users give
+        times = super()._times(k)
+        if (times < 0.0).any():
+            raise InputError(f"k must be at least 0, got {float(times.min())!r}")
+        return times
+
+    def _derivative(self, k: Array, nu: int) -> Array:
+        values = self._motion.derivative(np.minimum(k, 1.0), nu)
+        after = k > 1.0
+        if after.any():
+            free = self._oscillator.motion(*self._off, k[after] - 1.0, nu)
+            values[after] = free + (float(self.law.a(1.0)) if nu == 0 else 0.0)
+        return values
+
+
+@dataclass(frozen=True, repr=False)
+class CycleResponse(MassMotion):
+    """Periodic motion of the mass under a periodic cam; made by `Follower.cycle`.
+
+    Call it like a law, at any k; time is in durations of the rise. Peaks, extrema, root mean squares and samples are
+    those of the whole cycle.
+
+    Parameters
+    ----------
+    frequency, damping
+        The follower's frequency and damping ratio.
+    rise, fall
+        Laws of the rise and of the return.
+    dwell, fall_duration, rest
+        Durations of what follows the rise, in durations of the rise.
+
+    Examples
+    --------
+    >>> from optlaws.laws import smoothstep
+    >>> from optlaws.mechanisms import Follower
+    >>> Follower(frequency=20, damping=0.05).cycle(smoothstep(4), dwell=0.5, rest=1.0)
+    CycleResponse(frequency=20, damping=0.05, period=3.5, peak acceleration=11.018)
+    """
+
+    frequency: float
+    damping: float
+    rise: MotionLaw
+    fall: MotionLaw
+    dwell: float
+    fall_duration: float
+    rest: float
+
+    def __post_init__(self) -> None:
+        leads_back(self.rise, self.fall)
+        self._initial  # noqa: B018 - a cycle in resonance is refused at once
+
+    @property
+    def period(self) -> float:
+        """Duration of the cycle, in durations of the rise."""
+        return 1.0 + self.dwell + self.fall_duration + self.rest
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """The times at which the cycle begins and ends."""
+        return 0.0, self.period
+
+    def __repr__(self) -> str:
+        return (
+            f"CycleResponse(frequency={self.frequency:g}, damping={self.damping:g}, period={self.period:g}, "
+            f"peak acceleration={self.peak(2).value:g})"
+        )
+
+    @kept_property
+    def _forcings(self) -> list[Forcing]:
+        low, high = float(self.rise.a(0.0)), float(self.rise.a(1.0))
+        driven = list(forcings(self.rise))
+        if self.dwell > SHORTEST_STRETCH:
+            driven.append(rest(1.0, self.dwell, high))
+        driven += forcings(self.fall, 1.0 + self.dwell, self.fall_duration, high, -1.0)
+        if self.rest > SHORTEST_STRETCH:
+            driven.append(rest(1.0 + self.dwell + self.fall_duration, self.rest, low))
+        return driven
+
+    @kept_property
+    def _initial(self) -> tuple[float, float]:
+        """State that comes back after one period."""
+        oscillator = Oscillator(self.frequency, self.damping)
+        low = float(self.rise.a(0.0))
+        forced = MassChain(oscillator, self._forcings, (low, 0.0)).end
+        end = np.array([self.period])
+        columns = [
+            [oscillator.motion(*unit, end, nu)[0] for nu in (0, 1)] for unit in ((1.0, 0.0), (0.0, self.frequency))
+        ]
+        matrix = np.eye(2) - np.array([columns[0], np.array(columns[1]) / self.frequency]).T
+        scaled = matrix * np.array([[1.0, self.frequency], [1.0 / self.frequency, 1.0]])
+        if np.linalg.svd(scaled, compute_uv=False)[-1] < RESONANCE:
+            raise InputError(
+                f"an undamped follower of frequency {self.frequency:g} is in resonance with a cycle of {self.period:g} "
+                "durations of the rise (frequency times period / 2 pi is whole): it has no steady motion; give it "
+                "damping or change the cycle"
+            )
+        start = np.linalg.solve(matrix, np.array([forced[0] - low, forced[1]]))
+        return low + float(start[0]), float(start[1])
+
+    @kept_property
+    def _motion(self) -> MassChain:
+        return MassChain(Oscillator(self.frequency, self.damping), self._forcings, self._initial)
+
+    def _derivative(self, k: Array, nu: int) -> Array:
+        return self._motion.derivative(np.mod(k, self.period), nu)

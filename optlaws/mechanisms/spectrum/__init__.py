@@ -1,1 +1,0 @@
-"""Followers of every frequency: vibration left behind, response spectra, robust laws."""

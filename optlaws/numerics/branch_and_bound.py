@@ -1,0 +1,358 @@
+"""Extremes of functions over whole intervals by branch and bound: Taylor's formula with its remainder bounds each cell.
+
+In a cell of the half width h around m a function is f(m) + f'(m) t + F t²/2, where F is what f'' may be anywhere in the
+cell. Cells that cannot hold more than what is reached somewhere are done; where the slope has one sign, so are all but
+the ends between which the function is smooth; where f'' has one, Newton's method encloses the place at which the slope
+vanishes. So nothing rests on samples: a function comes as a map from intervals to the intervals of its Taylor terms.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, NamedTuple, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.errors import SolverFailure
+from optlaws.numbers import Array
+from optlaws.numerics.interval import Interval, exact
+from optlaws.numerics.taylor import Jet
+from optlaws.tolerances import (
+    CELL_END,
+    EQUAL_EXTREMES,
+    EXTREME_POLISHED,
+    EXTREME_WIDTH,
+    NEAR_TIE,
+    ROUNDOFF,
+    SMALLEST_CELL,
+    SMALLEST_SIZE,
+    TIE,
+)
+
+#: of places, as intervals, and of an order: the Taylor terms of a function anywhere in each, up to that order
+Function: TypeAlias = Callable[[Interval, int], Jet]
+
+#: a value and where it is
+Valued: TypeAlias = tuple[float, float]
+
+_ROUNDS = 80
+_STEPS = 2
+_MOST = 50_000
+_NARROWED = 0.25
+_BLUR = 4.0
+
+
+class Extremes(NamedTuple):
+    """Least and greatest value of a function: what it reaches, and what it is proven not to pass.
+
+    Attributes
+    ----------
+    least, most
+        At `least_at` it is at most `least`, at `most_at` it is at least `most`.
+    low, high
+        It is nowhere below `low` and nowhere above `high`.
+    """
+
+    least: float
+    least_at: float
+    low: float
+    most: float
+    most_at: float
+    high: float
+
+    @property
+    def peak(self) -> float:
+        """The greatest magnitude that it reaches."""
+        return max(abs(self.least), abs(self.most))
+
+    @property
+    def bound(self) -> float:
+        """A magnitude that it is proven not to pass."""
+        return max(abs(self.low), abs(self.high))
+
+
+def extremes(
+    function: Function,
+    edges: Any,  # noqa: ANN401 - numbers
+    *,
+    share: float = 1e-9,
+    parts: int = 1,
+    order: int = 2,
+    enough: float = np.inf,
+    magnitude: bool = False,
+) -> Extremes:
+    """Least and greatest value of a function between edges, over the whole from the first to the last.
+
+    Parameters
+    ----------
+    function
+        Of an `Interval` of places, each within two neighbouring edges, and an order: a `Jet` of intervals that hold
+        its Taylor terms everywhere there.
+    edges
+        Increasing, shape (n + 1,). At an inner edge the function may leap.
+    share
+        How near bounds come to values reached, relative to the greatest magnitude.
+    parts
+        Into how many cells each interval is cut at first.
+    order
+        Of Taylor's formula: more where low terms of a function cancel, as those of a small difference do.
+    enough
+        A magnitude: where the function reaches more, bounds need not come near.
+    magnitude
+        Whether only the greatest magnitude is sought: the other extreme then is bounded by no more than that.
+
+    Raises
+    ------
+    SolverFailure
+        If the function is bounded nowhere.
+
+    Examples
+    --------
+    >>> from optlaws.numerics.taylor import variable
+    >>> enclosure = extremes(lambda x, order: variable(x, order).waves()[0], [0.0, 2.0, 7.0])
+    >>> round(enclosure.most, 9), round(enclosure.most_at, 6), 0.0 <= enclosure.high - enclosure.most < 1e-8
+    (1.0, 1.570796, True)
+    """
+    search = _Search(function, np.asarray(edges, dtype=np.float64), order)
+    low, high = search.first(parts)
+    for _ in range(_ROUNDS):
+        cells = search.look(low, high)
+        slack = max(share * max(_finite(search.least), _finite(search.most)), SMALLEST_SIZE) + cells.rounding
+        least, most = search.least, search.most
+        if magnitude:
+            least, most = min(least, -most), max(most, -least)
+        beyond = (cells.top > most + slack) | (cells.bottom < least - slack)
+        beyond &= cells.half > SMALLEST_CELL * (np.abs(cells.middle) + cells.half)
+        search.take(cells, ~beyond)
+        low, high = search.split(cells, beyond)
+        if not 0 < len(low) <= _MOST or max(-search.least, search.most) > enough:
+            break
+    if len(low):
+        cells = search.look(low, high)
+        search.take(cells, np.ones(len(low), dtype=bool))
+    return search.result(polished=enough == np.inf and not magnitude)
+
+
+@dataclass(frozen=True)
+class _Cells:
+    """Cells, what their function is between in each, and what is known of its slope."""
+
+    low: Array
+    high: Array
+    middle: Array
+    half: Array
+    bottom: Array
+    top: Array
+    slope: tuple[Array, Array]
+    rounding: Array  # of values: smaller cells are not known better
+    stationary: tuple[Array, Array]  # between these steps from the middle the slope vanishes, if anywhere
+
+
+class _Search:
+    """The state of a search: the extremes that are reached, and bounds from the cells that are done with."""
+
+    def __init__(self, function: Function, edges: Array, order: int) -> None:
+        self.function, self.edges, self.order = function, edges, order
+        self.least, self.most = np.inf, -np.inf
+        self.bottom, self.top = np.inf, -np.inf
+        self.lows: list[tuple[Array, Array]] = []
+        self.highs: list[tuple[Array, Array]] = []
+
+    def first(self, parts: int) -> tuple[Array, Array]:
+        shares = np.arange(parts + 1) / parts
+        places = self.edges[:-1, None] + np.diff(self.edges)[:, None] * shares
+        places[:, -1] = self.edges[1:]
+        low, high = places[:, :-1].ravel(), places[:, 1:].ravel()
+        return low[high > low], high[high > low]
+
+    def look(self, low: Array, high: Array) -> _Cells:
+        """The bounds of the function in cells; extremes that it reaches in them are stored."""
+        count, middle = len(low), 0.5 * (low + high)
+        half = np.maximum(high - middle, middle - low) * (1.0 + 4.0 * ROUNDOFF)
+        places = Interval(np.concatenate([middle, middle]), np.concatenate([np.zeros(count), half]))
+        terms = [_as_interval(term, 2 * count) for term in self.function(places, self.order).terms]
+        value, rate, at, slope = terms[0], terms[1], terms[0][:count], terms[1][:count]
+        bend, swing = _bends([term[:count] for term in terms[2:-1]] + [terms[-1][count:]], half)
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+            turn = middle - 0.5 * slope.middle / terms[2].middle[:count]
+        for place in (middle, np.where((low < turn) & (turn < high), turn, middle), low, high):
+            self._reached(place, at if place is middle else _moved(at, slope, bend, middle, place))
+        with np.errstate(invalid="ignore", over="ignore"):
+            turn = 2.0 * half * np.maximum(np.abs(swing.low), np.abs(swing.high))
+            turn = turn + ROUNDOFF * (8.0 * turn + 4.0 * np.abs(slope.middle))
+            slopes = np.fmax(slope.low - turn, rate.low[count:]), np.fmin(slope.high + turn, rate.high[count:])
+            reach = half * np.maximum(np.abs(slopes[0]), np.abs(slopes[1]))
+            reach = reach + ROUNDOFF * (8.0 * reach + 4.0 * np.abs(at.middle))
+            tops = [at.high + reach, _highest(at.high, slope, bend.high, half)]
+            bottoms = [at.low - reach, -_highest(-at.low, -slope, -bend.low, half)]
+        top, bottom = np.fmin.reduce([value.high[count:], *tops]), np.fmax.reduce([value.low[count:], *bottoms])
+        # where the slope has one sign, what is greatest is at an end, and there the next cell has it as well
+        rises, falls = slopes[0] > 0.0, slopes[1] < 0.0
+        starts, ends = np.isin(low, self.edges), np.isin(high, self.edges)
+        top = np.where((rises & ~ends) | (falls & ~starts), -np.inf, np.where(np.isnan(top), np.inf, top))
+        bottom = np.where((rises & ~starts) | (falls & ~ends), np.inf, np.where(np.isnan(bottom), -np.inf, bottom))
+        rounding = np.where(np.isfinite(at.radius), _BLUR * at.radius, 0.0)
+        return _Cells(
+            low,
+            high,
+            middle,
+            half,
+            bottom,
+            top,
+            slopes,
+            rounding,
+            _stationary(slope, swing, 4.0 * (SMALLEST_CELL * half + ROUNDOFF * np.abs(middle))),
+        )
+
+    def _reached(self, places: Array, values: Interval) -> None:
+        low, high = values.low[np.isfinite(values.low)], values.high[np.isfinite(values.high)]
+        size = max(np.abs(low).max(initial=0.0), np.abs(high).max(initial=0.0), _finite(self.least), _finite(self.most))
+        self.least, self.lows = _kept(self.least, self.lows, values.high, places, NEAR_TIE * size)
+        negative, self.highs = _kept(-self.most, self.highs, -values.low, places, NEAR_TIE * size)
+        self.most = -negative
+
+    def take(self, cells: _Cells, done: NDArray[np.bool_]) -> None:
+        """Count cells among those that are done with."""
+        self.bottom = min(self.bottom, float(cells.bottom[done].min(initial=np.inf)))
+        self.top = max(self.top, float(cells.top[done].max(initial=-np.inf)))
+
+    def split(self, cells: _Cells, beyond: NDArray[np.bool_]) -> tuple[Array, Array]:
+        """Cells anew: of some what may still hold an extreme, in smaller pieces."""
+        low, high, middle = cells.low[beyond], cells.high[beyond], cells.middle[beyond]
+        width = high - low
+        first, last = (np.clip(middle + step[beyond], low, high) for step in cells.stationary)
+        sloped = (cells.slope[0][beyond] > 0.0) | (cells.slope[1][beyond] < 0.0) | (first >= last)
+        narrowed = ~sloped & (last - first < _NARROWED * width)
+        plain = ~sloped & ~narrowed
+        ends = sloped | narrowed
+        starts, stops = ends & np.isin(low, self.edges), ends & np.isin(high, self.edges)
+        lows = [first[narrowed], low[plain], middle[plain], low[starts], high[stops] - CELL_END * width[stops]]
+        highs = [last[narrowed], middle[plain], high[plain], low[starts] + CELL_END * width[starts], high[stops]]
+        some, others = np.concatenate(lows), np.concatenate(highs)
+        real = others > some
+        return some[real], others[real]
+
+    def result(self, *, polished: bool) -> Extremes:
+        """The extremes and their bounds when the search ends."""
+        if not np.isfinite([self.least, self.most]).all():
+            raise SolverFailure(
+                "a function has no finite value where it is looked at: nothing is known of its extremes"
+            )
+        known = self._lowest(TIE)
+        least, most = self._first_of_equals(known) if polished else known
+        return Extremes(*least, min(self.bottom, least[0]), -most[0], most[1], max(self.top, -most[0]))
+
+    def _first_of_equals(self, known: tuple[Valued, Valued]) -> tuple[Valued, Valued]:
+        """The extremes by Newton's steps; of those as good as one another the first, however near a sample came."""
+        early, late = self._lowest(NEAR_TIE), self._polished(known)
+        if early == known:
+            return late
+        allowed = EQUAL_EXTREMES * max(abs(self.least), abs(self.most))
+        pairs = zip(self._polished(early), late, strict=True)
+        least, most = (first if first[0] <= best[0] + allowed else best for first, best in pairs)
+        return least, most
+
+    def _lowest(self, tie: float) -> tuple[Valued, Valued]:
+        """The first of the least values, and of the greatest with the opposite sign, and where they are."""
+        whole, tie = float(self.edges[-1] - self.edges[0]), tie * max(abs(self.least), abs(self.most))
+        lowest = _first(self.lows, self.least + tie, whole), _first(self.highs, -self.most + tie, whole)
+        return self._on_edge(lowest[0], 1.0), self._on_edge(lowest[1], -1.0)
+
+    def _on_edge(self, lowest: Valued, sign: float) -> Valued:
+        """The first edge beside a lowest value that is as good: from there on a function may be flat."""
+        edges = self.edges[np.abs(self.edges - lowest[1]) <= EXTREME_WIDTH * float(self.edges[-1] - self.edges[0])]
+        if not edges.size:
+            return lowest
+        value = _as_interval(self.function(Interval(edges, np.zeros(edges.shape)), 0).terms[0], len(edges)) * sign
+        good = np.flatnonzero(value.high <= lowest[0] + EQUAL_EXTREMES * max(abs(self.least), abs(self.most)))
+        return (float(value.high[good[0]]), float(edges[good[0]])) if good.size else lowest
+
+    def _polished(self, known: tuple[Valued, Valued]) -> tuple[Valued, Valued]:
+        """A place nearer to where the slope vanishes, where the value is no worse there."""
+        least, most = known
+        for _ in range(_STEPS):
+            places = np.array([least[1], most[1]])
+            terms = self.function(Interval(places, np.zeros(2)), 2).terms
+            slope, bend = (_as_interval(term, 2).middle for term in terms[1:3])
+            with np.errstate(divide="ignore", invalid="ignore"):
+                moved = places - 0.5 * slope / bend
+            part = np.searchsorted(self.edges[1:-1], places)
+            inside = (self.edges[part] < moved) & (moved < self.edges[part + 1]) & ~np.isin(places, self.edges)
+            inside &= np.abs(moved - places) > EXTREME_POLISHED * np.abs(self.edges[-1] - self.edges[0])
+            if not inside.any():
+                break
+            places = np.where(inside, moved, 0.5 * (self.edges[part] + self.edges[part + 1]))
+            value = _as_interval(self.function(Interval(places, np.zeros(2)), 0).terms[0], 2)
+            if inside[0] and value.high[0] <= least[0]:
+                least = float(value.high[0]), float(places[0])
+            if inside[1] and -value.low[1] <= most[0]:
+                most = float(-value.low[1]), float(places[1])
+        return least, most
+
+
+def _as_interval(term: Any, count: int) -> Interval:  # noqa: ANN401 - an interval or a number
+    interval = term if isinstance(term, Interval) else exact(term)
+    if interval.middle.shape == (count,):
+        return interval
+    return Interval(np.broadcast_to(interval.middle, (count,)), np.broadcast_to(interval.radius, (count,)))
+
+
+def _bends(terms: list[Interval], half: Array) -> tuple[Interval, Interval]:
+    """F and G such that f = f(m) + f'(m) t + F t² and f' = f'(m) + 2 G t in cells, from the Taylor terms from t² on."""
+    reach, bend, swing = Interval(np.zeros(half.shape), half), terms[-1], terms[-1] * (0.5 * (len(terms) + 1))
+    for i in range(len(terms) - 2, -1, -1):
+        bend, swing = terms[i] + bend * reach, terms[i] * (0.5 * (i + 2)) + swing * reach
+    return bend, swing
+
+
+def _moved(at: Interval, slope: Interval, bend: Interval, middle: Array, place: Array) -> Interval:
+    """Values at places of cells, by Taylor's formula from their middles."""
+    step = Interval(place - middle, 4.0 * ROUNDOFF * np.abs(place - middle))
+    return at + slope * step + bend * (step * step)
+
+
+def _highest(start: Array, rate: Interval, bend: Array, half: Array) -> Array:
+    """An upper bound of start + rate t + bend t² for |t| <= half; not a number where nothing is known."""
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        steep = np.abs(rate.middle)
+        top = np.where(bend < 0.0, np.clip(-0.5 * steep / bend, 0.0, half), half)
+        risen = steep * top + bend * top * top
+        sizes = 2.0 * steep * top + 2.0 * np.abs(bend) * top * top
+        apart = rate.radius * half * (1.0 + 16.0 * ROUNDOFF)
+        return np.asarray(start + risen + apart + ROUNDOFF * (16.0 * sizes + 8.0 * np.abs(start)))
+
+
+def _stationary(slope: Interval, bend: Interval, slack: Array) -> tuple[Array, Array]:
+    """Between which steps from the middle the slope may vanish, by Newton's method; the whole cell where f'' may."""
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        steps = slope / (bend * -2.0)
+        low, high = steps.low - slack, steps.high + slack
+    return np.where(np.isnan(low), -np.inf, low), np.where(np.isnan(high), np.inf, high)
+
+
+def _finite(value: float) -> float:
+    return abs(value) if np.isfinite(value) else 0.0
+
+
+def _kept(
+    best: float, known: list[tuple[Array, Array]], values: Array, places: Array, tie: float
+) -> tuple[float, list[Any]]:
+    """The least value with further ones, and all that are as low but for rounding."""
+    values = np.where(np.isfinite(values), values, np.inf)
+    least = float(values.min(initial=np.inf))
+    best = min(best, least)
+    if not np.isfinite(least) or least > best + tie:
+        return best, known
+    near = values <= best + tie
+    return best, [*known, (values[near], places[near])]
+
+
+def _first(known: list[tuple[Array, Array]], most: float, whole: float) -> Valued:
+    """The first place among the lowest values, and the value there."""
+    values, places = (np.concatenate(parts) for parts in zip(*known, strict=True))
+    values, places = values[values <= most], places[values <= most]
+    same = places <= places.min() + EXTREME_WIDTH * whole
+    lowest = int(np.argmin(np.where(same, values, np.inf)))
+    return float(values[lowest]), float(places[lowest])

@@ -1,1 +1,0 @@
-"""Rigorous enclosures: interval arrays, Taylor jets over them, extremes by branch and bound, integrals."""

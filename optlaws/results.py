@@ -1,0 +1,234 @@
+"""Tables, pictures and pages of results, in one style, for scripts over the public names of optlaws."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import msgspec
+
+from optlaws.files import reading, tables, writing
+from optlaws.files.printed import (
+    MISPRINT,
+    ON_GRID,
+    REPRODUCED,
+    PrintedNumber,
+    compared,
+    number,
+    rows,
+    same_digits,
+)
+from optlaws.files.problem_file import Text, convert
+from optlaws.files.tables import Cell
+from optlaws.files.writing import MARK
+from optlaws.kept import kept_property
+from optlaws.suggest import unknown_key
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+__all__ = [
+    "MARK",
+    "MISPRINT",
+    "ON_GRID",
+    "REPRODUCED",
+    "Cell",
+    "Entries",
+    "Page",
+    "PrintedNumber",
+    "Results",
+    "compared",
+    "number",
+    "read",
+    "rows",
+    "same_digits",
+    "unknown_key",
+]
+
+
+class Page:
+    """A page that is written from its top to its end.
+
+    Examples
+    --------
+    >>> print(Page("Laws").text("Two of them.").table(["law", "C"], [["K", 4.93], ["Co", 6.28]]), end="")
+    # Laws
+    <BLANKLINE>
+    <!-- made by optlaws -->
+    <BLANKLINE>
+    Two of them.
+    <BLANKLINE>
+    | law | C    |
+    |-----|------|
+    | K   | 4.93 |
+    | Co  | 6.28 |
+    """
+
+    def __init__(self, title: str) -> None:
+        self._parts = [f"# {title}\n", f"<!-- {MARK} -->\n"]
+
+    def heading(self, text: str) -> Page:
+        """A heading below the title."""
+        return self._add(f"## {text}")
+
+    def text(self, text: str) -> Page:
+        """A paragraph or several; none if the text is blank."""
+        return self._add(text.strip()) if text.strip() else self
+
+    def figure(self, name: str, caption: str) -> Page:
+        """The picture `name`.svg beside the page."""
+        return self._add(f"![{caption}]({name}.svg)")
+
+    def table(self, headings: Sequence[str], rows: Sequence[Sequence[Cell]], *, digits: int = 7) -> Page:
+        """A table with aligned columns, its numbers to so many digits."""
+        self._parts.append(tables.to_markdown(headings, rows, digits=digits))
+        return self
+
+    def _add(self, line: str) -> Page:
+        self._parts.append(f"{line}\n")
+        return self
+
+    def __str__(self) -> str:
+        return "\n".join(self._parts)
+
+
+Struct = TypeVar("Struct", bound=msgspec.Struct)
+Spec = TypeVar("Spec", bound="Entries")
+
+
+class Entries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """The entries that the problem file of every script has; a script's own are those of a subclass.
+
+    Attributes
+    ----------
+    title
+        Heading of the results.
+    text
+        What stands below it.
+    job
+        "script", in the files that come with optlaws.
+
+    Examples
+    --------
+    >>> class Peaks(Entries):
+    ...     laws: list[str]
+    >>> Peaks(title="Peaks", laws=["cycloidal"]).laws
+    ['cycloidal']
+    """
+
+    title: Text
+    text: str = ""
+    job: str = "script"
+
+
+def read(file: Path, entries: type[Struct]) -> Struct:
+    """Entries of a TOML file as a typed value.
+
+    Parameters
+    ----------
+    file
+        The file.
+    entries
+        A subclass of `msgspec.Struct`.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, or an entry is unknown (the nearest right one is named), missing or of another type.
+    """
+    return convert(reading.toml(file), entries, file)
+
+
+class Results:
+    r"""Tables, pictures and pages that a script makes of its problem file, written together when all are made.
+
+    Parameters
+    ----------
+    file
+        The problem file, or the script beside it.
+    digits
+        How many digits of its numbers mean something: a file that differs by less is left as it is.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> _ = Path("peaks.toml").write_text('title = "Peaks"\n', "utf-8")
+    >>> results = Results("peaks.py")
+    >>> results.read(Entries).title
+    'Peaks'
+    >>> results.table("peaks", ["law", "C"], [["cycloidal", 6.283185]])
+    >>> [file.as_posix() for file in results.write()]
+    ['results/peaks/peaks.csv']
+    """
+
+    def __init__(self, file: Path | str, *, digits: int | None = None) -> None:
+        given = Path(file)
+        self.file = given.with_suffix(".toml") if given.suffix == ".py" else given
+        self.digits = digits
+        self.title = given.stem
+        self._texts: dict[str, str | Page] = {}
+        self._pictures: dict[str, Figure] = {}
+        self._written: dict[str, Callable[[Path], Path]] = {}
+
+    @property
+    def about(self) -> str:
+        """Title and file, which the first line of every table tells."""
+        return f"{self.title}; from {self.file.name}"
+
+    @kept_property
+    def entries(self) -> dict[str, Any]:
+        """All entries of the problem file, as they stand there."""
+        return reading.toml(self.file)
+
+    def read(self, entries: type[Spec]) -> Spec:
+        """Entries of the problem file as a typed value; the title becomes that of the results."""
+        spec = convert(self.entries, entries, self.file)
+        self.title = spec.title
+        return spec
+
+    def table(self, name: str, headings: Sequence[str], rows: Sequence[Sequence[Cell]], note: str = "") -> None:
+        """A table `name`.csv; its first line tells what it is of, and the note."""
+        self.text(f"{name}.csv", tables.to_csv(headings, rows, about=f"{self.about}; {note}" if note else self.about))
+
+    def page(self, name: str, title: str | None = None) -> Page:
+        """A page `name`.md, to be filled, under the title of the problem file or another."""
+        page = self._texts[f"{name}.md"] = Page(self.title if title is None else title)
+        return page
+
+    def data(self, name: str, content: Mapping[str, Any]) -> None:
+        """Data as JSON, behind an entry that tells what they are of."""
+        self.text(name, json.dumps({"about": f"{self.about}; {MARK}", **content}, indent=1) + "\n")
+
+    def text(self, name: str, content: str) -> None:
+        """A file of another format; its text must hold the mark "made by optlaws" at the end of a line or an entry."""
+        self._texts[name] = content
+
+    def picture(self, name: str, figure: Figure) -> None:
+        """A picture `name`.svg, and the same as `name`.png."""
+        self._pictures[name] = figure
+
+    def add(self, name: str, write: Callable[[Path], Path]) -> None:
+        """A file that a function writes to its place."""
+        self._written[name] = write
+
+    def pictures(self) -> dict[str, str]:
+        """The pictures as svg, by the names of their files."""
+        from optlaws.plots.style import rendered
+
+        return {f"{name}.svg": rendered(figure, "svg").decode() for name, figure in self._pictures.items()}
+
+    def write(self, out: Path | None = None) -> list[Path]:
+        """Write what was made into a folder, `results/NAME` where you are unless given, and return the files.
+
+        Files that say the same are left as they are; one that a user changed is kept as `name.orig`.
+        """
+        from optlaws.plots.style import save_pictures
+
+        folder = Path("results", self.file.stem) if out is None else out
+        texts = [
+            writing.write(folder / name, str(content), digits=self.digits) for name, content in self._texts.items()
+        ]
+        files = [write(folder / name) for name, write in self._written.items()]
+        return texts + save_pictures(self._pictures, folder) + files

@@ -1,0 +1,220 @@
+"""Laws that are polynomials between breaks, as a linear space: what free pieces and Z in B-splines share."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.polynomial import chebyshev, legendre
+
+from optlaws.errors import InputError
+from optlaws.numbers import Array
+from optlaws.numerics.chebyshev import from_values, nodes, product, real_parts_of_roots
+from optlaws.synthesis.families.family import ConstraintFamily, MirroredFamily, RootFamily
+from optlaws.synthesis.families.names import RowName
+from optlaws.synthesis.spaces.piecewise_families import PieceFamily, PieceProductFamily, PieceSeries
+from optlaws.synthesis.spaces.polynomial_space import chord, kink
+from optlaws.synthesis.spaces.space import LawSpace, Quadrature
+
+
+def below_peak(acceleration: PieceSeries, jerk: PieceSeries, centre: float, *, smooth: bool) -> PieceSeries:
+    """Piecewise series of (b - b0) / w with w > 0, b0 the velocity at the centre: at most 0 if and only if b <= b0.
+
+    On a piece that reaches the centre w = (u - u0)², or |u - u0| where c may jump, which leaves a polynomial; on the
+    others it is this at the end nearer to the centre. All is integrated from the centre outward, so nothing cancels.
+
+    Parameters
+    ----------
+    acceleration, jerk
+        The series of c and j by u = 1 - 2k.
+    centre
+        Where the peak is, in u.
+    smooth
+        Whether c is continuous and zero there; what the series has there is left out.
+    """
+    breaks = acceleration.breaks
+    count = acceleration.series.shape[1] + 1
+    divided = np.zeros((len(breaks) - 1, count, acceleration.series.shape[2]))
+    power = 2 if smooth else 1
+    touching = [i for i in range(len(divided)) if breaks[i + 1] <= centre <= breaks[i]]
+    for i in touching:
+        low, high = breaks[i + 1], breaks[i]
+        u = low + (high - low) * (1.0 + nodes(count)) / 2.0
+        of = chord if smooth else kink
+        divided[i] = from_values(of(_extended(jerk if smooth else acceleration, i), u, centre, count - 1))
+    for i in (*range(touching[0] - 1, -1, -1), *range(touching[-1] + 1, len(divided))):
+        inner, end = (i + 1, -1.0) if breaks[i + 1] >= centre else (i - 1, 1.0)
+        near, behind = (breaks[i + 1], inner) if end < 0.0 else (breaks[i], inner)
+        scale = abs(near - centre) ** power
+        # the neighbour's value at the break, in its own units
+        height = np.asarray(chebyshev.chebval(-end, divided[behind])) * _unit(breaks, behind, centre, power, near)
+        rise = -np.asarray(chebyshev.chebint(acceleration.series[i], axis=0)) * (breaks[i] - breaks[i + 1]) / 4.0
+        rise[0] += height - np.asarray(chebyshev.chebval(end, rise))
+        divided[i] = rise / scale
+    return PieceSeries(breaks, divided)
+
+
+def _unit(breaks: Array, piece: int, centre: float, power: int, at: float) -> float:
+    """What b - b0 was divided by on a piece at one of its ends."""
+    low, high = breaks[piece + 1], breaks[piece]
+    if low <= centre <= high:
+        return float(abs(at - centre) ** power)
+    return float(min(abs(low - centre), abs(high - centre)) ** power)
+
+
+def _extended(pieces: PieceSeries, piece: int) -> Callable[[Array], Array]:
+    """The columns of one piece as functions of u, at its ends too."""
+    low, high = pieces.breaks[piece + 1], pieces.breaks[piece]
+
+    def columns(u: Array) -> Array:
+        return np.asarray(chebyshev.chebval(2.0 * (u - low) / (high - low) - 1.0, pieces.series[piece]).T)
+
+    return columns
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class PieceRootFamily(RootFamily, PieceFamily):
+    """A root family of piecewise polynomials."""
+
+    def stationary(self, x: Array) -> Array:
+        """Roots of 2 (1-u) g' + g on every piece, and the breaks."""
+        places = [self.corners]
+        breaks = self.pieces.breaks
+        for i, series in enumerate(self.pieces.series @ np.append(x, 1.0)):
+            middle, half = (breaks[i] + breaks[i + 1]) / 2.0, (breaks[i] - breaks[i + 1]) / 2.0
+            way = np.array([2.0 * (1.0 - middle) / half, -2.0])
+            slope = product(way, np.asarray(chebyshev.chebder(series), dtype=np.float64))
+            total = np.zeros(max(len(series), len(slope)))
+            total[: len(series)] = series
+            total[: len(slope)] += slope
+            if total.any():
+                roots = real_parts_of_roots(total)
+                places.append(self.pieces.global_places(i, roots[np.abs(roots) < 1.0]))
+        return np.concatenate(places)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class PieceMirroredFamily(MirroredFamily, PieceRootFamily):
+    """The same written from the end of the interval: u = 2k - 1."""
+
+
+def mirrored(pieces: PieceSeries) -> PieceSeries:
+    """The same functions of -u.
+
+    >>> series = PieceSeries(np.array([1.0, 0.5, -1.0]), np.arange(4.0).reshape(2, 2, 1))
+    >>> bool(np.allclose(mirrored(series).values(np.array([0.7, -0.7])), series.values(np.array([-0.7, 0.7]))))
+    True
+    """
+    series = pieces.series[::-1].copy()
+    series[:, 1::2] *= -1.0
+    return PieceSeries(-pieces.breaks[::-1], series)
+
+
+class PiecewiseSpace(LawSpace):
+    """A space given by the piecewise series of every derivative, on the first half only where `symmetric`."""
+
+    products = PieceProductFamily
+
+    breaks: tuple[float, ...]  #: all breaks of the laws, of both halves
+    continuity: int  #: order up to which the derivatives of every law are continuous at the breaks
+
+    def __init__(self, breaks: tuple[float, ...], continuity: int, *, symmetric: bool) -> None:
+        super().__init__()
+        self.breaks, self.continuity, self.symmetric = breaks, continuity, symmetric
+        self.domain = (0.0, 1.0) if symmetric else (-1.0, 1.0)
+        self._pieces: dict[int, PieceSeries] = {}
+
+    @abstractmethod
+    def pieces(self, nu: int) -> PieceSeries:
+        """Piecewise series of the derivative of order nu, the base law's column last."""
+
+    def _finite(self, nu: int) -> None:
+        if nu > self.continuity + 1 and len(self.breaks) > 2:
+            raise InputError(
+                f"with continuity {self.continuity} the derivative of order {nu} has impulses at the breaks, which are "
+                f"beyond every bound: ask a continuity of at least {nu - 1}"
+            )
+
+    def _wide(self, pieces: PieceSeries, size: int) -> PieceSeries:
+        return PieceSeries(pieces.breaks, self.widened(pieces.series, size))
+
+    def combination(
+        self,
+        nu: int,
+        weights: tuple[float, ...],
+        name: str,
+        slack: Array,
+        bound: float = 0.0,
+        *,
+        signs: tuple[float, ...] = (1.0, -1.0),
+    ) -> PieceFamily:
+        """Rows s (w0 a^(nu) + w1 a^(nu+1) + ...) <= slack . x + bound."""
+        pieces = self._wide(self.combined(nu, weights), len(slack))
+        jumps = nu + len(weights) - 1 > self.continuity
+        return PieceFamily(name, slack, bound, signs, self.domain, series=np.zeros((1, 1)), pieces=pieces, jumps=jumps)
+
+    def combined(self, nu: int, weights: tuple[float, ...]) -> PieceSeries:
+        """Series of w0 a^(nu) + w1 a^(nu+1) + ..., the base law's column last."""
+        self._finite(nu + len(weights) - 1)
+        lowest = self.pieces(nu)
+        if weights == (1.0,):
+            return lowest
+        series = weights[0] * lowest.series
+        for i, weight in enumerate(weights[1:], 1):
+            terms = self.pieces(nu + i).series
+            series[:, : terms.shape[1]] += weight * terms[:, : series.shape[1]]
+        return PieceSeries(lowest.breaks, series)
+
+    def columns(self, nu: int, u: Array) -> Array:
+        """The derivative of order nu at places u = 1 - 2k: free functions, then the base law."""
+        self._finite(nu)
+        return self.pieces(nu).values(u)
+
+    def degree_of(self, nu: int) -> int:
+        """The degree of the derivative of order nu on every piece."""
+        return int(self.pieces(nu).series.shape[1]) - 1
+
+    @property
+    def edges(self) -> tuple[float, ...]:
+        """The breaks, of symmetric laws those of the first half."""
+        return tuple(self.pieces(2).breaks.tolist())
+
+    def jumps(self, nu: int) -> bool:
+        """Whether the derivative of order nu may jump at a break."""
+        return nu > self.continuity
+
+    def row(self, nu: int, k: float) -> Array:  # noqa: D102
+        return np.asarray(self.pieces(nu).values(np.array([1.0 - 2.0 * k]))[0])
+
+    def below(self, slack: Array, peak: float = 0.5) -> ConstraintFamily:
+        """Rows b <= b(peak), divided by what they vanish like there: undivided they would be ill posed."""
+        series = below_peak(self.pieces(2), self.pieces(3), 1.0 - 2.0 * peak, smooth=self.continuity > 1)
+        pieces = self._wide(series, len(slack))
+        return PieceFamily(
+            RowName.BELOW_PEAK, slack, domain=self.domain, series=np.zeros((1, 1)), pieces=pieces, jumps=True
+        )
+
+    def from_rest(
+        self, name: str, slack: Array, *, backward: bool = False, weights: tuple[float, ...] = (1.0,)
+    ) -> ConstraintFamily:
+        """Rows |b| / sqrt(2k) <= slack . x for k up to 1/2; |b| / sqrt(2 - 2k) for the other half where `backward`."""
+        pieces, signs, half = self._wide(self.combined(1, weights), len(slack)), (1.0, -1.0), (0.0, 1.0)
+        if backward:
+            return PieceMirroredFamily(name, slack, 0.0, signs, half, series=np.zeros((1, 1)), pieces=mirrored(pieces))
+        return PieceRootFamily(name, slack, 0.0, signs, half, series=np.zeros((1, 1)), pieces=pieces)
+
+    def quadrature(self, nu: int) -> Quadrature:
+        """Gauss points on every piece; moments are Legendre polynomials on one piece each."""
+        self._finite(nu)
+        pieces = self.pieces(nu)
+        count = pieces.series.shape[1] + 1
+        x, weights = legendre.leggauss(count)
+        share = 2.0 if self.symmetric else 1.0
+        number = len(pieces.breaks) - 1
+        u = np.concatenate([pieces.global_places(i, x) for i in range(number)])
+        lengths = (pieces.breaks[:-1] - pieces.breaks[1:]) / 2.0
+        moments = np.asarray(np.kron(np.eye(number), legendre.legvander(x, count - 1)), dtype=np.float64)
+        weighted = np.concatenate([share * length * weights / 2.0 for length in lengths])
+        return Quadrature(weighted, pieces.values(u), moments)

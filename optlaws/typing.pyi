@@ -1,0 +1,150 @@
+# made by tests/contracts/faces.py from the table in typing.py
+from optlaws.balancing.dwells.choice import DwellComparison as DwellComparison
+from optlaws.balancing.dwells.clutch import Teeth as Teeth
+from optlaws.balancing.dwells.mechanism import DwellMechanism as DwellMechanism
+from optlaws.balancing.dwells.mechanism import DwellType as DwellType
+from optlaws.balancing.levers.design import Span as Span
+from optlaws.cams.as_manufactured import ManufacturedFormat as ManufacturedFormat
+from optlaws.cams.barrel import Side as Side
+from optlaws.cams.barrel import SpaceCurve as SpaceCurve
+from optlaws.cams.best_laws import BestBaseCircle as BestBaseCircle
+from optlaws.cams.best_laws import BestCam as BestCam
+from optlaws.cams.curves.file_options import CutFormat as CutFormat
+from optlaws.cams.curves.motion_by_angle import CamStretch as CamStretch
+from optlaws.cams.curves.motion_by_angle import Direction as Direction
+from optlaws.cams.curves.plane_curve import PlaneCurve as PlaneCurve
+from optlaws.cams.disc import CutCurve as CutCurve
+from optlaws.cams.disc import Turning as Turning
+from optlaws.cams.followers.follower import CamFollower as CamFollower
+from optlaws.cams.followers.follower import Place as Place
+from optlaws.cams.followers.rollers_and_faces import FaceContact as FaceContact
+from optlaws.cams.followers.rollers_and_faces import RollerContact as RollerContact
+from optlaws.cams.least_sizes import GreatestRoller as GreatestRoller
+from optlaws.cams.least_sizes import LeastBaseCircle as LeastBaseCircle
+from optlaws.cycles.machine_follower import MachineAnswer as MachineAnswer
+from optlaws.cycles.specification.segments import CycleSegment as CycleSegment
+from optlaws.exports.best_breaks import BestBreaks as BestBreaks
+from optlaws.laws.curve import Many as Many
+from optlaws.laws.exporting import Interpolation as Interpolation
+from optlaws.laws.law import Jumps as Jumps
+from optlaws.laws.making.input_shaping import Shaper as Shaper
+from optlaws.laws.making.multiplier import Multiplier as Multiplier
+from optlaws.laws.segments.segment import Segment as Segment
+from optlaws.mechanisms.follower import Change as Change
+from optlaws.mechanisms.machine.output_constants import OutputPeak as OutputPeak
+from optlaws.mechanisms.machine.output_constants import OutputRms as OutputRms
+from optlaws.mechanisms.machine.over_time import MachineCycle as MachineCycle
+from optlaws.mechanisms.machine.over_time import MachineResponse as MachineResponse
+from optlaws.mechanisms.machine.residual_boxes import ModeResidual as ModeResidual
+from optlaws.mechanisms.machine.state_space import Rows as Rows
+from optlaws.mechanisms.machine.state_space import StateSpace as StateSpace
+from optlaws.mechanisms.residual import Residual as Residual
+from optlaws.motion.motion import Motion as Motion
+from optlaws.motion.piece import Piece as Piece
+from optlaws.motion.polynomials import Derivatives as Derivatives
+from optlaws.motion.polynomials import Extreme as Extreme
+from optlaws.numbers import Array as Array
+from optlaws.numbers import Complex as Complex
+from optlaws.numbers import NumberOrQuantity as NumberOrQuantity
+from optlaws.numbers import Quantity as Quantity
+from optlaws.numerics.branch_and_bound import Extremes as Extremes
+from optlaws.numerics.exact import Polynomial as Polynomial
+from optlaws.numerics.interval import Interval as Interval
+from optlaws.numerics.taylor import Jet as Jet
+from optlaws.shown.summary import Summary as Summary
+from optlaws.studies.progress import Watch as Watch
+from optlaws.studies.study import Study as Study
+from optlaws.synthesis.arrays.problems import Entry as Entry
+from optlaws.synthesis.families.active_set import ActiveSet as ActiveSet
+from optlaws.synthesis.families.family import ConstraintFamily as ConstraintFamily
+from optlaws.synthesis.functionals.makers import FormulaKind as FormulaKind
+from optlaws.synthesis.functionals.makers import PeakSide as PeakSide
+from optlaws.synthesis.problem.constants import Asked as Asked
+from optlaws.synthesis.problem.expression import Maximum as Maximum
+from optlaws.synthesis.problem.expression import Term as Term
+from optlaws.synthesis.proof.nodes import Node as Node
+from optlaws.synthesis.proven.front import LazySequence as LazySequence
+from optlaws.synthesis.proven.swept_parameter import SweptParameter as SweptParameter
+from optlaws.synthesis.solution_array import SolvedPart as SolvedPart
+from optlaws.synthesis.solve import Bound as Bound
+from optlaws.synthesis.solve_many import Errors as Errors
+from optlaws.synthesis.solve_many import Result as Result
+from optlaws.synthesis.spaces.bases import PolynomialBasis as PolynomialBasis
+from optlaws.synthesis.spaces.space import LawSpace as LawSpace
+from optlaws.synthesis.spaces.splines import PiecewiseBasis as PiecewiseBasis
+
+__all__ = [
+    "ActiveSet",
+    "Array",
+    "Asked",
+    "BestBaseCircle",
+    "BestBreaks",
+    "BestCam",
+    "Bound",
+    "CamFollower",
+    "CamStretch",
+    "Change",
+    "Complex",
+    "ConstraintFamily",
+    "CutCurve",
+    "CutFormat",
+    "CycleSegment",
+    "Derivatives",
+    "Direction",
+    "DwellComparison",
+    "DwellMechanism",
+    "DwellType",
+    "Entry",
+    "Errors",
+    "Extreme",
+    "Extremes",
+    "FaceContact",
+    "FormulaKind",
+    "GreatestRoller",
+    "Interpolation",
+    "Interval",
+    "Jet",
+    "Jumps",
+    "LawSpace",
+    "LazySequence",
+    "LeastBaseCircle",
+    "MachineAnswer",
+    "MachineCycle",
+    "MachineResponse",
+    "ManufacturedFormat",
+    "Many",
+    "Maximum",
+    "ModeResidual",
+    "Motion",
+    "Multiplier",
+    "Node",
+    "NumberOrQuantity",
+    "OutputPeak",
+    "OutputRms",
+    "PeakSide",
+    "Piece",
+    "PiecewiseBasis",
+    "Place",
+    "PlaneCurve",
+    "Polynomial",
+    "PolynomialBasis",
+    "Quantity",
+    "Residual",
+    "Result",
+    "RollerContact",
+    "Rows",
+    "Segment",
+    "Shaper",
+    "Side",
+    "SolvedPart",
+    "SpaceCurve",
+    "Span",
+    "StateSpace",
+    "Study",
+    "Summary",
+    "SweptParameter",
+    "Teeth",
+    "Term",
+    "Turning",
+    "Watch",
+]
