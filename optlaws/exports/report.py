@@ -16,7 +16,7 @@ from optlaws.motion.polynomials import Extreme, PiecewiseMotion
 from optlaws.motion.quantities import quantity
 from optlaws.numbers import MOST_VALUES, Array, Quantity
 from optlaws.numerics import bernstein
-from optlaws.numerics.bisection import bisect_each
+from optlaws.numerics.roots import bisect_each
 
 QUANTITIES = ("Position", "Velocity", "Acceleration", "Jerk")
 ORDERS = range(4)

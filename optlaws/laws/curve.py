@@ -16,8 +16,8 @@ from optlaws.extras import needed
 from optlaws.kept import kept_property
 from optlaws.numbers import MOST_VALUES, Array, derivative, finite, whole
 from optlaws.numerics import peaks
-from optlaws.numerics.bisection import crossings
 from optlaws.numerics.peaks import Peak
+from optlaws.numerics.roots import crossings
 
 Many = NDArray[Any] | Sequence[Any]
 Sides = tuple[Array, Array]

@@ -9,7 +9,7 @@ from math import inf, log
 import numpy as np
 
 from optlaws.numbers import Array
-from optlaws.numerics.bisection import bisect
+from optlaws.numerics.roots import bisect
 from optlaws.tolerances import SAME_EXPONENT
 
 Sum = Mapping[float, float]  # exponent: coefficient

@@ -2,7 +2,6 @@
 
 from optlaws.numerics import bernstein, chebyshev, real_powers
 from optlaws.numerics.bernstein import greatest_difference
-from optlaws.numerics.bisection import bisect
 from optlaws.numerics.branch_and_bound import extremes as extremes_of_branch_and_bound
 from optlaws.numerics.chebyshev import nodes
 from optlaws.numerics.exact import chebyshev_from_powers, powers_from_chebyshev
@@ -12,4 +11,5 @@ from optlaws.numerics.panels import Panels, equal, of_waves, resolved
 from optlaws.numerics.panels import integral as integral_of_panels
 from optlaws.numerics.peaks import extremes as extremes_of_peaks
 from optlaws.numerics.peaks import highest, peak, polished
+from optlaws.numerics.roots import bisect
 from optlaws.numerics.taylor import Jet, Pair, variable

@@ -13,7 +13,7 @@ from optlaws.balancing.levers.sizing import LEAST_TRANSMISSION, MOST_ROCKER_SWIN
 from optlaws.echo import shortened
 from optlaws.errors import InputError, OptlawsError
 from optlaws.numbers import Array, NumberOrQuantity, finite
-from optlaws.numerics.bisection import bisect
+from optlaws.numerics.roots import bisect
 from optlaws.suggest import unknown_key
 from optlaws.tolerances import LINKAGE_MET, SAME_LINKAGE
 

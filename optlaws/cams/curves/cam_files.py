@@ -22,7 +22,7 @@ from optlaws.files import writing
 from optlaws.files.writing import MARK
 from optlaws.locks import process_lock
 from optlaws.numbers import Array
-from optlaws.numerics.bisection import bisect_each
+from optlaws.numerics.roots import bisect_each
 from optlaws.suggest import unknown_key
 
 if TYPE_CHECKING:

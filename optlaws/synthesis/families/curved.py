@@ -18,8 +18,8 @@ from optlaws.formulas.slopes import derivative, scaled
 from optlaws.formulas.tree import Call, Exponentiation, Formula, Number, total
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
-from optlaws.numerics.candidates import candidates
 from optlaws.numerics.chebyshev import FEWEST, MOST, from_values, nodes
+from optlaws.numerics.roots import candidates
 from optlaws.synthesis.families.family import LinearFamily, NonlinearFamily, RowJet, WholeLawFamily, last_result
 from optlaws.synthesis.families.peaks import peaks
 from optlaws.synthesis.families.squares import SumOfSquares, sum_of_squares

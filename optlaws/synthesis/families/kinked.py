@@ -19,8 +19,8 @@ from optlaws.formulas.branches import branch_at, knots
 from optlaws.formulas.tree import Formula
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
-from optlaws.numerics.candidates import cut_at_all, cut_at_roots
 from optlaws.numerics.chebyshev import gauss
+from optlaws.numerics.roots import cut_at_all, cut_at_roots
 from optlaws.synthesis.families.curved import IntegralFamily, Slopes, between
 from optlaws.synthesis.families.family import RowJet, last_result
 

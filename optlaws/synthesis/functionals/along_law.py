@@ -16,9 +16,9 @@ from optlaws.laws import MotionLaw, PolynomialLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
 from optlaws.numbers import Array
-from optlaws.numerics.candidates import candidates, cut_at_all, cut_at_roots, series_between
 from optlaws.numerics.chebyshev import gauss, value
 from optlaws.numerics.peaks import Peak, extremes
+from optlaws.numerics.roots import candidates, cut_at_all, cut_at_roots, series_between
 from optlaws.tolerances import BESIDE_BREAK, INTEGRAL_SETTLED, PIECE_SETTLED
 
 _LARGEST = 400

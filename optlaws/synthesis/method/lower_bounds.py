@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from optlaws.errors import InputError
 from optlaws.numbers import Array
-from optlaws.numerics.bisection import bisect
+from optlaws.numerics.roots import bisect
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import ConstraintFamily, NormFamily, Program
 from optlaws.synthesis.families.names import at_least

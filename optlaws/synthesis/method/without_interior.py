@@ -14,7 +14,7 @@ from math import isfinite
 import numpy as np
 
 from optlaws.numbers import Array
-from optlaws.numerics.bisection import bisect
+from optlaws.numerics.roots import bisect
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import NormFamily, Program
 from optlaws.synthesis.method.exchange import solve
