@@ -7,12 +7,13 @@ import sys
 from collections.abc import Callable
 from enum import EnumType
 from functools import cached_property
-from typing import Any
+from typing import Any, Literal, get_args, get_origin
 
 import pytest
 
 import optlaws
 import optlaws.typing
+from tests.documents import ROOT
 
 
 def is_method(one: object) -> bool:
@@ -206,3 +207,15 @@ def test_the_table_of_constants_names_each_public_one() -> None:
     for name, one in optlaws.FUNCTIONALS.items():
         assert getattr(optlaws, name) is one
         assert repr(one) == one.name == name
+
+
+def test_the_page_of_types_names_each_of_them_and_the_words_of_each_choice() -> None:
+    rows = re.findall(
+        r"^\| (`.*?) \| (.*?) \|", (ROOT / "docs/reference/api/typing.md").read_text("utf-8"), re.MULTILINE
+    )
+    words = {name: re.findall("`(.*?)`", row) for names, row in rows for name in re.findall("`(.*?)`", names)}
+    assert sorted(words) == sorted(optlaws.typing.__all__)
+    for name, listed in words.items():
+        kind = getattr(optlaws.typing, name)
+        if get_origin(kind) is Literal:
+            assert listed == list(get_args(kind))

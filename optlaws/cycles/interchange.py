@@ -177,8 +177,8 @@ class CycleInterchange(JsonText):
         --------
         >>> from optlaws import Cycle, Return, Rise
         >>> cycle = Cycle([Rise("35 mm", "0.1 s", law="cycloidal"), Return(law="cycloidal")], period="0.3 s")
-        >>> made = cycle.export("rockwell-cam", points=61)
-        >>> made.points, round(made.report.ratio(2), 3)
+        >>> export = cycle.export("rockwell-cam", points=61)
+        >>> export.points, round(export.report.ratio(2), 3)
         (61, 1.008)
         """
         from optlaws.exports.export import export_cycle

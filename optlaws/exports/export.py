@@ -135,8 +135,8 @@ class Export:
         Examples
         --------
         >>> from optlaws.laws import smoothstep
-        >>> made = smoothstep(3).export("codesys-xyva", stroke="35 mm", master="120 deg", duration="0.1 s", points=7)
-        >>> row = made.summary()[3]
+        >>> export = smoothstep(3).export("codesys-xyva", stroke="35 mm", master="120 deg", duration="0.1 s", points=7)
+        >>> row = export.summary()[3]
         >>> row.name, row.text(5), row.unit, row.note
         ('peak of acceleration', '20207', 'mm/s²', 'of the law 20207.26')
         """

@@ -125,8 +125,8 @@ def buildable(
     --------
     >>> from optlaws import catalogue, deg
     >>> data = dict(law=catalogue["K"].law, dwell=deg(90), rise=deg(90), swing=deg(20), lower_dwell=0.0)
-    >>> made, refused = buildable(partial(dwell_mechanism, radius_ratio=1.0, inertia_ratio=0.1, **data))
-    >>> [*made], [*refused]
+    >>> mechanisms, refused = buildable(partial(dwell_mechanism, radius_ratio=1.0, inertia_ratio=0.1, **data))
+    >>> [*mechanisms], [*refused]
     (['II'], ['I', 'III'])
     """
     built: dict[str, DwellMechanism] = {}

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import optlaws
 from optlaws.cli.options import AsJson, Whole, check_files, save_picture
 from optlaws.cli.problem_options import asks_for_a_problem
 from optlaws.cli.show import busy, print_json, show, table
+from optlaws.errors import InputError
 from optlaws.numbers import whole
 from optlaws.synthesis.problem.named_constants import apart
 
@@ -22,6 +23,7 @@ def front(
     over: str = "B,C",
     points: Whole = 50,
     between: tuple[float, float] | None = None,
+    bound: Literal["quick", "tight"] = "quick",
     gap: float | None = None,
     as_json: AsJson = False,
     csv: Path | None = None,
@@ -38,6 +40,8 @@ def front(
         How many laws.
     between
         Least and greatest value of the first constant; where it pays unless given.
+    bound
+        Where D is in the front: tight searches all laws at each point, for a bound that usually meets the objective.
     gap
         Prove the front of two constants at every value between, to this gap relative to the objective; points are then
         values that are shown, and --json is what `optlaws verify` proves.
@@ -49,10 +53,12 @@ def front(
         Draw the front into this file, PNG or SVG.
     """
     check_files(csv, plot=plot)
+    if gap is not None and bound != "quick":
+        raise InputError("--bound tight proves the points of a front, --gap every value between them: give one of them")
     problem, names = optlaws.Problem.from_dict(entries), tuple(apart(over))
     front: optlaws.Front | optlaws.ProvenFront
     if gap is None:  # which shows its steps itself
-        front = optlaws.pareto_front(problem, names, points=points, between=between)
+        front = optlaws.pareto_front(problem, names, points=points, between=between, bound=bound)
     else:
         with busy("solving"):
             front = optlaws.proven_front(problem, names, between=between, gap=gap)
