@@ -136,7 +136,7 @@ class Axes(JsonText, Mapping[str, Cycle]):
         >>> both = Axes(
         ...     {"x": [Rise("35 mm", "0.1 s"), Return()], "y": [Rise("9 deg", "0.1 s"), Return()]}, period="0.3 s"
         ... )
-        >>> [(name, made.points) for name, made in both.export("codesys-xyva", points=91).items()]
+        >>> [(name, export.points) for name, export in both.export("codesys-xyva", points=91).items()]
         [('x', 91), ('y', 91)]
         """
         from optlaws.exports.export import export_axes

@@ -70,7 +70,7 @@ def verify_all(source: Mapping[str, Any] | Path | str) -> dict[str, Verification
     >>> import optlaws
     >>> law = optlaws.smoothstep(2)
     >>> verification = verify_all({"printed": [{"law": law.to_dict(), "constants": law.constants.to_dict()}]})
-    >>> [(place, told.proven) for place, told in verification.items()]
+    >>> [(place, answer.proven) for place, answer in verification.items()]
     [('printed[0]', True)]
     """
     _need_flint()
