@@ -49,5 +49,5 @@ def cut(text: str, most: int = LONGEST) -> str:
     >>> cut("0123456789", most=5), cut("a" + chr(0xD800))
     ('01...', 'a\\ud800')
     """
-    kept = text if len(text) <= most else f"{text[: most - 3]}..."
-    return kept.encode("utf-8", "backslashreplace").decode("utf-8")
+    short = text if len(text) <= most else f"{text[: most - 3]}..."
+    return short.encode("utf-8", "backslashreplace").decode("utf-8")

@@ -61,7 +61,7 @@ def keywords_of(options: type, **defaults: Any) -> Callable[[FunctionT], Functio
 
     def decorated(function: FunctionT) -> FunctionT:
         bare = signature(function)
-        named = [one for one in bare.parameters.values() if one.kind is not Parameter.VAR_KEYWORD]
+        named = [parameter for parameter in bare.parameters.values() if parameter.kind is not Parameter.VAR_KEYWORD]
         named += [
             Parameter(
                 name,
@@ -71,7 +71,7 @@ def keywords_of(options: type, **defaults: Any) -> Callable[[FunctionT], Functio
             )
             for name, kind in options.__annotations__.items()
         ]
-        known = {one.name for one in named}
+        known = {parameter.name for parameter in named}
 
         @wraps(function)
         def checked(*args: Any, **keywords: Any) -> Any:  # noqa: ANN401 - whatever the function takes and returns

@@ -1,8 +1,10 @@
 """Rules of the house: how much a function takes, that a name of a class means one class, where tolerances stand."""
 
 import ast
+import re
 from collections import Counter
 from collections.abc import Iterator
+from doctest import DocTestParser
 from pathlib import Path
 
 import pytest
@@ -10,6 +12,8 @@ import pytest
 from tests.documents import ROOT
 
 MOST_ARGUMENTS = 8
+#: blocks of pages that are programs
+PYTHON_BLOCK = re.compile(r"^```python\n(.*?)^```", re.DOTALL | re.MULTILINE)
 
 
 def nodes(folder: Path) -> Iterator[tuple[Path, ast.AST]]:
@@ -138,3 +142,55 @@ def test_tests_look_inside_a_room_through_one_file() -> None:
         and (node.module or "").startswith("optlaws.")
     }
     assert deep == {}
+
+
+#: words that say nothing of what a thing is
+VAGUE = {"asked", "said", "told", "made", "held", "wanted", "kept", "own", "found", "one"}
+ROOMS = sorted(
+    path for path in (ROOT / "optlaws").iterdir() if path.suffix == ".py" or (path / "__init__.py").is_file()
+)
+
+
+def vague_names(source: str) -> set[str]:
+    """Names of a program that say nothing of what they stand for: variables, arguments, functions and attributes."""
+    entries = ("id", "arg", "name", "attr")
+    return VAGUE & {getattr(node, entry, None) for node in ast.walk(ast.parse(source)) for entry in entries}
+
+
+@pytest.mark.parametrize("room", ROOMS, ids=lambda path: path.stem)
+def test_names_say_what_a_thing_is(room: Path) -> None:
+    files = sorted(room.rglob("*.py")) or [room]
+    assert {str(file): names for file in files if (names := vague_names(file.read_text("utf-8")))} == {}
+
+
+def test_names_in_examples_say_what_a_thing_is() -> None:
+    texts = {
+        f"{path.name}: {getattr(node, 'name', 'module')}": ast.get_docstring(node) or ""
+        for path, node in nodes(ROOT / "optlaws")
+        if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef)
+    }
+    texts |= {str(page): page.read_text("utf-8") for page in [ROOT / "README.md", *(ROOT / "docs").rglob("*.md")]}
+    blocks = [(place, block) for place, text in texts.items() for block in re.findall(PYTHON_BLOCK, text)]
+    blocks += [
+        (place, example.source) for place, text in texts.items() for example in DocTestParser().get_examples(text)
+    ]
+    blocks += [(str(path), path.read_text("utf-8")) for path in (ROOT / "docs" / "examples").glob("*.py")]
+    assert [(place, names) for place, block in blocks if (names := vague_names(block))] == []
+
+
+def test_a_vague_name_is_seen() -> None:
+    assert vague_names("kept_property\ndef one(own): return own.found") == {"one", "own", "found"}
+
+
+FEWEST_WORDS = 4
+
+
+def test_the_first_line_of_a_docstring_has_at_least_four_words() -> None:
+    short = [
+        f"{path.relative_to(ROOT)}: {line}"
+        for path, node in nodes(ROOT / "optlaws")
+        if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef)
+        and (text := ast.get_docstring(node))
+        and len(re.findall(r"[\w'²³]+", line := text.partition("\n")[0])) < FEWEST_WORDS
+    ]
+    assert short == []

@@ -363,39 +363,3 @@ def test_no_package_imports_its_own_modules() -> None:
         and found.target.startswith(f"{found.source}.")
     ]
     assert not within, "\n".join(map(str, within))
-
-
-#: words that say nothing of what a thing is, and rooms that are free of them as names
-VAGUE = {"asked", "said", "told", "made", "held", "wanted", "kept", "own", "found", "one"}
-FREE_OF_VAGUE_NAMES = (
-    "balancing",
-    "cams",
-    "cycles",
-    "explorer",
-    "exports",
-    "files",
-    "formulas",
-    "jobs",
-    "laws",
-    "mechanisms",
-    "motion",
-    "numerics",
-    "plots",
-    "shown",
-    "studies",
-    "synthesis/limits",
-    "synthesis/problem",
-    "synthesis/proof",
-    "synthesis/spaces",
-    "verification",
-)
-
-
-@pytest.mark.parametrize("room", FREE_OF_VAGUE_NAMES)
-def test_names_say_what_a_thing_is(room: str) -> None:
-    vague = set()
-    for path in (ROOT / "optlaws" / room).rglob("*.py"):
-        for node in ast.walk(ast.parse(path.read_text("utf-8"))):
-            names = [getattr(node, entry, None) for entry in ("id", "arg", "name", "attr")]
-            vague |= {f"{path.name}: {name}" for name in names if name in VAGUE}
-    assert vague == set()

@@ -245,33 +245,33 @@ def undominated(solutions: Sequence[Solution], over: Sequence[str], values: Arra
     points = values_of(solutions, over) if values is None else values
     order = np.lexsort(points.T[::-1])
     order = order[~_beaten(points[order])]
-    rows, kept = points[order].tolist(), [0]
+    rows, chosen = points[order].tolist(), [0]
     for i in range(1, len(order)):
-        if not _known_already(rows, kept, i):
-            kept.append(i)
-    return [solutions[order[i]] for i in kept]
+        if not _known_already(rows, chosen, i):
+            chosen.append(i)
+    return [solutions[order[i]] for i in chosen]
 
 
 def _beaten(values: Array) -> NDArray[np.bool_]:
     """Which rows another is better than in one constant, and no worse in all."""
-    kept = np.zeros(len(values), dtype=np.bool_)
+    beaten = np.zeros(len(values), dtype=np.bool_)
     for begin in range(0, len(values), _BLOCK):
         some = values[begin : begin + _BLOCK]
         no_worse, better = np.ones((len(some), len(values)), np.bool_), np.zeros((len(some), len(values)), np.bool_)
-        for own, others in zip(some.T, values.T, strict=True):
-            no_worse &= others <= (own * (1.0 + AGREEMENT))[:, None]
-            better |= others < (own * (1.0 - AGREEMENT))[:, None]
-        kept[begin : begin + _BLOCK] = (no_worse & better).any(axis=1)
-    return kept
+        for some_values, others in zip(some.T, values.T, strict=True):
+            no_worse &= others <= (some_values * (1.0 + AGREEMENT))[:, None]
+            better |= others < (some_values * (1.0 - AGREEMENT))[:, None]
+        beaten[begin : begin + _BLOCK] = (no_worse & better).any(axis=1)
+    return beaten
 
 
-def _known_already(rows: Sequence[Sequence[float]], kept: Sequence[int], place: int) -> bool:
+def _known_already(rows: Sequence[Sequence[float]], chosen: Sequence[int], place: int) -> bool:
     """Whether a row is one of those that are kept; the rows ascend in their first entry."""
     row = rows[place]
-    for other in map(rows.__getitem__, reversed(kept)):
+    for other in map(rows.__getitem__, reversed(chosen)):
         if abs(other[0] / row[0] - 1.0) > AGREEMENT:
             return False
-        if all(abs(value / own - 1.0) <= AGREEMENT for value, own in zip(other, row, strict=True)):
+        if all(abs(value / here - 1.0) <= AGREEMENT for value, here in zip(other, row, strict=True)):
             return True
     return False
 
@@ -392,17 +392,17 @@ class _Curve:
         if count >= _MANY and self._problem(self.points[0][0]).convex:
             self._grow_together(count)
         with Steps(f"least {self.over[1]} over {self.over[0]}", count) as steps:
-            kept: list[Solution] = []
+            undominated_points: list[Solution] = []
             sought = count
-            while len(kept) < count:
+            while len(undominated_points) < count:
                 while len(self.points) < sought and self._halve():
                     steps.reach(min(len(self.points), count))
-                kept = undominated([solution for _, solution in self.points], self.over, self._known())
+                undominated_points = undominated([solution for _, solution in self.points], self.over, self._known())
                 if len(self.points) < sought or sought >= _AGAIN * count:
                     break
                 # of local optima some are worse than others: as many more are sought
-                sought += count - len(kept)
-        return Front(self.over, tuple(kept), self.errors)
+                sought += count - len(undominated_points)
+        return Front(self.over, tuple(undominated_points), self.errors)
 
     def _halve(self) -> bool:
         """Put a point into the stretch that wants one most; False where none does."""

@@ -52,12 +52,12 @@ class SolvedPart:
 
     places: NDArray[np.intp]
     model: Model
-    found: SolvedBatch
+    optima: SolvedBatch
 
     @property
     def coordinates(self) -> Array:
         """The coordinates of each law."""
-        return self.found.x[:, : self.model.space.terms]
+        return self.optima.x[:, : self.model.space.terms]
 
     @property
     def statuses(self) -> NDArray[np.object_]:
@@ -65,8 +65,8 @@ class SolvedPart:
         optimal = np.full(len(self.places), Status.OPTIMAL, dtype=object)
         if self.model.problem.convex:
             return optimal
-        size = measure(self.found.objective, self.model.problem.objective.scale)
-        off = np.abs(self.found.objective - self.found.bound) > OPTIMALITY_GAP * size
+        size = measure(self.optima.objective, self.model.problem.objective.scale)
+        off = np.abs(self.optima.objective - self.optima.bound) > OPTIMALITY_GAP * size
         optimal[off] = Status.LOCAL
         return optimal
 
@@ -89,7 +89,7 @@ class SolvedPart:
     def constant(self, name: str, *, one_objective: bool) -> Array:
         """A constant of each law; `one_objective` says that all minimise what the first does."""
         if one_objective and repr(self.model.problem.objective) == name:
-            return self.found.objective
+            return self.optima.objective
         space = self.model.space
         if not isinstance(space, PolynomialSpace):
             return np.array([constant_of(space.law(coordinate), name) for coordinate in self.coordinates])
@@ -100,7 +100,7 @@ class SolvedPart:
     @property
     def contacts(self) -> dict[str, NDArray[Any]]:
         """Where rows bind, as columns of the laws' contacts."""
-        laws, families = self.found, self.model.program.families
+        laws, families = self.optima, self.model.program.families
         names = np.array([*(family.name for family in families), ""], dtype=object)
         none = laws.family == NO_CONTACT
         k = np.full(laws.u.shape, np.nan)
@@ -118,7 +118,7 @@ class SolvedPart:
 
     def solution(self, row: int, problem: Problem, seconds: float) -> Solution:
         """The solution of a row, of which only what the array holds is there before it is asked for."""
-        model, bound, objective = self.model, float(self.found.bound[row]), float(self.found.objective[row])
+        model, bound, objective = self.model, float(self.optima.bound[row]), float(self.optima.objective[row])
         scale = problem.objective.scale
 
         def proof(solution: Solution) -> Certificate:
@@ -135,7 +135,7 @@ class SolvedPart:
             "starts": () if problem.convex else (objective,),
         }
         later: dict[str, Callable[[Solution], Any]] = {
-            "active_set": lambda _: self.found.active_set(row),
+            "active_set": lambda _: self.optima.active_set(row),
             "law": lambda solution: model.law(solution.active_set.x),
             "z_series": lambda solution: tuple(model.space.z_series(model.coordinates(solution.active_set.x)).tolist()),
             "certificate": proof,
@@ -267,12 +267,12 @@ class SolutionArray(JsonText):
     @kept_property
     def objective(self) -> Array:
         """The objective of each law, recomputed from it."""
-        return self._gathered(lambda part: part.found.objective, lambda solution: solution.objective)
+        return self._gathered(lambda part: part.optima.objective, lambda solution: solution.objective)
 
     @kept_property
     def lower_bound(self) -> Array:
         """What is proven that no law of each problem is below."""
-        return self._gathered(lambda part: part.found.bound, lambda solution: solution.lower_bound)
+        return self._gathered(lambda part: part.optima.bound, lambda solution: solution.lower_bound)
 
     @kept_property
     def gap(self) -> Array:
@@ -399,7 +399,7 @@ class SolutionArray(JsonText):
                 {
                     "places": part.places.tolist(),
                     "problem": part.model.problem.to_dict(),
-                    "found": part.found.to_dict(),
+                    "found": part.optima.to_dict(),
                 }
                 for part in self.parts
             ],
@@ -498,7 +498,7 @@ class SolutionArray(JsonText):
         for i, part in enumerate(self.parts):
             here = np.flatnonzero(of_part == i)
             if len(here):
-                parts.append(SolvedPart(here, part.model, part.found.taken(rows[here]).frozen()))
+                parts.append(SolvedPart(here, part.model, part.optima.taken(rows[here]).frozen()))
         others = {i: self.others[place] for i, place in enumerate(flat.tolist()) if place in self.others}
         share = self.seconds * len(flat) / max(self.size, 1)
         return SolutionArray(self.problems.taken(places), tuple(parts), others, share)

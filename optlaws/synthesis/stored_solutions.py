@@ -62,7 +62,7 @@ class StatedPart(msgspec.Struct, forbid_unknown_fields=True):
 
     places: list[int]
     problem: Plain
-    found: StatedOptima
+    optima: StatedOptima = msgspec.field(name="found")
 
 
 class StatedSolutions(msgspec.Struct, forbid_unknown_fields=True):
@@ -141,21 +141,21 @@ class _Reading:
         if entries.problems is None:
             given = [problem_of(row["problem"]) if "problem" in row else None for row in entries.solutions]
             return ProblemArray.of(given, shape)
-        made = ProblemArray(**read_entries(entries.problems))
-        if made.shape == shape:
-            return made
-        if made.size != 1:
-            raise InputError(f"problems of shape {made.shape} are no array of solutions of shape {shape}")
+        array = ProblemArray(**read_entries(entries.problems))
+        if array.shape == shape:
+            return array
+        if array.size != 1:
+            raise InputError(f"problems of shape {array.shape} are no array of solutions of shape {shape}")
         # entries without arrays may have been taken many times
-        return made.taken(np.zeros(shape, dtype=np.intp))
+        return array.taken(np.zeros(shape, dtype=np.intp))
 
     def _alone(self, place: int, row: StatedSolution | StatedError, problems: ProblemArray) -> Solution | OptlawsError:
         if isinstance(row, StatedError):
             return read_error(row, lambda: problems.problem(place))
-        kept = self.entries.alone.get(str(place))
-        if kept is None:
+        entries = self.entries.alone.get(str(place))
+        if entries is None:
             raise InputError("the arrays say nothing of its law")
-        return Solution(**attributes(row, kept, problems.problem(place)))
+        return Solution(**attributes(row, entries, problems.problem(place)))
 
 
 def _row(data: Plain, name: str) -> StatedSolution | StatedError:
@@ -166,14 +166,14 @@ def _row(data: Plain, name: str) -> StatedSolution | StatedError:
 def _part(
     part: StatedPart, problems: ProblemArray, rows: list[StatedSolution | StatedError]
 ) -> tuple[NDArray[np.intp], Model, SolvedBatch]:
-    model, found = model_of(problem_of(part.problem)), part.found
-    optima = {field.name: getattr(found, field.name) for field in fields(SolvedBatch) if field.name not in FOLLOWING}
-    own = [rows[place] for place in part.places]
-    objective = [getattr(row, "objective", np.nan) for row in own]
-    laws = SolvedBatch.from_dict({**optima, "objective": objective, "excess": [np.nan] * len(own)}).frozen()
+    model, stated = model_of(problem_of(part.problem)), part.optima
+    optima = {field.name: getattr(stated, field.name) for field in fields(SolvedBatch) if field.name not in FOLLOWING}
+    solutions = [rows[place] for place in part.places]
+    objective = [getattr(row, "objective", np.nan) for row in solutions]
+    laws = SolvedBatch.from_dict({**optima, "objective": objective, "excess": [np.nan] * len(solutions)}).frozen()
     _check_optima(laws, len(part.places), model.program)
     for i, place in enumerate(part.places):
-        row = own[i]
+        row = solutions[i]
         if isinstance(row, StatedError):
             raise InputError(f"solutions[{place}] has no law, but the arrays have one")
         problem = problems.problem(place)
@@ -199,9 +199,9 @@ def _check_optima(laws: SolvedBatch, count: int, program: Program) -> None:
     ):
         raise InputError("a part of an array of solutions has optima of other problems, or more or fewer than places")
     numbers = (laws.x, laws.u, laws.sign, laws.multiplier, laws.equations, laws.bound)
-    own = laws.family != NO_CONTACT
-    known = own & (laws.family >= 0) & (laws.family < len(program.families))
-    if not all(np.isfinite(values).all() for values in numbers) or not (known == own).all():
+    used = laws.family != NO_CONTACT
+    known = used & (laws.family >= 0) & (laws.family < len(program.families))
+    if not all(np.isfinite(values).all() for values in numbers) or not (known == used).all():
         raise InputError("a part of an array of solutions has numbers that are not finite, or rows of no program")
 
 
@@ -220,14 +220,14 @@ def _check_row(row: StatedSolution, problem: Problem, model: Model, laws: Solved
 
 def _check_contacts(proof: Certificate, program: Program, laws: SolvedBatch, i: int) -> None:
     """Refuse contacts and multipliers of the arrays that are not those of the row's certificate."""
-    own = [int(j) for family in range(len(program.families)) for j in np.flatnonzero(laws.family[i] == family)]
-    kinds = [program.families[laws.family[i, j]] for j in own]
+    contacts = [int(j) for family in range(len(program.families)) for j in np.flatnonzero(laws.family[i] == family)]
+    kinds = [program.families[laws.family[i, j]] for j in contacts]
     same = [kind.name for kind in kinds] == [contact.constraint for contact in proof.contacts]
-    places = [float(kind.k(laws.u[i, j : j + 1])[0]) for kind, j in zip(kinds, own, strict=True)]
+    places = [float(kind.k(laws.u[i, j : j + 1])[0]) for kind, j in zip(kinds, contacts, strict=True)]
     arrays: list[tuple[Any, list[float]]] = [
-        (laws.sign[i, own], [contact.sign for contact in proof.contacts]),
+        (laws.sign[i, contacts], [contact.sign for contact in proof.contacts]),
         (np.clip(places, 0.0, 1.0), [contact.k for contact in proof.contacts]),
-        (laws.multiplier[i, own], [contact.multiplier for contact in proof.contacts]),
+        (laws.multiplier[i, contacts], [contact.multiplier for contact in proof.contacts]),
         (laws.equations[i], list(proof.equations)),
     ]
     if not same or not all(equal_data(list(map(float, first)), second) for first, second in arrays):

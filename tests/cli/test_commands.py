@@ -6,6 +6,7 @@ import sys
 import tomllib
 from pathlib import Path
 from typing import Any
+from unittest.mock import patch
 
 import pytest
 
@@ -392,3 +393,15 @@ def test_what_the_least_acceleration_alone_costs_is_said(capsys: Capture) -> Non
     assert "--most-jerk" in out
     _, out, _ = called(capsys, *alone, "--most-jerk", "69.4664")
     assert "modified sine" not in out
+
+
+# --- front ---
+
+
+def test_the_points_of_a_front_are_proven_as_asked(capsys: Capture) -> None:
+    front = optlaws.pareto_front(Problem(order=2, basis=optlaws.Chebyshev(3)), points=2)
+    with patch("optlaws.pareto_front", return_value=front) as solved:
+        for given in ([], ["--bound", "tight"]):
+            assert called(capsys, "front", "--order", "2", *given)[0] == 0
+    assert [call.kwargs["bound"] for call in solved.mock_calls if "bound" in call.kwargs] == ["quick", "tight"]
+    assert "give one of them" in refused(capsys, "front", "--order", "2", "--bound", "tight", "--gap", "1e-6")

@@ -149,9 +149,9 @@ def _choices(clutch: optlaws.Clutch, teeth: int) -> tuple[Teeth, ...]:
 
 def _remedy(choice: Teeth) -> str:
     angles = {"swing": choice.swing, "dwell": choice.dwell, "rise": choice.rise}
-    said = [f"{name} {degrees(value):.5g}" for name, value in angles.items() if value is not None]
-    said += [] if choice.B2 is None else [f"B2 = {choice.B2:.5g}"]
-    return " or ".join(said)
+    remedies = [f"{name} {degrees(value):.5g}" for name, value in angles.items() if value is not None]
+    remedies += [] if choice.B2 is None else [f"B2 = {choice.B2:.5g}"]
+    return " or ".join(remedies)
 
 
 def _plain(comparison: DwellComparison, clutches: dict[str, optlaws.Clutch], teeth: int) -> dict[str, Any]:

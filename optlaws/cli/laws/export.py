@@ -124,8 +124,8 @@ def export(
     request: dict[str, Any] = {**asdict(options), "points": _points(options.points)}
     task = request.pop("task")
     chosen.request(**request)
-    made = export_motion(_motion(law, motion, points), to, task=task, **request)
-    _answer(made, output, as_json=as_json)
+    written = export_motion(_motion(law, motion, points), to, task=task, **request)
+    _answer(written, output, as_json=as_json)
 
 
 def _points(text: str | None) -> int | str | None:
@@ -169,16 +169,16 @@ def _cycle(file: Path, axis: str | None) -> Any:  # noqa: ANN401 - a Cycle, whic
     return cycles[chosen]
 
 
-def _answer(made: Export, output: Path | None, *, as_json: bool) -> None:
+def _answer(export: Export, output: Path | None, *, as_json: bool) -> None:
     if output is not None:
-        made.write(output)
+        export.write(output)
     if as_json:
-        print_json(made.results() | ({"text": made.text} if output is None else {"file": str(output)}))
+        print_json(export.results() | ({"text": export.text} if output is None else {"file": str(output)}))
     elif output is None:
-        print(made.text, end="")  # noqa: T201 - the answer itself
-        print(made, file=sys.stderr)  # noqa: T201
+        print(export.text, end="")  # noqa: T201 - the answer itself
+        print(export, file=sys.stderr)  # noqa: T201
     else:
-        show(str(made))
+        show(str(export))
 
 
 def _list(*, as_json: bool) -> None:

@@ -119,8 +119,8 @@ def _member(
 ) -> dict[str, Any]:
     family, alpha = chosen
     name, *others = _facts(f"Savin's {family}", motion_law).items()
-    own = {"alpha": alpha if alpha is not None else family.alphas(B=B)[0], "order": family.order}
-    return dict([name, *own.items(), *others])
+    member = {"alpha": alpha if alpha is not None else family.alphas(B=B)[0], "order": family.order}
+    return dict([name, *member.items(), *others])
 
 
 def _facts(name: str, motion_law: optlaws.MotionLaw) -> dict[str, Any]:

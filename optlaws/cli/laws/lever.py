@@ -33,9 +33,9 @@ class LeverOptions:
     swing
         Swing of the driven link from extreme to extreme, degrees.
     beta
-        Length of the driven link in units of the rocker; sought where --wanted asks.
+        Length of the driven link in units of the rocker; sought where --target asks.
     lam
-        Length of the coupler in units of the rocker; sought where --wanted asks.
+        Length of the coupler in units of the rocker; sought where --target asks.
     rho
         Part of the first bar's pre-twist that is left at its extreme.
     nu
@@ -105,7 +105,7 @@ _BARS = BarOptions()
 def lever(
     *,
     options: LeverOptions,
-    wanted: list[str] | None = None,
+    target: list[str] | None = None,
     bars: BarOptions = _BARS,
     as_json: AsJson = False,
     output: Path | None = None,
@@ -114,7 +114,7 @@ def lever(
 
     Parameters
     ----------
-    wanted
+    target
         A constant of the exact motion, such as B1/B3=0.99 or T=6.1, for which the length not given is sought; twice for
         two of them and both lengths.
     as_json
@@ -124,29 +124,29 @@ def lever(
     """
     check_files(output)
     bars.check()
-    levers = _levers(options, wanted or [])
+    levers = _levers(options, target or [])
     machines = [_machine(lever.exact, bars, lever.xi) for lever in levers]
     if output is not None:
         _save(output, levers)
     if as_json:
         plain = [_plain(lever) | machine for lever, machine in zip(levers, machines, strict=True)]
-        print_json(plain[0] if wanted is None else {"levers": plain})
+        print_json(plain[0] if target is None else {"levers": plain})
         return
     for lever, machine in zip(levers, machines, strict=True):
         _show(lever, machine)
 
 
-def _levers(options: LeverOptions, wanted: list[str]) -> tuple[optlaws.TorsionLever, ...]:
+def _levers(options: LeverOptions, target: list[str]) -> tuple[optlaws.TorsionLever, ...]:
     beta, lam, given = options.beta, options.lam, options.given
-    if wanted:
+    if target:
         from optlaws.balancing.levers.design import BETA, LAM
 
-        values = dict(_value(text) for text in wanted)
+        values = dict(_value(text) for text in target)
         return optlaws.find_torsion_levers(
             values, beta=BETA if beta is None else beta, lam=LAM if lam is None else lam, **given
         )
     if beta is None or lam is None:
-        raise InputError("give --beta and --lam, or with --wanted a constant for each that is left out")
+        raise InputError("give --beta and --lam, or with --target one for each that is left out")
     return (optlaws.TorsionLever(beta=beta, lam=lam, **given),)
 
 
@@ -155,7 +155,7 @@ def _value(text: str) -> tuple[str, float]:
     try:
         return name.strip(), float(number)
     except ValueError:
-        raise InputError(f"--wanted takes NAME=NUMBER, such as B1/B3=0.99, got {text!r}") from None
+        raise InputError(f"--target takes NAME=NUMBER, such as B1/B3=0.99, got {text!r}") from None
 
 
 def _machine(motion: LeverMotion, bars: BarOptions, xi: float) -> dict[str, float]:

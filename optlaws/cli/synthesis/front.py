@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
+
+from cyclopts import Parameter
 
 import optlaws
 from optlaws.cli.options import AsJson, Whole, check_files, save_picture
@@ -12,6 +15,32 @@ from optlaws.cli.show import busy, print_json, show, table
 from optlaws.errors import InputError
 from optlaws.numbers import whole
 from optlaws.synthesis.problem.named_constants import apart
+
+
+@Parameter(name="*")
+@dataclass(frozen=True, kw_only=True)
+class ProofOptions:
+    """How a front is proven: at its points, or at every value between them.
+
+    Parameters
+    ----------
+    bound
+        Where D is in the front: tight searches all laws at each point, for a bound that usually meets the objective.
+    gap
+        Prove the front of two constants at every value between, to this gap relative to the objective; points are then
+        values that are shown, and --json is what `optlaws verify` proves.
+    """
+
+    bound: Literal["quick", "tight"] = "quick"
+    gap: float | None = None
+
+    def check(self) -> None:
+        """Refuse proofs of points and of all values at once."""
+        if self.gap is not None and self.bound != "quick":
+            raise InputError("--bound tight proves the points of a front, --gap every value between: give one of them")
+
+
+_AT_POINTS = ProofOptions()
 
 
 @asks_for_a_problem(
@@ -23,8 +52,7 @@ def front(
     over: str = "B,C",
     points: Whole = 50,
     between: tuple[float, float] | None = None,
-    bound: Literal["quick", "tight"] = "quick",
-    gap: float | None = None,
+    proof: ProofOptions = _AT_POINTS,
     as_json: AsJson = False,
     csv: Path | None = None,
     plot: Path | None = None,
@@ -40,11 +68,6 @@ def front(
         How many laws.
     between
         Least and greatest value of the first constant; where it pays unless given.
-    bound
-        Where D is in the front: tight searches all laws at each point, for a bound that usually meets the objective.
-    gap
-        Prove the front of two constants at every value between, to this gap relative to the objective; points are then
-        values that are shown, and --json is what `optlaws verify` proves.
     as_json
         Print one JSON object on stdout and nothing else.
     csv
@@ -53,15 +76,14 @@ def front(
         Draw the front into this file, PNG or SVG.
     """
     check_files(csv, plot=plot)
-    if gap is not None and bound != "quick":
-        raise InputError("--bound tight proves the points of a front, --gap every value between them: give one of them")
+    proof.check()
     problem, names = optlaws.Problem.from_dict(entries), tuple(apart(over))
     front: optlaws.Front | optlaws.ProvenFront
-    if gap is None:  # which shows its steps itself
-        front = optlaws.pareto_front(problem, names, points=points, between=between, bound=bound)
+    if proof.gap is None:  # which shows its steps itself
+        front = optlaws.pareto_front(problem, names, points=points, between=between, bound=proof.bound)
     else:
         with busy("solving"):
-            front = optlaws.proven_front(problem, names, between=between, gap=gap)
+            front = optlaws.proven_front(problem, names, between=between, gap=proof.gap)
     headings, rows = _table(front, whole(points, "points", least=2))
     if csv is not None:
         _save_table(front, csv, headings, rows)

@@ -212,8 +212,8 @@ class Residuals:
         bent[law[convex], cell[convex]] = True
         for i, edges, block in zip(self.cells.order, self.cells.edges, self.cells.blocks, strict=True):
             u = self.touching[i]
-            own = np.minimum(np.maximum(np.searchsorted(edges, u, side="right") - 1, 0), len(edges) - 2)
-            marked[np.arange(len(u))[:, None], block.start + own] = True
+            piece = np.minimum(np.maximum(np.searchsorted(edges, u, side="right") - 1, 0), len(edges) - 2)
+            marked[np.arange(len(u))[:, None], block.start + piece] = True
         marked &= bent
         apart = self.cells.begins[1:]
         for _ in range(_JOINED):
@@ -226,13 +226,13 @@ class Residuals:
     def _series(self, law: NDArray[np.intp], cell: NDArray[np.intp], sign: Array, room: Array) -> Array:
         """The residuals on cells of some laws: their first terms, less what the others can be."""
         series = self.cells.by_cell
-        kept = min(_LOOKED_AT, series.shape[1])
-        rows = np.empty((len(law), kept))
+        leading = min(_LOOKED_AT, series.shape[1])
+        rows = np.empty((len(law), leading))
         for i in range(0, len(law), _GATHERED):
-            own = slice(i, i + _GATHERED)
-            terms = np.matmul(series[cell[own]], self.point[law[own]][:, :, None])[:, :, 0]
-            rows[own] = -sign[own, None] * terms[:, :kept]
-            rows[own, 0] -= np.abs(terms[:, kept:]).sum(axis=1)
+            some = slice(i, i + _GATHERED)
+            terms = np.matmul(series[cell[some]], self.point[law[some]][:, :, None])[:, :, 0]
+            rows[some] = -sign[some, None] * terms[:, :leading]
+            rows[some, 0] -= np.abs(terms[:, leading:]).sum(axis=1)
         rows[:, 0] += room
         return rows
 

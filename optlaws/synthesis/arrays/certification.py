@@ -78,7 +78,7 @@ class Certification:
 
 def certification_of(path: Path, structure: Structure, numbers: Numbers, states: States) -> Certification:
     """What states of one structure are worth; NaN and infinities are no laws."""
-    program, kept = path.model.program, row_checks_of(path.model)
+    program, checks = path.model.program, row_checks_of(path.model)
     value, slope, _ = structure.jets(states.x, states.u)
     value[:, :, :-1] -= structure.slack
     point = with_one(states.x)
@@ -86,23 +86,23 @@ def certification_of(path: Path, structure: Structure, numbers: Numbers, states:
     turned = product(slope, point)
     # toward the inside of the domain
     inward = np.where(states.u >= structure.domains[:, 1], -turned, turned)
-    held = structure.held
-    tangent = np.where(structure.free, np.abs(turned), np.where(held, np.maximum(inward, 0.0), 0.0))
+    at_end = structure.at_end
+    tangent = np.where(structure.free, np.abs(turned), np.where(at_end, np.maximum(inward, 0.0), 0.0))
     room = states.x @ structure.slacks.T + numbers.bounds
     unit = np.maximum(1.0, np.abs(room))[:, structure.family]
-    broken = (np.maximum(residual, 0.0) + kept.reach[structure.family] * tangent) / unit
+    broken = (np.maximum(residual, 0.0) + checks.reach[structure.family] * tangent) / unit
     off = np.abs(states.x @ program.equalities.T - numbers.right)
     worst = np.maximum(broken.max(axis=1, initial=0.0), off.max(axis=1, initial=0.0))
-    touching = [states.u[:, own] for own in structure.of_families]
+    touching = [states.u[:, contacts] for contacts in structure.of_families]
     greatest = np.abs(states.weights).max(axis=1, initial=0.0)
     pull = -(states.weights / np.where(greatest == 0.0, 1.0, greatest)[:, None]).min(axis=1, initial=np.inf)
     certification = Certification(
-        best=np.ones(len(states), dtype=np.bool_) if kept.proving else locally_optimal(structure, states),
+        best=np.ones(len(states), dtype=np.bool_) if checks.proving else locally_optimal(structure, states),
         objective=path.model.unit * (states.x * numbers.cost).sum(axis=1),
         bound=lower_bounds(path, structure, numbers, states, value),
-        excess=np.maximum(worst, kept.excess(point, room, touching)),
+        excess=np.maximum(worst, checks.excess(point, room, touching)),
         pull=np.where(np.isfinite(pull), pull, 0.0),
-        inward=np.where(held, inward, -np.inf).max(axis=1, initial=-np.inf),
+        inward=np.where(at_end, inward, -np.inf).max(axis=1, initial=-np.inf),
         affine=not program.curved,
         scale=path.model.unit,
     )

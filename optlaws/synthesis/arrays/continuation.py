@@ -97,10 +97,10 @@ class StructureSegment:
 
     def interpolated(self, t: Array) -> States:
         """States between those that are known, by the polynomial through the nearest on both sides."""
-        kept = np.flatnonzero(np.diff(self.t, prepend=-np.inf) > SAME_STATE * (self.end - self.begin))
-        near = min(_NEAR, len(kept))
-        begin = np.clip(np.searchsorted(self.t[kept], t) - near // 2, 0, len(kept) - near)
-        chosen = kept[begin[:, None] + np.arange(near)]
+        distinct = np.flatnonzero(np.diff(self.t, prepend=-np.inf) > SAME_STATE * (self.end - self.begin))
+        near = min(_NEAR, len(distinct))
+        begin = np.clip(np.searchsorted(self.t[distinct], t) - near // 2, 0, len(distinct) - near)
+        chosen = distinct[begin[:, None] + np.arange(near)]
         places = self.t[chosen]
         apart = places[:, :, None] - places[:, None, :]
         apart[:, np.arange(near), np.arange(near)] = 1.0
@@ -147,13 +147,13 @@ class ParametricContinuation:
         merged = optimum.merged(_SAME)
         for candidate in (optimum,) if merged is optimum else (optimum, merged):
             structure, order = structure_of(self.path.model, candidate)
-            own = (
+            state = (
                 candidate.x,
                 _on_ends(structure, candidate.u[order]),
                 candidate.multipliers[order],
                 candidate.equality_multipliers,
             )
-            rows, sound, _ = self._solved(structure, np.array([t]), States(*(part[None] for part in own)))
+            rows, sound, _ = self._solved(structure, np.array([t]), States(*(part[None] for part in state)))
             if sound[0]:
                 return StructureSegment(structure, np.array([t]), rows)
         return None
@@ -195,9 +195,15 @@ class ParametricContinuation:
     @staticmethod
     def _active_set(segment: StructureSegment, t: float) -> ActiveSet:
         structure = segment.structure
-        own = States.unpacked(segment.rows[segment.t == t], structure)
+        state = States.unpacked(segment.rows[segment.t == t], structure)
         return ActiveSet(
-            own.x[0], structure.family, own.u[0], structure.sign, structure.free, own.weights[0], own.equations[0]
+            state.x[0],
+            structure.family,
+            state.u[0],
+            structure.sign,
+            structure.free,
+            state.weights[0],
+            state.equations[0],
         )
 
     def _stretched(self, segment: StructureSegment, goal: float) -> float | None:
@@ -249,9 +255,9 @@ class ParametricContinuation:
         rows = states.packed
         sound, worst = np.zeros(len(t), dtype=np.bool_), np.full(len(t), np.nan)
         if done.any():
-            own = clipped(structure, states.taken(done))
-            verdicts = certification_of(self.path, structure, numbers.taken(done), own)
-            inside = np.abs(own.u - states.u[done]).max(axis=1, initial=0.0)
+            clipped_states = clipped(structure, states.taken(done))
+            verdicts = certification_of(self.path, structure, numbers.taken(done), clipped_states)
+            inside = np.abs(clipped_states.u - states.u[done]).max(axis=1, initial=0.0)
             sound[done] = verdicts.sound & (inside <= VALUE_ROUNDING)
             worst[done] = np.maximum(verdicts.broken, inside)
         return rows, sound, worst
@@ -274,13 +280,13 @@ def _probes(good: float, bad: float, stride: float, broken: list[tuple[float, fl
     elif len(broken) == 1:
         probes = np.concatenate([probes, bad + (good - bad) * _CLOSER])
     low, high = min(good, bad), max(good, bad)
-    kept = probes[(low < probes) & (probes < high)]
+    inner = probes[(low < probes) & (probes < high)]
     if not broken:
         # nothing is known to be broken short of the end
-        kept = np.append(kept, bad) if abs(probes[-1] - good) >= abs(bad - good) else kept
-    elif not len(kept):
-        kept = np.array([(good + bad) / 2.0])
-    probes = np.unique(kept)
+        inner = np.append(inner, bad) if abs(probes[-1] - good) >= abs(bad - good) else inner
+    elif not len(inner):
+        inner = np.array([(good + bad) / 2.0])
+    probes = np.unique(inner)
     return probes if bad > good else probes[::-1]
 
 

@@ -74,8 +74,8 @@ def _fill(laws: SolvedBatch, path: Path, segment: StructureSegment, places: NDAr
     if segment.structure.affine and path.one_cost and segment.begin < segment.end:
         _affine(laws, path, segment, places, t)
         return
-    for own, guess in _guesses(path, segment, t, (segment.begin, segment.end)):
-        _enter(laws, path, segment, places[own], (t[own], guess))
+    for some, guess in _guesses(path, segment, t, (segment.begin, segment.end)):
+        _enter(laws, path, segment, places[some], (t[some], guess))
 
 
 def _enter(
@@ -84,9 +84,9 @@ def _enter(
     """Enter laws at some t, with states near to theirs, as far as they are proven."""
     (t, guess), size = near, _chunk(segment.structure)
     for i in range(0, len(t), size):
-        own = slice(i, i + size)
-        laws = _LawsOfStructure(target, path, segment.structure, places[own], path.numbers(t[own]))
-        laws.solve(guess.taken(own))
+        some = slice(i, i + size)
+        laws = _LawsOfStructure(target, path, segment.structure, places[some], path.numbers(t[some]))
+        laws.solve(guess.taken(some))
 
 
 def _chunk(structure: Structure) -> int:
@@ -100,7 +100,7 @@ def _chunk(structure: Structure) -> int:
 class _LawsOfStructure:
     """Laws of one structure: where they are entered, and the numbers of their programs."""
 
-    found: SolvedBatch
+    optima: SolvedBatch
     path: Path
     structure: Structure
     places: NDArray[np.intp]
@@ -127,11 +127,11 @@ class _LawsOfStructure:
         """Enter those of the known states that are proven optimal; which are left."""
         left = np.ones(len(states), dtype=np.bool_)
         if len(known):
-            own = clipped(self.structure, states.taken(known))
-            certification = certification_of(self.path, self.structure, self.numbers.taken(known), own)
+            solved = clipped(self.structure, states.taken(known))
+            certification = certification_of(self.path, self.structure, self.numbers.taken(known), solved)
             sound = proven(certification)
             values = (certification.objective[sound], certification.bound[sound], certification.excess[sound])
-            _put(self.found, self.structure, self.places[known[sound]], own.taken(sound), values)
+            _put(self.optima, self.structure, self.places[known[sound]], solved.taken(sound), values)
             left[known[sound]] = False
         return np.flatnonzero(left)
 
@@ -141,18 +141,18 @@ def _guesses(
 ) -> Iterator[tuple[NDArray[np.intp], States]]:
     """Which of some t, with states near to theirs: interpolated on pieces of a segment as short as they need to be."""
     begin, end = ends
-    own = np.flatnonzero((t <= end) & ((t > begin) | (begin == segment.begin)))
-    if not len(own):
+    within = np.flatnonzero((t <= end) & ((t > begin) | (begin == segment.begin)))
+    if not len(within):
         return
     piece = segment.pieces.get(ends)
     if piece is None and ends not in segment.pieces:
-        if len(own) <= _FEW or begin >= end or depth == _DEEPEST:
-            yield own, segment.interpolated(t[own])
+        if len(within) <= _FEW or begin >= end or depth == _DEEPEST:
+            yield within, segment.interpolated(t[within])
             return
         piece = segment.pieces[ends] = _piece(path, segment, ends)
     if piece is not None:
         nodes, rows = piece
-        yield own, segment.states(_barycentric(nodes, t[own]) @ rows)
+        yield within, segment.states(_barycentric(nodes, t[within]) @ rows)
         return
     middle = (begin + end) / 2.0
     yield from _guesses(path, segment, t, (begin, middle), depth + 1)
@@ -192,9 +192,9 @@ def _affine(laws: SolvedBatch, path: Path, segment: StructureSegment, places: ND
     x = ends.x[0] + share * (ends.x[1] - ends.x[0])
     value = structure.jets(first.x, first.u)[0]
     value[:, :, :-1] -= structure.slack
-    own = path.numbers(t)
-    bound = lower_bounds(path, structure, own, first, value)
-    objective = path.model.unit * (x @ own.cost[0])
+    numbers = path.numbers(t)
+    bound = lower_bounds(path, structure, numbers, first, value)
+    objective = path.model.unit * (x @ numbers.cost[0])
     sound = np.abs(objective - bound) <= CERTIFIED_GAP * np.maximum(np.abs(objective), AGREEMENT * path.model.unit)
     end_parts = (np.broadcast_to(part, (len(t), part.shape[1])) for part in (first.u, first.weights, first.equations))
     states = States(x, *end_parts).taken(sound)

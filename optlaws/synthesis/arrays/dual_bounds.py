@@ -96,13 +96,13 @@ def _with_right_sides(structure: Structure, numbers: Numbers, states: States) ->
     """The rows of the contacts with the opposites of their right sides."""
     laws, size = states.x.shape
     rows = np.zeros((laws, structure.count, size + 1))
-    for i, (family, own) in enumerate(zip(structure.model.program.families, structure.of_families, strict=True)):
-        u = states.u[:, own]
+    for i, (family, contacts) in enumerate(zip(structure.model.program.families, structure.of_families, strict=True)):
+        u = states.u[:, contacts]
         if u.size and isinstance(family, LinearFamily):
-            rows[:, own] = family.columns(u.reshape(-1))[0].reshape(*u.shape, size + 1)
-            rows[:, own] *= structure.sign[own, None]
-            rows[:, own, :-1] -= family.slack
-            rows[:, own, -1] -= numbers.bounds[:, i, None]
+            rows[:, contacts] = family.columns(u.reshape(-1))[0].reshape(*u.shape, size + 1)
+            rows[:, contacts] *= structure.sign[contacts, None]
+            rows[:, contacts, :-1] -= family.slack
+            rows[:, contacts, -1] -= numbers.bounds[:, i, None]
     return rows
 
 
@@ -111,9 +111,9 @@ def rounding_charge(model: Model, below: AprioriBounds, slope: Array, blur: Arra
     greatest, least, sizes = below
     terms, beyond = model.space.terms, np.zeros(len(slope))
     for name, place in model.places.items():
-        own, low = slope[:, place], least.get(name, 0.0)
-        beyond += np.maximum(blur[:, place] - own, 0.0) * greatest.get(name, inf)
-        beyond += np.maximum(own + blur[:, place], 0.0) * -low if low < 0.0 else 0.0
+        share, low = slope[:, place], least.get(name, 0.0)
+        beyond += np.maximum(blur[:, place] - share, 0.0) * greatest.get(name, inf)
+        beyond += np.maximum(share + blur[:, place], 0.0) * -low if low < 0.0 else 0.0
     reaches = [
         (np.abs(slope[:, :terms] @ extension.T) + blur[:, :terms] @ np.abs(extension).T) @ most
         for most, extension in sizes
@@ -131,14 +131,14 @@ def bounds_below(model: Model, greatest: dict[str, float]) -> AprioriBounds:
 def _below(path: Path, claim: float) -> AprioriBounds:
     """What is known of laws of the path below the claim, or one that is a little above it."""
     step = ceil(log(claim) / log(_CLAIMS)) if claim > 0.0 else None
-    if step not in path.kept:
+    if step not in path.bounds_below_claim:
         greatest: dict[str, float] = {}
         for problem in path.problems:
             model: Model = replace(path.model, problem=problem)
             for name, value in greatest_values(model, 0.0 if step is None else _CLAIMS**step * _ABOVE).items():
                 greatest[name] = max(greatest.get(name, 0.0), value)
-        path.kept[step] = bounds_below(path.model, greatest)
-    below: AprioriBounds = path.kept[step]
+        path.bounds_below_claim[step] = bounds_below(path.model, greatest)
+    below: AprioriBounds = path.bounds_below_claim[step]
     return below
 
 

@@ -72,21 +72,21 @@ def lines_of(problems: Sequence[Problem], places: NDArray[np.intp]) -> Iterator[
     for i, form in enumerate(forms):
         if form.key is not None:
             kinds.setdefault(form.key, []).append(i)
-    for own in kinds.values():
-        least = least_count(problems[own[0]])
-        if len(own) < least:
+    for alike in kinds.values():
+        least = least_count(problems[alike[0]])
+        if len(alike) < least:
             continue
-        numbers = np.array([forms[i].numbers for i in own])
+        numbers = np.array([forms[i].numbers for i in alike])
         counts = [len(np.unique(column)) for column in numbers.T]
         along = int(np.argmax(counts)) if counts else 0
         _, groups = np.unique(np.delete(numbers, along, axis=1), axis=0, return_inverse=True)
         for group in range(int(groups.max(initial=-1)) + 1):
             rows = np.flatnonzero(groups.reshape(-1) == group)
             line = (
-                _line([problems[own[i]] for i in rows.tolist()], numbers[rows, along]) if len(rows) >= least else None
+                _line([problems[alike[i]] for i in rows.tolist()], numbers[rows, along]) if len(rows) >= least else None
             )
             if line is not None:
-                yield ProblemLine(places[np.array(own)[rows[line.places]]], line.t, line.path)
+                yield ProblemLine(places[np.array(alike)[rows[line.places]]], line.t, line.path)
 
 
 def _line(problems: list[Problem], values: Array) -> ProblemLine | None:
@@ -104,10 +104,13 @@ def _line(problems: list[Problem], values: Array) -> ProblemLine | None:
 
 def _on(path: Path, t: float, problem: Problem) -> bool:
     """Whether a problem's program is the path's at t, but for rounding."""
-    numbers, own = path.numbers(np.array([t])), numbers_of(in_units_of(path.model.program, model_of(problem).program))
+    numbers, own_numbers = (
+        path.numbers(np.array([t])),
+        numbers_of(in_units_of(path.model.program, model_of(problem).program)),
+    )
     return all(
-        getattr(numbers, name).shape == getattr(own, name).shape
-        and np.allclose(getattr(numbers, name), getattr(own, name), rtol=OFF_LINE, atol=OFF_LINE)
+        getattr(numbers, name).shape == getattr(own_numbers, name).shape
+        and np.allclose(getattr(numbers, name), getattr(own_numbers, name), rtol=OFF_LINE, atol=OFF_LINE)
         for name in ("right", "bounds", "cost")
     )
 

@@ -76,7 +76,7 @@ class Structure:
         return np.flatnonzero(self.free)
 
     @kept_property
-    def held(self) -> NDArray[np.bool_]:
+    def at_end(self) -> NDArray[np.bool_]:
         """Which contacts are held at an end off which they could move."""
         return np.asarray(~self.free & (self.domains[:, 0] != self.domains[:, 1]))
 
@@ -84,8 +84,8 @@ class Structure:
         """What rounding may hide of each entry of the sum of weights times rows, (laws, variables + 1)."""
         point = with_one(x)
         errors = np.zeros(point.shape)
-        for family, own in self._own:
-            errors += family.rounding_errors(weights[:, own], u[:, own], point)
+        for family, contacts in self._own:
+            errors += family.rounding_errors(weights[:, contacts], u[:, contacts], point)
         return errors
 
     @kept_property
@@ -98,7 +98,7 @@ class Structure:
     def _own(self) -> list[tuple[BatchFamily, slice]]:
         """The families that have contacts, each with which these are."""
         families = zip(batch_families(self.model), self.of_families, strict=True)
-        return [(family, own) for family, own in families if own.start < own.stop]
+        return [(family, contacts) for family, contacts in families if contacts.start < contacts.stop]
 
     def jets(self, x: Array, u: Array) -> tuple[Array, Array, Array]:
         """Planes of s f and of their derivatives by the place, (laws, contacts, variables + 1), and second derivatives.
@@ -109,20 +109,20 @@ class Structure:
         value, slope = np.empty((2, laws, self.count, width))
         bend = np.empty((laws, self.count))
         point = with_one(x)
-        for family, own in self._own:
-            f0, f1, f2 = family.planes(u[:, own], point)
-            sign = self.sign[own]
-            np.multiply(f0, sign[:, None], out=value[:, own])
-            np.multiply(f1, sign[:, None], out=slope[:, own])
-            np.multiply(f2, sign, out=bend[:, own])
+        for family, contacts in self._own:
+            f0, f1, f2 = family.planes(u[:, contacts], point)
+            sign = self.sign[contacts]
+            np.multiply(f0, sign[:, None], out=value[:, contacts])
+            np.multiply(f1, sign[:, None], out=slope[:, contacts])
+            np.multiply(f2, sign, out=bend[:, contacts])
         return value, slope, bend
 
     def hessian(self, x: Array, u: Array, weights: Array) -> Array | float:
         """Second derivatives by the variables of the sum of weights times s f; 0 where all is affine."""
         total: Array | float = 0.0
-        for family, own in self._own:
+        for family, contacts in self._own:
             if isinstance(family, NonlinearFamily):
-                total = total + family.hessians(u[:, own], with_one(x), self.sign[own] * weights[:, own])
+                total = total + family.hessians(u[:, contacts], with_one(x), self.sign[contacts] * weights[:, contacts])
         return total
 
 

@@ -34,12 +34,12 @@ def least_power(problem: Problem) -> bool:
     >>> least_power(Problem(B=1.7, order=4, minimise="D")), least_power(Problem(B=1.7, order=4, D=(0.0, 6.0)))
     (True, False)
     """
-    asked = problem.range("D")
+    power = problem.range("D")
     return (
         [term for _, term in problem.objective.terms] == [D]
         and all(constant.convex or constant == D for constant in problem.constants)
         and all(window.convex for window in problem.windows)
-        and asked is None
+        and power is None
     )
 
 
@@ -56,15 +56,15 @@ def on_global_branch(
         The objective that a search for one law from all starts ends with; None where it ends with no law.
     """
     known = np.flatnonzero(laws.solved)
-    kept = np.zeros(len(places), dtype=np.bool_)
+    global_branch = np.zeros(len(places), dtype=np.bool_)
     before: int | None = None
     for row in _looked_at(known).tolist():
         best = sought(int(places[row]))
         same = best is not None and abs(best / laws.objective[row] - 1.0) <= AGREEMENT
         if same:
-            kept[row if before is None else before : row + 1] = True
+            global_branch[row if before is None else before : row + 1] = True
         before = row if same else None
-    return kept & laws.solved
+    return global_branch & laws.solved
 
 
 def _looked_at(known: NDArray[np.intp]) -> NDArray[np.intp]:
@@ -130,7 +130,7 @@ def _least_roots(path: Path, t: Array) -> Array:
     With D >= 2 s r - s² for any s the program's bound says the same of r, whatever the s.
     """
     first, last = path.problems
-    tangent = max([1.0, *(asked.B for asked in path.problems if isinstance(asked.B, float))])
+    tangent = max([1.0, *(problem.B for problem in path.problems if isinstance(problem.B, float))])
     loose = between(first, last, lambda problem: relaxed(problem, tangent))
     if loose is None:
         return np.full(len(t), np.nan)

@@ -100,10 +100,10 @@ class ProblemArray:
         >>> ProblemArray.of([Problem(B=1.6, order=4), Problem(B=1.7, order=4)]).shape
         (2,)
         """
-        made = cls()
-        made._shape = (len(problems),) if shape is None else shape
-        made._given = tuple(problems)
-        return made
+        array = cls()
+        array._shape = (len(problems),) if shape is None else shape
+        array._given = tuple(problems)
+        return array
 
     _given: tuple[Problem | None, ...] | None = None
 
@@ -194,9 +194,9 @@ class ProblemArray:
             )
             for name, value in self._entries.items()
         }
-        made = ProblemArray(**entries)
-        made._shape = places.shape
-        return made
+        array = ProblemArray(**entries)
+        array._shape = places.shape
+        return array
 
     @kept_property
     def one_objective(self) -> bool:
@@ -296,9 +296,9 @@ def _frozen(value: Any) -> Any:  # noqa: ANN401
     """The value with copies of its arrays that nobody can write to."""
 
     def copied(array: NDArray[Any]) -> NDArray[Any]:
-        kept = array.copy()
-        kept.setflags(write=False)
-        return kept
+        copy = array.copy()
+        copy.setflags(write=False)
+        return copy
 
     return _mapped(value, copied)
 

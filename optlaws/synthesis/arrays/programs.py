@@ -48,7 +48,7 @@ class Path:
     #: families whose programs have them in units of their own bound; on the path they are in one unit
     measured: tuple[int, ...] = ()
     #: what is known of laws below a claim, computed once
-    kept: dict[int | None, Any] = field(default_factory=dict, repr=False)
+    bounds_below_claim: dict[int | None, Any] = field(default_factory=dict, repr=False)
 
     @property
     def one_cost(self) -> bool:
@@ -62,11 +62,12 @@ class Path:
 
     def program(self, t: float) -> Program:
         """The program at one t."""
-        own, program = self.numbers(np.array([t])), self.model.program
+        numbers, program = self.numbers(np.array([t])), self.model.program
         families = tuple(
-            replace(family, bound=float(bound)) for family, bound in zip(program.families, own.bounds[0], strict=True)
+            replace(family, bound=float(bound))
+            for family, bound in zip(program.families, numbers.bounds[0], strict=True)
         )
-        return replace(program, families=families, right=own.right[0], objective=own.cost[0])
+        return replace(program, families=families, right=numbers.right[0], objective=numbers.cost[0])
 
 
 def numbers_of(program: Program) -> Numbers:
@@ -78,14 +79,14 @@ def numbers_of(program: Program) -> Numbers:
 def between(first: Problem, last: Problem, model: Callable[[Problem], Model] = model_of) -> Path | None:
     """The path from one problem at t = 0 to another at t = 1; None where their programs differ in more than numbers."""
     begin, end = model(first), model(last)
-    one, other = begin.program, in_units_of(begin.program, end.program)
-    families = len(one.families) == len(other.families) and all(map(_alike, one.families, other.families))
-    equal = one.equalities.shape == other.equalities.shape and np.array_equal(one.equalities, other.equalities)
+    start, stop = begin.program, in_units_of(begin.program, end.program)
+    families = len(start.families) == len(stop.families) and all(map(_alike, start.families, stop.families))
+    equal = start.equalities.shape == stop.equalities.shape and np.array_equal(start.equalities, stop.equalities)
     if not families or not equal or begin.places != end.places or begin.unit != end.unit:
         return None
-    here, there = numbers_of(one), numbers_of(other)
+    here, there = numbers_of(start), numbers_of(stop)
     slope = Numbers(there.right - here.right, there.bounds - here.bounds, there.cost - here.cost)
-    measured = tuple(i for i, family in enumerate(other.families) if family is not end.program.families[i])
+    measured = tuple(i for i, family in enumerate(stop.families) if family is not end.program.families[i])
     return Path(begin, (first, last), here, slope, measured)
 
 
@@ -104,10 +105,10 @@ def _measured(first: ConstraintFamily, other: ConstraintFamily) -> ConstraintFam
         or first.series.shape != other.series.shape
     ):
         return other
-    size, own = (float(np.abs(family.series).max(initial=0.0)) for family in (first, other))
-    if size == own or not own:
+    size, other_size = (float(np.abs(family.series).max(initial=0.0)) for family in (first, other))
+    if size == other_size or not other_size:
         return other
-    share = size / own
+    share = size / other_size
     if np.abs(first.series - share * other.series).max() > UNITS_ROUNDING * size:
         return other
     return replace(other, series=first.series, slack=share * other.slack, bound=share * other.bound)
@@ -117,7 +118,7 @@ def _alike(first: ConstraintFamily, other: ConstraintFamily) -> bool:
     """Whether two families have the same rows, which many laws are continued by."""
     if type(first) is not type(other) or not first.continuable:
         return False
-    plain = (first.name, first.signs, first.domain, first.held) == (other.name, other.signs, other.domain, other.held)
+    plain = all(getattr(first, name) == getattr(other, name) for name in ("name", "signs", "domain", "as_equation"))
     return plain and np.array_equal(first.slack, other.slack) and (first is other or first.same_rows(other))
 
 
@@ -170,14 +171,14 @@ class SolvedBatch(JsonText):
 
     def active_set(self, place: int) -> ActiveSet:
         """One optimum in the terms of the solver of single programs."""
-        own = self.family[place] != NO_CONTACT
+        contacts = self.family[place] != NO_CONTACT
         return ActiveSet(
             x=self.x[place].copy(),
-            family=self.family[place][own].astype(np.intp),
-            u=self.u[place][own],
-            s=self.sign[place][own],
-            free=self.free[place][own],
-            multipliers=self.multiplier[place][own],
+            family=self.family[place][contacts].astype(np.intp),
+            u=self.u[place][contacts],
+            s=self.sign[place][contacts],
+            free=self.free[place][contacts],
+            multipliers=self.multiplier[place][contacts],
             equality_multipliers=self.equations[place].copy(),
         )
 
@@ -185,9 +186,9 @@ class SolvedBatch(JsonText):
         """Some of the rows."""
         return SolvedBatch(**{entry.name: getattr(self, entry.name)[places] for entry in fields(self)})
 
-    def only(self, kept: NDArray[np.bool_]) -> Self:
+    def only(self, chosen: NDArray[np.bool_]) -> Self:
         """The same without the objectives of the others, so that they count as not solved."""
-        return replace(self, objective=np.where(kept, self.objective, np.nan))
+        return replace(self, objective=np.where(chosen, self.objective, np.nan))
 
     def frozen(self) -> Self:
         """A copy whose arrays cannot be written to."""

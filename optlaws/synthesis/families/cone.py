@@ -85,8 +85,8 @@ class ConeFamily(SeriesFamily, NonlinearFamily):
 
     def rounding_errors(self, weights: Array, u: Array, point: Array) -> Array:  # noqa: ARG002 - the same everywhere
         """The rounding hidden in a unit vector times the two parts of the columns."""
-        own = ROW_ROUNDING * (np.abs(self.series.real) + np.abs(self.series.imag)).sum(axis=0)
-        return np.asarray(weights.sum(axis=1)[:, None] * own)
+        errors = ROW_ROUNDING * (np.abs(self.series.real) + np.abs(self.series.imag)).sum(axis=0)
+        return np.asarray(weights.sum(axis=1)[:, None] * errors)
 
     def greatest(self, point: Array) -> Array:
         """The greatest magnitude in each law, wherever it is."""

@@ -195,12 +195,12 @@ class CurvedFamily(FormulaFamily):
         rows, slopes = columns[:, 0], columns[:, 1]
         way = np.concatenate([turned, np.full((1, *u.shape), -0.5)])
         turning = np.einsum("ijmp,jmp->imp", bend, way)
-        own = gradient[:-1]
-        value = np.einsum("imp,impn->mpn", own, rows)
-        value[:, :, -1] += self.slopes.value(names) - (own * values).sum(axis=0)
-        slope = np.einsum("imp,impn->mpn", turning[:-1], rows) + np.einsum("imp,impn->mpn", own, slopes)
+        shares = gradient[:-1]
+        value = np.einsum("imp,impn->mpn", shares, rows)
+        value[:, :, -1] += self.slopes.value(names) - (shares * values).sum(axis=0)
+        slope = np.einsum("imp,impn->mpn", turning[:-1], rows) + np.einsum("imp,impn->mpn", shares, slopes)
         slope[:, :, -1] += gradient[-1] * -0.5 - (turning[:-1] * values).sum(axis=0)
-        curvature = (turning * way).sum(axis=0) + (own * bends).sum(axis=0)
+        curvature = (turning * way).sum(axis=0) + (shares * bends).sum(axis=0)
         return value, slope, curvature
 
     def jet(self, x: Array, u: Array, s: Array) -> RowJet:
@@ -227,8 +227,8 @@ class CurvedFamily(FormulaFamily):
         """What rounding hides of the parts' rows, by the slopes of the formula at each place."""
         columns, _, _, gradient, _ = self._expansion(u, point)
         shares = np.abs(gradient[:-1]) * weights
-        own = np.array([part.rounding for _, part in self.parts])
-        sizes = _IN_A_ROW * ROUNDOFF * np.abs(columns[:, 0]) + own[:, None, None]
+        of_parts = np.array([part.rounding for _, part in self.parts])
+        sizes = _IN_A_ROW * ROUNDOFF * np.abs(columns[:, 0]) + of_parts[:, None, None]
         return np.asarray(np.einsum("imp,impn->mn", shares, sizes))
 
     def greatest(self, point: Array) -> Array:
@@ -412,8 +412,8 @@ class IntegralFamily(WholeLawFamily, FormulaFamily):
         moved = between(self.slopes.hessian(names) * self.weights, self.columns[:, None, :, :-1])
         if self.root:
             _, share, rows = self._planes(names)
-            own = rows[:, :-1]
-            across = own[:, :, None] * own[:, None, :]
+            of_law = rows[:, :-1]
+            across = of_law[:, :, None] * of_law[:, None, :]
             moved = share[:, None, None] * moved - across * (2.0 * share**3)[:, None, None]
         return np.asarray(moved * weights.sum(axis=1)[:, None, None])
 

@@ -233,10 +233,10 @@ class EnergyFamily(ConstraintFamily):
 
         1/I is at least its tangent 2/J - I/J² at any J, and the integral I at most its tangent at any law.
         """
-        own = self.factors[0].columns(np.array(self.domain[:1]))[0, 0]
+        at_start = self.factors[0].columns(np.array(self.domain[:1]))[0, 0]
         above, point = self.energy.majorant(x), np.append(x, 1.0)
-        peak, middle = float(own @ point), float(above @ point)
-        row = (0.5 * self.scale / middle) * (own - (peak / middle) * above)
+        peak, middle = float(at_start @ point), float(above @ point)
+        row = (0.5 * self.scale / middle) * (at_start - (peak / middle) * above)
         # in laws of the same B its own row is a number
         row[-1] += 0.5 * self.scale * peak / middle * (1.0 - ENERGY_ROUNDING)
         return np.asarray(row, dtype=np.float64)

@@ -46,7 +46,7 @@ class ConstraintFamily(ABC):
     signs: tuple[float, ...] = (1.0,)  #: the values of s: (1,), (-1,) or (1, -1) for a magnitude
     domain: tuple[float, float] = (-1.0, 1.0)  #: the least and the greatest u that count
     #: the family binds as an equation at a contact that it has, and nowhere else: a peak that is held up
-    held: bool = False
+    as_equation: bool = False
     #: what the rows have been divided by, a power of 2: certificates speak of them as they were
     unit: float = 1.0
 
@@ -350,8 +350,8 @@ class RatioFamily(EvenFamily):
 
     def in_units(self, units: Array, unit: float) -> Self:
         """The base's column in other units; those of the coordinates stay."""
-        own = np.append(units[: len(self.scale) - 1] / unit, 1.0 / unit)
-        return replace(super().in_units(units, unit), scale=self.scale * own)
+        factors = np.append(units[: len(self.scale) - 1] / unit, 1.0 / unit)
+        return replace(super().in_units(units, unit), scale=self.scale * factors)
 
     def columns(self, u: Array) -> Array:
         """f's columns with two derivatives by u, by recurrence."""
@@ -473,8 +473,8 @@ class NormFamily(WholeLawFamily):
 
     def rounding_errors(self, weights: Array, u: Array, point: Array) -> Array:  # noqa: ARG002 - it has no place
         """The rounding hidden in a unit vector times the matrix."""
-        own = len(self.matrix) * ROW_ROUNDING * np.abs(self.matrix).sum(axis=0)
-        return np.asarray(weights.sum(axis=1)[:, None] * own)
+        errors = len(self.matrix) * ROW_ROUNDING * np.abs(self.matrix).sum(axis=0)
+        return np.asarray(weights.sum(axis=1)[:, None] * errors)
 
     def greatest(self, point: Array) -> Array:
         """The norm of each law."""
@@ -534,7 +534,7 @@ class Program:
 
     def violation(self, x: Array) -> float:
         """Largest residual over every family and every u."""
-        binding = [family for family in self.families if not family.held]
+        binding = [family for family in self.families if not family.as_equation]
         return max((float(family.extremes(x)[2].max()) for family in binding), default=0.0)
 
 

@@ -48,8 +48,8 @@ class KinkSplit:
     def of(self, i: int) -> tuple[dict[str, Array], Array, Array]:
         """What the names are on a stretch, their columns, and the weights."""
         count = len(self.weights) // len(self.stretches)
-        own = slice(i * count, (i + 1) * count)
-        return {name: values[own] for name, values in self.names.items()}, self.columns[:, own], self.weights[own]
+        some = slice(i * count, (i + 1) * count)
+        return {name: values[some] for name, values in self.names.items()}, self.columns[:, some], self.weights[some]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -101,10 +101,10 @@ class KinkedIntegralFamily(IntegralFamily):
         split = KinkSplit(stretches, 0.0, np.zeros(len(point)), columns, self._names(point, k, columns), weights)
         total, slope = 0.0, split.slope
         for i, stretch in enumerate(stretches):
-            names, own, weights = split.of(i)
+            names, columns, weights = split.of(i)
             slopes = _slopes(stretch.formula, self.names)
             total += float(weights @ slopes.value(names))
-            slope += np.einsum("ip,ipn->n", slopes.gradient(names) * weights, own)
+            slope += np.einsum("ip,ipn->n", slopes.gradient(names) * weights, columns)
         return replace(split, total=total)
 
     def _stretches(self, point: Array) -> list[SmoothStretch]:
@@ -136,39 +136,39 @@ class KinkedIntegralFamily(IntegralFamily):
         """The affine function that touches f at the variables that are given, the constant last."""
         if not self.convex or len(point) != len(self.slack):
             return None
-        own = self.split(np.array(point))
-        height, share = self.touched(np.array(own.total))
-        row: Array = share * own.slope
+        split = self.split(np.array(point))
+        height, share = self.touched(np.array(split.total))
+        row: Array = share * split.slope
         row[-1] += height - row @ np.append(point, 1.0)
         return row
 
     def jet(self, x: Array, u: Array, s: Array) -> RowJet:
         """The residual with its gradient."""
-        own = self.split(x)
-        value, share = self.outer(np.array(own.total))
+        split = self.split(x)
+        value, share = self.outer(np.array(split.total))
         nothing = np.zeros(len(u))
-        gradient = s[:, None] * (share * own.slope[:-1]) - self.slack
+        gradient = s[:, None] * (share * split.slope[:-1]) - self.slack
         return RowJet(s * value - self.right_side(x), nothing, nothing, gradient, np.zeros((len(u), len(x))))
 
     def hessian(self, x: Array, u: Array, weights: Array) -> Array | None:  # noqa: ARG002 - it has no place
         """The second derivatives of f, times the sum of weights."""
-        own = self.split(x)
-        matrix = self._moved(own, np.append(x, 1.0))
-        for i, stretch in enumerate(own.stretches):
-            names, columns, share = own.of(i)
+        split = self.split(x)
+        matrix = self._moved(split, np.append(x, 1.0))
+        for i, stretch in enumerate(split.stretches):
+            names, columns, share = split.of(i)
             bend = _slopes(stretch.formula, self.names).hessian(names) * share
             matrix += between(bend[:, :, None], columns[:, None, :, :-1])[0]
         if self.root:
-            size, slope = self.outer(np.array(own.total))
-            matrix = slope * matrix - np.outer(own.slope[:-1], own.slope[:-1]) / (4.0 * size**3)
+            size, slope = self.outer(np.array(split.total))
+            matrix = slope * matrix - np.outer(split.slope[:-1], split.slope[:-1]) / (4.0 * size**3)
         return np.asarray(matrix * float(weights.sum()))
 
-    def _moved(self, own: KinkSplit, point: Array) -> Array:
+    def _moved(self, split: KinkSplit, point: Array) -> Array:
         """What it adds that the kinks between stretches move: each is where the formulas beside it have one value."""
-        k = np.array([right.low for right in own.stretches[1:]])
+        k = np.array([right.low for right in split.stretches[1:]])
         columns, turns = self.columns_at(k), self.columns_at(k, 1)
         names, matrix = self._names(point, k, columns), np.zeros((len(point) - 1,) * 2)
-        for i, both in enumerate(pairwise(own.stretches)):
+        for i, both in enumerate(pairwise(split.stretches)):
             at = {name: values[i : i + 1] for name, values in names.items()}
             left, right = (_slopes(side.formula, (*self.names, "k")).gradient(at)[:, 0] for side in both)
             apart = left - right

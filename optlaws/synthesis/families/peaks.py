@@ -97,10 +97,10 @@ def _polished(series: Array, angle: Array, apart: float) -> Array:
     best, going = np.zeros(len(series)), np.arange(len(series))
     low, high = angle - apart, angle + apart
     for _ in range(_STEPS):
-        turns, own = angle[:, None] * n, series[going]
-        cosines = own * np.cos(turns)
+        turns, terms = angle[:, None] * n, series[going]
+        cosines = terms * np.cos(turns)
         value = cosines.sum(axis=1)
-        slope, bend = -(own * n * np.sin(turns)).sum(axis=1), -(cosines * (n * n)).sum(axis=1)
+        slope, bend = -(terms * n * np.sin(turns)).sum(axis=1), -(cosines * (n * n)).sum(axis=1)
         best[going] = np.maximum(best[going], np.abs(value))
         rising = value * slope > 0.0
         low, high = np.where(rising, angle, low), np.where(rising, high, angle)

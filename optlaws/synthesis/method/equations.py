@@ -51,7 +51,7 @@ def independent(rows: Array) -> NDArray[np.bool_]:
     >>> independent(np.array([[1.0, 0.0], [2.0, 0.0], [1.0, 1.0]])).tolist()
     [True, False, True]
     """
-    kept = np.zeros(len(rows), dtype=np.bool_)
+    chosen = np.zeros(len(rows), dtype=np.bool_)
     directions = np.empty((0, rows.shape[1]))
     for i, row in enumerate(rows):
         size = float(np.linalg.norm(row))
@@ -62,9 +62,9 @@ def independent(rows: Array) -> NDArray[np.bool_]:
             left = left - directions.T @ (directions @ left)
         new = float(np.linalg.norm(left))
         if new > DEPENDENT_ROWS:
-            kept[i] = True
+            chosen[i] = True
             directions = np.vstack([directions, left / new])
-    return kept
+    return chosen
 
 
 def _of_one_value(rows: Array, right: Array) -> Array | None:

@@ -77,17 +77,17 @@ def _in_own_units(
         optimum = polished(program, warm, holds)
         if optimum is not None:
             return Outcome(optimum, 0, 0, "continued from a neighbour")
-    kept = independent(program.equalities)
-    if kept.all():
+    chosen = independent(program.equalities)
+    if chosen.all():
         return _solved(program, start, holds, rounds)
     if contradiction(program.equalities, program.right) is not None:
         return Outcome(None, 0, 0, "equations that contradict each other")
-    fewer = replace(program, equalities=program.equalities[kept], right=program.right[kept])
+    fewer = replace(program, equalities=program.equalities[chosen], right=program.right[chosen])
     outcome = _solved(fewer, start, holds, rounds)
     if outcome.optimum is None:
         return outcome
-    multipliers = np.zeros(len(kept))
-    multipliers[kept] = outcome.optimum.equality_multipliers
+    multipliers = np.zeros(len(chosen))
+    multipliers[chosen] = outcome.optimum.equality_multipliers
     return replace(outcome, optimum=replace(outcome.optimum, equality_multipliers=multipliers))
 
 
@@ -130,9 +130,9 @@ def _by_interior_points(way: ByInteriorPoints, points: list[Points]) -> Outcome:
         way = replace(way, apex=False, vanished=(), count=0)
         optimum, _ = cutting_plane_loop(way, points)
     if optimum is None and way.status == _DIVERGING:
-        held = grounded(program)
-        way = ByInteriorPoints(held, start, None, rounds)
-        optimum, _ = cutting_plane_loop(way, first_points(held))
+        bounded = grounded(program)
+        way = ByInteriorPoints(bounded, start, None, rounds)
+        optimum, _ = cutting_plane_loop(way, first_points(bounded))
         # the row that held the objective up is none of the program's
         optimum = None if optimum is None or (optimum.family == len(program.families)).any() else optimum
     return Outcome(optimum, way.iterations, way.count, way.status)

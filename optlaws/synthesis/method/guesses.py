@@ -25,12 +25,12 @@ def vanishing(program: Program) -> ActiveSet | None:
         return None
     columns = [cone.columns(np.array(cone.domain[:1]))[0, 0] for cone in cones]
     rows = np.vstack([np.array([column.real, column.imag]) for column in columns])
-    held = np.concatenate([rows[:, :-1], program.equalities])
+    conditions = np.concatenate([rows[:, :-1], program.equalities])
     right = np.concatenate([-rows[:, -1], program.right])
     # what is minimised is to be nothing
-    held[:, costs] = 0.0
-    x = np.linalg.lstsq(held, right, rcond=None)[0]
-    if np.abs(held @ x - right).max() > VANISHED or program.violation(x) > EXCESS:
+    conditions[:, costs] = 0.0
+    x = np.linalg.lstsq(conditions, right, rcond=None)[0]
+    if np.abs(conditions @ x - right).max() > VANISHED or program.violation(x) > EXCESS:
         return None
     nothing, equations = np.empty(0), np.zeros(len(program.right))
     places = np.empty(0, dtype=np.intp)
@@ -40,8 +40,8 @@ def vanishing(program: Program) -> ActiveSet | None:
 def initial_guess(program: Program, points: list[Points]) -> Array:
     """The base law with room for its own constants: from below them curved programs are hard to enter."""
     x = np.zeros(program.size)
-    for family, held in zip(program.families, points, strict=True):
-        needed = float((held.s * family.value(np.zeros(program.size), held.u)).max()) - family.bound
+    for family, grid in zip(program.families, points, strict=True):
+        needed = float((grid.s * family.value(np.zeros(program.size), grid.u)).max()) - family.bound
         if isinstance(family, ConeFamily):
             needed = max(needed, 1.0)  # a cone's rows need room
         raised = family.slack > 0.0

@@ -114,13 +114,13 @@ def active_lower_bounds_at(
 def _held_up(model: Model, plain: ActiveSet, constant: Functional, low: float) -> list[tuple[Model, ActiveSet]]:
     """Optima in which the constant is `low` at one place, with the programs that ask it there."""
     family, low = family_of(model, constant, low)
-    held = replace(family, held=True)
+    raised = replace(family, as_equation=True)
     extrema, signs, height = family.extremes(plain.x)
     led = []
     for j in np.flatnonzero(height > _WORTHY * height.max()) if _shows_contacts(model.program, plain) else ():
         free = _inside(family, float(extrema[j]))
         start = plain.joined(len(model.program.families), float(extrema[j]), float(signs[j]), free=free)
-        led.append(_continued(model.program, held, start, (float(height[j]), low)))
+        led.append(_continued(model.program, raised, start, (float(height[j]), low)))
     ways = [_rested(model.program, family, optimum, low) for optimum in led if optimum is not None]
     if not ways and isinstance(family, NormFamily):
         ways = along_directions(model.program, family, plain, low)
@@ -130,14 +130,14 @@ def _held_up(model: Model, plain: ActiveSet, constant: Functional, low: float) -
 
 
 def _continued(
-    program: Program, held: ConstraintFamily, state: ActiveSet, heights: tuple[float, float]
+    program: Program, raised: ConstraintFamily, state: ActiveSet, heights: tuple[float, float]
 ) -> ActiveSet | None:
     height, low = heights
     done, step = 0.0, _FIRST_STEP
     while done < 1.0:
         target = min(done + step, 1.0)
         bound = height + target * (low - height)
-        moved = polished(_with(program, replace(held, bound=bound)), state, lambda _: False)
+        moved = polished(_with(program, replace(raised, bound=bound)), state, lambda _: False)
         if moved is None:
             step /= 2.0
             if step < LEAST_STEP:
@@ -149,12 +149,12 @@ def _continued(
 
 
 def _asked(
-    program: Program, family: ConstraintFamily, plain: ActiveSet, asked: tuple[str, float], where: Array
+    program: Program, family: ConstraintFamily, plain: ActiveSet, lower_bound: tuple[str, float], where: Array
 ) -> list[tuple[Program, ActiveSet]]:
     """Optima of the programs in which the peak is asked at one place, let go from there."""
-    name, low = asked
+    name, low = lower_bound
     # held at the bound from both sides, c would have no slope at the place: the upper side waits until it may move
-    loose = [replace(own, bound=own.bound + _ROOM) if own.name == name else own for own in program.families]
+    loose = [replace(other, bound=other.bound + _ROOM) if other.name == name else other for other in program.families]
     ways, stuck = [], []
     for u in where.tolist():
         for s in family.signs:
@@ -202,7 +202,7 @@ def _let_go(
     if last.sum() != 1 or not _shows_contacts(program, state):
         return None
     start = _turned(state, last, free=_inside(family, float(state.u[last][0])))
-    moved = polished(_with(program, replace(family, held=True, bound=low)), start, lambda _: False)
+    moved = polished(_with(program, replace(family, as_equation=True, bound=low)), start, lambda _: False)
     return None if moved is None else _rested(program, family, moved, low)
 
 
@@ -304,7 +304,7 @@ def _at_places(problem: Problem, other: Model, family: ConstraintFamily, low: fl
 
 def _without(problem: Problem, constant: Functional) -> Problem:
     """The same laws with nothing asked of the constant; what is minimised makes them smooth."""
-    bounds = {bounded: asked for bounded, asked in problem.bounded if bounded != constant}
+    bounds = {bounded: limits for bounded, limits in problem.bounded if bounded != constant}
     # a norm is held up by linear rows: what is minimised beside it had better be linear too
     minimise = "C" if isinstance(constant, RootMeanSquare) else _SMOOTH.get(constant.name, "rms_c")
     smooth = replace(problem, minimise=minimise, C=None, D=None, J=None, bounds=bounds)

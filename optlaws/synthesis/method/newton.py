@@ -60,12 +60,12 @@ def _conditions(program: Program, state: ActiveSet) -> tuple[Array, Array]:
     last = n + m + p
     system = np.zeros((last + len(program.right),) * 2)
     for i in sorted(set(state.family.tolist())):
-        own, family = state.family == i, program.families[i]
-        u, s = state.u[own], state.s[own]
+        contacts, family = state.family == i, program.families[i]
+        u, s = state.u[contacts], state.s[contacts]
         jet = family.jet(state.x, u, s)
-        value[own], slope[own], curvature[own] = jet.value, jet.slope, jet.curvature
-        rows[own], slopes[own] = jet.gradient, jet.slope_gradient
-        bent = family.hessian(state.x, u, state.multipliers[own] * s)
+        value[contacts], slope[contacts], curvature[contacts] = jet.value, jet.slope, jet.curvature
+        rows[contacts], slopes[contacts] = jet.gradient, jet.slope_gradient
+        bent = family.hessian(state.x, u, state.multipliers[contacts] * s)
         if bent is not None:
             system[:n, :n] += bent
 

@@ -79,9 +79,9 @@ def _along(
     row = LinearFamily(
         family.name, np.zeros(program.size), -low, (1.0,), (1.0, 1.0), series=-(direction @ family.matrix)[None]
     )
-    asked = replace(program, families=(*program.families, row))
-    state = solve(asked, start=near.x if program.curved else None, rounds=_ROUNDS).optimum
-    return None if state is None else (asked, state)
+    with_row = replace(program, families=(*program.families, row))
+    state = solve(with_row, start=near.x if program.curved else None, rounds=_ROUNDS).optimum
+    return None if state is None else (with_row, state)
 
 
 def _image(family: NormFamily, x: Array) -> Array:

@@ -24,7 +24,7 @@ def points(model: Model) -> Iterator[Array]:
     """Coordinates of the laws of least RMS of c, of least C, and some around them; D follows from the law."""
     problem = model.problem
     convex: list[Array] = []
-    bounds = {name: asked for name, asked in problem.bounds.items() if name.convex}
+    bounds = {name: limits for name, limits in problem.bounds.items() if name.convex}
     for constant in ("rms_c", "C"):
         optimum = solve(model_of(replace(problem, minimise=constant, D=None, bounds=bounds)).program).optimum
         if optimum is not None:
@@ -61,13 +61,13 @@ def _completed(model: Model, coordinates: Array) -> Array:
     x = np.zeros(model.program.size)
     x[: model.space.terms] = coordinates
     law = model.space.law(coordinates)
-    own = {
+    constants = {
         constant.name: constant
         for constant in model.problem.constants
         if not (constant.convex or isinstance(constant, PowerConstant))
     }
     for name, place in model.places.items():
-        value = own[name].value(law) if name in own else inf
+        value = constants[name].value(law) if name in constants else inf
         if isfinite(value):
             x[place] = _AMPLE * value / model.scales.get(name, 1.0)
         else:

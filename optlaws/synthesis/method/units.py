@@ -68,8 +68,8 @@ def units_of(program: Program) -> ProgramUnits | None:
 
     Its equations and the constants that it bounds from below tell how great its laws are.
     """
-    asked = [-family.bound for family in program.families if family.domain[0] == family.domain[1]]
-    size = max([float(np.abs(program.right).max(initial=0.0)), *asked])
+    limits = [-family.bound for family in program.families if family.domain[0] == family.domain[1]]
+    size = max([float(np.abs(program.right).max(initial=0.0)), *limits])
     if size <= _GREAT:
         return None
     powers = np.zeros(program.size, dtype=np.bool_)
@@ -99,8 +99,8 @@ def units_near(program: Program, x: Array) -> ProgramUnits | None:
         right = family.right_side(x)
         if isinstance(family, ConeFamily) and family.bound == 0.0 and 0.0 < right < 1.0:
             rows[i] = power_of_two(right)
-            own = np.flatnonzero(family.slack)
-            variables[own] = np.minimum(variables[own], power_of_two(right / float(family.slack[own].max())))
+            slacks = np.flatnonzero(family.slack)
+            variables[slacks] = np.minimum(variables[slacks], power_of_two(right / float(family.slack[slacks].max())))
     families = tuple(
         family.in_units(variables, unit) for family, unit in zip(program.families, rows.tolist(), strict=True)
     )

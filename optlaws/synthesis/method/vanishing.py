@@ -50,7 +50,7 @@ def at_apex(
     solve
         How a program without these cones is solved.
     """
-    kept = np.array([i for i in range(len(program.families)) if i not in vanished], dtype=np.intp)
+    others = np.array([i for i in range(len(program.families)) if i not in vanished], dtype=np.intp)
     blocks, right = [program.equalities], [program.right]
     for i in vanished:
         rows, most = _equations(program, i)
@@ -58,7 +58,7 @@ def at_apex(
         right.append(most)
     without = replace(
         program,
-        families=tuple(program.families[i] for i in kept),
+        families=tuple(program.families[i] for i in others),
         equalities=np.vstack(blocks),
         right=np.concatenate(right),
         equation_units=None,
@@ -66,9 +66,9 @@ def at_apex(
     optimum = solve(without)
     if optimum is None:
         return None
-    own = len(program.right)
+    count = len(program.right)
     multipliers, places = [], []
-    for part, i in zip(optimum.equality_multipliers[own:].reshape(-1, 3), vanished, strict=True):
+    for part, i in zip(optimum.equality_multipliers[count:].reshape(-1, 3), vanished, strict=True):
         real, imaginary, raised = part
         # what the right side costs is what the amplitude may pull with
         if not np.hypot(real, imaginary) <= -raised * (1.0 + APEX_DIRECTION):
@@ -77,12 +77,12 @@ def at_apex(
         places.append(program.families[i].domain[0])
     return replace(
         optimum,
-        family=np.append(kept[optimum.family], np.array(vanished, dtype=np.intp)),
+        family=np.append(others[optimum.family], np.array(vanished, dtype=np.intp)),
         u=np.append(optimum.u, places),
         s=np.append(optimum.s, np.ones(len(places))),
         free=np.append(optimum.free, np.zeros(len(places), dtype=np.bool_)),
         multipliers=np.append(optimum.multipliers, multipliers),
-        equality_multipliers=optimum.equality_multipliers[:own],
+        equality_multipliers=optimum.equality_multipliers[:count],
     )
 
 

@@ -35,7 +35,7 @@ def fallbacks_without_interior(model: Model) -> Iterator[tuple[ActiveSet, Array]
     None where the constraints contradict each other, or where they are not convex.
     """
     problem = model.problem
-    bounded = [asked for _, asked in problem.bounded if isfinite(asked.high)]
+    bounded = [limits for _, limits in problem.bounded if isfinite(limits.high)]
     if not bounded or not all(constant.convex for constant, _ in problem.bounded):
         return
 
@@ -59,7 +59,7 @@ def fallbacks_without_interior(model: Model) -> Iterator[tuple[ActiveSet, Array]
 
 
 def _loosened(problem: Problem, share: float) -> Problem:
-    bounds = {constant: replace(asked, high=asked.high * (1.0 + share)) for constant, asked in problem.bounded}
+    bounds = {constant: replace(limits, high=limits.high * (1.0 + share)) for constant, limits in problem.bounded}
     return replace(problem, C=None, D=None, J=None, bounds=bounds)
 
 

@@ -48,7 +48,7 @@ class Asked(Protocol):
 
     @property
     def monotone(self) -> bool:
-        """Whether b >= 0."""
+        """Whether b >= 0 throughout the motion."""
 
     @property
     def peak_at(self) -> float | None:

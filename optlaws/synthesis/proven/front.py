@@ -129,8 +129,8 @@ class FrontPoint(JsonText):
         InputError
             If an entry is missing or wrong.
         """
-        own = ("value", "problem", "law", "certificate")
-        value, plain, stored, proof = entries_of(data, own, cls._json_name).values()
+        names = ("value", "problem", "law", "certificate")
+        value, plain, stored, proof = entries_of(data, names, cls._json_name).values()
         problem, law, certificate = problem_of(plain), MotionLaw.from_dict(stored), Certificate.from_dict(proof)
         if certificate.problem != problem or certificate.program != OBJECTIVE:
             raise InputError("the certificate of a point of a front is not of its problem")

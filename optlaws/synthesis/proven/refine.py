@@ -164,7 +164,7 @@ class _Refined:
             for part in solutions.parts:
                 lines = lower_lines(part, some[part.places], self.number, self.ends)
                 if lines is not None:
-                    known[begin + part.places] = np.column_stack([part.found.objective, lines])
+                    known[begin + part.places] = np.column_stack([part.optima.objective, lines])
             laws += [(solutions, i) for i in range(len(some))]
         for i in np.flatnonzero(~(known[:, 0] - known[:, 1] <= most * known[:, 0])).tolist():
             laws[i] = self._alone(float(values[i]), laws[i])
@@ -270,14 +270,14 @@ def lower_lines(part: SolvedPart, values: Array, number: SweptParameter, ends: t
     if number.name != "B" or not all(isinstance(family, LinearFamily) for family in families):
         return None
     model = model_of(number.at(ends[1]))
-    both = np.concatenate([np.maximum(part.found.multiplier, 0.0), part.found.equations], axis=1)
+    both = np.concatenate([np.maximum(part.optima.multiplier, 0.0), part.optima.equations], axis=1)
     every = _rows(part, model, values - ends[1])
     # nowhere between the ends is a right side greater
-    sizes, contacts = np.abs(every), part.found.u.shape[1]
+    sizes, contacts = np.abs(every), part.optima.u.shape[1]
     sizes[:, contacts:, -1] = np.maximum(sizes[:, contacts:, -1], np.abs(model.program.right))
     cost = np.broadcast_to(model.program.objective, (len(both), model.program.size))
     slope, blur, plain, hidden = sharp_sums(model, cost, both, every, sizes)
-    rise = -part.found.equations[:, 0]
+    rise = -part.optima.equations[:, 0]
     claim = max(float((plain + rise * (end - values)).max()) for end in ends)
     below = bounds_below(model, greatest_values(model, max(model.unit * claim, 0.0)))
     lost = rounding_charge(model, below, slope, blur)
@@ -286,7 +286,7 @@ def lower_lines(part: SolvedPart, values: Array, number: SweptParameter, ends: t
 
 def _rows(part: SolvedPart, model: Model, further: Array) -> Array:
     """The rows of the contacts and of the equations, with the opposites of their right sides; of no contact 0."""
-    laws, contacts, size = part.found, part.found.u.shape[1], part.model.program.size
+    laws, contacts, size = part.optima, part.optima.u.shape[1], part.model.program.size
     rows = np.zeros((len(further), contacts + len(model.program.right), size + 1))
     for i, family in enumerate(part.model.program.families):
         law, place = np.nonzero(laws.family == i)

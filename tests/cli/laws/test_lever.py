@@ -39,7 +39,7 @@ def test_stiffness_for_a_period(capsys: Capture) -> None:
 
 def test_wanted_constants(capsys: Capture, tmp_path: Path) -> None:
     file = tmp_path / "law.json"
-    assert app.exit_code(["lever", "--lam", "1", "--swing", "60", "--wanted", "B1/B3=0.99", "--output", str(file)]) == 0
+    assert app.exit_code(["lever", "--lam", "1", "--swing", "60", "--target", "B1/B3=0.99", "--output", str(file)]) == 0
     assert "0.7174349" in capsys.readouterr().out
     assert MotionLaw.from_dict(json.loads(file.read_text())["law"]).b(0.0) == pytest.approx(0.0, abs=1e-14)
 
@@ -47,10 +47,10 @@ def test_wanted_constants(capsys: Capture, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        (["lever", "--swing", "60"], "give --beta and --lam, or with --wanted"),
+        (["lever", "--swing", "60"], "give --beta and --lam, or with --target"),
         ([*EXAMPLE, "--inertia", "1"], "--inertia goes with --stiffness or --period"),
         ([*EXAMPLE, "--inertia", "1", "--period", "1", "--stiffness", "1"], "exclude each other"),
-        ([*EXAMPLE, "--wanted", "B1"], "--wanted takes NAME=NUMBER"),
+        ([*EXAMPLE, "--target", "B1"], "--target takes NAME=NUMBER"),
         (["lever", "--beta", "1.5", "--lam", "1", "--swing", "60"], "the limit is 150 deg (least_transmission)"),
         (
             ["lever", "--beta", "1", "--lam", "1", "--swing", "600"],

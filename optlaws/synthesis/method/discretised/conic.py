@@ -112,7 +112,7 @@ def optimum_on_points(program: Program, points: list[Points], near: Array | None
     """
     import clarabel
 
-    blocks = [_block(family, held) for family, held in zip(program.families, points, strict=True)]
+    blocks = [_block(family, grid) for family, grid in zip(program.families, points, strict=True)]
     scale = 1.0 / _length(program.equalities)
     equations, given = program.equalities * scale[:, None], program.right * scale
     if near is not None:
@@ -182,8 +182,8 @@ def _stacked(square: SumOfSquares, room: Array) -> Array:
     triangle = np.asarray(np.linalg.qr(square.rows, mode="r")) if len(square.rows) > len(room) else square.rows
     if square.root:
         return np.vstack([room, triangle])
-    rest, one = room - square.affine, np.append(np.zeros(len(room) - 1), 1.0)
-    return np.vstack([rest + one, rest - one, 2.0 * triangle])
+    rest, last = room - square.affine, np.append(np.zeros(len(room) - 1), 1.0)
+    return np.vstack([rest + last, rest - last, 2.0 * triangle])
 
 
 def _length(rows: Array) -> Array:

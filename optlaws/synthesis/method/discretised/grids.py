@@ -23,11 +23,11 @@ def _points(family: ConstraintFamily, size: int, even_share: float) -> Points:
     low, high = family.domain
     if low == high:
         return Points(np.repeat([low], len(family.signs)), np.array(family.signs))
-    own = family.nodes()
-    if own is not None:
-        if not len(own):
-            own = np.array([low, high])  # a window between the nodes
-        return Points(np.tile(own, len(family.signs)), np.repeat(family.signs, len(own)))
+    given = family.nodes()
+    if given is not None:
+        if not len(given):
+            given = np.array([low, high])  # a window between the nodes
+        return Points(np.tile(given, len(family.signs)), np.repeat(family.signs, len(given)))
     u, s = [], []
     for i, sign in enumerate(family.signs):
         if isinstance(family, EvenFamily):
@@ -46,7 +46,7 @@ def _points(family: ConstraintFamily, size: int, even_share: float) -> Points:
 
 def with_extrema(program: Program, points: list[Points], x: Array) -> list[Points]:
     """The points of every family, and those of its extrema at x that bind or nearly do."""
-    return [_joined(family, held, x) for family, held in zip(program.families, points, strict=True)]
+    return [_joined(family, grid, x) for family, grid in zip(program.families, points, strict=True)]
 
 
 def _joined(family: ConstraintFamily, points: Points, x: Array) -> Points:

@@ -201,8 +201,10 @@ def _build(shapes: _Shapes, *, careful: bool, fine: bool) -> Any:  # noqa: ANN40
     size, linear = shapes.size, shapes.linear
     x, rows, objective = ca.MX.sym("x", size), ca.MX.sym("rows", linear, size), ca.MX.sym("objective", size)
     symbols = [shape.symbols() for shape in shapes.curved]
-    p = ca.vertcat(*(ca.vec(symbol) for symbol in (rows, *(one for own in symbols for one in own), objective)))
-    curved = [shape.expression(x, own) for shape, own in zip(shapes.curved, symbols, strict=True)]
+    p = ca.vertcat(
+        *(ca.vec(symbol) for symbol in (rows, *(symbol for several in symbols for symbol in several), objective))
+    )
+    curved = [shape.expression(x, several) for shape, several in zip(shapes.curved, symbols, strict=True)]
     program: Any = {"x": x, "p": p, "f": ca.dot(objective, x), "g": ca.vertcat(rows @ x, *curved)}
     options: Any = {**_QUIET, **_LEAN, **_REPEATABLE, **(_FINE if fine else _USUAL)}
     if not curved:

@@ -46,8 +46,8 @@ def sharpened(program: Program, points: list[Points], answer: Answer) -> ActiveS
     ease = weights / max(1.0, float(weights.max(initial=0.0)))
     room = -table.residuals(answer.x)
     # too many rows cannot all hold, too few multipliers cannot balance: each is sought by itself
-    held = (table.held(ease > share * room, answer.x) for share in _FEWER)
-    x = next((nearest for nearest in held if nearest is not None), None)
+    vertices = (table.vertex_at(ease > share * room, answer.x) for share in _FEWER)
+    x = next((nearest for nearest in vertices if nearest is not None), None)
     if x is None:
         return None
     for share in _MORE:
@@ -55,17 +55,17 @@ def sharpened(program: Program, points: list[Points], answer: Answer) -> ActiveS
         balance = table.balanced(binding, weights, answer.multipliers[-1])
         if balance is not None:
             multipliers, equations = balance
-            kept = np.flatnonzero(binding)
-            gap = float(np.abs(multipliers * table.residuals(x)[kept]).sum())
+            active = np.flatnonzero(binding)
+            gap = float(np.abs(multipliers * table.residuals(x)[active]).sum())
             if gap > FLAT_GAP * max(1.0, abs(program.objective_at(x))):
                 return None
             return ActiveSet(
                 x=x,
-                family=table.family[kept],
-                u=table.u[kept],
-                s=table.s[kept],
-                free=np.zeros(len(kept), dtype=np.bool_),
-                multipliers=multipliers / table.length[kept],
+                family=table.family[active],
+                u=table.u[active],
+                s=table.s[active],
+                free=np.zeros(len(active), dtype=np.bool_),
+                multipliers=multipliers / table.length[active],
                 equality_multipliers=equations,
             )
     return None
@@ -91,21 +91,21 @@ class LinearTable:
         self.equations = program.equalities / self.equation_length[:, None]
         self.equation_right = program.right / self.equation_length
         families = [family for family in program.families if isinstance(family, LinearFamily)]
-        parts = [family.rows(held.u, held.s) for family, held in zip(families, points, strict=True)]
+        parts = [family.rows(grid.u, grid.s) for family, grid in zip(families, points, strict=True)]
         rows = np.vstack([np.empty((0, program.size)), *(part for part, _ in parts)])
         self.length = np.linalg.norm(rows, axis=1)
         self.length[self.length < SIZE_RANK] = 1.0
         self.rows = rows / self.length[:, None]
         self.right = np.concatenate([np.empty(0), *(right for _, right in parts)]) / self.length
-        self.family = np.repeat(np.arange(len(families)), [len(held.u) for held in points])
-        self.u = np.concatenate([np.empty(0), *(held.u for held in points)])
-        self.s = np.concatenate([np.empty(0), *(held.s for held in points)])
+        self.family = np.repeat(np.arange(len(families)), [len(grid.u) for grid in points])
+        self.u = np.concatenate([np.empty(0), *(grid.u for grid in points)])
+        self.s = np.concatenate([np.empty(0), *(grid.s for grid in points)])
 
     def residuals(self, x: Array) -> Array:
         """Rows . x - right: negative where a row has room."""
         return np.asarray(self.rows @ x - self.right)
 
-    def held(self, binding: NDArray[np.bool_], x: Array) -> Array | None:
+    def vertex_at(self, binding: NDArray[np.bool_], x: Array) -> Array | None:
         """The nearest x at which the binding rows and the equations hold exactly; None if there is none."""
         matrix = np.vstack([self.rows[binding], self.equations])
         right = np.concatenate([self.right[binding], self.equation_right])
@@ -119,17 +119,18 @@ class LinearTable:
 
         Those of the rows belong to rows of length 1, those of the equations to the program's own.
         """
-        own, before = self.rows[binding], weights[binding]
-        matrix = np.hstack([own.T * before, self.equations.T])
+        rows, before = self.rows[binding], weights[binding]
+        matrix = np.hstack([rows.T * before, self.equations.T])
         scaled = equations * self.equation_length
         share = np.zeros(len(before) + len(scaled))
         for _ in range(2):
             changed = before * (1.0 + share[: len(before)])
             share = (
-                share - np.linalg.lstsq(matrix, self._defect(own, changed, scaled + share[len(before) :]), SIZE_RANK)[0]
+                share
+                - np.linalg.lstsq(matrix, self._defect(rows, changed, scaled + share[len(before) :]), SIZE_RANK)[0]
             )
         changed, scaled = before * (1.0 + share[: len(before)]), scaled + share[len(before) :]
-        left = np.abs(self._defect(own, changed, scaled)).max()
+        left = np.abs(self._defect(rows, changed, scaled)).max()
         sound = left <= VERTEX_BALANCED * max(1.0, float(changed.max(initial=0.0)))
         return (changed, scaled / self.equation_length) if sound and not (changed < 0.0).any() else None
 
@@ -183,7 +184,7 @@ def vertex_on_points(program: Program, points: list[Points], near: Array | None 
 
 def by_family(values: Array, points: list[Points]) -> list[Array]:
     """Values of all rows, those of each family apart."""
-    return np.split(values, np.cumsum([len(held.u) for held in points])[:-1])
+    return np.split(values, np.cumsum([len(grid.u) for grid in points])[:-1])
 
 
 def _answer(table: LinearTable, points: list[Points], x: Array, optimum: Any) -> Answer:  # noqa: ANN401 - scipy's OptimizeResult

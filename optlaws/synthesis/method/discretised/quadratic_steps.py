@@ -75,7 +75,7 @@ class _Descent:
     def __init__(self, program: Program, points: list[Points]) -> None:
         self.program, self.points = program, points
         self.pairs = list(zip(program.families, points, strict=True))
-        self.ends = np.cumsum([0, *(len(held.u) for held in points)])
+        self.ends = np.cumsum([0, *(len(grid.u) for grid in points)])
         self.raised = list(self._only_raised())
         self.price = _LEAST_PRICE
         #: tangents of convex integrals where they were asked: rows, what is beside them, and whose row each is like
@@ -86,11 +86,13 @@ class _Descent:
         program = self.program
         for i in np.flatnonzero(program.objective > 0.0):
             above = [family.slack[i] != 0.0 for family in program.families]
-            factors = {float(family.slack[i]) for family, own in zip(program.families, above, strict=True) if own}
-            alone = all(np.count_nonzero(f.slack) == 1 for f, own in zip(program.families, above, strict=True) if own)
+            factors = {float(family.slack[i]) for family, raises in zip(program.families, above, strict=True) if raises}
+            alone = all(
+                np.count_nonzero(f.slack) == 1 for f, raises in zip(program.families, above, strict=True) if raises
+            )
             elsewhere = any(
-                (family.rows(held.u, held.s)[0][:, i] != -family.slack[i]).any()
-                for family, held in self.pairs
+                (family.rows(grid.u, grid.s)[0][:, i] != -family.slack[i]).any()
+                for family, grid in self.pairs
                 if isinstance(family, LinearFamily)
             )
             if (
@@ -100,7 +102,7 @@ class _Descent:
                 and not elsewhere
                 and not program.equalities[:, i].any()
             ):
-                rows = [np.arange(*self.ends[n : n + 2]) for n, own in enumerate(above) if own]
+                rows = [np.arange(*self.ends[n : n + 2]) for n, raises in enumerate(above) if raises]
                 yield int(i), min(factors), np.concatenate(rows)
 
     def answer(self, start: Array) -> Answer | None:
@@ -110,8 +112,8 @@ class _Descent:
         damping, taken, settled, last = _FIRST_DAMPING, 0, False, None
         x, rows = self._rows(x)
         multipliers = np.zeros(self.ends[-1])
-        for i, factor, own in self.raised:
-            multipliers[own[np.argmax(rows.residual[own])]] = program.objective[i] / factor
+        for i, factor, rows_above in self.raised:
+            multipliers[rows_above[np.argmax(rows.residual[rows_above])]] = program.objective[i] / factor
         for taken in range(1, _STEPS + 1):  # noqa: B007 - it is said afterwards
             bend = self._bend(x, multipliers)
             step = self._step(x, rows, rows.residual, bend, damping)
@@ -172,13 +174,13 @@ class _Descent:
     def _rows(self, x: Array) -> tuple[Array, _Rows]:
         """The rows, and the variables with those that are only raised as small as the rows let them be."""
         values, gradients = [np.empty(0)], [np.empty((0, len(x)))]
-        for family, held in self.pairs:
+        for family, grid in self.pairs:
             if isinstance(family, LinearFamily):
-                matrix, right = family.rows(held.u, held.s)
+                matrix, right = family.rows(grid.u, grid.s)
                 values.append(matrix @ x - right)
                 gradients.append(matrix)
             else:
-                jet = family.jet(x, held.u, held.s)
+                jet = family.jet(x, grid.u, grid.s)
                 if isinstance(family, IntegralFamily) and family.convex:
                     beside = float(jet.value[0] - jet.gradient[0] @ x)
                     self.tangents.append((jet.gradient[0], beside, int(sum(map(len, values)))))
@@ -186,19 +188,19 @@ class _Descent:
                 gradients.append(jet.gradient)
         del self.tangents[:-_TANGENTS]
         residual, x = np.concatenate(values), x.copy()
-        for i, factor, own in self.raised:
-            excess = float(residual[own].max())
+        for i, factor, rows_above in self.raised:
+            excess = float(residual[rows_above].max())
             x[i] += excess / factor
-            residual[own] -= excess
+            residual[rows_above] -= excess
         return x, _Rows(residual, np.vstack(gradients))
 
     def _bend(self, x: Array, multipliers: Array) -> Array:
         """Of the Lagrangian, without what bends down."""
         total, begin = np.zeros((len(x), len(x))), 0
-        for family, held in self.pairs:
-            own = multipliers[begin : begin + len(held.u)]
-            begin += len(held.u)
-            bent = family.hessian(x, held.u, own * held.s) if own.any() else None
+        for family, grid in self.pairs:
+            weights = multipliers[begin : begin + len(grid.u)]
+            begin += len(grid.u)
+            bent = family.hessian(x, grid.u, weights * grid.s) if weights.any() else None
             if bent is not None:
                 total += bent
         if not total.any():
@@ -217,24 +219,24 @@ class _Descent:
             gradient = np.vstack([gradient, slopes])
             residual = np.append(residual, slopes @ x + [beside for _, beside, _ in self.tangents])
         length = np.linalg.norm(gradient, axis=1)
-        kept = np.isfinite(residual) & (length > EMPTY_ROW)
-        scale = 1.0 / length[kept]
-        inner = np.column_stack([gradient[kept] * scale[:, None], -scale])
+        finite = np.isfinite(residual) & (length > EMPTY_ROW)
+        scale = 1.0 / length[finite]
+        inner = np.column_stack([gradient[finite] * scale[:, None], -scale])
         spare = np.zeros((1, size + 1))
         spare[0, -1] = -1.0
         equations = np.column_stack([program.equalities, np.zeros(len(program.right))])
         matrix = np.vstack([equations, inner, spare])
-        right = np.concatenate([np.zeros(len(program.right)), -residual[kept] * scale, [0.0]])
+        right = np.concatenate([np.zeros(len(program.right)), -residual[finite] * scale, [0.0]])
         curvature = np.zeros((size + 1, size + 1))
         curvature[:size, :size] = bend + damping * np.eye(size)
-        cones = [clarabel.ZeroConeT(len(program.right)), clarabel.NonnegativeConeT(int(kept.sum()) + 1)]
+        cones = [clarabel.ZeroConeT(len(program.right)), clarabel.NonnegativeConeT(int(finite.sum()) + 1)]
         cost = np.append(program.objective, self.price)
         optimum = conic_optimum(curvature, cost, matrix, right, cones, tolerance=QUADRATIC_SOLVER)
         if optimum is None:
             return None
         duals = np.asarray(optimum.z)
         weights = np.zeros(len(residual))
-        weights[kept] = np.maximum(duals[len(program.right) : -1], 0.0) * scale
+        weights[finite] = np.maximum(duals[len(program.right) : -1], 0.0) * scale
         for weight, (_, _, row) in zip(weights[count:], self.tangents, strict=True):
             weights[row] += weight
         weights = weights[:count]

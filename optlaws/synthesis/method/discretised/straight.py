@@ -34,17 +34,17 @@ class _Straight:
 
     value: Array
     slope: Array
-    own: dict[int, Array] = field(default_factory=dict)
+    local: dict[int, Array] = field(default_factory=dict)
 
     def times(self, factor: Array | float) -> _Straight:
         spread = np.broadcast_to(factor, self.value.shape)
-        own = {i: spread * weight for i, weight in self.own.items()}
-        return _Straight(spread * self.value, spread[:, None] * self.slope, own)
+        local = {i: spread * weight for i, weight in self.local.items()}
+        return _Straight(spread * self.value, spread[:, None] * self.slope, local)
 
     def __add__(self, other: _Straight) -> _Straight:
         nothing = np.zeros_like(self.value)
-        own = {i: self.own.get(i, nothing) + other.own.get(i, nothing) for i in {*self.own, *other.own}}
-        return _Straight(self.value + other.value, self.slope + other.slope, own)
+        local = {i: self.local.get(i, nothing) + other.local.get(i, nothing) for i in {*self.local, *other.local}}
+        return _Straight(self.value + other.value, self.slope + other.slope, local)
 
 
 class _Epigraph:
@@ -83,10 +83,10 @@ class _Epigraph:
     def _greatest(self, formula: Call, sign: int) -> _Straight:
         """A variable that is above every part, or below."""
         parts = formula.arguments if formula.function != "abs" else (*formula.arguments, opposite(formula.arguments[0]))
-        own, self.count = self.count, self.count + 1
-        self.above += [(own, self._of(part, sign).times(float(sign))) for part in parts]
+        variable, self.count = self.count, self.count + 1
+        self.above += [(variable, self._of(part, sign).times(float(sign))) for part in parts]
         nothing = _Straight(np.zeros_like(self.at["k"]), np.zeros((len(self.at["k"]), self.columns.shape[-1])))
-        return replace(nothing, own={own: np.full(len(self.at["k"]), float(sign))})
+        return replace(nothing, local={variable: np.full(len(self.at["k"]), float(sign))})
 
     def _smooth(self, formula: Formula) -> _Straight:
         self.exact &= affine(formula, self.names) is not None
@@ -133,14 +133,14 @@ def straight_step(program: Program, points: list[Points], x: Array, reach: float
     from scipy.optimize import linprog
 
     size, blocks = program.size, _Blocks(program.size)
-    for family, held in zip(program.families, points, strict=True):
+    for family, grid in zip(program.families, points, strict=True):
         if isinstance(family, KinkedIntegralFamily):
             blocks.integral(family, x)
         elif isinstance(family, LinearFamily):
-            matrix, right = family.rows(held.u, held.s)
+            matrix, right = family.rows(grid.u, grid.s)
             blocks.rows(matrix, right - matrix @ x)
         else:
-            jet = family.jet(x, held.u, held.s)
+            jet = family.jet(x, grid.u, grid.s)
             blocks.rows(jet.gradient, -jet.value)
     matrix, right = blocks.joined()
     others = matrix.shape[1] - size
@@ -167,10 +167,10 @@ class _Blocks:
         self._sums: list[tuple[Array, dict[int, Array], float]] = []
 
     def rows(self, matrix: Array, right: Array) -> None:
-        """Rows . step <= right."""
+        """Take in rows: rows . step <= right."""
         length = np.linalg.norm(matrix, axis=1)
-        kept = np.isfinite(right) & (length > 0.0)
-        self._parts.append((matrix[kept] / length[kept, None], {}, right[kept] / length[kept]))
+        finite = np.isfinite(right) & (length > 0.0)
+        self._parts.append((matrix[finite] / length[finite, None], {}, right[finite] / length[finite]))
 
     def integral(self, family: KinkedIntegralFamily, x: Array) -> None:
         """The integral's row, and those of its own variables."""
@@ -178,32 +178,32 @@ class _Blocks:
         epigraph = _Epigraph(family, x, k)
         begins = [self.others + i * len(k) for i in range(epigraph.count)]
         self.others += epigraph.count * len(k)
-        for own, part in epigraph.above:
-            several = {begins[i]: weight for i, weight in part.own.items()}
-            several[begins[own]] = several.get(begins[own], np.zeros_like(k)) - 1.0
+        for variable, part in epigraph.above:
+            several = {begins[i]: weight for i, weight in part.local.items()}
+            several[begins[variable]] = several.get(begins[variable], np.zeros_like(k)) - 1.0
             self._parts.append((part.slope, several, -part.value))
         whole = epigraph.whole
         total = family.split(x).total
         value, share = family.outer(np.array(total))
         row = share * (weights @ whole.slope) - family.slack
         right = family.right_side(x) - float(value) + float(share) * (total - float(weights @ whole.value))
-        self._sums.append((row, {begins[i]: share * weights * own for i, own in whole.own.items()}, right))
+        self._sums.append((row, {begins[i]: share * weights * local for i, local in whole.local.items()}, right))
 
     def joined(self) -> tuple[Any, Array]:
         """The rows of all families together."""
         from scipy import sparse
 
         matrices, rights = [], []
-        for slope, own, right in self._parts:
+        for slope, local, right in self._parts:
             count = len(right)
             extra = sparse.lil_matrix((count, self.others))
-            for begin, weight in own.items():
+            for begin, weight in local.items():
                 extra[np.arange(count), begin + np.arange(count)] = weight
             matrices.append(sparse.hstack([sparse.csr_matrix(slope), extra.tocsr()]))
             rights.append(right)
-        for row, own, most in self._sums:
+        for row, local, most in self._sums:
             shares = np.zeros(self.others)
-            for begin, weight in own.items():
+            for begin, weight in local.items():
                 shares[begin : begin + len(weight)] += weight
             matrices.append(sparse.csr_matrix(np.append(row, shares)[None]))
             rights.append(np.array([most]))

@@ -34,11 +34,11 @@ class ByContacts(Strategy[ActiveSet, ActiveSet]):
     holds: Callable[[Array], bool] | None = None
     rounds: int = _CORRECTIONS
 
-    def answered(self, held: ActiveSet) -> tuple[ActiveSet | None, ActiveSet | None]:
+    def answered(self, state: ActiveSet) -> tuple[ActiveSet | None, ActiveSet | None]:
         """The optimum, if its contacts are all there are, or the guess that it leads to."""
-        optimum = newton(self.program, held)
+        optimum = newton(self.program, state)
         if optimum is None:
-            optimum = newton(self.program, held, deficient=True)
+            optimum = newton(self.program, state, deficient=True)
         if optimum is None:
             return None, None
         guess = settled(self.program, optimum)
@@ -54,8 +54,8 @@ def polished(program: Program, guess: ActiveSet, holds: Callable[[Array], bool] 
 
 def settled(program: Program, state: ActiveSet) -> ActiveSet:
     """Drop the contact that pulls most, or put contacts that left the interval on its end; the same object if none."""
-    held = np.array([program.families[i].held for i in state.family], dtype=np.bool_)
-    pushing = np.where(held, 0.0, state.multipliers)
+    as_equation = np.array([program.families[i].as_equation for i in state.family], dtype=np.bool_)
+    pushing = np.where(as_equation, 0.0, state.multipliers)
     if np.any(pushing < -PULLING * np.abs(state.multipliers).max(initial=0.0)):
         return _without(state, int(np.argmin(pushing)))
     low, high = np.array([program.families[i].domain for i in state.family]).reshape(-1, 2).T
@@ -66,14 +66,14 @@ def settled(program: Program, state: ActiveSet) -> ActiveSet:
 
 
 def _without(state: ActiveSet, contact: int) -> ActiveSet:
-    kept = np.arange(len(state.u)) != contact
+    others = np.arange(len(state.u)) != contact
     return replace(
         state,
-        family=state.family[kept],
-        u=state.u[kept],
-        s=state.s[kept],
-        free=state.free[kept],
-        multipliers=state.multipliers[kept],
+        family=state.family[others],
+        u=state.u[others],
+        s=state.s[others],
+        free=state.free[others],
+        multipliers=state.multipliers[others],
     )
 
 
@@ -84,7 +84,7 @@ def completed(program: Program, state: ActiveSet) -> ActiveSet:
     """
     better = state
     for i, family in enumerate(program.families):
-        if family.held:
+        if family.as_equation:
             continue
         u, s, residual = family.extremes(state.x)
         for j in np.flatnonzero(residual > EXCESS * max(1.0, abs(family.right_side(state.x)))):

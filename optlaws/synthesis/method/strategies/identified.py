@@ -51,14 +51,14 @@ def of_vertex(points: list[Points], answer: Answer) -> ActiveSet:
 def _contacts(points: list[Points], answer: Answer, least: list[float]) -> ActiveSet:
     """Those points of each family as contacts whose multipliers exceed the least for it; none may move."""
     weights, equations = answer.multipliers[:-1], answer.multipliers[-1]
-    kept = [np.flatnonzero(w > low) for w, low in zip(weights, least, strict=True)]
+    active = [np.flatnonzero(w > low) for w, low in zip(weights, least, strict=True)]
     return ActiveSet(
         x=answer.x,
-        family=np.repeat(np.arange(len(kept), dtype=np.intp), [len(rows) for rows in kept]),
-        u=np.concatenate([held.u[rows] for held, rows in zip(points, kept, strict=True)]),
-        s=np.concatenate([held.s[rows] for held, rows in zip(points, kept, strict=True)]),
-        free=np.zeros(sum(map(len, kept)), dtype=np.bool_),
-        multipliers=np.concatenate([w[rows] for w, rows in zip(weights, kept, strict=True)]),
+        family=np.repeat(np.arange(len(active), dtype=np.intp), [len(rows) for rows in active]),
+        u=np.concatenate([grid.u[rows] for grid, rows in zip(points, active, strict=True)]),
+        s=np.concatenate([grid.s[rows] for grid, rows in zip(points, active, strict=True)]),
+        free=np.zeros(sum(map(len, active)), dtype=np.bool_),
+        multipliers=np.concatenate([w[rows] for w, rows in zip(weights, active, strict=True)]),
         equality_multipliers=equations,
     )
 
@@ -66,14 +66,14 @@ def _contacts(points: list[Points], answer: Answer, least: list[float]) -> Activ
 def _identified(program: Program, points: list[Points], answer: Answer) -> ActiveSet:
     """Give each point's multiplier to the extremum that its hill leads to; those are the contacts."""
     contacts: list[tuple[int, float, float, bool, float]] = []
-    for i, (family, held) in enumerate(zip(program.families, points, strict=True)):
+    for i, (family, grid) in enumerate(zip(program.families, points, strict=True)):
         weights = answer.multipliers[i]
         u, s, residual = family.extremes(answer.x)
-        jet = family.jet(answer.x, held.u, held.s)
+        jet = family.jet(answer.x, grid.u, grid.s)
         gathered = np.zeros(len(u))
         for j in np.flatnonzero(_binding(jet.gradient, weights, jet.value)):
-            higher = (s == held.s[j]) & (residual >= jet.value[j] - SAME_HEIGHT)
-            distance = np.where(higher, np.abs(u - held.u[j]), np.inf)
+            higher = (s == grid.s[j]) & (residual >= jet.value[j] - SAME_HEIGHT)
+            distance = np.where(higher, np.abs(u - grid.u[j]), np.inf)
             gathered[np.argmin(distance)] += weights[j]
         _merge(family, u, s, gathered)
         movable = family.movable(u)

@@ -79,18 +79,18 @@ class ByInteriorPoints(Strategy[list[Points], ActiveSet]):
         if any(isinstance(family, KinkedIntegralFamily) for family in self.program.families):
             self.rounds = min(self.rounds, _KINKED_ROUNDS)
 
-    def answered(self, held: list[Points]) -> tuple[ActiveSet | None, list[Points] | None]:
+    def answered(self, points: list[Points]) -> tuple[ActiveSet | None, list[Points] | None]:
         """The optimum, or the points with the extrema of IPOPT's answer; neither where IPOPT has lost its way."""
-        optimum, onward = self._round(held)
+        optimum, onward = self._round(points)
         return optimum if optimum is None or self.units is None else self.units.outward(optimum), onward
 
-    def _round(self, held: list[Points]) -> tuple[ActiveSet | None, list[Points] | None]:
+    def _round(self, points: list[Points]) -> tuple[ActiveSet | None, list[Points] | None]:
         self.count += 1
-        answer = self._answer(held)
+        answer = self._answer(points)
         lost = _lost(answer)
-        optimum = None if lost else optimum_near(self.program, self.holds, held, answer)
+        optimum = None if lost else optimum_near(self.program, self.holds, points, answer)
         if optimum is None and self._vertices_help(lost=lost):
-            optimum = self._by_vertices(held)
+            optimum = self._by_vertices(points)
         if optimum is not None:
             return optimum, None
         if self.apex and (self.count == _COARSE or not conic(self.program)):
@@ -102,11 +102,11 @@ class ByInteriorPoints(Strategy[list[Points], ActiveSet]):
         # an optimum may be so flat that no exact active set shows: the contacts on the points are then an answer
         whole = all(of_cones(family) or isinstance(family, KinkedIntegralFamily) for family in self.program.families)
         if whole and self.program.violation(answer.x) <= EXCESS and self._is_less(answer.x):
-            self.sound = as_answered(held, answer)
+            self.sound = as_answered(points, answer)
         if self.count == self.rounds:
             flat = _only(self.program, LinearFamily, ConeFamily, KinkedIntegralFamily)
-            return self.sound or (as_answered(held, answer) if flat else None), None
-        onward = with_extrema(self.program, held, answer.x)
+            return self.sound or (as_answered(points, answer) if flat else None), None
+        onward = with_extrema(self.program, points, answer.x)
         if self.count == _COARSE and self.program.curved:
             self._zoom(answer.x)
         return None, onward

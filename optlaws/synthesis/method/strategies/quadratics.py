@@ -56,24 +56,24 @@ class ByQuadratics(Strategy[list[Points], ActiveSet]):
     count: int = 0
     iterations: int = 0
 
-    def answered(self, held: list[Points]) -> tuple[ActiveSet | None, list[Points] | None]:
+    def answered(self, points: list[Points]) -> tuple[ActiveSet | None, list[Points] | None]:
         """The optimum, or the points with the extrema of the answer; neither where there is none."""
         if self.count == 0 and is_straight(self.program, self.x):
-            step = straight_step(self.program, held, self.x, _REACH * max(1.0, float(np.abs(self.x).max())))
+            step = straight_step(self.program, points, self.x, _REACH * max(1.0, float(np.abs(self.x).max())))
             if step is not None:
                 self.x = self.x + step
-                held = with_extrema(self.program, held, self.x)
+                points = with_extrema(self.program, points, self.x)
         self.count += 1
-        answer = stepwise_on_points(self.program, held, self.x)
+        answer = stepwise_on_points(self.program, points, self.x)
         if answer is None:
             return None, None
         self.x, self.iterations = answer.x, self.iterations + answer.iterations
-        optimum = optimum_near(self.program, self.holds, held, answer)
+        optimum = optimum_near(self.program, self.holds, points, answer)
         if optimum is not None:
             return optimum, None
-        onward = with_extrema(self.program, held, answer.x)
-        known = all(len(new.u) == len(old.u) for new, old in zip(onward, held, strict=True))
+        onward = with_extrema(self.program, points, answer.x)
+        known = all(len(new.u) == len(old.u) for new, old in zip(onward, points, strict=True))
         if (known or answer.success) and self.program.violation(answer.x) <= EXCESS:
             # an optimum may be so flat that no exact active set shows
-            return as_answered(held, answer), None
+            return as_answered(points, answer), None
         return (None, None) if known else (None, onward)

@@ -21,13 +21,13 @@ class Strategy(ABC, Generic[Held, Result_co]):
     rounds: int
 
     @abstractmethod
-    def answered(self, held: Held) -> tuple[Result_co | None, Held | None]:
+    def answered(self, subproblem: Held) -> tuple[Result_co | None, Held | None]:
         """The result, or the subproblem of the next round; neither where the strategy fails."""
 
 
-def cutting_plane_loop(strategy: Strategy[Held, Result_co], held: Held) -> tuple[Result_co | None, int]:
+def cutting_plane_loop(strategy: Strategy[Held, Result_co], subproblem: Held) -> tuple[Result_co | None, int]:
     """The result of a strategy, None where it fails or its rounds do not suffice, and the number of rounds."""
-    onward: Held | None = held
+    onward: Held | None = subproblem
     count, result = 0, None
     while onward is not None and count < strategy.rounds:
         count += 1

@@ -70,18 +70,18 @@ class ByVertices(Strategy[list[Points], ActiveSet]):
     promising: float = VERTEX_NEAR
     near: Array | None = None
 
-    def answered(self, held: list[Points]) -> tuple[ActiveSet | None, list[Points] | None]:
+    def answered(self, points: list[Points]) -> tuple[ActiveSet | None, list[Points] | None]:
         """The optimum, or the points with the vertex's extrema."""
-        vertex = self._vertex(held)
+        vertex = self._vertex(points)
         if vertex is None:
             return None, None
-        optimum = self._shown(held, vertex)
+        optimum = self._shown(points, vertex)
         if optimum is not None:
             return optimum, None
-        onward = with_extrema(self.program, held, vertex.x)
-        known = all(len(new.u) == len(old.u) for new, old in zip(onward, held, strict=True))
+        onward = with_extrema(self.program, points, vertex.x)
+        known = all(len(new.u) == len(old.u) for new, old in zip(onward, points, strict=True))
         if self._ended(known=known):
-            return of_vertex(held, vertex), None
+            return of_vertex(points, vertex), None
         self.least = min(self.least, self.excess)
         if self.excess <= VERTEX_FINE:
             self.near = vertex.x
@@ -117,7 +117,7 @@ def _excess(program: Program, x: Array) -> float:
     sizes = (
         float(family.extremes(x)[2].max()) / max(1.0, abs(family.right_side(x)))
         for family in program.families
-        if not family.held
+        if not family.as_equation
     )
     return max(sizes, default=0.0)
 
@@ -130,9 +130,9 @@ def _exact(program: Program, points: list[Points], vertex: Answer, excess: float
     table = LinearTable(program, points)
     weights = np.concatenate(vertex.multipliers[:-1]) * table.length
     binding = weights > 0.0
-    x = table.held(binding, vertex.x)
+    x = table.vertex_at(binding, vertex.x)
     if x is None or _excess(program, x) > max(EXCESS, excess):
-        x = table.held(np.zeros_like(binding), vertex.x)
+        x = table.vertex_at(np.zeros_like(binding), vertex.x)
     balanced = table.balanced(binding, weights, vertex.multipliers[-1])
     if balanced is not None:
         weights[binding], equations = balanced
