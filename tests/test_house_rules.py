@@ -1,4 +1,4 @@
-"""Rules of the house: how much a function takes, that a name of a class means one class, where tolerances stand."""
+"""Rules of the house: names of classes and of things, tolerances, first lines of docstrings, and what tests look inside."""
 
 import ast
 import re
@@ -11,7 +11,6 @@ import pytest
 
 from tests.documents import ROOT
 
-MOST_ARGUMENTS = 8
 #: blocks of pages that are programs
 PYTHON_BLOCK = re.compile(r"^```python\n(.*?)^```", re.DOTALL | re.MULTILINE)
 
@@ -21,24 +20,6 @@ def nodes(folder: Path) -> Iterator[tuple[Path, ast.AST]]:
     for path in sorted(folder.rglob("*.py")):
         for node in ast.walk(ast.parse(path.read_text("utf-8"))):
             yield path, node
-
-
-def arguments(function: ast.FunctionDef | ast.AsyncFunctionDef) -> list[str]:
-    """Names of what a function takes, but for the value or the class that it is a method of."""
-    listed = function.args
-    names = [argument.arg for argument in (*listed.posonlyargs, *listed.args, *listed.kwonlyargs)]
-    return names[1:] if names[:1] in (["self"], ["cls"]) else names
-
-
-def test_a_function_takes_few_arguments() -> None:
-    # what belongs together is one value, or the entries of a `TypedDict`
-    functions = (
-        (path, node)
-        for path, node in nodes(ROOT / "optlaws")
-        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef)
-    )
-    many = [f"{path.name}: {node.name}" for path, node in functions if len(arguments(node)) > MOST_ARGUMENTS]
-    assert many == []
 
 
 def test_a_name_of_a_class_means_one_class() -> None:

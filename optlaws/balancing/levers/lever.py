@@ -68,7 +68,7 @@ class TorsionLever:
     least_transmission: float = LEAST_TRANSMISSION
     most_rocker_swing: float = MOST_ROCKER_SWING
 
-    def __init__(  # noqa: PLR0917 - the value of these seven numbers
+    def __init__(
         self,
         beta: float,
         lam: float,

@@ -42,7 +42,7 @@ def test_torques_by_the_paper_s_formulas(kind: DwellType) -> None:
         g2, ph2 = model.mechanism.S2 * gS, model.mechanism.phi2
         assert model.residual_torque == pytest.approx(D * 0.005 * g2**2 / (ph2 * (ph2 / model.rate) ** 2))
         assert model.loader_driven_torque == pytest.approx(C * g2 * 0.005 / (ph2 / model.rate) ** 2)
-        # (21)
+        # by eq. (21)
         assert model.residual_torque == pytest.approx(D * g2 * model.loader_driven_torque / (C * ph2))
 
 

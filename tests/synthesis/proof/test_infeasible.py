@@ -141,7 +141,7 @@ def test_multipliers_of_equations_that_contradict_each_other() -> None:
 
 def test_rows_contradict_each_other_only_by_what_their_multipliers_show() -> None:
     rows = np.array([[1.0, 0.0], [0.0, 1.0], [-1.0, -1.0]])
-    # x <= 0, y <= 0, x + y >= s
+    # no x and y have both x <= 0, y <= 0 and x + y >= s
     for least in (1.0, 1e-6):
         right = np.array([0.0, 0.0, -least])
         assert farkas_margin(rows, right, np.ones(3), 3) == pytest.approx(least)
