@@ -39,7 +39,7 @@ def unknown_key(
     return f"unknown {what} {shortened(name)}; known are {', '.join(names)}"
 
 
-def keywords_of(options: type, **defaults: Any) -> Callable[[FunctionT], FunctionT]:  # noqa: ANN401
+def keywords_of(options: type, **defaults: Any) -> Callable[[FunctionT], FunctionT]:
     """A decorator for functions whose `**keywords` are the entries of a `TypedDict`, None or a default unless given.
 
     They stand in the signature by their names. One that is required and missing, and any other, is refused as Python

@@ -1,15 +1,19 @@
-"""Rules of the house: names of classes and of things, tolerances, first lines of docstrings, and what tests look inside."""
+"""Rules of the house: names of classes and of things, tolerances, docstrings, and what tests look inside."""
 
 import ast
+import inspect
 import re
 from collections import Counter
 from collections.abc import Iterator
 from doctest import DocTestParser
+from importlib import import_module
 from pathlib import Path
+from types import FunctionType
 
 import pytest
 
 from tests.documents import ROOT
+from tests.imports import modules as known_modules
 
 #: blocks of pages that are programs
 PYTHON_BLOCK = re.compile(r"^```python\n(.*?)^```", re.DOTALL | re.MULTILINE)
@@ -175,3 +179,19 @@ def test_the_first_line_of_a_docstring_has_at_least_four_words() -> None:
         and len(re.findall(r"[\w'²³]+", line := text.partition("\n")[0])) < FEWEST_WORDS
     ]
     assert short == []
+
+
+def test_every_method_has_a_docstring_or_that_of_the_method_that_it_overrides() -> None:
+    # ruff sees each class by itself and would have the same text twice
+    modules = [import_module(name) for name in known_modules(ROOT / "optlaws") if name != "optlaws.__main__"]
+    classes = {kind for module in modules for kind in vars(module).values() if inspect.isclass(kind)}
+    silent = [
+        f"{kind.__module__}: {kind.__qualname__}.{name}"
+        for kind in classes
+        if kind.__module__.startswith("optlaws.") and not kind.__name__.startswith("_")
+        for name, method in vars(kind).items()
+        if not name.startswith("_") and name not in inspect.get_annotations(kind)
+        if isinstance(method, FunctionType | classmethod | staticmethod | property)
+        if inspect.getdoc(getattr(kind, name)) is None
+    ]
+    assert sorted(silent) == []

@@ -29,7 +29,7 @@ def stay(cases: list[Case]) -> list[Case]:
     return [case for case in cases if not case.left]
 
 
-def alone(each: int, values: list[Any], **said: Any) -> list[Any]:  # noqa: ANN401
+def alone(each: int, values: list[Any], **said: Any) -> list[Any]:
     """What stays of the values of one parameter."""
     mark = pytest.mark.sample(each, **said).mark
     return [one.callspec.params["a"] for one in stay([Case(mark, {"a": i}, {"a": v}) for i, v in enumerate(values)])]

@@ -117,7 +117,7 @@ class WavyCurve(CurveAlongNormals):
         waves = np.linspace(*self.base.interval, 2 * self.waves + 1)
         return tuple(np.unique(np.concatenate([self.base.breaks, waves])).tolist())
 
-    def jets(self, angle: Array | Interval, order: int, *, before: bool = False) -> Pair:  # noqa: D102
+    def jets(self, angle: Array | Interval, order: int, *, before: bool = False) -> Pair:
         x, y = self.base.jets(angle, order, before=before)
         along_x, along_y = self.base.normal_jets(angle, order, before=before)
         _, wave = (variable(angle, order) * float(self.waves) + self.shift).waves()

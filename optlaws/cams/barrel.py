@@ -218,10 +218,10 @@ class SpaceCurve(CurveByAngle):
     turning: float
 
     @property
-    def breaks(self) -> tuple[float, ...]:  # noqa: D102
+    def breaks(self) -> tuple[float, ...]:
         return self.motion.breaks
 
-    def jets(self, angle: Array, order: int, *, before: bool = False) -> tuple[Jet, Jet, Jet]:  # noqa: D102
+    def jets(self, angle: Array, order: int, *, before: bool = False) -> tuple[Jet, Jet, Jet]:
         s = self.motion.jet(angle, order + 1, before=before)
         slope = s.slope()
         way = (slope * slope + self.radius**2).root()

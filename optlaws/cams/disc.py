@@ -243,11 +243,11 @@ class FollowerCurve(PlaneCurve):
         """How the cam turns."""
         return -self.contact.turning if self.mirrored else self.contact.turning
 
-    def jets(self, angle: Array | Interval, order: int, *, before: bool = False) -> Pair:  # noqa: D102
+    def jets(self, angle: Array | Interval, order: int, *, before: bool = False) -> Pair:
         s = self.motion.jet(angle, order + self.contact.lost, before=before)
         return self._in_cam(self.contact.point(s), angle, order)
 
-    def normal_jets(self, angle: Array | Interval, order: int, *, before: bool = False) -> Pair:  # noqa: D102
+    def normal_jets(self, angle: Array | Interval, order: int, *, before: bool = False) -> Pair:
         normal = self.contact.normal(self.motion.jet(angle, order, before=before))
         return (
             super().normal_jets(angle, order, before=before) if normal is None else self._in_cam(normal, angle, order)

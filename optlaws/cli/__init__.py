@@ -17,7 +17,7 @@ def exit_code(arguments: Sequence[str]) -> int:
     except KeyboardInterrupt:  # while what a command needs is imported
         import sys
 
-        print("optlaws: interrupted", file=sys.stderr)  # noqa: T201
+        print("optlaws: interrupted", file=sys.stderr)
         return _INTERRUPTED
     return run(arguments)
 

@@ -123,9 +123,9 @@ def exit_code(arguments: Sequence[str]) -> int:
         text, code = "interrupted", INTERRUPTED
     else:
         return 0
-    print(f"optlaws: {text}", file=sys.stderr)  # noqa: T201
+    print(f"optlaws: {text}", file=sys.stderr)
     return code
 
 
-def _warn(message: Warning | str, *_: Any, **__: Any) -> None:  # noqa: ANN401
-    print(f"optlaws: {message}", file=sys.stderr)  # noqa: T201
+def _warn(message: Warning | str, *_: Any, **__: Any) -> None:
+    print(f"optlaws: {message}", file=sys.stderr)

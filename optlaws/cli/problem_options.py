@@ -129,7 +129,7 @@ def asks_for_a_problem(
         others = list(inspect.signature(command).parameters.values())[1:]
 
         @wraps(command)
-        def called(**values: Any) -> None:  # noqa: ANN401 - whatever the parser made
+        def called(**values: Any) -> None:
             typed = {parameter.name: values.pop(parameter.name, parameter.default) for parameter in parameters}
             command(_entries(typed, why), **values)
 

@@ -23,7 +23,7 @@ def print_json(data: object) -> None:
     import msgspec
 
     line = msgspec.json.format(msgspec.json.encode(data, enc_hook=_plain), indent=0)  # one line, blanks between items
-    print(line.decode())  # noqa: T201
+    print(line.decode())
 
 
 def _plain(value: Any) -> object:  # noqa: ANN401 - a number of numpy
@@ -74,7 +74,7 @@ def _show_table(rows: Table, console: Console) -> None:
     with console.capture() as captured:
         console.print(rows, crop=False)
     for line in captured.get().splitlines():
-        print(line.rstrip())  # noqa: T201
+        print(line.rstrip())
 
 
 def number(value: float, size: float, form: str = ".10g") -> str:

@@ -141,7 +141,7 @@ class Comparison(JsonText):
 
 
 def compare_laws(
-    *laws: Any,  # noqa: ANN401 - whatever names or has a law
+    *laws: Any,
     stroke: Quantity | None = None,
     duration: Quantity | None = None,
     frequency: float | tuple[float, float] | None = None,

@@ -112,7 +112,7 @@ def solved(problem: Problem) -> Solution | InfeasibleProblem | SolverFailure:
     return solution
 
 
-def without(problem: Problem, constant: str, **changes: Any) -> Problem:  # noqa: ANN401 - entries of a problem
+def without(problem: Problem, constant: str, **changes: Any) -> Problem:
     """The problem that asks nothing of a constant, and else what is given here.
 
     Examples

@@ -183,7 +183,7 @@ def export_law(
     to: Quantity,
     placement: dict[str, Any],
     proof: tuple[str, ...] = (),
-    **options: Any,  # noqa: ANN401
+    **options: Any,
 ) -> Export:
     """A law with its stroke, time and master, as `motion_of_law` takes them, in a format; `proof` heads it."""
     chosen = format_of(to)
@@ -200,7 +200,7 @@ def export_axes(
     axes: Mapping[str, _HasMotion],
     to: Mapping[str, Any],
     placement: dict[str, Any],
-    **options: Any,  # noqa: ANN401
+    **options: Any,
 ) -> dict[str, Export]:
     """Axes in formats by their names, each under a name of its own."""
     names = variable_names(axes)

@@ -143,7 +143,7 @@ class Format:
     write: Writer = field(repr=False)
     takes: tuple[str, ...] = ("points",)
 
-    def request(self, **options: Any) -> Request:  # noqa: ANN401 - options of several kinds
+    def request(self, **options: Any) -> Request:
         """The options that are not None, checked against what the format takes.
 
         Raises

@@ -139,7 +139,7 @@ def pieces_of_motion(motion: Motion, tolerance: float = PIECES_OF_MOTION) -> Pie
     return PiecewiseMotion([*breaks, motion.stop], [row for part in parts for row in part.coefficients])
 
 
-def pieces_of_law(law: MotionLaw, tolerance: float = PIECES_OF_MOTION, **placement: Any) -> PiecewiseMotion:  # noqa: ANN401
+def pieces_of_law(law: MotionLaw, tolerance: float = PIECES_OF_MOTION, **placement: Any) -> PiecewiseMotion:
     """The polynomials of a law with its stroke, time and master, as `motion_of_law` takes them."""
     return pieces_of_motion(motion_of_law(law, **placement), tolerance)
 

@@ -241,7 +241,7 @@ def draw(picture: Picture, fronts: Sequence[Front]) -> Figure:
         return figure
 
 
-def _draw_curve(axes: Axes, front: Front, **style: Any) -> None:  # noqa: ANN401 - matplotlib's
+def _draw_curve(axes: Axes, front: Front, **style: Any) -> None:
     """The points of a front, and between them the front itself; straight lines where it is not convex."""
     dots = {**style, "marker": "o", "markersize": 2.2, "zorder": 4}
     exact = _exact(front)

@@ -50,7 +50,7 @@ class MotionLaw(Curve, LawExport, StoredLaw):
     (0.5, 1.875, [0.0, 0.0])
     """
 
-    def extrema(self, nu: int, within: tuple[float, float] | None = (0.0, 1.0)) -> tuple[Peak, Peak]:  # noqa: D102
+    def extrema(self, nu: int, within: tuple[float, float] | None = (0.0, 1.0)) -> tuple[Peak, Peak]:
         return super().extrema(nu, within)
 
     def boundary_values(self, count: int) -> tuple[tuple[float, ...], tuple[float, ...]]:

@@ -141,7 +141,7 @@ def draw_axes(
     axes: Any = None,  # noqa: ANN401 - matplotlib's
     *,
     nu: int = 0,
-    **style: Any,  # noqa: ANN401 - matplotlib's
+    **style: Any,
 ) -> list[Artist]:
     """Draw a derivative of every axis over time, and return the artists."""
     nu = derivative(nu)

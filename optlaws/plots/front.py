@@ -23,7 +23,7 @@ def _label(name: str) -> str:
     return title if title != name else f"{_AXES.get(name, name)} (dimensionless)"
 
 
-def draw_front(front: Front, axes: Axes | None = None, **style: Any) -> list[Artist]:  # noqa: ANN401 - matplotlib's
+def draw_front(front: Front, axes: Axes | None = None, **style: Any) -> list[Artist]:
     """Draw a front into axes, new ones unless given, and return the artists; a third constant gives the colour."""
     axes = axes or new_axes()
     for axis, name in zip("xy", front.over, strict=False):
@@ -38,7 +38,7 @@ def draw_front(front: Front, axes: Axes | None = None, **style: Any) -> list[Art
     return [points]
 
 
-def draw_proven_front(front: ProvenFront, axes: Axes | None = None, **style: Any) -> list[Artist]:  # noqa: ANN401
+def draw_proven_front(front: ProvenFront, axes: Axes | None = None, **style: Any) -> list[Artist]:
     """Draw a proven front into axes, new ones unless given, as it is at every value, and return the artists."""
     axes = axes or new_axes()
     for axis, name in zip("xy", front.over, strict=True):

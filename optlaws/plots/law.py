@@ -59,7 +59,7 @@ def panels(width: float = 7.2, height: float = 7.6) -> list[Axes]:
 def draw_curve(
     curve: Curve,
     axes: Axes | Panels | None = None,
-    **style: Any,  # noqa: ANN401 - matplotlib's
+    **style: Any,
 ) -> list[Artist]:
     """Draw a, b, c and j of a law, or of a mass, with their peaks, and return the artists.
 
@@ -119,7 +119,7 @@ def _jumps(curve: Curve, nu: int) -> Array:
     return np.unique([place for lower in range(1, nu + 1) for place, _ in curve.jumps(lower)])
 
 
-def _line(curve: Curve, axes: Axes, nu: int, **style: Any) -> Artist:  # noqa: ANN401 - matplotlib's
+def _line(curve: Curve, axes: Axes, nu: int, **style: Any) -> Artist:
     k, values = broken(curve, nu)
     scale = curve.peak(nu).value if nu else 1.0
     if not isfinite(scale) or not scale:
@@ -205,7 +205,7 @@ def marks(problem: Problem) -> Iterator[Mark]:
 def draw_solution(
     solution: Solution,
     axes: Axes | Panels | None = None,
-    **style: Any,  # noqa: ANN401 - matplotlib's
+    **style: Any,
 ) -> list[Artist]:
     """Draw the law of a solution with the limits of its problem, and the limit of its order at any degree.
 
@@ -236,7 +236,7 @@ _COMPARED = (
 )
 
 
-def draw_comparison(comparison: Comparison, axes: Panels | None = None, **style: Any) -> list[Artist]:  # noqa: ANN401
+def draw_comparison(comparison: Comparison, axes: Panels | None = None, **style: Any) -> list[Artist]:
     """Draw a, b, c and j of several laws one over the other, dimensionless, with one legend in a new figure."""
     by_order = four(panels() if axes is None else axes)
     artists: list[Artist] = []

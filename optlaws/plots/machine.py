@@ -21,7 +21,7 @@ def draw_spectrum(
     *,
     what: Literal["residual", "peak"] = "residual",
     over: float = 1.0,
-    **style: Any,  # noqa: ANN401 - matplotlib's
+    **style: Any,
 ) -> list[Artist]:
     """Draw residual or peak acceleration over nu into axes, new ones unless given, and return the artists.
 
@@ -38,7 +38,7 @@ def draw_output(
     axes: Axes | None = None,
     *,
     count: int = 801,
-    **style: Any,  # noqa: ANN401 - matplotlib's
+    **style: Any,
 ) -> list[Artist]:
     """Draw an output of a machine over time into axes, new ones unless given."""
     axes = axes or new_axes()
@@ -49,7 +49,7 @@ def draw_output(
 def draw_machine_spectrum(
     spectrum: MachineSpectrum,
     axes: Axes | None = None,
-    **style: Any,  # noqa: ANN401 - matplotlib's
+    **style: Any,
 ) -> list[Artist]:
     """Draw an output's peak and what is left in it of each mode into axes, new ones unless given."""
     axes = axes or new_axes()

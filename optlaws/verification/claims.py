@@ -180,7 +180,7 @@ def _verification(
     certificate: Certificate,
     proof: Proof,
     claims: list[Claim],
-    **known: Any,  # noqa: ANN401
+    **known: Any,
 ) -> Verification:
     contradiction = certificate.program == VIOLATION
     known.setdefault("bound", None if contradiction or proof.value is None else rounded_down(proof.value))

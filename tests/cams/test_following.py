@@ -47,7 +47,7 @@ CURVES: dict[str, Callable[[PlaneCurve], Outline]] = {
 PLACES = np.linspace(0.01, 6.27, 301)
 
 
-def cam(follower: CamFollower, stroke: str, **others: Any) -> DiscCam:  # noqa: ANN401 - as DiscCam takes them
+def cam(follower: CamFollower, stroke: str, **others: Any) -> DiscCam:
     moves = [Rise(stroke, "120 deg", law="3-4-5"), Dwell("60 deg"), Return(None, "120 deg", law="cycloidal"), Dwell()]
     return DiscCam(Cycle(moves, speed="200 rpm"), base_radius="70 mm", follower=follower, **others)
 

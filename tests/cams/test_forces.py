@@ -28,7 +28,7 @@ SLIDES = {"mass": "2 kg", "stiffness": "3 N/mm", "preload": "120 N", "gravity": 
 TABLES = {"inertia": "0.02 kg m^2", "stiffness": "30 N m/rad", "preload": "9 N m"}
 
 
-def forces(kind: str, turning: str = "counterclockwise", **said: Any) -> CamForces:  # noqa: ANN401 - entries of CamForces
+def forces(kind: str, turning: str = "counterclockwise", **said: Any) -> CamForces:
     cam = cam_of(kind, turning)
     drive = SLIDES if cam.displacement.axis == "length" else TABLES
     asked: dict[str, Any] = {"speed": "240 rpm", "drive": drive, **said}

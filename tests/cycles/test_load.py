@@ -14,7 +14,7 @@ def strokes(law: str = "optimal") -> list[Any]:
     return [Rise("30 mm", "120 deg", law=law), Dwell("60 deg"), Return("30 mm", "120 deg", law=law), Dwell()]
 
 
-def cycle(law: str = "optimal", **others: Any) -> Cycle:  # noqa: ANN401 - whatever a cycle takes
+def cycle(law: str = "optimal", **others: Any) -> Cycle:
     given: dict[str, Any] = {"speed": "300 rpm", "load": LOAD, "degree": 6} | others
     return Cycle(strokes(law), **given)
 

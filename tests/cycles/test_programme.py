@@ -28,7 +28,7 @@ from tests.internals.motion import TURN
 SINE = "modified sine"
 
 
-def cycle(*segments: Any, **others: Any) -> Cycle:  # noqa: ANN401 - whatever a person says
+def cycle(*segments: Any, **others: Any) -> Cycle:
     return Cycle(list(segments), **({"speed": "200 rpm"} | others))
 
 

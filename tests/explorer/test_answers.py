@@ -46,7 +46,7 @@ def law(entries: dict[str, Any]) -> LawRequest:
     return LawRequest(**entries)
 
 
-def cycle_of(**changed: Any) -> CycleRequest:  # noqa: ANN401 - entries of an axis
+def cycle_of(**changed: Any) -> CycleRequest:
     study = example()
     study["axis"][0] |= changed
     return CycleRequest(study=study)

@@ -11,7 +11,7 @@ from tests.internals.files import convert
 from tests.internals.studies import ProblemEntries, problem
 
 
-def asked(**entries: Any) -> Problem:  # noqa: ANN401
+def asked(**entries: Any) -> Problem:
     return problem("row 1", convert(entries, ProblemEntries, Path("some.toml")).given())
 
 

@@ -44,7 +44,7 @@ class StopAfter(Silent):
             raise KeyboardInterrupt
 
 
-def tasks(asked: dict[str, Any], **changes: Any) -> list[Task]:  # noqa: ANN401
+def tasks(asked: dict[str, Any], **changes: Any) -> list[Task]:
     study = read_study(asked)
     points = StudyPoints.of(study)
     return [msgspec.convert(task(study, points, i) | changes, Task) for i in range(points.chunks)]

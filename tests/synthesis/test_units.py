@@ -48,7 +48,7 @@ def machine(unit: float) -> Machine:
     return Machine.from_modes([(9.0, 0.02), (31.0, 0.05)], duration=1.0, stroke=unit, outputs=["deflection"])
 
 
-def asked(minimise: str | Term | Expression, **entries: Any) -> Problem:  # noqa: ANN401
+def asked(minimise: str | Term | Expression, **entries: Any) -> Problem:
     return Problem(**{"order": 3, "basis": Chebyshev(6), "symmetric": False, "minimise": minimise, **entries})
 
 

@@ -83,7 +83,7 @@ class PartSegment(Segment, kind="part"):
         if not isinstance(given, MotionLaw):
             object.__setattr__(self, "law", MotionLaw.from_dict(given))
 
-    def derivative(self, u: Array, length: float, nu: int) -> Array:  # noqa: D102
+    def derivative(self, u: Array, length: float, nu: int) -> Array:
         span = self.end - self.start
         k = np.clip(self.start + span * u, self.start, self.end)
         values = self.law(k, nu)
@@ -95,16 +95,16 @@ class PartSegment(Segment, kind="part"):
             return np.asarray(self.scale * (values - self.law.a(self.start)))
         return np.asarray(self.scale * (span / length) ** nu * values)
 
-    def candidates(self, length: float, nu: int) -> Array:  # noqa: ARG002, D102
+    def candidates(self, length: float, nu: int) -> Array:  # noqa: ARG002
         return self._places(np.array([extreme.k for extreme in self.law.extrema(nu, (self.start, self.end))]))
 
-    def power_candidates(self, length: float) -> Array:  # noqa: ARG002, D102
+    def power_candidates(self, length: float) -> Array:  # noqa: ARG002
         return self._places(np.array([extreme.k for extreme in self.law.power_extrema((self.start, self.end))]))
 
-    def scaled(self, length: float, scale: float, drift: float = 0.0) -> Segment:  # noqa: D102
+    def scaled(self, length: float, scale: float, drift: float = 0.0) -> Segment:
         return super().scaled(length, scale, drift) if drift else replace(self, scale=scale * self.scale)
 
-    def square(self, length: float, nu: int) -> float:  # noqa: D102
+    def square(self, length: float, nu: int) -> float:
         from scipy.integrate import quad
 
         # with the full output it says what is wrong there and warns nobody: filters of warnings are the process's

@@ -223,15 +223,15 @@ class OffsetCurve(CurveAlongNormals):
 
     distance: float
 
-    def jets(self, angle: Array | Interval, order: int, *, before: bool = False) -> Pair:  # noqa: D102
+    def jets(self, angle: Array | Interval, order: int, *, before: bool = False) -> Pair:
         x, y = self.base.jets(angle, order, before=before)
         if self.distance == 0.0:
             return x, y
         along_x, along_y = self.normal_jets(angle, order, before=before)
         return x + along_x * self.distance, y + along_y * self.distance
 
-    def normal_jets(self, angle: Array | Interval, order: int, *, before: bool = False) -> Pair:  # noqa: D102
+    def normal_jets(self, angle: Array | Interval, order: int, *, before: bool = False) -> Pair:
         return self.base.normal_jets(angle, order, before=before)
 
-    def offset(self, distance: float) -> OffsetCurve:  # noqa: D102
+    def offset(self, distance: float) -> OffsetCurve:
         return OffsetCurve(self.base, self.distance + finite(distance, "distance"))

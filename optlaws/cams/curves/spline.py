@@ -43,7 +43,7 @@ class Spline(CurveByJets):
         """How far the polynomials that are enclosed may be from the spline for rounding, m."""
         return self._pieces.blur
 
-    def jets(self, places: Array | Interval, order: int) -> Pair:  # noqa: D102
+    def jets(self, places: Array | Interval, order: int) -> Pair:
         x, y = self._pieces.jets(places, order)
         return x, y
 

@@ -52,7 +52,7 @@ class InclinedFlat(CamFollower, kind="inclined flat"):
             )
         return angle
 
-    def contact(self, place: Place) -> FaceContact:  # noqa: D102
+    def contact(self, place: Place) -> FaceContact:
         return InclinedFace(place.turning, place.lowest, place.radius / cos(self.angle), self.angle)
 
     def base_radius(self, level: float) -> float:
@@ -66,18 +66,18 @@ class InclinedFace(FaceContact):
 
     angle: float
 
-    def point(self, s: Jet) -> Pair:  # noqa: D102
+    def point(self, s: Jet) -> Pair:
         far, reach = self._far(s), self.reach(s)
         return reach * cos(self.angle) - far * sin(self.angle), reach * sin(self.angle) + far * cos(self.angle)
 
-    def normal(self, s: Jet) -> Pair:  # noqa: D102
+    def normal(self, s: Jet) -> Pair:
         return s * 0.0 - sin(self.angle), s * 0.0 + cos(self.angle)
 
     def pressure(self, s: Jet) -> Jet:
         """The tangent of the inclination, the same everywhere."""
         return s.slope() * 0.0 + self.turning * tan(self.angle)
 
-    def radius(self, s: Jet) -> Jet:  # noqa: D102
+    def radius(self, s: Jet) -> Jet:
         return s.slope().slope() * cos(self.angle) + self._far(s)
 
     def reach(self, s: Jet) -> Jet:
@@ -88,12 +88,12 @@ class InclinedFace(FaceContact):
         """How far the face is from the cam's centre."""
         return (s + (self.level - self.lowest)) * cos(self.angle)
 
-    def state(self, point: Pair, normal: Pair) -> ContactState:  # noqa: D102
+    def state(self, point: Pair, normal: Pair) -> ContactState:
         far = point[0] * normal[0] + point[1] * normal[1]
         height = far / cos(self.angle)
         return ContactState(height + (self.lowest - self.level), far * 0.0 + (0.5 * pi + self.angle), bearing(*normal))
 
-    def transmission(self, s: Jet) -> Transmission:  # noqa: D102
+    def transmission(self, s: Jet) -> Transmission:
         aside, _ = self.point(s)
         sine, cosine, none = sin(self.angle), cos(self.angle), aside * 0.0
         sliding = self._far(s) + s.slope() * (self.turning * sine)
@@ -102,7 +102,7 @@ class InclinedFace(FaceContact):
         drag = Drag(past * sine, past * cosine, aside * past * sine)
         return Transmission(none + cosine, sliding.magnitude(), none - sine, aside * cosine, drag)
 
-    def radius_limits(self, piece: Piece, limit: float, angle: float) -> list[LinearLimit]:  # noqa: D102
+    def radius_limits(self, piece: Piece, limit: float, angle: float) -> list[LinearLimit]:
         stroke, size = piece.stroke, abs(piece.stroke)
         high = (self.level - self.lowest + piece.offset - limit / cos(self.angle)) / size
         return [LinearLimit((-stroke / size, 0.0, -stroke / (size * angle**2)), high)]

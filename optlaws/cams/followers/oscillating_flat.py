@@ -38,7 +38,7 @@ class OscillatingFlat(CamFollower, kind="oscillating flat"):
     examples: ClassVar[dict[str, str]] = {"pivot_distance": "120 mm", "face_offset": "0 mm"}
     lengths: ClassVar[tuple[str, ...]] = ("pivot_distance",)
 
-    def contact(self, place: Place) -> FaceContact:  # noqa: D102
+    def contact(self, place: Place) -> FaceContact:
         distance = positive(self.pivot_distance, "face: pivot_distance")
         offset = quantity(self.face_offset, "length", "face: face_offset")
         if abs(place.radius - offset) >= distance:
@@ -87,12 +87,12 @@ class SwingingFace(FaceContact):
         """The distance of the pivot."""
         return self.distance
 
-    def point(self, s: Jet) -> Pair:  # noqa: D102
+    def point(self, s: Jet) -> Pair:
         sine, cosine = self._waves(s)
         reach = self.reach(s)
         return sine * self.offset - reach * cosine + self.distance, reach * sine + cosine * self.offset
 
-    def normal(self, s: Jet) -> Pair:  # noqa: D102
+    def normal(self, s: Jet) -> Pair:
         return self._waves(s)
 
     def pressure(self, s: Jet) -> Jet:
@@ -100,7 +100,7 @@ class SwingingFace(FaceContact):
         reach = self.reach(s)
         return (reach * 0.0 + self.offset) / reach * self.turning
 
-    def radius(self, s: Jet) -> Jet:  # noqa: D102
+    def radius(self, s: Jet) -> Jet:
         sine, _ = self._waves(s)
         rate = self._rate(s)
         return (sine * self.distance - self.reach(s).slope() * self.turning) / rate + self.offset
@@ -110,12 +110,12 @@ class SwingingFace(FaceContact):
         _, cosine = self._waves(s)
         return cosine * self.distance / self._rate(s)
 
-    def state(self, point: Pair, normal: Pair) -> ContactState:  # noqa: D102
+    def state(self, point: Pair, normal: Pair) -> ContactState:
         sine = (point[0] * normal[0] + point[1] * normal[1] - self.offset) / self.distance
         phi = (sine / other_leg(sine)).arctangent()
         return ContactState(phi + (self.lowest - self.level), phi * -1.0 + 0.5 * pi, bearing(*normal))
 
-    def transmission(self, s: Jet) -> Transmission:  # noqa: D102
+    def transmission(self, s: Jet) -> Transmission:
         lever = self.reach(s).magnitude()
         (x, y), (nx, ny) = self.point(s), self.normal(s)
         sliding = (x * nx + y * ny) * self.turning + s.slope() * self.offset

@@ -47,7 +47,7 @@ class OscillatingRoller(CamFollower, kind="oscillating roller"):
     examples: ClassVar[dict[str, str]] = {"radius": "14 mm", "arm": "110 mm", "pivot_distance": "140 mm"}
     lengths: ClassVar[tuple[str, ...]] = ("radius", "arm", "pivot_distance")
 
-    def contact(self, place: Place) -> RollerContact:  # noqa: D102
+    def contact(self, place: Place) -> RollerContact:
         radius, arm = roller_radius(self.radius, place), positive(self.arm, "roller: arm")
         distance = positive(self.pivot_distance, "roller: pivot_distance")
         if arm <= abs(distance - place.radius):
@@ -103,19 +103,19 @@ class SwingingRoller(RollerContact):
         """False, as the limit of the pressure angle is a sine of the arm's angle, with lines below and above it."""
         return False
 
-    def point(self, s: Jet) -> Pair:  # noqa: D102
+    def point(self, s: Jet) -> Pair:
         sine, cosine = self._psi(s).waves()
         return cosine * -self.arm + self.distance, sine * self.arm
 
-    def components(self, s: Jet) -> Pair:  # noqa: D102
+    def components(self, s: Jet) -> Pair:
         sine, cosine = self._psi(s).waves()
         along = s.slope() * self.arm + (cosine * -self.distance + self.arm) * self.turning
         return along, sine * self.distance
 
-    def rate(self, s: Jet) -> Jet:  # noqa: D102
+    def rate(self, s: Jet) -> Jet:
         return s.slope() * self.turning + 1.0
 
-    def curvature_terms(self, displacement: str, slope: str) -> CurvatureTerms:  # noqa: D102
+    def curvature_terms(self, displacement: str, slope: str) -> CurvatureTerms:
         arm, distance, turning = self.arm, self.distance, self.turning
         psi = f"({self.level!r} + {displacement})"
         along = f"({arm!r}*({slope} + ({turning!r})) - ({turning * distance!r})*cos({psi}))"
@@ -124,18 +124,18 @@ class SwingingRoller(RollerContact):
         swung = f"({distance!r}*{along}*cos({psi}) - ({turning * distance!r})*sin({psi})*{across})*{slope}"
         return CurvatureTerms(along, across, f"{turned} + {swung}", f"({arm!r}*{across})")
 
-    def state(self, point: Pair, normal: Pair) -> ContactState:  # noqa: D102
+    def state(self, point: Pair, normal: Pair) -> ContactState:
         square = self.square_of_centre(point, normal)
         cosine = (square - (self.distance**2 + self.arm**2)) / (-2.0 * self.distance * self.arm)
         psi = (cosine / other_leg(cosine)).arctangent() * -1.0 + 0.5 * pi
         return self.state_at(psi + (self.lowest - self.level), point, normal)
 
-    def transmission(self, s: Jet) -> Transmission:  # noqa: D102
+    def transmission(self, s: Jet) -> Transmission:
         tangent = self.pressure(s)
         lever = self.arm / (tangent * tangent + 1.0).root()
         return Transmission(lever, self.rolling(s), lever * 0.0, lever * 0.0)
 
-    def pressure_limits(self, piece: Piece, limit: float, angle: float, *, below: bool) -> list[LinearLimit]:  # noqa: D102
+    def pressure_limits(self, piece: Piece, limit: float, angle: float, *, below: bool) -> list[LinearLimit]:
         return [line for sign in (1.0, -1.0) for line in self._lines(piece, limit, angle, sign=sign, below=below)]
 
     def _lines(self, piece: Piece, limit: float, angle: float, *, sign: float, below: bool) -> Iterator[LinearLimit]:

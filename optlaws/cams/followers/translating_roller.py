@@ -41,7 +41,7 @@ class TranslatingRoller(CamFollower, kind="translating roller"):
     lengths: ClassVar[tuple[str, ...]] = ("radius", "offset")
     sizing_limit: ClassVar[str | None] = PRESSURE
 
-    def contact(self, place: Place) -> RollerContact:  # noqa: D102
+    def contact(self, place: Place) -> RollerContact:
         radius, offset = roller_radius(self.radius, place), quantity(self.offset, "length", "roller: offset")
         if abs(offset) >= place.radius:
             raise InputError(
@@ -77,31 +77,31 @@ class SlidingRoller(RollerContact):
         """The radius of the roller in metres."""
         return self.radius
 
-    def point(self, s: Jet) -> Pair:  # noqa: D102
+    def point(self, s: Jet) -> Pair:
         y = s + (self.level - self.lowest)
         return y * 0.0 + self.offset, y
 
-    def components(self, s: Jet) -> Pair:  # noqa: D102
+    def components(self, s: Jet) -> Pair:
         return s.slope() - self.turning * self.offset, s + (self.level - self.lowest)
 
-    def rate(self, s: Jet) -> float:  # noqa: ARG002, D102
+    def rate(self, s: Jet) -> float:  # noqa: ARG002
         return 1.0
 
-    def curvature_terms(self, displacement: str, slope: str) -> CurvatureTerms:  # noqa: D102
+    def curvature_terms(self, displacement: str, slope: str) -> CurvatureTerms:
         along = f"({slope} - ({self.turning * self.offset!r}))"
         across = f"({self.level!r} + {displacement})"
         return CurvatureTerms(along, across, f"{along}^2 + {across}^2 + {along}*{slope}", across)
 
-    def state(self, point: Pair, normal: Pair) -> ContactState:  # noqa: D102
+    def state(self, point: Pair, normal: Pair) -> ContactState:
         height = (self.square_of_centre(point, normal) - self.offset**2).root()
         return self.state_at(height + (self.lowest - self.level), point, normal)
 
-    def transmission(self, s: Jet) -> Transmission:  # noqa: D102
+    def transmission(self, s: Jet) -> Transmission:
         tangent = self.pressure(s)
         cosine = 1.0 / (tangent * tangent + 1.0).root()
         return Transmission(cosine, self.rolling(s), tangent * cosine * self.turning, cosine * 0.0)
 
-    def pressure_limits(  # noqa: D102
+    def pressure_limits(
         self,
         piece: Piece,
         limit: float,

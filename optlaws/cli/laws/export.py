@@ -175,8 +175,8 @@ def _answer(export: Export, output: Path | None, *, as_json: bool) -> None:
     if as_json:
         print_json(export.results() | ({"text": export.text} if output is None else {"file": str(output)}))
     elif output is None:
-        print(export.text, end="")  # noqa: T201 - the answer itself
-        print(export, file=sys.stderr)  # noqa: T201
+        print(export.text, end="")
+        print(export, file=sys.stderr)
     else:
         show(str(export))
 

@@ -38,7 +38,7 @@ def run(*files: Path, out: Path | None = None) -> None:
             lines = text.read_text(encoding="utf-8").splitlines()
             show(*(line for line in lines if not line.startswith("<!--")))
         for result in written:
-            print(_near(result))  # noqa: T201
+            print(_near(result))
 
 
 def _near(file: Path) -> Path:

@@ -41,7 +41,7 @@ def verify(*files: Path, as_json: AsJson = False) -> None:
         for name, verification in verifications.items():
             word = "NOT PROVEN" if not verification.proven else "proven" if verification.claims else "recomputed"
             alone = len(verifications) == len(files)
-            print(f"{name}: {word}\n{verification}\n" if alone else _line(name, word, verification))  # noqa: T201
+            print(f"{name}: {word}\n{verification}\n" if alone else _line(name, word, verification))
     failed = [
         f"{name}: {claim}"
         for name, verification in verifications.items()

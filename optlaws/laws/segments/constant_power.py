@@ -40,7 +40,7 @@ class PowerSegment(Segment, kind="power"):
         if self.b0 * self.b1 < 0.0 or self.b0 == self.b1 == 0.0:
             raise InputError(f"velocities of a power segment must not differ in sign or both be zero, got {self}")
 
-    def derivative(self, u: Array, length: float, nu: int) -> Array:  # noqa: D102
+    def derivative(self, u: Array, length: float, nu: int) -> Array:
         sign = 1.0 if self.b0 + self.b1 > 0.0 else -1.0
         square = self.b0**2 * (1.0 - u) + self.b1**2 * u
         b = np.sqrt(square)
@@ -60,13 +60,13 @@ class PowerSegment(Segment, kind="power"):
         """Kinetic power d = b c at u, the same everywhere and finite where c is not."""
         return np.full(np.shape(u), self._power(length))
 
-    def candidates(self, length: float, nu: int) -> Array:  # noqa: ARG002, D102
+    def candidates(self, length: float, nu: int) -> Array:  # noqa: ARG002
         return np.empty(0)
 
-    def power_candidates(self, length: float) -> Array:  # noqa: ARG002, D102
+    def power_candidates(self, length: float) -> Array:  # noqa: ARG002
         return np.empty(0)
 
-    def square(self, length: float, nu: int) -> float:  # noqa: D102
+    def square(self, length: float, nu: int) -> float:
         # with v = b², v' = q constant: the derivative of order nu is q^m v^(1/2-m) times a number, m = nu - 1
         m, q = nu - 1, 2.0 * self._power(length)
         start, end = self.b0 * self.b0, self.b1 * self.b1
@@ -79,17 +79,17 @@ class PowerSegment(Segment, kind="power"):
             return factor * log(end / start)
         return factor * (end ** (2 - 2 * m) - start ** (2 - 2 * m)) / (2 - 2 * m)
 
-    def scaled(self, length: float, scale: float, drift: float = 0.0) -> Segment:  # noqa: D102
+    def scaled(self, length: float, scale: float, drift: float = 0.0) -> Segment:
         if drift == 0.0 and scale != 0.0:
             return PowerSegment(scale * self.b0, scale * self.b1)
         if self.b0 == self.b1:
             return PolynomialSegment((), scale * self.b0 + drift)
         return self.fractional(length).scaled(length, scale, drift)
 
-    def backwards(self, length: float) -> Segment:  # noqa: ARG002, D102
+    def backwards(self, length: float) -> Segment:  # noqa: ARG002
         return PowerSegment(self.b1, self.b0)
 
-    def times(self, length: float, y: Array) -> Segment:  # noqa: D102
+    def times(self, length: float, y: Array) -> Segment:
         if self.b0 == self.b1:
             return PolynomialSegment((), self.b0)
         return self.fractional(length).times(length, y)

@@ -55,7 +55,7 @@ class FractionalSegment(Segment, kind="fractional"):
         if 0.0 < low < SMALLEST_RATIO * high:
             raise InputError(f"first and last of a fractional segment must be 0 or of sizes that compare, got {self}")
 
-    def derivative(self, u: Array, length: float, nu: int) -> Array:  # noqa: D102
+    def derivative(self, u: Array, length: float, nu: int) -> Array:
         v = self._v(u)
         if nu > 0:
             return real_powers.value(self.powers(length, nu), v)
@@ -68,13 +68,13 @@ class FractionalSegment(Segment, kind="fractional"):
         """Kinetic power d = b c at u, finite where c is infinite and b zero."""
         return real_powers.value(self.power_powers(length), self._v(u))
 
-    def candidates(self, length: float, nu: int) -> Array:  # noqa: D102
+    def candidates(self, length: float, nu: int) -> Array:
         return self._u(self.powers(length, nu + 1))
 
-    def power_candidates(self, length: float) -> Array:  # noqa: D102
+    def power_candidates(self, length: float) -> Array:
         return self._u(real_powers.derivative(self.power_powers(length)))
 
-    def square(self, length: float, nu: int) -> float:  # noqa: D102
+    def square(self, length: float, nu: int) -> float:
         powers = self.powers(length, nu)
         lowest = min(powers, default=0.0)
         if 2.0 * lowest <= -1.0 and min(self.first, self.last) == 0.0:
@@ -82,11 +82,11 @@ class FractionalSegment(Segment, kind="fractional"):
         low, high = sorted((self.first, self.last))
         return real_powers.integral(real_powers.product(powers, powers), low, high) * length / (high - low)
 
-    def scaled(self, length: float, scale: float, drift: float = 0.0) -> Segment:  # noqa: ARG002, D102
+    def scaled(self, length: float, scale: float, drift: float = 0.0) -> Segment:  # noqa: ARG002
         coefficients = tuple(scale * coefficient for coefficient in self.coefficients)
         return replace(self, coefficients=coefficients, steady=scale * self.steady + drift)
 
-    def backwards(self, length: float) -> Segment:  # noqa: ARG002, D102
+    def backwards(self, length: float) -> Segment:  # noqa: ARG002
         return replace(
             self,
             first=self.last,
@@ -94,7 +94,7 @@ class FractionalSegment(Segment, kind="fractional"):
             coefficients=tuple(-coefficient for coefficient in self.coefficients),
         )
 
-    def times(self, length: float, y: Array) -> Segment:  # noqa: ARG002, D102
+    def times(self, length: float, y: Array) -> Segment:  # noqa: ARG002
         # x = 2u - 1 is straight in v: x = (2v - first - last) / (last - first)
         span = self.last - self.first
         place = np.polynomial.Polynomial([-(self.first + self.last) / span, 2.0 / span])
@@ -102,7 +102,7 @@ class FractionalSegment(Segment, kind="fractional"):
         changed = np.polynomial.Polynomial(self.coefficients) * factor
         return replace(self, coefficients=tuple(changed.coef.tolist()))
 
-    def plus_derivatives(self, length: float, once: float, twice: float) -> Segment:  # noqa: D102
+    def plus_derivatives(self, length: float, once: float, twice: float) -> Segment:
         c, j, s = (self.powers(length, nu) for nu in (2, 3, 4))
         terms = ((e, factor * q) for powers, factor in ((c, 1.0), (j, once), (s, twice)) for e, q in powers.items())
         total = real_powers.gathered(terms)
@@ -116,7 +116,7 @@ class FractionalSegment(Segment, kind="fractional"):
         steady = self.steady + once * c.get(0.0, 0.0) + twice * j.get(0.0, 0.0)
         return replace(self, exponent=lowest, coefficients=tuple(coefficients), steady=steady)
 
-    def at_rest(self, length: float, share: float) -> Segment:  # noqa: D102
+    def at_rest(self, length: float, share: float) -> Segment:
         if self.exponent < 0.0:
             swing = float(np.abs(self.derivative(np.array([0.0, 1.0]), length, 1)).max())
             if abs(self.steady) <= share * swing:

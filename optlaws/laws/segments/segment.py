@@ -207,32 +207,32 @@ class PolynomialSegment(Segment, kind="polynomial"):
     def __post_init__(self) -> None:
         self._check()
 
-    def derivative(self, u: Array, length: float, nu: int) -> Array:  # noqa: D102
+    def derivative(self, u: Array, length: float, nu: int) -> Array:
         return np.asarray(length ** (2.0 - nu) * self._law(length)(u, nu), dtype=np.float64)
 
-    def candidates(self, length: float, nu: int) -> Array:  # noqa: D102
+    def candidates(self, length: float, nu: int) -> Array:
         return self._law(length)._candidates(nu)  # noqa: SLF001
 
-    def power_candidates(self, length: float) -> Array:  # noqa: D102
+    def power_candidates(self, length: float) -> Array:
         return self._law(length)._power_candidates()  # noqa: SLF001
 
-    def square(self, length: float, nu: int) -> float:  # noqa: D102
+    def square(self, length: float, nu: int) -> float:
         return length ** (5 - 2 * nu) * self._law(length).rms(nu) ** 2
 
-    def scaled(self, length: float, scale: float, drift: float = 0.0) -> Segment:  # noqa: ARG002, D102
+    def scaled(self, length: float, scale: float, drift: float = 0.0) -> Segment:  # noqa: ARG002
         return PolynomialSegment(
             tuple(scale * coefficient for coefficient in self.acceleration), scale * self.b0 + drift
         )
 
-    def backwards(self, length: float) -> Segment:  # noqa: D102
+    def backwards(self, length: float) -> Segment:
         turned = (coefficient if n % 2 else -coefficient for n, coefficient in enumerate(self.acceleration))
         return PolynomialSegment(tuple(turned), self.velocity(length, last=True))
 
-    def times(self, length: float, y: Array) -> Segment:  # noqa: ARG002, D102
+    def times(self, length: float, y: Array) -> Segment:  # noqa: ARG002
         product = chebyshev.product(np.array(self.acceleration or (0.0,)), y)
         return PolynomialSegment(tuple(product.tolist()), self.b0)
 
-    def plus_derivatives(self, length: float, once: float, twice: float) -> Segment:  # noqa: D102
+    def plus_derivatives(self, length: float, once: float, twice: float) -> Segment:
         c = np.array(self.acceleration or (0.0,))
         j = chebyshev.derivative(c) / length
         s = chebyshev.derivative(j) / length
@@ -241,7 +241,7 @@ class PolynomialSegment(Segment, kind="polynomial"):
         total[: len(s)] += twice * s
         return PolynomialSegment(tuple(total.tolist()), self._velocity_plus(length, once, twice))
 
-    def waves(self, length: float) -> Waves:  # noqa: ARG002, D102
+    def waves(self, length: float) -> Waves:  # noqa: ARG002
         return Waves(self.acceleration or (0.0,), self.b0)
 
     def _law(self, length: float) -> PolynomialLaw:

@@ -26,12 +26,12 @@ class SwingingSegment(Segment):
     def _fastest(self) -> float:
         """The highest frequency, radians per unit of k."""
 
-    def candidates(self, length: float, nu: int) -> Array:  # noqa: D102
+    def candidates(self, length: float, nu: int) -> Array:
         return of_waves(self._fastest, length).roots(
             lambda u: self.derivative(u, length, nu + 1), lambda u: length * self.derivative(u, length, nu + 2)
         )
 
-    def power_candidates(self, length: float) -> Array:  # noqa: D102
+    def power_candidates(self, length: float) -> Array:
         def slope(u: Array) -> Array:
             b, c, j = (self.derivative(u, length, nu) for nu in (1, 2, 3))
             return c * c + b * j
@@ -42,7 +42,7 @@ class SwingingSegment(Segment):
 
         return of_waves(self._fastest, length).roots(slope, curvature)
 
-    def square(self, length: float, nu: int) -> float:  # noqa: D102
+    def square(self, length: float, nu: int) -> float:
         return length * of_waves(self._fastest, length).square(lambda u: self.derivative(u, length, nu))
 
 
@@ -77,7 +77,7 @@ class SineSegment(SwingingSegment, kind="sine"):
         if self.frequency < SLOWEST_FREQUENCY or len(self.powers) > 3:
             raise InputError(f"a sine segment needs frequency > 0 and at most three powers, got {self}")
 
-    def derivative(self, u: Array, length: float, nu: int) -> Array:  # noqa: D102
+    def derivative(self, u: Array, length: float, nu: int) -> Array:
         s, w = u * length, self.frequency
         steady = polyval(s, self._steady[min(nu, len(self._steady) - 1)])
         if nu >= 2:
@@ -92,17 +92,17 @@ class SineSegment(SwingingSegment, kind="sine"):
         start = self.b0 if nu else self.b0 * s
         return np.asarray(start + steady + self.amplitude / w * swing, dtype=np.float64)
 
-    def scaled(self, length: float, scale: float, drift: float = 0.0) -> Segment:  # noqa: ARG002, D102
+    def scaled(self, length: float, scale: float, drift: float = 0.0) -> Segment:  # noqa: ARG002
         powers = tuple(scale * power for power in self.powers)
         return replace(self, amplitude=scale * self.amplitude, b0=scale * self.b0 + drift, powers=powers)
 
-    def backwards(self, length: float) -> Segment:  # noqa: D102
+    def backwards(self, length: float) -> Segment:
         p0, p1, p2 = self._three_powers
         powers = (-(p0 + p1 * length + p2 * length * length), p1 + 2.0 * p2 * length, -p2)
         phase = _turned(self.frequency, self.phase, length)
         return replace(self, phase=phase, b0=self.velocity(length, last=True), powers=powers if self.powers else ())
 
-    def plus_derivatives(self, length: float, once: float, twice: float) -> Segment:  # noqa: D102
+    def plus_derivatives(self, length: float, once: float, twice: float) -> Segment:
         p0, p1, p2 = self._three_powers
         powers = (p0 + once * p1 + 2.0 * twice * p2, p1 + 2.0 * once * p2, p2)
         amplitude, phase = _transferred(self.amplitude, self.frequency, self.phase, (once, twice))
@@ -114,7 +114,7 @@ class SineSegment(SwingingSegment, kind="sine"):
             powers=powers if self.powers else (),
         )
 
-    def waves(self, length: float) -> Waves:  # noqa: D102
+    def waves(self, length: float) -> Waves:
         wave = Wave(self.amplitude, self.frequency, self.phase)
         if not self.powers:
             return Waves((0.0,), self.b0, (wave,))
@@ -173,23 +173,23 @@ class HarmonicSegment(SwingingSegment, kind="harmonics"):
         waves = zip(self.amplitudes, self.frequencies, self.phases, strict=True)
         return tuple(SineSegment(*wave, b0=0.0 if i else self.b0) for i, wave in enumerate(waves))
 
-    def derivative(self, u: Array, length: float, nu: int) -> Array:  # noqa: D102
+    def derivative(self, u: Array, length: float, nu: int) -> Array:
         return np.asarray(sum(sine.derivative(u, length, nu) for sine in self.sines), dtype=np.float64)
 
     @property
     def _fastest(self) -> float:
         return max(self.frequencies)
 
-    def scaled(self, length: float, scale: float, drift: float = 0.0) -> Segment:  # noqa: ARG002, D102
+    def scaled(self, length: float, scale: float, drift: float = 0.0) -> Segment:  # noqa: ARG002
         amplitudes = tuple(scale * amplitude for amplitude in self.amplitudes)
         return replace(self, amplitudes=amplitudes, b0=scale * self.b0 + drift)
 
-    def backwards(self, length: float) -> Segment:  # noqa: D102
+    def backwards(self, length: float) -> Segment:
         pairs = zip(self.frequencies, self.phases, strict=True)
         phases = tuple(_turned(frequency, phase, length) for frequency, phase in pairs)
         return replace(self, phases=phases, b0=self.velocity(length, last=True))
 
-    def plus_derivatives(self, length: float, once: float, twice: float) -> Segment:  # noqa: D102
+    def plus_derivatives(self, length: float, once: float, twice: float) -> Segment:
         transferred = [_transferred(*wave, (once, twice)) for wave in self._waves]
         return replace(
             self,
@@ -198,7 +198,7 @@ class HarmonicSegment(SwingingSegment, kind="harmonics"):
             b0=self._velocity_plus(length, once, twice),
         )
 
-    def waves(self, length: float) -> Waves:  # noqa: ARG002, D102
+    def waves(self, length: float) -> Waves:  # noqa: ARG002
         return Waves((0.0,), self.b0, self._waves)
 
     @property

@@ -140,7 +140,7 @@ class Assembly(MachineModel):
         return inertia, self._sum("damping"), self._sum("stiffness")
 
     @kept_property
-    def accelerations(self) -> Array:  # noqa: D102
+    def accelerations(self) -> Array:
         size = len(self.free)
         inertia, damping, stiffness = self._parts
         right = np.zeros((size, 2 * size + 3))
@@ -149,7 +149,7 @@ class Assembly(MachineModel):
         return -np.asarray(np.linalg.solve(inertia[:-1, :-1], right))
 
     @kept_property
-    def outputs(self) -> dict[str, Array]:  # noqa: D102
+    def outputs(self) -> dict[str, Array]:
         outputs = {DRIVE_FORCE: self._drive_force()}
         for name in self.masses:
             outputs |= {f"{what} {name}": self._moved(self._positions[name], nu) for nu, what in enumerate(_MOTIONS)}

@@ -103,13 +103,13 @@ class ModalModel(MachineModel):
     modes: tuple[tuple[float, float, float], ...]
 
     @property
-    def accelerations(self) -> Array:  # noqa: D102
+    def accelerations(self) -> Array:
         frequencies, dampings, shares = np.array(self.modes).T
         parts = np.diag(-(frequencies**2)), np.diag(-2.0 * dampings * frequencies), np.zeros((len(shares), 2))
         return np.column_stack([*parts, -shares])
 
     @property
-    def outputs(self) -> dict[str, Array]:  # noqa: D102
+    def outputs(self) -> dict[str, Array]:
         size = len(self.modes)
         frequencies, dampings, shares = np.array(self.modes).T
         unit = np.eye(2 * size + 3)

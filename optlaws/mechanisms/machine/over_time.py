@@ -51,7 +51,7 @@ class OutputCurve(Curve):
     impulses: Sides
 
     @property
-    def interval(self) -> tuple[float, float]:  # noqa: D102
+    def interval(self) -> tuple[float, float]:
         return float(self.starts[0]), float(self.starts[-1] + self.lengths[-1])
 
     @property

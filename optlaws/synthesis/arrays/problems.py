@@ -223,7 +223,7 @@ class ProblemArray:
         return f"ProblemArray({', '.join(parts)})"
 
 
-def map_arrays(function: Callable[..., Any], *arrays: Any) -> NDArray[Any]:  # noqa: ANN401 - what numpy takes for arrays
+def map_arrays(function: Callable[..., Any], *arrays: Any) -> NDArray[Any]:
     """The values of a function at each place of some arrays, broadcast against each other: an array of any objects.
 
     Examples

@@ -91,7 +91,7 @@ class Basis(JsonText, ABC):
     name: ClassVar[str]
     kinds: ClassVar[Registry[type[Basis]]] = Registry("basis")
 
-    def __init_subclass__(cls, **kwargs: Any) -> None:  # noqa: ANN401 - whatever a subclass declares
+    def __init_subclass__(cls, **kwargs: Any) -> None:
         super().__init_subclass__(**kwargs)
         if "name" in cls.__dict__:
             Basis.kinds[cls.name] = cls
@@ -325,7 +325,7 @@ class Pieces(Basis):
         return {"basis": self.name, "breaks": list(self.breaks), "degree": self.degree, "continuity": self.continuity}
 
 
-def basis(name: str, degree: int, **parameters: Any) -> Basis:  # noqa: ANN401 - the basis checks them
+def basis(name: str, degree: int, **parameters: Any) -> Basis:
     """The basis called `name` with the given degree and, for B-splines and pieces, breaks and continuity.
 
     Raises

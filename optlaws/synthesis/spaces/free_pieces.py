@@ -102,7 +102,7 @@ class PieceSpace(PiecewiseSpace):
             series[i, :, :-1] = from_values(values)
         return series
 
-    def pieces(self, nu: int) -> PieceSeries:  # noqa: D102
+    def pieces(self, nu: int) -> PieceSeries:
         if nu not in self._pieces:
             if nu > 2:
                 lower = self.pieces(nu - 1).derivative()
@@ -157,7 +157,7 @@ class PieceSpace(PiecewiseSpace):
             rows.append(Equation(f"{symbol}({k:g}) = {value:g}", row[:-1], value - float(row[-1])))
         return rows
 
-    def law(self, coordinates: Array) -> PiecewiseLaw:  # noqa: D102
+    def law(self, coordinates: Array) -> PiecewiseLaw:
         point = np.append(coordinates, 1.0)
         c, b = self.pieces(2).series @ point, self.pieces(1).series @ point
         c[:, 1::2] *= -1.0

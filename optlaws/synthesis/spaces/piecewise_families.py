@@ -111,12 +111,12 @@ class PieceFamily(LinearFamily):
         first = self.pieces.derivative()
         return self.pieces, first, first.derivative()
 
-    def columns(self, u: Array) -> Array:  # noqa: D102
+    def columns(self, u: Array) -> Array:
         piece, local, _ = self.pieces.place(u)
         basis = chebyshev.chebvander(local, self.pieces.series.shape[1] - 1)
         return np.stack([series.sums(basis[:, : series.series.shape[1]], piece) for series in self._derivatives])
 
-    def value(self, x: Array, u: Array) -> Array:  # noqa: D102
+    def value(self, x: Array, u: Array) -> Array:
         value: Array = self.pieces.values(u) @ np.append(x, 1.0)
         return value
 

@@ -185,7 +185,7 @@ class PiecewiseSpace(LawSpace):
         """Whether the derivative of order nu may jump at a break."""
         return nu > self.continuity
 
-    def row(self, nu: int, k: float) -> Array:  # noqa: D102
+    def row(self, nu: int, k: float) -> Array:
         return np.asarray(self.pieces(nu).values(np.array([1.0 - 2.0 * k]))[0])
 
     def below(self, slack: Array, peak: float = 0.5) -> ConstraintFamily:

@@ -229,7 +229,7 @@ class PolynomialSpace(LawSpace):
         """The degree of the derivative of order nu."""
         return len(self.series(nu)) - 1
 
-    def row(self, nu: int, k: float) -> Array:  # noqa: D102
+    def row(self, nu: int, k: float) -> Array:
         if k in {0.0, 1.0} and nu < self.order:
             # the end conditions say it, without rounding
             return np.append(np.zeros(self.terms), float((self.boundary.end if k else self.boundary.start)[nu]))

@@ -54,7 +54,7 @@ class SplineSpace(PiecewiseSpace):
         self._z = self._z @ np.linalg.inv(root)
         self._pieces.clear()
 
-    def pieces(self, nu: int) -> PieceSeries:  # noqa: D102
+    def pieces(self, nu: int) -> PieceSeries:
         if nu not in self._pieces:
             series = self._series(self._parts, 2 * self.order + self.basis.degree - nu, partial(self._derivative, nu))
             # the local variable falls with k

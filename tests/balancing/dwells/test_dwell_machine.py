@@ -19,7 +19,7 @@ DATA: dict[str, Any] = {
 }
 
 
-def machine(kind: DwellType, **said: Any) -> DwellMachine:  # noqa: ANN401 - entries of dwell_machine
+def machine(kind: DwellType, **said: Any) -> DwellMachine:
     return dwell_machine(kind, **DATA | {"speed": "100 rpm", "clutch_time": "20 ms"} | said)
 
 

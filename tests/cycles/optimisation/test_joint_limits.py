@@ -12,7 +12,7 @@ SPRING = {"mass": "2 kg", "stiffness": "3 N/mm", "preload": "44.6 N"}
 TOP = r"at its end, at 35 mm and 120 deg of the master, every law takes the force 149\.6 N, but its limit is the force"
 
 
-def cycle(**given: Any) -> Cycle:  # noqa: ANN401 - whatever a cycle takes
+def cycle(**given: Any) -> Cycle:
     return Cycle(given.pop("segments", MOVES), **({"speed": "200 rpm"} | given))
 
 

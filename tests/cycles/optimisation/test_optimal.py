@@ -164,7 +164,7 @@ def test_five_segments_are_proven_within_a_second() -> None:
     assert time.process_time() - begun < 1.0
 
 
-def problem_of(*segments: Any, place: int = 0, **others: Any) -> Problem:  # noqa: ANN401
+def problem_of(*segments: Any, place: int = 0, **others: Any) -> Problem:
     return Cycle(list(segments), **{"period": "0.4 s", **others}).solutions[place].problem
 
 

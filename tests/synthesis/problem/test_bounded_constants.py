@@ -39,7 +39,7 @@ BOUNDED: list[dict[str, Any]] = [
 ]
 
 
-def problem(**given: Any) -> Problem:  # noqa: ANN401
+def problem(**given: Any) -> Problem:
     return Problem(**{"order": 4, "basis": Chebyshev(9), **given})
 
 

@@ -18,7 +18,7 @@ pytestmark = pytest.mark.filterwarnings("ignore::optlaws.errors.NotNormalised")
 VELOCITIES = [float(row["B"]) for row in PRINTED]
 
 
-def problem(**given: Any) -> Problem:  # noqa: ANN401
+def problem(**given: Any) -> Problem:
     chosen: dict[str, Any] = {"order": 4, "basis": Chebyshev(9), **given}
     return Problem(**chosen)
 

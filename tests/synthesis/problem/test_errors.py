@@ -46,7 +46,7 @@ from tests.internals.synthesis import Points, Program, interior_points, ipopt, m
 GOOD: dict[str, Any] = {"B": 1.859, "order": 4}
 
 
-def problem(**changes: Any) -> Problem:  # noqa: ANN401
+def problem(**changes: Any) -> Problem:
     return Problem(**{**GOOD, **changes})
 
 
@@ -297,7 +297,7 @@ def test_multipliers_that_are_wrong_give_no_false_claim(monkeypatch: pytest.Monk
     true = synthesize(asked).objective
     honest = ipopt.solve_on_points
 
-    def lying(*args: Any, **kwargs: Any) -> ipopt.Answer:  # noqa: ANN401
+    def lying(*args: Any, **kwargs: Any) -> ipopt.Answer:
         answer = honest(*args, **kwargs)
         wrong = [weights * (1.0 + shift) for weights in answer.multipliers]
         return replace(answer, x=answer.x + shift, multipliers=wrong)
@@ -314,7 +314,7 @@ def test_multipliers_that_are_wrong_give_no_false_claim(monkeypatch: pytest.Monk
 def test_a_law_without_a_meeting_bound_is_not_called_optimal(monkeypatch: pytest.MonkeyPatch) -> None:
     honest = make.certify
 
-    def poor(*args: Any) -> Certificate:  # noqa: ANN401
+    def poor(*args: Any) -> Certificate:
         found = honest(*args)
         return found.with_leaf(contacts=found.contacts[:-1])
 

@@ -34,7 +34,7 @@ CASES: list[dict[str, Any]] = [
 ]
 
 
-def problem(**given: Any) -> Problem:  # noqa: ANN401
+def problem(**given: Any) -> Problem:
     order = {} if "boundary" in given else {"order": 3}
     return Problem(**{"basis": Chebyshev(11), "symmetric": False, "inflexion": 0.4, **order, **given})
 

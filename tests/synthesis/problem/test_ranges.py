@@ -23,7 +23,7 @@ from tests.synthesis.judge import Judged, judge
 pytestmark = pytest.mark.filterwarnings("ignore::optlaws.errors.NotNormalised")
 
 
-def problem(**given: Any) -> Problem:  # noqa: ANN401
+def problem(**given: Any) -> Problem:
     chosen: dict[str, Any] = {"order": 4, "basis": Chebyshev(9), **given}
     return Problem(**chosen)
 

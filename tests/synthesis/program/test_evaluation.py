@@ -33,7 +33,7 @@ BACK = law_from_z(BoundaryConditions((0, 0), (-1, 0)))
 SHORT = law_from_z(BoundaryConditions((0, 0), (0.4, 0)))
 
 
-def cubic(**asked: Any) -> Problem:  # noqa: ANN401
+def cubic(**asked: Any) -> Problem:
     return Problem(order=2, **asked)
 
 

@@ -48,7 +48,7 @@ def p3(x: float) -> float:
     return (5.0 * x**3 - 3.0 * x) / 2.0
 
 
-def small(**asked: Any) -> Problem:  # noqa: ANN401
+def small(**asked: Any) -> Problem:
     return Problem(order=2, basis=Chebyshev(1), **asked)
 
 

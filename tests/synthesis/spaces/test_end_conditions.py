@@ -34,7 +34,7 @@ ENDS = [
 every_end = pytest.mark.parametrize("ends", ENDS, ids=lambda b: f"{b.start}-{b.end}")
 
 
-def problem(ends: BoundaryConditions, **given: Any) -> Problem:  # noqa: ANN401
+def problem(ends: BoundaryConditions, **given: Any) -> Problem:
     chosen: dict[str, Any] = {"boundary": ends, "symmetric": False, "basis": Chebyshev(7), **given}
     return Problem(**chosen)
 

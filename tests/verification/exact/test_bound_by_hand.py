@@ -30,7 +30,7 @@ C_BASE, J_BASE = 6.0 * GAUSS, 12.0
 MOVING = {"boundary": BoundaryConditions((0, 0.5), (1, -1)), "symmetric": False}
 
 
-def small(**asked: Any) -> Problem:  # noqa: ANN401
+def small(**asked: Any) -> Problem:
     order: dict[str, Any] = {} if "boundary" in asked else {"order": 2}
     return Problem(**{**order, "basis": Chebyshev(1), **asked})
 

@@ -142,7 +142,7 @@ class FormulaRows(BoxRows):
         self._laws = {nu: self.space.derivative(nu, "", np.zeros(self.variables)) for nu in self._orders}
         self._near: list[Array] = []
 
-    def root(self) -> Box:  # noqa: D102
+    def root(self) -> Box:
         low, high = self.brackets_at(self.points)
         sides = _own_sides(self.model, self.claim)
         box = Box(np.append(low, sides[:, 0]), np.append(high, sides[:, 1]))

@@ -94,14 +94,14 @@ class PowerRows(BoxRows):
             anchors = anchors.joined(np.array([peak]), np.array([limits.low]), np.array([self.greatest["B"]]))
         return anchors
 
-    def root(self) -> Box:  # noqa: D102
+    def root(self) -> Box:
         low, high = self.brackets_at(self.points)
         others = sorted(self.model.places, key=self.model.places.__getitem__)
         limits = self.problem.range("B")
         least = [limits.low if name == "B" and limits is not None else 0.0 for name in others]
         return Box(np.append(low, least), np.append(high, [self.greatest[name] for name in others]))
 
-    def brackets_at(self, k: Array) -> tuple[Array, Array]:  # noqa: D102
+    def brackets_at(self, k: Array) -> tuple[Array, Array]:
         return self._everywhere(self.anchors, k)
 
     def _everywhere(self, anchors: Anchors, k: Array) -> tuple[Array, Array]:

@@ -187,7 +187,7 @@ class EnergyRows(BoxRows):
         fall = self._columns(divided[0].factors[1], k) if divided else np.zeros_like(below)
         return Places(k, (self.derivative(1, k), self.mapped(below), self.mapped(fall), self.derivative(2, k)))
 
-    def root(self) -> Box:  # noqa: D102
+    def root(self) -> Box:
         low, high = self.brackets_at(self.points)
         others = sorted(self.model.places, key=self.model.places.__getitem__)
         bottom = [self.least.get(name, 0.0) for name in others]
@@ -208,7 +208,7 @@ class EnergyRows(BoxRows):
                 least = max(least, self.B**3 / (12.0 * peak * most**2))
         return min(least, most) * (1.0 - ENERGY_OUTWARD), most
 
-    def brackets_at(self, k: Array) -> tuple[Array, Array]:  # noqa: D102
+    def brackets_at(self, k: Array) -> tuple[Array, Array]:
         known = (np.array([0.0, 0.5]), np.array([0.0, self.B]), np.array([0.0, self.B]))
         return self._everywhere(known, k, self._rates({}, self._integral[1]))
 
