@@ -107,6 +107,8 @@ from optlaws.synthesis.functionals.makers import rms as rms
 from optlaws.synthesis.functionals.makers import value as value
 from optlaws.synthesis.limits.closed_forms import acceleration_limit as acceleration_limit
 from optlaws.synthesis.limits.closed_forms import limit as limit
+from optlaws.synthesis.limits.drive import DriveLimit as DriveLimit
+from optlaws.synthesis.limits.drive import drive_limit as drive_limit
 from optlaws.synthesis.limits.laws import limit_law as limit_law
 from optlaws.synthesis.pareto import Front as Front
 from optlaws.synthesis.pareto import pareto_front as pareto_front
@@ -188,6 +190,7 @@ __all__ = [
     "D",
     "Deviation",
     "DiscCam",
+    "DriveLimit",
     "Dwell",
     "DwellMachine",
     "Expression",
@@ -257,6 +260,7 @@ __all__ = [
     "compare_laws",
     "conjugate_cam",
     "deg",
+    "drive_limit",
     "drive_torque",
     "driving_law",
     "dwell_machine",
