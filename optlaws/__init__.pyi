@@ -81,6 +81,10 @@ from optlaws.mechanisms.follower.polydyne import mass_law as mass_law
 from optlaws.mechanisms.follower.polydyne import polydyne as polydyne
 from optlaws.mechanisms.follower.response import CycleResponse as CycleResponse
 from optlaws.mechanisms.follower.response import Response as Response
+from optlaws.mechanisms.linkages.bodies import Body as Body
+from optlaws.mechanisms.linkages.bodies import Process as Process
+from optlaws.mechanisms.linkages.mechanism import Mechanism as Mechanism
+from optlaws.mechanisms.linkages.slider_crank import slider_crank as slider_crank
 from optlaws.mechanisms.machine.flat_output import driving_law as driving_law
 from optlaws.mechanisms.machine.flat_output import flat_output as flat_output
 from optlaws.mechanisms.machine.machine import Machine as Machine
@@ -170,6 +174,7 @@ __all__ = [
     "BarrelCam",
     "Basis",
     "Bernstein",
+    "Body",
     "BoundaryConditions",
     "C",
     "C_minus",
@@ -207,6 +212,7 @@ __all__ = [
     "Machine",
     "MachineFollower",
     "MachineSpectrum",
+    "Mechanism",
     "MotionLaw",
     "Move",
     "NoisyTable",
@@ -223,6 +229,7 @@ __all__ = [
     "Powers",
     "Problem",
     "ProblemArray",
+    "Process",
     "ProvenFront",
     "Range",
     "Response",
@@ -303,6 +310,7 @@ __all__ = [
     "savin",
     "scca",
     "shaped_law",
+    "slider_crank",
     "smoothstep",
     "sweep",
     "synthesize",
