@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from typing import Any, NamedTuple
+
+from optlaws.kept import kept_property
 
 #: orders of the derivatives of the law, by name
 ORDERS = {"a": 0, "b": 1, "c": 2, "j": 3}
@@ -43,7 +46,45 @@ class Formula:
 
     def names(self) -> frozenset[str]:
         """The names that occur anywhere in it."""
-        return frozenset(part.name for part in self.walk() if isinstance(part, Name))
+        return self._names
+
+    @kept_property
+    def _names(self) -> frozenset[str]:
+        return frozenset().union(*(part._names for part in self.parts))  # noqa: SLF001 - its own kind
+
+    @property
+    def own(self) -> Any:  # noqa: ANN401 - whatever a kind of formula has
+        """What it is beside its parts: two of one kind with equal parts that have this in common are equal."""
+        return None
+
+    @kept_property
+    def steps(self) -> tuple[Step, ...]:
+        """All different formulas within it, those first that others are made of; it itself is the last.
+
+        >>> from optlaws.formulas.reading import read
+        >>> [str(step.formula) for step in read("sin(2*a) + sin(2*a)^2").steps]
+        ['2', 'a', '2*a', 'sin(2*a)', 'sin(2*a)^2', 'sin(2*a) + sin(2*a)^2']
+        """
+        places: dict[int, int] = {}
+        known: dict[Any, int] = {}
+        found: list[tuple[Formula, tuple[int, ...]]] = []
+
+        def place(formula: Formula) -> int:
+            at = places.get(id(formula))
+            if at is None:
+                parts = tuple(place(part) for part in formula.parts)
+                at = known.setdefault((type(formula), formula.own, parts), len(found))
+                if at == len(found):
+                    found.append((formula, parts))
+                places[id(formula)] = at
+            return at
+
+        place(self)
+        last = {part: i for i, (_, parts) in enumerate(found) for part in parts}
+        done: list[list[int]] = [[] for _ in found]
+        for part, i in last.items():
+            done[i].append(part)
+        return tuple(Step(formula, parts, tuple(over)) for (formula, parts), over in zip(found, done, strict=True))
 
     def within(self, level: int) -> str:
         """Its text, in brackets where it binds less than its surroundings."""
@@ -59,6 +100,11 @@ class Number(Formula):
 
     value: float
 
+    @property
+    def own(self) -> float:
+        """The value."""
+        return self.value
+
     def __str__(self) -> str:
         whole = self.value == int(self.value) and self.value < 1e15
         return str(int(self.value)) if whole else repr(self.value)
@@ -69,6 +115,15 @@ class Name(Formula):
     """A name, whatever it stands for."""
 
     name: str
+
+    @property
+    def own(self) -> str:
+        """The name."""
+        return self.name
+
+    @kept_property
+    def _names(self) -> frozenset[str]:
+        return frozenset((self.name,))
 
     def __str__(self) -> str:
         return self.name
@@ -177,6 +232,11 @@ class Call(Formula):
         """The arguments of the function."""
         return self.arguments
 
+    @property
+    def own(self) -> str:
+        """The name of the function."""
+        return self.function
+
     def __str__(self) -> str:
         return f"{self.function}({', '.join(map(str, self.arguments))})"
 
@@ -194,10 +254,23 @@ class Table(OfOnePart):
     smooth: bool = False
     order: int = 0
 
+    @property
+    def own(self) -> tuple[Any, ...]:
+        """The places and values, and what is made of them."""
+        return self.places, self.values, self.smooth, self.order
+
     def __str__(self) -> str:
         pairs = (f"{plain(x)}:{plain(y)}" for x, y in zip(self.places, self.values, strict=True))
         kind = "spline" if self.smooth else "table"
         return f"{kind}{self.order or ''}({self.of}, {', '.join(pairs)})"
+
+
+class Step(NamedTuple):
+    """A part of a formula as it is computed: from which steps before it, and which of them are then done with."""
+
+    formula: Formula
+    parts: tuple[int, ...]
+    done: tuple[int, ...]
 
 
 def plain(value: float) -> str:
