@@ -82,9 +82,15 @@ from optlaws.mechanisms.follower.polydyne import polydyne as polydyne
 from optlaws.mechanisms.follower.response import CycleResponse as CycleResponse
 from optlaws.mechanisms.follower.response import Response as Response
 from optlaws.mechanisms.linkages.bodies import Body as Body
-from optlaws.mechanisms.linkages.bodies import Process as Process
+from optlaws.mechanisms.linkages.bodies import Loads as Loads
+from optlaws.mechanisms.linkages.four_bar import four_bar as four_bar
 from optlaws.mechanisms.linkages.mechanism import Mechanism as Mechanism
+from optlaws.mechanisms.linkages.motions import belt as belt
+from optlaws.mechanisms.linkages.motions import mechanism_of_motion as mechanism_of_motion
+from optlaws.mechanisms.linkages.motions import rack as rack
+from optlaws.mechanisms.linkages.motions import screw as screw
 from optlaws.mechanisms.linkages.slider_crank import slider_crank as slider_crank
+from optlaws.mechanisms.linkages.toggle import toggle as toggle
 from optlaws.mechanisms.machine.flat_output import driving_law as driving_law
 from optlaws.mechanisms.machine.flat_output import flat_output as flat_output
 from optlaws.mechanisms.machine.machine import Machine as Machine
@@ -209,6 +215,7 @@ __all__ = [
     "LeverCam",
     "Link",
     "Loader",
+    "Loads",
     "Machine",
     "MachineFollower",
     "MachineSpectrum",
@@ -229,7 +236,6 @@ __all__ = [
     "Powers",
     "Problem",
     "ProblemArray",
-    "Process",
     "ProvenFront",
     "Range",
     "Response",
@@ -254,6 +260,7 @@ __all__ = [
     "at_least",
     "at_most",
     "balanced_law",
+    "belt",
     "best_base_circle",
     "best_breaks",
     "best_cam",
@@ -270,6 +277,7 @@ __all__ = [
     "dwell_mechanism",
     "find_torsion_levers",
     "flat_output",
+    "four_bar",
     "functional",
     "greatest_roller",
     "inertial_loader",
@@ -286,6 +294,7 @@ __all__ = [
     "map_arrays",
     "mass_law",
     "maximum",
+    "mechanism_of_motion",
     "mirrored_law",
     "multiplied_law",
     "multiplier_for",
@@ -295,6 +304,7 @@ __all__ = [
     "peak",
     "polydyne",
     "proven_front",
+    "rack",
     "read_law",
     "residual_functional",
     "residual_phasor",
@@ -309,6 +319,7 @@ __all__ = [
     "run_study",
     "savin",
     "scca",
+    "screw",
     "shaped_law",
     "slider_crank",
     "smoothstep",
@@ -317,6 +328,7 @@ __all__ = [
     "synthesize_array",
     "synthesize_chunks",
     "synthesize_many",
+    "toggle",
     "trapezoid",
     "value",
     "via",

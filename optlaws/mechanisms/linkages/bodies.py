@@ -1,11 +1,13 @@
-"""Bodies of a linkage and what acts on its driven link: their inertia and load at the input, as formulas."""
+"""Bodies of a linkage and what acts on it: their inertia and load at the input, as formulas."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from math import cos, sin
-from typing import Any, Literal
+from typing import Any, Literal, get_args
+
+import numpy as np
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
@@ -16,6 +18,7 @@ from optlaws.mechanisms.linkages.entries import Interpolation, formula_of
 from optlaws.motion.quantities import quantity, si_number
 from optlaws.numbers import NumberOrQuantity, finite, not_negative
 from optlaws.suggest import unknown_key
+from optlaws.tolerances import WAVE_ROUNDING
 
 GRAVITY = 9.80665
 Over = Literal["driven", "input"]
@@ -75,15 +78,15 @@ class Body:
 
 
 @dataclass(frozen=True)
-class Process:
-    """What acts on a driven link: a force over its position or over the input's, and a spring.
+class Loads:
+    """What acts on a mechanism: a process force and a spring on its driven link, and gravity on all its links.
 
     Parameters
     ----------
     force
         On the driven link, above 0 where it pushes to greater positions: a quantity such as "-200 N", a formula of the
-        position s of the link (or of x, the input's) in SI units, or a table of places and forces; N m for one that
-        turns.
+        position s of the link (or of x, the input's) in SI units, or a table of places and forces; torques for a link
+        that turns.
     over
         "driven" where the force is over the position of the driven link, "input" where it is over the input's.
     interpolation
@@ -92,42 +95,74 @@ class Process:
         Of a spring between the driven link and the frame, such as "3 N/mm", or "5 N m/rad".
     free
         The position of the driven link at which the spring is without force.
+    gravity
+        The direction in which it acts in the plane of the mechanism, such as "-90 deg"; none unless given.
 
     Examples
     --------
-    >>> Process({"0.3 m": "0 N", "0.31 m": "-400 N", "0.5 m": "-400 N"}).over
+    >>> Loads({"0.3 m": "0 N", "0.31 m": "-400 N", "0.5 m": "-400 N"}, gravity="180 deg").over
     'driven'
     """
 
     force: Any = 0.0
     over: Over = "driven"
-    interpolation: Interpolation = "lines"
+    interpolation: Interpolation = field(default="lines", kw_only=True)
     stiffness: NumberOrQuantity = field(default=0.0, kw_only=True)
     free: NumberOrQuantity = field(default=0.0, kw_only=True)
+    gravity: NumberOrQuantity | None = field(default=None, kw_only=True)
 
-    def load(self, position: Formula, velocity: Formula, axis: str, input_axis: str) -> list[Formula]:
-        """The terms of the load at the input, where the link has this position and velocity by x."""
-        if self.over not in {"driven", "input"}:
-            raise InputError(unknown_key(self.over, ("driven", "input"), "over of a process"))
-        forces = ("force", "stiffness") if axis == "length" else ("torque", "torsional stiffness")
-        by_link = self.over == "driven"
-        force = formula_of(
-            self.force,
-            (axis if by_link else input_axis, forces[0]),
-            "process: force",
-            variable="s" if by_link else "x",
-            interpolation=self.interpolation,
-        )
-        acting = substituted(force, {"s": position})
-        stiffness = not_negative(si_number(self.stiffness, (forces[1],), "process: stiffness"), "process: stiffness")
-        free = finite(si_number(self.free, (axis,), "process: free"), "process: free")
-        terms = [multiplied([Number(1.0), number(-1.0), acting, velocity])] if acting != Number(0.0) else []
+    def __post_init__(self) -> None:
+        if self.over not in tuple(get_args(Over)):
+            raise InputError(unknown_key(self.over, get_args(Over), "over of loads"))
+        if self.interpolation not in tuple(get_args(Interpolation)):
+            raise InputError(unknown_key(self.interpolation, get_args(Interpolation), "interpolation"))
+        self.weight  # noqa: B018 - what is wrong is refused at once
+
+    @property
+    def weight(self) -> tuple[float, float]:
+        """Gravity in the plane of the mechanism, m/s²."""
+        if self.gravity is None:
+            return 0.0, 0.0
+        angle = quantity(self.gravity, "angle", "gravity")
+        vector = GRAVITY * np.array([cos(angle), sin(angle)])
+        across, down = np.where(np.abs(vector) < WAVE_ROUNDING * GRAVITY, 0.0, vector).tolist()
+        return across, down
+
+    def on(self, link: DrivenLink, input_axis: str) -> list[Formula]:
+        """The terms of the load at the input by what acts on the driven link."""
+        forces = ("force", "stiffness") if link.axis == "length" else ("torque", "torsional stiffness")
+        variable, axis = ("s", link.axis) if self.over == "driven" else ("x", input_axis)
+        force = formula_of(self.force, (axis, forces[0]), "force", variable=variable, interpolation=self.interpolation)
+        stiffness = not_negative(si_number(self.stiffness, (forces[1],), "stiffness"), "stiffness")
+        free = finite(si_number(self.free, (link.axis,), "free"), "free")
+        if link.position is None:
+            if stiffness or "s" in force.names():
+                raise InputError(
+                    f"loads: the {link.name} turns so far in this range that its position has no formula: give a "
+                    "torque over='input', or a shorter range"
+                )
+            return [multiplied([number(-1.0), force, link.velocity])]
+        acting = substituted(force, {"s": link.position})
+        terms = [] if acting == Number(0.0) else [multiplied([number(-1.0), acting, link.velocity])]
         if stiffness:
-            terms.append(multiplied([number(stiffness), added([position, number(-free)]), velocity]))
+            terms.append(multiplied([number(stiffness), added([link.position, number(-free)]), link.velocity]))
         return terms
 
 
-NO_PROCESS = Process()
+NO_LOADS = Loads()
+
+
+@dataclass(frozen=True)
+class DrivenLink:
+    """A link that does the work: its name, its position and velocity by the input, and whether it slides or turns.
+
+    The position of one that turns very far has no formula without a leap.
+    """
+
+    name: str
+    position: Formula | None
+    velocity: Formula
+    axis: str
 
 
 @dataclass(frozen=True)
@@ -181,15 +216,6 @@ def _body(value: Any, name: str, dimension: str, is_coupled: bool) -> Body:  # n
         )
     number_ = not_negative(si_number(value, (dimension,), f"bodies: {name}"), f"bodies: {name}")
     return Body(number_) if dimension == "mass" else Body(inertia=number_)
-
-
-def gravity_vector(direction: Any) -> tuple[float, float]:  # noqa: ANN401 - it is checked here
-    """Gravity in the plane of the linkage, m/s², from the direction in which it acts; 0 without one."""
-    if direction is None:
-        return 0.0, 0.0
-    angle = quantity(direction, "angle", "gravity")
-    vector = GRAVITY * cos(angle), GRAVITY * sin(angle)
-    return tuple(0.0 if abs(part) < 1e-15 * GRAVITY else part for part in vector)  # type: ignore[return-value]
 
 
 def weight_load(mass: float, gravity: tuple[float, float], velocity: tuple[Any, Any]) -> list[Formula]:

@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import NamedTuple
 
 import numpy as np
 
 from optlaws.errors import InputError
+from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.formulas.slopes import added, multiplied, opposite, scaled
 from optlaws.formulas.tree import Formula, Name, Negative, Number, Product, Sum, Table, number, rebuilt
-from optlaws.motion.quantities import si_number
-from optlaws.numbers import NumberOrQuantity, finite, positive
 from optlaws.synthesis.functionals.makers import drive_torque
-
-if TYPE_CHECKING:
-    from optlaws.mechanisms.linkages.mechanism import Mechanism
 
 _LOOKS = 721
 
@@ -64,34 +60,32 @@ class DimensionlessMechanism:
         return self.unit * abs(self.stroke)
 
 
+class InputFriction(NamedTuple):
+    """Friction at the input of a mechanism, in SI units."""
+
+    coulomb: float
+    viscous: float
+
+
 def dimensionless(
-    mechanism: Mechanism, start: NumberOrQuantity, stroke: NumberOrQuantity, duration: NumberOrQuantity
+    inertia: Formula, load: Formula, friction: InputFriction, stroke: tuple[float, float, float]
 ) -> DimensionlessMechanism:
-    """A mechanism over a stroke: see `Mechanism.dimensionless`."""
-    first = finite(si_number(start, (mechanism.axis,), "start"), "start")
-    way = finite(si_number(stroke, (mechanism.axis,), "stroke"), "stroke")
-    time = positive(si_number(duration, ("time",), "duration"), "duration")
-    if way == 0.0:
-        raise InputError("stroke must not be 0: a mechanism at rest has no dimensionless form")
-    x = mechanism.position(first + way * np.linspace(0.0, 1.0, _LOOKS))
+    """A mechanism over a stroke, known by its start, its length and its duration: see `Mechanism.dimensionless`."""
+    start, way, time = stroke
+    x = start + way * np.linspace(0.0, 1.0, _LOOKS)
     accelerating, direction = abs(way) / time**2, float(np.sign(way))
-    sizes = (
-        accelerating * float(np.max(mechanism.inertia(x))),
-        float(np.max(np.abs(mechanism.load(x)))),
-        mechanism.viscous * abs(way) / time,
-        mechanism.coulomb,
-    )
-    unit = max(sizes)
+    moved = friction.viscous * abs(way) / time
+    greatest = (float(np.max(np.abs(evaluate(formula, {"x": x}, NUMPY)))) for formula in (inertia, load))
+    unit = max(next(greatest) * accelerating, next(greatest), moved, friction.coulomb)
     if unit == 0.0:
-        raise InputError(f"the {mechanism.name} has neither inertia nor load nor friction on this stroke")
-    inertia = _times(_over_stroke(mechanism.inertia_formula, first, way), accelerating / unit)
-    load = _times(_over_stroke(mechanism.load_formula, first, way), direction / unit)
+        raise InputError("the mechanism has neither inertia nor load nor friction on this stroke: nothing drives it")
+    resisting = _times(_over_stroke(load, start, way), direction / unit)
     return DimensionlessMechanism(
-        str(inertia),
-        str(number(sizes[2] / unit)),
-        str(added([number(mechanism.coulomb / unit), load])),
+        str(_times(_over_stroke(inertia, start, way), accelerating / unit)),
+        str(number(moved / unit)),
+        str(added([number(friction.coulomb / unit), resisting])),
         unit,
-        first,
+        start,
         way,
         time,
     )

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any, Literal, Self
+from typing import Any, Literal, Self
 
 import numpy as np
 
@@ -15,15 +16,13 @@ from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.formulas.reading import read
 from optlaws.formulas.slopes import added
 from optlaws.formulas.slopes import derivative as slope
-from optlaws.formulas.tree import Formula, Table
+from optlaws.formulas.tree import Formula, Name, Table
+from optlaws.mechanisms.linkages.dimensionless import DimensionlessMechanism, InputFriction, dimensionless
 from optlaws.mechanisms.linkages.entries import formula_of
 from optlaws.motion.quantities import either, in_small_units, si_number
-from optlaws.numbers import Array, NumberOrQuantity, derivative, finite, not_negative, real_times
+from optlaws.numbers import Array, NumberOrQuantity, derivative, finite, not_negative, positive, real_times
 from optlaws.suggest import unknown_key
 from optlaws.tolerances import CLOSURE, VALUE_ROUNDING
-
-if TYPE_CHECKING:
-    from optlaws.mechanisms.linkages.dimensionless import DimensionlessMechanism
 
 Axis = Literal["angle", "length"]
 #: of the inertia, of the load, of viscous friction, and of the input's velocity and acceleration
@@ -45,15 +44,51 @@ DIMENSIONS: dict[Axis, dict[str, str]] = {
 }
 FORMAT = 1
 _LOOKS = 1441
-_ENTRIES = ("format", "name", "axis", "over", "inertia", "load", "coulomb", "viscous", "driven", "drawing")
+_ENTRIES = ("format", "name", "axis", "over", "inertia", "load", "coulomb", "viscous", "linkage")
 
 
+@dataclass(frozen=True)
+class Linkage:
+    """What is known of a mechanism's links beyond inertia and load.
+
+    Attributes
+    ----------
+    driven
+        Names of driven links, and formulas of their positions over x.
+    chains
+        Of points, each a pair of formulas of x in m, that a picture joins by lines; a chain of one point is a pivot.
+    """
+
+    driven: tuple[tuple[str, Formula], ...] = ()
+    chains: tuple[tuple[tuple[Formula, Formula], ...], ...] = ()
+
+    def to_dict(self) -> dict[str, Any]:
+        """The formulas as texts."""
+        return {
+            "driven": {name: str(formula) for name, formula in self.driven},
+            "chains": [[[str(x), str(y)] for x, y in chain] for chain in self.chains],
+        }
+
+    @classmethod
+    def from_dict(cls, data: Any) -> Linkage:  # noqa: ANN401 - it is checked here
+        """What `to_dict` described."""
+        try:
+            driven = tuple((str(name), read(text, ("x",))) for name, text in data["driven"].items())
+            chains = tuple(tuple((read(x, ("x",)), read(y, ("x",))) for x, y in chain) for chain in data["chains"])
+        except (AttributeError, KeyError, TypeError, ValueError) as error:
+            raise InputError(
+                f"linkage must have a table driven of formulas, and a list chains of points of two formulas: {error}"
+            ) from None
+        return cls(driven, chains)
+
+
+@dataclass(frozen=True, init=False, repr=False)
 class Mechanism(JsonText):
     """A mechanism of one degree of freedom: inertia J(x) and load T(x) at its input, friction, and where it is defined.
 
     The torque (or force) that moves the input is J(x) x'' + J'(x) x'²/2 + viscous x' + coulomb sign(x') + T(x): the
     inertia and the load are all masses and forces of the mechanism, reduced to the input. `slider_crank`, `four_bar`,
-    `toggle`, `rack`, `belt` and `screw` make one from lengths and masses, `Mechanism.of_motion` from a function.
+    `toggle`, `rack`, `belt` and `screw` make one from lengths and masses, `mechanism_of_motion` from a function.
 
     Parameters
     ----------
@@ -74,6 +109,8 @@ class Mechanism(JsonText):
         "angle" for an input that turns, "length" for one that slides; `over` says it too.
     name
         What pictures and texts call it.
+    linkage
+        Positions of its driven links, and what a picture draws.
 
     Raises
     ------
@@ -92,6 +129,15 @@ class Mechanism(JsonText):
 
     _json_name = "a mechanism"
 
+    inertia_formula: Formula
+    load_formula: Formula
+    coulomb: float
+    viscous: float
+    over: tuple[float, float]
+    axis: Axis
+    name: str
+    linkage: Linkage
+
     def __init__(
         self,
         inertia: NumberOrQuantity | Formula | Mapping[Any, Any] | Sequence[Any] = 0.0,
@@ -102,42 +148,27 @@ class Mechanism(JsonText):
         over: tuple[NumberOrQuantity, NumberOrQuantity] | None = None,
         axis: Axis | None = None,
         name: str = "mechanism",
+        linkage: Linkage = Linkage(),
     ) -> None:
-        self.axis, ends = _axis_and_ends(over, axis)
-        known = DIMENSIONS[self.axis]
-        self.name = str(name)
-        self.inertia_formula = formula_of(inertia, (self.axis, known["inertia"]), "inertia")
-        self.load_formula = formula_of(load, (self.axis, known["load"]), "load", interpolation="lines")
-        self.coulomb = not_negative(si_number(coulomb, (known["load"],), "coulomb"), "coulomb")
-        self.viscous = not_negative(si_number(viscous, (known["viscous"],), "viscous"), "viscous")
-        #: positions of driven links over x, by name
-        self.driven: dict[str, Formula] = {}
-        #: chains of points, each a pair of formulas of x, that a picture draws; a chain of one point is a pivot
-        self.drawing: tuple[tuple[tuple[Formula, Formula], ...], ...] = ()
-        self.over = self._range(ends)
-        self._check()
-
-    def _range(self, ends: tuple[float, float] | None) -> tuple[float, float]:
-        """The range of x, which the tables over x must cover."""
-        tables = {
-            what: part
-            for what, formula in (("inertia", self.inertia_formula), ("load", self.load_formula))
-            for part in formula.walk()
-            if isinstance(part, Table) and str(part.of) == "x"
+        kind, ends = _axis_and_ends(over, axis)
+        known = DIMENSIONS[kind]
+        formulas = {
+            "inertia": formula_of(inertia, (kind, known["inertia"]), "inertia"),
+            "load": formula_of(load, (kind, known["load"]), "load", interpolation="lines"),
         }
-        if ends is None:
-            lows = [table.places[0] for table in tables.values()]
-            highs = [table.places[-1] for table in tables.values()]
-            return (max(lows), min(highs)) if tables else (-np.inf, np.inf)
-        slack = CLOSURE * (ends[1] - ends[0])
-        for what, table in tables.items():
-            if table.places[0] > ends[0] + slack or table.places[-1] < ends[1] - slack:
-                raise InputError(
-                    f"the table of the {what} goes from {self._shown(table.places[0])} to "
-                    f"{self._shown(table.places[-1])}, and the mechanism from {self._shown(ends[0])} to "
-                    f"{self._shown(ends[1])}: give a table over the whole range, or a shorter range in over="
-                )
-        return ends
+        fields = {
+            "inertia_formula": formulas["inertia"],
+            "load_formula": formulas["load"],
+            "coulomb": not_negative(si_number(coulomb, (known["load"],), "coulomb"), "coulomb"),
+            "viscous": not_negative(si_number(viscous, (known["viscous"],), "viscous"), "viscous"),
+            "over": _range(formulas, ends, kind),
+            "axis": kind,
+            "name": str(name),
+            "linkage": linkage,
+        }
+        for field, value in fields.items():
+            object.__setattr__(self, field, value)
+        self._check()
 
     def _check(self) -> None:
         low, high = self.over
@@ -212,9 +243,10 @@ class Mechanism(JsonText):
         InputError
             If no driven link has this name.
         """
-        if name not in self.driven:
-            raise InputError(unknown_key(name, self.driven, "driven link"))
-        return self._given(self.driven[name], x, nu)
+        driven = dict(self.linkage.driven)
+        if name not in driven:
+            raise InputError(unknown_key(name, driven, "driven link"))
+        return self._given(driven[name], x, nu)
 
     def _given(self, formula: Formula, x: Any, nu: int) -> Any:  # noqa: ANN401
         values = self._values(_derived(formula, derivative(nu)), self.position(x))
@@ -265,33 +297,36 @@ class Mechanism(JsonText):
         >>> round(rms(moved.torque).value(smoothstep(3)) * moved.unit, 6)
         7.979021
         """
-        from optlaws.mechanisms.linkages.dimensionless import dimensionless
-
-        return dimensionless(self, start, stroke, duration)
+        first = finite(si_number(start, (self.axis,), "start"), "start")
+        way = finite(si_number(stroke, (self.axis,), "stroke"), "stroke")
+        time = positive(si_number(duration, ("time",), "duration"), "duration")
+        if way == 0.0:
+            raise InputError("stroke must not be 0: a mechanism at rest has no dimensionless form")
+        self.position(np.array([first, first + way]))
+        friction = InputFriction(self.coulomb, self.viscous)
+        return dimensionless(self.inertia_formula, self.load_formula, friction, (first, way, time))
 
     def with_friction(self, *, coulomb: NumberOrQuantity = 0.0, viscous: NumberOrQuantity = 0.0) -> Self:
         """The mechanism with this friction at its input in place of what it has."""
-        known, changed = DIMENSIONS[self.axis], self._copy()
-        changed.coulomb = not_negative(si_number(coulomb, (known["load"],), "coulomb"), "coulomb")
-        changed.viscous = not_negative(si_number(viscous, (known["viscous"],), "viscous"), "viscous")
-        return changed
+        return self._changed(coulomb=coulomb, viscous=viscous)
 
     def with_inertia(self, inertia: NumberOrQuantity) -> Self:
         """The mechanism with a further constant inertia at its input, as of a coupling."""
-        changed = self._copy()
         more = formula_of(inertia, (self.axis, DIMENSIONS[self.axis]["inertia"]), "inertia")
-        changed.inertia_formula = added([more, self.inertia_formula])
-        changed._check()  # noqa: SLF001 - a copy of itself
-        return changed
+        return self._changed(inertia=added([more, self.inertia_formula]))
 
-    def _copy(self) -> Self:
-        return self.from_dict(self.to_dict())
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, Mechanism) and self.to_dict() == other.to_dict()
-
-    def __hash__(self) -> int:
-        return hash((self.name, self.axis, self.over, self.inertia_formula, self.load_formula))
+    def _changed(self, **fields: Any) -> Self:  # noqa: ANN401 - whatever fields have
+        known = {
+            "inertia": self.inertia_formula,
+            "load": self.load_formula,
+            "coulomb": self.coulomb,
+            "viscous": self.viscous,
+            "over": self.over if self.has_end else None,
+            "axis": self.axis,
+            "name": self.name,
+            "linkage": self.linkage,
+        }
+        return type(self)(**{**known, **fields})
 
     def __repr__(self) -> str:
         ends = f"{self._shown(self.over[0])} to {self._shown(self.over[1])}" if self.has_end else "everywhere"
@@ -324,8 +359,7 @@ class Mechanism(JsonText):
             "load": str(self.load_formula),
             "coulomb": self.coulomb,
             "viscous": self.viscous,
-            "driven": {name: str(formula) for name, formula in self.driven.items()},
-            "drawing": [[[str(x), str(y)] for x, y in chain] for chain in self.drawing],
+            "linkage": self.linkage.to_dict(),
         }
 
     @classmethod
@@ -342,17 +376,31 @@ class Mechanism(JsonText):
         for name in data:
             if name not in _ENTRIES:
                 raise InputError(unknown_key(name, _ENTRIES, "entry of a mechanism"))
-        plain = {name: data[name] for name in _ENTRIES[1:8] if data.get(name) is not None}
-        mechanism = cls(**plain)
-        driven, drawing = data.get("driven") or {}, data.get("drawing") or ()
-        try:
-            mechanism.driven = {str(name): read(text, ("x",)) for name, text in driven.items()}
-            mechanism.drawing = tuple(tuple((read(x, ("x",)), read(y, ("x",))) for x, y in chain) for chain in drawing)
-        except (AttributeError, TypeError, ValueError):
+        plain = {name: data[name] for name in _ENTRIES[1:-1] if data.get(name) is not None}
+        linkage = Linkage.from_dict(data["linkage"]) if data.get("linkage") is not None else Linkage()
+        return cls(**plain, linkage=linkage)
+
+
+def _range(formulas: Mapping[str, Formula], ends: tuple[float, float] | None, axis: Axis) -> tuple[float, float]:
+    """The range of x, which the tables over x must cover."""
+    tables = [
+        (what, part)
+        for what, formula in formulas.items()
+        for part in formula.walk()
+        if isinstance(part, Table) and part.of == Name("x")
+    ]
+    if ends is None:
+        low = max((table.places[0] for _, table in tables), default=-np.inf)
+        return low, min((table.places[-1] for _, table in tables), default=np.inf)
+    slack = CLOSURE * (ends[1] - ends[0])
+    for what, table in tables:
+        if table.places[0] > ends[0] + slack or table.places[-1] < ends[1] - slack:
+            first, last, low, high = (in_small_units(x, axis) for x in (table.places[0], table.places[-1], *ends))
             raise InputError(
-                "driven must be a table of formulas, and drawing a list of chains of points, each of two formulas"
-            ) from None
-        return mechanism
+                f"the table of the {what} goes from {first} to {last}, and the mechanism from {low} to {high}: give a "
+                "table over the whole range, or a shorter range in over="
+            )
+    return ends
 
 
 def _axis_and_ends(over: Any, axis: Any) -> tuple[Axis, tuple[float, float] | None]:  # noqa: ANN401

@@ -13,18 +13,18 @@ from optlaws.formulas.slopes import added
 from optlaws.formulas.tracing import Traced
 from optlaws.formulas.tree import Formula, Name, Number
 from optlaws.mechanisms.linkages.bodies import (
-    NO_PROCESS,
+    NO_LOADS,
     Body,
+    DrivenLink,
+    Loads,
     Moving,
-    Process,
     bodies_of,
     ends_of,
     formula_from,
-    gravity_vector,
     length,
     weight_load,
 )
-from optlaws.mechanisms.linkages.mechanism import Mechanism
+from optlaws.mechanisms.linkages.mechanism import Linkage, Mechanism
 from optlaws.motion.quantities import si_number
 from optlaws.numbers import NumberOrQuantity, finite
 
@@ -35,8 +35,7 @@ def slider_crank(
     *,
     offset: NumberOrQuantity = 0.0,
     bodies: Mapping[str, Any],
-    process: Process = NO_PROCESS,
-    gravity: NumberOrQuantity | None = None,
+    loads: Loads = NO_LOADS,
     over: tuple[NumberOrQuantity, NumberOrQuantity] = ("0 deg", "360 deg"),
 ) -> Mechanism:
     """The mechanism of a crank that drives a slide through a rod; x is the crank's angle from the slide's way.
@@ -52,10 +51,8 @@ def slider_crank(
     bodies
         Of "crank", "rod" and "slider": a mass such as "5 kg" for the slider, a moment of inertia about its pivot such
         as "0.02 kg m^2" for the crank, or a `Body`.
-    process
-        What acts on the slide.
-    gravity
-        The direction in which it acts, such as "-90 deg", from the slide's way; none unless given.
+    loads
+        What acts on the slide; the direction of gravity is from the slide's way.
     over
         The range of x.
 
@@ -76,7 +73,7 @@ def slider_crank(
     ends = ends_of(over)
     _check(r, rod_length, e, ends)
     known = bodies_of(bodies, pivoted=("crank",), coupled=("rod",), sliding=("slider",))
-    g = gravity_vector(gravity)
+    g = loads.weight
     x = Traced(Name("x"))
     sine, cosine = np.sin(x), np.cos(x)
     across = r * sine - e if e else r * sine
@@ -92,13 +89,18 @@ def slider_crank(
         parts, more = _rod(rod_body, g, rod_length, (r, sine, cosine), (across, along))
         moving, weights = moving + parts, weights + more
     inertia: list[Formula] = [Moving(turning, 1.0).inertia, *(part.inertia for part in moving if part.weight)]
-    acting = process.load(position.formula, velocity.formula, "length", "angle")
-    mechanism = Mechanism(added(inertia), added([*weights, *acting]), over=ends, axis="angle", name="slider-crank")
-    mechanism.driven = {"slider": position.formula}
-    zero, way = Number(0.0), formula_from(e)
-    pin, joint = ((r * cosine).formula, (r * sine).formula), (position.formula, way)
-    mechanism.drawing = (((zero, zero),), ((zero, zero), pin, joint), (joint,))
-    return mechanism
+    slider = DrivenLink("slider", position.formula, velocity.formula, "length")
+    zero = Number(0.0)
+    pin, joint = ((r * cosine).formula, (r * sine).formula), (position.formula, formula_from(e))
+    chains = (((zero, zero),), ((zero, zero), pin, joint), (joint,))
+    return Mechanism(
+        added(inertia),
+        added([*weights, *loads.on(slider, "angle")]),
+        over=ends,
+        axis="angle",
+        name="slider-crank",
+        linkage=Linkage((("slider", position.formula),), chains),
+    )
 
 
 def _rod(

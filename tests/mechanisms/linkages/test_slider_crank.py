@@ -1,11 +1,8 @@
 """The slider-crank against published numbers, Lagrange's equations and programs of another kind."""
 
-import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 
-from optlaws import Body, Chebyshev, Mechanism, Problem, integral, peak, rms, slider_crank, smoothstep, synthesize
-from optlaws.errors import InputError
+from optlaws import Chebyshev, Mechanism, Problem, rms, slider_crank, smoothstep, synthesize
 
 DURATION = 0.3
 
