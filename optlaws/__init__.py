@@ -8,6 +8,7 @@ from optlaws.lazy import declare, face
 _load, __dir__, __all__ = face(
     __name__,
     {
+        "optlaws.cams.at_shaft": "cam_mechanism",
         "optlaws.cams.barrel": "BarrelCam",
         "optlaws.cams.best_laws": "best_base_circle best_cam",
         "optlaws.cams.conjugate": "conjugate_cam",

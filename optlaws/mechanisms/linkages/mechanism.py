@@ -82,7 +82,7 @@ class Linkage:
         return cls(driven, chains)
 
 
-@dataclass(frozen=True, init=False, repr=False)
+@dataclass(frozen=True, init=False, eq=False, repr=False)
 class Mechanism(JsonText):
     """A mechanism of one degree of freedom: inertia J(x) and load T(x) at its input, friction, and where it is defined.
 
@@ -327,6 +327,12 @@ class Mechanism(JsonText):
             "linkage": self.linkage,
         }
         return type(self)(**{**known, **fields})
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Mechanism) and self.to_dict() == other.to_dict()
+
+    def __hash__(self) -> int:
+        return hash((self.name, self.over, str(self.inertia_formula), str(self.load_formula)))
 
     def __repr__(self) -> str:
         ends = f"{self._shown(self.over[0])} to {self._shown(self.over[1])}" if self.has_end else "everywhere"
