@@ -59,6 +59,8 @@ _load, __dir__, __all__ = face(
         "optlaws.balancing.loaders.loader": "Loader inertial_loader",
         "optlaws.balancing.loaders.optimal": "BalancedLaw balanced_law",
         "optlaws.balancing.loaders.trapezium": "TrapeziumSubstitute",
+        "optlaws.mechanisms.drives.drive_train": "Drive",
+        "optlaws.mechanisms.drives.motor": "Motor read_motors",
         "optlaws.mechanisms.linkages.bodies": "Body Loads",
         "optlaws.mechanisms.linkages.mechanism": "Mechanism",
         "optlaws.mechanisms.linkages.four_bar": "four_bar",

@@ -8,6 +8,8 @@ __getattr__, __dir__, __all__ = face(
         "optlaws.numbers": "deg",
         "optlaws.mechanisms.follower.response": "CycleResponse Response",
         "optlaws.mechanisms.follower.follower": "Deviation Follower off_design",
+        "optlaws.mechanisms.drives.drive_train": "Drive",
+        "optlaws.mechanisms.drives.motor": "Motor read_motors",
         "optlaws.mechanisms.linkages.bodies": "Body Loads",
         "optlaws.mechanisms.linkages.mechanism": "Mechanism",
         "optlaws.mechanisms.linkages.four_bar": "four_bar",

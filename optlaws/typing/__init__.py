@@ -29,6 +29,8 @@ __getattr__, __dir__, __all__ = face(
         "optlaws.laws.making.multiplier": "Multiplier",
         "optlaws.laws.segments.segment": "Segment",
         "optlaws.mechanisms.follower.follower": "Change",
+        "optlaws.mechanisms.drives.drive_train": "DimensionlessDrive",
+        "optlaws.mechanisms.drives.sheet": "BestRatio DriveSheet Margin",
         "optlaws.mechanisms.linkages.dimensionless": "DimensionlessMechanism",
         "optlaws.mechanisms.machine.output_constants": "OutputPeak OutputRms",
         "optlaws.mechanisms.machine.over_time": "MachineCycle MachineResponse",
