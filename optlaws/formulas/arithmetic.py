@@ -59,10 +59,25 @@ def evaluate(formula: Formula, names: Mapping[str, Any], arithmetic: Arithmetic)
     """
     values: list[Any] = []
     for part, places, done in formula.steps:
-        values.append(_OPERATIONS[type(part)](part, [values[place] for place in places], names, arithmetic))
+        values.append(step_value(part, [values[place] for place in places], names, arithmetic))
         for place in done:
             values[place] = None
     return values[-1]
+
+
+def step_value(
+    formula: Formula,
+    parts: list[Any],
+    names: Mapping[str, Any],
+    arithmetic: Arithmetic,
+) -> Any:  # noqa: ANN401 - a number of the arithmetic
+    """The value of a formula from those of its parts.
+
+    >>> from optlaws.formulas.reading import read
+    >>> float(step_value(read("sin(k) + b"), [1.0, 2.0], {}, NUMPY))
+    3.0
+    """
+    return _OPERATIONS[type(formula)](formula, parts, names, arithmetic)
 
 
 def _name(formula: Any, _: list[Any], names: Mapping[str, Any], arithmetic: Arithmetic) -> Any:  # noqa: ANN401

@@ -17,7 +17,7 @@ VOCABULARY = ("a", "b", "c", "d", "j", "k")
 _SUM, _PRODUCT, _SIGNED, _ATOM = range(4)
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Formula:
     """A part of a formula; `place` is where its text begins, and no part of its value.
 
@@ -52,10 +52,30 @@ class Formula:
     def _names(self) -> frozenset[str]:
         return frozenset().union(*(part._names for part in self.parts))  # noqa: SLF001 - its own kind
 
+    def __eq__(self, other: object) -> bool:
+        if self is other:
+            return True
+        if not isinstance(other, Formula):
+            return NotImplemented
+        same = type(self) is type(other) and self._hash == other._hash and self.own == other.own
+        return same and self.parts == other.parts
+
+    def __hash__(self) -> int:
+        return self._hash
+
+    @kept_property
+    def _hash(self) -> int:
+        return hash((type(self).__name__, self.own, self.parts))
+
     @property
     def own(self) -> Any:  # noqa: ANN401 - whatever a kind of formula has
         """What it is beside its parts: two of one kind with equal parts that have this in common are equal."""
         return None
+
+    @kept_property
+    def known_branches(self) -> dict[tuple[int, ...], Formula]:
+        """The smooth formulas that it is somewhere, by the choices of its maxima and tables: those known so far."""
+        return {}
 
     @kept_property
     def steps(self) -> tuple[Step, ...]:
@@ -94,7 +114,7 @@ class Formula:
         return str(self)
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Number(Formula):
     """A number of at least 0."""
 
@@ -110,7 +130,7 @@ class Number(Formula):
         return str(int(self.value)) if whole else repr(self.value)
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Name(Formula):
     """A name, whatever it stands for."""
 
@@ -129,7 +149,7 @@ class Name(Formula):
         return self.name
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class OfOnePart(Formula):
     """A formula that is made of a single part."""
 
@@ -141,7 +161,7 @@ class OfOnePart(Formula):
         return (self.of,)
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Negative(OfOnePart):
     """A part with its sign turned."""
 
@@ -151,7 +171,7 @@ class Negative(OfOnePart):
         return f"-{self.of.within(_PRODUCT)}"
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Sum(Formula):
     """A sum of two terms at least; what is subtracted is a `Negative`."""
 
@@ -173,7 +193,7 @@ class Sum(Formula):
         return text
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Reciprocal(OfOnePart):
     """One divided by a part; within a product, what is divided by."""
 
@@ -183,7 +203,7 @@ class Reciprocal(OfOnePart):
         return f"1/{self.of.within(_SIGNED)}"
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Product(Formula):
     """A product of two factors at least; what is divided by is a `Reciprocal`."""
 
@@ -203,7 +223,7 @@ class Product(Formula):
         return text
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Exponentiation(Formula):
     """A base with an exponent."""
 
@@ -220,7 +240,7 @@ class Exponentiation(Formula):
         return f"{self.base.within(_ATOM)}^{self.exponent.within(_ATOM)}"
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Call(Formula):
     """A function of one part or several."""
 
@@ -241,7 +261,7 @@ class Call(Formula):
         return f"{self.function}({', '.join(map(str, self.arguments))})"
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Table(OfOnePart):
     """A function of one part, given by values at places: straight lines between them, which go on beyond them.
 
