@@ -81,6 +81,16 @@ from optlaws.mechanisms.follower.polydyne import mass_law as mass_law
 from optlaws.mechanisms.follower.polydyne import polydyne as polydyne
 from optlaws.mechanisms.follower.response import CycleResponse as CycleResponse
 from optlaws.mechanisms.follower.response import Response as Response
+from optlaws.mechanisms.linkages.bodies import Body as Body
+from optlaws.mechanisms.linkages.bodies import Loads as Loads
+from optlaws.mechanisms.linkages.four_bar import four_bar as four_bar
+from optlaws.mechanisms.linkages.mechanism import Mechanism as Mechanism
+from optlaws.mechanisms.linkages.motions import belt as belt
+from optlaws.mechanisms.linkages.motions import mechanism_of_motion as mechanism_of_motion
+from optlaws.mechanisms.linkages.motions import rack as rack
+from optlaws.mechanisms.linkages.motions import screw as screw
+from optlaws.mechanisms.linkages.slider_crank import slider_crank as slider_crank
+from optlaws.mechanisms.linkages.toggle import toggle as toggle
 from optlaws.mechanisms.machine.flat_output import driving_law as driving_law
 from optlaws.mechanisms.machine.flat_output import flat_output as flat_output
 from optlaws.mechanisms.machine.machine import Machine as Machine
@@ -172,6 +182,7 @@ __all__ = [
     "BarrelCam",
     "Basis",
     "Bernstein",
+    "Body",
     "BoundaryConditions",
     "C",
     "C_minus",
@@ -207,9 +218,11 @@ __all__ = [
     "LeverCam",
     "Link",
     "Loader",
+    "Loads",
     "Machine",
     "MachineFollower",
     "MachineSpectrum",
+    "Mechanism",
     "MotionLaw",
     "Move",
     "NoisyTable",
@@ -250,6 +263,7 @@ __all__ = [
     "at_least",
     "at_most",
     "balanced_law",
+    "belt",
     "best_base_circle",
     "best_breaks",
     "best_cam",
@@ -267,6 +281,7 @@ __all__ = [
     "dwell_mechanism",
     "find_torsion_levers",
     "flat_output",
+    "four_bar",
     "functional",
     "greatest_roller",
     "inertial_loader",
@@ -283,6 +298,7 @@ __all__ = [
     "map_arrays",
     "mass_law",
     "maximum",
+    "mechanism_of_motion",
     "mirrored_law",
     "multiplied_law",
     "multiplier_for",
@@ -292,6 +308,7 @@ __all__ = [
     "peak",
     "polydyne",
     "proven_front",
+    "rack",
     "read_law",
     "residual_functional",
     "residual_phasor",
@@ -306,13 +323,16 @@ __all__ = [
     "run_study",
     "savin",
     "scca",
+    "screw",
     "shaped_law",
+    "slider_crank",
     "smoothstep",
     "sweep",
     "synthesize",
     "synthesize_array",
     "synthesize_chunks",
     "synthesize_many",
+    "toggle",
     "trapezoid",
     "value",
     "via",

@@ -6,6 +6,16 @@ from optlaws.mechanisms.follower.polydyne import mass_law as mass_law
 from optlaws.mechanisms.follower.polydyne import polydyne as polydyne
 from optlaws.mechanisms.follower.response import CycleResponse as CycleResponse
 from optlaws.mechanisms.follower.response import Response as Response
+from optlaws.mechanisms.linkages.bodies import Body as Body
+from optlaws.mechanisms.linkages.bodies import Loads as Loads
+from optlaws.mechanisms.linkages.four_bar import four_bar as four_bar
+from optlaws.mechanisms.linkages.mechanism import Mechanism as Mechanism
+from optlaws.mechanisms.linkages.motions import belt as belt
+from optlaws.mechanisms.linkages.motions import mechanism_of_motion as mechanism_of_motion
+from optlaws.mechanisms.linkages.motions import rack as rack
+from optlaws.mechanisms.linkages.motions import screw as screw
+from optlaws.mechanisms.linkages.slider_crank import slider_crank as slider_crank
+from optlaws.mechanisms.linkages.toggle import toggle as toggle
 from optlaws.mechanisms.machine.machine import Machine as Machine
 from optlaws.mechanisms.machine.masses import Link as Link
 from optlaws.mechanisms.spectrum.residual import residual_functional as residual_functional
@@ -15,18 +25,28 @@ from optlaws.mechanisms.spectrum.spectrum import response_spectrum as response_s
 from optlaws.numbers import deg as deg
 
 __all__ = [
+    "Body",
     "CycleResponse",
     "Deviation",
     "Follower",
     "Link",
+    "Loads",
     "Machine",
+    "Mechanism",
     "Response",
     "ResponseSpectrum",
+    "belt",
     "deg",
+    "four_bar",
     "mass_law",
+    "mechanism_of_motion",
     "off_design",
     "polydyne",
+    "rack",
     "residual_functional",
     "residual_phasor",
     "response_spectrum",
+    "screw",
+    "slider_crank",
+    "toggle",
 ]

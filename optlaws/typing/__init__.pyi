@@ -31,6 +31,7 @@ from optlaws.laws.making.input_shaping import Shaper as Shaper
 from optlaws.laws.making.multiplier import Multiplier as Multiplier
 from optlaws.laws.segments.segment import Segment as Segment
 from optlaws.mechanisms.follower.follower import Change as Change
+from optlaws.mechanisms.linkages.dimensionless import DimensionlessMechanism as DimensionlessMechanism
 from optlaws.mechanisms.machine.output_constants import OutputPeak as OutputPeak
 from optlaws.mechanisms.machine.output_constants import OutputRms as OutputRms
 from optlaws.mechanisms.machine.over_time import MachineCycle as MachineCycle
@@ -90,6 +91,7 @@ __all__ = [
     "CutFormat",
     "CycleSegment",
     "Derivatives",
+    "DimensionlessMechanism",
     "Direction",
     "DwellComparison",
     "DwellMechanism",
