@@ -117,8 +117,8 @@ from optlaws.synthesis.functionals.makers import rms as rms
 from optlaws.synthesis.functionals.makers import value as value
 from optlaws.synthesis.limits.closed_forms import acceleration_limit as acceleration_limit
 from optlaws.synthesis.limits.closed_forms import limit as limit
-from optlaws.synthesis.limits.drive import DriveLimit as DriveLimit
-from optlaws.synthesis.limits.drive import drive_limit as drive_limit
+from optlaws.synthesis.limits.drive_limits import DriveLimit as DriveLimit
+from optlaws.synthesis.limits.drive_limits import drive_limit as drive_limit
 from optlaws.synthesis.limits.laws import limit_law as limit_law
 from optlaws.synthesis.pareto import Front as Front
 from optlaws.synthesis.pareto import pareto_front as pareto_front

@@ -4,7 +4,6 @@ from optlaws.formulas.affine import affine, degree, quadratic
 from optlaws.formulas.arithmetic import NUMPY, casadi_arithmetic, evaluate, horner, mpmath_arithmetic, pieces
 from optlaws.formulas.convexity import Curvature, Judge, judge
 from optlaws.formulas.intervals import Endpoints, enclosed
-from optlaws.formulas.jets import formula_jet
 from optlaws.formulas.of_motion import MotionFormula, of_text
 from optlaws.formulas.reading import DEEPEST, LONGEST, read
 from optlaws.formulas.slopes import derivative

@@ -18,7 +18,6 @@ from optlaws.errors import InputError
 from optlaws.files.reading import JsonText
 from optlaws.formulas.affine import quadratic
 from optlaws.formulas.arithmetic import NUMPY, evaluate
-from optlaws.formulas.jets import formula_jet
 from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.reading import read
 from optlaws.formulas.slopes import scaled
@@ -27,6 +26,7 @@ from optlaws.kept import kept_property
 from optlaws.numbers import Array, bounded, power_of_two
 from optlaws.numerics.enclosures.interval import exact
 from optlaws.numerics.enclosures.taylor import Jet, variable
+from optlaws.synthesis.limits.formula_jets import formula_jet
 from optlaws.tolerances import VALUE_ROUNDING
 
 #: what is least: the mean over time of a torque's square and of powers, the peak of a torque, or the time itself

@@ -26,10 +26,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.formulas.arithmetic import horner
-from optlaws.formulas.jets import formula_jet
 from optlaws.numbers import Array
 from optlaws.numerics.enclosures.interval import Interval, between, chosen, exact
 from optlaws.numerics.enclosures.taylor import Jet, variable
+from optlaws.synthesis.limits.formula_jets import formula_jet
 from optlaws.synthesis.limits.phase_plane import PhasePlane, PhaseTorque
 from optlaws.synthesis.limits.phase_plane_velocity import InnerMinimum, entries_of
 from optlaws.tolerances import AFFINE_SLACK, ROUNDOFF, SMALLEST_SIZE, STATIONARY_SLACK
