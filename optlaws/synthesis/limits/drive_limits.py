@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from itertools import pairwise
 from math import inf, nextafter, sqrt
 from typing import Any, Literal, TypeAlias, get_args
@@ -14,12 +15,15 @@ from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.files.reading import JsonText
 from optlaws.formulas.reading import read
+from optlaws.formulas.tree import Call, Formula
 from optlaws.kept import kept_property
 from optlaws.numbers import Array, not_negative, numbers, positive, power_of_two
 from optlaws.suggest import unknown_key
+from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaPeak, FormulaRms, OfFormula
 from optlaws.synthesis.limits.phase_plane import PhasePlane, PhaseTorque, TorqueLimit
 from optlaws.synthesis.limits.phase_plane_bound import Guess, Potential, proven_bound
 from optlaws.synthesis.limits.phase_plane_program import PhaseOptimum, optimum
+from optlaws.synthesis.problem.problem import Problem
 from optlaws.tolerances import STATED_BOUND
 
 #: what a drive is to take as little of
@@ -308,3 +312,79 @@ def _check(limit: DriveLimit) -> None:
         raise InputError("s and b must be as many places within (0, 1) with velocities above 0")
     if limit.plane.kind == "time" and limit.weight != 1.0:
         raise InputError(f"the weight of the time that is minimised is 1, got {limit.weight!r}")
+
+
+def limit_beside(problem: Problem) -> DriveLimit | None:
+    """The limit of a problem's objective in the phase plane; None where it is of no drive, or laws may turn back.
+
+    Examples
+    --------
+    >>> from optlaws import Problem, rms
+    >>> problem = Problem(order=3, B=(1, 2.2), minimise=rms("(1 + 0.6*a^2)*c + 0.6*a*b^2 + 3*a"), monotone=True)
+    >>> round(limit_beside(problem).value, 5)
+    3.40484
+    """
+    known = plane_of(problem)
+    if known is None:
+        return None
+    try:
+        return _cached(*known)
+    except (InputError, InfeasibleProblem, SolverFailure):
+        return None  # nothing is known then
+
+
+@lru_cache(maxsize=64)
+def _cached(plane: PhasePlane, minimise: DriveObjective, unit: float) -> DriveLimit:
+    return limit_of_plane(plane, minimise, unit)
+
+
+def plane_of(problem: Problem) -> tuple[PhasePlane, DriveObjective, float] | None:
+    """The phase plane of a problem's objective within its bounds of B, C and torques, what is minimised and its unit.
+
+    Other bounds and windows are left out: what holds without them holds with them.
+    """
+    [(weight, term), *others] = problem.objective.terms
+    if others or weight != 1.0 or not problem.monotone or problem.boundary is not None or problem.order < 2:
+        return None
+    if not isinstance(term, OfFormula) or (term.motion.start, term.motion.stop) != (0.0, 1.0):
+        return None
+    unit, plane = _objective(term)
+    if plane is None:
+        return None
+    limits = []
+    for constant, bounds in problem.bounded:
+        if isinstance(constant, FormulaPeak) and constant.of_magnitude and bounds.high < inf:
+            form = PhaseTorque.of(constant.motion.formula)
+            if form is not None and (constant.motion.start, constant.motion.stop) == (0.0, 1.0):
+                limits.append(TorqueLimit(form.scaled(1.0 / unit), bounds.high / unit))
+    B, C = (inf if (known := problem.range(name)) is None else known.high for name in ("B", "C"))
+    minimise: DriveObjective = "energy" if plane.maxima else "rms torque" if plane.squared is not None else "peak torque"
+    return replace(plane, limits=tuple(limits), B=B, C=C), minimise, unit
+
+
+def _objective(term: OfFormula) -> tuple[float, PhasePlane | None]:
+    """The unit of a constant made of a formula, and the plane in which it is minimised; None where it is none."""
+    formula = term.motion.formula
+    if isinstance(term, FormulaIntegral):
+        torques = _of_power(formula)
+        if torques is None:
+            return 1.0, None
+        unit = max(torque.size for torque in torques)
+        return unit, PhasePlane(maxima=((torques[0].scaled(1.0 / unit), torques[1].scaled(1.0 / unit)),))
+    form = PhaseTorque.of(formula)
+    if form is None:
+        return 1.0, None
+    scaled = form.scaled(1.0 / form.size)
+    if isinstance(term, FormulaRms):
+        return form.size, PhasePlane(squared=scaled)
+    if isinstance(term, FormulaPeak) and term.of_magnitude:
+        return form.size, PhasePlane(peak=scaled)
+    return 1.0, None
+
+
+def _of_power(formula: Formula) -> tuple[PhaseTorque, PhaseTorque] | None:
+    """The two torques of the greater of two powers; None where the formula is another."""
+    if not isinstance(formula, Call) or formula.function != "max" or len(formula.arguments) != 2:
+        return None
+    first, second = (PhaseTorque.of_power(argument) for argument in formula.arguments)
+    return None if first is None or second is None else (first, second)

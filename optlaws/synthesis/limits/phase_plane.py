@@ -20,7 +20,7 @@ from optlaws.formulas.affine import quadratic
 from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.reading import read
-from optlaws.formulas.slopes import scaled
+from optlaws.formulas.slopes import constant, scaled
 from optlaws.formulas.tree import Formula, Name, Number, substituted
 from optlaws.kept import kept_property
 from optlaws.numbers import Array, bounded, power_of_two
@@ -61,9 +61,26 @@ class PhaseTorque:
     def of(cls, formula: Formula) -> PhaseTorque | None:
         """The torque that a formula of a, b and c is; None where it is none, as where it depends on k."""
         terms = quadratic(formula, ("b", "c"))
-        if terms is None or not terms.keys() <= set(_KEYS) or ("c",) not in terms:
+        return None if terms is None or ("c",) not in terms else cls._of_terms(terms)
+
+    @classmethod
+    def of_power(cls, formula: Formula) -> PhaseTorque | None:
+        """The torque that, times b, is a formula; of the number 0 that without any factor."""
+        if constant(formula) == 0.0:
+            return cls(_ZERO)
+        terms = quadratic(formula, ("b", "c"), 3)
+        if terms is None or any("b" not in key for key in terms):
             return None
-        if any(factor.names() - {"a", "pi"} for factor in terms.values()):
+        by_velocity: dict[tuple[str, ...], Formula] = {}
+        for key, factor in terms.items():
+            rest = list(key)
+            rest.remove("b")
+            by_velocity[tuple(rest)] = factor
+        return cls._of_terms(by_velocity)
+
+    @classmethod
+    def _of_terms(cls, terms: Mapping[tuple[str, ...], Formula]) -> PhaseTorque | None:
+        if not terms.keys() <= set(_KEYS) or any(factor.names() - {"a", "pi"} for factor in terms.values()):
             return None
         return cls(*(terms.get(key, _ZERO) for key in _KEYS))
 
