@@ -15,7 +15,8 @@ from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.files.reading import JsonText
 from optlaws.formulas.reading import read
-from optlaws.formulas.tree import Call, Formula
+from optlaws.formulas.slopes import constant
+from optlaws.formulas.tree import Call, Exponentiation, Formula, Number, Product, Sum, product
 from optlaws.kept import kept_property
 from optlaws.numbers import Array, not_negative, numbers, positive, power_of_two
 from optlaws.suggest import unknown_key
@@ -352,13 +353,14 @@ def plane_of(problem: Problem) -> tuple[PhasePlane, DriveObjective, float] | Non
     if plane is None:
         return None
     limits = []
-    for constant, bounds in problem.bounded:
-        if isinstance(constant, FormulaPeak) and constant.of_magnitude and bounds.high < inf:
-            form = PhaseTorque.of(constant.motion.formula)
-            if form is not None and (constant.motion.start, constant.motion.stop) == (0.0, 1.0):
+    for bounded, bounds in problem.bounded:
+        if isinstance(bounded, FormulaPeak) and bounded.of_magnitude and bounds.high < inf:
+            form = PhaseTorque.of(bounded.motion.formula)
+            if form is not None and (bounded.motion.start, bounded.motion.stop) == (0.0, 1.0):
                 limits.append(TorqueLimit(form.scaled(1.0 / unit), bounds.high / unit))
     B, C = (inf if (known := problem.range(name)) is None else known.high for name in ("B", "C"))
-    minimise: DriveObjective = "energy" if plane.maxima else "rms torque" if plane.squared is not None else "peak torque"
+    minimise: DriveObjective = "energy" if isinstance(term, FormulaIntegral) else "rms torque"
+    minimise = "peak torque" if plane.peak is not None else minimise
     return replace(plane, limits=tuple(limits), B=B, C=C), minimise, unit
 
 
@@ -366,11 +368,7 @@ def _objective(term: OfFormula) -> tuple[float, PhasePlane | None]:
     """The unit of a constant made of a formula, and the plane in which it is minimised; None where it is none."""
     formula = term.motion.formula
     if isinstance(term, FormulaIntegral):
-        torques = _of_power(formula)
-        if torques is None:
-            return 1.0, None
-        unit = max(torque.size for torque in torques)
-        return unit, PhasePlane(maxima=((torques[0].scaled(1.0 / unit), torques[1].scaled(1.0 / unit)),))
+        return _of_integral(formula)
     form = PhaseTorque.of(formula)
     if form is None:
         return 1.0, None
@@ -382,9 +380,27 @@ def _objective(term: OfFormula) -> tuple[float, PhasePlane | None]:
     return 1.0, None
 
 
-def _of_power(formula: Formula) -> tuple[PhaseTorque, PhaseTorque] | None:
-    """The two torques of the greater of two powers; None where the formula is another."""
-    if not isinstance(formula, Call) or formula.function != "max" or len(formula.arguments) != 2:
-        return None
-    first, second = (PhaseTorque.of_power(argument) for argument in formula.arguments)
-    return None if first is None or second is None else (first, second)
+def _of_integral(formula: Formula) -> tuple[float, PhasePlane | None]:
+    """The plane of a sum of powers, each the greater of two, and of one squared torque, each with a factor."""
+    powers: list[tuple[PhaseTorque, PhaseTorque]] = []
+    squares: list[tuple[float, PhaseTorque]] = []
+    for part in formula.terms if isinstance(formula, Sum) else (formula,):
+        factors = part.factors if isinstance(part, Product) else (part,)
+        own, weight = factors[-1], constant(product([Number(1.0), *factors[:-1]]))
+        if weight is None or weight <= 0.0:
+            return 1.0, None
+        if isinstance(own, Exponentiation) and constant(own.exponent) == 2.0:
+            form = PhaseTorque.of(own.base)
+            squares += [] if form is None else [(weight, form)]
+        elif isinstance(own, Call) and own.function == "max" and len(own.arguments) == 2:
+            first, second = map(PhaseTorque.of_power, own.arguments)
+            powers += [] if first is None or second is None else [(first.scaled(weight), second.scaled(weight))]
+    parts = formula.terms if isinstance(formula, Sum) else (formula,)
+    if len(powers) + len(squares) != len(parts) or len(squares) > 1:
+        return 1.0, None
+    unit = max(torque.size for torque in [*(form for _, form in squares), *(form for pair in powers for form in pair)])
+    maxima = tuple((first.scaled(1.0 / unit), second.scaled(1.0 / unit)) for first, second in powers)
+    if not squares:
+        return unit, PhasePlane(maxima=maxima)
+    [(weight, form)] = squares
+    return unit, PhasePlane(squared=form.scaled(1.0 / unit), maxima=maxima, heat=weight * unit)

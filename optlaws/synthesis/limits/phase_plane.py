@@ -23,7 +23,7 @@ from optlaws.formulas.reading import read
 from optlaws.formulas.slopes import constant, scaled
 from optlaws.formulas.tree import Formula, Name, Number, substituted
 from optlaws.kept import kept_property
-from optlaws.numbers import Array, bounded, power_of_two
+from optlaws.numbers import Array, bounded, positive, power_of_two
 from optlaws.numerics.enclosures.interval import exact
 from optlaws.numerics.enclosures.taylor import Jet, variable
 from optlaws.synthesis.limits.formula_jets import formula_jet
@@ -164,8 +164,8 @@ class PhasePlane(JsonText):
 
     Attributes
     ----------
-    squared
-        A torque whose mean square is minimised.
+    squared, heat
+        A torque whose mean square is minimised, and the factor of that.
     maxima
         Powers that are minimised in the mean: each is b times the greater of two torques.
     peak
@@ -188,6 +188,7 @@ class PhasePlane(JsonText):
     limits: tuple[TorqueLimit, ...] = ()
     B: float = inf
     C: float = inf
+    heat: float = 1.0
 
     _json_name = "a phase plane"
 
@@ -268,18 +269,19 @@ class PhasePlane(JsonText):
             "limits": [[limit.torque.to_list(), limit.at_rest, limit.fall] for limit in self.limits],
             "B": bounded(self.B),
             "C": bounded(self.C),
+            "heat": self.heat,
         }
 
     @classmethod
     def from_dict(cls, data: Any) -> PhasePlane:  # noqa: ANN401 - it is checked here
         """The plane that `to_dict` described."""
-        if not isinstance(data, Mapping) or set(data) != {"squared", "maxima", "peak", "limits", "B", "C"}:
-            raise InputError("a phase plane has the keys squared, maxima, peak, limits, B and C")
+        if not isinstance(data, Mapping) or set(data) != {"squared", "maxima", "peak", "limits", "B", "C", "heat"}:
+            raise InputError("a phase plane has the keys squared, maxima, peak, limits, B, C and heat")
         squared, peak = (None if data[key] is None else _torque(data[key]) for key in ("squared", "peak"))
         maxima = tuple((_torque(first), _torque(second)) for first, second in data["maxima"])
         limits = tuple(TorqueLimit(_torque(torque), float(P), float(fall)) for torque, P, fall in data["limits"])
         B, C = (inf if data[key] is None else float(data[key]) for key in ("B", "C"))
-        return cls(squared, maxima, peak, limits, B, C)
+        return cls(squared, maxima, peak, limits, B, C, positive(data["heat"], "heat"))
 
 
 def _torque(texts: Any) -> PhaseTorque:  # noqa: ANN401 - it is checked here

@@ -369,7 +369,7 @@ class _Cells:
             A, B1, C2 = A + price * load, B1 + price * drag * scale, C2 + price * square * scale * scale
         for price, (sign, above), entry in zip(prices, self._lines, self.entries, strict=True):
             if entry.role == "squared":
-                B1 = B1 - share * price * price * 0.25
+                B1 = B1 - share * price * price * 0.25 / self.plane.heat
                 continue
             magnitude = self._chosen(sign != 0.0, price * sign, self._affine(above, terms.s)) * share
             if entry.role == "peak":

@@ -182,7 +182,7 @@ class _Program:
             double = {variable: 2.0 * part for variable, part in parts.items()}
             ways = {_VELOCITY: one, slack: one}, {_VELOCITY: -one, slack: one}
             self._cone((ways[0], 0.0 * one), (double, 2.0 * load), (ways[1], 0.0 * one))
-            self._cost(slack, size**2)
+            self._cost(slack, plane.heat * size**2)
             slack += 1
         for torques in plane.maxima:
             size = max(self._torque(torque)[2] for torque in torques)

@@ -90,7 +90,7 @@ class InnerMinimum:
         rest, prices = 2.0 * self.q, list[Array]()
         follows = np.full(b.shape, 0 if self.entries[0].role in {"squared", "peak"} else last)
         if self.plane.squared is not None:
-            price = 2.0 * self._torque(self.plane.squared, b, c) / b
+            price = 2.0 * self.plane.heat * self._torque(self.plane.squared, b, c) / b
             rest = rest - price * self.factors[self.plane.squared][0]
             prices.append(price)
         shares = []
@@ -155,14 +155,15 @@ class InnerMinimum:
                 lines = [(slope + more, value + other) for slope, value in lines for more, other in here]
             if self.plane.squared is not None:
                 inertia, free = self.factors[self.plane.squared][0], self._torque(self.plane.squared, b, nothing)
-                candidates += [((self.q - 0.5 * slope) * b / inertia - free) / inertia for slope, _ in lines]
+                pace = b / (self.plane.heat * inertia)
+                candidates += [((self.q - 0.5 * slope) * pace - free) / inertia for slope, _ in lines]
         clipped = [np.fmin(np.fmax(candidate, low), high) for candidate in candidates]
         return [np.where(np.isfinite(c), c, 0.0) for c in clipped]
 
     def _cost(self, b: Array, c: Array) -> Array:
         total = -2.0 * self.q * c
         if self.plane.squared is not None:
-            total = total + self._torque(self.plane.squared, b, c) ** 2 / b
+            total = total + self.plane.heat * self._torque(self.plane.squared, b, c) ** 2 / b
         for torques in self.plane.maxima:
             total = total + np.max([self._torque(torque, b, c) for torque in torques], axis=0)
         return np.asarray(total)

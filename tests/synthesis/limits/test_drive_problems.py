@@ -5,17 +5,31 @@ from typing import Any
 
 import pytest
 
-from optlaws import C, InputError, Powers, Problem, Solution, integral, peak, rms, synthesize
+from optlaws import (
+    C,
+    InputError,
+    Powers,
+    Problem,
+    Solution,
+    drive_limit,
+    drive_torque,
+    integral,
+    peak,
+    rms,
+    synthesize,
+)
 from optlaws.mechanisms import slider_crank
 from optlaws.verification import verify
+from tests.internals.synthesis import limit_beside
 
 PRESS = slider_crank("0.1 m", "0.4 m", bodies={"crank": "0.02 kg m^2", "slider": "5 kg"})
 MOVE = PRESS.dimensionless("0 deg", "180 deg", "0.3 s")
-BASE = {"order": 3, "basis": Powers(9), "symmetric": False, "monotone": True}
+BASE: dict[str, Any] = {"order": 3, "basis": Powers(9), "symmetric": False, "monotone": True}
 
 
-def solved(**entries: Any) -> Solution:
-    return synthesize(Problem(**{**BASE, "minimise": rms(MOVE.torque), **entries}))
+def solved(**entries: object) -> Solution:
+    given: dict[str, Any] = {**BASE, "minimise": rms(MOVE.torque), **entries}
+    return synthesize(Problem(**given))
 
 
 def test_the_gap_to_the_limit_is_what_the_degree_costs() -> None:
@@ -71,3 +85,42 @@ def test_the_limit_of_another_problem_is_refused() -> None:
 @pytest.mark.parametrize("changes", [{"monotone": False}, {"minimise": rms(MOVE.torque) + C}], ids=str)
 def test_without_a_limit_nothing_is_claimed(changes: dict[str, object]) -> None:
     assert solved(basis=Powers(5), **changes).drive_limit is None
+
+
+LOADED = drive_torque(inertia="1 + 0.6*a^2", load="3*a")
+
+
+@pytest.mark.parametrize(
+    ("formula", "options"),
+    [
+        (f"({LOADED})^2", {"minimise": "rms torque"}),
+        (f"max(({LOADED})*b, 0)", {"minimise": "energy"}),
+        (f"max(({LOADED})*b, 0.6*({LOADED})*b)", {"minimise": "energy", "recovered": 0.6}),
+    ],
+)
+def test_integrals_are_read_as_heat_and_energy(formula: str, options: dict[str, Any]) -> None:
+    known = drive_limit(LOADED, B=2.2, C=9.0, **options).value
+    known = known**2 if options["minimise"] == "rms torque" else known
+    for factor in (1.0, 0.05):
+        problem = Problem(**BASE, B=(0, 2.2), C=(0, 9), minimise=integral(f"{factor}*{formula}"))
+        limit = limit_beside(problem)
+        assert limit is not None
+        assert limit.value == pytest.approx(factor * known, rel=1e-6)
+
+
+def test_energy_and_heat_together_are_above_their_limits_alone() -> None:
+    power, heat = f"max(({LOADED})*b, 0)", f"0.05*({LOADED})^2"
+    values = []
+    for formula in (power, heat, f"{power} + {heat}"):
+        limit = limit_beside(Problem(**BASE, B=(0, 2.2), C=(0, 9), minimise=integral(formula)))
+        assert limit is not None
+        assert limit.gap < 1e-6
+        values.append(limit.value)
+    assert values[0] + values[1] < values[2] < 1.1 * (values[0] + values[1])
+
+
+def test_a_bound_of_the_torque_counts() -> None:
+    bounded = Problem(**BASE, minimise=rms(LOADED), bounds={peak(LOADED): (0, 4.5)}, B=(0, 2.2))
+    limit = limit_beside(bounded)
+    assert limit is not None
+    assert limit.value == pytest.approx(drive_limit(LOADED, "rms torque", B=2.2, P=4.5).value, rel=1e-6)
