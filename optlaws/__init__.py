@@ -8,6 +8,7 @@ from optlaws.lazy import declare, face
 _load, __dir__, __all__ = face(
     __name__,
     {
+        "optlaws.cams.at_shaft": "cam_mechanism",
         "optlaws.cams.barrel": "BarrelCam",
         "optlaws.cams.best_laws": "best_base_circle best_cam",
         "optlaws.cams.conjugate": "conjugate_cam",
@@ -58,6 +59,14 @@ _load, __dir__, __all__ = face(
         "optlaws.balancing.loaders.loader": "Loader inertial_loader",
         "optlaws.balancing.loaders.optimal": "BalancedLaw balanced_law",
         "optlaws.balancing.loaders.trapezium": "TrapeziumSubstitute",
+        "optlaws.mechanisms.drives.drive_train": "Drive",
+        "optlaws.mechanisms.drives.motor": "Motor read_motors",
+        "optlaws.mechanisms.linkages.bodies": "Body Loads",
+        "optlaws.mechanisms.linkages.mechanism": "Mechanism",
+        "optlaws.mechanisms.linkages.four_bar": "four_bar",
+        "optlaws.mechanisms.linkages.motions": "belt mechanism_of_motion rack screw",
+        "optlaws.mechanisms.linkages.slider_crank": "slider_crank",
+        "optlaws.mechanisms.linkages.toggle": "toggle",
         "optlaws.mechanisms.machine.machine": "Machine",
         "optlaws.mechanisms.machine.masses": "Link",
         "optlaws.mechanisms.machine.parameters": "MachineSpectrum machine_spectrum",
@@ -70,6 +79,7 @@ _load, __dir__, __all__ = face(
         "optlaws.synthesis.arrays.problems": "ProblemArray map_arrays",
         "optlaws.synthesis.functionals.makers": "drive_torque functional integral peak rms value",
         "optlaws.synthesis.limits.closed_forms": "acceleration_limit limit",
+        "optlaws.synthesis.limits.drive_limits": "DriveLimit drive_limit",
         "optlaws.synthesis.limits.laws": "limit_law",
         "optlaws.synthesis.pareto": "Front pareto_front",
         "optlaws.synthesis.problem.constants": "FUNCTIONALS B C C_minus C_plus D Functional J jounce "

@@ -20,6 +20,7 @@ from optlaws.balancing.loaders.trapezium import TrapeziumSubstitute as Trapezium
 from optlaws.cams.as_manufactured import AsMade as AsMade
 from optlaws.cams.as_manufactured import as_made as as_made
 from optlaws.cams.as_manufactured import with_profile_error as with_profile_error
+from optlaws.cams.at_shaft import cam_mechanism as cam_mechanism
 from optlaws.cams.barrel import BarrelCam as BarrelCam
 from optlaws.cams.best_laws import best_base_circle as best_base_circle
 from optlaws.cams.best_laws import best_cam as best_cam
@@ -74,9 +75,22 @@ from optlaws.laws.savin import SavinFamily as SavinFamily
 from optlaws.laws.savin import savin as savin
 from optlaws.laws.segments.piecewise import PiecewiseLaw as PiecewiseLaw
 from optlaws.mechanisms.cam_constants import cam_constant as cam_constant
+from optlaws.mechanisms.drives.drive_train import Drive as Drive
+from optlaws.mechanisms.drives.motor import Motor as Motor
+from optlaws.mechanisms.drives.motor import read_motors as read_motors
 from optlaws.mechanisms.follower import Deviation as Deviation
 from optlaws.mechanisms.follower import Follower as Follower
 from optlaws.mechanisms.follower import off_design as off_design
+from optlaws.mechanisms.linkages.bodies import Body as Body
+from optlaws.mechanisms.linkages.bodies import Loads as Loads
+from optlaws.mechanisms.linkages.four_bar import four_bar as four_bar
+from optlaws.mechanisms.linkages.mechanism import Mechanism as Mechanism
+from optlaws.mechanisms.linkages.motions import belt as belt
+from optlaws.mechanisms.linkages.motions import mechanism_of_motion as mechanism_of_motion
+from optlaws.mechanisms.linkages.motions import rack as rack
+from optlaws.mechanisms.linkages.motions import screw as screw
+from optlaws.mechanisms.linkages.slider_crank import slider_crank as slider_crank
+from optlaws.mechanisms.linkages.toggle import toggle as toggle
 from optlaws.mechanisms.machine.flat_output import driving_law as driving_law
 from optlaws.mechanisms.machine.flat_output import flat_output as flat_output
 from optlaws.mechanisms.machine.machine import Machine as Machine
@@ -107,6 +121,8 @@ from optlaws.synthesis.functionals.makers import rms as rms
 from optlaws.synthesis.functionals.makers import value as value
 from optlaws.synthesis.limits.closed_forms import acceleration_limit as acceleration_limit
 from optlaws.synthesis.limits.closed_forms import limit as limit
+from optlaws.synthesis.limits.drive_limits import DriveLimit as DriveLimit
+from optlaws.synthesis.limits.drive_limits import drive_limit as drive_limit
 from optlaws.synthesis.limits.laws import limit_law as limit_law
 from optlaws.synthesis.pareto import Front as Front
 from optlaws.synthesis.pareto import pareto_front as pareto_front
@@ -170,6 +186,7 @@ __all__ = [
     "BarrelCam",
     "Basis",
     "Bernstein",
+    "Body",
     "BoundaryConditions",
     "C",
     "C_minus",
@@ -188,6 +205,8 @@ __all__ = [
     "D",
     "Deviation",
     "DiscCam",
+    "Drive",
+    "DriveLimit",
     "Dwell",
     "DwellMachine",
     "Expression",
@@ -204,10 +223,13 @@ __all__ = [
     "LeverCam",
     "Link",
     "Loader",
+    "Loads",
     "Machine",
     "MachineFollower",
     "MachineSpectrum",
+    "Mechanism",
     "MotionLaw",
+    "Motor",
     "Move",
     "NoisyTable",
     "NotNormalised",
@@ -247,22 +269,26 @@ __all__ = [
     "at_least",
     "at_most",
     "balanced_law",
+    "belt",
     "best_base_circle",
     "best_breaks",
     "best_cam",
     "between",
     "cam_constant",
+    "cam_mechanism",
     "catalogue",
     "compare_dwell_mechanisms",
     "compare_laws",
     "conjugate_cam",
     "deg",
+    "drive_limit",
     "drive_torque",
     "driving_law",
     "dwell_machine",
     "dwell_mechanism",
     "find_torsion_levers",
     "flat_output",
+    "four_bar",
     "functional",
     "greatest_roller",
     "inertial_loader",
@@ -279,6 +305,7 @@ __all__ = [
     "map_arrays",
     "mass_law",
     "maximum",
+    "mechanism_of_motion",
     "mirrored_law",
     "multiplied_law",
     "multiplier_for",
@@ -288,7 +315,9 @@ __all__ = [
     "peak",
     "polydyne",
     "proven_front",
+    "rack",
     "read_law",
+    "read_motors",
     "residual_functional",
     "residual_phasor",
     "residual_vibration",
@@ -302,13 +331,16 @@ __all__ = [
     "run_study",
     "savin",
     "scca",
+    "screw",
     "shaped_law",
+    "slider_crank",
     "smoothstep",
     "sweep",
     "synthesize",
     "synthesize_array",
     "synthesize_chunks",
     "synthesize_many",
+    "toggle",
     "trapezoid",
     "value",
     "via",

@@ -308,3 +308,11 @@ OUTPUT_REST = 2.0**-150  # of what an output is made of: what a Taylor polynomia
 GREATEST_ENCLOSED = 2.0**-70  # of a greatest value: how narrow its ball must be
 GREATEST_NEGLIGIBLE = 2.0**-110  # of what a function is made of: a greatest value that is less is enclosed well enough
 BOUND_ENCLOSED = 2.0**-80  # of the objective's scale: in a wider ball a bound gains from more bits
+
+# --- limits in the phase plane --------------------------------------------------------------------------------------
+PHASE_ACTIVE = 1e-4  # of a bound: places of a conic program so near to it have it active
+SMALLEST_ELEMENT = 1e-7  # of the move: elements of a potential are not cut further
+PHASE_PACE = 1e-5  # of what is minimised: the least price of the time
+PHASE_TIE = 1e-7  # of a bound or of two torques: nearer values are equal, and the potential says at what price
+AFFINE_SLACK = 1e-12  # of a price: keeps affine shares within 0 and 1 and magnitudes below their lines after rounding
+STATIONARY_SLACK = 1e-10  # of a velocity: beyond the flat place of a function without a bound it only rises

@@ -87,6 +87,7 @@ SEVERAL = {
     "limits",
     "loader",
     "machine",
+    "mechanism",
     "motion",
     "nomogram",
     "of_basis",

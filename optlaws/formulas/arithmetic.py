@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache, reduce
 from math import pi
+from operator import add, mul
 from typing import Any
 
 import numpy as np
@@ -56,28 +57,57 @@ def evaluate(formula: Formula, names: Mapping[str, Any], arithmetic: Arithmetic)
     >>> evaluate(read("c + 0.5*b"), {"b": np.array([2.0, 4.0]), "c": 1.0}, NUMPY)
     array([2., 3.])
     """
-    if isinstance(formula, Number):
-        return arithmetic.number(formula.value)
-    if isinstance(formula, Name):
-        return arithmetic.number(pi) if formula.name == "pi" and "pi" not in names else names[formula.name]
-    parts = [evaluate(part, names, arithmetic) for part in formula.parts]
-    if isinstance(formula, Negative):
-        return -parts[0]
-    if isinstance(formula, Sum):
-        return reduce(lambda total, other: total + other, parts)
-    if isinstance(formula, Product):
-        return reduce(lambda product, other: product * other, parts)
-    if isinstance(formula, Reciprocal):
-        return arithmetic.number(1.0) / parts[0]
-    if isinstance(formula, Exponentiation):
-        return arithmetic.power(*parts)
-    if isinstance(formula, Table):
-        if arithmetic.table is None:
-            raise TypeError("this arithmetic has no tables")
-        return arithmetic.table(formula, parts[0])
-    assert isinstance(formula, Call)  # noqa: S101 - there are no others
+    values: list[Any] = []
+    for part, places, done in formula.steps:
+        values.append(step_value(part, [values[place] for place in places], names, arithmetic))
+        for place in done:
+            values[place] = None
+    return values[-1]
+
+
+def step_value(
+    formula: Formula,
+    parts: list[Any],
+    names: Mapping[str, Any],
+    arithmetic: Arithmetic,
+) -> Any:  # noqa: ANN401 - a number of the arithmetic
+    """The value of a formula from those of its parts.
+
+    >>> from optlaws.formulas.reading import read
+    >>> float(step_value(read("sin(k) + b"), [1.0, 2.0], {}, NUMPY))
+    3.0
+    """
+    return _OPERATIONS[type(formula)](formula, parts, names, arithmetic)
+
+
+def _name(formula: Any, _: list[Any], names: Mapping[str, Any], arithmetic: Arithmetic) -> Any:  # noqa: ANN401
+    is_constant = formula.name == "pi" and "pi" not in names
+    return arithmetic.number(pi) if is_constant else names[formula.name]
+
+
+def _lookup(formula: Any, parts: list[Any], _: Mapping[str, Any], arithmetic: Arithmetic) -> Any:  # noqa: ANN401
+    if arithmetic.table is None:
+        raise TypeError("this arithmetic has no tables")
+    return arithmetic.table(formula, parts[0])
+
+
+def _call(formula: Any, parts: list[Any], _: Mapping[str, Any], arithmetic: Arithmetic) -> Any:  # noqa: ANN401
     function = arithmetic.functions[formula.function]
     return function(parts[0]) if len(parts) == 1 else reduce(function, parts)
+
+
+#: the value of a kind of formula from those of its parts
+_OPERATIONS: dict[type[Formula], Callable[[Any, list[Any], Mapping[str, Any], Arithmetic], Any]] = {
+    Number: lambda formula, _parts, _names, arithmetic: arithmetic.number(formula.value),
+    Name: _name,
+    Negative: lambda _formula, parts, _names, _arithmetic: -parts[0],
+    Sum: lambda _formula, parts, _names, _arithmetic: reduce(add, parts),
+    Product: lambda _formula, parts, _names, _arithmetic: reduce(mul, parts),
+    Reciprocal: lambda _formula, parts, _names, arithmetic: arithmetic.number(1.0) / parts[0],
+    Exponentiation: lambda _formula, parts, _names, arithmetic: arithmetic.power(*parts),
+    Table: _lookup,
+    Call: _call,
+}
 
 
 def _numpy_power(base: Any, exponent: Any) -> Any:  # noqa: ANN401 - numbers or arrays

@@ -8,7 +8,7 @@ from functools import reduce
 from itertools import combinations
 from itertools import product as every
 
-from optlaws.formulas.arithmetic import NUMPY, evaluate, pieces
+from optlaws.formulas.arithmetic import NUMPY, pieces, step_value
 from optlaws.formulas.functions import SMOOTH_FUNCTIONS
 from optlaws.formulas.slopes import added, multiplied, opposite
 from optlaws.formulas.tree import (
@@ -106,18 +106,47 @@ def branch_at(formula: Formula, names: Mapping[str, float]) -> Formula:
     >>> branch_at(read("table(a, 0:0, 0.5:2, 1:3)"), {"a": 0.75})
     2 + 2*(a - 0.5)
     """
-    parts = [branch_at(part, names) for part in formula.parts]
-    if smooth_itself(formula) and not isinstance(formula, Table):
-        return rebuilt(formula, parts) if parts else formula
-    values = [float(evaluate(part, names, NUMPY)) for part in parts]
-    if isinstance(formula, Table):
-        rows = pieces(formula).tolist()
-        i = min(max(bisect_right(formula.places, values[0]) - 1, 0), len(rows) - 1)
-        return _in_powers(rows[i], added([parts[0], opposite(number(formula.places[i]))]))
-    if len(parts) == 1:
-        return parts[0] if values[0] >= 0.0 else opposite(parts[0])
-    best = max(values) if isinstance(formula, Call) and formula.function == "max" else min(values)
-    return parts[values.index(best)]
+    values: list[float] = []
+    choices: list[int] = []
+    for part, places, _ in formula.steps:
+        of = [values[place] for place in places]
+        values.append(float(step_value(part, of, names, NUMPY)))
+        if isinstance(part, Table) or not smooth_itself(part):
+            choices.append(_choice(part, of))
+    key = tuple(choices)
+    if key not in formula.known_branches:
+        formula.known_branches[key] = _chosen(formula, choices)
+    return formula.known_branches[key]
+
+
+def _choice(part: Formula, values: list[float]) -> int:
+    """Which of the smooth formulas a part with a kink is, where its parts have these values."""
+    if isinstance(part, Table):
+        return min(max(bisect_right(part.places, values[0]) - 1, 0), len(part.places) - 2)
+    if len(values) == 1:
+        return int(values[0] < 0.0)
+    best = max(values) if isinstance(part, Call) and part.function == "max" else min(values)
+    return values.index(best)
+
+
+def _chosen(formula: Formula, choices: Sequence[int]) -> Formula:
+    """The smooth formula of one choice for each part with a kink."""
+    built: list[Formula] = []
+    left = iter(choices)
+    for part, places, _ in formula.steps:
+        parts = [built[place] for place in places]
+        if isinstance(part, Table):
+            i = next(left)
+            start = added([parts[0], opposite(number(part.places[i]))])
+            built.append(_in_powers(pieces(part)[i].tolist(), start))
+        elif smooth_itself(part):
+            same = all(one is other for one, other in zip(parts, part.parts, strict=True))
+            built.append(part if same else rebuilt(part, parts))
+        elif len(parts) == 1:
+            built.append(opposite(parts[0]) if next(left) else parts[0])
+        else:
+            built.append(parts[next(left)])
+    return built[-1]
 
 
 def together(formula: Formula) -> Formula:

@@ -42,50 +42,51 @@ def derivative(formula: Formula, name: str) -> Formula:
     >>> derivative(read("c*b + sin(3*b)"), "b")
     c + 3*cos(3*b)
     """
-    if name not in formula.names():
-        return _ZERO
+    slopes: list[Formula] = []
+    for part, places, _ in formula.steps:
+        moving = name in part.names()
+        slopes.append(_slope(part, [slopes[place] for place in places], name) if moving else _ZERO)
+    return slopes[-1]
+
+
+def _slope(formula: Formula, slopes: list[Formula], name: str) -> Formula:
+    """The derivative of a formula in which the name is, from those of its parts."""
     if isinstance(formula, Name):
         return _ONE
     if isinstance(formula, Negative):
-        return opposite(derivative(formula.of, name))
+        return opposite(slopes[0])
     if isinstance(formula, Sum):
-        return added([derivative(term, name) for term in formula.terms])
+        return added(slopes)
     if isinstance(formula, Product):
-        return _of_product(formula, name)
+        return _of_product(formula, slopes)
     if isinstance(formula, Reciprocal):
         square = Reciprocal(Exponentiation(formula.of, Number(2.0)))
-        return opposite(multiplied([derivative(formula.of, name), square]))
+        return opposite(multiplied([slopes[0], square]))
     if isinstance(formula, Exponentiation):
-        return _of_power(formula, name)
+        return _of_power(formula, slopes, name)
     if isinstance(formula, Table):
-        return multiplied([_of_table(formula), derivative(formula.of, name)])
+        return multiplied([_of_table(formula), slopes[0]])
     assert isinstance(formula, Call)  # noqa: S101 - there are no others
-    return _of_call(formula, name)
+    return _of_call(formula, slopes)
 
 
-def _of_product(formula: Product, name: str) -> Formula:
+def _of_product(formula: Product, slopes: list[Formula]) -> Formula:
     terms = []
-    for i, factor in enumerate(formula.factors):
+    for i, slope in enumerate(slopes):
         others = (*formula.factors[:i], *formula.factors[i + 1 :])
-        terms.append(multiplied([derivative(factor, name), *others]))
+        terms.append(multiplied([slope, *others]))
     return added(terms)
 
 
-def _of_power(formula: Exponentiation, name: str) -> Formula:
-    base, exponent = formula.base, formula.exponent
-    slope = derivative(base, name)
+def _of_power(formula: Exponentiation, slopes: list[Formula], name: str) -> Formula:
+    base, exponent, slope = formula.base, formula.exponent, slopes[0]
     known = constant(exponent)
     if known is not None:
         lower = base if known == 2.0 else Exponentiation(base, number(known - 1.0))
         return multiplied([number(known), lower if known != 1.0 else _ONE, slope])
     if name not in exponent.names():
         return multiplied([exponent, Exponentiation(base, added([exponent, opposite(_ONE)])), slope])
-    turned = added(
-        [
-            multiplied([derivative(exponent, name), Call("log", (base,))]),
-            multiplied([exponent, slope, Reciprocal(base)]),
-        ]
-    )
+    turned = added([multiplied([slopes[1], Call("log", (base,))]), multiplied([exponent, slope, Reciprocal(base)])])
     return multiplied([formula, turned])
 
 
@@ -101,14 +102,14 @@ _SLOPES: dict[str, Callable[[Formula], Formula]] = {
 }
 
 
-def _of_call(formula: Call, name: str) -> Formula:
+def _of_call(formula: Call, slopes: list[Formula]) -> Formula:
     if formula.function == "norm":
-        terms = [multiplied([part, derivative(part, name)]) for part in formula.arguments]
+        terms = [multiplied([part, slope]) for part, slope in zip(formula.arguments, slopes, strict=True)]
         return multiplied([added(terms), Reciprocal(formula)])
     if formula.function not in _SLOPES:
         raise InputError(f"{formula} has no derivative everywhere")
     [of] = formula.arguments
-    return multiplied([_SLOPES[formula.function](of), derivative(of, name)])
+    return multiplied([_SLOPES[formula.function](of), slopes[0]])
 
 
 def _of_table(formula: Table) -> Formula:

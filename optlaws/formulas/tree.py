@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from typing import Any, NamedTuple
+
+from optlaws.kept import kept_property
 
 #: orders of the derivatives of the law, by name
 ORDERS = {"a": 0, "b": 1, "c": 2, "j": 3}
@@ -14,7 +17,7 @@ VOCABULARY = ("a", "b", "c", "d", "j", "k")
 _SUM, _PRODUCT, _SIGNED, _ATOM = range(4)
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Formula:
     """A part of a formula; `place` is where its text begins, and no part of its value.
 
@@ -43,7 +46,65 @@ class Formula:
 
     def names(self) -> frozenset[str]:
         """The names that occur anywhere in it."""
-        return frozenset(part.name for part in self.walk() if isinstance(part, Name))
+        return self._names
+
+    @kept_property
+    def _names(self) -> frozenset[str]:
+        return frozenset().union(*(part._names for part in self.parts))  # noqa: SLF001 - its own kind
+
+    def __eq__(self, other: object) -> bool:
+        if self is other:
+            return True
+        if not isinstance(other, Formula):
+            return NotImplemented
+        same = type(self) is type(other) and self._hash == other._hash and self.own == other.own
+        return same and self.parts == other.parts
+
+    def __hash__(self) -> int:
+        return self._hash
+
+    @kept_property
+    def _hash(self) -> int:
+        return hash((type(self).__name__, self.own, self.parts))
+
+    @property
+    def own(self) -> Any:  # noqa: ANN401 - whatever a kind of formula has
+        """What it is beside its parts: two of one kind with equal parts that have this in common are equal."""
+        return None
+
+    @kept_property
+    def known_branches(self) -> dict[tuple[int, ...], Formula]:
+        """The smooth formulas that it is somewhere, by the choices of its maxima and tables: those known so far."""
+        return {}
+
+    @kept_property
+    def steps(self) -> tuple[Step, ...]:
+        """All different formulas within it, those first that others are made of; it itself is the last.
+
+        >>> from optlaws.formulas.reading import read
+        >>> [str(step.formula) for step in read("sin(2*a) + sin(2*a)^2").steps]
+        ['2', 'a', '2*a', 'sin(2*a)', 'sin(2*a)^2', 'sin(2*a) + sin(2*a)^2']
+        """
+        places: dict[int, int] = {}
+        known: dict[Any, int] = {}
+        found: list[tuple[Formula, tuple[int, ...]]] = []
+
+        def place(formula: Formula) -> int:
+            at = places.get(id(formula))
+            if at is None:
+                parts = tuple(place(part) for part in formula.parts)
+                at = known.setdefault((type(formula), formula.own, parts), len(found))
+                if at == len(found):
+                    found.append((formula, parts))
+                places[id(formula)] = at
+            return at
+
+        place(self)
+        last = {part: i for i, (_, parts) in enumerate(found) for part in parts}
+        done: list[list[int]] = [[] for _ in found]
+        for part, i in last.items():
+            done[i].append(part)
+        return tuple(Step(formula, parts, tuple(over)) for (formula, parts), over in zip(found, done, strict=True))
 
     def within(self, level: int) -> str:
         """Its text, in brackets where it binds less than its surroundings."""
@@ -53,28 +114,42 @@ class Formula:
         return str(self)
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Number(Formula):
     """A number of at least 0."""
 
     value: float
+
+    @property
+    def own(self) -> float:
+        """The value."""
+        return self.value
 
     def __str__(self) -> str:
         whole = self.value == int(self.value) and self.value < 1e15
         return str(int(self.value)) if whole else repr(self.value)
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Name(Formula):
     """A name, whatever it stands for."""
 
     name: str
 
+    @property
+    def own(self) -> str:
+        """The name."""
+        return self.name
+
+    @kept_property
+    def _names(self) -> frozenset[str]:
+        return frozenset((self.name,))
+
     def __str__(self) -> str:
         return self.name
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class OfOnePart(Formula):
     """A formula that is made of a single part."""
 
@@ -86,7 +161,7 @@ class OfOnePart(Formula):
         return (self.of,)
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Negative(OfOnePart):
     """A part with its sign turned."""
 
@@ -96,7 +171,7 @@ class Negative(OfOnePart):
         return f"-{self.of.within(_PRODUCT)}"
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Sum(Formula):
     """A sum of two terms at least; what is subtracted is a `Negative`."""
 
@@ -118,7 +193,7 @@ class Sum(Formula):
         return text
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Reciprocal(OfOnePart):
     """One divided by a part; within a product, what is divided by."""
 
@@ -128,7 +203,7 @@ class Reciprocal(OfOnePart):
         return f"1/{self.of.within(_SIGNED)}"
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Product(Formula):
     """A product of two factors at least; what is divided by is a `Reciprocal`."""
 
@@ -148,7 +223,7 @@ class Product(Formula):
         return text
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Exponentiation(Formula):
     """A base with an exponent."""
 
@@ -165,7 +240,7 @@ class Exponentiation(Formula):
         return f"{self.base.within(_ATOM)}^{self.exponent.within(_ATOM)}"
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Call(Formula):
     """A function of one part or several."""
 
@@ -177,11 +252,16 @@ class Call(Formula):
         """The arguments of the function."""
         return self.arguments
 
+    @property
+    def own(self) -> str:
+        """The name of the function."""
+        return self.function
+
     def __str__(self) -> str:
         return f"{self.function}({', '.join(map(str, self.arguments))})"
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Table(OfOnePart):
     """A function of one part, given by values at places: straight lines between them, which go on beyond them.
 
@@ -194,10 +274,23 @@ class Table(OfOnePart):
     smooth: bool = False
     order: int = 0
 
+    @property
+    def own(self) -> tuple[Any, ...]:
+        """The places and values, and what is made of them."""
+        return self.places, self.values, self.smooth, self.order
+
     def __str__(self) -> str:
         pairs = (f"{plain(x)}:{plain(y)}" for x, y in zip(self.places, self.values, strict=True))
         kind = "spline" if self.smooth else "table"
         return f"{kind}{self.order or ''}({self.of}, {', '.join(pairs)})"
+
+
+class Step(NamedTuple):
+    """A part of a formula as it is computed: from which steps before it, and which of them are then done with."""
+
+    formula: Formula
+    parts: tuple[int, ...]
+    done: tuple[int, ...]
 
 
 def plain(value: float) -> str:

@@ -73,6 +73,11 @@ class Jet:
             terms.append(rest * inverse)
         return Jet(tuple(terms))
 
+    __radd__, __rmul__ = __add__, __mul__
+
+    def __rsub__(self, other: Term) -> Jet:
+        return (-self).__add__(other)
+
     def __rtruediv__(self, other: float) -> Jet:
         return (self * 0.0 + other) / self
 

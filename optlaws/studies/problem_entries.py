@@ -128,6 +128,7 @@ def record(solution: Solution) -> dict[str, Any]:
     proofs = {
         "power_certificate": solution.power_certificate,
         "peak_certificate": solution.peak_certificate,
+        "drive_limit": solution.drive_limit,
     }
     names += [name for name, proof in proofs.items() if proof is not None]
     entries = solution.to_dict()

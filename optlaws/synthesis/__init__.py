@@ -7,6 +7,7 @@ __getattr__, __dir__, __all__ = face(
     {
         "optlaws.synthesis.arrays.problems": "ProblemArray map_arrays",
         "optlaws.synthesis.limits.closed_forms": "acceleration_limit limit",
+        "optlaws.synthesis.limits.drive_limits": "DriveLimit drive_limit",
         "optlaws.synthesis.limits.laws": "limit_law",
         "optlaws.synthesis.pareto": "Front pareto_front",
         "optlaws.synthesis.problem.constants": "FUNCTIONALS B C C_minus C_plus D Functional J jounce "

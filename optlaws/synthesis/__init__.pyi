@@ -3,6 +3,8 @@ from optlaws.synthesis.arrays.problems import ProblemArray as ProblemArray
 from optlaws.synthesis.arrays.problems import map_arrays as map_arrays
 from optlaws.synthesis.limits.closed_forms import acceleration_limit as acceleration_limit
 from optlaws.synthesis.limits.closed_forms import limit as limit
+from optlaws.synthesis.limits.drive_limits import DriveLimit as DriveLimit
+from optlaws.synthesis.limits.drive_limits import drive_limit as drive_limit
 from optlaws.synthesis.limits.laws import limit_law as limit_law
 from optlaws.synthesis.pareto import Front as Front
 from optlaws.synthesis.pareto import pareto_front as pareto_front
@@ -71,6 +73,7 @@ __all__ = [
     "Chebyshev",
     "Contact",
     "D",
+    "DriveLimit",
     "Expression",
     "Front",
     "FrontPoint",
@@ -98,6 +101,7 @@ __all__ = [
     "at_most",
     "basis",
     "between",
+    "drive_limit",
     "jounce",
     "law_from_z",
     "limit",

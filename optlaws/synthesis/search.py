@@ -12,6 +12,7 @@ from optlaws.errors import InfeasibleProblem, SolverFailure
 from optlaws.laws import MotionLaw
 from optlaws.numbers import Array
 from optlaws.synthesis.families.active_set import ActiveSet
+from optlaws.synthesis.limits.drive_limits import limit_beside
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.method import starts
 from optlaws.synthesis.method.exchange import Outcome, solve
@@ -191,7 +192,9 @@ class LawSearch:
         """The best law with its proof by an optimum without lower bounds of constants, which bounds the objective."""
         problem, limit = self.problem, known_limit(self.problem)
         proof = certify(self.model, bounding, best.objective, limit)
+        drive = None if problem.convex else limit_beside(problem)
         searched = [tight.bound for tight in (self.power, self.peaks) if tight is not None]
+        searched += [] if drive is None else [drive.value]
         bound = max([lower_bound(proof, limit), *searched])
         several = not problem.convex and best in self.candidates[:1]
         return Solution(
@@ -208,6 +211,7 @@ class LawSearch:
             starts=tuple(candidate.objective for candidate in self.candidates) if several else (),
             power_certificate=self.power,
             peak_certificate=self.peaks,
+            drive_limit=drive,
             active_set=bounding,
         )
 

@@ -16,6 +16,7 @@ from optlaws.laws.exporting import LawExport
 from optlaws.numbers import bounded
 from optlaws.shown.summary import Row, Summary
 from optlaws.synthesis.families.active_set import ActiveSet
+from optlaws.synthesis.limits.drive_limits import DriveLimit
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.spaces.bases import PolynomialBasis, Powers
@@ -45,6 +46,8 @@ class Solution(LawExport, JsonText):
         Where D is in the problem and the bound was asked to be tight: the proof that closes the gap.
     peak_certificate
         Where a peak is bounded from below and the bound was asked to be tight: the proof that no place is better.
+    drive_limit
+        Of a drive's torque or energy that is not convex, where laws must not turn back: what none of them can beat.
     lower_bound
         The best proven lower bound of the objective over all laws of the problem, with its order, basis, bounds and
         windows: a certificate's or the limit.
@@ -83,6 +86,7 @@ class Solution(LawExport, JsonText):
     starts: tuple[float, ...] = ()
     power_certificate: Certificate | None = field(default=None, repr=False)
     peak_certificate: Certificate | None = field(default=None, repr=False)
+    drive_limit: DriveLimit | None = field(default=None, repr=False)
     active_set: ActiveSet = field(repr=False, kw_only=True, compare=False)
 
     if not TYPE_CHECKING:
@@ -163,6 +167,9 @@ class Solution(LawExport, JsonText):
         if self.limit is not None:
             laws = f"which no {limited_laws(problem)} can beat, whatever its degree"
             rows.append(Row("limit", self.limit, note=laws))
+        if self.drive_limit is not None:
+            laws = "which no law that never turns back can beat, whatever its degree"
+            rows.append(Row("limit", self.drive_limit.value, note=laws))
         if starts:
             rows.append(Row("starts", f"{len(starts)}", note=f"from {starts[0]:.10g} to {starts[-1]:.10g}"))
         if self.z is not None:
@@ -230,7 +237,8 @@ class Solution(LawExport, JsonText):
 
     def claims(self) -> dict[str, Any]:
         """What `to_dict` says but for `state`, which says no more of the law: what can be verified, and how it went."""
-        placed = {} if self.peak_certificate is None else {"peak_certificate": self.peak_certificate.to_dict()}
+        beside = {"peak_certificate": self.peak_certificate, "drive_limit": self.drive_limit}
+        placed = {name: proof.to_dict() for name, proof in beside.items() if proof is not None}
         return placed | {
             "status": self.status.value,
             "objective": self.objective,

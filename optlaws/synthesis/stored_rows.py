@@ -21,6 +21,7 @@ from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFa
 from optlaws.laws import MotionLaw, smoothstep
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Program
+from optlaws.synthesis.limits.drive_limits import DriveLimit, plane_of
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.evaluation import shortfalls, worth
@@ -74,6 +75,7 @@ class StatedSolution(msgspec.Struct, forbid_unknown_fields=True):
     z: Any = None
     power_certificate: Plain | None = None
     peak_certificate: Plain | None = None
+    drive_limit: Plain | None = None
     versions: Any = None
     state: StatedState | None = None
     about: str = ""
@@ -150,6 +152,7 @@ def attributes(row: StatedSolution, state: StatedState, problem: Problem) -> Pla
         "starts": row.starts,
         "power_certificate": _read(Certificate.from_dict, row.power_certificate),
         "peak_certificate": _read(Certificate.from_dict, row.peak_certificate),
+        "drive_limit": _read(DriveLimit.from_dict, row.drive_limit),
         "active_set": _active_set(state.active_set, model_of(problem).program),
     }
 
@@ -190,6 +193,11 @@ def _proven(row: StatedSolution, problem: Problem) -> Iterator[float]:
             raise InputError("a proof beside its law is of another problem")
         if proof is not None:
             yield proof.bound
+    drive = _read(DriveLimit.from_dict, row.drive_limit)
+    if drive is not None:
+        if (drive.plane, drive.minimise, drive.unit) != plane_of(problem):
+            raise InputError("the limit of a drive beside its law is of another problem")
+        yield drive.bound
     limit = known_limit(problem)
     if limit is not None:
         yield limit

@@ -13,6 +13,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
 from optlaws.suggest import unknown_key
+from optlaws.synthesis.limits.drive_limits import DriveLimit, plane_of
 from optlaws.synthesis.limits.rounding import rounded_down, rounded_up
 from optlaws.synthesis.problem.constants import FUNCTIONALS
 from optlaws.synthesis.problem.problem import Problem
@@ -121,7 +122,8 @@ def _solution(data: Mapping[str, Any]) -> Verification:
             raise InputError("a proof that no law exists beside a law: verify the certificate alone")
         proofs[key] = certificate, prove(certificate)
     objective = enclosed(law.sum(problem.objective))
-    bound, source = _best(problem, proofs)
+    drive = None if data.get("drive_limit") is None else built(DriveLimit.from_dict, data["drive_limit"], "drive_limit")
+    bound, source = _best(problem, proofs, drive)
     gap = None
     if bound is not None and objective[1] < inf:
         size = Fraction(measure(objective[1], problem.objective.scale))
@@ -142,6 +144,9 @@ def _solution(data: Mapping[str, Any]) -> Verification:
         claims.append(Claim(f"{_name(key)}'s problem", same, detail))
         accurate = data.get("status") != "inaccurate"
         claims += _proof_claims(proof, certificate, data[key], _name(key), accurate=accurate)
+    if drive is not None:
+        same = (drive.plane, drive.minimise, drive.unit) == plane_of(problem)
+        claims.append(Claim("the drive's limit", same, "of the file's problem" if same else "of another problem"))
     if data.get("lower_bound") is not None:
         scale = problem.objective.scale
         claims.append(at_most("the lower bound", number(data, "lower_bound"), bound, scale, source))
@@ -162,13 +167,17 @@ def _name(key: str) -> str:
     return f"the {key.replace('_', ' ')}"
 
 
-def _best(problem: Problem, proofs: Mapping[str, tuple[Certificate, Proof]]) -> tuple[Fraction | None, str]:
+def _best(
+    problem: Problem, proofs: Mapping[str, tuple[Certificate, Proof]], drive: DriveLimit | None
+) -> tuple[Fraction | None, str]:
     """The highest bound that is proven of the problem, and by what if not by its first certificate."""
     known = [
         (proof.value, f" by {_name(key)}" if key in _BESIDE else "")
         for key, (certificate, proof) in proofs.items()
         if certificate.problem == problem and proof.value is not None
     ]
+    if drive is not None and (drive.plane, drive.minimise, drive.unit) == plane_of(problem):
+        known.append((Fraction(drive.bound), " by the phase plane"))
     limit = exact_limit(problem)
     if limit is not None:
         known.append((limit, " by the limit of laws of any degree"))

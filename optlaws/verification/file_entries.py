@@ -41,6 +41,7 @@ class SolutionFile(msgspec.Struct, forbid_unknown_fields=True):
     z: Any = None
     power_certificate: Any = None
     peak_certificate: Any = None
+    drive_limit: Any = None
     iterations: int = 0
     seconds: float = 0.0
     starts: list[float] = []

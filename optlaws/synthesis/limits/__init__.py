@@ -8,6 +8,7 @@ __getattr__, __dir__, __all__ = face(
         "optlaws.synthesis.limits.closed_forms": (
             "acceleration_limit acceleration_limit_at_jerk limit jerk_limit power_limit rms_limit"
         ),
+        "optlaws.synthesis.limits.drive_limits": "DriveLimit drive_limit",
         "optlaws.synthesis.limits.laws": "limit_law",
     },
 )

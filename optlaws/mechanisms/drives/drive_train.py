@@ -1,0 +1,280 @@
+"""A motor that drives a mechanism through a gear: torque and power at the motor, as numbers and as formulas."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.laws import MotionLaw
+from optlaws.mechanisms.drives.motor import Motor
+from optlaws.mechanisms.drives.motor_motion import MotorMotion, Train
+from optlaws.mechanisms.drives.sheet import BestRatio, DriveSheet, best_ratio, drive_sheet
+from optlaws.mechanisms.linkages.mechanism import Mechanism
+from optlaws.motion.piece import named_law
+from optlaws.motion.quantities import si_number
+from optlaws.numbers import NumberOrQuantity, finite, not_negative, positive, real
+from optlaws.tolerances import CLOSURE
+
+
+@dataclass(frozen=True)
+class DimensionlessDrive:
+    """A drive over one stroke without dimensions: texts in a, b and c, with the units of their numbers.
+
+    They are those of laws that never turn back.
+
+    Attributes
+    ----------
+    torque
+        At the motor, above 0 in the direction of the stroke.
+    power
+        Of the motor, above 0 where it drives: torque times b.
+    energy
+        Of which the integral is the energy of the move: braking counts by the share that is fed back.
+    unit
+        Of the torque, N m.
+    power_unit, energy_unit
+        W, and J for an integral over k.
+    """
+
+    torque: str
+    power: str
+    energy: str
+    unit: float
+    power_unit: float
+    energy_unit: float
+
+
+@dataclass(frozen=True)
+class Drive:
+    """A motor that drives a mechanism through a gear or a belt.
+
+    The torque at the motor is J i x'' + friction + X/(i eta) while power flows to the load, and X eta/i while it flows
+    back: X is the torque at the mechanism's input, i the ratio, J the inertia of motor and gear.
+
+    Parameters
+    ----------
+    mechanism
+        Whose input the gear turns: one whose input turns too.
+    motor
+        Its inertia, ratings and curves.
+    ratio
+        i, turns of the motor with a turn of the mechanism's input, above 0.
+    efficiency
+        eta of the gear, above 0 and at most 1: one for both directions of the power, or a pair, to the load and back.
+    inertia
+        Of gear, brake and coupling at the motor's shaft.
+    regeneration
+        The share of the braking energy that is fed back: 0 with a brake resistor, 1 where nothing is lost.
+
+    Raises
+    ------
+    InputError
+        If a number is out of its range, or the mechanism's input slides.
+
+    Examples
+    --------
+    >>> table = Mechanism("0.8 kg m^2")
+    >>> drive = Drive(table, Motor("3e-4 kg m^2"), ratio=20, efficiency=0.85)
+    >>> sheet = drive.sheet("modified sine", "0 deg", "45 deg", "0.25 s", period="0.6 s")
+    >>> [round(value, 3) for value in (sheet.peak_torque, sheet.rms_torque, sheet.peak_speed * 30 / np.pi)]
+    [3.686, 1.49, 1055.762]
+    """
+
+    mechanism: Mechanism
+    motor: Motor
+    ratio: float = 1.0
+    efficiency: float | tuple[float, float] = 1.0
+    inertia: NumberOrQuantity = 0.0
+    regeneration: float = 0.0
+
+    def __post_init__(self) -> None:
+        for value, kind, name in ((self.mechanism, Mechanism, "mechanism"), (self.motor, Motor, "motor")):
+            if not isinstance(value, kind):
+                raise InputError(f"{name} must be a {kind.__name__}, got {shortened(value)}")
+        if self.mechanism.axis != "angle":
+            raise InputError(
+                "mechanism: the motor turns, and the mechanism's input slides: take rack(), belt() or screw(), or a "
+                "mechanism over the angle of its input"
+            )
+        turning = not_negative(si_number(self.inertia, ("moment of inertia",), "inertia"), "inertia")
+        object.__setattr__(self, "ratio", positive(self.ratio, "ratio"))
+        object.__setattr__(self, "inertia", turning)
+        shares = self.efficiency if isinstance(self.efficiency, list | tuple) else (self.efficiency,) * 2
+        if len(shares) != 2 or not all(0.0 < (real(share) or 0.0) <= 1.0 for share in shares):
+            raise InputError(
+                "efficiency must be above 0 and at most 1, one number or two, to the load and back, got "
+                f"{shortened(self.efficiency)}"
+            )
+        object.__setattr__(self, "efficiency", (float(shares[0]), float(shares[1])))
+        share = finite(self.regeneration, "regeneration")
+        if not 0.0 <= share <= 1.0:
+            raise InputError(f"regeneration must be from 0 to 1, got {shortened(self.regeneration)}")
+        object.__setattr__(self, "regeneration", share)
+
+    @property
+    def efficiencies(self) -> tuple[float, float]:
+        """The gear's efficiency while power flows to the load, and while it flows back."""
+        return self.efficiency  # type: ignore[return-value] # it is a pair from the start
+
+    @property
+    def train(self) -> Train:
+        """Motor and gear in numbers."""
+        turning = self.motor.inertia + float(self.inertia)  # type: ignore[arg-type] # it is a float from the start
+        return Train(turning, self.motor.viscous, self.motor.coulomb, *self.efficiencies)
+
+    def with_ratio(self, ratio: float) -> Drive:
+        """The drive with another ratio."""
+        return replace(self, ratio=ratio)
+
+    def torque(self, position: Any, velocity: Any, acceleration: Any) -> Any:  # noqa: ANN401 - numbers or arrays
+        """The torque at the motor, N m, from position, velocity and acceleration of the mechanism's input, SI units.
+
+        It moves the way of its velocity, and from rest that of its acceleration.
+        """
+        v, w = np.asarray(velocity, dtype=np.float64), np.asarray(acceleration, dtype=np.float64)
+        direction, train, i = np.where(v == 0.0, np.sign(w), np.sign(v)), self.train, self.ratio
+        load = np.asarray(self.mechanism.torque(position, v, w)) + self.mechanism.coulomb * (direction - np.sign(v))
+        own = i * (train.inertia * w + train.viscous * v) + train.coulomb * direction
+        values = own + train.through_gear(load * direction) * direction / i
+        return values if np.ndim(values) else float(values)
+
+    def dimensionless(
+        self, start: NumberOrQuantity, stroke: NumberOrQuantity, duration: NumberOrQuantity
+    ) -> DimensionlessDrive:
+        """The drive over a stroke of the mechanism's input: formulas of a law for `peak`, `rms` and `integral`.
+
+        Parameters
+        ----------
+        start, stroke, duration
+            As `Mechanism.dimensionless` takes them.
+
+        Raises
+        ------
+        InputError
+            If the stroke leaves the range of the mechanism, or is 0.
+
+        Examples
+        --------
+        >>> from optlaws import integral, rms, smoothstep
+        >>> drive = Drive(Mechanism("0.8 kg m^2"), Motor("3e-4 kg m^2"), ratio=20, efficiency=0.85)
+        >>> moved = drive.dimensionless("0 deg", "45 deg", "0.25 s")
+        >>> round(rms(moved.torque).value(smoothstep(3)) * moved.unit, 6)
+        2.444632
+        """
+        moved = self.mechanism.dimensionless(start, stroke, duration)
+        unit, i = moved.unit / self.ratio, self.ratio
+        speed = abs(moved.stroke) / moved.duration
+        train = self.train
+        parts = {"c": train.inertia * i * speed / moved.duration, "b": train.viscous * i * speed, "1": train.coulomb}
+        to_load, back = self.efficiencies
+        own = [f"{size / unit!r}*{name}" if name != "1" else repr(size / unit) for name, size in parts.items() if size]
+        shares = (1.0,) if to_load == back == 1.0 else (1.0 / to_load, back)
+        through = [f"{share!r}*({moved.torque})" if share != 1.0 else moved.torque for share in shares]
+        torque = " + ".join([*own, through[0] if len(through) == 1 else f"max({', '.join(through)})"])
+        powers = [f"({' + '.join([*own, load])})*b" for load in through]
+        fed_back = [f"{self.regeneration!r}*{power}" for power in powers] if self.regeneration else ["0"]
+        several = powers if self.regeneration == 1.0 else [*powers, *fed_back]
+        power, energy = (some[0] if len(some) == 1 else f"max({', '.join(some)})" for some in (powers, several))
+        return DimensionlessDrive(torque, power, energy, unit, unit * i * speed, unit * i * abs(moved.stroke))
+
+    def sheet(
+        self,
+        law: str | MotionLaw,
+        start: NumberOrQuantity,
+        stroke: NumberOrQuantity,
+        duration: NumberOrQuantity,
+        *,
+        period: NumberOrQuantity | None = None,
+    ) -> DriveSheet:
+        """The sheet that sizes the drive for a move by a law: torques, speed, powers, energies, and margins.
+
+        Parameters
+        ----------
+        law
+            A law, or a name of the catalogue.
+        start, stroke, duration
+            Of the mechanism's input.
+        period
+            From one move to the next, over which root mean squares and mean powers are taken: for the rest of it the
+            motor holds the load; that of the move unless given.
+
+        Raises
+        ------
+        InputError
+            If the stroke leaves the range of the mechanism, or the period is shorter than the move.
+
+        Examples
+        --------
+        >>> drive = Drive(Mechanism("0.8 kg m^2"), Motor("3e-4 kg m^2", rated_torque="2 N m"), ratio=20)
+        >>> drive.sheet("modified sine", "0 deg", "45 deg", "0.25 s", period="0.6 s").summary()
+                                          value        unit  at k
+        peak torque                       3.195452435  N m   0.125
+        RMS torque                        1.458517817  N m
+        holding torque                    0            N m
+        peak speed                        1055.762032  rpm
+        greatest power, motoring          198.2263673  W
+        greatest power, braking           198.2263673  W
+        energy of a move, motoring        14.05682231  J
+        energy of a move, braking         14.05682231  J
+        energy of a cycle                 14.05682231  J
+        mean power of the brake resistor  23.42803719  W
+        inertia of load by motor          6.666666667
+        RMS torque, used                  72.92589084  %
+        """
+        motion, time = self._move(law, start, stroke, duration, period)
+        return drive_sheet(motion, self.motor, time, self.regeneration)
+
+    def best_ratio(
+        self,
+        law: str | MotionLaw,
+        start: NumberOrQuantity,
+        stroke: NumberOrQuantity,
+        duration: NumberOrQuantity,
+        *,
+        period: NumberOrQuantity | None = None,
+    ) -> BestRatio:
+        """The ratio of the least root mean square of the torque at the motor that the motor's limits allow.
+
+        The mean square is J² i² mean(x''²) + mean(Y²)/i² and a constant, Y the torque through the gear: convex in i².
+
+        Parameters
+        ----------
+        law, start, stroke, duration, period
+            As `sheet` takes them.
+
+        Raises
+        ------
+        InputError
+            If the limits of the motor leave no ratio; the error names them.
+
+        Examples
+        --------
+        >>> drive = Drive(Mechanism("0.8 kg m^2"), Motor("3e-4 kg m^2"))
+        >>> found = drive.best_ratio("modified sine", "0 deg", "45 deg", "0.25 s")
+        >>> round(found.ratio, 6), round((0.8 / 3e-4) ** 0.5, 6)
+        (51.639778, 51.639778)
+        """
+        motion, time = self._move(law, start, stroke, duration, period)
+        return best_ratio(motion, self.motor, time)
+
+    def _move(
+        self,
+        law: str | MotionLaw,
+        start: NumberOrQuantity,
+        stroke: NumberOrQuantity,
+        duration: NumberOrQuantity,
+        period: NumberOrQuantity | None,
+    ) -> tuple[MotorMotion, float]:
+        """The move seen from the motor, and the period."""
+        moved = self.mechanism.dimensionless(start, stroke, duration)
+        time = moved.duration if period is None else positive(si_number(period, ("time",), "period"), "period")
+        if time < moved.duration * (1.0 - CLOSURE):
+            raise InputError(f"period must be at least the duration of the move, {moved.duration:g} s, got {time:g} s")
+        by = named_law(law, "drive")
+        return MotorMotion(self.mechanism, self.train, self.ratio, by, moved.start, moved.stroke, moved.duration), max(
+            time, moved.duration
+        )

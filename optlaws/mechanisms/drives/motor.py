@@ -1,0 +1,212 @@
+"""Motors: inertia, ratings and curves of torque over speed, from a user's own catalogue."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from math import inf
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.files.reading import JsonText, toml
+from optlaws.motion.quantities import si_number
+from optlaws.numbers import Array, NumberOrQuantity, bounded, finite, not_negative
+from optlaws.suggest import unknown_key
+
+#: entries of a motor with their dimensions; curves are lists of speeds and torques
+ENTRIES = {
+    "inertia": "moment of inertia",
+    "rated_torque": "torque",
+    "peak_torque": "torque",
+    "greatest_speed": "angular velocity",
+    "coulomb": "torque",
+    "viscous": "rotary viscous friction",
+}
+CURVES = ("curve", "continuous")
+Curve = tuple[tuple[float, float], ...]
+
+
+@dataclass(frozen=True, init=False)
+class Motor(JsonText):
+    """A motor as its data sheet says it; what is not given limits nothing. Numbers are in SI units, speeds in rad/s.
+
+    Parameters
+    ----------
+    inertia
+        Of the rotor, such as "3e-4 kg m^2".
+    rated_torque
+        That the root mean square of the torque over a cycle must not exceed.
+    peak_torque
+        That the torque must not exceed at any time.
+    greatest_speed
+        Such as "3000 rpm".
+    curve, continuous
+        The peak torque and the continuous one over the speed, pairs such as ("3000 rpm", "6 N m") by rising speed, with
+        straight lines between them; beyond the last one there is none.
+    friction
+        Of the motor itself: "coulomb" and "viscous".
+    name
+        What texts call it.
+
+    Raises
+    ------
+    InputError
+        If a quantity is of another dimension or below 0, or the speeds of a curve do not rise.
+
+    Examples
+    --------
+    >>> motor = Motor("3e-4 kg m^2", rated_torque="2.4 N m", curve=[("0 rpm", "9 N m"), ("3000 rpm", "6 N m")])
+    >>> round(float(motor.peak_at(50.0 * np.pi)), 6), motor.greatest_speed
+    (7.5, 314.15926535897933)
+    """
+
+    _json_name = "a motor"
+
+    inertia: float
+    rated_torque: float
+    peak_torque: float
+    greatest_speed: float
+    curve: Curve
+    continuous: Curve
+    coulomb: float
+    viscous: float
+    name: str
+
+    def __init__(
+        self,
+        inertia: NumberOrQuantity,
+        *,
+        rated_torque: NumberOrQuantity | None = None,
+        peak_torque: NumberOrQuantity | None = None,
+        greatest_speed: NumberOrQuantity | None = None,
+        curve: Sequence[Any] = (),
+        continuous: Sequence[Any] = (),
+        friction: Mapping[str, NumberOrQuantity] | None = None,
+        name: str = "motor",
+    ) -> None:
+        limits = {"rated_torque": rated_torque, "peak_torque": peak_torque, "greatest_speed": greatest_speed}
+        fields: dict[str, Any] = {"inertia": _entry(inertia, "inertia"), "name": str(name)}
+        fields |= {key: inf if value is None else _limit(value, key) for key, value in limits.items()}
+        for key in friction or {}:
+            if key not in ("coulomb", "viscous"):
+                raise InputError(unknown_key(key, ("coulomb", "viscous"), "friction of a motor"))
+        fields |= {key: _entry((friction or {}).get(key, 0.0), key) for key in ("coulomb", "viscous")}
+        fields |= {key: _curve(pairs, key) for key, pairs in zip(CURVES, (curve, continuous), strict=True)}
+        ends = [fields[key][-1][0] for key in CURVES[:1] if fields[key]]
+        fields["greatest_speed"] = min([fields["greatest_speed"], *ends])
+        for key, value in fields.items():
+            object.__setattr__(self, key, value)
+
+    def peak_at(self, speed: Any) -> Array:  # noqa: ANN401 - a number or an array
+        """The greatest torque at speeds in rad/s, N m; 0 beyond the greatest speed."""
+        return np.minimum(self._along(self.curve, speed), self.peak_torque)
+
+    def continuous_at(self, speed: Any) -> Array:  # noqa: ANN401 - a number or an array
+        """The torque that the motor bears for ever at speeds in rad/s, N m."""
+        return np.minimum(self._along(self.continuous, speed), self.rated_torque)
+
+    def _along(self, curve: Curve, speed: Any) -> Array:  # noqa: ANN401
+        size = np.abs(np.asarray(speed, dtype=np.float64))
+        values = np.interp(size, *np.transpose(curve)) if curve else np.full(size.shape, inf)
+        last = min(self.greatest_speed, curve[-1][0] if curve else inf)
+        return np.where(size > last, 0.0, values)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The motor as plain data in SI units."""
+        plain = {name: bounded(getattr(self, name)) for name in ("rated_torque", "peak_torque", "greatest_speed")}
+        return {
+            "name": self.name,
+            "inertia": self.inertia,
+            **plain,
+            **{name: [list(pair) for pair in getattr(self, name)] for name in CURVES},
+            "coulomb": self.coulomb,
+            "viscous": self.viscous,
+        }
+
+    @classmethod
+    def from_dict(cls, data: Any) -> Motor:  # noqa: ANN401 - it is checked here
+        """The motor that `to_dict` described, or an entry of a catalogue.
+
+        Raises
+        ------
+        InputError
+            If an entry is unknown or wrong, or there is no inertia.
+
+        Examples
+        --------
+        >>> Motor.from_dict({"inertia": "3e-4 kg m^2", "greatest_speed": "3000 rpm"}).inertia
+        0.0003
+        """
+        known = (*ENTRIES, *CURVES, "name")
+        if not isinstance(data, Mapping) or "inertia" not in data:
+            raise InputError(f"a motor is a table with an inertia, got {shortened(data)}")
+        for key in data:
+            if key not in known:
+                raise InputError(unknown_key(key, known, "entry of a motor"))
+        plain = {key: value for key, value in data.items() if value is not None and key not in ("coulomb", "viscous")}
+        friction = {key: data[key] for key in ("coulomb", "viscous") if data.get(key) is not None}
+        return cls(plain.pop("inertia"), friction=friction, **plain)
+
+
+def read_motors(file: str | Path) -> dict[str, Motor]:
+    """The motors of a catalogue, a TOML file with a table for each, by their names.
+
+    Parameters
+    ----------
+    file
+        Whose tables have the entries of a `Motor`: inertia, rated_torque, peak_torque, greatest_speed, curve,
+        continuous, coulomb, viscous.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, or a motor is wrong; the error names it.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import mkdtemp
+    >>> file = Path(mkdtemp()) / "motors.toml"
+    >>> _ = file.write_text('small = {inertia = "3e-4 kg m^2", rated_torque = "2.4 N m"}')
+    >>> read_motors(file)["small"].rated_torque
+    2.4
+    """
+    motors = {}
+    for name, entries in toml(Path(file)).items():
+        try:
+            motors[name] = Motor.from_dict({"name": name, **entries} if isinstance(entries, Mapping) else entries)
+        except InputError as error:
+            raise InputError(f"{Path(file).name}: {name}: {error}") from None
+    return motors
+
+
+def _entry(value: Any, name: str) -> float:  # noqa: ANN401
+    return not_negative(si_number(value, (ENTRIES[name],), name), name)
+
+
+def _limit(value: Any, name: str) -> float:  # noqa: ANN401
+    number = _entry(value, name)
+    if number == 0.0:
+        raise InputError(f"{name} must be above 0, got {shortened(value)}")
+    return number
+
+
+def _curve(pairs: Any, name: str) -> Curve:  # noqa: ANN401 - it is checked here
+    if not isinstance(pairs, list | tuple) or any(
+        not isinstance(pair, list | tuple) or len(pair) != 2 for pair in pairs
+    ):
+        raise InputError(
+            f"{name} must be pairs of a speed and a torque such as ('3000 rpm', '6 N m'), got {shortened(pairs)}"
+        )
+    read = []
+    for speed, torque in pairs:
+        at = finite(si_number(speed, ("angular velocity",), f"{name}: speed"), f"{name}: speed")
+        read.append((at, not_negative(si_number(torque, ("torque",), f"{name}: torque"), f"{name}: torque")))
+    if len(read) == 1 or any(one >= following for (one, _), (following, _) in pairwise(read)):
+        raise InputError(f"{name} needs two speeds at least, which rise, got {shortened(pairs)}")
+    return tuple(read)

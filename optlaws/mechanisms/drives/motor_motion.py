@@ -1,0 +1,165 @@
+"""What a motor does during a move: its speed, torque and power at places k of the law, and integrals over it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+
+from optlaws.kept import kept_property
+from optlaws.laws import MotionLaw
+from optlaws.mechanisms.linkages.mechanism import Mechanism
+from optlaws.numbers import Array
+from optlaws.tolerances import BEFORE_BREAK, VALUE_ROUNDING
+
+_PANELS = 200
+_GAUSS = 10
+_POLISHED = 3
+
+
+class Train(NamedTuple):
+    """What is between the motor and the mechanism, in SI units.
+
+    Attributes
+    ----------
+    inertia, viscous, coulomb
+        At the motor's shaft.
+    to_load, back
+        Efficiencies of the gear while power flows to the load and back.
+    """
+
+    inertia: float
+    viscous: float
+    coulomb: float
+    to_load: float
+    back: float
+
+    def through_gear(self, torque: Array) -> Array:
+        """The torque at the mechanism's input, in the direction of motion, as the gear's other side feels it."""
+        return np.maximum(torque / self.to_load, torque * self.back)
+
+
+class Greatest(NamedTuple):
+    """A greatest value and the k at which it is."""
+
+    value: float
+    k: float
+
+
+@dataclass(frozen=True, eq=False)
+class MotorMotion:
+    """A move of a mechanism by a law, seen from the motor. Torques are above 0 in the direction of the stroke."""
+
+    mechanism: Mechanism
+    train: Train
+    ratio: float
+    law: MotionLaw
+    start: float
+    stroke: float
+    duration: float
+
+    def with_ratio(self, ratio: float) -> MotorMotion:
+        """The same move with another ratio."""
+        return replace(self, ratio=ratio)
+
+    def speed(self, k: Array) -> Array:
+        """The motor's speed, rad/s, above 0 in the direction of the stroke."""
+        return self.ratio * abs(self.stroke) / self.duration * self.law(k, 1)
+
+    def acceleration(self, k: Array) -> Array:
+        """The motor's angular acceleration, rad/s²."""
+        return self.ratio * abs(self.stroke) / self.duration**2 * self.law(k, 2)
+
+    def load(self, k: Array) -> Array:
+        """The torque at the mechanism's input, N m."""
+        speed, side = self.speed(k), np.sign(self.stroke)
+        position = self.start + self.stroke * self.law(k)
+        if self.mechanism.has_end:
+            position = np.clip(position, *self.mechanism.over)
+        v, w = side * speed / self.ratio, side * self.acceleration(k) / self.ratio
+        # friction of a motion that has just begun or is about to end
+        missing = self.mechanism.coulomb * (self._direction(speed) - np.sign(speed))
+        return side * np.asarray(self.mechanism.torque(position, v, w)) + missing
+
+    def through_gear(self, k: Array) -> Array:
+        """The load's torque times the ratio as the motor feels it."""
+        direction = self._direction(self.speed(k))
+        return self.train.through_gear(self.load(k) * direction) * direction
+
+    def own(self, k: Array) -> Array:
+        """The torque that moves the motor and the gear's first shaft alone."""
+        speed, train = self.speed(k), self.train
+        return train.inertia * self.acceleration(k) + train.viscous * speed + train.coulomb * self._direction(speed)
+
+    def torque(self, k: Array) -> Array:
+        """The motor's torque, N m."""
+        return self.own(k) + self.through_gear(k) / self.ratio
+
+    def power(self, k: Array) -> Array:
+        """The motor's power, W."""
+        return self.torque(k) * self.speed(k)
+
+    @staticmethod
+    def _direction(speed: Array) -> Array:
+        """1 or -1, of a motion at rest that of the stroke."""
+        size = float(np.max(np.abs(speed), initial=0.0))
+        return np.where(speed < -VALUE_ROUNDING * size, -1.0, 1.0)
+
+    @property
+    def holding_torque(self) -> float:
+        """The torque that holds the load after the move, N m, above 0 in the direction of the stroke."""
+        end = self.start + self.stroke
+        at_end = min(max(end, self.mechanism.over[0]), self.mechanism.over[1]) if self.mechanism.has_end else end
+        return float(np.sign(self.stroke) * self.mechanism.load(at_end)) / self.ratio
+
+    @kept_property
+    def _smooth(self) -> Array:
+        """Places between which speed, load and torque are smooth: breaks, reversals, and where the power turns."""
+        even = np.unique([*np.linspace(0.0, 1.0, _PANELS + 1), *self.law.breaks])
+        crossings = [_crossings(function, even) for function in (self.speed, self.load, self.torque)]
+        return np.unique(np.concatenate([even, *crossings]))
+
+    @kept_property
+    def _panels(self) -> tuple[Array, Array]:
+        """Places and weights of an integral over k."""
+        u, weights = np.polynomial.legendre.leggauss(_GAUSS)
+        edges = self._smooth
+        middles, halves = 0.5 * (edges[:-1] + edges[1:]), 0.5 * np.diff(edges)
+        return (middles[:, None] + halves[:, None] * u).ravel(), (halves[:, None] * weights).ravel()
+
+    def mean(self, function: Callable[[Array], Array]) -> float:
+        """The mean of a function of k over the move."""
+        k, weights = self._panels
+        return float(weights @ function(k))
+
+    def greatest(self, function: Callable[[Array], Array]) -> Greatest:
+        """The greatest value of a function of k, on both sides of the law's breaks."""
+        from scipy.optimize import minimize_scalar
+
+        edges = self._smooth
+        lengths = np.diff(edges)
+        k = np.concatenate([edges[:-1] + BEFORE_BREAK * lengths, edges[1:] - BEFORE_BREAK * lengths, self._panels[0]])
+        values = np.asarray(function(k))
+        best = int(np.argmax(values))
+        found = Greatest(float(values[best]), float(k[best]))
+        inner = np.searchsorted(edges, k[np.argsort(values)[-_POLISHED:]], side="right") - 1
+        for i in np.unique(np.clip(inner, 0, len(lengths) - 1)):
+            place = minimize_scalar(
+                lambda at: -float(function(np.array([at]))[0]), bounds=(edges[i], edges[i + 1]), method="bounded",
+                options={"xatol": BEFORE_BREAK * lengths[i]},
+            )  # fmt: skip
+            if -place.fun > found.value:
+                found = Greatest(float(-place.fun), float(place.x))
+        return found
+
+
+def _crossings(function: Callable[[Array], Array], places: Array) -> Array:
+    """Where a function changes its sign between places."""
+    from scipy.optimize import brentq
+
+    lengths = np.diff(places)
+    low, high = places[:-1] + BEFORE_BREAK * lengths, places[1:] - BEFORE_BREAK * lengths
+    changed = np.flatnonzero(function(low) * function(high) < 0.0)
+    return np.array([brentq(lambda at: float(function(np.array([at]))[0]), low[i], high[i]) for i in changed])

@@ -1,0 +1,281 @@
+"""The sheet that sizes a drive for a move, and the ratio of the least root mean square torque."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import inf, isfinite, pi, sqrt
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from optlaws.errors import InfeasibleProblem
+from optlaws.laws.storage import PlainNumbers
+from optlaws.mechanisms.drives.motor import Motor
+from optlaws.mechanisms.drives.motor_motion import MotorMotion
+from optlaws.numbers import Array
+from optlaws.shown.summary import Row, Summary
+
+_RPM = 30.0 / pi
+_RATIOS = 121
+_DECADES = 0.7
+
+
+class Margin(NamedTuple):
+    """A limit of the motor: what the move needs, what there is, and their ratio.
+
+    Attributes
+    ----------
+    name
+        Of the limit.
+    needed, limit
+        In SI units.
+    use
+        needed/limit: above 1 the motor is too weak.
+    """
+
+    name: str
+    needed: float
+    limit: float
+    use: float
+
+
+@dataclass(frozen=True)
+class DriveSheet(PlainNumbers):
+    """What a move asks of a motor, in SI units; torques are above 0 in the direction of the stroke.
+
+    Attributes
+    ----------
+    peak_torque, peak_torque_at
+        The greatest magnitude, and the k at which it is.
+    rms_torque
+        Over the period, holding included.
+    holding_torque
+        Between the moves.
+    peak_speed, mean_speed
+        rad/s; the mean is over the period.
+    motoring_power, braking_power
+        The greatest power that the motor gives, and that it takes back, both at least 0.
+    motoring_energy, braking_energy
+        Of a move, J, both at least 0.
+    energy
+        Of a cycle: what is fed back is subtracted.
+    braking_heat
+        The mean power of the brake resistor over the period, W.
+    inertia_match
+        The greatest inertia of the load at the motor's shaft by that of motor and gear.
+    curve_use, curve_use_at
+        The greatest torque by the motor's curve of peak torque at that speed, and its k.
+    rated_use
+        The root mean square of the torque by the motor's continuous torque at the mean speed.
+    peak_limit, rated_limit, speed_limit
+        Of the motor; None where it has none.
+    """
+
+    peak_torque: float
+    peak_torque_at: float
+    rms_torque: float
+    holding_torque: float
+    peak_speed: float
+    mean_speed: float
+    motoring_power: float
+    braking_power: float
+    motoring_energy: float
+    braking_energy: float
+    energy: float
+    braking_heat: float
+    inertia_match: float
+    curve_use: float
+    curve_use_at: float
+    rated_use: float
+    peak_limit: float
+    rated_limit: float
+    speed_limit: float
+
+    @property
+    def margins(self) -> tuple[Margin, ...]:
+        """The limits that the motor has, with what the move uses of them."""
+        known = (
+            Margin("peak torque", self.peak_torque, self.peak_limit, self.peak_torque / self.peak_limit),
+            Margin("torque-speed curve", self.curve_use, 1.0, self.curve_use),
+            Margin("RMS torque", self.rms_torque, self.rated_limit, self.rated_use),
+            Margin("speed", self.peak_speed, self.speed_limit, self.peak_speed / self.speed_limit),
+        )
+        return tuple(margin for margin in known if margin.use > 0.0 and isfinite(margin.limit))
+
+    @property
+    def fits(self) -> bool:
+        """Whether the motor has what the move asks."""
+        return all(margin.use <= 1.0 for margin in self.margins)
+
+    def summary(self) -> Summary:
+        """The sheet as rows: values, units, and the k of those that are reached somewhere."""
+        rows = [
+            Row("peak torque", self.peak_torque, "N m", self.peak_torque_at),
+            Row("RMS torque", self.rms_torque, "N m"),
+            Row("holding torque", self.holding_torque, "N m"),
+            Row("peak speed", self.peak_speed * _RPM, "rpm"),
+            Row("greatest power, motoring", self.motoring_power, "W"),
+            Row("greatest power, braking", self.braking_power, "W"),
+            Row("energy of a move, motoring", self.motoring_energy, "J"),
+            Row("energy of a move, braking", self.braking_energy, "J"),
+            Row("energy of a cycle", self.energy, "J"),
+            Row("mean power of the brake resistor", self.braking_heat, "W"),
+            Row("inertia of load by motor", self.inertia_match),
+        ]
+        rows += [
+            Row(f"{margin.name}, used", 100.0 * margin.use, "%", note="" if margin.use <= 1.0 else "too weak")
+            for margin in self.margins
+        ]
+        return Summary(rows, at="k")
+
+    def __str__(self) -> str:
+        return str(self.summary())
+
+    def _repr_html_(self) -> str:
+        return self.summary()._repr_html_()
+
+
+@dataclass(frozen=True, eq=False)
+class BestRatio:
+    """The ratio of the least root mean square torque at the motor, and the curve around it.
+
+    Attributes
+    ----------
+    ratio
+        The best one that the motor's limits allow.
+    rms_torque
+        At that ratio, N m.
+    unlimited
+        The best one without limits.
+    ratios, rms_torques, peak_torques, peak_speeds
+        The curve: N m and rad/s.
+    """
+
+    ratio: float
+    rms_torque: float
+    unlimited: float
+    ratios: Array
+    rms_torques: Array
+    peak_torques: Array
+    peak_speeds: Array
+
+    def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
+        """Draw the root mean square and the peak of the torque over the ratio, with the best one marked."""
+        from optlaws.plots.drive_train import draw_best_ratio
+
+        return draw_best_ratio(self, ax, **style)
+
+
+def drive_sheet(motion: MotorMotion, motor: Motor, period: float, regeneration: float) -> DriveSheet:
+    """The sheet of a move that is made once in a period, with the share of the braking energy that is fed back."""
+    peak = motion.greatest(lambda k: np.abs(motion.torque(k)))
+    speed = motion.greatest(lambda k: np.abs(motion.speed(k)))
+    given, taken = (motion.greatest(lambda k, side=side: side * motion.power(k)).value for side in (1.0, -1.0))
+    driving, braking = (
+        motion.duration * motion.mean(lambda k, side=side: np.maximum(side * motion.power(k), 0.0))
+        for side in (1.0, -1.0)
+    )
+    rms = _rms(motion, period)
+    mean_speed = motion.duration / period * motion.mean(lambda k: np.abs(motion.speed(k)))
+    use = motion.greatest(lambda k: _use(np.abs(motion.torque(k)), motor.peak_at(motion.speed(k))))
+    rated = float(motor.continuous_at(mean_speed))
+    load = float(np.max(motion.mechanism.inertia(motion.start + motion.stroke * np.linspace(0.0, 1.0, 721))))
+    own = motion.train.inertia
+    return DriveSheet(
+        *(peak.value, peak.k, rms, motion.holding_torque, speed.value, mean_speed),
+        *(max(given, 0.0), max(taken, 0.0), driving, braking, driving - regeneration * braking),
+        (1.0 - regeneration) * braking / period,
+        load / motion.ratio**2 / own if own else inf,
+        *((use.value, use.k) if motor.curve else (0.0, 0.0)),
+        float(_use(np.array(rms), np.array(rated))),
+        *(motor.peak_torque, rated, motor.greatest_speed),
+    )
+
+
+def _use(torque: Array, limit: Array) -> Array:
+    """The share of a limit that a torque uses; no end of it where there is none left."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.where(torque == 0.0, 0.0, torque / limit)
+
+
+def _rms(motion: MotorMotion, period: float) -> float:
+    """The root mean square of the torque over a period."""
+    square = motion.duration * motion.mean(lambda k: motion.torque(k) ** 2)
+    return sqrt((square + (period - motion.duration) * motion.holding_torque**2) / period)
+
+
+def best_ratio(motion: MotorMotion, motor: Motor, period: float) -> BestRatio:
+    """The ratio of the least root mean square torque, and the curve around it.
+
+    The torque is i P + Q + Y/i, P of inertia and viscous friction of the motor, Q of its dry friction, Y through the
+    gear: the mean square is convex in log i, as i² and 1/i² are, and as i and 1/i are.
+    """
+    one = motion.with_ratio(1.0)
+    share = motion.duration / period
+    turning = share * one.mean(lambda k: (one.own(k) - _dry(one, k)) ** 2)
+    held = (1.0 - share) * one.holding_torque**2
+    through = share * one.mean(lambda k: one.through_gear(k) ** 2) + held
+    if turning == 0.0 or through == 0.0:
+        raise InfeasibleProblem(
+            "no ratio is best: without inertia of motor and gear a greater ratio is always better, and without load a "
+            "smaller one"
+        )
+    unlimited = _least(motion, period, (through / turning) ** 0.25)
+    ratios = unlimited * np.logspace(-_DECADES, _DECADES, _RATIOS)
+    tried = [motion.with_ratio(float(ratio)) for ratio in ratios]
+    sizes = np.array([_rms(one, period) for one in tried])
+    peaks = np.array([one.greatest(lambda k, one=one: np.abs(one.torque(k))).value for one in tried])
+    speeds = ratios * one.greatest(lambda k: np.abs(one.speed(k))).value
+    best = _within_limits(motion, motor, unlimited, speeds[0] / ratios[0])
+    return BestRatio(best, _rms(motion.with_ratio(best), period), unlimited, ratios, sizes, peaks, speeds)
+
+
+def _dry(motion: MotorMotion, k: Array) -> Array:
+    """The motor's dry friction."""
+    return motion.train.coulomb * np.where(motion.speed(k) < 0.0, -1.0, 1.0)
+
+
+def _least(motion: MotorMotion, period: float, near: float) -> float:
+    """The least root mean square of all ratios, from the ratio that is best without dry friction."""
+    if not motion.train.coulomb:
+        return near
+    from scipy.optimize import minimize_scalar
+
+    found = minimize_scalar(
+        lambda size: _rms(motion.with_ratio(near * float(np.exp(size))), period), bounds=(-5.0, 5.0), method="bounded",
+        options={"xatol": 1e-10},
+    )  # fmt: skip
+    return near * float(np.exp(found.x))
+
+
+def _within_limits(motion: MotorMotion, motor: Motor, unlimited: float, speed: float) -> float:
+    """The ratio nearest to the best one, in its logarithm, at which speed and peak torque are within the motor's."""
+
+    def excess(ratio: float) -> float:
+        moved = motion.with_ratio(ratio)
+        return moved.greatest(lambda k: _use(np.abs(moved.torque(k)), motor.peak_at(moved.speed(k)))).value - 1.0
+
+    fastest = motor.greatest_speed / speed
+    start = min(unlimited, fastest * (1.0 - 1e-12))
+    if excess(start) <= 0.0:
+        return start
+    from scipy.optimize import brentq
+
+    tried = start * np.logspace(-1.0, 1.0, 81)
+    tried = tried[tried <= fastest]
+    allowed = [ratio for ratio in tried if excess(float(ratio)) <= 0.0]
+    if not allowed:
+        needed = min(
+            motion.with_ratio(float(ratio))
+            .greatest(lambda k, ratio=ratio: np.abs(motion.with_ratio(float(ratio)).torque(k)))
+            .value
+            for ratio in tried
+        )
+        raise InfeasibleProblem(
+            f"no ratio lets the {motor.name} make this move: its speed of {motor.greatest_speed * _RPM:.6g} rpm allows "
+            f"a ratio of {fastest:.6g} at most, and the least peak torque there is {needed:.6g} N m; take a stronger "
+            "motor, or more time"
+        )
+    near = min(allowed, key=lambda ratio: abs(np.log(ratio / start)))
+    step = float(np.clip(start / near, 10.0 ** (-1.0 / 40.0), 10.0 ** (1.0 / 40.0)))
+    return float(brentq(excess, near, near * step, xtol=1e-12 * near)) if excess(near * step) > 0.0 else float(near)

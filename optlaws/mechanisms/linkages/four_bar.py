@@ -1,0 +1,263 @@
+"""The four-bar: a crank that swings a rocker through a coupler, its inertia and load at the crank, in closed form."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import atan2, cos, pi, sin
+from typing import Any, Literal
+
+import numpy as np
+
+from optlaws.errors import InputError
+from optlaws.formulas.arithmetic import NUMPY, evaluate
+from optlaws.formulas.slopes import added
+from optlaws.formulas.tracing import Traced
+from optlaws.formulas.tree import Formula, Name, Number, number
+from optlaws.kept import kept_property
+from optlaws.mechanisms.linkages.assembly import check_four_bar
+from optlaws.mechanisms.linkages.bodies import (
+    NO_LOADS,
+    Body,
+    DrivenLink,
+    Loads,
+    Moving,
+    bodies_of,
+    ends_of,
+    length,
+    weight_load,
+)
+from optlaws.mechanisms.linkages.mechanism import Linkage, Mechanism
+from optlaws.numbers import NumberOrQuantity
+from optlaws.suggest import unknown_key
+
+Branch = Literal["open", "crossed"]
+SIDES: dict[Branch, float] = {"open": 1.0, "crossed": -1.0}
+#: rad from the middle of its swing: beyond it the angle of a rocker has no formula without a leap
+_MOST_SWING = 0.9 * pi
+_LOOKS = 2881
+
+
+@dataclass(frozen=True)
+class FourBar:
+    """The kinematics of a four-bar over the crank's angle x from the frame, in closed form; lengths in m.
+
+    With the distance of the crank's pin from the rocker's pivot, R = a² + d² - 2 a d cos x its square, and
+    P = (R + b² - c²)/2, H² = b² R - P², the pins and angular velocities are quotients of polynomials in cos x and sin x
+    and of H alone: the angle of the rocker has the slope (a - d cos x + d sin x P/H) a/R.
+
+    Attributes
+    ----------
+    crank, coupler, rocker, frame
+        a, b, c and d.
+    side
+        1 where the pin of coupler and rocker is to the left of the way from crank's pin to rocker's pivot, else -1.
+    """
+
+    crank: float
+    coupler: float
+    rocker: float
+    frame: float
+    side: float
+
+    @kept_property
+    def waves(self) -> tuple[Traced, Traced]:
+        """Sine and cosine of the crank's angle."""
+        x = Traced(Name("x"))
+        return np.sin(x), np.cos(x)
+
+    @kept_property
+    def base(self) -> tuple[Traced, Traced]:
+        """The way from the crank's pin to the rocker's pivot."""
+        sine, cosine = self.waves
+        return self.frame - self.crank * cosine, -self.crank * sine
+
+    @kept_property
+    def square(self) -> Traced:
+        """R, the square of its length."""
+        return self.crank**2 + self.frame**2 - 2.0 * self.crank * self.frame * self.waves[1]
+
+    @kept_property
+    def share(self) -> Traced:
+        """P, the product of that way and the coupler as vectors."""
+        constant = (self.crank**2 + self.frame**2 + self.coupler**2 - self.rocker**2) / 2.0
+        return constant - self.crank * self.frame * self.waves[1]
+
+    @kept_property
+    def height(self) -> Traced:
+        """H, twice the area of the triangle of that way, coupler and rocker; below 0 where they are crossed."""
+        root = np.sqrt(self.coupler**2 * self.square - self.share**2)
+        return root if self.side > 0.0 else -root
+
+    @kept_property
+    def rocker_velocity(self) -> Traced:
+        """The rocker's angular velocity by x."""
+        sine, cosine = self.waves
+        turning = self.crank - self.frame * cosine + (self.frame * sine) * self.share / self.height
+        return self.crank * turning / self.square
+
+    @kept_property
+    def coupler_velocity(self) -> Traced:
+        """The coupler's angular velocity by x."""
+        sine, cosine = self.waves
+        missing = self.share - self.square
+        turning = self.crank - self.frame * cosine + (self.frame * sine) * missing / self.height
+        return self.crank * turning / self.square
+
+    @kept_property
+    def coupler_direction(self) -> tuple[Traced, Traced]:
+        """The way from the crank's pin to the rocker's."""
+        return self._combined(self.share, self.base)
+
+    @kept_property
+    def rocker_direction(self) -> tuple[Traced, Traced]:
+        """The way from the rocker's pivot to its pin."""
+        return self._combined(self.share - self.square, self.base)
+
+    def rocker_along(self, direction: float) -> tuple[Traced, Traced]:
+        """The same in coordinates along a direction, rad from the frame, and across it."""
+        (dx, dy), (c, s) = self.base, (cos(direction), sin(direction))
+        return self._combined(self.share - self.square, (c * dx + s * dy, c * dy - s * dx))
+
+    def _combined(self, share: Traced, base: tuple[Traced, Traced]) -> tuple[Traced, Traced]:
+        dx, dy = base
+        return (share * dx - self.height * dy) / self.square, (share * dy + self.height * dx) / self.square
+
+    def rocker_position(self, ends: tuple[float, float]) -> Formula | None:
+        """The rocker's angle from the frame, without a leap over a range of x; None where it turns too far."""
+        x = np.linspace(*ends, _LOOKS)
+        ex, ey = (self.values(part, x) for part in self.rocker_direction)
+        angles = np.unwrap(np.arctan2(ey, ex))
+        middle = 0.5 * (angles.min() + angles.max())
+        if angles.max() - middle > _MOST_SWING:
+            return None
+        first = atan2(ey[0], ex[0])
+        reference = middle + first - angles[0]
+        along, across = self.rocker_along(reference)
+        turned = np.arctan(across / (along + self.rocker))
+        return (reference + 2.0 * turned).formula
+
+    @staticmethod
+    def values(part: Traced, x: Any) -> Any:  # noqa: ANN401 - an array for an array
+        """What a part of the four-bar is at some angles of the crank."""
+        return evaluate(part.formula, {"x": x}, NUMPY) + 0.0 * x
+
+    def coupler_moving(self, body: Body, gravity: tuple[float, float]) -> tuple[list[Formula], list[Formula]]:
+        """What a body on the coupler adds to the inertia and to the load at the crank."""
+        if body == Body():
+            return [], []
+        (sine, cosine), turning, (p, q) = self.waves, self.coupler_velocity, body.centre
+        a, b, d = self.crank, self.coupler, self.frame
+        # the crank's direction times the way from its pin to the centre of mass
+        beside, ahead = d * cosine - a, d * sine
+        share = (p / b) * (self.share * beside + self.height * ahead)
+        if q:
+            share = share + (q / b) * (self.share * ahead - self.height * beside)
+        square = a**2 + 2.0 * a * turning * share / self.square
+        inertia = [(body.mass * square).formula] if body.mass else []
+        inertia.append(Moving(body.about_joint, turning).inertia)
+        if not body.mass or not any(gravity):
+            return inertia, []
+        bx, by = self.coupler_direction
+        dx, dy = (p / b) * bx - (q / b) * by, (p / b) * by + (q / b) * bx
+        velocity = -a * sine - turning * dy, a * cosine + turning * dx
+        return inertia, weight_load(body.mass, gravity, velocity)
+
+    def crank_weight(self, body: Body, gravity: tuple[float, float]) -> list[Formula]:
+        """The load at the crank by the weight of a body on it."""
+        (sine, cosine), (p, q) = self.waves, body.centre
+        return weight_load(body.mass, gravity, (-p * sine - q * cosine, p * cosine - q * sine))
+
+    def rocker_weight(self, body: Body, gravity: tuple[float, float]) -> list[Formula]:
+        """The load at the crank by the weight of a body on the rocker."""
+        if not body.mass or not any(gravity) or not any(body.centre):
+            return []
+        (ex, ey), turning = self.rocker_direction, self.rocker_velocity
+        p, q = (value / self.rocker for value in body.centre)
+        return weight_load(body.mass, gravity, (-turning * (p * ey + q * ex), turning * (p * ex - q * ey)))
+
+    @property
+    def chains(self) -> tuple[tuple[tuple[Formula, Formula], ...], ...]:
+        """What a picture draws: pivots and links."""
+        zero, pivot = Number(0.0), (number(self.frame), Number(0.0))
+        sine, cosine = self.waves
+        ex, ey = self.rocker_direction
+        pin = (self.crank * cosine).formula, (self.crank * sine).formula
+        joint = (self.frame + ex).formula, ey.formula
+        return ((zero, zero),), (pivot,), ((zero, zero), pin, joint, pivot)
+
+
+def four_bar_of(lengths: Mapping[str, float], branch: Branch, ends: tuple[float, float]) -> FourBar:
+    """The kinematics of a four-bar that can be assembled over a range of its crank."""
+    if branch not in tuple(SIDES):
+        raise InputError(unknown_key(branch, SIDES, "branch"))
+    check_four_bar(**lengths, ends=ends)
+    return FourBar(**lengths, side=SIDES[branch])
+
+
+def four_bar(
+    crank: NumberOrQuantity,
+    coupler: NumberOrQuantity,
+    rocker: NumberOrQuantity,
+    frame: NumberOrQuantity,
+    *,
+    bodies: Mapping[str, Any],
+    loads: Loads = NO_LOADS,
+    over: tuple[NumberOrQuantity, NumberOrQuantity] = ("0 deg", "360 deg"),
+    branch: Branch = "open",
+) -> Mechanism:
+    """The mechanism of a crank that swings a rocker through a coupler; x is the crank's angle from the frame.
+
+    The frame goes from the crank's pivot to the rocker's. The driven link is the rocker, its position the angle of its
+    pin from the frame's direction.
+
+    Parameters
+    ----------
+    crank, coupler, rocker, frame
+        Their lengths between pins, such as "0.1 m", or numbers in m.
+    bodies
+        Of "crank", "coupler" and "rocker": a moment of inertia about its pivot such as "0.02 kg m^2" for crank and
+        rocker, or a `Body`; `Body("2 kg", centre=("80 mm", "50 mm"))` is a mass at a point of the coupler, along it
+        from the crank's pin and across it.
+    loads
+        What acts on the rocker, torques over its angle; the direction of gravity is from the frame's.
+    over
+        The range of x.
+    branch
+        "open" where the rocker's pin is to the left of the way from the crank's pin to the rocker's pivot, "crossed"
+        where it is to the right.
+
+    Raises
+    ------
+    InputError
+        If the four-bar cannot be assembled everywhere in the range; the error names the dead centres.
+
+    Examples
+    --------
+    >>> linkage = four_bar("0.1 m", "0.3 m", "0.25 m", "0.35 m", bodies={"rocker": "0.05 kg m^2"})
+    >>> round(linkage.inertia("90 deg"), 9), round(linkage.driven_position("rocker", "90 deg"), 6)
+    (0.006471764, 1.907443)
+    """
+    named = {"crank": crank, "coupler": coupler, "rocker": rocker, "frame": frame}
+    ends = ends_of(over)
+    linkage = four_bar_of({name: length(value, name) for name, value in named.items()}, branch, ends)
+    known = bodies_of(bodies, pivoted=("crank", "rocker"), coupled=("coupler",), sliding=())
+    inertia, load = moved_by_crank(linkage, known, loads.weight)
+    position = linkage.rocker_position(ends)
+    load += loads.on(DrivenLink("rocker", position, linkage.rocker_velocity.formula, "angle"), "angle")
+    driven = () if position is None else (("rocker", position),)
+    return Mechanism(
+        added(inertia), added(load), over=ends, axis="angle", name="four-bar", linkage=Linkage(driven, linkage.chains)
+    )
+
+
+def moved_by_crank(
+    linkage: FourBar, bodies: Mapping[str, Body], gravity: tuple[float, float]
+) -> tuple[list[Formula], list[Formula]]:
+    """Inertia and load at the crank by the bodies on crank, coupler and rocker."""
+    inertia, load = linkage.coupler_moving(bodies["coupler"], gravity)
+    parts = [number(bodies["crank"].about_joint), *inertia]
+    if bodies["rocker"] != Body():
+        parts.append(Moving(bodies["rocker"].about_joint, linkage.rocker_velocity).inertia)
+    weights = linkage.crank_weight(bodies["crank"], gravity) + linkage.rocker_weight(bodies["rocker"], gravity)
+    return parts, [*load, *weights]

@@ -1,0 +1,438 @@
+"""Mechanisms of one degree of freedom: inertia and load as formulas of the input's position, in SI units."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any, Literal, Self
+
+import numpy as np
+
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.files.reading import JsonText
+from optlaws.formulas.arithmetic import NUMPY, evaluate
+from optlaws.formulas.reading import read
+from optlaws.formulas.slopes import added
+from optlaws.formulas.slopes import derivative as slope
+from optlaws.formulas.tree import Formula, Name, Table
+from optlaws.mechanisms.linkages.dimensionless import DimensionlessMechanism, InputFriction, dimensionless
+from optlaws.mechanisms.linkages.entries import formula_of
+from optlaws.motion.quantities import either, in_small_units, si_number
+from optlaws.numbers import Array, NumberOrQuantity, derivative, finite, not_negative, positive, real_times
+from optlaws.suggest import unknown_key
+from optlaws.tolerances import CLOSURE, VALUE_ROUNDING
+
+Axis = Literal["angle", "length"]
+#: of the inertia, of the load, of viscous friction, and of the input's velocity and acceleration
+DIMENSIONS: dict[Axis, dict[str, str]] = {
+    "angle": {
+        "inertia": "moment of inertia",
+        "load": "torque",
+        "viscous": "rotary viscous friction",
+        "velocity": "angular velocity",
+        "acceleration": "angular acceleration",
+    },
+    "length": {
+        "inertia": "mass",
+        "load": "force",
+        "viscous": "viscous friction",
+        "velocity": "velocity",
+        "acceleration": "acceleration",
+    },
+}
+FORMAT = 1
+_LOOKS = 1441
+_ENTRIES = ("format", "name", "axis", "over", "inertia", "load", "coulomb", "viscous", "linkage")
+
+
+@dataclass(frozen=True)
+class Linkage:
+    """What is known of a mechanism's links beyond inertia and load.
+
+    Attributes
+    ----------
+    driven
+        Names of driven links, and formulas of their positions over x.
+    chains
+        Of points, each a pair of formulas of x in m, that a picture joins by lines; a chain of one point is a pivot.
+    """
+
+    driven: tuple[tuple[str, Formula], ...] = ()
+    chains: tuple[tuple[tuple[Formula, Formula], ...], ...] = ()
+
+    def to_dict(self) -> dict[str, Any]:
+        """The formulas as texts."""
+        return {
+            "driven": {name: str(formula) for name, formula in self.driven},
+            "chains": [[[str(x), str(y)] for x, y in chain] for chain in self.chains],
+        }
+
+    @classmethod
+    def from_dict(cls, data: Any) -> Linkage:  # noqa: ANN401 - it is checked here
+        """What `to_dict` described."""
+        try:
+            driven = tuple((str(name), read(text, ("x",))) for name, text in data["driven"].items())
+            chains = tuple(tuple((read(x, ("x",)), read(y, ("x",))) for x, y in chain) for chain in data["chains"])
+        except (AttributeError, KeyError, TypeError, ValueError) as error:
+            raise InputError(
+                f"linkage must have a table driven of formulas, and a list chains of points of two formulas: {error}"
+            ) from None
+        return cls(driven, chains)
+
+
+@dataclass(frozen=True, init=False, eq=False, repr=False)
+class Mechanism(JsonText):
+    """A mechanism of one degree of freedom: inertia J(x) and load T(x) at its input, friction, and where it is defined.
+
+    The torque (or force) that moves the input is J(x) x'' + J'(x) x'²/2 + viscous x' + coulomb sign(x') + T(x): the
+    inertia and the load are all masses and forces of the mechanism, reduced to the input. `slider_crank`, `four_bar`,
+    `toggle`, `rack`, `belt` and `screw` make one from lengths and masses, `mechanism_of_motion` from a function.
+
+    Parameters
+    ----------
+    inertia
+        Over x, the position of the input in rad or m: a quantity such as "0.02 kg m^2", a text such as
+        "0.02 + 0.01*sin(x)^2" in SI units, or a table of places and values, `{"0 deg": "0.02 kg m^2", ...}`, through
+        which a spline is laid.
+    load
+        What resists the motion to greater x, likewise; tables are straight lines. A spline is "spline(x, 0:1, ...)".
+    coulomb
+        Friction that does not depend on the speed, at the input.
+    viscous
+        Friction in proportion to the speed, at the input.
+    over
+        The range of x where the mechanism is defined, such as ("0 deg", "180 deg"); that of its tables unless given,
+        and without tables no bound.
+    axis
+        "angle" for an input that turns, "length" for one that slides; `over` says it too.
+    name
+        What pictures and texts call it.
+    linkage
+        Positions of its driven links, and what a picture draws.
+
+    Raises
+    ------
+    InputError
+        If a quantity is of another dimension, the inertia is below 0 somewhere or has no derivative, or a table ends
+        within the range; the error names the place and the numbers.
+
+    Examples
+    --------
+    >>> table = Mechanism("0.8 kg m^2", load="2*sin(x)", coulomb="0.5 N m", over=("0 deg", "90 deg"))
+    >>> round(float(table.torque(0.5, 1.0, 10.0)), 6)
+    9.458851
+    >>> print(table.dimensionless("0 deg", "45 deg", "0.25 s").torque)
+    c + 0.04973591971621729 + 0.1989436788648692*sin(0.7853981633974483*a)
+    """
+
+    _json_name = "a mechanism"
+
+    inertia_formula: Formula
+    load_formula: Formula
+    coulomb: float
+    viscous: float
+    over: tuple[float, float]
+    axis: Axis
+    name: str
+    linkage: Linkage
+
+    def __init__(
+        self,
+        inertia: NumberOrQuantity | Formula | Mapping[Any, Any] | Sequence[Any] = 0.0,
+        load: NumberOrQuantity | Formula | Mapping[Any, Any] | Sequence[Any] = 0.0,
+        *,
+        coulomb: NumberOrQuantity = 0.0,
+        viscous: NumberOrQuantity = 0.0,
+        over: tuple[NumberOrQuantity, NumberOrQuantity] | None = None,
+        axis: Axis | None = None,
+        name: str = "mechanism",
+        linkage: Linkage = Linkage(),
+    ) -> None:
+        kind, ends = _axis_and_ends(over, axis)
+        known = DIMENSIONS[kind]
+        formulas = {
+            "inertia": formula_of(inertia, (kind, known["inertia"]), "inertia"),
+            "load": formula_of(load, (kind, known["load"]), "load", interpolation="lines"),
+        }
+        fields = {
+            "inertia_formula": formulas["inertia"],
+            "load_formula": formulas["load"],
+            "coulomb": not_negative(si_number(coulomb, (known["load"],), "coulomb"), "coulomb"),
+            "viscous": not_negative(si_number(viscous, (known["viscous"],), "viscous"), "viscous"),
+            "over": _range(formulas, ends, kind),
+            "axis": kind,
+            "name": str(name),
+            "linkage": linkage,
+        }
+        for field, value in fields.items():
+            object.__setattr__(self, field, value)
+        self._check()
+
+    def _check(self) -> None:
+        low, high = self.over
+        x = np.linspace(low, high, _LOOKS) if np.isfinite(high - low) else np.linspace(-np.pi, np.pi, _LOOKS)
+        slope(self.inertia_formula, "x")
+        with np.errstate(all="ignore"):
+            values = {"inertia": self._values(self.inertia_formula, x), "load": self._values(self.load_formula, x)}
+        for what, some in values.items():
+            if not np.isfinite(some).all():
+                place = self._shown(x[~np.isfinite(some)][0])
+                raise InputError(
+                    f"the {what} has no finite value at {place}: take a range in over= without that position"
+                )
+        inertia = values["inertia"]
+        if inertia.min() < -VALUE_ROUNDING * np.abs(inertia).max():
+            i = int(np.argmin(inertia))
+            raise InputError(
+                f"the inertia must be at least 0, and it is {inertia[i]:.6g} at {self._shown(x[i])}: check its signs, "
+                "or how its table swings between the places"
+            )
+
+    def _shown(self, x: float) -> str:
+        return in_small_units(float(x), self.axis)
+
+    def _values(self, formula: Formula, x: Any) -> Array:  # noqa: ANN401 - a number or an array
+        return np.broadcast_to(np.asarray(evaluate(formula, {"x": x}, NUMPY), dtype=np.float64), np.shape(x))
+
+    @property
+    def has_end(self) -> bool:
+        """Whether its range has ends."""
+        return bool(np.isfinite(self.over[1] - self.over[0]))
+
+    def position(self, x: Any) -> Any:  # noqa: ANN401 - a number, a quantity or an array
+        """A position of the input in rad or m, from a number or a quantity, which must be in the range.
+
+        Raises
+        ------
+        InputError
+            If it is not; the error names the range.
+        """
+        at = real_times(si_number(x, (self.axis,), "position"))
+        low, high = self.over
+        slack = CLOSURE * (high - low) if self.has_end else 0.0
+        if np.any((at < low - slack) | (at > high + slack)):
+            beyond = at[(at < low - slack) | (at > high + slack)].flat[0] if np.ndim(at) else at
+            raise InputError(
+                f"the {self.name} is defined from {self._shown(low)} to {self._shown(high)}, got {self._shown(beyond)}"
+            )
+        return at
+
+    def inertia(self, x: Any, nu: int = 0) -> Any:  # noqa: ANN401 - a number for a number, an array for arrays
+        """The inertia at the input, kg m² or kg, or a derivative of it by x.
+
+        Parameters
+        ----------
+        x
+            Positions of the input: a number in rad or m, a quantity, or an array.
+        nu
+            The order of the derivative.
+        """
+        return self._given(self.inertia_formula, x, nu)
+
+    def load(self, x: Any, nu: int = 0) -> Any:  # noqa: ANN401 - as for the inertia
+        """The load at the input, N m or N, above 0 where it resists motion to greater x, or a derivative of it by x."""
+        return self._given(self.load_formula, x, nu)
+
+    def driven_position(self, name: str, x: Any, nu: int = 0) -> Any:  # noqa: ANN401 - as for the inertia
+        """The position of a driven link, m or rad, or a derivative of it by x.
+
+        Raises
+        ------
+        InputError
+            If no driven link has this name.
+        """
+        driven = dict(self.linkage.driven)
+        if name not in driven:
+            raise InputError(unknown_key(name, driven, "driven link"))
+        return self._given(driven[name], x, nu)
+
+    def _given(self, formula: Formula, x: Any, nu: int) -> Any:  # noqa: ANN401
+        values = self._values(_derived(formula, derivative(nu)), self.position(x))
+        return values if np.ndim(values) else float(values)
+
+    def torque(self, position: Any, velocity: Any, acceleration: Any) -> Any:  # noqa: ANN401 - numbers or arrays
+        """The torque, N m, or force, N, that moves the input: J x'' + J' x'²/2 + friction + load, all in SI units.
+
+        Parameters
+        ----------
+        position, velocity, acceleration
+            Of the input: numbers in rad or m and their like by the second, quantities, or arrays.
+        """
+        known = DIMENSIONS[self.axis]
+        x = self.position(position)
+        v = real_times(si_number(velocity, (known["velocity"],), "velocity"))
+        w = real_times(si_number(acceleration, (known["acceleration"],), "acceleration"))
+        inertial = self._values(self.inertia_formula, x) * w
+        turning = self._values(_derived(self.inertia_formula, 1), x) * v * v / 2.0
+        values = inertial + turning + self.viscous * v + self.coulomb * np.sign(v) + self._values(self.load_formula, x)
+        return values if np.ndim(values) else float(values)
+
+    def dimensionless(
+        self, start: NumberOrQuantity, stroke: NumberOrQuantity, duration: NumberOrQuantity
+    ) -> DimensionlessMechanism:
+        """The mechanism over a stroke x = start + stroke a in a duration: texts in a, and the units of their numbers.
+
+        Parameters
+        ----------
+        start
+            The position of the input at which the stroke begins: a number in rad or m, or a quantity.
+        stroke
+            How far the input moves; below 0 for motion to smaller x.
+        duration
+            In seconds, or a quantity.
+
+        Raises
+        ------
+        InputError
+            If the stroke leaves the range of the mechanism, or is 0; the error names both.
+
+        Examples
+        --------
+        >>> from optlaws.mechanisms.linkages.slider_crank import slider_crank
+        >>> press = slider_crank("0.1 m", "0.4 m", bodies={"crank": "0.02 kg m^2", "slider": "5 kg"})
+        >>> moved = press.dimensionless("0 deg", "180 deg", "0.3 s")
+        >>> from optlaws import rms, smoothstep
+        >>> round(rms(moved.torque).value(smoothstep(3)) * moved.unit, 6)
+        7.979021
+        """
+        first = finite(si_number(start, (self.axis,), "start"), "start")
+        way = finite(si_number(stroke, (self.axis,), "stroke"), "stroke")
+        time = positive(si_number(duration, ("time",), "duration"), "duration")
+        if way == 0.0:
+            raise InputError("stroke must not be 0: a mechanism at rest has no dimensionless form")
+        self.position(np.array([first, first + way]))
+        friction = InputFriction(self.coulomb, self.viscous)
+        return dimensionless(self.inertia_formula, self.load_formula, friction, (first, way, time))
+
+    def with_friction(self, *, coulomb: NumberOrQuantity = 0.0, viscous: NumberOrQuantity = 0.0) -> Self:
+        """The mechanism with this friction at its input in place of what it has."""
+        return self._changed(coulomb=coulomb, viscous=viscous)
+
+    def with_inertia(self, inertia: NumberOrQuantity) -> Self:
+        """The mechanism with a further constant inertia at its input, as of a coupling."""
+        more = formula_of(inertia, (self.axis, DIMENSIONS[self.axis]["inertia"]), "inertia")
+        return self._changed(inertia=added([more, self.inertia_formula]))
+
+    def _changed(self, **fields: Any) -> Self:
+        known = {
+            "inertia": self.inertia_formula,
+            "load": self.load_formula,
+            "coulomb": self.coulomb,
+            "viscous": self.viscous,
+            "over": self.over if self.has_end else None,
+            "axis": self.axis,
+            "name": self.name,
+            "linkage": self.linkage,
+        }
+        return type(self)(**{**known, **fields})
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Mechanism) and self.to_dict() == other.to_dict()
+
+    def __hash__(self) -> int:
+        return hash((self.name, self.over, str(self.inertia_formula), str(self.load_formula)))
+
+    def __repr__(self) -> str:
+        ends = f"{self._shown(self.over[0])} to {self._shown(self.over[1])}" if self.has_end else "everywhere"
+        return f"Mechanism({self.name!r}, {ends})"
+
+    def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
+        """Draw the mechanism in several positions beside its inertia, load and the slope of its inertia over x.
+
+        `ax` is four pairs of axes, or one for the mechanism alone; a new figure unless given. `style` is what
+        `Axes.plot` takes, for the curves.
+        """
+        from optlaws.plots.mechanism import draw_mechanism
+
+        return draw_mechanism(self, ax, **style)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The formulas and numbers of the mechanism as plain data, in SI units.
+
+        Examples
+        --------
+        >>> Mechanism("0.8 kg m^2", over=("0 deg", "90 deg")).to_dict()["inertia"]
+        '0.8'
+        """
+        return {
+            "format": FORMAT,
+            "name": self.name,
+            "axis": self.axis,
+            "over": list(self.over) if self.has_end else None,
+            "inertia": str(self.inertia_formula),
+            "load": str(self.load_formula),
+            "coulomb": self.coulomb,
+            "viscous": self.viscous,
+            "linkage": self.linkage.to_dict(),
+        }
+
+    @classmethod
+    def from_dict(cls, data: Any) -> Self:  # noqa: ANN401 - it is checked here
+        """The mechanism that `to_dict` described.
+
+        Raises
+        ------
+        InputError
+            If an entry is unknown or wrong.
+        """
+        if not isinstance(data, Mapping) or data.get("format", FORMAT) != FORMAT:
+            raise InputError(f"a stored mechanism is a table of format {FORMAT}, got {shortened(data)}")
+        for name in data:
+            if name not in _ENTRIES:
+                raise InputError(unknown_key(name, _ENTRIES, "entry of a mechanism"))
+        plain = {name: data[name] for name in _ENTRIES[1:-1] if data.get(name) is not None}
+        linkage = Linkage.from_dict(data["linkage"]) if data.get("linkage") is not None else Linkage()
+        return cls(**plain, linkage=linkage)
+
+
+def _range(formulas: Mapping[str, Formula], ends: tuple[float, float] | None, axis: Axis) -> tuple[float, float]:
+    """The range of x, which the tables over x must cover."""
+    tables = [
+        (what, part)
+        for what, formula in formulas.items()
+        for part in formula.walk()
+        if isinstance(part, Table) and part.of == Name("x")
+    ]
+    if ends is None:
+        low = max((table.places[0] for _, table in tables), default=-np.inf)
+        return low, min((table.places[-1] for _, table in tables), default=np.inf)
+    slack = CLOSURE * (ends[1] - ends[0])
+    for what, table in tables:
+        if table.places[0] > ends[0] + slack or table.places[-1] < ends[1] - slack:
+            first, last, low, high = (in_small_units(x, axis) for x in (table.places[0], table.places[-1], *ends))
+            raise InputError(
+                f"the table of the {what} goes from {first} to {last}, and the mechanism from {low} to {high}: give a "
+                "table over the whole range, or a shorter range in over="
+            )
+    return ends
+
+
+def _axis_and_ends(over: Any, axis: Any) -> tuple[Axis, tuple[float, float] | None]:  # noqa: ANN401
+    """What the input's position is, and the ends of its range if there are any."""
+    if axis is not None and axis not in tuple(DIMENSIONS):
+        raise InputError(unknown_key(axis, DIMENSIONS, "axis"))
+    if over is None:
+        return axis or "angle", None
+    if not isinstance(over, list | tuple) or len(over) != 2:
+        raise InputError(f"over must be two positions such as ('0 deg', '180 deg'), got {shortened(over)}")
+    read_ends = [_end(value, axis) for value in over]
+    kinds = {kind for kind, _ in read_ends if kind is not None} | ({axis} if axis else set())
+    if len(kinds) > 1:
+        raise InputError(f"over: an input that turns has angles, one that slides lengths, got {shortened(over)}")
+    low, high = (value for _, value in read_ends)
+    if not low < high:
+        raise InputError(f"over must be two positions that ascend, got {shortened(over)}")
+    return (kinds.pop() if kinds else "angle"), (low, high)
+
+
+def _end(value: Any, axis: Any) -> tuple[Any, float]:  # noqa: ANN401
+    if isinstance(value, str) or hasattr(value, "units"):
+        return either(value, (axis,) if axis else ("angle", "length"), "over")
+    return None, finite(value, "over")
+
+
+@lru_cache(maxsize=256)
+def _derived(formula: Formula, nu: int) -> Formula:
+    return formula if nu == 0 else slope(_derived(formula, nu - 1), "x")

@@ -1,0 +1,213 @@
+"""Mechanisms whose driven links move in proportion to the input, or as a function of Python says."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.formulas.slopes import added, derivative, multiplied
+from optlaws.formulas.tracing import traced
+from optlaws.formulas.tree import Formula, Name, number
+from optlaws.mechanisms.linkages.bodies import NO_LOADS, DrivenLink, Loads, Moving, length
+from optlaws.mechanisms.linkages.mechanism import Linkage, Mechanism
+from optlaws.motion.quantities import TURN, either, si_number
+from optlaws.numbers import NumberOrQuantity, not_negative, positive
+from optlaws.suggest import unknown_key
+
+
+def mechanism_of_motion(
+    function: Callable[[Any], Any],
+    masses: Mapping[str, NumberOrQuantity],
+    *,
+    loads: Mapping[str, Loads] | None = None,
+    over: tuple[NumberOrQuantity, NumberOrQuantity],
+    name: str = "mechanism",
+) -> Mechanism:
+    """The mechanism whose driven links move as a function of Python says; it is traced, so that derivatives are exact.
+
+    Parameters
+    ----------
+    function
+        Of the input's position in rad or m: the positions of driven links in m or rad by their names, or one number
+        alone, which is called "q1". It is called once, with a symbol: arithmetic and functions of numpy such as
+        `np.sin`, `np.sqrt` and `np.arctan`; no branches on values.
+    masses
+        Of the links, by the same names: "5 kg" for one that slides, "0.1 kg m^2" for one that turns.
+    loads
+        What acts on the links, by their names.
+    over
+        The range of x.
+    name
+        What pictures and texts call it.
+
+    Raises
+    ------
+    InputError
+        If the function does what formulas cannot say, or a link has no mass of its name.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> press = mechanism_of_motion(
+    ...     lambda x: {"ram": 0.1 * np.cos(x) + np.sqrt(0.16 - (0.1 * np.sin(x)) ** 2)},
+    ...     {"ram": "5 kg"},
+    ...     over=("0 deg", "180 deg"),
+    ... )
+    >>> round(press.inertia("90 deg"), 9), round(press.inertia("90 deg", nu=1), 9)
+    (0.05, -0.025819889)
+    """
+    acting = loads or {}
+    positions = traced(function)
+    for key in (*masses, *acting):
+        if key not in positions:
+            raise InputError(unknown_key(key, positions, "driven link"))
+    axis = Mechanism(over=over).axis
+    inertia, load = [], []
+    for key, position in positions.items():
+        if key not in masses:
+            raise InputError(f"masses: what moves as {key!r} needs a mass, such as '5 kg', or '0 kg' if it has none")
+        kind, weight = _weight(masses[key], key)
+        link = DrivenLink(key, position, derivative(position, "x"), kind)
+        inertia.append(Moving(weight, link.velocity).inertia)
+        load += acting.get(key, NO_LOADS).on(link, axis)
+        if acting.get(key, NO_LOADS).gravity is not None:
+            raise InputError(
+                f"loads: {key}: a function has no plane for gravity: give weight as a force, such as '-49 N'"
+            )
+    return Mechanism(added(inertia), added(load), over=over, name=name, linkage=Linkage(tuple(positions.items())))
+
+
+def _weight(value: Any, name: str) -> tuple[str, float]:  # noqa: ANN401 - it is checked here
+    """Whether a link slides or turns, and its mass or moment of inertia."""
+    if not isinstance(value, str) and not hasattr(value, "units"):
+        raise InputError(
+            f"masses: {name} must be a mass such as '5 kg' for a link that slides, or a moment of inertia such as "
+            f"'0.1 kg m^2' for one that turns, got {shortened(value)}"
+        )
+    dimension, weight = either(value, ("mass", "moment of inertia"), f"masses: {name}")
+    return ("length" if dimension == "mass" else "angle"), not_negative(weight, f"masses: {name}")
+
+
+def rack(
+    radius: NumberOrQuantity,
+    mass: NumberOrQuantity,
+    *,
+    inertia: NumberOrQuantity = 0.0,
+    loads: Loads = NO_LOADS,
+    over: tuple[NumberOrQuantity, NumberOrQuantity] | None = None,
+) -> Mechanism:
+    """The mechanism of a pinion that drives a rack; x is the pinion's angle, and the slide is at s = radius x.
+
+    Parameters
+    ----------
+    radius
+        Of the pinion's pitch circle, such as "20 mm", or a number in m.
+    mass
+        Of the rack and what it carries, such as "12 kg".
+    inertia
+        Of the pinion.
+    loads
+        What acts on the slide; gravity's direction is from the slide's way, "180 deg" for one that goes straight up.
+    over
+        The range of x; without bound unless given.
+
+    Raises
+    ------
+    InputError
+        If a quantity is of another dimension or not above 0.
+
+    Examples
+    --------
+    >>> rack("20 mm", "12 kg", inertia="1e-4 kg m^2").inertia(0.0)
+    0.0049
+    """
+    return _in_proportion(length(radius, "radius"), "rack", mass, (inertia, loads, over))
+
+
+def belt(
+    radius: NumberOrQuantity,
+    mass: NumberOrQuantity,
+    *,
+    inertia: NumberOrQuantity = 0.0,
+    loads: Loads = NO_LOADS,
+    over: tuple[NumberOrQuantity, NumberOrQuantity] | None = None,
+) -> Mechanism:
+    """The mechanism of a pulley that drives a carriage by a belt; x is the pulley's angle, s = radius x.
+
+    Parameters
+    ----------
+    radius
+        Of the driven pulley, such as "30 mm", or a number in m.
+    mass
+        Of the carriage and the belt.
+    inertia
+        Of all pulleys, at the driven one.
+    loads, over
+        As of a `rack`.
+
+    Raises
+    ------
+    InputError
+        If a quantity is of another dimension or not above 0.
+
+    Examples
+    --------
+    >>> lift = belt("30 mm", "8 kg", loads=Loads(gravity="180 deg"))
+    >>> round(lift.load(0.0), 6)
+    2.353596
+    """
+    return _in_proportion(length(radius, "radius"), "belt", mass, (inertia, loads, over))
+
+
+def screw(
+    lead: NumberOrQuantity,
+    mass: NumberOrQuantity,
+    *,
+    inertia: NumberOrQuantity = 0.0,
+    loads: Loads = NO_LOADS,
+    over: tuple[NumberOrQuantity, NumberOrQuantity] | None = None,
+) -> Mechanism:
+    """The mechanism of a screw that drives a nut; x is the screw's angle, s = lead x/(2 pi).
+
+    Parameters
+    ----------
+    lead
+        The way of the nut with a turn of the screw, such as "10 mm", or a number in m.
+    mass
+        Of the nut and what it carries.
+    inertia
+        Of the screw.
+    loads, over
+        As of a `rack`.
+
+    Raises
+    ------
+    InputError
+        If a quantity is of another dimension or not above 0.
+
+    Examples
+    --------
+    >>> axis = screw("10 mm", "80 kg", inertia="3e-4 kg m^2", loads=Loads(force="-500 N"))
+    >>> round(axis.load(0.0), 6), round(axis.driven_position("slide", "1 turn"), 6)
+    (0.795775, 0.01)
+    """
+    return _in_proportion(length(lead, "lead") / TURN, "screw", mass, (inertia, loads, over))
+
+
+def _in_proportion(ratio: float, name: str, mass: Any, others: tuple[Any, Loads, Any]) -> Mechanism:  # noqa: ANN401
+    inertia, loads, over = others
+    weight = positive(si_number(mass, ("mass",), "mass"), "mass")
+    turning = not_negative(si_number(inertia, ("moment of inertia",), "inertia"), "inertia")
+    position: Formula = multiplied([number(ratio), Name("x")])
+    slide = DrivenLink("slide", position, number(ratio), "length")
+    load = [number(-weight * loads.weight[0] * ratio), *loads.on(slide, "angle")]
+    return Mechanism(
+        turning + weight * ratio**2,
+        added(load),
+        over=over,
+        axis="angle",
+        name=name,
+        linkage=Linkage((("slide", position),)),
+    )

@@ -1,0 +1,136 @@
+"""The slider-crank: a crank that drives a slide through a rod, its inertia and load at the crank."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from math import degrees
+from typing import Any
+
+import numpy as np
+
+from optlaws.errors import InputError
+from optlaws.formulas.slopes import added
+from optlaws.formulas.tracing import Traced
+from optlaws.formulas.tree import Formula, Name, Number
+from optlaws.mechanisms.linkages.bodies import (
+    NO_LOADS,
+    Body,
+    DrivenLink,
+    Loads,
+    Moving,
+    bodies_of,
+    ends_of,
+    formula_from,
+    length,
+    weight_load,
+)
+from optlaws.mechanisms.linkages.mechanism import Linkage, Mechanism
+from optlaws.motion.quantities import si_number
+from optlaws.numbers import NumberOrQuantity, finite
+
+
+def slider_crank(
+    crank: NumberOrQuantity,
+    rod: NumberOrQuantity,
+    *,
+    offset: NumberOrQuantity = 0.0,
+    bodies: Mapping[str, Any],
+    loads: Loads = NO_LOADS,
+    over: tuple[NumberOrQuantity, NumberOrQuantity] = ("0 deg", "360 deg"),
+) -> Mechanism:
+    """The mechanism of a crank that drives a slide through a rod; x is the crank's angle from the slide's way.
+
+    The slide is at s = r cos x + sqrt(l² - (r sin x - e)²) from the crank's pivot, farthest where x = 0 without offset.
+
+    Parameters
+    ----------
+    crank, rod
+        Their lengths r and l, such as "0.1 m", or numbers in m.
+    offset
+        Of the slide's way from the crank's pivot, e, to the left.
+    bodies
+        Of "crank", "rod" and "slider": a mass such as "5 kg" for the slider, a moment of inertia about its pivot such
+        as "0.02 kg m^2" for the crank, or a `Body`.
+    loads
+        What acts on the slide; the direction of gravity is from the slide's way.
+    over
+        The range of x.
+
+    Raises
+    ------
+    InputError
+        If the rod is too short for the crank and the offset within the range; the error names the angles that are
+        reached.
+
+    Examples
+    --------
+    >>> press = slider_crank("0.1 m", "0.4 m", bodies={"slider": "5 kg", "crank": "0.02 kg m^2"})
+    >>> round(press.inertia("90 deg"), 9), round(press.driven_position("slider", 0.0), 9)
+    (0.07, 0.5)
+    """
+    r, rod_length = length(crank, "crank"), length(rod, "rod")
+    e = finite(si_number(offset, ("length",), "offset"), "offset")
+    ends = ends_of(over)
+    _check(r, rod_length, e, ends)
+    known = bodies_of(bodies, pivoted=("crank",), coupled=("rod",), sliding=("slider",))
+    g = loads.weight
+    x = Traced(Name("x"))
+    sine, cosine = np.sin(x), np.cos(x)
+    across = r * sine - e if e else r * sine
+    along = np.sqrt(rod_length**2 - across**2)
+    position = r * cosine + along
+    velocity = -r * sine - (r * across * cosine) / along
+    moving, weights = [Moving(known["slider"].mass, velocity)], weight_load(known["slider"].mass, g, (velocity, 0.0))
+    turning = known["crank"].about_joint
+    crank_body, rod_body = known["crank"], known["rod"]
+    (p, q) = crank_body.centre
+    weights += weight_load(crank_body.mass, g, (-p * sine - q * cosine, p * cosine - q * sine))
+    if rod_body != Body():
+        parts, more = _rod(rod_body, g, rod_length, (r, sine, cosine), (across, along))
+        moving, weights = moving + parts, weights + more
+    inertia: list[Formula] = [Moving(turning, 1.0).inertia, *(part.inertia for part in moving if part.weight)]
+    slider = DrivenLink("slider", position.formula, velocity.formula, "length")
+    zero = Number(0.0)
+    pin, joint = ((r * cosine).formula, (r * sine).formula), (position.formula, formula_from(e))
+    chains = (((zero, zero),), ((zero, zero), pin, joint), (joint,))
+    return Mechanism(
+        added(inertia),
+        added([*weights, *loads.on(slider, "angle")]),
+        over=ends,
+        axis="angle",
+        name="slider-crank",
+        linkage=Linkage((("slider", position.formula),), chains),
+    )
+
+
+def _rod(
+    body: Body, gravity: tuple[float, float], rod: float, crank: tuple[float, Any, Any], triangle: tuple[Any, Any]
+) -> tuple[list[Moving], list[Formula]]:
+    """The rod's centre of mass and its turning; the rod goes from the crank's pin to the slide."""
+    (r, sine, cosine), (across, along), (p, q) = crank, triangle, body.centre
+    turning = -r * cosine / along
+    # the rod's direction is (along, -across)/rod
+    dx, dy = (p * along + q * across) / rod, (q * along - p * across) / rod
+    velocity = -r * sine - turning * dy, r * cosine + turning * dx
+    moving = [Moving(body.inertia, turning), *(Moving(body.mass, part) for part in velocity)]
+    return moving, weight_load(body.mass, gravity, velocity)
+
+
+def _check(crank: float, rod: float, offset: float, ends: tuple[float, float]) -> None:
+    """Refuse a range in which the rod cannot reach the slide's way."""
+    x = np.linspace(*ends, 7201)
+    far = np.abs(crank * np.sin(x) - offset)
+    if far.max() < rod:
+        return
+    where = x[far >= rod]
+    reached = x[far < rod]
+    near = (
+        f"within the range it is reached from {degrees(reached[0]):.6g} to {degrees(reached[-1]):.6g} deg but for these"
+        if reached.size
+        else "it is reached nowhere in the range"
+    )
+    raise InputError(
+        f"the rod of {rod:g} m is too short for a crank of {crank:g} m and an offset of {offset:g} m: at "
+        f"{degrees(where[0]):.6g} deg the pin is {far[far >= rod][0]:g} m from the "
+        f"slide's way, and {near}; take a rod of more than {crank + abs(offset):g} m, or another range in over="
+    )

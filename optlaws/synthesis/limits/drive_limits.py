@@ -1,0 +1,406 @@
+"""What no drive of a mechanism can beat: the least peak or RMS torque, energy or time, with a certificate."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from itertools import pairwise
+from math import inf, nextafter, sqrt
+from typing import Any, Literal, TypeAlias, get_args
+
+import numpy as np
+
+from optlaws.echo import shortened
+from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
+from optlaws.files.reading import JsonText
+from optlaws.formulas.reading import read
+from optlaws.formulas.slopes import constant
+from optlaws.formulas.tree import Call, Exponentiation, Formula, Number, Product, Sum, product
+from optlaws.kept import kept_property
+from optlaws.numbers import Array, not_negative, numbers, positive, power_of_two
+from optlaws.suggest import unknown_key
+from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaPeak, FormulaRms, OfFormula
+from optlaws.synthesis.limits.phase_plane import PhasePlane, PhaseTorque, TorqueLimit
+from optlaws.synthesis.limits.phase_plane_bound import Guess, Potential, proven_bound
+from optlaws.synthesis.limits.phase_plane_program import PhaseOptimum, optimum
+from optlaws.synthesis.problem.problem import Problem
+from optlaws.tolerances import STATED_BOUND
+
+#: what a drive is to take as little of
+DriveObjective: TypeAlias = Literal["peak torque", "rms torque", "energy", "time"]
+
+_KEYS = ("minimise", "value", "attained", "plane", "unit", "weight", "edges", "potential", "s", "b")
+#: by which shares of its size a potential is made to fall more where it proves little, and which gap is little enough
+_STEEPER = (0.0, 1e-8, 1e-6, 1e-4)
+_NEAR = 1e-5
+#: a gap that is small, and how often programs are refined where it is not
+_SMALL, _FINER = 1e-6, 6
+
+
+@dataclass(frozen=True)
+class DriveLimit(JsonText):
+    """What no law from rest to rest that never turns back can beat, whatever its degree and kind.
+
+    Attributes
+    ----------
+    minimise
+        Of what.
+    value
+        The proven lower bound, dimensionless, rounded down.
+    attained
+        What the motion of the phase plane takes that was found; the infimum is between both. Not proven.
+    plane
+        The torques and the bounds, divided by `unit`.
+    unit
+        A power of 2, by which torques are divided; of the least time, one by which times are.
+    weight, edges, potential
+        The certificate: the multiplier of the time and the potential of the equation of motion, by the Bernstein
+        coefficients of its pieces.
+    s, b
+        Places of the motion that was found, where a = sin²(pi s/2), and its velocities there.
+
+    Examples
+    --------
+    >>> limit = drive_limit("c", "peak torque", B=1.8)
+    >>> round(limit.value, 5), limit.gap < 1e-6, DriveLimit.from_json(limit.to_json()) == limit
+    (4.05, True, True)
+    """
+
+    minimise: DriveObjective
+    value: float
+    attained: float
+    plane: PhasePlane
+    unit: float
+    weight: float
+    edges: tuple[float, ...]
+    potential: tuple[tuple[float, ...], ...]
+    s: tuple[float, ...]
+    b: tuple[float, ...]
+
+    _json_name = "a drive's limit"
+
+    @property
+    def gap(self) -> float:
+        """By how much of the value the motion that was found is above it."""
+        return (self.attained - self.value) / self.value if self.value > 0.0 else inf
+
+    @kept_property
+    def bound(self) -> float:
+        """The lower bound, computed from the certificate alone with every rounding counted."""
+        return _bound(self)
+
+    def velocity(self, a: Any) -> Array:  # noqa: ANN401 - numbers of any shape
+        """The velocity at positions of the motion that was found, dimensionless.
+
+        Examples
+        --------
+        >>> drive_limit("c", "peak torque", B=1.8).velocity([0.0, 0.5, 1.0]).round(3)
+        array([0. , 1.8, 0. ])
+        """
+        given = np.asarray(a, dtype=np.float64)
+        s = 2.0 / np.pi * np.arcsin(np.sqrt(np.clip(given, 0.0, 1.0)))
+        places, shape = np.array(self.s), np.sin(np.pi * np.array(self.s))
+        return np.asarray(np.interp(s, places, np.array(self.b) / shape) * np.sin(np.pi * s))
+
+    def to_dict(self) -> dict[str, Any]:
+        """The limit and its certificate as plain data."""
+        return {
+            "minimise": self.minimise,
+            "value": self.value,
+            "attained": self.attained,
+            "plane": self.plane.to_dict(),
+            "unit": self.unit,
+            "weight": self.weight,
+            "edges": list(self.edges),
+            "potential": [list(row) for row in self.potential],
+            "s": list(self.s),
+            "b": list(self.b),
+        }
+
+    @classmethod
+    def from_dict(cls, data: Any) -> DriveLimit:  # noqa: ANN401 - it is checked here
+        """The limit that `to_dict` described, its bound computed again.
+
+        Raises
+        ------
+        InputError
+            If the data is no such limit, or claims more than its certificate proves.
+        """
+        if not isinstance(data, Mapping) or set(data) != set(_KEYS):
+            raise InputError(f"a drive's limit has the keys {', '.join(_KEYS)}, got {shortened(data)}")
+        if data["minimise"] not in get_args(DriveObjective):
+            raise InputError(unknown_key(data["minimise"], get_args(DriveObjective), "minimise"))
+        if not isinstance(data["potential"], list | tuple):
+            raise InputError(f"potential must be rows of numbers, got {shortened(data['potential'])}")
+        rows = tuple(numbers(row, f"potential[{i}]") for i, row in enumerate(data["potential"]))
+        edges, s, b = (numbers(data[key], key) for key in ("edges", "s", "b"))
+        value, attained, weight = (not_negative(data[key], key) for key in ("value", "attained", "weight"))
+        plane, unit = PhasePlane.from_dict(data["plane"]), positive(data["unit"], "unit")
+        limit = cls(data["minimise"], value, attained, plane, unit, weight, edges, rows, s, b)
+        _check(limit)
+        if limit.value > limit.bound * (1.0 + STATED_BOUND):
+            raise InputError(f"the value {limit.value!r} is above what its certificate proves, {limit.bound!r}")
+        return limit
+
+
+def drive_limit(
+    torque: str,
+    minimise: DriveObjective = "peak torque",
+    *,
+    B: float = inf,
+    C: float = inf,
+    P: float = inf,
+    recovered: float = 0.0,
+) -> DriveLimit:
+    """The least peak or RMS torque, energy or time of all motions of a drive from rest to rest that never turn back.
+
+    Parameters
+    ----------
+    torque
+        The torque over a, b and c, such as `drive_torque` writes down: inertia times c, and parts with 1, b and b²,
+        whose factors depend on the position a alone.
+    minimise
+        "peak torque", "rms torque", "energy" (the integral of the positive power, without what is recovered) in the
+        time 1, or "time" for the stroke 1.
+    B, C, P
+        Bounds of the velocity, the acceleration and the torque.
+    recovered
+        Which share of the braking power is used again, 0 to 1; of the energy alone.
+
+    Raises
+    ------
+    InputError
+        If the torque is of another form, an inertia is below 0, or nothing keeps the acceleration finite.
+    InfeasibleProblem
+        If no motion keeps the bounds in the time 1; the error says the least time.
+    SolverFailure
+        If the conic program was not solved.
+
+    Examples
+    --------
+    >>> limit = drive_limit("(1 + 0.6*a^2)*c + 0.6*a*b^2 + 3*a", "rms torque", B=2.2)
+    >>> round(limit.value, 5), limit.gap < 1e-6
+    (3.40484, True)
+    """
+    if minimise not in get_args(DriveObjective):
+        raise InputError(unknown_key(minimise, get_args(DriveObjective), "minimise"))
+    form = phase_torque(torque)
+    share = not_negative(recovered, "recovered")
+    if share > 1.0:
+        raise InputError(f"recovered must be a share from 0 to 1, got {recovered!r}")
+    B, C, P = (bound if bound == inf else positive(bound, name) for bound, name in ((B, "B"), (C, "C"), (P, "P")))
+    unit = form.size
+    form = form.scaled(1.0 / unit)
+    plane = PhasePlane(limits=(TorqueLimit(form, P / unit),) if inf > P else (), B=B, C=C)
+    if minimise == "peak torque":
+        plane = replace(plane, peak=form)
+    elif minimise == "rms torque":
+        plane = replace(plane, squared=form)
+    elif minimise == "energy":
+        plane = replace(plane, maxima=((form, form.scaled(share)),))
+    return limit_of_plane(plane, minimise, unit)
+
+
+def phase_torque(torque: str) -> PhaseTorque:
+    """The torque of a text, as one of the phase plane."""
+    form = PhaseTorque.of(read(torque, ("a", "b", "c", "k")))
+    if form is None:
+        raise InputError(
+            f"a torque in the phase plane is I*c + S*b^2 + R*b + T with factors of a alone, got {torque!r}: give loads "
+            "over the position a, not over k"
+        )
+    return form
+
+
+def limit_of_plane(plane: PhasePlane, minimise: DriveObjective, unit: float = 1.0) -> DriveLimit:
+    """The limit of a phase plane of torques in a unit, with its certificate."""
+    _ = plane.reference
+    if plane.kind == "time":
+        return _least_time(plane)
+    try:
+        found = optimum(plane)
+    except SolverFailure:
+        of_time = replace(plane, squared=None, maxima=(), peak=None)
+        if plane.bounds:
+            shortest = _least_time(of_time)
+            if shortest.value > 1.0:
+                raise InfeasibleProblem(
+                    f"no motion keeps the bounds in the time 1: the least time within them is {shortest.value:.6g}",
+                    problem=plane,
+                    proof=shortest,
+                ) from None
+        raise
+    return _finer(plane, minimise, unit, _limit(plane, minimise, unit, found))
+
+
+def _finer(plane: PhasePlane, minimise: DriveObjective, unit: float, limit: DriveLimit) -> DriveLimit:
+    """The limit or, where its gap is not small, that on finer elements if it proves more."""
+    if limit.gap <= _SMALL:
+        return limit
+    try:
+        other = _limit(plane, minimise, unit, optimum(plane, _FINER))
+    except SolverFailure:
+        return limit
+    return max(limit, other, key=lambda proven: proven.value)
+
+
+def _least_time(plane: PhasePlane) -> DriveLimit:
+    """The least time, in a unit in which it is about 1."""
+    bounds = [sqrt(1.0 / bound.at_rest * bound.torque.size) for bound in plane.bounds]
+    unit = power_of_two(max([*bounds, 1.0 / plane.B]))
+    found = optimum(plane.slowed(unit))
+    if not 0.5 <= found.objective <= 2.0:
+        unit *= power_of_two(found.objective)
+        found = optimum(plane.slowed(unit))
+    slow = plane.slowed(unit)
+    return _finer(slow, "time", unit, _limit(slow, "time", unit, found))
+
+
+def _limit(plane: PhasePlane, minimise: DriveObjective, unit: float, found: PhaseOptimum) -> DriveLimit:
+    """The limit by the potential that was found or, where that proves little, by one that falls more."""
+    potential = Potential(found.edges, found.potential)
+    attained = _in_units(max(found.objective, 0.0), minimise, unit, inf)
+    size, best = float(np.abs(found.potential).max()), None
+    for share in _STEEPER:
+        trial = potential.steeper(share * size) if share else potential
+        limit = DriveLimit(
+            minimise,
+            0.0,
+            attained,
+            plane,
+            unit,
+            found.weight,
+            tuple(found.edges.tolist()),
+            tuple(map(tuple, trial.coefficients.tolist())),
+            tuple(found.s.tolist()),
+            tuple(found.b.tolist()),
+        )
+        limit = replace(limit, value=_bound(limit))
+        if best is None or limit.value > best.value:
+            best = limit
+        if best.gap < _NEAR:
+            break
+    assert best is not None  # noqa: S101 - there are several shares
+    return best
+
+
+def _bound(limit: DriveLimit) -> float:
+    potential = Potential(np.array(limit.edges), np.array(limit.potential))
+    peak = limit.attained / limit.unit if limit.minimise == "peak torque" else inf
+    guess = Guess(np.array(limit.s), np.array(limit.b), peak)
+    bound = max(proven_bound(limit.plane, potential, limit.weight, guess), 0.0)
+    return _in_units(bound, limit.minimise, limit.unit, 0.0)
+
+
+def _in_units(value: float, minimise: DriveObjective, unit: float, towards: float) -> float:
+    """What is minimised in its own unit, the root of a mean square rounded towards a side; units are powers of 2."""
+    return unit * (nextafter(sqrt(value), towards) if minimise == "rms torque" else value)
+
+
+def _check(limit: DriveLimit) -> None:
+    """That the parts of a certificate fit each other."""
+    edges, rows = limit.edges, limit.potential
+    ascending = len(edges) > 1 and all(low < high for low, high in pairwise(edges))
+    if not ascending or edges[0] != 0.0 or edges[-1] != 1.0:
+        raise InputError(f"edges must ascend from 0 to 1, got {shortened(edges)}")
+    if len(rows) != len(edges) - 1 or len({len(row) for row in rows}) != 1 or len(rows[0]) < 2:
+        raise InputError(f"potential must have one row of as many coefficients for each of {len(edges) - 1} pieces")
+    if any(row[-1] != after[0] for row, after in pairwise(rows)):
+        raise InputError("potential must be continuous: a row ends with the coefficient with which the next begins")
+    inside = all(0.0 < place < 1.0 for place in limit.s)
+    if not limit.s or len(limit.s) != len(limit.b) or not inside or min(limit.b) <= 0.0:
+        raise InputError("s and b must be as many places within (0, 1) with velocities above 0")
+    if limit.plane.kind == "time" and limit.weight != 1.0:
+        raise InputError(f"the weight of the time that is minimised is 1, got {limit.weight!r}")
+
+
+def limit_beside(problem: Problem) -> DriveLimit | None:
+    """The limit of a problem's objective in the phase plane; None where it is of no drive, or laws may turn back.
+
+    Examples
+    --------
+    >>> from optlaws import Problem, rms
+    >>> problem = Problem(order=3, B=(1, 2.2), minimise=rms("(1 + 0.6*a^2)*c + 0.6*a*b^2 + 3*a"), monotone=True)
+    >>> round(limit_beside(problem).value, 5)
+    3.40484
+    """
+    known = plane_of(problem)
+    if known is None:
+        return None
+    try:
+        return _cached(*known)
+    except (InputError, InfeasibleProblem, SolverFailure):
+        return None  # nothing is known then
+
+
+@lru_cache(maxsize=64)
+def _cached(plane: PhasePlane, minimise: DriveObjective, unit: float) -> DriveLimit:
+    return limit_of_plane(plane, minimise, unit)
+
+
+def plane_of(problem: Problem) -> tuple[PhasePlane, DriveObjective, float] | None:
+    """The phase plane of a problem's objective within its bounds of B, C and torques, what is minimised and its unit.
+
+    Other bounds and windows are left out: what holds without them holds with them.
+    """
+    [(weight, term), *others] = problem.objective.terms
+    if others or weight != 1.0 or not problem.monotone or problem.boundary is not None or problem.order < 2:
+        return None
+    if not isinstance(term, OfFormula) or (term.motion.start, term.motion.stop) != (0.0, 1.0):
+        return None
+    unit, plane = _objective(term)
+    if plane is None:
+        return None
+    limits = []
+    for bounded, bounds in problem.bounded:
+        if isinstance(bounded, FormulaPeak) and bounded.of_magnitude and bounds.high < inf:
+            form = PhaseTorque.of(bounded.motion.formula)
+            if form is not None and (bounded.motion.start, bounded.motion.stop) == (0.0, 1.0):
+                limits.append(TorqueLimit(form.scaled(1.0 / unit), bounds.high / unit))
+    B, C = (inf if (known := problem.range(name)) is None else known.high for name in ("B", "C"))
+    minimise: DriveObjective = "energy" if isinstance(term, FormulaIntegral) else "rms torque"
+    minimise = "peak torque" if plane.peak is not None else minimise
+    return replace(plane, limits=tuple(limits), B=B, C=C), minimise, unit
+
+
+def _objective(term: OfFormula) -> tuple[float, PhasePlane | None]:
+    """The unit of a constant made of a formula, and the plane in which it is minimised; None where it is none."""
+    formula = term.motion.formula
+    if isinstance(term, FormulaIntegral):
+        return _of_integral(formula)
+    form = PhaseTorque.of(formula)
+    if form is None:
+        return 1.0, None
+    scaled = form.scaled(1.0 / form.size)
+    if isinstance(term, FormulaRms):
+        return form.size, PhasePlane(squared=scaled)
+    if isinstance(term, FormulaPeak) and term.of_magnitude:
+        return form.size, PhasePlane(peak=scaled)
+    return 1.0, None
+
+
+def _of_integral(formula: Formula) -> tuple[float, PhasePlane | None]:
+    """The plane of a sum of powers, each the greater of two, and of one squared torque, each with a factor."""
+    powers: list[tuple[PhaseTorque, PhaseTorque]] = []
+    squares: list[tuple[float, PhaseTorque]] = []
+    for part in formula.terms if isinstance(formula, Sum) else (formula,):
+        factors = part.factors if isinstance(part, Product) else (part,)
+        own, weight = factors[-1], constant(product([Number(1.0), *factors[:-1]]))
+        if weight is None or weight <= 0.0:
+            return 1.0, None
+        if isinstance(own, Exponentiation) and constant(own.exponent) == 2.0:
+            form = PhaseTorque.of(own.base)
+            squares += [] if form is None else [(weight, form)]
+        elif isinstance(own, Call) and own.function == "max" and len(own.arguments) == 2:
+            first, second = map(PhaseTorque.of_power, own.arguments)
+            powers += [] if first is None or second is None else [(first.scaled(weight), second.scaled(weight))]
+    parts = formula.terms if isinstance(formula, Sum) else (formula,)
+    if len(powers) + len(squares) != len(parts) or len(squares) > 1:
+        return 1.0, None
+    unit = max(torque.size for torque in [*(form for _, form in squares), *(form for pair in powers for form in pair)])
+    maxima = tuple((first.scaled(1.0 / unit), second.scaled(1.0 / unit)) for first, second in powers)
+    if not squares:
+        return unit, PhasePlane(maxima=maxima)
+    [(weight, form)] = squares
+    return unit, PhasePlane(squared=form.scaled(1.0 / unit), maxima=maxima, heat=weight * unit)

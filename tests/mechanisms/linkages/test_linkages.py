@@ -1,0 +1,216 @@
+"""Linkages against equations of motion of another kind: positions by circles, constraint forces, energies."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import cos, hypot, pi, radians, sin
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.optimize import fsolve
+
+from optlaws import Body, Loads, Mechanism, four_bar, mechanism_of_motion, slider_crank, smoothstep, toggle
+from optlaws.typing import Array
+
+G = 9.80665
+LAW = smoothstep(3)
+
+CRANK = Body(1.0, centre=(0.04, 0.01), inertia=0.002)
+COUPLER = Body(2.0, centre=(0.12, 0.05), inertia=0.01)
+ROCKER = Body(1.5, centre=(0.10, -0.02), inertia=0.02)
+LENGTHS = {"crank": 0.1, "coupler": 0.3, "rocker": 0.25, "frame": 0.35}
+
+
+def linkage(branch: str = "open", over: tuple[float, float] = (0.0, 2.0 * pi)) -> Mechanism:
+    bodies = {"crank": CRANK, "coupler": COUPLER, "rocker": ROCKER}
+    loads = Loads("3 + 2*s", stiffness=4.0, free=1.0, gravity="-60 deg")
+    return four_bar(*LENGTHS.values(), bodies=bodies, loads=loads, over=over, branch=branch)  # type: ignore[arg-type]
+
+
+def placed(body: Body, angle: float, first: tuple[float, float]) -> tuple[Array, Array]:
+    """The centre of mass from a link's first joint, and the joint's place."""
+    (p, q), c, s = body.centre, cos(angle), sin(angle)
+    return np.array([p * c - q * s, p * s + q * c]), np.array(first)
+
+
+def crossed(omega: float, way: Array) -> Array:
+    return omega * np.array([-way[1], way[0]])
+
+
+def angles(x: float, side: float) -> tuple[float, float]:
+    """Coupler's and rocker's angle by the law of cosines."""
+    dx, dy = LENGTHS["frame"] - 0.1 * cos(x), -0.1 * sin(x)
+    base, length = np.arctan2(dy, dx), hypot(dx, dy)
+    inner = np.arccos((length**2 + 0.3**2 - 0.25**2) / (2.0 * length * 0.3))
+    coupler = base + side * inner
+    pin = np.array([0.1 * cos(x) + 0.3 * cos(coupler), 0.1 * sin(x) + 0.3 * sin(coupler)])
+    return float(coupler), float(np.arctan2(pin[1], pin[0] - 0.35))
+
+
+@pytest.mark.parametrize("branch", ["open", "crossed"])
+@pytest.mark.parametrize("x", [0.3, 1.7, 3.6, 5.9])
+def test_torque_of_a_four_bar_by_newton_and_euler(branch: str, x: float) -> None:
+    """Nine equations of three free bodies with the forces in four pins: the torque is one of the unknowns."""
+    side = 1.0 if branch == "open" else -1.0
+    velocity, acceleration = 7.0, -40.0
+    coupler, rocker = angles(x, side)
+    a, b, c = (0.1 * np.array([cos(x), sin(x)]), 0.3 * np.array([cos(coupler), sin(coupler)]),
+               0.25 * np.array([cos(rocker), sin(rocker)]))  # fmt: skip
+    turn = np.array([[0.0, -1.0], [1.0, 0.0]])
+    # the loop a + b = d + c, differentiated twice
+    rates = np.linalg.solve(np.column_stack([turn @ b, -turn @ c]), -velocity * turn @ a)
+    right = -acceleration * turn @ a + velocity**2 * a + rates[0] ** 2 * b - rates[1] ** 2 * c
+    bends = np.linalg.solve(np.column_stack([turn @ b, -turn @ c]), right)
+
+    ways = [placed(CRANK, x, (0, 0))[0], placed(COUPLER, coupler, (0, 0))[0], placed(ROCKER, rocker, (0, 0))[0]]
+    starts = [np.zeros(2), acceleration * turn @ a - velocity**2 * a, np.zeros(2)]
+    spins = [(velocity, acceleration), (rates[0], bends[0]), (rates[1], bends[1])]
+    ends, bodies = [a, b, c], [CRANK, COUPLER, ROCKER]
+    accelerations = [
+        s + alpha * turn @ w - omega**2 * w for s, w, (omega, alpha) in zip(starts, ways, spins, strict=True)
+    ]
+    weight = G * np.array([cos(radians(-60.0)), sin(radians(-60.0))])
+    position = rocker % (2.0 * pi) if rocker < -2.5 else rocker
+    on_rocker = 3.0 + 2.0 * position - 4.0 * (position - 1.0)
+
+    # unknowns: forces in the four pins, two numbers each, and the torque on the crank
+    matrix, vector = np.zeros((9, 9)), np.zeros(9)
+    joints: list[list[tuple[int, float, Array]]] = [
+        [(0, 1.0, np.zeros(2)), (2, 1.0, ends[0])],
+        [(2, -1.0, np.zeros(2)), (4, -1.0, ends[1])],
+        [(6, 1.0, np.zeros(2)), (4, 1.0, ends[2])],
+    ]
+    for i, (body, forces) in enumerate(zip(bodies, joints, strict=True)):
+        for column, sign, place in forces:
+            lever = place - ways[i]
+            matrix[3 * i : 3 * i + 2, column : column + 2] += sign * np.eye(2)
+            matrix[3 * i + 2, column : column + 2] += sign * np.array([-lever[1], lever[0]])
+        vector[3 * i : 3 * i + 2] = body.mass * (accelerations[i] - weight)
+        vector[3 * i + 2] = body.inertia * spins[i][1]
+    matrix[2, 8], vector[8] = 1.0, vector[8] - on_rocker
+    expected = np.linalg.solve(matrix, vector)[8]
+
+    mechanism = linkage(branch)
+    assert mechanism.driven_position("rocker", x) == pytest.approx(position, abs=1e-12)
+    assert mechanism.torque(x, velocity, acceleration) == pytest.approx(expected, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("mechanism", "start", "stroke"),
+    [
+        (linkage(), 0.2, 2.5),
+        (linkage("crossed"), 3.0, -2.0),
+        (slider_crank("0.1 m", "0.4 m", bodies={"slider": "5 kg", "crank": 0.02}), 0.0, pi),
+        (
+            slider_crank(
+                "0.1 m",
+                "0.4 m",
+                offset="30 mm",
+                bodies={"slider": "5 kg", "rod": COUPLER, "crank": CRANK},
+                loads=Loads("-50*s", gravity="-90 deg"),
+            ).with_friction(coulomb="0.7 N m", viscous="0.05 N m s/rad"),
+            0.5,
+            2.0,
+        ),
+    ],
+    ids=["four-bar", "crossed four-bar", "slider-crank", "slider-crank with everything"],
+)  # fmt: skip
+def test_computed_torque_gives_the_law_back(mechanism: Mechanism, start: float, stroke: float) -> None:
+    """Lagrange's equation J x'' = torque - J' x'^2/2 - T, J' by differences, integrated in time."""
+    duration, step = 0.3, 1e-6
+
+    def motion(t: float) -> tuple[float, float, float]:
+        k = t / duration
+        return start + stroke * LAW(k), stroke / duration * LAW(k, 1), stroke / duration**2 * LAW(k, 2)
+
+    def rate(t: float, state: Array) -> list[float]:
+        x, v = state
+        bend = (mechanism.inertia(x + step) - mechanism.inertia(x - step)) / (2.0 * step)
+        friction = mechanism.viscous * v + mechanism.coulomb * np.sign(motion(t)[1])
+        moved = mechanism.torque(*motion(t)) - bend * v * v / 2.0 - mechanism.load(x) - friction
+        return [v, moved / mechanism.inertia(x)]
+
+    times = np.linspace(0.1, 0.9, 5) * duration
+    solved = solve_ivp(rate, (0.02, times[-1]), motion(0.02)[:2], t_eval=times, rtol=1e-10, atol=1e-12)
+    assert solved.y[0] == pytest.approx([motion(t)[0] for t in times], abs=2e-6)
+
+
+def numerically(function: Callable[[float], Array], x: float, step: float = 1e-5) -> Array:
+    return (function(x + step) - function(x - step)) / (2.0 * step)
+
+
+@pytest.mark.parametrize("x", [0.4, 2.0, 4.5])
+def test_inertia_and_load_of_a_toggle_by_its_places(x: float) -> None:
+    """Velocities by differences of places that are solved from the loops; the load as the slope of an energy."""
+    lengths = {"crank": 0.06, "rod": 0.25, "upper": 0.2, "lower": 0.22, "frame": 0.28}
+    lower = Body(3.0, centre=(0.1, 0.015), inertia=0.01)
+    bodies = {"ram": 40.0, "lower": lower, "rod": COUPLER, "upper": ROCKER, "crank": 0.05}
+    direction, down = radians(80.0), radians(-70.0)
+    press = toggle(lengths, direction=direction, bodies=bodies, loads=Loads(force=-300.0, gravity="-70 deg"))
+    way = np.array([cos(direction), sin(direction)])
+
+    def loops(unknown: Array, at: float) -> list[float]:
+        rod, upper, low, ram = unknown
+        knee = np.array([0.28 + 0.2 * cos(upper), 0.2 * sin(upper)])
+        first = np.array([0.06 * cos(at) + 0.25 * cos(rod), 0.06 * sin(at) + 0.25 * sin(rod)]) - knee
+        second = knee + 0.22 * np.array([cos(low), sin(low)]) - np.array([0.28, 0.0]) - ram * way
+        return [*first, *second]
+
+    near = np.array([0.7, 1.8, 1.2, 0.35])
+    for at in np.linspace(0.4, x, 41):
+        near = fsolve(loops, near, (at,))
+
+    def places(at: float) -> Array:
+        """Centres of rod, upper and lower link, the ram, and the three angles."""
+        now = near
+        for _ in range(4):  # Newton's method to the last digit
+            slopes = [(np.array(loops(now + h, at)) - loops(now - h, at)) / 2e-6 for h in 1e-6 * np.eye(4)]
+            now = now - np.linalg.solve(np.transpose(slopes), loops(now, at))
+        rod, upper, low, ram = now
+        pin, knee = np.array([0.06 * cos(at), 0.06 * sin(at)]), np.array([0.28 + 0.2 * cos(upper), 0.2 * sin(upper)])
+        centres = [
+            pin + placed(COUPLER, rod, (0, 0))[0],
+            np.array([0.28, 0.0]) + placed(ROCKER, upper, (0, 0))[0],
+            knee + placed(lower, low, (0, 0))[0],
+            np.array([0.28, 0.0]) + ram * way,
+        ]
+        return np.array([*np.concatenate(centres), rod, upper, low, ram])
+
+    rates = numerically(places, x)
+    weights = np.array([2.0, 2.0, 1.5, 1.5, 3.0, 3.0, 40.0, 40.0, 0.01, 0.02, 0.01, 0.0])
+    assert press.driven_position("ram", x) == pytest.approx(places(x)[-1], abs=1e-12)
+    assert press.inertia(x) == pytest.approx(0.05 + weights @ rates**2, rel=1e-8)
+
+    def energy(at: float) -> Array:
+        now = places(at)
+        heights = -(now[0:8:2] * cos(down) + now[1:8:2] * sin(down))
+        return G * np.array([2.0, 1.5, 3.0, 40.0]) @ heights + 300.0 * now[-1]
+
+    assert press.load(x) == pytest.approx(float(numerically(energy, x)), rel=1e-7)
+
+
+def test_a_traced_function_is_the_slider_crank() -> None:
+    def place(x: float) -> dict[str, float]:
+        return {"slider": 0.1 * np.cos(x) + np.sqrt(0.4**2 - (0.1 * np.sin(x)) ** 2)}
+
+    x = np.linspace(0.1, 3.0, 7)
+    loads = Loads({"0.3 m": "-100 N", "0.5 m": "40 N"}, stiffness="2 N/mm", free="0.35 m")
+    written = slider_crank("0.1 m", "0.4 m", bodies={"slider": "5 kg"}, loads=loads, over=("0 deg", "180 deg"))
+    read = mechanism_of_motion(place, {"slider": "5 kg"}, loads={"slider": loads}, over=("0 deg", "180 deg"))
+    for nu in range(3):
+        assert read.inertia(x, nu) == pytest.approx(written.inertia(x, nu), rel=1e-12)
+    assert read.load(x) == pytest.approx(written.load(x), rel=1e-12)
+
+
+def test_four_bars_that_turn_far() -> None:
+    # with the shortest link as frame both pivoted links turn fully: the rocker's angle would leap
+    lengths = (0.3, 0.35, 0.4, 0.1)
+    bodies = {"rocker": "0.05 kg m^2"}
+    dragged = four_bar(*lengths, bodies=bodies, loads=Loads("2 N m"))
+    x = np.linspace(0.0, 2.0 * pi, 2001)
+    assert dragged.linkage.driven == ()
+    # the torque does its work over a whole turn of the rocker
+    assert np.trapezoid(dragged.load(x), x) == pytest.approx(-4.0 * pi, rel=1e-6)
+    with pytest.raises(ValueError, match="over='input'"):
+        four_bar(*lengths, bodies=bodies, loads=Loads("2*s"))

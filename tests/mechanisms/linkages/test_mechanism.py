@@ -1,0 +1,180 @@
+"""Mechanisms from formulas and tables, what they refuse, and how they are kept."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from optlaws import (
+    Body,
+    CamForces,
+    Cycle,
+    DiscCam,
+    Dwell,
+    InputError,
+    Loads,
+    Mechanism,
+    Return,
+    Rise,
+    TranslatingRoller,
+    belt,
+    cam_mechanism,
+    four_bar,
+    mechanism_of_motion,
+    rack,
+    rms,
+    screw,
+    slider_crank,
+    smoothstep,
+    toggle,
+)
+from tests.internals.formulas import NUMPY, evaluate, read
+
+KNEE = {"crank": "60 mm", "rod": "250 mm", "upper": "200 mm", "lower": "200 mm", "frame": "280 mm"}
+ALL = {
+    "formula": Mechanism("0.02 + 0.01*sin(x)^2", "3*cos(x)", coulomb=0.2, viscous=0.01, over=(0.0, 3.0)),
+    "table": Mechanism([(0.0, 0.3), (0.2, 0.5), (0.5, 0.4), (0.7, 0.6)], {0.0: 1.0, 0.3: 4.0, 0.7: 2.0}, axis="length"),
+    "slider-crank": slider_crank("0.1 m", "0.4 m", bodies={"slider": 5.0}, loads=Loads({0.3: -80.0, 0.5: 10.0})),
+    "four-bar": four_bar(0.1, 0.3, 0.25, 0.35, bodies={"coupler": Body(1.0, centre=(0.1, 0.05))}),
+    "toggle": toggle(KNEE, bodies={"ram": "40 kg"}, loads=Loads("-900 N", gravity="90 deg")),
+    "screw": screw(
+        "10 mm", "80 kg", loads=Loads(stiffness="2 N/mm", free="20 mm", gravity="180 deg"), over=(0.0, 60.0)
+    ),
+    "traced": mechanism_of_motion(lambda x: {"arm": np.arctan(x) + x / 3}, {"arm": "0.2 kg m^2"}, over=(0.0, 2.0)),
+}
+
+
+@pytest.fixture(params=ALL)
+def mechanism(request: pytest.FixtureRequest) -> Mechanism:
+    return ALL[request.param]
+
+
+def test_stored_and_read_again(mechanism: Mechanism) -> None:
+    again = Mechanism.from_json(mechanism.to_json())
+    assert again == mechanism
+    assert hash(again) == hash(mechanism)
+    assert again != mechanism.with_friction(coulomb=9.0)
+    x = np.linspace(*mechanism.over, 11)
+    assert (again.load(x) == mechanism.load(x)).all()
+
+
+def test_slopes_are_those_of_the_values(mechanism: Mechanism) -> None:
+    low, high = mechanism.over
+    x, step = np.linspace(low, high, 9)[1:-1] + 0.013 * (high - low), 1e-4 * (high - low)
+    for values in (mechanism.inertia, mechanism.load):
+        if values == mechanism.load and mechanism in (ALL["table"], ALL["slider-crank"]):
+            continue  # straight lines have no slope at their places
+        for nu in range(2):
+            by_differences = (
+                8.0 * (values(x + step, nu) - values(x - step, nu))
+                - values(x + 2 * step, nu)
+                + values(x - 2 * step, nu)
+            ) / (12.0 * step)
+            size = 1e-30 + np.abs(values(x, nu)).max() / (high - low)
+            assert values(x, nu + 1) == pytest.approx(by_differences, rel=1e-6, abs=1e-6 * size)
+
+
+@pytest.mark.parametrize("share", [0.6, -0.6])
+def test_dimensionless_torque_is_the_torque(mechanism: Mechanism, share: float) -> None:
+    low, high = mechanism.over
+    start, stroke, duration = (low if share > 0.0 else high), share * (high - low), 0.4
+    moved = mechanism.dimensionless(start, stroke, duration)
+    law, k = smoothstep(4), np.linspace(0.0, 1.0, 101)[1:-1]
+    names = {"a": law(k), "b": law(k, 1), "c": law(k, 2)}
+    position, velocity = start + stroke * names["a"], stroke / duration * names["b"]
+    torque = mechanism.torque(position, velocity, stroke / duration**2 * names["c"])
+    values = moved.unit * evaluate(read(moved.torque), names, NUMPY)
+    assert np.sign(stroke) * values == pytest.approx(torque, rel=1e-10, abs=1e-11 * np.abs(torque).max())
+    # its numbers are near 1, whatever the units
+    assert 0.05 < rms(moved.torque).value(law) < 20.0
+    # and the work of the law is what is stored and lost
+    k, weights = np.polynomial.legendre.leggauss(60)
+    k, weights = 0.5 * (k + 1.0), 0.5 * weights
+    names = {"a": law(k), "b": law(k, 1), "c": law(k, 2)}
+    if mechanism.coulomb == 0.0 and mechanism is not ALL["table"]:
+        work = moved.energy_unit * weights @ (evaluate(read(moved.torque), names, NUMPY) * names["b"])
+        x = start + stroke * k
+        assert work == pytest.approx(stroke * weights @ mechanism.load(x), rel=1e-5, abs=1e-6 * moved.energy_unit)
+
+
+def test_straight_transmissions_reduce_masses_and_forces() -> None:
+    loads = Loads("-10 N", gravity="180 deg")
+    for mechanism, ratio in (
+        (rack(0.02, 3.0, inertia=1e-3, loads=loads), 0.02),
+        (belt("30 mm", 3.0, inertia=1e-3, loads=loads), 0.03),
+        (screw("10 mm", "3 kg", inertia=1e-3, loads=loads), 0.01 / (2.0 * np.pi)),
+    ):
+        assert mechanism.inertia(123.0) == pytest.approx(1e-3 + 3.0 * ratio**2)
+        assert mechanism.load(-7.0) == pytest.approx((10.0 + 3.0 * 9.80665) * ratio)
+
+
+def test_a_cam_takes_the_power_of_its_follower() -> None:
+    segments = [Rise("40 mm", "120 deg", law="3-4-5"), Dwell("60 deg"), Return(law="cycloidal")]
+    cam = DiscCam(Cycle(segments, speed="200 rpm"), "80 mm", TranslatingRoller("12 mm"))
+    forces = CamForces(cam, drive={"mass": "2 kg", "stiffness": "3 N/mm", "preload": "60 N"})
+    loads = Loads("-60 N", stiffness="3 N/mm")
+    for over, share in ((("0 deg", "120 deg"), 1e-13), (("180 deg", "360 deg"), 1e-12), (None, 3e-6)):
+        shaft = cam_mechanism(cam, "2 kg", loads=loads, over=over)
+        x = np.linspace(*shaft.over, 997)[1:-1]
+        assert shaft.torque(x, forces.rate, 0.0) == pytest.approx(
+            forces.shaft_torque(x), abs=share * forces.torque.most
+        )
+
+
+REFUSED: list[tuple[Callable[[], Any], str]] = [
+    (lambda: Mechanism("-0.1"), "the inertia must be at least 0, and it is -0.1 at"),
+    (lambda: Mechanism("0.1*x", over=("-30 deg", "30 deg")), r"it is -0\.0523599 at -30 deg"),
+    (
+        lambda: Mechanism("0.1 kg"),
+        "inertia must be a moment of inertia such as '0.02 kg m\\^2', but '0.1 kg' is a mass",
+    ),
+    (lambda: Mechanism("abs(x)"), "no derivative everywhere"),
+    (lambda: Mechanism("1/x", over=(0.0, 1.0)), "the inertia has no finite value at 0 deg"),
+    (lambda: Mechanism("0.1 + y"), "unknown name 'y'"),
+    (lambda: Mechanism(1.0, over=("0 deg", "1 m")), "angles, one that slides lengths"),
+    (lambda: Mechanism(1.0, over=(2.0, 1.0)), "positions that ascend"),
+    (lambda: Mechanism(1.0, coulomb="-1 N m"), "coulomb must be at least 0"),
+    (
+        lambda: Mechanism({0.0: 1.0, 0.5: 1.0, 0.8: 1.0, 1.0: 1.0}, over=(0.0, 2.0)),
+        "table of the inertia goes from 0 deg to 57.29\\d* deg, and the mechanism from 0 deg to 114.59",
+    ),
+    (lambda: Mechanism({0.0: 1.0, 1.0: 1.0}), "a table of spline needs 4 pairs"),
+    (lambda: Mechanism(1.0, {1.0: 1.0, 0.5: 1.0}), "places of a table must ascend, got 1 before 0.5"),
+    (lambda: ALL["formula"].dimensionless(1.0, 3.0, 1.0), "defined from 0 deg to 171.887339 deg, got 229.183"),
+    (lambda: ALL["formula"].dimensionless(1.0, 0.0, 1.0), "stroke must not be 0"),
+    (lambda: Mechanism(0.0).dimensionless(0.0, 1.0, 1.0), "neither inertia nor load nor friction"),
+    (lambda: ALL["formula"].driven_position("ram", 0.0), "unknown driven link 'ram'"),
+    (lambda: slider_crank(0.1, 0.08, bodies={"slider": 1.0}), r"rod of 0.08 m is too short .* at 53.15"),
+    (lambda: slider_crank(0.1, 0.4, bodies={"slider": "-5 kg"}), "bodies: slider must be at least 0"),
+    (lambda: slider_crank(0.1, 0.4, bodies={"ram": "5 kg"}), "unknown body 'ram'"),
+    (lambda: slider_crank(0.1, 0.4, bodies={"rod": "5 kg"}), "rod is on no pivot and needs a Body"),
+    (lambda: slider_crank("-0.1 m", 0.4, bodies={}), "crank must be above 0"),
+    (lambda: four_bar(0.1, 0.2, 0.2, 0.6, bodies={}), "the links do not close: the frame of 0.6 m"),
+    (lambda: four_bar(0.2, 0.15, 0.2, 0.3, bodies={}), r"reaches no angle from 86\.4167 to 273\.583 deg: .* Grashof"),
+    (lambda: toggle({"crank": 1.0}, bodies={}), "a toggle needs rod, upper, lower, frame too"),
+    (lambda: toggle({**KNEE, "lower": "50 mm"}, bodies={}), "lower link of 0.05 m does not reach the ram's way at"),
+    (lambda: toggle(KNEE, direction="-90 deg", bodies={}), "behind the upper link's pivot"),
+    (lambda: mechanism_of_motion(lambda x: x if x > 1 else 0, {"q1": "1 kg"}, over=(0, 1)), "compares .* give a table"),
+    (lambda: mechanism_of_motion(np.floor, {"q1": "1 kg"}, over=(0, 1)), "numpy.floor"),
+    (lambda: mechanism_of_motion(lambda x: x, {"q1": 1.0}, over=(0, 1)), "q1 must be a mass such as '5 kg'"),
+    (lambda: mechanism_of_motion(lambda x: x, {}, over=(0, 1)), "needs a mass"),
+    (lambda: Loads("3 N", over="position"), "unknown over of loads 'position'"),  # type: ignore[arg-type]
+    (lambda: Mechanism.from_dict({"format": 1, "mass": 1}), "unknown entry of a mechanism 'mass'"),
+]
+
+
+@pytest.mark.parametrize(("wrong", "message"), REFUSED, ids=range(len(REFUSED)))
+def test_what_cannot_be_is_refused(wrong: Callable[[], Any], message: str) -> None:
+    with pytest.raises(InputError, match=f"(?s){message}"):
+        wrong()
+
+
+def test_pictures(mechanism: Mechanism) -> None:
+    artists = mechanism.plot()
+    panels = {artist.axes for artist in artists}
+    assert len(panels) == 3 + bool(mechanism.linkage.chains)
+    inertia = next(line for line in artists if line.axes.get_ylabel().startswith("J,"))
+    assert inertia.get_ydata() == pytest.approx(mechanism.inertia(np.linspace(*mechanism.over, 721)))
