@@ -20,6 +20,7 @@ from optlaws.balancing.machine_units.lever_cam import rocker_law as rocker_law
 from optlaws.cams.as_manufactured import AsMade as AsMade
 from optlaws.cams.as_manufactured import as_made as as_made
 from optlaws.cams.as_manufactured import with_profile_error as with_profile_error
+from optlaws.cams.at_shaft import cam_mechanism as cam_mechanism
 from optlaws.cams.barrel import BarrelCam as BarrelCam
 from optlaws.cams.best_laws import best_base_circle as best_base_circle
 from optlaws.cams.best_laws import best_cam as best_cam
@@ -73,6 +74,9 @@ from optlaws.laws.polynomial import smoothstep as smoothstep
 from optlaws.laws.savin import SavinFamily as SavinFamily
 from optlaws.laws.savin import savin as savin
 from optlaws.laws.segments.piecewise import PiecewiseLaw as PiecewiseLaw
+from optlaws.mechanisms.drives.drive_train import Drive as Drive
+from optlaws.mechanisms.drives.motor import Motor as Motor
+from optlaws.mechanisms.drives.motor import read_motors as read_motors
 from optlaws.mechanisms.follower.cam_constants import cam_constant as cam_constant
 from optlaws.mechanisms.follower.follower import Deviation as Deviation
 from optlaws.mechanisms.follower.follower import Follower as Follower
@@ -199,6 +203,7 @@ __all__ = [
     "D",
     "Deviation",
     "DiscCam",
+    "Drive",
     "Dwell",
     "DwellMachine",
     "Expression",
@@ -221,6 +226,7 @@ __all__ = [
     "MachineSpectrum",
     "Mechanism",
     "MotionLaw",
+    "Motor",
     "Move",
     "NoisyTable",
     "NotNormalised",
@@ -266,6 +272,7 @@ __all__ = [
     "best_cam",
     "between",
     "cam_constant",
+    "cam_mechanism",
     "catalogue",
     "compare_dwell_mechanisms",
     "compare_laws",
@@ -306,6 +313,7 @@ __all__ = [
     "proven_front",
     "rack",
     "read_law",
+    "read_motors",
     "residual_functional",
     "residual_phasor",
     "residual_vibration",

@@ -1,4 +1,7 @@
 # made by tests/contracts/faces.py from the table in __init__.py
+from optlaws.mechanisms.drives.drive_train import Drive as Drive
+from optlaws.mechanisms.drives.motor import Motor as Motor
+from optlaws.mechanisms.drives.motor import read_motors as read_motors
 from optlaws.mechanisms.follower.follower import Deviation as Deviation
 from optlaws.mechanisms.follower.follower import Follower as Follower
 from optlaws.mechanisms.follower.follower import off_design as off_design
@@ -28,11 +31,13 @@ __all__ = [
     "Body",
     "CycleResponse",
     "Deviation",
+    "Drive",
     "Follower",
     "Link",
     "Loads",
     "Machine",
     "Mechanism",
+    "Motor",
     "Response",
     "ResponseSpectrum",
     "belt",
@@ -43,6 +48,7 @@ __all__ = [
     "off_design",
     "polydyne",
     "rack",
+    "read_motors",
     "residual_functional",
     "residual_phasor",
     "response_spectrum",

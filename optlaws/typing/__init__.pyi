@@ -30,6 +30,10 @@ from optlaws.laws.law import Jumps as Jumps
 from optlaws.laws.making.input_shaping import Shaper as Shaper
 from optlaws.laws.making.multiplier import Multiplier as Multiplier
 from optlaws.laws.segments.segment import Segment as Segment
+from optlaws.mechanisms.drives.drive_train import DimensionlessDrive as DimensionlessDrive
+from optlaws.mechanisms.drives.sheet import BestRatio as BestRatio
+from optlaws.mechanisms.drives.sheet import DriveSheet as DriveSheet
+from optlaws.mechanisms.drives.sheet import Margin as Margin
 from optlaws.mechanisms.follower.follower import Change as Change
 from optlaws.mechanisms.linkages.dimensionless import DimensionlessMechanism as DimensionlessMechanism
 from optlaws.mechanisms.machine.output_constants import OutputPeak as OutputPeak
@@ -81,6 +85,7 @@ __all__ = [
     "BestBaseCircle",
     "BestBreaks",
     "BestCam",
+    "BestRatio",
     "Bound",
     "CamFollower",
     "CamStretch",
@@ -91,8 +96,10 @@ __all__ = [
     "CutFormat",
     "CycleSegment",
     "Derivatives",
+    "DimensionlessDrive",
     "DimensionlessMechanism",
     "Direction",
+    "DriveSheet",
     "DwellComparison",
     "DwellMechanism",
     "DwellType",
@@ -115,6 +122,7 @@ __all__ = [
     "MachineResponse",
     "ManufacturedFormat",
     "Many",
+    "Margin",
     "Maximum",
     "ModeResidual",
     "Motion",

@@ -122,7 +122,7 @@ class MotorMotion:
         return np.unique(np.concatenate([even, *crossings]))
 
     @kept_property
-    def _panels(self) -> tuple[Array, Array]:
+    def places(self) -> tuple[Array, Array]:
         """Places and weights of an integral over k."""
         u, weights = np.polynomial.legendre.leggauss(_GAUSS)
         edges = self._smooth
@@ -131,7 +131,7 @@ class MotorMotion:
 
     def mean(self, function: Callable[[Array], Array]) -> float:
         """The mean of a function of k over the move."""
-        k, weights = self._panels
+        k, weights = self.places
         return float(weights @ function(k))
 
     def greatest(self, function: Callable[[Array], Array]) -> Greatest:
@@ -140,7 +140,7 @@ class MotorMotion:
 
         edges = self._smooth
         lengths = np.diff(edges)
-        k = np.concatenate([edges[:-1] + BEFORE_BREAK * lengths, edges[1:] - BEFORE_BREAK * lengths, self._panels[0]])
+        k = np.concatenate([edges[:-1] + BEFORE_BREAK * lengths, edges[1:] - BEFORE_BREAK * lengths, self.places[0]])
         values = np.asarray(function(k))
         best = int(np.argmax(values))
         found = Greatest(float(values[best]), float(k[best]))
