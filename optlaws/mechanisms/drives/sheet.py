@@ -163,7 +163,7 @@ class BestRatio:
 
     def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
         """Draw the root mean square and the peak of the torque over the ratio, with the best one marked."""
-        from optlaws.plots.drive_train import draw_best_ratio
+        from optlaws.plots.gear_ratio import draw_best_ratio
 
         return draw_best_ratio(self, ax, **style)
 
@@ -172,22 +172,20 @@ def drive_sheet(motion: MotorMotion, motor: Motor, period: float, regeneration: 
     """The sheet of a move that is made once in a period, with the share of the braking energy that is fed back."""
     peak = motion.greatest(lambda k: np.abs(motion.torque(k)))
     speed = motion.greatest(lambda k: np.abs(motion.speed(k)))
-    given, taken = (motion.greatest(lambda k, side=side: side * motion.power(k)).value for side in (1.0, -1.0))
-    driving, braking = (
-        motion.duration * motion.mean(lambda k, side=side: np.maximum(side * motion.power(k), 0.0))
-        for side in (1.0, -1.0)
-    )
+    given, taken = motion.greatest(motion.power).value, motion.greatest(lambda k: -motion.power(k)).value
+    driving = motion.duration * motion.mean(lambda k: np.maximum(motion.power(k), 0.0))
+    braking = motion.duration * motion.mean(lambda k: np.maximum(-motion.power(k), 0.0))
     rms = _rms(motion, period)
     mean_speed = motion.duration / period * motion.mean(lambda k: np.abs(motion.speed(k)))
     use = motion.greatest(lambda k: _use(np.abs(motion.torque(k)), motor.peak_at(motion.speed(k))))
     rated = float(motor.continuous_at(mean_speed))
     load = float(np.max(motion.mechanism.inertia(motion.start + motion.stroke * np.linspace(0.0, 1.0, 721))))
-    own = motion.train.inertia
+    inertia = motion.train.inertia
     return DriveSheet(
         *(peak.value, peak.k, rms, motion.holding_torque, speed.value, mean_speed),
         *(max(given, 0.0), max(taken, 0.0), driving, braking, driving - regeneration * braking),
         (1.0 - regeneration) * braking / period,
-        load / motion.ratio**2 / own if own else inf,
+        load / motion.ratio**2 / inertia if inertia else inf,
         *((use.value, use.k) if motor.curve else (0.0, 0.0)),
         float(_use(np.array(rms), np.array(rated))),
         *(motor.peak_torque, rated, motor.greatest_speed),
@@ -210,13 +208,16 @@ class _ByRatio:
     """The torque of a move at any ratio i: i P + Q + Y/i, P of inertia and viscous friction, Q dry friction, Y load."""
 
     def __init__(self, motion: MotorMotion, period: float) -> None:
-        one = motion.with_ratio(1.0)
-        self.k, self.weights = one.places
+        direct = motion.with_ratio(1.0)
+        self.k, self.weights = direct.places
         self.weights = self.weights * (motion.duration / period)
-        self.speed = np.asarray(one.speed(self.k))
+        self.speed = np.asarray(direct.speed(self.k))
         self.dry = motion.train.coulomb * np.where(self.speed < 0.0, -1.0, 1.0)
-        self.turning, self.load = np.asarray(one.own(self.k)) - self.dry, np.asarray(one.through_gear(self.k))
-        self.held = (1.0 - motion.duration / period) * one.holding_torque**2
+        self.turning, self.load = (
+            np.asarray(direct.motor_torque(self.k)) - self.dry,
+            np.asarray(direct.through_gear(self.k)),
+        )
+        self.holding = (1.0 - motion.duration / period) * direct.holding_torque**2
 
     def torques(self, ratio: Any) -> Array:  # noqa: ANN401 - a number, or an array of them
         """The torque at all places, a row for each ratio."""
@@ -225,23 +226,23 @@ class _ByRatio:
 
     def rms(self, ratio: Any) -> Array:  # noqa: ANN401
         """The root mean square over the period."""
-        return np.sqrt(self.torques(ratio) ** 2 @ self.weights + self.held / np.asarray(ratio) ** 2)
+        return np.asarray(np.sqrt(self.torques(ratio) ** 2 @ self.weights + self.holding / np.asarray(ratio) ** 2))
 
     def peak(self, ratio: Any) -> Array:  # noqa: ANN401
         """The greatest magnitude."""
-        return np.abs(self.torques(ratio)).max(axis=-1)
+        return np.asarray(np.abs(self.torques(ratio)).max(axis=-1))
 
     def use(self, ratio: Any, motor: Motor) -> Array:  # noqa: ANN401
         """The greatest share of the motor's peak torque, at its speed."""
         speeds = np.asarray(ratio, dtype=np.float64)[..., None] * self.speed
-        return _use(np.abs(self.torques(ratio)), motor.peak_at(speeds)).max(axis=-1)
+        return np.asarray(_use(np.abs(self.torques(ratio)), motor.peak_at(speeds)).max(axis=-1))
 
     @property
     def unlimited(self) -> float:
         """The ratio of the least root mean square."""
         from scipy.optimize import minimize_scalar
 
-        squares = (self.turning**2 @ self.weights, self.load**2 @ self.weights + self.held)
+        squares = (self.turning**2 @ self.weights, self.load**2 @ self.weights + self.holding)
         if not all(squares):
             raise InfeasibleProblem(
                 "no ratio is best: without inertia of motor and gear a greater ratio is always better, and without "
@@ -250,11 +251,11 @@ class _ByRatio:
         near = float((squares[1] / squares[0]) ** 0.25)
         if not self.dry.any():
             return near
-        found = minimize_scalar(
+        optimum = minimize_scalar(
             lambda log: float(self.rms(near * np.exp(log))), bounds=(-_FAR, _FAR), method="bounded",
             options={"xatol": AGREEMENT},
         )  # fmt: skip
-        return near * float(np.exp(found.x))
+        return near * float(np.exp(optimum.x))
 
 
 def best_ratio(motion: MotorMotion, motor: Motor, period: float) -> BestRatio:

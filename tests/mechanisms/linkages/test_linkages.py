@@ -137,7 +137,7 @@ def test_computed_torque_gives_the_law_back(mechanism: Mechanism, start: float, 
 
 
 def numerically(function: Callable[[float], Array], x: float, step: float = 1e-5) -> Array:
-    return (function(x + step) - function(x - step)) / (2.0 * step)
+    return np.asarray((function(x + step) - function(x - step)) / (2.0 * step))
 
 
 @pytest.mark.parametrize("x", [0.4, 2.0, 4.5])
