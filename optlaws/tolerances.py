@@ -127,6 +127,7 @@ CYCLE_OPTIMALITY = 1e-7  # share within which an objective meets the bound of th
 DURATION_STEP = 1e-4  # of a duration, for the slope of a mean square whose shape changes with it
 SHORTEST_MOVE = 1e-6  # of a period: no shorter move is tried
 LEAST_PEAK_SLACK = 1e-6  # of a least peak, given to problems that are not convex
+LIMIT_USED = 1e-6  # of a motor's limit: so much of it is left, as peaks are looked for at places alone
 PEAK_BRACKET = 1e-11  # of a peak: where a limit is met
 
 # --- laws and exports -----------------------------------------------------------------------------------------------

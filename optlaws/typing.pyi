@@ -24,6 +24,7 @@ from optlaws.cams.least_sizes import LeastBaseCircle as LeastBaseCircle
 from optlaws.cycles.machine_follower import MachineAnswer as MachineAnswer
 from optlaws.cycles.specification.segments import CycleSegment as CycleSegment
 from optlaws.exports.best_breaks import BestBreaks as BestBreaks
+from optlaws.formulas.tree import Formula as Formula
 from optlaws.laws.curve import Many as Many
 from optlaws.laws.exporting import Interpolation as Interpolation
 from optlaws.laws.law import Jumps as Jumps
@@ -31,11 +32,18 @@ from optlaws.laws.making.input_shaping import Shaper as Shaper
 from optlaws.laws.making.multiplier import Multiplier as Multiplier
 from optlaws.laws.segments.segment import Segment as Segment
 from optlaws.mechanisms.drives.drive_train import DimensionlessDrive as DimensionlessDrive
+from optlaws.mechanisms.drives.motor_motion import Train as Train
 from optlaws.mechanisms.drives.sheet import BestRatio as BestRatio
 from optlaws.mechanisms.drives.sheet import DriveSheet as DriveSheet
 from optlaws.mechanisms.drives.sheet import Margin as Margin
 from optlaws.mechanisms.follower import Change as Change
+from optlaws.mechanisms.linkages.bodies import DrivenLink as DrivenLink
+from optlaws.mechanisms.linkages.bodies import LoadPlace as LoadPlace
 from optlaws.mechanisms.linkages.dimensionless import DimensionlessMechanism as DimensionlessMechanism
+from optlaws.mechanisms.linkages.entries import TableKind as TableKind
+from optlaws.mechanisms.linkages.four_bar import FourBarBranch as FourBarBranch
+from optlaws.mechanisms.linkages.mechanism import InputAxis as InputAxis
+from optlaws.mechanisms.linkages.mechanism import LinkGeometry as LinkGeometry
 from optlaws.mechanisms.machine.output_constants import OutputPeak as OutputPeak
 from optlaws.mechanisms.machine.output_constants import OutputRms as OutputRms
 from optlaws.mechanisms.machine.over_time import MachineCycle as MachineCycle
@@ -100,6 +108,7 @@ __all__ = [
     "DimensionlessMechanism",
     "Direction",
     "DriveSheet",
+    "DrivenLink",
     "DwellComparison",
     "DwellMechanism",
     "DwellType",
@@ -108,8 +117,11 @@ __all__ = [
     "Extreme",
     "Extremes",
     "FaceContact",
+    "Formula",
     "FormulaKind",
+    "FourBarBranch",
     "GreatestRoller",
+    "InputAxis",
     "Interpolation",
     "Interval",
     "Jet",
@@ -117,6 +129,8 @@ __all__ = [
     "LawSpace",
     "LazySequence",
     "LeastBaseCircle",
+    "LinkGeometry",
+    "LoadPlace",
     "MachineAnswer",
     "MachineCycle",
     "MachineResponse",
@@ -153,8 +167,10 @@ __all__ = [
     "Study",
     "Summary",
     "SweptParameter",
+    "TableKind",
     "Teeth",
     "Term",
+    "Train",
     "Turning",
     "Watch",
 ]

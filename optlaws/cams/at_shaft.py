@@ -14,7 +14,7 @@ from optlaws.errors import InputError
 from optlaws.formulas.slopes import added, derivative, multiplied
 from optlaws.formulas.tree import Exponentiation, Formula, Name, Number, Table, number
 from optlaws.mechanisms.linkages.bodies import NO_LOADS, DrivenLink, Loads, Moving
-from optlaws.mechanisms.linkages.mechanism import Linkage, Mechanism
+from optlaws.mechanisms.linkages.mechanism import LinkGeometry, Mechanism
 from optlaws.motion.quantities import si_number
 from optlaws.numbers import Array, NumberOrQuantity, finite, not_negative
 from optlaws.numerics import chebyshev
@@ -81,7 +81,7 @@ def cam_mechanism(
         over=(first, last),
         axis="angle",
         name="cam",
-        linkage=Linkage((("follower", position),)),
+        linkage=LinkGeometry((("follower", position),)),
     )
 
 

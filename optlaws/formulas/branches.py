@@ -140,7 +140,7 @@ def _chosen(formula: Formula, choices: Sequence[int]) -> Formula:
             start = added([parts[0], opposite(number(part.places[i]))])
             built.append(_in_powers(pieces(part)[i].tolist(), start))
         elif smooth_itself(part):
-            same = all(one is other for one, other in zip(parts, part.parts, strict=True))
+            same = all(new is old for new, old in zip(parts, part.parts, strict=True))
             built.append(part if same else rebuilt(part, parts))
         elif len(parts) == 1:
             built.append(opposite(parts[0]) if next(left) else parts[0])

@@ -57,7 +57,7 @@ class Formula:
             return True
         if not isinstance(other, Formula):
             return NotImplemented
-        same = type(self) is type(other) and self._hash == other._hash and self.own == other.own
+        same = type(self) is type(other) and self._hash == other._hash and self.data == other.data
         return same and self.parts == other.parts
 
     def __hash__(self) -> int:
@@ -65,10 +65,10 @@ class Formula:
 
     @kept_property
     def _hash(self) -> int:
-        return hash((type(self).__name__, self.own, self.parts))
+        return hash((type(self).__name__, self.data, self.parts))
 
     @property
-    def own(self) -> Any:  # noqa: ANN401 - whatever a kind of formula has
+    def data(self) -> Any:  # noqa: ANN401 - whatever a kind of formula has
         """What it is beside its parts: two of one kind with equal parts that have this in common are equal."""
         return None
 
@@ -87,24 +87,24 @@ class Formula:
         """
         places: dict[int, int] = {}
         known: dict[Any, int] = {}
-        found: list[tuple[Formula, tuple[int, ...]]] = []
+        different: list[tuple[Formula, tuple[int, ...]]] = []
 
         def place(formula: Formula) -> int:
             at = places.get(id(formula))
             if at is None:
                 parts = tuple(place(part) for part in formula.parts)
-                at = known.setdefault((type(formula), formula.own, parts), len(found))
-                if at == len(found):
-                    found.append((formula, parts))
+                at = known.setdefault((type(formula), formula.data, parts), len(different))
+                if at == len(different):
+                    different.append((formula, parts))
                 places[id(formula)] = at
             return at
 
         place(self)
-        last = {part: i for i, (_, parts) in enumerate(found) for part in parts}
-        done: list[list[int]] = [[] for _ in found]
+        last = {part: i for i, (_, parts) in enumerate(different) for part in parts}
+        done: list[list[int]] = [[] for _ in different]
         for part, i in last.items():
             done[i].append(part)
-        return tuple(Step(formula, parts, tuple(over)) for (formula, parts), over in zip(found, done, strict=True))
+        return tuple(Step(formula, parts, tuple(over)) for (formula, parts), over in zip(different, done, strict=True))
 
     def within(self, level: int) -> str:
         """Its text, in brackets where it binds less than its surroundings."""
@@ -121,7 +121,7 @@ class Number(Formula):
     value: float
 
     @property
-    def own(self) -> float:
+    def data(self) -> float:
         """The value."""
         return self.value
 
@@ -137,7 +137,7 @@ class Name(Formula):
     name: str
 
     @property
-    def own(self) -> str:
+    def data(self) -> str:
         """The name."""
         return self.name
 
@@ -253,7 +253,7 @@ class Call(Formula):
         return self.arguments
 
     @property
-    def own(self) -> str:
+    def data(self) -> str:
         """The name of the function."""
         return self.function
 
@@ -275,7 +275,7 @@ class Table(OfOnePart):
     order: int = 0
 
     @property
-    def own(self) -> tuple[Any, ...]:
+    def data(self) -> tuple[Any, ...]:
         """The places and values, and what is made of them."""
         return self.places, self.values, self.smooth, self.order
 

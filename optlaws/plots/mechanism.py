@@ -93,7 +93,7 @@ def _linkage(mechanism: Mechanism, axes: Axes) -> list[Artist]:
                 artists += axes.plot(*path, color=GREY, linewidth=0.8, linestyle=":", zorder=1)
         if len(chain) == 1:
             fixed = not chain[0][0].names() | chain[0][1].names()
-            marker = {
+            marker: dict[str, Any] = {
                 "marker": "^" if fixed else "s",
                 "color": GREY if fixed else WARM,
                 "markersize": 7.0 + 2.0 * fixed,
@@ -102,7 +102,9 @@ def _linkage(mechanism: Mechanism, axes: Axes) -> list[Artist]:
             continue
         places = np.array([_placed(point, shown) for point in chain])
         for i in range(len(shown))[::-1]:
-            line = {"color": BLUES[4], "linewidth": 2.2} if i == 0 else {"color": BLUES[1], "linewidth": 1.0}
+            line: dict[str, Any] = (
+                {"color": BLUES[4], "linewidth": 2.2} if i == 0 else {"color": BLUES[1], "linewidth": 1.0}
+            )
             artists += axes.plot(*places[:, :, i].T, marker="o", markersize=4.0 if i == 0 else 2.5, zorder=3, **line)
     axes.set(xlabel="x, mm", ylabel="y, mm", title=f"{mechanism.name}, {len(shown)} positions")
     return artists

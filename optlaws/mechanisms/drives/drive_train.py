@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import numpy as np
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.files.reading import JsonText, entries_of
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.drives.motor import Motor
 from optlaws.mechanisms.drives.motor_motion import MotorMotion, Train
@@ -17,6 +18,7 @@ from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.motion.piece import named_law
 from optlaws.motion.quantities import si_number
 from optlaws.numbers import NumberOrQuantity, finite, not_negative, positive, real
+from optlaws.suggest import unknown_key
 from optlaws.tolerances import CLOSURE
 
 
@@ -49,7 +51,7 @@ class DimensionlessDrive:
 
 
 @dataclass(frozen=True)
-class Drive:
+class Drive(JsonText):
     """A motor that drives a mechanism through a gear or a belt.
 
     The torque at the motor is J i x'' + friction + X/(i eta) while power flows to the load, and X eta/i while it flows
@@ -84,6 +86,8 @@ class Drive:
     [3.686, 1.49, 1055.762]
     """
 
+    _json_name = "a drive"
+
     mechanism: Mechanism
     motor: Motor
     ratio: float = 1.0
@@ -103,11 +107,12 @@ class Drive:
         turning = not_negative(si_number(self.inertia, ("moment of inertia",), "inertia"), "inertia")
         object.__setattr__(self, "ratio", positive(self.ratio, "ratio"))
         object.__setattr__(self, "inertia", turning)
-        shares = self.efficiency if isinstance(self.efficiency, list | tuple) else (self.efficiency,) * 2
+        given: Any = self.efficiency
+        shares = given if isinstance(given, list | tuple) else (given,) * 2
         if len(shares) != 2 or not all(0.0 < (real(share) or 0.0) <= 1.0 for share in shares):
             raise InputError(
                 "efficiency must be above 0 and at most 1, one number or two, to the load and back, got "
-                f"{shortened(self.efficiency)}"
+                f"{shortened(given)}"
             )
         object.__setattr__(self, "efficiency", (float(shares[0]), float(shares[1])))
         share = finite(self.regeneration, "regeneration")
@@ -123,8 +128,36 @@ class Drive:
     @property
     def train(self) -> Train:
         """Motor and gear in numbers."""
-        turning = self.motor.inertia + float(self.inertia)  # type: ignore[arg-type] # it is a float from the start
+        turning = self.motor.inertia + float(self.inertia)
         return Train(turning, self.motor.viscous, self.motor.coulomb, *self.efficiencies)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The mechanism, the motor and the gear as plain data in SI units."""
+        return {
+            "mechanism": self.mechanism.to_dict(),
+            "motor": self.motor.to_dict(),
+            "ratio": self.ratio,
+            "efficiency": list(self.efficiencies),
+            "inertia": self.inertia,
+            "regeneration": self.regeneration,
+        }
+
+    @classmethod
+    def from_dict(cls, data: Any) -> Drive:  # noqa: ANN401 - it is checked here
+        """The drive that `to_dict` described.
+
+        Raises
+        ------
+        InputError
+            If an entry is missing, unknown or wrong.
+        """
+        known = [field.name for field in fields(cls)]
+        entries = entries_of(data, known, "a drive")
+        for name in data:
+            if name not in known:
+                raise InputError(unknown_key(name, known, "entry of a drive"))
+        read = {"mechanism": Mechanism.from_dict(entries["mechanism"]), "motor": Motor.from_dict(entries["motor"])}
+        return cls(**{**entries, **read})
 
     def with_ratio(self, ratio: float) -> Drive:
         """The drive with another ratio."""
@@ -138,8 +171,8 @@ class Drive:
         v, w = np.asarray(velocity, dtype=np.float64), np.asarray(acceleration, dtype=np.float64)
         direction, train, i = np.where(v == 0.0, np.sign(w), np.sign(v)), self.train, self.ratio
         load = np.asarray(self.mechanism.torque(position, v, w)) + self.mechanism.coulomb * (direction - np.sign(v))
-        own = i * (train.inertia * w + train.viscous * v) + train.coulomb * direction
-        values = own + train.through_gear(load * direction) * direction / i
+        inertial = i * (train.inertia * w + train.viscous * v) + train.coulomb * direction
+        values = inertial + train.through_gear(load * direction) * direction / i
         return values if np.ndim(values) else float(values)
 
     def dimensionless(
@@ -171,11 +204,13 @@ class Drive:
         train = self.train
         parts = {"c": train.inertia * i * speed / moved.duration, "b": train.viscous * i * speed, "1": train.coulomb}
         to_load, back = self.efficiencies
-        own = [f"{size / unit!r}*{name}" if name != "1" else repr(size / unit) for name, size in parts.items() if size]
+        motor = [
+            f"{size / unit!r}*{name}" if name != "1" else repr(size / unit) for name, size in parts.items() if size
+        ]
         shares = (1.0,) if to_load == back == 1.0 else (1.0 / to_load, back)
         through = [f"{share!r}*({moved.torque})" if share != 1.0 else moved.torque for share in shares]
-        torque = " + ".join([*own, through[0] if len(through) == 1 else f"max({', '.join(through)})"])
-        powers = [f"({' + '.join([*own, load])})*b" for load in through]
+        torque = " + ".join([*motor, through[0] if len(through) == 1 else f"max({', '.join(through)})"])
+        powers = [f"({' + '.join([*motor, load])})*b" for load in through]
         fed_back = [f"{self.regeneration!r}*{power}" for power in powers] if self.regeneration else ["0"]
         several = powers if self.regeneration == 1.0 else [*powers, *fed_back]
         power, energy = (some[0] if len(some) == 1 else f"max({', '.join(some)})" for some in (powers, several))

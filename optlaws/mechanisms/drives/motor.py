@@ -207,6 +207,6 @@ def _curve(pairs: Any, name: str) -> Curve:  # noqa: ANN401 - it is checked here
     for speed, torque in pairs:
         at = finite(si_number(speed, ("angular velocity",), f"{name}: speed"), f"{name}: speed")
         read.append((at, not_negative(si_number(torque, ("torque",), f"{name}: torque"), f"{name}: torque")))
-    if len(read) == 1 or any(one >= following for (one, _), (following, _) in pairwise(read)):
+    if len(read) == 1 or any(speed >= following for (speed, _), (following, _) in pairwise(read)):
         raise InputError(f"{name} needs two speeds at least, which rise, got {shortened(pairs)}")
     return tuple(read)

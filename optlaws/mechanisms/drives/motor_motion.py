@@ -81,21 +81,21 @@ class MotorMotion:
         v, w = side * speed / self.ratio, side * self.acceleration(k) / self.ratio
         # friction of a motion that has just begun or is about to end
         missing = self.mechanism.coulomb * (self._direction(speed) - np.sign(speed))
-        return side * np.asarray(self.mechanism.torque(position, v, w)) + missing
+        return np.asarray(side * self.mechanism.torque(position, v, w) + missing)
 
     def through_gear(self, k: Array) -> Array:
         """The load's torque times the ratio as the motor feels it."""
         direction = self._direction(self.speed(k))
         return self.train.through_gear(self.load(k) * direction) * direction
 
-    def own(self, k: Array) -> Array:
+    def motor_torque(self, k: Array) -> Array:
         """The torque that moves the motor and the gear's first shaft alone."""
         speed, train = self.speed(k), self.train
         return train.inertia * self.acceleration(k) + train.viscous * speed + train.coulomb * self._direction(speed)
 
     def torque(self, k: Array) -> Array:
         """The motor's torque, N m."""
-        return self.own(k) + self.through_gear(k) / self.ratio
+        return self.motor_torque(k) + self.through_gear(k) / self.ratio
 
     def power(self, k: Array) -> Array:
         """The motor's power, W."""
@@ -122,7 +122,7 @@ class MotorMotion:
         return np.unique(np.concatenate([even, *crossings]))
 
     @kept_property
-    def _panels(self) -> tuple[Array, Array]:
+    def places(self) -> tuple[Array, Array]:
         """Places and weights of an integral over k."""
         u, weights = np.polynomial.legendre.leggauss(_GAUSS)
         edges = self._smooth
@@ -131,7 +131,7 @@ class MotorMotion:
 
     def mean(self, function: Callable[[Array], Array]) -> float:
         """The mean of a function of k over the move."""
-        k, weights = self._panels
+        k, weights = self.places
         return float(weights @ function(k))
 
     def greatest(self, function: Callable[[Array], Array]) -> Greatest:
@@ -140,19 +140,19 @@ class MotorMotion:
 
         edges = self._smooth
         lengths = np.diff(edges)
-        k = np.concatenate([edges[:-1] + BEFORE_BREAK * lengths, edges[1:] - BEFORE_BREAK * lengths, self._panels[0]])
+        k = np.concatenate([edges[:-1] + BEFORE_BREAK * lengths, edges[1:] - BEFORE_BREAK * lengths, self.places[0]])
         values = np.asarray(function(k))
         best = int(np.argmax(values))
-        found = Greatest(float(values[best]), float(k[best]))
+        greatest = Greatest(float(values[best]), float(k[best]))
         inner = np.searchsorted(edges, k[np.argsort(values)[-_POLISHED:]], side="right") - 1
         for i in np.unique(np.clip(inner, 0, len(lengths) - 1)):
             place = minimize_scalar(
                 lambda at: -float(function(np.array([at]))[0]), bounds=(edges[i], edges[i + 1]), method="bounded",
                 options={"xatol": BEFORE_BREAK * lengths[i]},
             )  # fmt: skip
-            if -place.fun > found.value:
-                found = Greatest(float(-place.fun), float(place.x))
-        return found
+            if -place.fun > greatest.value:
+                greatest = Greatest(float(-place.fun), float(place.x))
+        return greatest
 
 
 def _crossings(function: Callable[[Array], Array], places: Array) -> Array:

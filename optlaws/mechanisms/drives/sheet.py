@@ -14,10 +14,12 @@ from optlaws.mechanisms.drives.motor import Motor
 from optlaws.mechanisms.drives.motor_motion import MotorMotion
 from optlaws.numbers import Array
 from optlaws.shown.summary import Row, Summary
+from optlaws.tolerances import AGREEMENT, LIMIT_USED
 
 _RPM = 30.0 / pi
 _RATIOS = 121
 _DECADES = 0.7
+_FAR = 10.0
 
 
 class Margin(NamedTuple):
@@ -161,7 +163,7 @@ class BestRatio:
 
     def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
         """Draw the root mean square and the peak of the torque over the ratio, with the best one marked."""
-        from optlaws.plots.drive_train import draw_best_ratio
+        from optlaws.plots.gear_ratio import draw_best_ratio
 
         return draw_best_ratio(self, ax, **style)
 
@@ -170,22 +172,20 @@ def drive_sheet(motion: MotorMotion, motor: Motor, period: float, regeneration: 
     """The sheet of a move that is made once in a period, with the share of the braking energy that is fed back."""
     peak = motion.greatest(lambda k: np.abs(motion.torque(k)))
     speed = motion.greatest(lambda k: np.abs(motion.speed(k)))
-    given, taken = (motion.greatest(lambda k, side=side: side * motion.power(k)).value for side in (1.0, -1.0))
-    driving, braking = (
-        motion.duration * motion.mean(lambda k, side=side: np.maximum(side * motion.power(k), 0.0))
-        for side in (1.0, -1.0)
-    )
+    given, taken = motion.greatest(motion.power).value, motion.greatest(lambda k: -motion.power(k)).value
+    driving = motion.duration * motion.mean(lambda k: np.maximum(motion.power(k), 0.0))
+    braking = motion.duration * motion.mean(lambda k: np.maximum(-motion.power(k), 0.0))
     rms = _rms(motion, period)
     mean_speed = motion.duration / period * motion.mean(lambda k: np.abs(motion.speed(k)))
     use = motion.greatest(lambda k: _use(np.abs(motion.torque(k)), motor.peak_at(motion.speed(k))))
     rated = float(motor.continuous_at(mean_speed))
     load = float(np.max(motion.mechanism.inertia(motion.start + motion.stroke * np.linspace(0.0, 1.0, 721))))
-    own = motion.train.inertia
+    inertia = motion.train.inertia
     return DriveSheet(
         *(peak.value, peak.k, rms, motion.holding_torque, speed.value, mean_speed),
         *(max(given, 0.0), max(taken, 0.0), driving, braking, driving - regeneration * braking),
         (1.0 - regeneration) * braking / period,
-        load / motion.ratio**2 / own if own else inf,
+        load / motion.ratio**2 / inertia if inertia else inf,
         *((use.value, use.k) if motor.curve else (0.0, 0.0)),
         float(_use(np.array(rms), np.array(rated))),
         *(motor.peak_torque, rated, motor.greatest_speed),
@@ -204,78 +204,97 @@ def _rms(motion: MotorMotion, period: float) -> float:
     return sqrt((square + (period - motion.duration) * motion.holding_torque**2) / period)
 
 
+class _ByRatio:
+    """The torque of a move at any ratio i: i P + Q + Y/i, P of inertia and viscous friction, Q dry friction, Y load."""
+
+    def __init__(self, motion: MotorMotion, period: float) -> None:
+        direct = motion.with_ratio(1.0)
+        self.k, self.weights = direct.places
+        self.weights = self.weights * (motion.duration / period)
+        self.speed = np.asarray(direct.speed(self.k))
+        self.dry = motion.train.coulomb * np.where(self.speed < 0.0, -1.0, 1.0)
+        self.turning, self.load = (
+            np.asarray(direct.motor_torque(self.k)) - self.dry,
+            np.asarray(direct.through_gear(self.k)),
+        )
+        self.holding = (1.0 - motion.duration / period) * direct.holding_torque**2
+
+    def torques(self, ratio: Any) -> Array:  # noqa: ANN401 - a number, or an array of them
+        """The torque at all places, a row for each ratio."""
+        i = np.asarray(ratio, dtype=np.float64)[..., None]
+        return i * self.turning + self.dry + self.load / i
+
+    def rms(self, ratio: Any) -> Array:  # noqa: ANN401
+        """The root mean square over the period."""
+        return np.asarray(np.sqrt(self.torques(ratio) ** 2 @ self.weights + self.holding / np.asarray(ratio) ** 2))
+
+    def peak(self, ratio: Any) -> Array:  # noqa: ANN401
+        """The greatest magnitude."""
+        return np.asarray(np.abs(self.torques(ratio)).max(axis=-1))
+
+    def use(self, ratio: Any, motor: Motor) -> Array:  # noqa: ANN401
+        """The greatest share of the motor's peak torque, at its speed."""
+        speeds = np.asarray(ratio, dtype=np.float64)[..., None] * self.speed
+        return np.asarray(_use(np.abs(self.torques(ratio)), motor.peak_at(speeds)).max(axis=-1))
+
+    @property
+    def unlimited(self) -> float:
+        """The ratio of the least root mean square."""
+        from scipy.optimize import minimize_scalar
+
+        squares = (self.turning**2 @ self.weights, self.load**2 @ self.weights + self.holding)
+        if not all(squares):
+            raise InfeasibleProblem(
+                "no ratio is best: without inertia of motor and gear a greater ratio is always better, and without "
+                "load a smaller one"
+            )
+        near = float((squares[1] / squares[0]) ** 0.25)
+        if not self.dry.any():
+            return near
+        optimum = minimize_scalar(
+            lambda log: float(self.rms(near * np.exp(log))), bounds=(-_FAR, _FAR), method="bounded",
+            options={"xatol": AGREEMENT},
+        )  # fmt: skip
+        return near * float(np.exp(optimum.x))
+
+
 def best_ratio(motion: MotorMotion, motor: Motor, period: float) -> BestRatio:
     """The ratio of the least root mean square torque, and the curve around it.
 
-    The torque is i P + Q + Y/i, P of inertia and viscous friction of the motor, Q of its dry friction, Y through the
-    gear: the mean square is convex in log i, as i² and 1/i² are, and as i and 1/i are.
+    The mean square is convex in the logarithm of the ratio, as its powers are, whose factors are not below 0 but for
+    those of dry friction.
     """
-    one = motion.with_ratio(1.0)
-    share = motion.duration / period
-    turning = share * one.mean(lambda k: (one.own(k) - _dry(one, k)) ** 2)
-    held = (1.0 - share) * one.holding_torque**2
-    through = share * one.mean(lambda k: one.through_gear(k) ** 2) + held
-    if turning == 0.0 or through == 0.0:
-        raise InfeasibleProblem(
-            "no ratio is best: without inertia of motor and gear a greater ratio is always better, and without load a "
-            "smaller one"
-        )
-    unlimited = _least(motion, period, (through / turning) ** 0.25)
+    by_ratio = _ByRatio(motion, period)
+    unlimited = by_ratio.unlimited
     ratios = unlimited * np.logspace(-_DECADES, _DECADES, _RATIOS)
-    tried = [motion.with_ratio(float(ratio)) for ratio in ratios]
-    sizes = np.array([_rms(one, period) for one in tried])
-    peaks = np.array([one.greatest(lambda k, one=one: np.abs(one.torque(k))).value for one in tried])
-    speeds = ratios * one.greatest(lambda k: np.abs(one.speed(k))).value
-    best = _within_limits(motion, motor, unlimited, speeds[0] / ratios[0])
-    return BestRatio(best, _rms(motion.with_ratio(best), period), unlimited, ratios, sizes, peaks, speeds)
+    best = _within_limits(by_ratio, motor, unlimited)
+    speeds = ratios * np.abs(by_ratio.speed).max()
+    rms = float(by_ratio.rms(best))
+    return BestRatio(best, rms, unlimited, ratios, by_ratio.rms(ratios), by_ratio.peak(ratios), speeds)
 
 
-def _dry(motion: MotorMotion, k: Array) -> Array:
-    """The motor's dry friction."""
-    return motion.train.coulomb * np.where(motion.speed(k) < 0.0, -1.0, 1.0)
-
-
-def _least(motion: MotorMotion, period: float, near: float) -> float:
-    """The least root mean square of all ratios, from the ratio that is best without dry friction."""
-    if not motion.train.coulomb:
-        return near
-    from scipy.optimize import minimize_scalar
-
-    found = minimize_scalar(
-        lambda size: _rms(motion.with_ratio(near * float(np.exp(size))), period), bounds=(-5.0, 5.0), method="bounded",
-        options={"xatol": 1e-10},
-    )  # fmt: skip
-    return near * float(np.exp(found.x))
-
-
-def _within_limits(motion: MotorMotion, motor: Motor, unlimited: float, speed: float) -> float:
+def _within_limits(by_ratio: _ByRatio, motor: Motor, unlimited: float) -> float:
     """The ratio nearest to the best one, in its logarithm, at which speed and peak torque are within the motor's."""
-
-    def excess(ratio: float) -> float:
-        moved = motion.with_ratio(ratio)
-        return moved.greatest(lambda k: _use(np.abs(moved.torque(k)), motor.peak_at(moved.speed(k)))).value - 1.0
-
-    fastest = motor.greatest_speed / speed
-    start = min(unlimited, fastest * (1.0 - 1e-12))
-    if excess(start) <= 0.0:
-        return start
     from scipy.optimize import brentq
 
-    tried = start * np.logspace(-1.0, 1.0, 81)
+    def excess(ratio: float) -> float:
+        return min(float(by_ratio.use(ratio, motor)), _FAR) - (1.0 - LIMIT_USED)
+
+    fastest = motor.greatest_speed / float(np.abs(by_ratio.speed).max()) * (1.0 - LIMIT_USED)
+    start = min(unlimited, fastest)
+    if excess(start) <= 0.0:
+        return start
+    tried = start * np.logspace(-1.0, 1.0, 2 * _RATIOS - 1)
     tried = tried[tried <= fastest]
-    allowed = [ratio for ratio in tried if excess(float(ratio)) <= 0.0]
-    if not allowed:
-        needed = min(
-            motion.with_ratio(float(ratio))
-            .greatest(lambda k, ratio=ratio: np.abs(motion.with_ratio(float(ratio)).torque(k)))
-            .value
-            for ratio in tried
-        )
+    allowed = np.flatnonzero(by_ratio.use(tried, motor) <= 1.0 - LIMIT_USED)
+    if not len(allowed):
+        speed = f"its speed allows a ratio of {fastest:.6g} at most, and " if isfinite(fastest) else ""
         raise InfeasibleProblem(
-            f"no ratio lets the {motor.name} make this move: its speed of {motor.greatest_speed * _RPM:.6g} rpm allows "
-            f"a ratio of {fastest:.6g} at most, and the least peak torque there is {needed:.6g} N m; take a stronger "
-            "motor, or more time"
+            f"no ratio lets the {motor.name} make this move: {speed}the least peak torque there is "
+            f"{by_ratio.peak(tried).min():.6g} N m; take a stronger motor, or more time"
         )
-    near = min(allowed, key=lambda ratio: abs(np.log(ratio / start)))
-    step = float(np.clip(start / near, 10.0 ** (-1.0 / 40.0), 10.0 ** (1.0 / 40.0)))
-    return float(brentq(excess, near, near * step, xtol=1e-12 * near)) if excess(near * step) > 0.0 else float(near)
+    i = int(allowed[np.argmin(np.abs(np.log(tried[allowed] / start)))])
+    beyond = tried[i + 1 if tried[i] < start else i - 1]
+    if excess(tried[i]) >= -LIMIT_USED:
+        return float(tried[i])
+    return float(brentq(lambda ratio: excess(ratio) + LIMIT_USED, tried[i], beyond, xtol=LIMIT_USED * tried[i] / 10.0))

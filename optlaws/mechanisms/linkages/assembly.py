@@ -45,18 +45,18 @@ def check_four_bar(crank: float, coupler: float, rocker: float, frame: float, en
 
 def _unreached(crank: float, coupler: float, rocker: float, frame: float) -> list[tuple[float, float, str]]:
     """Intervals of the crank's angle in which the links do not meet, with what they do at their ends."""
-    found = []
+    unreached = []
     middle, swing = crank**2 + frame**2, 2.0 * crank * frame
     # the distance of the crank's pin from the rocker's pivot is sqrt(middle - swing cos x)
     stretched = (middle - (coupler + rocker) ** 2) / swing
     folded = (middle - (coupler - rocker) ** 2) / swing
     if stretched >= -1.0:
         edge = acos(min(stretched, 1.0))
-        found.append((edge, 2.0 * pi - edge, "coupler and rocker are in line, stretched,"))
+        unreached.append((edge, 2.0 * pi - edge, "coupler and rocker are in line, stretched,"))
     if folded <= 1.0:
         edge = acos(max(folded, -1.0))
-        found.append((-edge, edge, "coupler and rocker are in line, folded,"))
-    return found
+        unreached.append((-edge, edge, "coupler and rocker are in line, folded,"))
+    return unreached
 
 
 def _grashof(lengths: dict[str, float]) -> str:

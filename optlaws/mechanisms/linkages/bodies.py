@@ -14,14 +14,14 @@ from optlaws.errors import InputError
 from optlaws.formulas.slopes import added, multiplied
 from optlaws.formulas.tracing import Traced
 from optlaws.formulas.tree import Exponentiation, Formula, Number, number, substituted
-from optlaws.mechanisms.linkages.entries import Interpolation, formula_of
+from optlaws.mechanisms.linkages.entries import TableKind, formula_of
 from optlaws.motion.quantities import quantity, si_number
 from optlaws.numbers import NumberOrQuantity, finite, not_negative
 from optlaws.suggest import unknown_key
 from optlaws.tolerances import WAVE_ROUNDING
 
 GRAVITY = 9.80665
-Over = Literal["driven", "input"]
+LoadPlace = Literal["driven", "input"]
 
 
 @dataclass(frozen=True, init=False)
@@ -59,8 +59,9 @@ class Body:
         centre: tuple[NumberOrQuantity, NumberOrQuantity] = (0.0, 0.0),
         inertia: NumberOrQuantity = 0.0,
     ) -> None:
-        if not isinstance(centre, list | tuple) or len(centre) != 2:
-            raise InputError(f"centre must be two lengths, along the link and across it, got {shortened(centre)}")
+        place: Any = centre
+        if not isinstance(place, list | tuple) or len(place) != 2:
+            raise InputError(f"centre must be two lengths, along the link and across it, got {shortened(place)}")
         along, across = (finite(si_number(value, ("length",), "centre"), "centre") for value in centre)
         object.__setattr__(self, "mass", not_negative(si_number(mass, ("mass",), "mass"), "mass"))
         object.__setattr__(self, "centre", (along, across))
@@ -105,17 +106,17 @@ class Loads:
     """
 
     force: Any = 0.0
-    over: Over = "driven"
-    interpolation: Interpolation = field(default="lines", kw_only=True)
+    over: LoadPlace = "driven"
+    interpolation: TableKind = field(default="lines", kw_only=True)
     stiffness: NumberOrQuantity = field(default=0.0, kw_only=True)
     free: NumberOrQuantity = field(default=0.0, kw_only=True)
     gravity: NumberOrQuantity | None = field(default=None, kw_only=True)
 
     def __post_init__(self) -> None:
-        if self.over not in tuple(get_args(Over)):
-            raise InputError(unknown_key(self.over, get_args(Over), "over of loads"))
-        if self.interpolation not in tuple(get_args(Interpolation)):
-            raise InputError(unknown_key(self.interpolation, get_args(Interpolation), "interpolation"))
+        if self.over not in tuple(get_args(LoadPlace)):
+            raise InputError(unknown_key(self.over, get_args(LoadPlace), "over of loads"))
+        if self.interpolation not in tuple(get_args(TableKind)):
+            raise InputError(unknown_key(self.interpolation, get_args(TableKind), "interpolation"))
         self.weight  # noqa: B018 - what is wrong is refused at once
 
     @property

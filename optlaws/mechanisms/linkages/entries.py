@@ -14,7 +14,7 @@ from optlaws.formulas.tree import Formula, Name, Table, number
 from optlaws.motion.quantities import quantity, si_number
 from optlaws.numbers import finite, real
 
-Interpolation = Literal["spline", "lines"]
+TableKind = Literal["spline", "lines"]
 FEWEST = {"spline": 4, "lines": 2}
 #: a number with a unit behind it; in formulas a number is followed by a sign
 _WITH_UNIT = re.compile(r"\s*[+-]?[\d./]*\d(?:[eE][+-]?\d+)?\s*[^\W\d_]")
@@ -26,7 +26,7 @@ def formula_of(
     name: str,
     *,
     variable: str = "x",
-    interpolation: Interpolation = "spline",
+    interpolation: TableKind = "spline",
 ) -> Formula:
     """The formula that a number, a quantity, a text, a formula or a table says; `name` is what an error calls it.
 
@@ -68,7 +68,7 @@ def formula_of(
 
 
 def _table(
-    pairs: list[Any], dimensions: tuple[str, str], name: str, variable: str, interpolation: Interpolation
+    pairs: list[Any], dimensions: tuple[str, str], name: str, variable: str, interpolation: TableKind
 ) -> Formula:
     fewest = FEWEST[interpolation]
     if len(pairs) < fewest or any(not isinstance(pair, list | tuple) or len(pair) != 2 for pair in pairs):
@@ -82,9 +82,9 @@ def _table(
         )
         for i in range(2)
     )
-    for one, following in pairwise(places):
-        if one >= following:
-            raise InputError(f"{name}: the places of a table must ascend, got {one:g} before {following:g}")
+    for place, following in pairwise(places):
+        if place >= following:
+            raise InputError(f"{name}: the places of a table must ascend, got {place:g} before {following:g}")
     return Table(Name(variable), places, values, interpolation == "spline")
 
 

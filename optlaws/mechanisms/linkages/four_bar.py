@@ -27,19 +27,19 @@ from optlaws.mechanisms.linkages.bodies import (
     length,
     weight_load,
 )
-from optlaws.mechanisms.linkages.mechanism import Linkage, Mechanism
+from optlaws.mechanisms.linkages.mechanism import LinkGeometry, Mechanism
 from optlaws.numbers import NumberOrQuantity
 from optlaws.suggest import unknown_key
 
-Branch = Literal["open", "crossed"]
-SIDES: dict[Branch, float] = {"open": 1.0, "crossed": -1.0}
+FourBarBranch = Literal["open", "crossed"]
+SIDES: dict[FourBarBranch, float] = {"open": 1.0, "crossed": -1.0}
 #: rad from the middle of its swing: beyond it the angle of a rocker has no formula without a leap
 _MOST_SWING = 0.9 * pi
 _LOOKS = 2881
 
 
 @dataclass(frozen=True)
-class FourBar:
+class FourBarKinematics:
     """The kinematics of a four-bar over the crank's angle x from the frame, in closed form; lengths in m.
 
     With the distance of the crank's pin from the rocker's pivot, R = a² + d² - 2 a d cos x its square, and
@@ -86,7 +86,7 @@ class FourBar:
     @kept_property
     def height(self) -> Traced:
         """H, twice the area of the triangle of that way, coupler and rocker; below 0 where they are crossed."""
-        root = np.sqrt(self.coupler**2 * self.square - self.share**2)
+        root: Traced = np.sqrt(self.coupler**2 * self.square - self.share**2)
         return root if self.side > 0.0 else -root
 
     @kept_property
@@ -134,8 +134,8 @@ class FourBar:
         first = atan2(ey[0], ex[0])
         reference = middle + first - angles[0]
         along, across = self.rocker_along(reference)
-        turned = np.arctan(across / (along + self.rocker))
-        return (reference + 2.0 * turned).formula
+        turned: Traced = np.arctan(across / (along + self.rocker))
+        return (float(reference) + 2.0 * turned).formula
 
     @staticmethod
     def values(part: Traced, x: Any) -> Any:  # noqa: ANN401 - an array for an array
@@ -187,12 +187,12 @@ class FourBar:
         return ((zero, zero),), (pivot,), ((zero, zero), pin, joint, pivot)
 
 
-def four_bar_of(lengths: Mapping[str, float], branch: Branch, ends: tuple[float, float]) -> FourBar:
+def four_bar_of(lengths: Mapping[str, float], branch: FourBarBranch, ends: tuple[float, float]) -> FourBarKinematics:
     """The kinematics of a four-bar that can be assembled over a range of its crank."""
     if branch not in tuple(SIDES):
         raise InputError(unknown_key(branch, SIDES, "branch"))
     check_four_bar(**lengths, ends=ends)
-    return FourBar(**lengths, side=SIDES[branch])
+    return FourBarKinematics(**lengths, side=SIDES[branch])
 
 
 def four_bar(
@@ -204,7 +204,7 @@ def four_bar(
     bodies: Mapping[str, Any],
     loads: Loads = NO_LOADS,
     over: tuple[NumberOrQuantity, NumberOrQuantity] = ("0 deg", "360 deg"),
-    branch: Branch = "open",
+    branch: FourBarBranch = "open",
 ) -> Mechanism:
     """The mechanism of a crank that swings a rocker through a coupler; x is the crank's angle from the frame.
 
@@ -247,12 +247,17 @@ def four_bar(
     load += loads.on(DrivenLink("rocker", position, linkage.rocker_velocity.formula, "angle"), "angle")
     driven = () if position is None else (("rocker", position),)
     return Mechanism(
-        added(inertia), added(load), over=ends, axis="angle", name="four-bar", linkage=Linkage(driven, linkage.chains)
+        added(inertia),
+        added(load),
+        over=ends,
+        axis="angle",
+        name="four-bar",
+        linkage=LinkGeometry(driven, linkage.chains),
     )
 
 
 def moved_by_crank(
-    linkage: FourBar, bodies: Mapping[str, Body], gravity: tuple[float, float]
+    linkage: FourBarKinematics, bodies: Mapping[str, Body], gravity: tuple[float, float]
 ) -> tuple[list[Formula], list[Formula]]:
     """Inertia and load at the crank by the bodies on crank, coupler and rocker."""
     inertia, load = linkage.coupler_moving(bodies["coupler"], gravity)

@@ -11,7 +11,7 @@ import numpy as np
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
-from optlaws.files.reading import JsonText
+from optlaws.files.reading import JsonText, entries_of
 from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.formulas.reading import read
 from optlaws.formulas.slopes import added
@@ -24,9 +24,9 @@ from optlaws.numbers import Array, NumberOrQuantity, derivative, finite, not_neg
 from optlaws.suggest import unknown_key
 from optlaws.tolerances import CLOSURE, VALUE_ROUNDING
 
-Axis = Literal["angle", "length"]
+InputAxis = Literal["angle", "length"]
 #: of the inertia, of the load, of viscous friction, and of the input's velocity and acceleration
-DIMENSIONS: dict[Axis, dict[str, str]] = {
+DIMENSIONS: dict[InputAxis, dict[str, str]] = {
     "angle": {
         "inertia": "moment of inertia",
         "load": "torque",
@@ -48,7 +48,7 @@ _ENTRIES = ("format", "name", "axis", "over", "inertia", "load", "coulomb", "vis
 
 
 @dataclass(frozen=True)
-class Linkage:
+class LinkGeometry(JsonText):
     """What is known of a mechanism's links beyond inertia and load.
 
     Attributes
@@ -70,7 +70,7 @@ class Linkage:
         }
 
     @classmethod
-    def from_dict(cls, data: Any) -> Linkage:  # noqa: ANN401 - it is checked here
+    def from_dict(cls, data: Any) -> LinkGeometry:  # noqa: ANN401 - it is checked here
         """What `to_dict` described."""
         try:
             driven = tuple((str(name), read(text, ("x",))) for name, text in data["driven"].items())
@@ -93,7 +93,7 @@ class Mechanism(JsonText):
     Parameters
     ----------
     inertia
-        Over x, the position of the input in rad or m: a quantity such as "0.02 kg m^2", a text such as
+        LoadPlace x, the position of the input in rad or m: a quantity such as "0.02 kg m^2", a text such as
         "0.02 + 0.01*sin(x)^2" in SI units, or a table of places and values, `{"0 deg": "0.02 kg m^2", ...}`, through
         which a spline is laid.
     load
@@ -134,9 +134,9 @@ class Mechanism(JsonText):
     coulomb: float
     viscous: float
     over: tuple[float, float]
-    axis: Axis
+    axis: InputAxis
     name: str
-    linkage: Linkage
+    linkage: LinkGeometry
 
     def __init__(
         self,
@@ -146,9 +146,9 @@ class Mechanism(JsonText):
         coulomb: NumberOrQuantity = 0.0,
         viscous: NumberOrQuantity = 0.0,
         over: tuple[NumberOrQuantity, NumberOrQuantity] | None = None,
-        axis: Axis | None = None,
+        axis: InputAxis | None = None,
         name: str = "mechanism",
-        linkage: Linkage = Linkage(),
+        linkage: LinkGeometry = LinkGeometry(),
     ) -> None:
         kind, ends = _axis_and_ends(over, axis)
         known = DIMENSIONS[kind]
@@ -214,9 +214,8 @@ class Mechanism(JsonText):
         slack = CLOSURE * (high - low) if self.has_end else 0.0
         if np.any((at < low - slack) | (at > high + slack)):
             beyond = at[(at < low - slack) | (at > high + slack)].flat[0] if np.ndim(at) else at
-            raise InputError(
-                f"the {self.name} is defined from {self._shown(low)} to {self._shown(high)}, got {self._shown(beyond)}"
-            )
+            reached = f"{self._shown(low)} to {self._shown(high)}"
+            raise InputError(f"the {self.name} is defined from {reached}, got {self._shown(float(beyond))}")
         return at
 
     def inertia(self, x: Any, nu: int = 0) -> Any:  # noqa: ANN401 - a number for a number, an array for arrays
@@ -382,12 +381,13 @@ class Mechanism(JsonText):
         for name in data:
             if name not in _ENTRIES:
                 raise InputError(unknown_key(name, _ENTRIES, "entry of a mechanism"))
+        entries_of(data, ("inertia", "load"), "a stored mechanism")
         plain = {name: data[name] for name in _ENTRIES[1:-1] if data.get(name) is not None}
-        linkage = Linkage.from_dict(data["linkage"]) if data.get("linkage") is not None else Linkage()
+        linkage = LinkGeometry.from_dict(data["linkage"]) if data.get("linkage") is not None else LinkGeometry()
         return cls(**plain, linkage=linkage)
 
 
-def _range(formulas: Mapping[str, Formula], ends: tuple[float, float] | None, axis: Axis) -> tuple[float, float]:
+def _range(formulas: Mapping[str, Formula], ends: tuple[float, float] | None, axis: InputAxis) -> tuple[float, float]:
     """The range of x, which the tables over x must cover."""
     tables = [
         (what, part)
@@ -401,15 +401,15 @@ def _range(formulas: Mapping[str, Formula], ends: tuple[float, float] | None, ax
     slack = CLOSURE * (ends[1] - ends[0])
     for what, table in tables:
         if table.places[0] > ends[0] + slack or table.places[-1] < ends[1] - slack:
-            first, last, low, high = (in_small_units(x, axis) for x in (table.places[0], table.places[-1], *ends))
+            shown = [in_small_units(x, axis) for x in (table.places[0], table.places[-1], *ends)]
             raise InputError(
-                f"the table of the {what} goes from {first} to {last}, and the mechanism from {low} to {high}: give a "
-                "table over the whole range, or a shorter range in over="
+                f"the table of the {what} goes from {shown[0]} to {shown[1]}, and the mechanism from {shown[2]} to "
+                f"{shown[3]}: give a table over the whole range, or a shorter range in over="
             )
     return ends
 
 
-def _axis_and_ends(over: Any, axis: Any) -> tuple[Axis, tuple[float, float] | None]:  # noqa: ANN401
+def _axis_and_ends(over: Any, axis: Any) -> tuple[InputAxis, tuple[float, float] | None]:  # noqa: ANN401
     """What the input's position is, and the ends of its range if there are any."""
     if axis is not None and axis not in tuple(DIMENSIONS):
         raise InputError(unknown_key(axis, DIMENSIONS, "axis"))

@@ -11,7 +11,7 @@ from optlaws.formulas.slopes import added, derivative, multiplied
 from optlaws.formulas.tracing import traced
 from optlaws.formulas.tree import Formula, Name, number
 from optlaws.mechanisms.linkages.bodies import NO_LOADS, DrivenLink, Loads, Moving, length
-from optlaws.mechanisms.linkages.mechanism import Linkage, Mechanism
+from optlaws.mechanisms.linkages.mechanism import LinkGeometry, Mechanism
 from optlaws.motion.quantities import TURN, either, si_number
 from optlaws.numbers import NumberOrQuantity, not_negative, positive
 from optlaws.suggest import unknown_key
@@ -76,7 +76,7 @@ def mechanism_of_motion(
             raise InputError(
                 f"loads: {key}: a function has no plane for gravity: give weight as a force, such as '-49 N'"
             )
-    return Mechanism(added(inertia), added(load), over=over, name=name, linkage=Linkage(tuple(positions.items())))
+    return Mechanism(added(inertia), added(load), over=over, name=name, linkage=LinkGeometry(tuple(positions.items())))
 
 
 def _weight(value: Any, name: str) -> tuple[str, float]:  # noqa: ANN401 - it is checked here
@@ -209,5 +209,5 @@ def _in_proportion(ratio: float, name: str, mass: Any, others: tuple[Any, Loads,
         over=over,
         axis="angle",
         name=name,
-        linkage=Linkage((("slide", position),)),
+        linkage=LinkGeometry((("slide", position),)),
     )

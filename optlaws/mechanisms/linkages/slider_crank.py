@@ -24,7 +24,7 @@ from optlaws.mechanisms.linkages.bodies import (
     length,
     weight_load,
 )
-from optlaws.mechanisms.linkages.mechanism import Linkage, Mechanism
+from optlaws.mechanisms.linkages.mechanism import LinkGeometry, Mechanism
 from optlaws.motion.quantities import si_number
 from optlaws.numbers import NumberOrQuantity, finite
 
@@ -99,7 +99,7 @@ def slider_crank(
         over=ends,
         axis="angle",
         name="slider-crank",
-        linkage=Linkage((("slider", position.formula),), chains),
+        linkage=LinkGeometry((("slider", position.formula),), chains),
     )
 
 

@@ -23,8 +23,8 @@ from optlaws.mechanisms.linkages.bodies import (
     length,
     weight_load,
 )
-from optlaws.mechanisms.linkages.four_bar import Branch, FourBar, four_bar_of, moved_by_crank
-from optlaws.mechanisms.linkages.mechanism import Linkage, Mechanism
+from optlaws.mechanisms.linkages.four_bar import FourBarBranch, FourBarKinematics, four_bar_of, moved_by_crank
+from optlaws.mechanisms.linkages.mechanism import LinkGeometry, Mechanism
 from optlaws.motion.quantities import si_number
 from optlaws.numbers import NumberOrQuantity, finite
 from optlaws.suggest import unknown_key
@@ -40,7 +40,7 @@ def toggle(
     bodies: Mapping[str, Any],
     loads: Loads = NO_LOADS,
     over: tuple[NumberOrQuantity, NumberOrQuantity] = ("0 deg", "360 deg"),
-    branch: Branch = "open",
+    branch: FourBarBranch = "open",
 ) -> Mechanism:
     """The mechanism of a knee joint: a crank moves the knee through a rod, and the knee a ram; x is the crank's angle.
 
@@ -98,14 +98,14 @@ def toggle(
         over=ends,
         axis="angle",
         name="toggle",
-        linkage=Linkage((("ram", knee.position.formula),), (*linkage.chains, knee.chain, knee.chain[1:])),
+        linkage=LinkGeometry((("ram", knee.position.formula),), (*linkage.chains, knee.chain, knee.chain[1:])),
     )
 
 
 class _Knee:
     """The lower link and the ram, in coordinates along the ram's way and across it, from the upper link's pivot."""
 
-    def __init__(self, linkage: FourBar, direction: float, lower: float, ends: tuple[float, float]) -> None:
+    def __init__(self, linkage: FourBarKinematics, direction: float, lower: float, ends: tuple[float, float]) -> None:
         self.linkage, self.direction, self.lower = linkage, direction, lower
         self.along, self.across = linkage.rocker_along(direction)
         x = np.linspace(*ends, _LOOKS)
@@ -121,7 +121,7 @@ class _Knee:
                 f"at {degrees(x[np.argmin(before)]):.6g} deg the knee is {-before.min():.6g} m behind the upper link's "
                 "pivot, seen along the ram's way: take the other branch, the opposite direction, or a shorter range"
             )
-        self.height = np.sqrt(lower**2 - self.across**2)
+        self.height: Traced = np.sqrt(lower**2 - self.across**2)
         self.velocity: Traced = -linkage.rocker_velocity * self.across * (1.0 + self.along / self.height)
 
     @property
@@ -132,9 +132,9 @@ class _Knee:
     def moving(self, lower: Body, ram: Body, gravity: tuple[float, float]) -> tuple[list[Formula], list[Formula]]:
         """What the lower link and the ram add to inertia and load at the crank."""
         c, s = cos(self.direction), sin(self.direction)
-        own = gravity[0] * c + gravity[1] * s, gravity[1] * c - gravity[0] * s
+        gravity_along = gravity[0] * c + gravity[1] * s, gravity[1] * c - gravity[0] * s
         parts = [Moving(ram.mass, self.velocity).inertia] if ram.mass else []
-        weights = weight_load(ram.mass, own, (self.velocity, 0.0))
+        weights = weight_load(ram.mass, gravity_along, (self.velocity, 0.0))
         if lower == Body():
             return parts, weights
         upper = self.linkage.rocker_velocity
@@ -144,7 +144,7 @@ class _Knee:
         velocity = -upper * v - turning * dy, upper * self.along + turning * dx
         parts += [Moving(lower.mass, part).inertia for part in velocity if lower.mass]
         parts += [Moving(lower.inertia, turning).inertia] if lower.inertia else []
-        return parts, [*weights, *weight_load(lower.mass, own, velocity)]
+        return parts, [*weights, *weight_load(lower.mass, gravity_along, velocity)]
 
     @property
     def chain(self) -> tuple[tuple[Formula, Formula], ...]:

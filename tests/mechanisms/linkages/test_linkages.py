@@ -137,7 +137,7 @@ def test_computed_torque_gives_the_law_back(mechanism: Mechanism, start: float, 
 
 
 def numerically(function: Callable[[float], Array], x: float, step: float = 1e-5) -> Array:
-    return (function(x + step) - function(x - step)) / (2.0 * step)
+    return np.asarray((function(x + step) - function(x - step)) / (2.0 * step))
 
 
 @pytest.mark.parametrize("x", [0.4, 2.0, 4.5])
@@ -185,7 +185,7 @@ def test_inertia_and_load_of_a_toggle_by_its_places(x: float) -> None:
     def energy(at: float) -> Array:
         now = places(at)
         heights = -(now[0:8:2] * cos(down) + now[1:8:2] * sin(down))
-        return G * np.array([2.0, 1.5, 3.0, 40.0]) @ heights + 300.0 * now[-1]
+        return np.asarray(G * np.array([2.0, 1.5, 3.0, 40.0]) @ heights + 300.0 * now[-1])
 
     assert press.load(x) == pytest.approx(float(numerically(energy, x)), rel=1e-7)
 

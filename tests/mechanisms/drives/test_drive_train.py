@@ -1,0 +1,199 @@
+"""Drives against sums of another kind: a rotary table by hand, quadrature by scipy, ratios by search."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+from scipy.optimize import minimize_scalar
+
+from optlaws import (
+    Drive,
+    InfeasibleProblem,
+    InputError,
+    Loads,
+    Mechanism,
+    Motor,
+    integral,
+    rack,
+    read_law,
+    read_motors,
+    rms,
+    slider_crank,
+    smoothstep,
+)
+from optlaws.typing import DriveSheet
+
+RPM = np.pi / 30.0
+TABLE = Drive(Mechanism("0.8 kg m^2"), Motor("3e-4 kg m^2"), ratio=20, efficiency=0.85)
+PRESS = slider_crank(
+    "0.1 m", "0.4 m", bodies={"slider": "5 kg", "crank": 0.02}, loads=Loads("-60*s", gravity="0 deg")
+).with_friction(coulomb="0.5 N m", viscous="0.02 N m s/rad")
+MOTOR = Motor(2e-4, friction={"coulomb": 0.05, "viscous": 1e-4})
+
+
+def test_rotary_table() -> None:
+    sheet = TABLE.sheet("modified sine", "0 deg", "45 deg", "0.25 s", period="0.6 s")
+    law, turn = read_law("modified sine"), np.pi / 4.0
+    assert sheet.peak_torque == pytest.approx(3.686, abs=5e-4)
+    assert sheet.rms_torque == pytest.approx(1.490, abs=5e-4)
+    assert sheet.peak_speed / RPM == pytest.approx(1056.0, abs=0.5)
+    assert sheet.motoring_power == pytest.approx(229.0, abs=0.5)
+    # what is braked is what was stored, less what the gear takes
+    accelerated = law.peak(2).value * turn / 0.25**2
+    assert sheet.peak_torque == pytest.approx((3e-4 * 20.0 + 0.8 / 0.85 / 20.0) * accelerated)
+    stored = 0.5 * (law.peak(1).value * turn / 0.25) ** 2
+    assert sheet.motoring_energy == pytest.approx(stored * (3e-4 * 400.0 + 0.8 / 0.85))
+    assert sheet.braking_energy == pytest.approx(stored * (3e-4 * 400.0 + 0.8 * 0.85))
+    assert sheet.braking_heat == pytest.approx(sheet.braking_energy / 0.6)
+    assert sheet.inertia_match == pytest.approx(0.8 / 400.0 / 3e-4)
+    assert sheet.fits and sheet.margins == ()  # noqa: PT018 - without limits there are none
+
+
+def by_hand(k: float, ratio: float, stroke: float) -> tuple[float, float]:
+    """Torque and power of the motor of a press."""
+    law, duration, start = smoothstep(3), 0.3, 0.3 if stroke > 0.0 else 2.8
+    x, v, w = start + stroke * law(k), stroke / duration * law(k, 1), stroke / duration**2 * law(k, 2)
+    side = np.sign(stroke)
+    load = PRESS.inertia(x) * w + PRESS.inertia(x, 1) * v**2 / 2.0 + 0.02 * v + 0.5 * side + PRESS.load(x)
+    flows = load * side > 0.0
+    torque = ratio * (2e-4 * w + 1e-4 * v) + 0.05 * side + load / ratio * (1.0 / 0.9 if flows else 0.8)
+    return torque * side, torque * ratio * v
+
+
+@pytest.mark.parametrize("stroke", [2.5, -2.5])
+def test_sheet_and_formulas_of_a_press(stroke: float) -> None:
+    drive = Drive(PRESS, MOTOR, ratio=5.0, efficiency=(0.9, 0.8), regeneration=0.6)
+    start = 0.3 if stroke > 0.0 else 2.8
+    sheet = drive.sheet(smoothstep(3), start, stroke, 0.3)
+
+    def over(function: Callable[[float], float]) -> float:
+        return quad(function, 0.0, 1.0, limit=400, epsabs=1e-9, epsrel=1e-9)[0]
+
+    k = np.linspace(1e-9, 1.0 - 1e-9, 2001)
+    torques, powers = np.transpose([by_hand(float(at), 5.0, stroke) for at in k])
+    assert sheet.peak_torque == pytest.approx(np.abs(torques).max(), rel=1e-5)
+    assert sheet.motoring_power == pytest.approx(powers.max(), rel=1e-5)
+    assert sheet.braking_power == pytest.approx(-powers.min(), rel=1e-5)
+    assert sheet.rms_torque == pytest.approx(over(lambda at: by_hand(at, 5.0, stroke)[0] ** 2) ** 0.5, rel=1e-8)
+    driven = 0.3 * over(lambda at: max(by_hand(at, 5.0, stroke)[1], 0.0))
+    braked = 0.3 * over(lambda at: max(-by_hand(at, 5.0, stroke)[1], 0.0))
+    assert (sheet.motoring_energy, sheet.braking_energy) == pytest.approx((driven, braked), rel=1e-8)
+    assert sheet.energy == pytest.approx(driven - 0.6 * braked, rel=1e-8)
+    # the formulas are the same
+    moved = drive.dimensionless(start, stroke, 0.3)
+    assert rms(moved.torque).value(smoothstep(3)) * moved.unit == pytest.approx(sheet.rms_torque, rel=1e-8)
+    assert integral(moved.energy).value(smoothstep(3)) * moved.energy_unit == pytest.approx(sheet.energy, rel=1e-8)
+    # and so is the torque at a place
+    law, at = smoothstep(3), np.array([0.2, 0.5, 0.83])
+    x, v, w = start + stroke * law(at), stroke / 0.3 * law(at, 1), stroke / 0.09 * law(at, 2)
+    assert np.sign(stroke) * drive.torque(x, v, w) == pytest.approx([by_hand(float(p), 5.0, stroke)[0] for p in at])
+
+
+def test_the_load_is_held_between_moves() -> None:
+    lift = Drive(rack("20 mm", "12 kg", loads=Loads(gravity="180 deg")), Motor("1e-4 kg m^2"), ratio=4)
+    move = lift.sheet(smoothstep(3), 0.0, "1 turn", "0.4 s")
+    whole = lift.sheet(smoothstep(3), 0.0, "1 turn", "0.4 s", period="1 s")
+    assert move.holding_torque == pytest.approx(12.0 * 9.80665 * 0.02 / 4.0)
+    mean = 0.4 * move.rms_torque**2 + 0.6 * move.holding_torque**2
+    assert whole.rms_torque == pytest.approx(mean**0.5)
+    assert lift.sheet(smoothstep(3), 0.0, "-1 turn", "0.4 s").holding_torque == pytest.approx(-move.holding_torque)
+
+
+def test_best_ratio_by_closed_form_and_by_search() -> None:
+    law = smoothstep(3)
+    found = Drive(Mechanism("0.8 kg m^2"), Motor("3e-4 kg m^2")).best_ratio(law, 0.0, "45 deg", "0.25 s")
+    assert found.ratio == pytest.approx((0.8 / 3e-4) ** 0.5)
+    # squares over squares of the ratio bend upward
+    squares, by = found.rms_torques**2, found.ratios**2
+    assert (np.diff(np.diff(squares) / np.diff(by)) > 0.0).all()
+    drive = Drive(PRESS, MOTOR, efficiency=(0.9, 0.8))
+
+    def size(log: float) -> float:
+        return drive.with_ratio(float(np.exp(log))).sheet(law, 0.3, 2.5, 0.3, period=0.5).rms_torque
+
+    least = minimize_scalar(size, bounds=(1.0, 4.0), method="bounded", options={"xatol": 1e-7})
+    found = drive.best_ratio(law, 0.3, 2.5, 0.3, period=0.5)
+    assert found.rms_torque == pytest.approx(least.fun, rel=1e-9)
+    assert found.ratio == pytest.approx(np.exp(least.x), rel=1e-4)
+
+
+def test_limits_of_the_motor_hold_the_ratio() -> None:
+    move: tuple[Any, ...] = ("modified sine", 0.0, "45 deg", "0.25 s")
+    slow = Drive(Mechanism("0.8 kg m^2"), Motor("3e-4 kg m^2", greatest_speed="1500 rpm"))
+    found = slow.best_ratio(*move)
+    assert found.unlimited == pytest.approx(51.639778)
+    assert slow.with_ratio(found.ratio).sheet(*move).peak_speed / RPM == pytest.approx(1500.0, rel=2e-6)
+    curved = Drive(Mechanism("0.8 kg m^2"), Motor("3e-4 kg m^2", curve=[("0 rpm", "3.1 N m"), ("4000 rpm", "0 N m")]))
+    limited = curved.best_ratio(*move)
+    sheet = curved.with_ratio(limited.ratio).sheet(*move)
+    assert limited.ratio < 0.99 * limited.unlimited
+    assert sheet.curve_use == pytest.approx(1.0, abs=1e-5)
+    assert sheet.fits
+    weak = Drive(Mechanism("0.8 kg m^2"), Motor("3e-4 kg m^2", peak_torque="1 N m", greatest_speed="1500 rpm"))
+    with pytest.raises(InfeasibleProblem, match=r"no ratio lets the motor .* least peak torque there is 2\.\d+ N m"):
+        weak.best_ratio(*move)
+
+
+def test_catalogue_of_motors(tmp_path: Path) -> None:
+    file = tmp_path / "motors.toml"
+    file.write_text(
+        '[m1]\ninertia = "3e-4 kg m^2"\npeak_torque = "9 N m"\nviscous = "1e-4 N m s/rad"\n'
+        'curve = [["0 rpm", "9 N m"], ["2000 rpm", "9 N m"], ["4000 rpm", "3 N m"]]\n'
+        '[m2]\ninertia = 1e-3\nrated_torque = 4.0\ngreatest_speed = "3000 rpm"\n'
+    )
+    motors = read_motors(file)
+    assert list(motors) == ["m1", "m2"]
+    assert motors["m1"].peak_at(np.array([0.0, 1000.0, 3000.0, -3000.0, 4001.0]) * RPM) == pytest.approx(
+        [9, 9, 6, 6, 0]
+    )
+    assert motors["m1"].greatest_speed == pytest.approx(4000.0 * RPM)
+    for motor in motors.values():
+        assert Motor.from_json(motor.to_json()) == motor
+    file.write_text('[m1]\nintertia = "3e-4 kg m^2"\ninertia = 1.0\n')
+    with pytest.raises(
+        InputError, match=r"motors\.toml: m1: unknown entry of a motor 'intertia'; did you mean 'inertia'"
+    ):
+        read_motors(file)
+
+
+def test_sheets_are_kept_and_shown() -> None:
+    limits = {"peak_torque": "3 N m", "rated_torque": "2 N m", "greatest_speed": "3000 rpm"}
+    drive = Drive(TABLE.mechanism, Motor("3e-4 kg m^2", **limits), ratio=20, efficiency=0.85)  # type: ignore[arg-type]
+    sheet = drive.sheet("modified sine", 0.0, "45 deg", "0.25 s", period="0.6 s")
+    assert DriveSheet.from_json(sheet.to_json()) == sheet
+    used = {margin.name: margin.use for margin in sheet.margins}
+    assert used == pytest.approx({"peak torque": 3.685803 / 3, "RMS torque": 1.489759 / 2, "speed": 1055.762 / 3000})
+    assert not sheet.fits
+    assert "too weak" in [row.note for row in sheet.summary()]
+    lines = drive.best_ratio("cycloidal", 0.0, "20 deg", "0.3 s").plot()
+    assert len(lines) == 4
+
+
+REFUSED: list[tuple[Callable[[], Any], str]] = [
+    (lambda: Drive(Mechanism("2 kg", axis="length"), MOTOR), "take rack\\(\\), belt\\(\\) or screw\\(\\)"),
+    (lambda: Drive(PRESS, MOTOR, ratio=0.0), "ratio must be above 0"),
+    (lambda: Drive(PRESS, MOTOR, efficiency=1.2), "efficiency must be above 0 and at most 1"),
+    (lambda: Drive(PRESS, MOTOR, efficiency=(0.9, 0.0)), "efficiency must be above 0 and at most 1"),
+    (lambda: Drive(PRESS, MOTOR, regeneration=-1.0), "regeneration must be from 0 to 1"),
+    (lambda: Drive(PRESS, PRESS), "motor must be a Motor"),  # type: ignore[arg-type]
+    (
+        lambda: TABLE.sheet("cycloidal", 0.0, 1.0, 0.5, period=0.4),
+        "period must be at least the duration of the move, 0.5 s",
+    ),
+    (lambda: Motor("3 kg"), "inertia must be a moment of inertia"),
+    (lambda: Motor(1.0, peak_torque="0 N m"), "peak_torque must be above 0"),
+    (lambda: Motor(1.0, curve=[("9 rpm", "1 N m"), ("3 rpm", "1 N m")]), "two speeds at least, which rise"),
+    (lambda: Motor(1.0, curve=[1.0, 2.0]), "curve must be pairs of a speed and a torque"),
+    (lambda: Motor(1.0, friction={"dry": 1.0}), "unknown friction of a motor 'dry'"),
+]
+
+
+@pytest.mark.parametrize(("wrong", "message"), REFUSED, ids=range(len(REFUSED)))
+def test_what_cannot_be_is_refused(wrong: Callable[[], Any], message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        wrong()
