@@ -195,7 +195,11 @@ class Cycle(CycleInterchange):
         >>> [Cycle(ways, period="0.5 s", minimise=what).search_space for what in ("rms jerk", "jerk")]
         ['all motions through the joints', 'splines of degree 3 in 48 pieces']
         """
-        spaces = [search_space(problem, span, self.order) for span, problem in self._problems]
+        laws = zip(self._problems, self._best.laws, strict=True)
+        spaces = []
+        for (span, problem), (piece, _) in laws:
+            fastest = max(abs(velocity) for velocity, _ in piece.extremes(1, piece.start, piece.stop))
+            spaces.append(search_space(problem, span, self.order, fastest))
         return "; ".join(dict.fromkeys(spaces)) or None
 
     @property

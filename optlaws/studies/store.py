@@ -28,6 +28,8 @@ from optlaws.synthesis.solution import versions
 FORMAT = 1
 #: rows of one group in the Parquet file
 GROUP = 4096
+#: columns of texts of which each is another
+_UNIQUE = ("key", "law")
 #: rows of chunks that are in memory at a time
 _IN_MEMORY = 1024
 _decode = msgspec.json.Decoder(StudyPoint).decode
@@ -232,8 +234,12 @@ class StudyDirectory:
             return
         shape = schema(points, about={"optlaws": self.about.read_bytes()})
         copy = self.table.with_suffix(".unfinished")
+        # numbers, keys and laws hardly repeat: dictionaries of them would be built and dropped
+        repeating = [field.name for field in shape if str(field.type) == "string" and field.name not in _UNIQUE]
         try:
-            with pq.ParquetWriter(copy, shape, compression="zstd", write_page_checksum=True) as writer:
+            with pq.ParquetWriter(
+                copy, shape, compression="zstd", write_page_checksum=True, use_dictionary=repeating
+            ) as writer:
                 rows = chunks.in_order(points)
                 while group := list(islice(rows, GROUP)):
                     writer.write_table(arrow(group, shape))
@@ -356,11 +362,11 @@ def _check_rows(file: Path, points: int, counts: Mapping[str, int] | None = None
     counted: Counter[str] = Counter()
     count = 0
     try:
-        with pq.ParquetFile(file, page_checksum_verification=True) as table:
+        with pq.ParquetFile(file, page_checksum_verification=True, pre_buffer=False) as table:
             missing = [name for name in ("index", "key", "status", "law", "error") if name not in table.schema.names]
             if missing:
                 raise DamagedTable(file, f"it has no column {missing[0]!r}")
-            for batch in table.iter_batches(batch_size=GROUP):
+            for batch in table.iter_batches(batch_size=GROUP, use_threads=False):
                 if batch["index"].to_pylist() != list(range(count, count + len(batch))):
                     raise DamagedTable(file, f"its rows from {count} on are not in the order of the points")
                 counted.update(batch["status"].to_pylist())

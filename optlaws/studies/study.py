@@ -166,7 +166,13 @@ class Study:
             If pyarrow is missing.
         """
         needed("pyarrow", "to_arrow")
-        return self._parquet().read() if self._tabled else arrow(list(self), schema(self._points))
+        if self._tabled:
+            return self._parquet().read()
+        import pyarrow as pa
+
+        shape, rows = schema(self._points), iter(self)
+        groups = iter(lambda: list(islice(rows, GROUP)), [])
+        return pa.concat_tables([shape.empty_table(), *(arrow(group, shape) for group in groups)])
 
     def to_pandas(self) -> pd.DataFrame:
         """All rows that are done as a data frame.

@@ -60,10 +60,10 @@ def test_a_hundred_thousand_points_take_no_memory(tmp_path: Path) -> None:
         text=True,
     )
     growth = [float(late) - float(early) for early, late in (line.split() for line in done.stdout.splitlines())]
-    # the run, its solver processes, and the run after the table was written, for which pyarrow was loaded (MB)
+    # the run, its solver processes, and the run after the table was written, for which pyarrow was loaded, some 75 MB
     assert growth[0] < 15.0, done.stdout
     assert growth[1] < 15.0, done.stdout
-    assert growth[2] < 150.0, done.stdout
+    assert growth[2] < 100.0, done.stdout
     study = open_study(tmp_path / "out")
     assert study.counts == {"optimal": 100_000}
     assert study[99_999].constants["B"] == pytest.approx(1.6)

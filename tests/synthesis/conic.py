@@ -274,7 +274,8 @@ def _solved(program: Program) -> Array | None:
         lower = np.zeros((len(matrix), program.size))
         lower[:, : matrix.shape[1] - 1] = -matrix[:, :-1]
         # with rows as long as the others: Clarabel called a law almost solved that was 28 % above the least
-        unit = float(np.abs(matrix).max())
+        # and a derivative beyond the laws' degree is 0 in all of them
+        unit = float(np.abs(matrix).max()) or 1.0
         blocks += [-variable[None] / unit, lower / unit]
         sides += [np.array([bound]) / unit, matrix[:, -1] / unit]
         cones.append(clarabel.SecondOrderConeT(len(matrix) + 1))

@@ -4,20 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
-from math import ceil
+from math import ceil, inf
 
 from optlaws.cycles.specification.joints import LawSpan, State
-from optlaws.cycles.specification.programme import is_optimal
+from optlaws.cycles.specification.programme import TimedSegment, is_optimal
 from optlaws.motion.piece import factor
 from optlaws.synthesis.problem.constants import FUNCTIONALS, RootMeanSquare
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.windows import Window, via
 from optlaws.synthesis.spaces.bases import Pieces, PolynomialBasis
 from optlaws.synthesis.spaces.periodic_pieces import PeriodicPieces
+from optlaws.tolerances import AGREEMENT
 
 _MOST = 600  # pieces of a law
 #: pieces of a stretch where what is minimised has its peaks inside of pieces: the velocity, what a load does, power
 _FEW = {1: 6, -2: 4, -3: 4}
+
+#: times and positions, in SI units
+Points = list[tuple[float, float]]
 
 
 def joined_basis(span: LawSpan, order: int, degree: int, minimised: int) -> Pieces:
@@ -34,25 +38,53 @@ def joined_basis(span: LawSpan, order: int, degree: int, minimised: int) -> Piec
     (49, 3)
     """
     curved = sum(is_optimal(stretch.given) for stretch in span.stretches) + len(span.via)
-    each = min(2 * (degree + order), _MOST // curved)
-    if minimised in _FEW:
-        each = min(each, _FEW[minimised] * (degree + order) // 12)
-    each = max(1, each)
+    most = max(1, min(2 * (degree + order), _MOST // curved))
+    each = most if minimised not in _FEW else max(1, min(most, _FEW[minimised] * (degree + order) // 12))
+    fastest = least_velocity(span)
     breaks, straight = [0.0], list[int]()
-    for stretch, start, stop in span.timed:
+    for stretch, points in _points(span):
         if not is_optimal(stretch.given):
             straight.append(len(breaks) - 1)
-            breaks.append(place(span, stop))
+            breaks.append(place(span, points[-1][0]))
             continue
-        marks = [start, *(time for time, _ in span.via if start < time < stop), stop]
-        parts = ceil(each / (len(marks) - 1))
-        for low, high in pairwise(place(span, time) for time in marks):
-            breaks += [low + (high - low) * i / parts for i in range(1, parts)] + [high]
+        for (low, y), (high, z) in pairwise(points):
+            parts = ceil(each / (len(points) - 1))
+            if minimised == 1:
+                turning = _pieces_to_turn(abs(z - y) / (high - low), fastest, order)
+                parts = max(parts, min(turning, ceil(most / (len(points) - 1))))
+            begin, end = place(span, low), place(span, high)
+            breaks += [begin + (end - begin) * i / parts for i in range(1, parts)] + [end]
     smoothness = max(order - 1, minimised - 1, 1)
     power = max(3, minimised, 2 * order - 1 if minimised == -2 else order)
     if span.turns:
         return PeriodicPieces(breaks, power, smoothness, straight)
     return Pieces(breaks, power, smoothness)
+
+
+def least_velocity(span: LawSpan) -> float:
+    """The velocity that no motion of a span stays below: the greatest mean between two points, or one that is known."""
+    means = [abs(z - y) / (high - low) for _, points in _points(span) for (low, y), (high, z) in pairwise(points)]
+    return max(*means, *(abs(state.velocity) for state in (span.first, span.last, *span.states) if state is not None))
+
+
+def _points(span: LawSpan) -> Iterator[tuple[TimedSegment, Points]]:
+    """Each stretch of a span with the points that it passes, its ends among them."""
+    position = span.offset
+    for stretch, start, stop in span.timed:
+        passed = [(start, position), *(point for point in span.via if start < point[0] < stop)]
+        position += stretch.displacement
+        yield stretch, [*passed, (stop, position)]
+
+
+def _pieces_to_turn(mean: float, fastest: float, order: int) -> int:
+    """How many pieces let a velocity have a mean, whatever it is at both ends, and never be above the `fastest`.
+
+    Splines with order - 2 continuous derivatives of b go from one constant velocity to another in order - 1 pieces of
+    equal length, and have the mean of both there. With n pieces, between ends at the fastest, a mean of
+    -(1 - 2 (order - 1) / n) times it is left. A mean that is the fastest itself needs none, for b is constant.
+    """
+    left = 1.0 - mean / fastest
+    return 1 if left <= AGREEMENT else ceil(2 * (order - 1) / left)
 
 
 def halved(basis: Pieces) -> Pieces | None:
@@ -108,13 +140,15 @@ def minimised_rms(problem: Problem) -> int | None:
     return constant.nu if isinstance(constant, RootMeanSquare) else None
 
 
-def search_space(problem: Problem, span: LawSpan, order: int) -> str:
-    """The laws, in words, among which the solution of a span's problem is the best.
+def search_space(problem: Problem, span: LawSpan, order: int, fastest: float = inf) -> str:
+    """The laws, in words, among which the solution of a span's problem is the best; `fastest` is its greatest velocity.
 
-    A polynomial of degree 2 nu - 1 between two joints has the least root mean square of the derivative of order nu, if
-    its ends ask for no more than nu conditions each.
+    No motion has a greatest velocity below its greatest mean. A polynomial of degree 2 nu - 1 between two joints has
+    the least root mean square of the derivative of order nu, if its ends ask for no more than nu conditions each.
     """
     nu, basis = minimised_rms(problem), problem.basis
+    if problem.minimise == "B" and fastest <= least_velocity(span) * (1.0 + AGREEMENT):
+        return ALL_MOTIONS
     if isinstance(basis, Pieces):
         if nu is not None and basis == splines_of_least_rms(span, order, nu):
             return ALL_MOTIONS

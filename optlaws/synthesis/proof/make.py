@@ -40,6 +40,7 @@ from optlaws.tolerances import (
     DIRECTIONS_RANK,
     EMPTY_ROW,
     LEFT_SHARES,
+    OPTIMALITY_GAP,
     PROOF_ENOUGH,
     PROOF_WEIGHTLESS,
 )
@@ -91,6 +92,11 @@ def certify(model: Model, optimum: ActiveSet, objective: float, limit: float | N
 
 def _of_convex(model: Model, optimum: ActiveSet, objective: float) -> Certificate:
     """The certificate of the optimum of a convex problem."""
+    if abs(objective) <= OPTIMALITY_GAP * model.problem.objective.scale:
+        # constants that are nowhere below 0 say so without a sum, of which rounding would be all that is left
+        plain = Certificate.of_leaf(model.problem)
+        if abs(plain.bound) <= OPTIMALITY_GAP * model.problem.objective.scale:
+            return plain
     proof = certificate(model, optimum, OBJECTIVE)
     if objective - proof.bound <= PROOF_ENOUGH * max(abs(objective), PROOF_ENOUGH):
         return proof

@@ -106,9 +106,10 @@ class SplineSpace(PiecewiseSpace):
         """The law with the given coordinates, on the breaks of Z."""
         point = np.append(coordinates, 1.0)
         c = self._accelerations @ point
-        starts = self._start_velocities @ point
-        _continue(c, np.diff(self.breaks), np.append(starts, self.start_velocity + self.velocity_change))
-        segments = [PolynomialSegment(tuple(series.tolist()), float(b)) for series, b in zip(c, starts, strict=True)]
+        velocities = self._break_velocities @ point
+        _continue(c, np.diff(self.breaks), velocities, max(self.continuity - 1, self.order - 2))
+        starts = velocities[:-1].tolist()
+        segments = [PolynomialSegment(tuple(series.tolist()), b) for series, b in zip(c, starts, strict=True)]
         return PiecewiseLaw(self.breaks, segments, float(self.boundary.start[0]))
 
     @kept_property
@@ -116,24 +117,29 @@ class SplineSpace(PiecewiseSpace):
         return self._series(self.breaks, 2 * self.order + self.basis.degree - 2, partial(self._derivative, 2))
 
     @kept_property
-    def _start_velocities(self) -> Array:
-        return np.vstack([self._derivative(1, i, np.array([k])) for i, k in enumerate(self.breaks[:-1])])
+    def _break_velocities(self) -> Array:
+        pieces = [*range(len(self.breaks) - 1), len(self.breaks) - 2]
+        return np.vstack([self._derivative(1, i, np.array([k])) for i, k in zip(pieces, self.breaks, strict=True)])
 
     def z_series(self, coordinates: Array) -> Array:
         """Chebyshev series of Z on each piece, one after the other."""
         return np.asarray(self._z @ coordinates).reshape(-1)
 
 
-def _continue(c: Array, lengths: Array, velocities: Array) -> None:
+def _continue(c: Array, lengths: Array, velocities: Array, flat: int) -> None:
     """Move accelerations so that their integrals lead from velocity to velocity, where more than rounding is missed.
 
-    Great coordinates cancel in them, and a law read from its accelerations alone would add up what is left.
+    Great coordinates cancel in them, and a law read from its accelerations alone would add up what is left. What they
+    are moved by vanishes at the breaks with its derivatives below the order `flat`, as far as their degree allows.
     """
     orders = np.arange(0, c.shape[1], 2)
-    means = c[:, ::2] @ (1.0 / (1.0 - orders.astype(np.float64) ** 2))
-    missed = np.diff(velocities) / lengths - means
+    shares = 1.0 / (1.0 - orders.astype(np.float64) ** 2)
+    missed = np.diff(velocities) / lengths - c[:, ::2] @ shares
     rounding = VELOCITY_KEPT * (np.abs(c).sum(axis=1) + np.abs(velocities[1:]) / lengths)
-    c[:, 0] += np.where(np.abs(missed) > rounding, missed, 0.0)
+    # (1 - x²)^n = 2^-n (1 - T2)^n
+    hill = chebyshev.chebpow([0.5, 0.0, -0.5], min(flat, (c.shape[1] - 1) // 2), maxpower=c.shape[1])
+    hill /= hill[::2] @ shares[: len(hill[::2])]
+    c[:, : len(hill)] += np.where(np.abs(missed) > rounding, missed, 0.0)[:, None] * hill
 
 
 @lru_cache(maxsize=16)

@@ -242,8 +242,32 @@ def test_a_basis_of_ones_own_is_one_class() -> None:
         del Basis.kinds["hinges"]
 
 
-@pytest.mark.parametrize("order", [4, 5, 6])
-def test_a_law_of_great_coordinates_ends_where_its_accelerations_lead(order: int) -> None:
-    space = spline_space(BoundaryConditions.rest(order), BSplines(10, 5, 3), symmetric=True)
-    law = Judged(space.law(3e3 * np.random.default_rng(order).normal(size=space.terms)))
-    assert abs(law.derivatives[0](1.0) - 1.0) < 5e-14 * law.peak(1)
+@pytest.mark.parametrize("symmetric", [True, False])
+@pytest.mark.parametrize("order", [1, 4, 5, 6])
+def test_a_law_of_great_coordinates_ends_where_its_accelerations_lead(order: int, *, symmetric: bool) -> None:
+    space = spline_space(BoundaryConditions.rest(order), BSplines(10, 5, 3), symmetric=symmetric)
+    law = space.law(3e3 * np.random.default_rng(order).normal(size=space.terms))
+    judged = Judged(law)
+    assert abs(judged.derivatives[0](1.0) - 1.0) < 5e-14 * judged.peak(1)
+    if order > 2:
+        # what leads to the right velocity leaves the rest at the ends
+        assert np.abs(law.c([0.0, 1.0])).max() < 5e-15 * judged.peak(2)
+
+
+def test_velocities_at_the_ends_are_free_where_positions_alone_are_asked() -> None:
+    breaks = (0, 0.203, 0.257, 0.5, 0.743, 0.797, 1)
+    through = (via("c", -0.8162050508415326, at=0.329), via("j", -45.85483286747821, at=0.202))
+    problem = Problem(
+        order=1,
+        basis=BSplines(breaks, 5),
+        minimise="jounce",
+        symmetric=False,
+        boundary=BoundaryConditions(start=(0.25,), end=(0.25,)),
+        windows=through,
+    )
+    solution = synthesize(problem)
+    # a cubic law keeps all of it without any jounce
+    assert solution.status == "optimal"
+    assert solution.objective < 1e-8
+    assert solution.law.a([0.0, 1.0]) == pytest.approx([0.25, 0.25], abs=1e-12)
+    assert [solution.law.c(0.329), solution.law.j(0.202)] == pytest.approx([one.low for one in through], rel=1e-9)
