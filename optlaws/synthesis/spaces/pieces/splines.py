@@ -106,9 +106,11 @@ class SplineSpace(PiecewiseSpace):
         """The law with the given coordinates, on the breaks of Z."""
         point = np.append(coordinates, 1.0)
         c = self._accelerations @ point
-        starts = self._start_velocities @ point
-        _continue(c, np.diff(self.breaks), np.append(starts, self.start_velocity + self.velocity_change))
-        segments = [PolynomialSegment(tuple(series.tolist()), float(b)) for series, b in zip(c, starts, strict=True)]
+        velocities = self._velocities @ point
+        _continue(c, np.diff(self.breaks), velocities)
+        segments = [
+            PolynomialSegment(tuple(series), b) for series, b in zip(c.tolist(), velocities[:-1].tolist(), strict=True)
+        ]
         return PiecewiseLaw(self.breaks, segments, float(self.boundary.start[0]))
 
     @kept_property
@@ -116,8 +118,10 @@ class SplineSpace(PiecewiseSpace):
         return self._series(self.breaks, 2 * self.order + self.basis.degree - 2, partial(self._derivative, 2))
 
     @kept_property
-    def _start_velocities(self) -> Array:
-        return np.vstack([self._derivative(1, i, np.array([k])) for i, k in enumerate(self.breaks[:-1])])
+    def _velocities(self) -> Array:
+        """The velocities at the breaks: of order 1 those at the ends are the law's own too."""
+        last = len(self.breaks) - 2
+        return np.vstack([self._derivative(1, min(i, last), np.array([k])) for i, k in enumerate(self.breaks)])
 
     def z_series(self, coordinates: Array) -> Array:
         """Chebyshev series of Z on each piece, one after the other."""
