@@ -169,7 +169,8 @@ def _asked(
                 ways.append(way)
             elif state is not None:
                 stuck.append((at_u.objective_at(state.x), row))
-    return ways if program.curved else ways + _stayed(program, ways, stuck)
+    # where a curved program has no way it may be that every law with the peak has it at an end of what else is asked
+    return ways if program.curved and ways else ways + _stayed(program, ways, stuck)
 
 
 def _shows_contacts(program: Program, state: ActiveSet) -> bool:
@@ -187,7 +188,7 @@ def _stayed(
         if worth >= best:
             break
         there = _with(program, row)
-        state = solve(there, rounds=1).optimum
+        state = solve(there, rounds=_ROUNDS if there.curved else 1).optimum
         if state is not None:
             stayed.append((there, state))
             best = min(best, there.objective_at(state.x))
@@ -284,7 +285,7 @@ def between(model: Model, plain: ActiveSet, constant: Functional, low: float) ->
     else:
         laws = _at_places(model.problem, other, family, least)
     for beyond in laws:
-        if value(beyond.x[:terms]) >= low:
+        if reaches(model.space.law(beyond.x[:terms]), constant, low):
             x = plain.x.copy()
             x[:terms] = _met(value, low, x[:terms], beyond.x[:terms])
             yield replace(plain, x=x)
