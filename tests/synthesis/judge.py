@@ -228,6 +228,9 @@ class Judged:
     def _highest(signal: Callable[[Any], Any], sign: float, edges: list[float]) -> float:
         found = [sign * float(signal(edges[0]))]
         for low, high in pairwise(edges):
+            if high - low < 2.0**-48:
+                # an end of the stretch that is a break but for rounding
+                continue
             k = np.linspace(low + 2.0**-50, high - 2.0**-50, 801)
             values = sign * signal(k)
             found.append(float(values.max()))
