@@ -215,9 +215,11 @@ class LawSearch:
 def best_available(search: LawSearch) -> Solution | None:
     """The answer of the problem itself or, where that is none, unproven or too good, that of a way around it."""
     solution, problem = search.answer(), search.problem
-    if solution is None:
+    if solution is None or (problem.convex and search.outcomes[0].optimum is None):
         unfolded = from_symmetric(search) if problem.mirrored else None
-        return unfolded or (solved_without_interior(search) if problem.convex else None)
+        around = unfolded or (solved_without_interior(search) if problem.convex else None)
+        known = [one for one in (solution, around) if one is not None]
+        return min(known, key=lambda one: abs(one.gap), default=None)
     if problem.convex and _beyond_proof(solution):
         return solved_without_interior(search) or solution
     if problem.mirrored and solution.status is Status.INACCURATE:
@@ -294,10 +296,9 @@ def attempt(model: Model, warm: ActiveSet | None, point: Array | None) -> tuple[
         return exact and not shortfalls(model.problem, law)
 
     outcome = solve(model.program, warm, start=point, holds=holds)
-    optimum = outcome.optimum
-    if optimum is None:
-        return outcome, None
-    return outcome, laws.candidate(optimum.at(on_equations(model.program, optimum.x)))
+    led = outcome.tried if outcome.optimum is None else (outcome.optimum,)
+    found = (laws.candidate(state.at(on_equations(model.program, state.x))) for state in led)
+    return outcome, min((law for law in found if law is not None), key=lambda law: law.objective, default=None)
 
 
 def feasible(model: Model, optimum: ActiveSet) -> Candidate | None:

@@ -32,12 +32,21 @@ DEPTH = 1e5  # beyond what laws of the field have
 
 @dataclass(frozen=True, eq=False)
 class Outcome:
-    """How a program ended: the optimum (None where there is none), IPOPT's iterations and last word, the rounds."""
+    """How a program ended: the optimum (None where there is none), IPOPT's iterations and last word, the rounds.
+
+    Where there is no optimum `tried` are the answers to the program on points, whose laws may be of use.
+    """
 
     optimum: ActiveSet | None
     iterations: int
     rounds: int
     status: str
+    tried: tuple[ActiveSet, ...] = ()
+
+    def mapped(self, change: Callable[[ActiveSet], ActiveSet]) -> Outcome:
+        """The same outcome of a program in other variables or equations."""
+        optimum = None if self.optimum is None else change(self.optimum)
+        return replace(self, optimum=optimum, tried=tuple(change(answer) for answer in self.tried))
 
 
 def solve(
@@ -62,7 +71,7 @@ def solve(
         None if holds is None else lambda x: holds(x * units.variables),
         rounds,
     )
-    return outcome if outcome.optimum is None else replace(outcome, optimum=units.outward(outcome.optimum))
+    return outcome.mapped(units.outward)
 
 
 def _in_own_units(
@@ -83,12 +92,13 @@ def _in_own_units(
     if contradiction(program.equalities, program.right) is not None:
         return Outcome(None, 0, 0, "equations that contradict each other")
     fewer = replace(program, equalities=program.equalities[kept], right=program.right[kept])
-    outcome = _solved(fewer, start, holds, rounds)
-    if outcome.optimum is None:
-        return outcome
-    multipliers = np.zeros(len(kept))
-    multipliers[kept] = outcome.optimum.equality_multipliers
-    return replace(outcome, optimum=replace(outcome.optimum, equality_multipliers=multipliers))
+
+    def of_all(state: ActiveSet) -> ActiveSet:
+        multipliers = np.zeros(len(kept))
+        multipliers[kept] = state.equality_multipliers
+        return replace(state, equality_multipliers=multipliers)
+
+    return _solved(fewer, start, holds, rounds).mapped(of_all)
 
 
 def _solved(program: Program, start: Array | None, holds: Callable[[Array], bool] | None, rounds: int) -> Outcome:
@@ -129,13 +139,14 @@ def _by_interior_points(way: ByInteriorPoints, points: list[Points]) -> Outcome:
             return Outcome(optimum, way.iterations, way.count, "amplitudes that vanish")
         way = replace(way, apex=False, vanished=(), count=0)
         optimum, _ = cutting_plane_loop(way, points)
+    tried = way.tried
     if optimum is None and way.status == _DIVERGING:
         held = grounded(program)
         way = ByInteriorPoints(held, start, None, rounds)
         optimum, _ = cutting_plane_loop(way, first_points(held))
         # the row that held the objective up is none of the program's
         optimum = None if optimum is None or (optimum.family == len(program.families)).any() else optimum
-    return Outcome(optimum, way.iterations, way.count, way.status)
+    return Outcome(optimum, way.iterations, way.count, way.status, () if optimum is not None else tuple(tried))
 
 
 def grounded(program: Program) -> Program:
