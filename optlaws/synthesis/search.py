@@ -82,8 +82,10 @@ class LawSearch:
         short = shortfalls(self.problem, plain.law)
         if short:
             best = self._held_up(plain, short)
-            # where the mirror image is as good, places have been tried on either side
-            moved = best if self.problem.mirrored else self._moved(plain, best, *next(iter(short.items())))
+            # where the mirror image is as good, places have been tried on either side; of several constants each step
+            # would ask all others at every place again
+            settled = self.problem.mirrored or len(short) > 1
+            moved = best if settled else self._moved(plain, best, *next(iter(short.items())))
             best = self._placed(plain, moved, short) if self.tight else moved
         return self.certified(plain.optimum, best, held_up=bool(short))
 

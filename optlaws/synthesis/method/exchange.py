@@ -16,7 +16,7 @@ from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import LinearFamily, Points, Program
 from optlaws.synthesis.method.discretised.grids import first_points
 from optlaws.synthesis.method.equations import contradiction, independent
-from optlaws.synthesis.method.guesses import initial_guess, sizes_only, vanishing
+from optlaws.synthesis.method.guesses import initial_guess, of_variables, sizes_only, vanishing
 from optlaws.synthesis.method.strategies.contacts import polished
 from optlaws.synthesis.method.strategies.interior_points import ByInteriorPoints
 from optlaws.synthesis.method.strategies.quadratics import ByQuadratics, bends_both_ways
@@ -128,6 +128,7 @@ def _solved(program: Program, start: Array | None, holds: Callable[[Array], bool
 def _by_interior_points(way: ByInteriorPoints, points: list[Points]) -> Outcome:
     """The solution on few points, with amplitudes that vanish as equations, with the objective held up if it falls."""
     program, start, rounds = way.program, way.start, way.rounds
+    tried = [] if start is None else [of_variables(program, start)]
     optimum, _ = cutting_plane_loop(way, points)
     if way.vanished:
 
@@ -139,7 +140,7 @@ def _by_interior_points(way: ByInteriorPoints, points: list[Points]) -> Outcome:
             return Outcome(optimum, way.iterations, way.count, "amplitudes that vanish")
         way = replace(way, apex=False, vanished=(), count=0)
         optimum, _ = cutting_plane_loop(way, points)
-    tried = way.tried
+    tried += way.tried
     if optimum is None and way.status == _DIVERGING:
         held = grounded(program)
         way = ByInteriorPoints(held, start, None, rounds)
