@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from math import inf
 from time import perf_counter
 
 import numpy as np
@@ -25,7 +26,7 @@ from optlaws.synthesis.program.writer import Model, model_of
 from optlaws.synthesis.proof import mirroring
 from optlaws.synthesis.proof import peak_search as places
 from optlaws.synthesis.proof.certificate import Certificate
-from optlaws.synthesis.proof.infeasible import failure
+from optlaws.synthesis.proof.infeasible import failure, falls_for_ever
 from optlaws.synthesis.proof.make import certify, lower_bound
 from optlaws.synthesis.proof.peak_rows import peak_of
 from optlaws.synthesis.proof.power.search import tightened
@@ -221,7 +222,9 @@ def best_available(search: LawSearch) -> Solution | None:
         unfolded = from_symmetric(search) if problem.mirrored else None
         around = unfolded or (solved_without_interior(search) if problem.convex else None)
         known = [one for one in (solution, around) if one is not None]
-        return min(known, key=lambda one: abs(one.gap), default=None)
+        best = min(known, key=lambda one: abs(one.gap), default=None)
+        # a law of which nothing is proven may be one of many that are less and less
+        return None if best is not None and best.lower_bound == -inf and falls_for_ever(problem) else best
     if problem.convex and _beyond_proof(solution):
         return solved_without_interior(search) or solution
     if problem.mirrored and solution.status is Status.INACCURATE:
