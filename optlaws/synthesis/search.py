@@ -216,15 +216,21 @@ class LawSearch:
 
 
 def best_available(search: LawSearch) -> Solution | None:
+    """The best law that any way leads to, with its proof; None where there is none, or where ever better ones are."""
+    solution, problem = _of_any_way(search), search.problem
+    # a law of which nothing is proven may be one of many that are less and less
+    unproven = solution is not None and problem.convex and solution.lower_bound == -inf
+    return None if unproven and falls_for_ever(problem) else solution
+
+
+def _of_any_way(search: LawSearch) -> Solution | None:
     """The answer of the problem itself or, where that is none, unproven or too good, that of a way around it."""
     solution, problem = search.answer(), search.problem
     if solution is None or (problem.convex and search.outcomes[0].optimum is None):
         unfolded = from_symmetric(search) if problem.mirrored else None
         around = unfolded or (solved_without_interior(search) if problem.convex else None)
         known = [one for one in (solution, around) if one is not None]
-        best = min(known, key=lambda one: abs(one.gap), default=None)
-        # a law of which nothing is proven may be one of many that are less and less
-        return None if best is not None and best.lower_bound == -inf and falls_for_ever(problem) else best
+        return min(known, key=lambda one: abs(one.gap), default=None)
     if problem.convex and _beyond_proof(solution):
         return solved_without_interior(search) or solution
     if problem.mirrored and solution.status is Status.INACCURATE:

@@ -9,6 +9,7 @@ from optlaws import (
     BoundaryConditions,
     BSplines,
     Chebyshev,
+    InfeasibleProblem,
     Machine,
     Pieces,
     Powers,
@@ -37,7 +38,7 @@ SHAKEN = Machine.from_modes([(48.1, 0.1)], duration=1.0, outputs=["acceleration"
 LIGHT = Machine.from_modes([(20.83, 0.01)], duration=1.0, outputs=["position"])
 UNEVEN = BSplines(breaks=(0.0, 0.282, 0.307, 0.463, 1.0), degree=3, continuity=2)
 SHORT = Pieces(breaks=(0.0, 0.038, 0.131, 0.169, 0.481, 0.5, 0.519, 0.831, 0.869, 0.962, 1.0), degree=8, continuity=3)
-SLOW = Machine.from_modes([(37.385, 0.1)], duration=1.0, stroke=8.78e-10, outputs=["position"])
+SLOW = Machine.from_modes([(5.95, 0.1)], duration=1.0, stroke=8.78e-10, outputs=["position"])
 FAST = Machine.from_modes([(37.2, 0.01)], duration=1.0, stroke=1.0, outputs=["deflection"])
 
 CASES = {
@@ -260,6 +261,19 @@ def test_an_objective_without_a_least_value_is_told_apart(unit: float, basis: Po
         order=2, basis=basis, minimise=f"value({unit!r}*(c^2 + b), at=0.3)", symmetric=False, boundary=ends
     )
     with pytest.raises(SolverFailure, match="has no least value"):
+        synthesize(problem)
+
+
+def test_equations_that_leave_no_freedom_are_proven_to_contradict_a_bound() -> None:
+    problem = Problem(
+        order=4,
+        basis=Pieces(breaks=(0.0, 0.332, 0.487, 1.0), degree=5, continuity=4),
+        minimise="rms(norm(0.318*c, 0.529*b))",
+        symmetric=False,
+        boundary=BoundaryConditions(start=(0.0, -0.663, 0.0, 0.0), end=(-1.0, -0.372, 0.0, 0.0)),
+        bounds={"rms_c": at_most(2.508)},
+    )
+    with pytest.raises(InfeasibleProblem):
         synthesize(problem)
 
 
