@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from math import inf
 from time import perf_counter
 
 import numpy as np
@@ -26,7 +27,7 @@ from optlaws.synthesis.program.writer import Model, model_of
 from optlaws.synthesis.proof import mirroring
 from optlaws.synthesis.proof import peak_search as places
 from optlaws.synthesis.proof.certificate import Certificate
-from optlaws.synthesis.proof.infeasible import failure
+from optlaws.synthesis.proof.infeasible import failure, falls_for_ever
 from optlaws.synthesis.proof.make import certify, lower_bound
 from optlaws.synthesis.proof.peak_rows import peak_of
 from optlaws.synthesis.proof.power.search import tightened
@@ -83,8 +84,10 @@ class LawSearch:
         short = shortfalls(self.problem, plain.law)
         if short:
             best = self._held_up(plain, short)
-            # where the mirror image is as good, places have been tried on either side
-            moved = best if self.problem.mirrored else self._moved(plain, best, *next(iter(short.items())))
+            # where the mirror image is as good, places have been tried on either side; of several constants each step
+            # would ask all others at every place again
+            settled = self.problem.mirrored or len(short) > 1
+            moved = best if settled else self._moved(plain, best, *next(iter(short.items())))
             best = self._placed(plain, moved, short) if self.tight else moved
         return self.certified(plain.optimum, best, held_up=bool(short))
 
@@ -217,11 +220,21 @@ class LawSearch:
 
 
 def best_available(search: LawSearch) -> Solution | None:
+    """The best law that any way leads to, with its proof; None where there is none, or where ever better ones are."""
+    solution, problem = _of_any_way(search), search.problem
+    # a law of which nothing is proven may be one of many that are less and less
+    unproven = solution is not None and problem.convex and solution.lower_bound == -inf
+    return None if unproven and falls_for_ever(problem) else solution
+
+
+def _of_any_way(search: LawSearch) -> Solution | None:
     """The answer of the problem itself or, where that is none, unproven or too good, that of a way around it."""
     solution, problem = search.answer(), search.problem
-    if solution is None:
+    if solution is None or (problem.convex and search.outcomes[0].optimum is None):
         unfolded = from_symmetric(search) if problem.mirrored else None
-        return unfolded or (solved_without_interior(search) if problem.convex else None)
+        around = unfolded or (solved_without_interior(search) if problem.convex else None)
+        known = [one for one in (solution, around) if one is not None]
+        return min(known, key=lambda one: abs(one.gap), default=None)
     if problem.convex and _beyond_proof(solution):
         return solved_without_interior(search) or solution
     if problem.mirrored and solution.status is Status.INACCURATE:
@@ -298,10 +311,9 @@ def attempt(model: Model, warm: ActiveSet | None, point: Array | None) -> tuple[
         return exact and not shortfalls(model.problem, law)
 
     outcome = solve(model.program, warm, start=point, holds=holds)
-    optimum = outcome.optimum
-    if optimum is None:
-        return outcome, None
-    return outcome, laws.candidate(optimum.at(on_equations(model.program, optimum.x)))
+    led = outcome.tried if outcome.optimum is None else (outcome.optimum,)
+    found = (laws.candidate(state.at(on_equations(model.program, state.x))) for state in led)
+    return outcome, min((law for law in found if law is not None), key=lambda law: law.objective, default=None)
 
 
 def feasible(model: Model, optimum: ActiveSet) -> Candidate | None:

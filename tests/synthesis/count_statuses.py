@@ -22,7 +22,7 @@ SLOW = 20.0
 
 @dataclass(frozen=True)
 class Outcome:
-    """How a problem ended: a status, "infeasible" or what went wrong; and the seconds it took."""
+    """How a problem ended: a status, "infeasible", "no least value" or what went wrong; and the seconds it took."""
 
     status: str
     why: str
@@ -31,7 +31,7 @@ class Outcome:
     @property
     def trouble(self) -> bool:
         """Whether it is to be listed."""
-        return self.status not in {"optimal", "local", "infeasible"} or self.seconds > SLOW
+        return self.status not in {"optimal", "local", "infeasible", "no least value"} or self.seconds > SLOW
 
 
 def outcome(one: Drawn) -> Outcome:
@@ -50,7 +50,9 @@ def _answer(one: Drawn) -> tuple[str, str]:
     except InfeasibleProblem as error:
         return ("infeasible", "") if one.witness is None else ("infeasible?", str(error).partition("\n")[0])
     except SolverFailure as error:
-        return "failed", str(error).partition("\n")[0]
+        message = str(error).partition("\n")[0]
+        # as it should be: such a problem has no answer
+        return ("no least value", "") if "has no least value" in message else ("failed", message)
     if solution.status.value == "inaccurate":
         return "inaccurate", f"gap {solution.gap:.1e}"
     judge(solution)

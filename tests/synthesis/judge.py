@@ -18,7 +18,7 @@ from tests.formulas.by_python import by_python
 from tests.internals.formulas import MotionFormula, Table
 from tests.internals.mechanisms import CamPeak, CamPower, ModeResidual, OutputConstant, Residual
 from tests.internals.synthesis import FormulaIntegral, FormulaPeak, FormulaRms, FormulaValue, OfFormula, leaves
-from tests.mechanisms.machine.stepped import machine_value
+from tests.mechanisms.machine.stepped import machine_value, residual_rounding
 from tests.synthesis.independent import DENSE
 
 Array = NDArray[np.float64]
@@ -228,6 +228,9 @@ class Judged:
     def _highest(signal: Callable[[Any], Any], sign: float, edges: list[float]) -> float:
         found = [sign * float(signal(edges[0]))]
         for low, high in pairwise(edges):
+            if high - low < 2.0**-48:
+                # an end of the stretch that is a break but for rounding
+                continue
             k = np.linspace(low + 2.0**-50, high - 2.0**-50, 801)
             values = sign * signal(k)
             found.append(float(values.max()))
@@ -266,8 +269,9 @@ def broken(problem: Problem, law: MotionLaw, allowed: float = 1e-8) -> list[str]
     found += velocity_broken(problem, judged, allowed)
     for constant, asked in problem.bounded:
         value = float(judged.value(constant))
-        found += [f"{constant.name} = {value!r} over {asked!r}"] * (value > asked.high * (1.0 + allowed))
-        lacks = asked.low > 0.0 and value < asked.low * (1.0 - allowed)
+        hidden = residual_rounding(constant) if isinstance(constant, ModeResidual) else 0.0
+        found += [f"{constant.name} = {value!r} over {asked!r}"] * (value > asked.high * (1.0 + allowed) + hidden)
+        lacks = asked.low > 0.0 and value < asked.low * (1.0 - allowed) - hidden
         found += [f"{constant.name} = {value!r} under {asked!r}"] * lacks
     for window in problem.windows:
         found += window_broken(window, judged, allowed)

@@ -9,6 +9,7 @@ from optlaws import (
     BoundaryConditions,
     BSplines,
     Chebyshev,
+    InfeasibleProblem,
     Machine,
     Pieces,
     Powers,
@@ -17,6 +18,7 @@ from optlaws import (
     Window,
     at_least,
     at_most,
+    between,
     maximum,
     peak,
     residual_vibration,
@@ -36,6 +38,7 @@ SHAKEN = Machine.from_modes([(48.1, 0.1)], duration=1.0, outputs=["acceleration"
 LIGHT = Machine.from_modes([(20.83, 0.01)], duration=1.0, outputs=["position"])
 UNEVEN = BSplines(breaks=(0.0, 0.282, 0.307, 0.463, 1.0), degree=3, continuity=2)
 SHORT = Pieces(breaks=(0.0, 0.038, 0.131, 0.169, 0.481, 0.5, 0.519, 0.831, 0.869, 0.962, 1.0), degree=8, continuity=3)
+SLOW = Machine.from_modes([(5.95, 0.1)], duration=1.0, stroke=8.78e-10, outputs=["position"])
 FAST = Machine.from_modes([(37.2, 0.01)], duration=1.0, stroke=1.0, outputs=["deflection"])
 
 CASES = {
@@ -128,6 +131,54 @@ CASES = {
         ),
         None,
     ),
+    # no contacts show the optimum, or interior points end without one
+    "curvature of both sides beside a power": (
+        Problem(
+            order=2,
+            basis=Pieces(breaks=(0.0, 0.073, 0.421, 0.5, 0.579, 0.927, 1.0), degree=4, continuity=2),
+            minimise="C_minus",
+            monotone=True,
+            D=at_most(3.983716857408418),
+            bounds={"peak(552*c^2 + 560*c, side=high)": at_most(34848.0)},
+        ),
+        None,
+    ),
+    "root mean square beside a power": (
+        Problem(
+            order=1,
+            basis=Pieces(breaks=(0.0, 0.063, 0.339, 0.373, 0.486, 1.0), degree=4, continuity=3),
+            minimise="0.81*rms_jounce + 0.26*D",
+            monotone=True,
+            symmetric=False,
+            boundary=BoundaryConditions(start=(0.0,), end=(0.4,)),
+            bounds={"peak(6.06e-12*(c^2 + 3*b^2))": at_most(4.3632e-12)},
+            inflexion=0.237,
+        ),
+        None,
+    ),
+    "uniform motion": (
+        Problem(
+            B=at_most(1.1663),
+            order=1,
+            basis=BSplines(breaks=(0.0, 0.179, 0.5, 0.821, 1.0), degree=5, continuity=3),
+            minimise="max(0.2487*D, max(2.906e-09*rms(361000000*(1 + k)*c), 0.01246*J))",
+            bounds={"rms_jounce": at_most(278.79)},
+        ),
+        0.0,
+    ),
+    "jounce that jumps at a break": (
+        Problem(
+            order=5,
+            basis=Pieces(
+                breaks=(0.0, 0.042, 0.205, 0.247, 0.479, 0.5, 0.521, 0.753, 0.795, 0.958, 1.0), degree=7, continuity=3
+            ),
+            minimise="max(0.11264*rms_c, 0.0014478*rms_jounce)",
+            symmetric=False,
+            boundary=BoundaryConditions(start=(0.0, 0.236, 0.0, 0.0, 0.0), end=(1.0, 0.3, 0.0, 0.0, 0.0)),
+            bounds={"jounce": at_most(685.431173080242)},
+        ),
+        None,
+    ),
     # nothing bounds the value from below, or all laws that have less of it
     "value beside a peak": (
         Problem(order=4, basis=BSplines(4, 5, 3), minimise="0.012*value(c^2 + 1.5*b, at=0.3) + 0.093*C"),
@@ -156,10 +207,50 @@ def test_a_degenerate_optimum_is_proven(name: str) -> None:
     solution = synthesize(problem)
     assert solution.status.value in ({"optimal"} if problem.convex else {"optimal", "local"})
     assert solution.lower_bound <= solution.objective + 1e-12
+    assert broken(problem, solution.law) == []
     if least is not None:
         assert solution.objective == pytest.approx(least, abs=1e-9)
     if problem.convex and problem.order > 1:
         assert verify(solution.to_dict()).proven
+
+
+def test_an_amplitude_of_a_spread_that_nearly_vanishes_is_proven() -> None:
+    problem = Problem(order=5, basis=BSplines(10, 3, 2), minimise=SLOW.residual(spread=0.05), symmetric=False)
+    solution = synthesize(problem)
+    assert solution.status.value == "optimal"
+    assert solution.objective < 1e-7 * problem.objective.scale
+    assert broken(problem, solution.law) == []
+
+
+HELD_UP = {
+    "alone, at the end of its range": Problem(
+        order=2,
+        basis=BSplines(breaks=(0.0, 0.072, 0.147, 0.5, 0.853, 0.928, 1.0), degree=3, continuity=2),
+        minimise="C_minus",
+        bounds={"rms(norm(1.38*c, 1.27*b))": at_most(5.309516405966585), "C_minus": at_least(8.193930447124316)},
+    ),
+    "two from both sides": Problem(
+        B=1.6408161316522039,
+        order=2,
+        basis=Chebyshev(17),
+        minimise="peak(6.67e-08*c + 2.57e-07*b)",
+        symmetric=False,
+        boundary=BoundaryConditions(start=(0.0, -0.541), end=(-1.0, 0.587)),
+        windows=(via("0.013*c + 0.00336*b", 0.04749509124864584, at=0.651),),
+        bounds={
+            "C_plus": between(7.672721695552059, 7.672721695552059),
+            "peak(2.44e-06*(c^2 + 3*b^2))": at_most(0.0001459461563287671),
+        },
+    ),
+}
+
+
+@pytest.mark.parametrize("name", [next(iter(HELD_UP)), pytest.param("two from both sides", marks=pytest.mark.long)])
+def test_constants_are_held_up_where_hardly_a_law_has_them(name: str) -> None:
+    solution = synthesize(HELD_UP[name])
+    assert solution.status.value in {"optimal", "local"}
+    assert solution.lower_bound <= solution.objective
+    assert broken(solution.problem, solution.law) == []
 
 
 @pytest.mark.parametrize("unit", [1e-11, 1.0, 1e6])
@@ -170,6 +261,19 @@ def test_an_objective_without_a_least_value_is_told_apart(unit: float, basis: Po
         order=2, basis=basis, minimise=f"value({unit!r}*(c^2 + b), at=0.3)", symmetric=False, boundary=ends
     )
     with pytest.raises(SolverFailure, match="has no least value"):
+        synthesize(problem)
+
+
+def test_equations_that_leave_no_freedom_are_proven_to_contradict_a_bound() -> None:
+    problem = Problem(
+        order=4,
+        basis=Pieces(breaks=(0.0, 0.332, 0.487, 1.0), degree=5, continuity=4),
+        minimise="rms(norm(0.318*c, 0.529*b))",
+        symmetric=False,
+        boundary=BoundaryConditions(start=(0.0, -0.663, 0.0, 0.0), end=(-1.0, -0.372, 0.0, 0.0)),
+        bounds={"rms_c": at_most(2.508)},
+    )
+    with pytest.raises(InfeasibleProblem):
         synthesize(problem)
 
 

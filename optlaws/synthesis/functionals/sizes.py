@@ -142,7 +142,7 @@ def by_norm(space: LawSpace, rows: Array) -> tuple[SizeBound, ...]:
     fixed, free = feasible_directions(space)
     point = np.append(fixed, 1.0)
     triangle: Array = np.asarray(np.linalg.qr(bent[:, :-1] @ free, mode="r"))
-    if np.linalg.matrix_rank(triangle) < triangle.shape[1]:
+    if not free.size or np.linalg.matrix_rank(triangle) < triangle.shape[1]:
         return ()
     least = float(np.linalg.svd(rows[:, :-1] @ free @ np.linalg.inv(triangle), compute_uv=False)[-1])
     if least * _MOST_GAIN < float(np.linalg.norm(rows)) / max(float(np.linalg.norm(bent)), 1.0):

@@ -16,7 +16,7 @@ from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import LinearFamily, Points, Program
 from optlaws.synthesis.method.discretised.grids import first_points
 from optlaws.synthesis.method.equations import contradiction, independent
-from optlaws.synthesis.method.guesses import initial_guess, sizes_only, vanishing
+from optlaws.synthesis.method.guesses import initial_guess, of_variables, sizes_only, vanishing
 from optlaws.synthesis.method.strategies.contacts import polished
 from optlaws.synthesis.method.strategies.interior_points import ByInteriorPoints
 from optlaws.synthesis.method.strategies.quadratics import ByQuadratics, bends_both_ways
@@ -32,12 +32,21 @@ DEPTH = 1e5  # beyond what laws of the field have
 
 @dataclass(frozen=True, eq=False)
 class Outcome:
-    """How a program ended: the optimum (None where there is none), IPOPT's iterations and last word, the rounds."""
+    """How a program ended: the optimum (None where there is none), IPOPT's iterations and last word, the rounds.
+
+    Where there is no optimum `tried` are the answers to the program on points, whose laws may be of use.
+    """
 
     optimum: ActiveSet | None
     iterations: int
     rounds: int
     status: str
+    tried: tuple[ActiveSet, ...] = ()
+
+    def mapped(self, change: Callable[[ActiveSet], ActiveSet]) -> Outcome:
+        """The same outcome of a program in other variables or equations."""
+        optimum = None if self.optimum is None else change(self.optimum)
+        return replace(self, optimum=optimum, tried=tuple(change(answer) for answer in self.tried))
 
 
 def solve(
@@ -62,7 +71,7 @@ def solve(
         None if holds is None else lambda x: holds(x * units.variables),
         rounds,
     )
-    return outcome if outcome.optimum is None else replace(outcome, optimum=units.outward(outcome.optimum))
+    return outcome.mapped(units.outward)
 
 
 def _in_own_units(
@@ -83,12 +92,13 @@ def _in_own_units(
     if contradiction(program.equalities, program.right) is not None:
         return Outcome(None, 0, 0, "equations that contradict each other")
     fewer = replace(program, equalities=program.equalities[chosen], right=program.right[chosen])
-    outcome = _solved(fewer, start, holds, rounds)
-    if outcome.optimum is None:
-        return outcome
-    multipliers = np.zeros(len(chosen))
-    multipliers[chosen] = outcome.optimum.equality_multipliers
-    return replace(outcome, optimum=replace(outcome.optimum, equality_multipliers=multipliers))
+
+    def of_all(state: ActiveSet) -> ActiveSet:
+        multipliers = np.zeros(len(chosen))
+        multipliers[chosen] = state.equality_multipliers
+        return replace(state, equality_multipliers=multipliers)
+
+    return _solved(fewer, start, holds, rounds).mapped(of_all)
 
 
 def _solved(program: Program, start: Array | None, holds: Callable[[Array], bool] | None, rounds: int) -> Outcome:
@@ -118,6 +128,7 @@ def _solved(program: Program, start: Array | None, holds: Callable[[Array], bool
 def _by_interior_points(way: ByInteriorPoints, points: list[Points]) -> Outcome:
     """The solution on few points, with amplitudes that vanish as equations, with the objective held up if it falls."""
     program, start, rounds = way.program, way.start, way.rounds
+    tried = [] if start is None else [of_variables(program, start)]
     optimum, _ = cutting_plane_loop(way, points)
     if way.vanished:
 
@@ -129,13 +140,14 @@ def _by_interior_points(way: ByInteriorPoints, points: list[Points]) -> Outcome:
             return Outcome(optimum, way.iterations, way.count, "amplitudes that vanish")
         way = replace(way, apex=False, vanished=(), count=0)
         optimum, _ = cutting_plane_loop(way, points)
+    tried += way.tried
     if optimum is None and way.status == _DIVERGING:
         bounded = grounded(program)
         way = ByInteriorPoints(bounded, start, None, rounds)
         optimum, _ = cutting_plane_loop(way, first_points(bounded))
         # the row that held the objective up is none of the program's
         optimum = None if optimum is None or (optimum.family == len(program.families)).any() else optimum
-    return Outcome(optimum, way.iterations, way.count, way.status)
+    return Outcome(optimum, way.iterations, way.count, way.status, () if optimum is not None else tuple(tried))
 
 
 def grounded(program: Program) -> Program:

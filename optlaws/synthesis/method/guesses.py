@@ -32,6 +32,11 @@ def vanishing(program: Program) -> ActiveSet | None:
     x = np.linalg.lstsq(conditions, right, rcond=None)[0]
     if np.abs(conditions @ x - right).max() > VANISHED or program.violation(x) > EXCESS:
         return None
+    return of_variables(program, x)
+
+
+def of_variables(program: Program, x: Array) -> ActiveSet:
+    """Variables without any contact."""
     nothing, equations = np.empty(0), np.zeros(len(program.right))
     places = np.empty(0, dtype=np.intp)
     return ActiveSet(x, places, nothing, nothing, places.astype(np.bool_), nothing, equations)

@@ -23,7 +23,7 @@ from optlaws.errors import InputError
 from optlaws.numbers import Array
 from optlaws.numerics.roots import bisect
 from optlaws.synthesis.families.active_set import ActiveSet
-from optlaws.synthesis.families.family import ConstraintFamily, NormFamily, Program
+from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily, Program
 from optlaws.synthesis.families.names import at_least
 from optlaws.synthesis.method.discretised.grids import first_points
 from optlaws.synthesis.method.discretised.linear import vertex_on_points
@@ -161,7 +161,7 @@ def _asked(
             row = _row(family, u, s, low)
             at_u = _with(replace(program, families=tuple(loose)), row)
             # where no law has the peak IPOPT would look long for one
-            if not at_u.curved and vertex_on_points(at_u, first_points(at_u)) is None:
+            if not _straight_rows_agree(at_u):
                 continue
             state = solve(at_u, start=plain.x if at_u.curved else None, rounds=_ROUNDS).optimum
             way = None if state is None else _let_go(program, family, state, low)
@@ -169,7 +169,15 @@ def _asked(
                 ways.append(way)
             elif state is not None:
                 stuck.append((at_u.objective_at(state.x), row))
-    return ways if program.curved else ways + _stayed(program, ways, stuck)
+    # where a curved program has no way it may be that every law with the peak has it at an end of what else is asked
+    return ways if program.curved and ways else ways + _stayed(program, ways, stuck)
+
+
+def _straight_rows_agree(program: Program) -> bool:
+    """Whether some law keeps the program's linear rows on its first points."""
+    linear = tuple(family for family in program.families if isinstance(family, LinearFamily))
+    straight = replace(program, families=linear, objective=np.zeros(program.size)) if program.curved else program
+    return vertex_on_points(straight, first_points(straight)) is not None
 
 
 def _shows_contacts(program: Program, state: ActiveSet) -> bool:
@@ -187,7 +195,7 @@ def _stayed(
         if worth >= best:
             break
         there = _with(program, row)
-        state = solve(there, rounds=1).optimum
+        state = solve(there, rounds=_ROUNDS if there.curved else 1).optimum
         if state is not None:
             stayed.append((there, state))
             best = min(best, there.objective_at(state.x))
@@ -284,7 +292,7 @@ def between(model: Model, plain: ActiveSet, constant: Functional, low: float) ->
     else:
         laws = _at_places(model.problem, other, family, least)
     for beyond in laws:
-        if value(beyond.x[:terms]) >= low:
+        if reaches(model.space.law(beyond.x[:terms]), constant, low):
             x = plain.x.copy()
             x[:terms] = _met(value, low, x[:terms], beyond.x[:terms])
             yield replace(plain, x=x)

@@ -79,7 +79,7 @@ def failure(problem: Problem, outcome: Outcome) -> InfeasibleProblem | SolverFai
             proof=least,
             tried=tried,
         )
-    if _falls_for_ever(problem):
+    if falls_for_ever(problem):
         scale = problem.objective.scale
         deep = f"{-DEPTH:.0f}" if scale == 1.0 else f"{-DEPTH * scale:g}"
         msg = (
@@ -92,7 +92,7 @@ def failure(problem: Problem, outcome: Outcome) -> InfeasibleProblem | SolverFai
     return SolverFailure("; mind that ".join([msg, *remarks]), problem=problem, tried=tried)
 
 
-def _falls_for_ever(problem: Problem) -> bool:
+def falls_for_ever(problem: Problem) -> bool:
     """Whether the objective, which peaks of one sign may make negative, is held by nothing but a row that says so."""
     if not problem.convex:
         return False

@@ -17,6 +17,8 @@ Array = NDArray[np.float64]
 
 STEPS = 400
 TERMS = 10
+#: the angle by which a mode turns along a rule of integration
+TURNED = 25.0
 X, WEIGHTS = np.polynomial.legendre.leggauss(120)
 
 
@@ -139,8 +141,8 @@ def _highest(taylor: Array, length: float) -> float:
     return max(float(values[best]), -float(finer.fun))
 
 
-def residual_value(constant: ModeResidual, pieces: Sequence[Chebyshev]) -> float:
-    """Greatest amplitude of the mode, over a grid of the whole box and along its edges."""
+def _mode(constant: ModeResidual) -> tuple[complex, float]:
+    """The root of a mode, and the amplitude that a step of the velocity leaves of it."""
     machine = constant.machine
     values, left, right = _eigen(np.array(machine.A))
     upper = [i for i in np.argsort(np.abs(values)) if values[i].imag > 1e-6 * abs(values[i])]
@@ -148,12 +150,26 @@ def residual_value(constant: ModeResidual, pieces: Sequence[Chebyshev]) -> float
     root = complex(values[i])
     row = np.array(machine.C[machine.outputs.index(constant.output)])
     B = machine.load
-    share = abs(2.0 * (row @ right[:, i]) * (left[i] @ (B[:, 0] / root + B[:, 1] + root * B[:, 2])))
-    k = np.concatenate([low + (high - low) * (X + 1.0) / 2.0 for low, high in (piece.domain for piece in pieces)])
-    measure = np.concatenate([(piece.domain[1] - piece.domain[0]) / 2.0 * WEIGHTS for piece in pieces])
-    velocity = measure * np.concatenate(
-        [piece.deriv()(k[j * len(X) : (j + 1) * len(X)]) for j, piece in enumerate(pieces)]
-    )
+    return root, float(abs(2.0 * (row @ right[:, i]) * (left[i] @ (B[:, 0] / root + B[:, 1] + root * B[:, 2]))))
+
+
+def residual_rounding(constant: ModeResidual) -> float:
+    """What rounding may leave of an amplitude, which is a sum of parts that cancel."""
+    return 1e-12 * _mode(constant)[1]
+
+
+def residual_value(constant: ModeResidual, pieces: Sequence[Chebyshev]) -> float:
+    """Greatest amplitude of the mode, over a grid of the whole box and along its edges."""
+    root, share = _mode(constant)
+    nodes, weights = np.polynomial.legendre.leggauss(40)
+    k, velocity = np.empty(0), np.empty(0)
+    for piece in pieces:
+        low, high = piece.domain
+        # so short that few turns of the mode are in each
+        for start, stop in pairwise(np.linspace(low, high, 2 + int((high - low) * abs(root) / TURNED))):
+            inside = start + (stop - start) * (nodes + 1.0) / 2.0
+            k = np.append(k, inside)
+            velocity = np.append(velocity, (stop - start) / 2.0 * weights * piece.deriv()(inside))
 
     def size(nu: float, angle: float) -> float:
         return float(share * abs(np.exp(1j * nu * np.exp(1j * angle) * (1.0 - k)) @ velocity))

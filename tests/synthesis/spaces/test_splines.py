@@ -89,6 +89,18 @@ def test_no_choice_of_z_breaks_the_ends_or_the_continuity(basis: BSplines, order
         assert law.jumps(nu) == ()
 
 
+@given(bases, st.integers(1, 4), st.integers(0, 1000))
+def test_no_coordinates_break_the_ends_or_the_continuity(basis: BSplines, order: int, seed: int) -> None:
+    conditions = BoundaryConditions((0.0, 0.5, -1.0, 2.0)[:order], (1.0, 0.25, 3.0, 0.0)[:order])
+    space = spline_space(conditions, basis, symmetric=False)
+    law = space.law(np.random.default_rng(seed).normal(size=space.terms))
+    curves = Judged(law).derivatives
+    ends = [[float(curve(k)) for curve in curves[:order]] for k in (0.0, 1.0)]
+    assert ends == [pytest.approx(conditions.start, abs=1e-9), pytest.approx(conditions.end, abs=1e-9)]
+    for nu in range(1, min(basis.continuity, 3) + 1):
+        assert law.jumps(nu) == ()
+
+
 PROBLEMS = [
     Problem(B=1.859, order=3, basis=BSplines(6, 3)),
     Problem(B=1.859, order=3, basis=BSplines(6, 3), symmetric=False),

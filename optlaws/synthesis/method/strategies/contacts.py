@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from optlaws.numbers import Array
 from optlaws.synthesis.families.active_set import ActiveSet
-from optlaws.synthesis.families.family import Program
+from optlaws.synthesis.families.family import ConstraintFamily, Program
 from optlaws.synthesis.method.newton import newton
 from optlaws.synthesis.method.strategies.strategy import Strategy, cutting_plane_loop
 from optlaws.tolerances import EXCESS, PULLING, SAME_PLACE
@@ -89,7 +89,10 @@ def completed(program: Program, state: ActiveSet) -> ActiveSet:
         u, s, residual = family.extremes(state.x)
         for j in np.flatnonzero(residual > EXCESS * max(1.0, abs(family.right_side(state.x)))):
             alike = (better.family == i) & (better.s == s[j])
-            if np.any(alike & (np.abs(better.u - u[j]) < SAME_PLACE)):
+            near = alike & (np.abs(better.u - u[j]) < SAME_PLACE)
+            if near.any():
+                if _across_a_jump(family, better.u[near], float(u[j])):
+                    better = better.joined(i, float(u[j]), float(s[j]), free=False)
                 continue
             pinned = np.flatnonzero(alike & ~better.free & _nothing_between(better, alike, float(u[j])))
             if len(pinned):
@@ -98,6 +101,12 @@ def completed(program: Program, state: ActiveSet) -> ActiveSet:
                 free = bool(family.movable(u[j : j + 1])[0])
                 better = better.joined(i, float(u[j]), float(s[j]), free=free)
     return better
+
+
+def _across_a_jump(family: ConstraintFamily, contacts: Array, u: float) -> bool:
+    """Whether a place and contacts next to it are sides of a break, of which each has a value of its own."""
+    places = np.append(contacts, u)
+    return bool(family.pinned(places).all() and (contacts != u).all())
 
 
 def _nothing_between(state: ActiveSet, alike: NDArray[np.bool_], u: float) -> NDArray[np.bool_]:

@@ -6,7 +6,7 @@ A linear or conic program that this does not end is ended by vertices.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -30,6 +30,9 @@ _LINEAR_ROUNDS = 6
 _KINKED_ROUNDS = 3
 #: after so many rounds a small objective is made 1, and amplitudes of a conic program may vanish
 _COARSE = 4
+#: by how many times what an answer exceeds them rows are moved inward, and how often
+_FURTHER = 2.0
+_MOVES = 3
 #: beyond so many variables a round of IPOPT costs more than all vertices together
 _LARGE = 24
 
@@ -59,6 +62,9 @@ class ByInteriorPoints(Strategy[list[Points], ActiveSet]):
     sound
         The least answer that breaks no constraint anywhere, with its multipliers on the points: what is left where no
         round shows an exact active set.
+    tried
+        All answers, with their multipliers on the points: the law of one may keep what is asked although its variables
+        do not, where these are the objective's, or the solver's last word is that it failed.
     """
 
     program: Program
@@ -72,6 +78,7 @@ class ByInteriorPoints(Strategy[list[Points], ActiveSet]):
     iterations: int = 0
     status: str = ""
     sound: ActiveSet | None = None
+    tried: list[ActiveSet] = field(default_factory=list)
 
     def __post_init__(self) -> None:
         if not self.program.curved:
@@ -86,8 +93,11 @@ class ByInteriorPoints(Strategy[list[Points], ActiveSet]):
 
     def _round(self, points: list[Points]) -> tuple[ActiveSet | None, list[Points] | None]:
         self.count += 1
-        answer = self._answer(points)
+        answer = self._answer(self.program, points)
         lost = _lost(answer)
+        if not _astray(answer.x):
+            last = as_answered(points, answer)
+            self.tried.append(last if self.units is None else self.units.outward(last))
         optimum = None if lost else optimum_near(self.program, self.holds, points, answer)
         if optimum is None and self._vertices_help(lost=lost):
             optimum = self._by_vertices(points)
@@ -105,11 +115,32 @@ class ByInteriorPoints(Strategy[list[Points], ActiveSet]):
             self.sound = as_answered(points, answer)
         if self.count == self.rounds:
             flat = _only(self.program, LinearFamily, ConeFamily, KinkedIntegralFamily)
-            return self.sound or (as_answered(points, answer) if flat else None), None
+            inward = self._inward(points, answer) if self.sound is None and self.program.curved else None
+            return self.sound or inward or (as_answered(points, answer) if flat else None), None
         onward = with_extrema(self.program, points, answer.x)
         if self.count == _COARSE and self.program.curved:
             self._zoom(answer.x)
         return None, onward
+
+    def _inward(self, points: list[Points], answer: Answer) -> ActiveSet | None:
+        """The answer with every row moved inward by more than the last one exceeds it; None where it exceeds them too.
+
+        IPOPT loosens every row by its tolerance, and where the optimum is flat extrema that join mend little of what
+        answers exceed between the points, nor do contacts show by which Newton's method would.
+        """
+        families = self.program.families
+        for _ in range(_MOVES):
+            most = [max(float(family.extremes(answer.x)[2].max()), 0.0) for family in self.program.families]
+            families = tuple(
+                replace(family, bound=family.bound - _FURTHER * excess)
+                for family, excess in zip(families, most, strict=True)
+            )
+            answer = self._answer(replace(self.program, families=families), points)
+            if _lost(answer):
+                return None
+            if self.program.violation(answer.x) <= EXCESS:
+                return as_answered(points, answer)
+        return None
 
     def _zoom(self, x: Array) -> None:
         """Go on in units in which the objective is 1, if it is small near x."""
@@ -126,17 +157,17 @@ class ByInteriorPoints(Strategy[list[Points], ActiveSet]):
         """Whether an answer is better than the sound one so far."""
         return self.sound is None or bool(self.program.objective @ (x - self.sound.x) < 0.0)
 
-    def _answer(self, points: list[Points]) -> Answer:
+    def _answer(self, program: Program, points: list[Points]) -> Answer:
         """Clarabel's answer to a conic program; else, or where it has none, IPOPT's, the usual where no fine one is."""
-        quick = optimum_on_points(self.program, points) if conic(self.program) else None
+        quick = optimum_on_points(program, points) if conic(program) else None
         if quick is not None:
             return self._noted(quick)
-        fine = self.count > 1 and _only(self.program, LinearFamily, ConeFamily, EnergyFamily)
-        answer = self._asked(points, fine=fine)
-        return self._asked(points, fine=False) if fine and not answer.usable else answer
+        fine = self.count > 1 and _only(program, LinearFamily, ConeFamily, EnergyFamily)
+        answer = self._asked(program, points, fine=fine)
+        return self._asked(program, points, fine=False) if fine and not answer.usable else answer
 
-    def _asked(self, points: list[Points], *, fine: bool) -> Answer:
-        return self._noted(solve_on_points(self.program, points, self.start, fine=fine))
+    def _asked(self, program: Program, points: list[Points], *, fine: bool) -> Answer:
+        return self._noted(solve_on_points(program, points, self.start, fine=fine))
 
     def _noted(self, answer: Answer) -> Answer:
         """The answer itself, its iterations counted."""
@@ -165,4 +196,8 @@ def _only(program: Program, *kinds: type[ConstraintFamily]) -> bool:
 
 
 def _lost(answer: Answer) -> bool:
-    return not answer.usable or not np.isfinite(answer.x).all() or float(np.abs(answer.x).max()) > LOST
+    return not answer.usable or _astray(answer.x)
+
+
+def _astray(x: Array) -> bool:
+    return not np.isfinite(x).all() or float(np.abs(x).max()) > LOST
