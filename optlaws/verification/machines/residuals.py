@@ -15,11 +15,10 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.tolerances import SAME_FREQUENCY, SAME_ROOT, TAYLOR_REST, VIBRATING
-from optlaws.verification.enclosing.balls import ball
+from optlaws.verification.enclosing.balls import ball, root
 from optlaws.verification.enclosing.pieces import PolynomialPiece
 from optlaws.verification.enclosing.taylor_models import Taylor, cells, greatest_magnitude
 from optlaws.verification.machines.output_motion import Space
-from optlaws.verification.machines.taylor_cells import root
 from optlaws.verification.machines.transfer import MachineConstant, Rational, roots, transforms
 
 #: b and its derivatives at the start and at the end of a piece
