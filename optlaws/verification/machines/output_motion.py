@@ -12,6 +12,7 @@ from typing import Protocol
 from flint import acb, acb_mat, acb_series, arb, arb_mat, arb_series, ctx, fmpq, fmpq_poly
 
 from optlaws.errors import InputError
+from optlaws.kept import kept_property
 from optlaws.verification.enclosing.ball_formulas import composed
 from optlaws.verification.enclosing.balls import ball, rational, series_length
 from optlaws.verification.enclosing.pieces import PolynomialPiece
@@ -44,6 +45,16 @@ class DrivenStretch:
     def last(self) -> list[fmpq]:
         """The displacements where the stretch ends."""
         return [column(rational(self.length)) for column in self.columns]
+
+    @kept_property
+    def ends(self) -> tuple[list[list[fmpq]], list[list[fmpq]]]:
+        """All derivatives of the displacements where the stretch begins and where it ends, a row for each order."""
+        begin, end, columns = [self.first], [self.last], self.columns
+        while any(column.degree() > 0 for column in columns):
+            columns = [column.derivative() for column in columns]
+            begin.append([column(fmpq(0)) for column in columns])
+            end.append([column(rational(self.length)) for column in columns])
+        return begin, end
 
 
 class Space(Protocol):
@@ -223,8 +234,7 @@ class _Chains:
     def moved(self, driven: Sequence[DrivenStretch], states: States) -> Iterator[OutputStretch]:
         """The output on each stretch, from given states on; leaves the last ones."""
         for drive in driven:
-            derivatives = _derivatives(drive)
-            forced = [_forced(pole, derivatives, drive) for pole in self.poles]
+            forced = [_forced(pole, drive) for pole in self.poles]
             away = [state - part for state, (part, _) in zip(states, forced, strict=True)]
             free = [_weighted(pole, rows) for pole, rows in zip(self.poles, away, strict=True)]
             yield OutputStretch(drive.start, drive.length, self._polynomials(drive), free)
@@ -258,28 +268,16 @@ def _driving(drive: DrivenStretch, order: int) -> DrivenStretch:
     )
 
 
-def _derivatives(drive: DrivenStretch) -> tuple[acb_mat, acb_mat]:
-    """All derivatives of the columns where a stretch begins and where it ends, a row for each order."""
-    first: list[list[acb]] = []
-    last: list[list[acb]] = []
-    columns, end = drive.columns, rational(drive.length)
-    while any(column.degree() >= 0 for column in columns) or not first:
-        first.append([acb(arb(column[0])) for column in columns])
-        last.append([acb(arb(column(end))) for column in columns])
-        columns = [column.derivative() for column in columns]
-    return acb_mat(first), acb_mat(last)
-
-
-def _forced(pole: Pole, derivatives: tuple[acb_mat, acb_mat], drive: DrivenStretch) -> tuple[acb_mat, acb_mat]:
+def _forced(pole: Pole, drive: DrivenStretch) -> tuple[acb_mat, acb_mat]:
     """A motion of the chain that is a polynomial: where the stretch begins and where it ends."""
     if pole.root == 0:
         return _integrated(pole, drive)
     inverse = 1 / pole.root
-    orders = range(derivatives[0].nrows())
+    first, last = (acb_mat([[acb(arb(value)) for value in row] for row in rows]) for rows in drive.ends)
+    orders = range(first.nrows())
     turn = acb_mat(
         [[comb(j + i - 1, i) * (-1) ** j * inverse ** (j + i) for i in orders] for j in range(1, len(pole.shares) + 1)]
     )
-    first, last = derivatives
     return turn * first, turn * last
 
 
