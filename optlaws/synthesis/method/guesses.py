@@ -32,9 +32,7 @@ def vanishing(program: Program) -> ActiveSet | None:
     x = np.linalg.lstsq(held, right, rcond=None)[0]
     if np.abs(held @ x - right).max() > VANISHED or program.violation(x) > EXCESS:
         return None
-    nothing, equations = np.empty(0), np.zeros(len(program.right))
-    places = np.empty(0, dtype=np.intp)
-    return ActiveSet(x, places, nothing, nothing, places.astype(np.bool_), nothing, equations)
+    return ActiveSet.of_contacts(x, (), np.zeros(len(program.right)))
 
 
 def initial_guess(program: Program, points: list[Points]) -> Array:
