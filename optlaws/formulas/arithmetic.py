@@ -1,4 +1,4 @@
-"""Values of formulas, by whatever arithmetic: numpy's arrays, CasADi's symbols, mpmath's numbers, balls."""
+"""Values of formulas, by whatever arithmetic: numpy's arrays, CasADi's symbols, balls."""
 
 from __future__ import annotations
 
@@ -215,13 +215,3 @@ def casadi_arithmetic() -> Arithmetic:
         "norm": lambda x, y: ca.sqrt(x * x + y * y + NORM_OFFSET),
     }
     return Arithmetic(float, functions | several, lambda base, exponent: base**exponent, table)
-
-
-@lru_cache(maxsize=1)
-def mpmath_arithmetic() -> Arithmetic:
-    """mpmath's numbers, at the precision at work."""
-    import mpmath as mp  # type: ignore[import-untyped]
-
-    functions = {name: getattr(mp, name) for name in SMOOTH_FUNCTIONS}
-    several = {"abs": abs, "max": max, "min": min, "norm": mp.hypot}
-    return Arithmetic(mp.mpf, functions | several, lambda base, exponent: base**exponent)

@@ -16,7 +16,7 @@ class SmoothFunction:
     Attributes
     ----------
     numpy
-        Its values on arrays; CasADi, mpmath and balls have it under its name.
+        Its values on arrays; CasADi and balls have it under its name.
     rising
         Whether it rises everywhere.
     curvature

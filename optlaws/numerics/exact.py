@@ -9,8 +9,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from fractions import Fraction
 from functools import lru_cache
+from itertools import zip_longest
 from math import comb, factorial, lcm
 from typing import Any
+
+import numpy as np
 
 from optlaws.numbers import fractions
 
@@ -68,13 +71,7 @@ def times(first: Polynomial, second: Polynomial) -> Polynomial:
     >>> times([Fraction(1), Fraction(1)], [Fraction(-1), Fraction(1)])
     [Fraction(-1, 1), Fraction(0, 1), Fraction(1, 1)]
     """
-    if not first or not second:
-        return []
-    product = [Fraction(0)] * (len(first) + len(second) - 1)
-    for i, p in enumerate(first):
-        for j, q in enumerate(second):
-            product[i + j] += p * q
-    return product
+    return np.convolve(*(np.array(part, dtype=object) for part in (first, second))).tolist() if first and second else []
 
 
 def plus(first: Polynomial, second: Polynomial) -> Polynomial:
@@ -83,11 +80,7 @@ def plus(first: Polynomial, second: Polynomial) -> Polynomial:
     >>> plus([Fraction(1)], [Fraction(1), Fraction(2)])
     [Fraction(2, 1), Fraction(2, 1)]
     """
-    total = [Fraction(0)] * max(len(first), len(second))
-    for polynomial in (first, second):
-        for i, value in enumerate(polynomial):
-            total[i] += value
-    return total
+    return [p + q for p, q in zip_longest(first, second, fillvalue=Fraction(0))]
 
 
 def shifted(polynomial: Polynomial, by: Fraction | int) -> Polynomial:

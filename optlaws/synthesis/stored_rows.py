@@ -250,13 +250,7 @@ def _z(basis: PolynomialBasis | PiecewiseBasis, series: NDArray[np.float64], k: 
 
 def _active_set(entries: StatedActiveSet, program: Program) -> ActiveSet:
     """Where a neighbouring problem may begin: any numbers will do that are of the program's shape."""
-    kinds = {"family": np.intp, "free": np.bool_}
-    state = ActiveSet(
-        **{
-            field.name: np.array(getattr(entries, field.name), dtype=kinds.get(field.name, np.float64))
-            for field in fields(ActiveSet)
-        }
-    )
+    state = ActiveSet.of_columns(**msgspec.structs.asdict(entries))
     counts = {len(part) for part in (state.family, state.u, state.s, state.free, state.multipliers)}
     finite = all(np.isfinite(getattr(state, field.name)).all() for field in fields(state))
     known = ((state.family >= 0) & (state.family < len(program.families))).all()

@@ -11,6 +11,7 @@ from scipy.interpolate import CubicSpline
 
 from optlaws import InputError
 from tests.formulas.by_python import by_python
+from tests.formulas.mpmath_numbers import MPMATH
 from tests.formulas.trees import NAMES, text
 from tests.internals.formulas import (
     NUMPY,
@@ -22,7 +23,6 @@ from tests.internals.formulas import (
     derivative,
     enclosed,
     evaluate,
-    mpmath_arithmetic,
     quadratic,
     read,
 )
@@ -44,7 +44,7 @@ def test_every_arithmetic_agrees_with_python(batch: int) -> None:
         wanted = float(by_python(written, values))
         close = pytest.approx(wanted, rel=1e-11, abs=1e-12)
         assert float(evaluate(formula, values, NUMPY)) == close, written
-        assert float(evaluate(formula, {n: mpmath.mpf(v) for n, v in values.items()}, mpmath_arithmetic())) == close
+        assert float(evaluate(formula, {n: mpmath.mpf(v) for n, v in values.items()}, MPMATH)) == close
         assert float(casadi.DM(evaluate(formula, values, casadi_arithmetic()))) == close
         value = evaluate(formula, {n: arb(v) for n, v in values.items()}, BALLS)
         assert float(value.mid()) == close
@@ -59,7 +59,7 @@ def test_bounds_hold_what_rounding_loses(written: str, k: float) -> None:
     formula, box = read(written), Endpoints(np.array(k), np.array(k))
     around = enclosed(formula, {"k": box})
     with mpmath.workdps(60):
-        value = evaluate(formula, {"k": mpmath.mpf(k)}, mpmath_arithmetic())
+        value = evaluate(formula, {"k": mpmath.mpf(k)}, MPMATH)
         assert mpmath.mpf(float(around.low)) <= value <= mpmath.mpf(float(around.high))
 
 

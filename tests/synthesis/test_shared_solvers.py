@@ -19,14 +19,14 @@ def test_threads_and_children_answer_as_one_thread_does(rounds: int) -> None:
 
 
 def test_solvers_are_kept_as_many_as_their_rows_allow(monkeypatch: pytest.MonkeyPatch) -> None:
-    counts = [ipopt._Shapes(4, 1000, (RowShape(count, KINDS[0], (), None),)) for count in range(5)]
+    counts = [ipopt._Shapes(4, 1000, (RowShape(count, KINDS[0], (), None),), fine=False) for count in range(5)]
     monkeypatch.setattr(ipopt, "_solvers", {})
     monkeypatch.setattr(ipopt, "_build", lambda counts, **_: counts)
     for one in (0, 1, 0, 2, 0, 3, 4):
-        assert ipopt._solver((counts[one], False, False)) == counts[one]
+        assert ipopt._solver(counts[one]) == counts[one]
     # those used last; the rows of all kinds count
-    assert [shape[0] for shape in ipopt._solvers] == [counts[3], counts[4]]
-    ipopt._solver((ipopt._Shapes(4, 10_000), False, False))
+    assert list(ipopt._solvers) == [counts[3], counts[4]]
+    ipopt._solver(ipopt._Shapes(4, 10_000, (), fine=False))
     assert len(ipopt._solvers) == 1
 
 

@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.numbers import Array
+
+_TYPES = {"family": np.intp, "free": np.bool_}
+#: family, position u, sign, whether it may move, and multiplier
+Contact = tuple[int, float, float, bool, float]
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,6 +27,18 @@ class ActiveSet:
     free: NDArray[np.bool_]
     multipliers: Array
     equality_multipliers: Array
+
+    @classmethod
+    def of_columns(cls, **columns: Any) -> Self:  # noqa: ANN401 - lists or arrays
+        """An active set from sequences of numbers by its attributes."""
+        return cls(**{name: np.asarray(values, _TYPES.get(name, np.float64)) for name, values in columns.items()})
+
+    @classmethod
+    def of_contacts(cls, x: Array, contacts: Iterable[Contact], equality_multipliers: Array) -> Self:
+        """An active set from its contacts, one after the other."""
+        columns = zip(("family", "u", "s", "free", "multipliers"), zip(*contacts, strict=True), strict=False)
+        known = dict.fromkeys(("family", "u", "s", "free", "multipliers"), ()) | dict(columns)
+        return cls.of_columns(x=x, **known, equality_multipliers=equality_multipliers)
 
     def at(self, x: Array) -> ActiveSet:
         """With other variables; the same object for the same ones."""

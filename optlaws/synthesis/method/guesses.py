@@ -37,9 +37,7 @@ def vanishing(program: Program) -> ActiveSet | None:
 
 def of_variables(program: Program, x: Array) -> ActiveSet:
     """Variables without any contact."""
-    nothing, equations = np.empty(0), np.zeros(len(program.right))
-    places = np.empty(0, dtype=np.intp)
-    return ActiveSet(x, places, nothing, nothing, places.astype(np.bool_), nothing, equations)
+    return ActiveSet.of_contacts(x, (), np.zeros(len(program.right)))
 
 
 def initial_guess(program: Program, points: list[Points]) -> Array:

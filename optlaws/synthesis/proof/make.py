@@ -426,14 +426,8 @@ class _Tangents:
             vertex = vertex_on_points(program, points)
             if vertex is None:
                 return best
-            table, ends = LinearTable(program, points), np.cumsum([len(touching.u) for touching in points])
-            weights = np.concatenate(vertex.multipliers[:-1]) * table.length
-            binding = weights > 0.0
-            balanced = table.balanced(binding, weights, vertex.multipliers[-1])
-            multipliers, equations = weights.copy(), vertex.multipliers[-1]
-            if balanced is not None:
-                multipliers[binding], equations = balanced
-            proof = self._stated(np.split(multipliers / table.length, ends[:-1]), points, equations)
+            *weights, equations = LinearTable(program, points).sharp(vertex, points).multipliers
+            proof = self._stated(weights, points, equations)
             best = proof if best is None or proof.bound > best.bound else best
             if (
                 best.bound >= objective - CUTS_ENOUGH * max(abs(objective), CUTS_ENOUGH)

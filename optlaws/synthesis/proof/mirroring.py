@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from optlaws.laws import MotionLaw
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import nodes
-from optlaws.synthesis.families.active_set import ActiveSet
+from optlaws.synthesis.families.active_set import ActiveSet, Contact
 from optlaws.synthesis.families.family import ConstraintFamily, Program
 from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.problem.constants import PeakConstant
 from optlaws.synthesis.program.writer import Model
-
-Contact = tuple[int, float, float, float]
 
 
 def unfolded(model: Model, half: Model, optimum: ActiveSet) -> ActiveSet:
@@ -29,7 +29,7 @@ def unfolded(model: Model, half: Model, optimum: ActiveSet) -> ActiveSet:
         if family.name in names:
             target, sign = names[family.name], -1.0 if family.name in odd else 1.0
             for j in np.flatnonzero(optimum.family == i):
-                row = (float(optimum.u[j]), float(optimum.s[j]), float(optimum.multipliers[j]))
+                row = (float(optimum.u[j]), float(optimum.s[j]), False, float(optimum.multipliers[j]))
                 contacts += _both(model.program.families[target], family, (target, *row), sign)
     return _with_equations(model.program, _unfolded_point(model, half, optimum.x), contacts)
 
@@ -57,30 +57,20 @@ def _unfolded_point(model: Model, half: Model, x: Array) -> Array:
 
 
 def _both(family: ConstraintFamily, half: ConstraintFamily, contact: Contact, sign: float) -> list[Contact]:
-    target, u, s, multiplier = contact
+    target, u, s, free, multiplier = contact
     if family.domain[0] == family.domain[1]:
-        return [(target, family.domain[0], s, multiplier)]
+        return [(target, family.domain[0], s, free, multiplier)]
     k = half.k(np.array([u]))
     here, there = (float(np.clip(family.u(place), *family.domain)[0]) for place in (k, 1.0 - k))
-    return [(target, here, s, multiplier / 2.0), (target, there, s * sign, multiplier / 2.0)]
+    return [(target, here, s, free, multiplier / 2.0), (target, there, s * sign, free, multiplier / 2.0)]
 
 
 def _with_equations(program: Program, x: Array, contacts: list[Contact]) -> ActiveSet:
-    family, u, s, multipliers = (np.array(column) for column in zip(*contacts, strict=True)) if contacts else [[]] * 4
-    family = np.asarray(family, dtype=np.intp)
-    u, s, multipliers = (np.asarray(column, dtype=np.float64) for column in (u, s, multipliers))
+    state = ActiveSet.of_contacts(x, contacts, np.empty(0))
     slope = program.objective.copy()
     for i, rows in enumerate(program.families):
-        places = np.flatnonzero(family == i)
-        if len(places):
-            slope += multipliers[places] @ rows.jet(x, u[places], s[places]).gradient
+        own = state.family == i
+        if own.any():
+            slope += state.multipliers[own] @ rows.jet(x, state.u[own], state.s[own]).gradient
     weights = np.linalg.lstsq(program.equalities.T, -slope, rcond=None)[0] if len(program.right) else np.empty(0)
-    return ActiveSet(
-        x=x,
-        family=family,
-        u=u,
-        s=s,
-        free=np.zeros(len(u), dtype=np.bool_),
-        multipliers=multipliers,
-        equality_multipliers=np.asarray(weights, dtype=np.float64),
-    )
+    return replace(state, equality_multipliers=np.asarray(weights, dtype=np.float64))

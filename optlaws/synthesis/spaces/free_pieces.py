@@ -137,8 +137,8 @@ class PieceSpace(PiecewiseSpace):
         whole = len(self.k) == 2 and not self.symmetric
         if order == 1 or whole or self.boundary != BoundaryConditions.rest(order):
             return super().forward(slack)
-        pieces = self._wide(above_rest(self.pieces(1), self.pieces(order), order), len(slack))
-        return PieceFamily(RowName.RATIO, slack, domain=self.domain, series=np.zeros((1, 1)), pieces=pieces)
+        given = self.given(above_rest(self.pieces(1), self.pieces(order), order), len(slack))
+        return PieceFamily(RowName.RATIO, slack, domain=self.domain, **given)
 
     def equations(self) -> list[Equation]:
         """The end conditions that the base law and the splines do not keep by themselves."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.polynomial import chebyshev, legendre
@@ -116,6 +117,7 @@ class PiecewiseSpace(LawSpace):
     """A space given by the piecewise series of every derivative, on the first half only where `symmetric`."""
 
     products = PieceProductFamily
+    linear, root, mirrored = PieceFamily, PieceRootFamily, PieceMirroredFamily
 
     breaks: tuple[float, ...]  #: all breaks of the laws, of both halves
     continuity: int  #: order up to which the derivatives of every law are continuous at the breaks
@@ -140,20 +142,13 @@ class PiecewiseSpace(LawSpace):
     def _wide(self, pieces: PieceSeries, size: int) -> PieceSeries:
         return PieceSeries(pieces.breaks, self.widened(pieces.series, size))
 
-    def combination(
-        self,
-        nu: int,
-        weights: tuple[float, ...],
-        name: str,
-        slack: Array,
-        bound: float = 0.0,
-        *,
-        signs: tuple[float, ...] = (1.0, -1.0),
-    ) -> PieceFamily:
-        """Rows s (w0 a^(nu) + w1 a^(nu+1) + ...) <= slack . x + bound."""
-        pieces = self._wide(self.combined(nu, weights), len(slack))
-        jumps = nu + len(weights) - 1 > self.continuity
-        return PieceFamily(name, slack, bound, signs, self.domain, series=np.zeros((1, 1)), pieces=pieces, jumps=jumps)
+    def given(self, series: PieceSeries, size: int, *, jumps: bool = False) -> dict[str, Any]:
+        """The series on every piece, over all variables."""
+        return {"series": np.zeros((1, 1)), "pieces": self._wide(series, size), "jumps": jumps}
+
+    def turned(self, series: PieceSeries) -> PieceSeries:
+        """The pieces in the opposite order, each turned."""
+        return mirrored(series)
 
     def combined(self, nu: int, weights: tuple[float, ...]) -> PieceSeries:
         """Series of w0 a^(nu) + w1 a^(nu+1) + ..., the base law's column last."""
@@ -191,19 +186,7 @@ class PiecewiseSpace(LawSpace):
     def below(self, slack: Array, peak: float = 0.5) -> ConstraintFamily:
         """Rows b <= b(peak), divided by what they vanish like there: undivided they would be ill posed."""
         series = below_peak(self.pieces(2), self.pieces(3), 1.0 - 2.0 * peak, smooth=self.continuity > 1)
-        pieces = self._wide(series, len(slack))
-        return PieceFamily(
-            RowName.BELOW_PEAK, slack, domain=self.domain, series=np.zeros((1, 1)), pieces=pieces, jumps=True
-        )
-
-    def from_rest(
-        self, name: str, slack: Array, *, backward: bool = False, weights: tuple[float, ...] = (1.0,)
-    ) -> ConstraintFamily:
-        """Rows |b| / sqrt(2k) <= slack . x for k up to 1/2; |b| / sqrt(2 - 2k) for the other half where `backward`."""
-        pieces, signs, half = self._wide(self.combined(1, weights), len(slack)), (1.0, -1.0), (0.0, 1.0)
-        if backward:
-            return PieceMirroredFamily(name, slack, 0.0, signs, half, series=np.zeros((1, 1)), pieces=mirrored(pieces))
-        return PieceRootFamily(name, slack, 0.0, signs, half, series=np.zeros((1, 1)), pieces=pieces)
+        return PieceFamily(RowName.BELOW_PEAK, slack, domain=self.domain, **self.given(series, len(slack), jumps=True))
 
     def quadrature(self, nu: int) -> Quadrature:
         """Gauss points on every piece; moments are Legendre polynomials on one piece each."""

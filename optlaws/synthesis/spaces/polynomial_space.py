@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 from numpy.polynomial import chebyshev, legendre
@@ -22,9 +23,7 @@ from optlaws.synthesis.families.family import (
     ConstraintFamily,
     EvenFamily,
     LinearFamily,
-    MirroredFamily,
     RatioFamily,
-    RootFamily,
 )
 from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions, law_from_z
@@ -182,19 +181,14 @@ class PolynomialSpace(LawSpace):
             mirrored[::2] = 0.0
         return mirrored
 
-    def combination(
-        self,
-        nu: int,
-        weights: tuple[float, ...],
-        name: str,
-        slack: Array,
-        bound: float = 0.0,
-        *,
-        signs: tuple[float, ...] = (1.0, -1.0),
-    ) -> LinearFamily:
-        """Rows s (w0 a^(nu) + w1 a^(nu+1) + ...) <= slack . x + bound."""
-        series = self.widened(self.combined(nu, weights), len(slack))
-        return LinearFamily(name, slack, bound, signs, self.domain, series=series)
+    def given(self, series: Array, size: int, *, jumps: bool = False) -> dict[str, Any]:
+        """The series, over all variables."""
+        del jumps
+        return {"series": self.widened(series, size)}
+
+    def turned(self, series: Array) -> Array:
+        """The series with the sign of odd terms changed."""
+        return series * (-1.0) ** np.arange(len(series))[:, None]
 
     def combined(self, nu: int, weights: tuple[float, ...]) -> Array:
         """Series of w0 a^(nu) + w1 a^(nu+1) + ..., the base law's as the last column."""
@@ -244,8 +238,8 @@ class PolynomialSpace(LawSpace):
         """Rows b <= b(peak) of laws with c(peak) = 0, divided by (2k - 2 peak)²: else they were ill posed."""
         if self.symmetric:
             return EvenFamily(RowName.BELOW_PEAK, slack, series=self.widened(-_chord(self.series(1)[::2]), len(slack)))
-        series = self._below(1.0 - 2.0 * peak)
-        return LinearFamily(RowName.BELOW_PEAK, slack, domain=self.domain, series=self.widened(series, len(slack)))
+        series = self.widened(self._below(1.0 - 2.0 * peak), len(slack))
+        return LinearFamily(RowName.BELOW_PEAK, slack, domain=self.domain, series=series)
 
     def _below(self, centre: float) -> Array:
         j = self.series(3)
@@ -263,16 +257,6 @@ class PolynomialSpace(LawSpace):
             return LinearFamily(RowName.RATIO, slack, domain=self.domain, series=self.widened(series, len(slack)))
         ratio = self.widened(series[::2], len(slack))
         return RatioFamily(RowName.RATIO, slack, series=ratio, index=self.order - 0.5, scale=-scale)
-
-    def from_rest(
-        self, name: str, slack: Array, *, backward: bool = False, weights: tuple[float, ...] = (1.0,)
-    ) -> ConstraintFamily:
-        """Rows |b| / sqrt(2k) <= slack . x for k up to 1/2; |b| / sqrt(2 - 2k) for the other half where `backward`."""
-        series, signs, half = self.widened(self.combined(1, weights), len(slack)), (1.0, -1.0), (0.0, 1.0)
-        if not backward:
-            return RootFamily(name, slack, 0.0, signs, half, series=series)
-        mirrored = series * (-1.0) ** np.arange(len(series))[:, None]
-        return MirroredFamily(name, slack, 0.0, signs, half, series=mirrored)
 
     @kept_property
     def _ratio_scale(self) -> Array:

@@ -5,13 +5,20 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
 from optlaws.laws import MotionLaw
 from optlaws.numbers import Array
-from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily, ProductFamily
+from optlaws.synthesis.families.family import (
+    ConstraintFamily,
+    LinearFamily,
+    MirroredFamily,
+    NormFamily,
+    ProductFamily,
+    RootFamily,
+)
 from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 
@@ -54,6 +61,9 @@ class LawSpace(ABC):
     """
 
     #: the rows of a product of two combinations
+    linear: ClassVar[type[LinearFamily]] = LinearFamily
+    root: ClassVar[type[RootFamily]] = RootFamily
+    mirrored: ClassVar[type[MirroredFamily]] = MirroredFamily
     products: ClassVar[type[ProductFamily]] = ProductFamily
 
     boundary: BoundaryConditions
@@ -92,7 +102,6 @@ class LawSpace(ABC):
         """Rows s a^(nu) <= slack . x + bound."""
         return self.combination(nu, (1.0,), name, slack, bound, signs=signs)
 
-    @abstractmethod
     def combination(
         self,
         nu: int,
@@ -104,6 +113,20 @@ class LawSpace(ABC):
         signs: tuple[float, ...] = (1.0, -1.0),
     ) -> LinearFamily:
         """Rows s (w0 a^(nu) + w1 a^(nu+1) + ...) <= slack . x + bound, on the space's part of the interval."""
+        given = self.given(self.combined(nu, weights), len(slack), jumps=self.jumps(nu + len(weights) - 1))
+        return self.linear(name, slack, bound, signs, self.domain, **given)
+
+    @abstractmethod
+    def combined(self, nu: int, weights: tuple[float, ...]) -> Any:  # noqa: ANN401 - as `given` takes it
+        """Series of w0 a^(nu) + w1 a^(nu+1) + ..., the base law's as the last column."""
+
+    @abstractmethod
+    def given(self, series: Any, size: int, *, jumps: bool = False) -> dict[str, Any]:  # noqa: ANN401 - of pieces or of the whole
+        """What families over `size` variables take for series of a function, which may jump at edges."""
+
+    @abstractmethod
+    def turned(self, series: Any) -> Any:  # noqa: ANN401 - of pieces or of the whole
+        """The series of the same functions of -u."""
 
     def backward(self, slack: Array, bound: float) -> LinearFamily:
         """Rows -b <= slack . x + bound."""
@@ -153,11 +176,13 @@ class LawSpace(ABC):
         """Rows b >= 0; those of laws from rest to rest may be divided by what they vanish like at the ends."""
         return self.derivative(1, RowName.FORWARD, slack, signs=(-1.0,))
 
-    @abstractmethod
     def from_rest(
         self, name: str, slack: Array, *, backward: bool = False, weights: tuple[float, ...] = (1.0,)
     ) -> ConstraintFamily:
         """Rows |b| / sqrt(2k) <= slack . x for k up to 1/2; |b| / sqrt(2 - 2k) for the other half where `backward`."""
+        series = self.combined(1, weights)
+        kind, series = (self.mirrored, self.turned(series)) if backward else (self.root, series)
+        return kind(name, slack, 0.0, (1.0, -1.0), (0.0, 1.0), **self.given(series, len(slack)))
 
     @abstractmethod
     def quadrature(self, nu: int) -> Quadrature:

@@ -59,6 +59,11 @@ def at(polynomial: fmpq_poly, x: arb) -> arb:
     return value
 
 
+def root(square: arb) -> arb:
+    """The root of what is not negative, though its ball may reach below 0."""
+    return square.sqrt() if square > 0 else arb(0).union(square.upper().max(arb(0)).sqrt())
+
+
 @contextmanager
 def series_length(count: int) -> Iterator[None]:
     """Taylor series of so many terms."""

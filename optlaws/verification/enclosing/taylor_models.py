@@ -7,7 +7,7 @@ from fractions import Fraction
 from functools import reduce
 from typing import Any
 
-from flint import arb, arb_poly, arb_series, ctx, fmpq_poly
+from flint import arb, arb_mat, arb_poly, arb_series, ctx, fmpq_poly
 
 from optlaws.tolerances import GREATEST_ENCLOSED, GREATEST_NEGLIGIBLE, TAYLOR_REST
 from optlaws.verification.enclosing.balls import Extremes, ball, series_length
@@ -54,6 +54,7 @@ def cells(
     enough: Callable[[Sequence[Taylor], Fraction], bool],
     *,
     terms: int = _TERMS,
+    most: float = _MOST,
 ) -> Iterator[tuple[Ends, list[Taylor]]]:
     """Many cells with the Taylor polynomials of functions there, and how far these are off.
 
@@ -72,6 +73,8 @@ def cells(
         Whether a cell need not be cut, from the polynomials and its length.
     terms
         How many terms there are at most.
+    most
+        After how many cells none is cut.
     """
     left, count = [ends], 0
     while left:
@@ -82,7 +85,7 @@ def cells(
             pairs = zip(*(functions(variable([place, half])) for place in places), strict=True)
             parts = [_taylor(about, around, terms) for about, around in pairs]
         count += 1
-        if high - low < shortest or count > _MOST or enough(parts, high - low):
+        if high - low < shortest or count > most or enough(parts, high - low):
             yield (low, high), parts
         else:
             left += [(low, middle), (middle, high)]
@@ -233,3 +236,13 @@ def _product(polynomial: arb_poly, part: Taylor, cell: tuple[arb, arb]) -> arb:
     if not part[1].is_zero():
         value += 2 * local(_BALL) * part[1] * _BALL
     return value * reach
+
+
+def integrals_of_products(factors: Sequence[Taylor], parts: Sequence[Taylor]) -> arb_mat:
+    """Balls that hold the integrals from -1 to 1 of products of functions, all with as many terms; a row a factor."""
+    first, other = (arb_mat([centre for centre, _ in several]) for several in (factors, parts))
+    means = [arb(2) / (n + 1) if n % 2 == 0 else arb(0) for n in range(first.ncols() + other.ncols())]
+    exact = first * arb_mat([means[i : i + other.ncols()] for i in range(first.ncols())]) * other.transpose()
+    known = [[(sum(map(abs, centre), arb(0)), off) for centre, off in several] for several in (factors, parts)]
+    rooms = [[size * rest + away * (most + rest) for most, rest in known[1]] for size, away in known[0]]
+    return exact + arb_mat([[arb(0, (2 * room).upper()) for room in row] for row in rooms])

@@ -115,17 +115,9 @@ def _kept_by(basis: PeriodicPieces, functions: list[Functions]) -> list[Function
 
 def _null_space(rows: list[list[fmpq]]) -> list[list[fmpq]]:
     """Vectors that every row makes 0, as many as there are independent ones."""
-    reduced, rank = fmpq_mat(len(rows), len(rows[0]), [entry for row in rows for entry in row]).rref()
-    count = len(rows[0])
-    leading = [next(j for j in range(count) if reduced[i, j] != 0) for i in range(rank)]
-    ways = []
-    for j in sorted(set(range(count)) - set(leading)):
-        way = [fmpq(0)] * count
-        way[j] = fmpq(1)
-        for i, place in enumerate(leading):
-            way[place] = -reduced[i, j]
-        ways.append(way)
-    return ways
+    whole, _ = fmpq_mat(rows).numer_denom()
+    vectors, count = whole.nullspace()
+    return [[fmpq(vectors[i, j]) for i in range(whole.ncols())] for j in range(count)]
 
 
 class _FreePieces(ExactSpace):

@@ -44,6 +44,7 @@ from optlaws.verification.exact.motion_formulas import (
 )
 from optlaws.verification.exact.of_basis import exact_space
 from optlaws.verification.machines.certificate_rows import BallRow, Corner, Maker, Names, UpperLimit, cone, mode_edges
+from optlaws.verification.machines.output_motion import of_space
 from optlaws.verification.machines.outputs import KnownOutput, KnownOutputRms, OutputRows
 from optlaws.verification.machines.residuals import ExactResidual, ModeConstant, ResidualConstant
 
@@ -266,10 +267,10 @@ class ExactRows:
 
     def _of_machine(self, constant: OfMachine, limit: UpperLimit) -> None:
         if isinstance(constant, ResidualConstant):
-            amplitudes = partial(ExactResidual(constant).rows, self.space)
+            amplitudes = partial(ExactResidual(constant).rows, of_space(self.space))
             makers = {constant.name: cone(amplitudes, limit, arb(limit.high or 1.0))}
         elif isinstance(constant, ModeConstant):
-            makers, corners = mode_edges(constant, self.space, self._solved, limit)
+            makers, corners = mode_edges(constant, of_space(self.space), self._solved, limit)
             self.corners.update(corners)
         else:
             self._output(constant, limit)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
+from functools import cache
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -121,14 +122,9 @@ class ExactSpace:
     def _smooth(self) -> bool:
         return self.continuity is None or self.continuity > 1
 
-    def _chords(self, peak: Fraction) -> list[Functions]:
-        if peak not in self._kept_chords:
-            self._kept_chords[peak] = self._made_chords(peak)
-        return self._kept_chords[peak]
-
     @kept_property
-    def _kept_chords(self) -> dict[Fraction, list[Functions]]:
-        return {}
+    def _chords(self) -> Callable[[Fraction], list[Functions]]:
+        return cache(self._made_chords)
 
     def _made_chords(self, peak: Fraction) -> list[Functions]:
         centre, power = rational(2 * peak - 1), 2 if self._smooth else 1

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import partial
@@ -13,7 +13,7 @@ from flint import acb, arb
 from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.verification.enclosing.balls import ball
-from optlaws.verification.machines.output_motion import Space
+from optlaws.verification.machines.output_motion import DrivenStretch
 from optlaws.verification.machines.residuals import ExactModeResidual, ModeConstant
 
 Names = Mapping[str, float | arb]
@@ -74,7 +74,7 @@ def cone(amplitudes: Callable[[Fraction], list[acb]], limit: UpperLimit, unit: a
 
 
 def mode_edges(
-    constant: ModeConstant, space: Space, solved: LawSpace, limit: UpperLimit
+    constant: ModeConstant, drives: Sequence[DrivenStretch], solved: LawSpace, limit: UpperLimit
 ) -> tuple[dict[str, Maker], dict[Corner, tuple[Corner, float]]]:
     """A cone for each edge of a box by its name, in the units of the certificate; and corners that two edges have.
 
@@ -85,7 +85,7 @@ def mode_edges(
     units = [constant.unit(solved, i, float(limit.high), sought=sought) for i in range(count)]
     named = [f"{constant.name}, edge {i + 1}" if i else constant.name for i in range(count)]
     makers = {
-        name: cone(partial(exact.rows, space, i), limit, ball(unit))
+        name: cone(partial(exact.rows, drives, i), limit, ball(unit))
         for i, (name, unit) in enumerate(zip(named, units, strict=True))
     }
     corners = {

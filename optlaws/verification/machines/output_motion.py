@@ -9,10 +9,12 @@ from itertools import pairwise
 from math import comb, factorial
 from typing import Protocol
 
-from flint import acb, acb_mat, arb, arb_mat, fmpq, fmpq_poly
+from flint import acb, acb_mat, acb_series, arb, arb_mat, arb_series, ctx, fmpq, fmpq_poly
 
 from optlaws.errors import InputError
-from optlaws.verification.enclosing.balls import ball, rational
+from optlaws.kept import kept_property
+from optlaws.verification.enclosing.ball_formulas import composed
+from optlaws.verification.enclosing.balls import ball, rational, series_length
 from optlaws.verification.enclosing.pieces import PolynomialPiece
 from optlaws.verification.machines.transfer import Pole, Transfer
 
@@ -43,6 +45,16 @@ class DrivenStretch:
     def last(self) -> list[fmpq]:
         """The displacements where the stretch ends."""
         return [column(rational(self.length)) for column in self.columns]
+
+    @kept_property
+    def ends(self) -> tuple[list[list[fmpq]], list[list[fmpq]]]:
+        """All derivatives of the displacements where the stretch begins and where it ends, a row for each order."""
+        begin, end, columns = [self.first], [self.last], self.columns
+        while any(column.degree() > 0 for column in columns):
+            columns = [column.derivative() for column in columns]
+            begin.append([column(fmpq(0)) for column in columns])
+            end.append([column(rational(self.length)) for column in columns])
+        return begin, end
 
 
 class Space(Protocol):
@@ -130,8 +142,20 @@ class OutputStretch:
     #: start, length: when, in durations of the rise
     start: Fraction
     length: Fraction
-    polynomials: arb_mat  #: coefficients, a row for each power, a column for each law
-    free: list[acb_mat]  #: for each pole factors of s^l/l! exp(root s), a row for each l, a column for each law
+    polynomials: Columns  #: one for each law
+    #: for each pole factors of s^l/l! exp(root s), a column for each law, a row for each l: real parts, then imaginary
+    free: list[arb_mat]
+
+    @property
+    def degree(self) -> int:
+        """The greatest degree of the polynomials."""
+        return max(polynomial.degree() for polynomial in self.polynomials)
+
+    @property
+    def size(self) -> arb:
+        """The sum of the magnitudes of what the outputs are made of."""
+        numbers = [*(arb(value) for polynomial in self.polynomials for value in polynomial.coeffs())]
+        return sum(map(abs, [*numbers, *(value for free in self.free for value in free.entries())]), arb(0))
 
 
 @dataclass(frozen=True, eq=False)
@@ -142,28 +166,38 @@ class OutputMotion:
     stretches: Sequence[OutputStretch]
     laws: int  #: how many there are
 
-    def raised(self, by: arb, columns: Sequence[int]) -> OutputMotion:
+    def raised(self, by: fmpq, columns: Sequence[int]) -> OutputMotion:
         """The motion with a number added to some of the outputs."""
         if by == 0:
             return self
+        chosen = {range(self.laws)[column] for column in columns}
         stretches = []
         for stretch in self.stretches:
-            rows = stretch.polynomials.tolist()
-            for column in columns:
-                rows[0][column] += by
-            stretches.append(replace(stretch, polynomials=arb_mat(rows)))
+            raised = [column + by if i in chosen else column for i, column in enumerate(stretch.polynomials)]
+            stretches.append(replace(stretch, polynomials=raised))
         return replace(self, stretches=stretches)
 
     def row(self, time: Fraction) -> list[arb]:
         """The outputs of all laws at a time; where they jump, those after it."""
         stretch = [part for part in self.stretches if part.start <= time][-1]
-        s = ball(time - stretch.start)
-        powers = arb_mat([[s**i for i in range(stretch.polynomials.nrows())]])
-        total = list((powers * stretch.polynomials).entries())
+        with series_length(2):
+            return [output[0] for output in self.series(stretch, arb_series([ball(time), arb(1)]))]
+
+    def series(self, stretch: OutputStretch, time: arb_series) -> list[arb_series]:
+        """The outputs of all laws on a stretch as Taylor series, from that of the time."""
+        s = time - ball(stretch.start)
+        total = [composed(polynomial, s) for polynomial in stretch.polynomials]
         for pole, free in zip(self.poles, stretch.free, strict=True):
-            wave = (pole.root * s).exp() * pole.count
-            free_part = acb_mat([[wave * acb(s**i / factorial(i)) for i in range(free.nrows())]]) * free
-            total = [term + other.real for term, other in zip(total, free_part.entries(), strict=True)]
+            wave, waves = (acb_series(s.coeffs()) * pole.root).exp() * pole.count, []
+            for i in range(1, len(pole.shares) + 1):
+                waves.append([wave[j] for j in range(ctx.cap)])
+                wave = wave * acb_series(s.coeffs()) / i
+            rows = [
+                *([value.real for value in row] for row in waves),
+                *([-value.imag for value in row] for row in waves),
+            ]
+            outputs = (free.transpose() * arb_mat(rows)).tolist()
+            total = [term + arb_series(row) for term, row in zip(total, outputs, strict=True)]
         return total
 
 
@@ -200,10 +234,9 @@ class _Chains:
     def moved(self, driven: Sequence[DrivenStretch], states: States) -> Iterator[OutputStretch]:
         """The output on each stretch, from given states on; leaves the last ones."""
         for drive in driven:
-            derivatives = _derivatives(drive)
-            forced = [_forced(pole, derivatives, drive) for pole in self.poles]
+            forced = [_forced(pole, drive) for pole in self.poles]
             away = [state - part for state, (part, _) in zip(states, forced, strict=True)]
-            free = [acb_mat(_weighted(pole, rows)) for pole, rows in zip(self.poles, away, strict=True)]
+            free = [_weighted(pole, rows) for pole, rows in zip(self.poles, away, strict=True)]
             yield OutputStretch(drive.start, drive.length, self._polynomials(drive), free)
             states = [
                 part + _chain(pole, ball(drive.length)) * rows
@@ -217,17 +250,15 @@ class _Chains:
         period = ball(driven[-1].stop - driven[0].start)
         return [_returned(pole, period, rows) for pole, rows in zip(self.poles, self.last, strict=True)]
 
-    def _polynomials(self, drive: DrivenStretch) -> arb_mat:
+    def _polynomials(self, drive: DrivenStretch) -> Columns:
         """What the output is apart from free motion: the transfer function's series at 0, applied to the law."""
-        powers = _coefficients(drive)
-        count, zeros = len(powers), self.transfer.zeros
-        series = self.transfer.laurent(count)
-
-        def factor(row: int, i: int) -> arb:
-            return arb(series[i - row] * fmpq(factorial(i), factorial(row))) if row <= i + zeros else arb(0)
-
-        turn = [[factor(row, i) for i in range(count)] for row in range(count + zeros)]
-        return arb_mat(turn) * arb_mat(powers)
+        columns, total = drive.columns, [fmpq_poly([0])] * self.laws
+        for _ in range(self.transfer.zeros):
+            columns = [column.integral() for column in columns]
+        for factor in self.transfer.laurent(max(0, *(column.degree() for column in drive.columns))).values():
+            total = [term + factor * column for term, column in zip(total, columns, strict=True)]
+            columns = [column.derivative() for column in columns]
+        return total
 
 
 def _driving(drive: DrivenStretch, nu: int) -> DrivenStretch:
@@ -235,34 +266,16 @@ def _driving(drive: DrivenStretch, nu: int) -> DrivenStretch:
     return DrivenStretch(drive.start, drive.length, [column.derivative() for column in drive.columns]) if nu else drive
 
 
-def _coefficients(drive: DrivenStretch) -> list[list[arb]]:
-    """A row for each power of time, a column for each law."""
-    count = max(1, *(len(column.coeffs()) for column in drive.columns))
-    return [[arb(column[i]) for column in drive.columns] for i in range(count)]
-
-
-def _derivatives(drive: DrivenStretch) -> tuple[acb_mat, acb_mat]:
-    """All derivatives of the columns where a stretch begins and where it ends, a row for each order."""
-    first: list[list[acb]] = []
-    last: list[list[acb]] = []
-    columns, end = drive.columns, rational(drive.length)
-    while any(column.degree() >= 0 for column in columns) or not first:
-        first.append([acb(arb(column[0])) for column in columns])
-        last.append([acb(arb(column(end))) for column in columns])
-        columns = [column.derivative() for column in columns]
-    return acb_mat(first), acb_mat(last)
-
-
-def _forced(pole: Pole, derivatives: tuple[acb_mat, acb_mat], drive: DrivenStretch) -> tuple[acb_mat, acb_mat]:
+def _forced(pole: Pole, drive: DrivenStretch) -> tuple[acb_mat, acb_mat]:
     """A motion of the chain that is a polynomial: where the stretch begins and where it ends."""
     if pole.root == 0:
         return _integrated(pole, drive)
     inverse = 1 / pole.root
-    orders = range(derivatives[0].nrows())
+    first, last = (acb_mat([[acb(arb(value)) for value in row] for row in rows]) for rows in drive.ends)
+    orders = range(first.nrows())
     turn = acb_mat(
         [[comb(j + i - 1, i) * (-1) ** j * inverse ** (j + i) for i in orders] for j in range(1, len(pole.shares) + 1)]
     )
-    first, last = derivatives
     return turn * first, turn * last
 
 
@@ -275,11 +288,12 @@ def _integrated(pole: Pole, drive: DrivenStretch) -> tuple[acb_mat, acb_mat]:
     return 0 * matrix, matrix
 
 
-def _weighted(pole: Pole, away: acb_mat) -> acb_mat:
-    """What s^l/l! exp(root s) has as factors in the output."""
+def _weighted(pole: Pole, away: acb_mat) -> arb_mat:
+    """What s^l/l! exp(root s) has as factors in the output, real parts and below them imaginary ones."""
     count = len(pole.shares)
     turn = [[pole.shares[j + row] if j + row < count else acb(0) for j in range(count)] for row in range(count)]
-    return acb_mat(turn) * away
+    rows = (acb_mat(turn) * away).tolist()
+    return arb_mat([*([value.real for value in row] for row in rows), *([value.imag for value in row] for row in rows)])
 
 
 def _chain(pole: Pole, length: arb) -> acb_mat:

@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
+from functools import partial
+from math import inf
 from typing import Protocol, runtime_checkable
 
-from flint import arb
+from flint import arb, arb_mat, arb_poly, arb_series, fmpq_poly
 
+from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.synthesis.spaces.space import LawSpace
-from optlaws.verification.enclosing.balls import ball
+from optlaws.tolerances import OUTPUT_REST
+from optlaws.verification.enclosing.balls import ball, rational, root
 from optlaws.verification.enclosing.pieces import PolynomialPiece
+from optlaws.verification.enclosing.taylor_models import Ends, Taylor, cells, greatest_magnitude, integrals_of_products
 from optlaws.verification.machines.output_motion import (
     DrivenStretch,
     OutputMotion,
@@ -24,7 +29,6 @@ from optlaws.verification.machines.output_motion import (
     response,
     with_column,
 )
-from optlaws.verification.machines.taylor_cells import greatest_value, moments, products, root
 from optlaws.verification.machines.transfer import MachineConstant, Transfer
 
 
@@ -93,7 +97,7 @@ class ExactOutput:
 
     def response(self, rise: Sequence[DrivenStretch], laws: Sequence[int]) -> OutputMotion:
         """The output at the precision at work; to columns that are laws, and no parts of one, the offset is added."""
-        return self._moved(rise).raised(ball(self.constant.offset), laws)
+        return self._moved(rise).raised(rational(self.constant.offset), laws)
 
     @property
     def both(self) -> bool:
@@ -162,3 +166,52 @@ class OutputRows:
 
 #: by how much a place may be beyond an end
 NEAR = Fraction(1, 10**9)
+
+
+#: terms of Taylor polynomials, beside those that the law itself needs, and how many cells are too many
+_TERMS, _MOST = 48, 20000
+
+
+def _cells(motion: OutputMotion, start: Fraction, stop: Fraction) -> Iterator[tuple[Ends, list[Taylor]]]:
+    """Cells between two times, on each of which outputs are polynomials but for next to nothing."""
+    left = _MOST
+    for stretch in motion.stretches:
+        ends = max(start, stretch.start), min(stop, stretch.start + stretch.length)
+        functions, enough = partial(motion.series, stretch), partial(_next_to_nothing, OUTPUT_REST * stretch.size)
+        terms = max(_TERMS, stretch.degree + 1)
+        several = cells(functions, arb_series, ends, Fraction(0), enough, terms=terms, most=inf)
+        for cell in several if ends[0] < ends[1] else ():
+            yield cell
+            left -= 1
+            if left < 0:
+                raise InputError(f"the output vibrates too fast to be enclosed: more than {_MOST} pieces")
+
+
+def _next_to_nothing(least: arb, parts: Sequence[Taylor], _: Fraction) -> bool:
+    """Whether all rests are small; what only rounding is made of needs no smaller cells."""
+    return all(bool(rest < least) for _, rest in parts) or not any(bool(rest > 0) for _, rest in parts)
+
+
+def greatest_value(motion: OutputMotion, start: Fraction, stop: Fraction, signs: Sequence[float] = (1.0, -1.0)) -> arb:
+    """A ball that holds the greatest magnitude of a single law's output between two times, or that of one side."""
+    return greatest_magnitude([(arb_poly(centre), off) for _, [(centre, off)] in _cells(motion, start, stop)], signs)
+
+
+def products(motion: OutputMotion, start: Fraction, stop: Fraction) -> list[arb]:
+    """Balls that hold the integrals between two times of each law's output times that of the last law."""
+    total = arb_mat(1, motion.laws)
+    for (low, high), parts in _cells(motion, start, stop):
+        total += integrals_of_products(parts[-1:], parts) * ball((high - low) / 2)
+    return list(total.entries())
+
+
+def moments(motion: OutputMotion, start: Fraction, stop: Fraction, count: int) -> list[list[arb]]:
+    """Balls that hold the means between two times of each law's output times Legendre's polynomials."""
+    total, whole = arb_mat(count, motion.laws), stop - start
+    for (low, high), parts in _cells(motion, start, stop):
+        share = (high - low) / whole
+        place = fmpq_poly([rational((low + high - 2 * start) / whole - 1), rational(share)])
+        local = [arb_poly(fmpq_poly.legendre_p(n)(place)) for n in range(count)]
+        factors = [([polynomial[i] for i in range(count)], arb(0)) for polynomial in local]
+        total += integrals_of_products(factors, parts) * ball(share / 2)
+    return total.tolist()

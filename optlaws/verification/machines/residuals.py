@@ -6,83 +6,39 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial, reduce
-from itertools import pairwise
+from itertools import accumulate
+from operator import mul
 from typing import Any, Protocol, TypeVar, runtime_checkable
 
-from flint import acb, acb_series, arb, arb_poly, fmpq
+from flint import acb, acb_series, arb, arb_poly
 
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.tolerances import SAME_FREQUENCY, SAME_ROOT, TAYLOR_REST, VIBRATING
-from optlaws.verification.enclosing.balls import ball
+from optlaws.verification.enclosing.balls import ball, root
 from optlaws.verification.enclosing.pieces import PolynomialPiece
 from optlaws.verification.enclosing.taylor_models import Taylor, cells, greatest_magnitude
-from optlaws.verification.machines.output_motion import Space
-from optlaws.verification.machines.taylor_cells import root
+from optlaws.verification.machines.output_motion import DrivenStretch, of_pieces
 from optlaws.verification.machines.transfer import MachineConstant, Rational, roots, transforms
 
-#: b and its derivatives at the start and at the end of a piece
-Ends = tuple[list[fmpq], list[fmpq]]
 Number = TypeVar("Number", acb, acb_series)
-_HALF = Fraction(1, 2)
 #: no stretch with a Taylor polynomial of its own is shorter
 _SHORTEST = Fraction(1, 2**20)
 
 
-def ends_of(space: Space) -> list[list[Ends]]:
-    """The derivatives at the ends of the pieces of every function of a space."""
-    degree = max(polynomial.degree() for part in space.derivative(0) for polynomial in part)
-    derivatives = [space.derivative(nu) for nu in range(1, degree + 1)]
-    edges = [2 * fmpq(k.numerator, k.denominator) - 1 for k in space.breaks]
-    return [
-        [
-            (
-                [derivative[i][column](low) for derivative in derivatives],
-                [derivative[i][column](high) for derivative in derivatives],
-            )
-            for i, (low, high) in enumerate(pairwise(edges))
-        ]
-        for column in range(len(space.derivative(0)[0]))
-    ]
-
-
-def ends_of_law(pieces: Sequence[PolynomialPiece]) -> tuple[list[Fraction], list[list[Ends]]]:
-    """The breaks of a stored law, and the derivatives at the ends of its pieces."""
-    breaks = [pieces[0].start, *(piece.stop for piece in pieces)]
-    ends = []
-    for piece in pieces:
-        orders = range(1, piece.derivative(0).degree() + 1)
-        ends.append(([piece.exact(nu, piece.start) for nu in orders], [piece.exact(nu, piece.stop) for nu in orders]))
-    return breaks, [ends]
-
-
-def velocity_transforms(w: Number, breaks: Sequence[Fraction], columns: Sequence[Sequence[Ends]]) -> list[Number]:
-    """Integrals of exp(w (1-k)) b(k); where the breaks end at 1/2, b(1-k) = b(k)."""
-    total = _between_breaks(w, breaks, columns)
-    if breaks[-1] == _HALF:
-        mirrored = _between_breaks(-w, breaks, columns)
-        total = [transform + w.exp() * other for transform, other in zip(total, mirrored, strict=True)]
-    return total
-
-
-def _between_breaks(w: Number, breaks: Sequence[Fraction], columns: Sequence[Sequence[Ends]]) -> list[Number]:
-    inverse, powers = 1 / w, [1 / w]
-    for _ in range(max(len(start) for column in columns for start, _ in column)):
-        powers.append(powers[-1] * inverse)
-    waves = [(w * acb(ball(1 - k))).exp() for k in breaks]
+def velocity_transforms(w: Number, drives: Sequence[DrivenStretch]) -> list[Number]:
+    """Integrals of exp(w (1-k)) b(k) for all laws: by parts, from their derivatives at the ends of stretches."""
     nothing = w * 0
-    transforms = []
-    for column in columns:
-        total = nothing
-        for (start, stop), before, after in zip(column, waves, waves[1:], strict=False):
-            total = total + before * _sum(powers, start, nothing) - after * _sum(powers, stop, nothing)
-        transforms.append(total)
-    return transforms
-
-
-def _sum(powers: Sequence[Number], values: Sequence[fmpq], nothing: Number) -> Number:
-    return sum((power * acb(arb(value)) for power, value in zip(powers, values, strict=False) if value != 0), nothing)
+    powers = list(accumulate([1 / w] * max(len(drive.ends[0]) - 1 for drive in drives), mul))
+    total = [nothing] * len(drives[0].columns)
+    for drive in drives:
+        for k, rows, sign in zip((drive.start, drive.stop), drive.ends, (1, -1), strict=True):
+            wave = (w * acb(ball(1 - k))).exp() * sign
+            for i, column in enumerate(zip(*rows[1:], strict=True)):
+                terms = zip(powers, column, strict=False)
+                total[i] += wave * sum((power * acb(arb(value)) for power, value in terms if value != 0), nothing)
+    return total
 
 
 def greatest_modulus(functions: Sequence[Callable[[Any], Any]], low: Fraction, high: Fraction) -> arb:
@@ -138,15 +94,13 @@ class ExactResidual:
         self.damping, self.design_damping = Fraction(constant.damping), Fraction(constant.design_damping)
         self.design = None if constant.design is None else Fraction(constant.design)
 
-    def amplitudes(
-        self, frequency: Number, breaks: Sequence[Fraction], columns: Sequence[Sequence[Ends]]
-    ) -> list[Number]:
+    def amplitudes(self, frequency: Number, drives: Sequence[DrivenStretch]) -> list[Number]:
         """Of laws given by the ends of their pieces; where the breaks end at 1/2, b(1-k) = b(k)."""
         sine = ball((1 - self.damping) * (1 + self.damping)).sqrt()
         root = acb(ball(-self.damping), sine)
         w = frequency * root
         scale = frequency * frequency * self._detuning(frequency, w) * (-_I * acb(ball(-self.damping), -sine) / sine)
-        return [scale * transform for transform in velocity_transforms(w, breaks, columns)]
+        return [scale * transform for transform in velocity_transforms(w, drives)]
 
     def _detuning(self, frequency: Number, w: Number) -> Number:
         """What the cam made for the design frequency leaves."""
@@ -156,15 +110,15 @@ class ExactResidual:
         apart = frequency * acb(ball(-self.damping)) + acb(ball(self.design_damping * self.design))
         return 1 - frequency * frequency * acb(square) + apart * w * acb(2 * square)
 
-    def rows(self, space: Space, place: Fraction) -> list[acb]:
+    def rows(self, drives: Sequence[DrivenStretch], place: Fraction) -> list[acb]:
         """Amplitudes of a space's free functions and of its base law, at the frequency of a certificate's place."""
         frequency = (1 - place) * self.low + place * self.high
-        return self.amplitudes(acb(ball(frequency)), space.breaks, ends_of(space))
+        return self.amplitudes(acb(ball(frequency)), drives)
 
     def peak(self, pieces: Sequence[PolynomialPiece]) -> arb:
         """A ball that holds the greatest magnitude over the interval of frequencies, at the precision at work."""
-        breaks, ends = ends_of_law(pieces)
-        return greatest_modulus([lambda frequency: self.amplitudes(frequency, breaks, ends)[0]], self.low, self.high)
+        drives = of_pieces(pieces)
+        return greatest_modulus([lambda frequency: self.amplitudes(frequency, drives)[0]], self.low, self.high)
 
 
 Corner = tuple[arb, arb]
@@ -253,17 +207,17 @@ class ExactModeResidual:
         lower, upper = ((low, least), (high, least)), ((low, most), (high, most))
         return [ExactEdge(*lower), ExactEdge(lower[1], upper[1]), ExactEdge(*upper), ExactEdge(lower[0], upper[0])]
 
-    def rows(self, space: Space, edge: int, place: Fraction) -> list[acb]:
+    def rows(self, drives: Sequence[DrivenStretch], edge: int, place: Fraction) -> list[acb]:
         """Amplitudes of a space's free functions and of its base law, at a place of an edge from 0 to 1."""
-        transforms = velocity_transforms(self.edges[edge].root(acb(ball(place))), space.breaks, ends_of(space))
+        transforms = velocity_transforms(self.edges[edge].root(acb(ball(place))), drives)
         return [self.share * transform for transform in transforms]
 
     def peak(self, pieces: Sequence[PolynomialPiece]) -> arb:
         """A ball that holds the greatest over the box, at the precision at work."""
-        breaks, ends = ends_of_law(pieces)
+        drives = of_pieces(pieces)
 
         def amplitude(edge: ExactEdge, place: Number) -> Number:
-            return velocity_transforms(edge.root(place), breaks, ends)[0]
+            return velocity_transforms(edge.root(place), drives)[0]
 
         along = [partial(amplitude, edge) for edge in self.edges]
         return self.share * greatest_modulus(along, Fraction(0), Fraction(0 if self.edges[0].single else 1))

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import comb
 from typing import Any, Protocol
 
-from flint import acb, arb, fmpq, fmpq_mat, fmpq_poly, fmpz_poly
+from flint import acb, acb_poly, acb_series, fmpq, fmpq_mat, fmpq_poly, fmpq_series, fmpz_poly
 
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
-from optlaws.verification.enclosing.balls import rational
+from optlaws.verification.enclosing.balls import rational, series_length
 
 Matrix = Sequence[Sequence[float]]
 _S = fmpq_poly([0, 1])
@@ -100,7 +99,8 @@ class Rational:
 
     def laurent(self, last: int) -> dict[int, fmpq]:
         """Coefficients of the powers of s about 0, up to a power."""
-        series = quotient(self.numerator.coeffs(), self.denominator.coeffs()[self.zeros :], last + self.zeros + 1)
+        above, below = self.numerator.coeffs(), self.denominator.coeffs()[self.zeros :]
+        series = quotient(fmpq_series, above, below, last + self.zeros + 1)
         return {i - self.zeros: value for i, value in enumerate(series)}
 
     def poles(self) -> list[Pole]:
@@ -117,9 +117,9 @@ class Rational:
 
     def _pole(self, root: acb, multiplicity: int) -> Pole:
         """By Taylor series of numerator and denominator about the root."""
-        above = taylor(self.numerator, root, multiplicity)
-        below = taylor(self.denominator, root, 2 * multiplicity)[multiplicity:]
-        return Pole(root, tuple(reversed(quotient(above, below, multiplicity))))
+        above, below = (acb_poly(part)(acb_poly([root, 1])).coeffs() for part in (self.numerator, self.denominator))
+        shares = quotient(acb_series, above, below[multiplicity:], multiplicity)
+        return Pole(root, tuple(reversed(shares)))
 
 
 class Transfer(Rational):
@@ -170,24 +170,8 @@ def roots(polynomial: fmpq_poly) -> list[tuple[acb, int]]:
     return [(acb(root), int(multiplicity)) for root, multiplicity in plain.complex_roots()]
 
 
-def taylor(polynomial: fmpq_poly, place: acb, count: int) -> list[acb]:
-    """The first coefficients of a polynomial about a place."""
-    coefficients = polynomial.coeffs()
-    terms = []
-    for m in range(count):
-        total = acb(0)
-        for i in range(len(coefficients) - 1, m - 1, -1):
-            total = total * place + acb(arb(coefficients[i] * comb(i, m)))
-        terms.append(total)
-    return terms
-
-
-def quotient(above: Sequence[Any], below: Sequence[Any], count: int) -> list[Any]:
-    """The first coefficients of a quotient of two power series, the second of which does not vanish at 0."""
-    residues: list[Any] = []
-    for i in range(count):
-        total = above[i] if i < len(above) else below[0] * 0
-        for j in range(1, min(i, len(below) - 1) + 1):
-            total = total - below[j] * residues[i - j]
-        residues.append(total / below[0])
-    return residues
+def quotient(kind: Any, above: Sequence[Any], below: Sequence[Any], count: int) -> list[Any]:  # noqa: ANN401 - python-flint's
+    """The first coefficients of a quotient of two series of a kind, the second of which does not vanish at 0."""
+    with series_length(count):
+        series = kind(above) / kind(below)
+        return [series[i] for i in range(count)]

@@ -10,7 +10,8 @@ import pytest
 
 from optlaws import Chebyshev, Problem, integral, peak, smoothstep, synthesize
 from optlaws.verification import verify
-from tests.internals.formulas import Formula, Table, evaluate, horner, mpmath_arithmetic, of_text, pieces
+from tests.formulas.mpmath_numbers import MPMATH
+from tests.internals.formulas import Formula, Table, evaluate, horner, of_text, pieces
 from tests.sampling import sampled
 from tests.verification.tampering import overstated
 
@@ -51,7 +52,7 @@ def _table(table: Table, at: Any) -> Any:  # noqa: ANN401 - mpmath has no types
 
 def along(formula: Formula, k: Any) -> Any:  # noqa: ANN401 - mpmath has no types
     """The value of a formula along smoothstep(3)."""
-    return evaluate(formula, {**_derivatives(k), "k": k}, replace(mpmath_arithmetic(), table=_table))
+    return evaluate(formula, {**_derivatives(k), "k": k}, replace(MPMATH, table=_table))
 
 
 def places(text: str) -> list[Any]:

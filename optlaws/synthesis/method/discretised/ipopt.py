@@ -42,11 +42,12 @@ _MOST_ROWS = 3000
 
 @dataclass(frozen=True)
 class _Shapes:
-    """Numbers of variables and of affine rows, and the shapes of the others."""
+    """Numbers of variables and of affine rows, the shapes of the others, and whether tolerances are small."""
 
     size: int
     linear: int
-    curved: tuple[RowShape, ...] = ()
+    curved: tuple[RowShape, ...]
+    fine: bool
 
     @property
     def rows(self) -> int:
@@ -54,8 +55,7 @@ class _Shapes:
         return self.linear + sum(shape.count for shape in self.curved)
 
 
-_SolverKey = tuple[_Shapes, bool, bool]
-_solvers: dict[_SolverKey, Any] = {}
+_solvers: dict[_Shapes, Any] = {}
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,13 +77,10 @@ class Answer:
         return self.success or self.status == "Solved_To_Acceptable_Level"
 
 
-def solve_on_points(
-    program: Program, points: list[Points], start: Array | None, *, careful: bool = False, fine: bool = False
-) -> Answer:
+def solve_on_points(program: Program, points: list[Points], start: Array | None, *, fine: bool = False) -> Answer:
     """Solve the program with its families held at the points only.
 
-    `careful` goes without the quick steps for linear programs, which may diverge; `fine` asks for smaller tolerances,
-    by which contacts of little weight are told from points that are merely near.
+    `fine` asks for smaller tolerances, by which contacts of little weight are told from points that are merely near.
 
     Linear rows are scaled to unit length before IPOPT sees them; multipliers returned belong to the rows unscaled.
     """
@@ -115,7 +112,7 @@ def solve_on_points(
     if start is None:
         start = np.zeros(program.size)
         start[-1] = 10.0
-    shape = (_Shapes(program.size, len(rows), tuple(shapes)), careful, fine)
+    shape = _Shapes(program.size, len(rows), tuple(shapes), fine)
     result = _solved(shape, x0=start, p=parameters, lbg=lower, ubg=upper)
     if any(family.right_side(result.x) < 0.0 for family in curved if isinstance(family, ConeFamily)):
         # the square of an amplitude does not tell its bound from the opposite
@@ -161,7 +158,7 @@ class _Result:
     iterations: int
 
 
-def _solved(shape: _SolverKey, **numbers: Array) -> _Result:
+def _solved(shape: _Shapes, **numbers: Array) -> _Result:
     with casadi_lock:
         solver = _solver(shape)
         result = solver(**numbers)
@@ -180,22 +177,21 @@ def _solved(shape: _SolverKey, **numbers: Array) -> _Result:
     return answer
 
 
-def _solver(shape: _SolverKey) -> Any:  # noqa: ANN401 - a casadi Function, imported late
+def _solver(shape: _Shapes) -> Any:  # noqa: ANN401 - a casadi Function, imported late
     """The solver of a shape; those used last are kept, as many as their rows allow. The lock must be held."""
-    shapes, careful, fine = shape
     solver = _solvers.pop(shape, None)
     if solver is None:
-        solver = _build(shapes, careful=careful, fine=fine)
+        solver = _build(shape)
     _solvers[shape] = solver
-    rows = sum(shapes.rows for shapes, _, _ in _solvers)
+    rows = sum(known.rows for known in _solvers)
     while rows > _MOST_ROWS and len(_solvers) > 1:
         oldest = next(iter(_solvers))
-        rows -= oldest[0].rows
+        rows -= oldest.rows
         del _solvers[oldest]
     return solver
 
 
-def _build(shapes: _Shapes, *, careful: bool, fine: bool) -> Any:  # noqa: ANN401 - a casadi Function, imported late
+def _build(shapes: _Shapes) -> Any:  # noqa: ANN401 - a casadi Function, imported late
     import casadi as ca
 
     size, linear = shapes.size, shapes.linear
@@ -206,7 +202,7 @@ def _build(shapes: _Shapes, *, careful: bool, fine: bool) -> Any:  # noqa: ANN40
     )
     curved = [shape.expression(x, several) for shape, several in zip(shapes.curved, symbols, strict=True)]
     program: Any = {"x": x, "p": p, "f": ca.dot(objective, x), "g": ca.vertcat(rows @ x, *curved)}
-    options: Any = {**_QUIET, **_LEAN, **_REPEATABLE, **(_FINE if fine else _USUAL)}
+    options: Any = {**_QUIET, **_LEAN, **_REPEATABLE, **(_FINE if shapes.fine else _USUAL)}
     if not curved:
         flat = ca.Function(
             "hessian",
@@ -216,9 +212,7 @@ def _build(shapes: _Shapes, *, careful: bool, fine: bool) -> Any:  # noqa: ANN40
             ["triu_hess_gamma_x_x"],
         )
         options |= {**_LINEAR, "hess_lag": flat}
-    if fine and any(shape.kind is CONES for shape in shapes.curved):
+    if shapes.fine and any(shape.kind is CONES for shape in shapes.curved):
         # such an answer may be the last word, and then it must keep to its bounds
         options["ipopt.bound_relax_factor"] = 0.0
-    if careful:
-        options["ipopt.mehrotra_algorithm"] = "no"
     return ca.nlpsol("program", "ipopt", program, options)

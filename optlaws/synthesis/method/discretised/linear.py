@@ -10,6 +10,7 @@ rows hold exactly, and the multipliers balance exactly, are two linear problems,
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -133,6 +134,16 @@ class LinearTable:
         left = np.abs(self._defect(rows, changed, scaled)).max()
         sound = left <= VERTEX_BALANCED * max(1.0, float(changed.max(initial=0.0)))
         return (changed, scaled / self.equation_length) if sound and not (changed < 0.0).any() else None
+
+    def sharp(self, vertex: Answer, points: list[Points]) -> Answer:
+        """A vertex with multipliers that balance the objective exactly; as it is where there are none."""
+        weights = np.concatenate(vertex.multipliers[:-1]) * self.length
+        binding = weights > 0.0
+        balanced = self.balanced(binding, weights, vertex.multipliers[-1])
+        if balanced is None:
+            return vertex
+        weights[binding], equations = balanced
+        return replace(vertex, multipliers=[*by_family(weights / self.length, points), equations])
 
     def _defect(self, rows: Array, multipliers: Array, equations: Array) -> Array:
         return np.asarray(self.objective + rows.T @ multipliers + self.equations.T @ equations)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.numbers import Array
-from optlaws.synthesis.families.active_set import ActiveSet
+from optlaws.synthesis.families.active_set import ActiveSet, Contact
 from optlaws.synthesis.families.family import ConstraintFamily, Points, ProductFamily, Program
 from optlaws.synthesis.method.discretised.ipopt import Answer
 from optlaws.synthesis.method.discretised.linear import sharpened
@@ -65,7 +65,7 @@ def _contacts(points: list[Points], answer: Answer, least: list[float]) -> Activ
 
 def _identified(program: Program, points: list[Points], answer: Answer) -> ActiveSet:
     """Give each point's multiplier to the extremum that its hill leads to; those are the contacts."""
-    contacts: list[tuple[int, float, float, bool, float]] = []
+    contacts: list[Contact] = []
     for i, (family, grid) in enumerate(zip(program.families, points, strict=True)):
         weights = answer.multipliers[i]
         u, s, residual = family.extremes(answer.x)
@@ -78,16 +78,7 @@ def _identified(program: Program, points: list[Points], answer: Answer) -> Activ
         _merge(family, u, s, gathered)
         movable = family.movable(u)
         contacts += [(i, u[j], s[j], movable[j], gathered[j]) for j in np.flatnonzero(gathered)]
-    family_of, places, signs, free, multipliers = zip(*contacts, strict=True) if contacts else ((),) * 5
-    return ActiveSet(
-        x=answer.x,
-        family=np.asarray(family_of, dtype=np.intp),
-        u=np.asarray(places, dtype=np.float64),
-        s=np.asarray(signs, dtype=np.float64),
-        free=np.asarray(free, dtype=np.bool_),
-        multipliers=np.asarray(multipliers, dtype=np.float64),
-        equality_multipliers=answer.multipliers[-1],
-    )
+    return ActiveSet.of_contacts(answer.x, contacts, answer.multipliers[-1])
 
 
 def _merge(family: ConstraintFamily, u: Array, s: Array, gathered: Array) -> None:

@@ -18,7 +18,7 @@ from optlaws.synthesis.families.family import Points, Program
 from optlaws.synthesis.method.discretised.conic import conic, optimum_on_points
 from optlaws.synthesis.method.discretised.grids import with_extrema
 from optlaws.synthesis.method.discretised.ipopt import Answer
-from optlaws.synthesis.method.discretised.linear import LinearTable, by_family, vertex_on_points
+from optlaws.synthesis.method.discretised.linear import LinearTable, vertex_on_points
 from optlaws.synthesis.method.strategies.identified import of_vertex, optimum_near
 from optlaws.synthesis.method.strategies.strategy import Strategy
 from optlaws.synthesis.spaces.piecewise_families import PieceFamily
@@ -128,13 +128,9 @@ def _exact(program: Program, points: list[Points], vertex: Answer, excess: float
     The solver's tolerance is one of rows of length 1: in a jounce it is far from what the law needs.
     """
     table = LinearTable(program, points)
-    weights = np.concatenate(vertex.multipliers[:-1]) * table.length
-    binding = weights > 0.0
+    binding = np.concatenate(vertex.multipliers[:-1]) > 0.0
     x = table.vertex_at(binding, vertex.x)
     if x is None or _excess(program, x) > max(EXCESS, excess):
         x = table.vertex_at(np.zeros_like(binding), vertex.x)
-    balanced = table.balanced(binding, weights, vertex.multipliers[-1])
-    if balanced is not None:
-        weights[binding], equations = balanced
-        vertex = replace(vertex, multipliers=[*by_family(weights / table.length, points), equations])
+    vertex = table.sharp(vertex, points)
     return (vertex, excess) if x is None else (replace(vertex, x=x), _excess(program, x))
