@@ -183,15 +183,7 @@ class Follower:
         >>> steady.period, round(steady(0.0) - steady(3.5), 12)
         (3.5, 0.0)
         """
-        return CycleResponse(
-            self.nu,
-            self.damping,
-            motion_law(rise, "rise"),
-            motion_law(rise if fall is None else fall, "fall"),
-            not_negative(dwell, "dwell"),
-            positive(fall_duration, "fall_duration"),
-            not_negative(rest, "rest"),
-        )
+        return CycleResponse(self.nu, self.damping, rise, rise if fall is None else fall, dwell, fall_duration, rest)
 
 
 def _state(value: Any) -> tuple[float, float]:  # noqa: ANN401 - whatever a caller hands over
