@@ -103,9 +103,7 @@ class CycleInterchange(JsonText):
 
         Needs the extra `optlaws[studies]`.
         """
-        needed("pandas", "to_pandas")
-        import pandas as pd
-
+        pd = needed("pandas", "to_pandas")
         cycle = self._cycle
         units = {name: unit_of(cycle.axis, nu) for nu, name in enumerate(_NAMES)}
         rows = []

@@ -20,7 +20,7 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import TURN, either
-from optlaws.numbers import Array, Quantity, finite, real_times
+from optlaws.numbers import Array, Quantity, finite, number_or_array, real_times
 from optlaws.numerics.enclosures.branch_and_bound import Extremes, extremes
 from optlaws.numerics.enclosures.integral import integral
 from optlaws.numerics.enclosures.interval import Interval
@@ -105,8 +105,7 @@ class Balancing:
     def torque(self, degrees: Any, *, balanced: bool = True) -> Any:  # noqa: ANN401 - a number for a number, arrays for arrays
         """The torque at an angle of the shaft in degrees, with the loaders or without, N m."""
         times = np.mod(real_times(degrees), 360.0) * (self.cycle.duration / 360.0)
-        values = self._executive(times) + (self._loader(times) if balanced else 0.0)
-        return values if np.ndim(values) else float(values)
+        return number_or_array(self._executive(times) + (self._loader(times) if balanced else 0.0))
 
     def loader_motion(self, stroke: Quantity) -> CamMotion:
         """The loader over the turn, for its own cam: forth and back with each move, as far as it goes each time.

@@ -9,7 +9,7 @@ from typing import Any, Self
 
 import numpy as np
 
-from optlaws.numbers import Array, derivative, finite, real_times, whole
+from optlaws.numbers import Array, derivative, finite, number_or_array, real_times, whole
 from optlaws.numerics import chebyshev
 from optlaws.numerics.enclosures.interval import Interval
 from optlaws.numerics.enclosures.taylor import Jet, Pair
@@ -174,14 +174,12 @@ class PlaneCurve(CurveByAngle):
         along = (tangents[0].terms[0] * ny.terms[0] - tangents[1].terms[0] * nx.terms[0]) * sign
         turns = (nx.terms[1] * ny.terms[0] - ny.terms[1] * nx.terms[0]) * sign
         with np.errstate(divide="ignore", invalid="ignore"):
-            values = turns / along
-        return values if np.ndim(values) else float(values)
+            return number_or_array(turns / along)
 
     def radius_of_curvature(self, angle: Any, *, before: bool = False) -> Any:  # noqa: ANN401 - as for points
         """The radius of curvature, m, with the sign of the curvature; infinite where the curve is straight."""
         with np.errstate(divide="ignore"):
-            values = 1.0 / np.asarray(self.curvature(angle, before=before))
-        return values if np.ndim(values) else float(values)
+            return number_or_array(1.0 / np.asarray(self.curvature(angle, before=before)))
 
     def offset(self, distance: float) -> OffsetCurve:
         """The parallel curve so many metres outward, or inward where it is below 0."""

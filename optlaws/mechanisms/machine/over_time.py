@@ -180,9 +180,7 @@ class MachineMotion(ABC):
         >>> mass.response(smoothstep(4), dwell=0.5).to_pandas(4).round(6)["position"].tolist()
         [0.0, 0.489570, 1.00..., 1.00...]
         """
-        needed("pandas", "to_pandas")
-        import pandas as pd
-
+        pd = needed("pandas", "to_pandas")
         return pd.concat([self[name].to_pandas(count) for name in self.machine.outputs], axis=1)
 
     @kept_property
