@@ -55,7 +55,7 @@ def test_a_design_without_damping_on_a_damped_follower(capsys: Capture) -> None:
 
 
 def test_a_law_of_the_catalogue_at_a_speed(capsys: Capture) -> None:
-    numbers = printed(capsys, "BESTEHORN", "--speed-rpm", 105, "--rise-angle", 120, "--natural-period", 0.06)
+    numbers = printed(capsys, "BESTEHORN", "--speed", "105 rpm", "--rise", "120 deg", "--period", "60 ms")
     response = Follower(numbers["nu"]).response(catalogue["cycloidal"].law)
     assert numbers["nu"] == pytest.approx(60 * 2.0943951 / (105 * 0.06))
     assert numbers["residual_displacement"] == response.residual_displacement
@@ -98,8 +98,8 @@ def test_the_spectrum_is_drawn(capsys: Capture, tmp_path: Path) -> None:
         (["cycloidal", "--alpha", "1", "--nu", "20"], "no other takes it"),
         (["IV", "--alpha", "20", "--nu", "20"], "alpha"),
         (["cycloidl", "--nu", "20"], "did you mean 'cycloidal'"),
-        (["cycloidal"], "either --nu or all of --speed-rpm, --rise-angle and --natural-period"),
-        (["cycloidal", "--nu", "20", "--speed-rpm", "100"], "either --nu or"),
+        (["cycloidal"], "either --nu or, with units, --frequency or --period"),
+        (["cycloidal", "--nu", "20", "--speed", "100 rpm"], "give no --nu beside"),
         (["cycloidal", "--nu", "-20"], "nu must be above 0"),
         (["cycloidal", "--nu", "20", "--damping", "-1"], "damping must be at least 0"),
         (["cycloidal", "--nu", "20", "--design-damping", "0.1"], "--design-damping needs --design-nu"),
@@ -138,7 +138,7 @@ def test_a_stroke_with_its_unit_gives_machine_units(capsys: Capture) -> None:
     )
     assert data["machine"] == answer.results()
     code, out, _ = called(
-        capsys, "modified sine", "--speed-rpm", 105, "--rise-angle", 120, "--natural-period", 0.06, "--stroke", "35mm"
+        capsys, "modified sine", "--speed", "105 rpm", "--rise", "120 deg", "--period", "60 ms", "--stroke", "35mm"
     )
     assert code == 0
     assert "residual displacement, m" in out
