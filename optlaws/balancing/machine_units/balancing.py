@@ -4,15 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import pairwise
 from math import sqrt
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from optlaws.balancing.dwells.sections import PartSegment
 from optlaws.balancing.loaders.loader import Loader
-from optlaws.cams.curves.motion_by_angle import CamMotion, CamStretch
+from optlaws.cams.curves.motion_by_angle import CamMotion
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.specification.drive import CycleDrive, read_drive
 from optlaws.echo import shortened
@@ -133,18 +131,12 @@ class Balancing:
             raise InputError("the loader of a cycle that dwells has a clutch or runs on: take dwell_machine")
         if len(moving) % 2 or not all(loader.symmetric for _, loader in moving):
             raise InputError("the loader comes back over an even number of moves by symmetric laws")
-        parts = [self._part(piece, loader, way * (-1.0) ** i) for i, (piece, loader) in enumerate(moving)]
-        return CamMotion(tuple(stretch for some in parts for stretch in some), axis, closed=True)
-
-    def _part(self, piece: Piece, loader: Loader, way: float) -> list[CamStretch]:
-        """The loader during one move: it goes out by half of its stroke and comes back."""
-        start, angle = piece.start * self.rate, piece.duration * self.rate
-        stretches = []
-        for low, high in pairwise(loader.law.breaks):
-            segment = PartSegment(loader.law, low, high, 1.0)
-            places = (start + low * angle, start + high * angle)
-            stretches.append(CamStretch(*places, way * float(loader.law.a(low)), way, angle, segment, high - low))
-        return stretches
+        # it goes out by half of its stroke and comes back with each move
+        pieces = [
+            Piece(piece.start, piece.duration, 0.0, way * (-1.0) ** i, loader.law.piecewise)
+            for i, (piece, loader) in enumerate(moving)
+        ]
+        return CamMotion.of_pieces(pieces, self.cycle.duration, axis)
 
     @kept_property
     def _loaders(self) -> tuple[Loader | None, ...]:
