@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from optlaws.balancing.dwells.clutch import Teeth
 
 _TEETH = 3
+_SIZES = ("a", "b", "S1", "S2")
 _TURN = 360.0 * (1.0 + 1e-9)
 
 
@@ -119,13 +120,8 @@ def _check_turn(rise: float, dwell: float, lower_dwell: float | None) -> None:
 def _show(comparison: DwellComparison, clutches: dict[str, optlaws.Clutch], teeth: int) -> None:
     types = table("type", "a", "b", "S1", "S2", "usable")
     for kind, reason in comparison.reasons.items():
-        mechanism = comparison.mechanisms.get(kind)
-        cells = (
-            ["", "", "", ""]
-            if mechanism is None
-            else [f"{value:.6g}" for value in (mechanism.a, mechanism.b, mechanism.S1, mechanism.S2)]
-        )
-        types.add_row(kind, *cells, reason)
+        known = comparison.mechanisms.get(kind)
+        types.add_row(kind, *("" if known is None else f"{getattr(known, name):.6g}" for name in _SIZES), reason)
     chosen = (
         "none is usable" if comparison.chosen is None else f"type {comparison.chosen}, the smallest cam of those usable"
     )
