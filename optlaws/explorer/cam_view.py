@@ -19,7 +19,7 @@ from optlaws.cams.forces import CamForces
 from optlaws.cams.least_sizes import least_base_circle
 from optlaws.cams.summary import Labelled, named_forces
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError
-from optlaws.explorer.cycle_view import check_axis
+from optlaws.explorer.cycle_view import SEGMENTS, check_axis
 from optlaws.explorer.law_view import digits, drawn, refusal
 from optlaws.files.problem_file import convert
 from optlaws.jobs.cam_entries import CamProblemFile, ForcesEntries
@@ -203,15 +203,7 @@ def example() -> dict[str, Any]:
         "pressure_angle": "30 deg",
         "radius_of_curvature": "15 mm",
         "follower": {"kind": "translating roller", "radius": "12 mm", "offset": "6 mm"},
-        "motion": {
-            "name": "slide",
-            "segment": [
-                {"kind": "rise", "by": "35 mm", "duration": "120 deg"},
-                {"kind": "dwell", "duration": "90 deg"},
-                {"kind": "return", "by": "35 mm", "duration": "100 deg"},
-                {"kind": "dwell"},
-            ],
-        },
+        "motion": {"name": "slide", "segment": SEGMENTS},
     }
 
 

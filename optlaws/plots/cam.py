@@ -14,6 +14,7 @@ from optlaws.cams.forces import CamForces
 from optlaws.errors import InputError
 from optlaws.files.writing import MARK
 from optlaws.numbers import Array
+from optlaws.plots.cycle import UNITS
 from optlaws.plots.style import BLUES, GREEN, GREY, WARM, new_figure, plot_style, titled
 from optlaws.tolerances import OUTLINE_DRAWN
 
@@ -29,7 +30,6 @@ _MILLI = 1e3
 _SHOWN = 8  # followers around the cam
 _SAMPLES = 721
 _FILL = "#dfe9f3"
-_SIZES = {"length": ("displacement, mm", _MILLI), "angle": ("displacement, deg", 180.0 / np.pi)}
 
 
 def cam_figure(cam: DiscCam, title: str) -> Figure:
@@ -113,9 +113,9 @@ def draw_cam(cam: DiscCam, axes: Any = None, **style: Any) -> list[Artist]:  # n
         raise InputError(f"a cam is drawn into one pair of axes or into four, got {len(panels)}")
     artists = _draw_mechanism(cam, panels[0], {"color": BLUES[3]} | style)
     edges = np.array(cam.displacement.breaks)
-    label, factor = _SIZES[cam.displacement.axis]
+    unit, factor = UNITS[cam.displacement.axis][0]
     curves: tuple[tuple[str, Values], ...] = (
-        (label, lambda at: factor * np.asarray(cam.displacement(at))),
+        (f"displacement, {unit}", lambda at: factor * np.asarray(cam.displacement(at))),
         ("pressure angle, deg", lambda at: np.degrees(cam.pressure_angle(at))),
         ("curvature, 1/mm", lambda at: np.asarray(cam.profile.curvature(at)) / _MILLI),
     )
