@@ -8,6 +8,9 @@ from optlaws.lazy import declare, face
 _load, __dir__, __all__ = face(
     __name__,
     {
+        "optlaws.balancing": "balanced_law BalancedLaw Balancing Clutch compare_dwell_mechanisms dwell_machine "
+        "dwell_mechanism DwellMachine find_torsion_levers inertial_loader LeverCam Loader "
+        "rocker_law TorsionLever TrapeziumSubstitute",
         "optlaws.cams.barrel": "BarrelCam",
         "optlaws.cams.best_laws": "best_base_circle best_cam",
         "optlaws.cams.conjugate": "conjugate_cam",
@@ -16,9 +19,6 @@ _load, __dir__, __all__ = face(
         "optlaws.cams.forces": "CamForces",
         "optlaws.cams.springs": "Spring least_spring",
         "optlaws.cams.as_manufactured": "AsMade as_made with_profile_error",
-        "optlaws.balancing.machine_units.balancing": "Balancing",
-        "optlaws.balancing.machine_units.dwell_machine": "DwellMachine dwell_machine",
-        "optlaws.balancing.machine_units.lever_cam": "LeverCam rocker_law",
         "optlaws.cams.followers.inclined_flat": "InclinedFlat",
         "optlaws.cams.followers.oscillating_flat": "OscillatingFlat",
         "optlaws.cams.followers.oscillating_roller": "OscillatingRoller",
@@ -48,16 +48,8 @@ _load, __dir__, __all__ = face(
         "optlaws.mechanisms.follower.cam_constants": "cam_constant",
         "optlaws.mechanisms.machine.flat_output": "driving_law flat_output",
         "optlaws.mechanisms.follower.polydyne": "mass_law polydyne",
-        "optlaws.balancing.dwells.choice": "compare_dwell_mechanisms",
-        "optlaws.balancing.dwells.clutch": "Clutch",
-        "optlaws.balancing.dwells.mechanism": "dwell_mechanism",
         "optlaws.mechanisms.follower.response": "CycleResponse Response",
         "optlaws.mechanisms.follower.follower": "Deviation Follower off_design",
-        "optlaws.balancing.levers.design": "find_torsion_levers",
-        "optlaws.balancing.levers.lever": "TorsionLever",
-        "optlaws.balancing.loaders.loader": "Loader inertial_loader",
-        "optlaws.balancing.loaders.optimal": "BalancedLaw balanced_law",
-        "optlaws.balancing.loaders.trapezium": "TrapeziumSubstitute",
         "optlaws.mechanisms.machine.machine": "Machine",
         "optlaws.mechanisms.machine.masses": "Link",
         "optlaws.mechanisms.machine.parameters": "MachineSpectrum machine_spectrum",
