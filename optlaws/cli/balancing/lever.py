@@ -174,14 +174,8 @@ def _machine(motion: LeverMotion, bars: BarOptions, xi: float) -> dict[str, floa
 def _plain(lever: optlaws.TorsionLever) -> dict[str, Any]:
     linkage = lever.linkage
     return {
-        "beta": lever.beta,
-        "lam": lever.lam,
-        "rho": lever.rho,
-        "nu": lever.nu,
-        "swing": lever.swing,
-        "alpha": linkage.alpha,
-        "psi0": linkage.psi0,
-        **{name: getattr(linkage, name) for name in "QPSR"},
+        **{name: getattr(lever, name) for name in ("beta", "lam", "rho", "nu", "swing")},
+        **{name: getattr(linkage, name) for name in ("alpha", "psi0", *"QPSR")},
         **{name: getattr(lever, name) for name in ("xi", "gamma01", "n", "q", "p", "T0")},
         "twists": list(lever.twists),
         "twists_left": list(lever.twists_left),
