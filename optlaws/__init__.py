@@ -8,6 +8,9 @@ from optlaws.lazy import declare, face
 _load, __dir__, __all__ = face(
     __name__,
     {
+        "optlaws.balancing": "balanced_law BalancedLaw Balancing Clutch compare_dwell_mechanisms dwell_machine "
+        "dwell_mechanism DwellMachine find_torsion_levers inertial_loader LeverCam Loader "
+        "rocker_law TorsionLever TrapeziumSubstitute",
         "optlaws.cams.at_shaft": "cam_mechanism",
         "optlaws.cams.barrel": "BarrelCam",
         "optlaws.cams.best_laws": "best_base_circle best_cam",
@@ -17,9 +20,6 @@ _load, __dir__, __all__ = face(
         "optlaws.cams.forces": "CamForces",
         "optlaws.cams.springs": "Spring least_spring",
         "optlaws.cams.as_manufactured": "AsMade as_made with_profile_error",
-        "optlaws.balancing.balancing": "Balancing",
-        "optlaws.balancing.dwells.dwell_machine": "DwellMachine dwell_machine",
-        "optlaws.balancing.levers.lever_cam": "LeverCam rocker_law",
         "optlaws.cams.followers.inclined_flat": "InclinedFlat",
         "optlaws.cams.followers.oscillating_flat": "OscillatingFlat",
         "optlaws.cams.followers.oscillating_roller": "OscillatingRoller",
@@ -49,16 +49,8 @@ _load, __dir__, __all__ = face(
         "optlaws.mechanisms.cam_constants": "cam_constant",
         "optlaws.mechanisms.machine.flat_output": "driving_law flat_output",
         "optlaws.mechanisms.polydyne_cam": "mass_law polydyne",
-        "optlaws.balancing.dwells.choice": "compare_dwell_mechanisms",
-        "optlaws.balancing.dwells.clutch": "Clutch",
-        "optlaws.balancing.dwells.mechanism": "dwell_mechanism",
         "optlaws.mechanisms.response": "CycleResponse Response",
         "optlaws.mechanisms.follower": "Deviation Follower off_design",
-        "optlaws.balancing.levers.design": "find_torsion_levers",
-        "optlaws.balancing.levers.lever": "TorsionLever",
-        "optlaws.balancing.loaders.loader": "Loader inertial_loader",
-        "optlaws.balancing.loaders.optimal": "BalancedLaw balanced_law",
-        "optlaws.balancing.loaders.trapezium": "TrapeziumSubstitute",
         "optlaws.mechanisms.drives.drive_train": "Drive",
         "optlaws.mechanisms.drives.motor": "Motor read_motors",
         "optlaws.mechanisms.linkages.bodies": "Body Loads",

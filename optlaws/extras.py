@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from importlib import import_module
 from importlib.util import find_spec
+from typing import Any
 
 from optlaws.errors import InputError
 
@@ -18,7 +20,9 @@ class NotInstalled(InputError, ImportError):  # noqa: N818 - as SolverFailure
     """
 
 
-def needed(module: str, what: str, extra: str = "studies") -> None:
-    """See that a library is installed."""
-    if find_spec(module) is None:
-        raise NotInstalled(f"{what} needs {module}: pip install 'optlaws[{extra}]'")
+def needed(module: str, what: str, extra: str = "studies") -> Any:  # noqa: ANN401 - a module
+    """A library that is installed, imported; a module within it comes with it."""
+    library = module.partition(".")[0]
+    if find_spec(library) is None:
+        raise NotInstalled(f"{what} needs {library}: pip install 'optlaws[{extra}]'")
+    return import_module(module)

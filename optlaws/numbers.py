@@ -242,6 +242,11 @@ def _array(values: Any) -> Array | None:  # noqa: ANN401
     return given.astype(np.float64)
 
 
+def number_or_array(values: Array) -> float | Array:
+    """Values as those were given that they are of: one of no axes is a float."""
+    return values if np.ndim(values) else float(values)
+
+
 def deg(angle: float) -> float:
     """An angle given in degrees, in radians: the library computes in these.
 

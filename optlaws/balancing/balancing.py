@@ -4,15 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import pairwise
 from math import sqrt
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from optlaws.balancing.dwells.sections import PartSegment
 from optlaws.balancing.loaders.loader import Loader
-from optlaws.cams.curves.motion_by_angle import CamMotion, CamStretch
+from optlaws.cams.curves.motion_by_angle import CamMotion
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.specification.drive import CycleDrive, read_drive
 from optlaws.echo import shortened
@@ -20,7 +18,7 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import TURN, either
-from optlaws.numbers import Array, Quantity, finite, real_times
+from optlaws.numbers import Array, Quantity, finite, number_or_array, real_times
 from optlaws.numerics.branch_and_bound import Extremes, extremes
 from optlaws.numerics.integral import integral
 from optlaws.numerics.interval import Interval
@@ -105,8 +103,7 @@ class Balancing:
     def torque(self, degrees: Any, *, balanced: bool = True) -> Any:  # noqa: ANN401 - a number for a number, arrays for arrays
         """The torque at an angle of the shaft in degrees, with the loaders or without, N m."""
         times = np.mod(real_times(degrees), 360.0) * (self.cycle.duration / 360.0)
-        values = self._executive(times) + (self._loader(times) if balanced else 0.0)
-        return values if np.ndim(values) else float(values)
+        return number_or_array(self._executive(times) + (self._loader(times) if balanced else 0.0))
 
     def loader_motion(self, stroke: Quantity) -> CamMotion:
         """The loader over the turn, for its own cam: forth and back with each move, as far as it goes each time.
@@ -134,18 +131,12 @@ class Balancing:
             raise InputError("the loader of a cycle that dwells has a clutch or runs on: take dwell_machine")
         if len(moving) % 2 or not all(loader.symmetric for _, loader in moving):
             raise InputError("the loader comes back over an even number of moves by symmetric laws")
-        parts = [self._part(piece, loader, way * (-1.0) ** i) for i, (piece, loader) in enumerate(moving)]
-        return CamMotion(tuple(stretch for some in parts for stretch in some), axis, closed=True)
-
-    def _part(self, piece: Piece, loader: Loader, way: float) -> list[CamStretch]:
-        """The loader during one move: it goes out by half of its stroke and comes back."""
-        start, angle = piece.start * self.rate, piece.duration * self.rate
-        stretches = []
-        for low, high in pairwise(loader.law.breaks):
-            segment = PartSegment(loader.law, low, high, 1.0)
-            places = (start + low * angle, start + high * angle)
-            stretches.append(CamStretch(*places, way * float(loader.law.a(low)), way, angle, segment, high - low))
-        return stretches
+        # it goes out by half of its stroke and comes back with each move
+        pieces = [
+            Piece(piece.start, piece.duration, 0.0, way * (-1.0) ** i, loader.law.piecewise)
+            for i, (piece, loader) in enumerate(moving)
+        ]
+        return CamMotion.of_pieces(pieces, self.cycle.duration, axis)
 
     @kept_property
     def _loaders(self) -> tuple[Loader | None, ...]:

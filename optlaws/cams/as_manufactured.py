@@ -30,48 +30,23 @@ from optlaws.tolerances import DEVIATIONS, MANUFACTURED_LEAP, MANUFACTURED_PEAKS
 
 
 @dataclass(frozen=True, eq=False)
-class PointSpline(CurveByJets):
-    """The closed cubic spline through points, m, shape (n, 2), over chords between them: what drawing programs draw.
-
-    Its curvature is continuous everywhere; the last point is the first again.
-    """
-
-    points: Array
-
-    @kept_property
-    def breaks(self) -> tuple[float, ...]:
-        """The points, by the way along the chords."""
-        lengths = np.linalg.norm(np.diff(self.points, axis=0), axis=1)
-        return (0.0, *np.cumsum(lengths).tolist())
-
-    @kept_property
-    def _pieces(self) -> PiecewiseCurve:
-        return periodic(self.breaks, self.points)
-
-    def jets(self, places: Array | Interval, order: int) -> Pair:
-        """Both coordinates with their Taylor terms by the way along the chords."""
-        x, y = self._pieces.jets(places, order)
-        return x, y
-
-
-@dataclass(frozen=True, eq=False)
 class PolarSpline(CurveByJets):
     """The curve whose radius is the closed cubic spline through radii at even angles around the centre."""
 
     radii: Array
 
     @kept_property
+    def _radius(self) -> PiecewiseCurve:
+        return periodic(np.linspace(0.0, tau, len(self.radii)), self.radii[:, None])
+
+    @property
     def breaks(self) -> tuple[float, ...]:
         """The angles of the radii."""
-        return tuple(np.linspace(0.0, tau, len(self.radii)).tolist())
-
-    @kept_property
-    def _pieces(self) -> PiecewiseCurve:
-        return periodic(self.breaks, self.radii[:, None])
+        return self._radius.breaks
 
     def jets(self, places: Array | Interval, order: int) -> Pair:
         """Both coordinates with their Taylor terms by the angle around the centre."""
-        (radius,) = self._pieces.jets(places, order)
+        (radius,) = self._radius.jets(places, order)
         sine, cosine = variable(places, order).waves()
         return radius * cosine, radius * sine
 
@@ -124,11 +99,20 @@ class WavyCurve(CurveAlongNormals):
         return x + along_x * wave * self.amplitude, y + along_y * wave * self.amplitude
 
 
-def periodic(places: tuple[float, ...], values: Array) -> PiecewiseCurve:
+def spline_through(points: Array) -> PiecewiseCurve:
+    """The closed cubic spline through points, m, shape (n, 2), over chords between them: what drawing programs draw.
+
+    Its curvature is continuous everywhere; the last point is the first again.
+    """
+    lengths = np.linalg.norm(np.diff(points, axis=0), axis=1)
+    return periodic(np.append(0.0, np.cumsum(lengths)), points)
+
+
+def periodic(places: Array, values: Array) -> PiecewiseCurve:
     """The closed cubic spline through rows of values."""
     from scipy.interpolate import make_interp_spline
 
-    spline = make_interp_spline(np.array(places), values, k=3, bc_type="periodic")
+    spline = make_interp_spline(places, values, k=3, bc_type="periodic")
     return PiecewiseCurve.of_spline(spline.t, spline.c, 3)
 
 
@@ -376,7 +360,7 @@ def with_profile_error(cam: DiscCam, error: Quantity, waves: Any) -> AsMade:  # 
 
 
 def _points(outline: Outline, options: Cutting) -> Outline:
-    return PointSpline(_rounded(outline(np.linspace(0.0, tau, options.points)), options, closed=True))
+    return spline_through(_rounded(outline(np.linspace(0.0, tau, options.points)), options, closed=True))
 
 
 def _radii(outline: Outline, options: Cutting) -> Outline:

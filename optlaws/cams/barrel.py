@@ -28,7 +28,7 @@ from optlaws.cams.followers.follower import positive, shown
 from optlaws.cycles.cycle import Cycle
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
-from optlaws.numbers import Array, Quantity, derivative, real_times
+from optlaws.numbers import Array, Quantity, derivative, number_or_array, real_times
 from optlaws.numerics.taylor import Jet, variable
 from optlaws.suggest import unknown_key
 
@@ -143,8 +143,7 @@ class BarrelCam:
         nu = derivative(nu)
         at = self.radii[1] if radius is None else self._within(radius)
         slope = self.displacement.jet(real_times(angle), nu + 1).slope()
-        values = (slope * (1.0 / at)).arctangent().derivative(nu)
-        return values if np.ndim(values) else float(values)
+        return number_or_array((slope * (1.0 / at)).arctangent().derivative(nu))
 
     @kept_property
     def pressure_angles(self) -> tuple[EnclosedExtreme, EnclosedExtreme]:

@@ -20,7 +20,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.motion.quantities import quantity
-from optlaws.numbers import Array, Quantity, derivative, real_times
+from optlaws.numbers import Array, Quantity, derivative, number_or_array, real_times
 from optlaws.numerics.interval import Interval
 from optlaws.numerics.taylor import Pair, turned, variable
 from optlaws.shown.summary import Summary
@@ -211,12 +211,12 @@ class DiscCam:
         """The angle between the force on the follower and its way, rad, or a derivative of it by the cam's angle."""
         nu = derivative(nu)
         s = self.displacement.jet(real_times(angle), nu + 2)
-        return _plain(self.contact.pressure(s).cut(nu).arctangent().derivative(nu))
+        return number_or_array(self.contact.pressure(s).cut(nu).arctangent().derivative(nu))
 
     def radius_of_curvature(self, angle: Any) -> Any:  # noqa: ANN401 - as for pressure angles
         """The radius of curvature of the profile, m: above 0 where it bulges outward, below where it is hollow."""
         s = self.displacement.jet(real_times(angle), 2)
-        return _plain(self.contact.radius_of_curvature(s))
+        return number_or_array(self.contact.radius_of_curvature(s))
 
 
 @dataclass(frozen=True)
@@ -282,7 +282,3 @@ def _check_smooth(motion: CamMotion) -> None:
             f"motion: its velocity leaps at {place:.6g} deg of the cam, where the cam would have a corner: take laws"
             " whose velocities meet"
         )
-
-
-def _plain(values: Array) -> Any:  # noqa: ANN401
-    return values if np.ndim(values) else float(values)

@@ -18,7 +18,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.motion.quantities import TURN, positive_quantity, quantity
-from optlaws.numbers import Array, Quantity, finite, real_times
+from optlaws.numbers import Array, Quantity, finite, number_or_array, real_times
 from optlaws.numerics.branch_and_bound import Extremes, Function, extremes
 from optlaws.numerics.integral import integral
 from optlaws.numerics.interval import Interval, highest, middle
@@ -198,8 +198,7 @@ class CamForces:
     def contact_pressure(self, angle: Any) -> Any:  # noqa: ANN401 - as for the follower's
         """Hertz's greatest pressure in the contact, Pa."""
         squared = self._given(self._squared_pressure, angle)
-        values = np.sqrt(np.maximum(squared, 0.0))
-        return values if np.ndim(values) else float(values)
+        return number_or_array(np.sqrt(np.maximum(squared, 0.0)))
 
     @kept_property
     def contact(self) -> Extremes:
@@ -284,8 +283,7 @@ class CamForces:
         return np.asarray(self._directions[which])
 
     def _given(self, function: Callable[[Any, int], Jet], angle: Any) -> Any:  # noqa: ANN401
-        values = np.asarray(function(real_times(angle), 0).terms[0])
-        return values if np.ndim(values) else float(values)
+        return number_or_array(np.asarray(function(real_times(angle), 0).terms[0]))
 
     def _enclosed(self, function: Function) -> Extremes:
         return extremes(function, self.edges, share=FORCE_EXTREMES, parts=_PARTS)

@@ -23,6 +23,7 @@ from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.motion.quantities import quantity
 from optlaws.numbers import Quantity
 from optlaws.numerics.interval import Interval, exact
+from optlaws.numerics.roots import bisect
 from optlaws.numerics.taylor import Jet
 from optlaws.tolerances import ROUNDOFF, SIZE_BRACKET, SIZE_MARGIN, SIZE_NUDGE, SMALLEST_BASE
 
@@ -221,13 +222,7 @@ class _Sizes:
             raise InfeasibleProblem("no base circle fits the follower: give it other sizes")
         if fit == 0:
             return float(rising[0])
-        low, high = float(rising[fit - 1]), float(rising[fit])
-        for _ in range(100):
-            middle = 0.5 * (low + high)
-            if not low < middle < high:
-                break
-            low, high = (low, middle) if self._fits(middle) else (middle, high)
-        return high * (1.0 + 1e-9)
+        return bisect(self._fits, float(rising[fit]), float(rising[fit - 1]), 100)[0] * (1.0 + 1e-9)
 
     @property
     def _scale(self) -> float:

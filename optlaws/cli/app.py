@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import ast
 import os
 import sys
 import warnings
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
 
 from cyclopts import App, CycloptsError, Parameter
@@ -15,56 +17,9 @@ from optlaws.errors import InfeasibleProblem, InputError, OptlawsError
 
 NOT_PROVEN, BAD_INPUT, INFEASIBLE, SOLVER_FAILURE, INTERRUPTED = 1, 2, 3, 4, 130
 
-#: commands by their files, with the name where it is another, imported when one runs; what each does, in a sentence
-COMMANDS = {
-    "laws.catalogue": "List the standard laws, or those that a text may mean, the likeliest first.",
-    "laws.compare": "Compare laws: their constants, their peaks in a machine, the vibration they leave behind.",
-    "laws.constants": "Peak constants of the rest-to-rest law with a given Z(k).",
-    "laws.explore": (
-        "Explore laws, fronts and cycles in the browser, from this machine alone: drag a point and the law follows."
-    ),
-    "laws.export": (
-        "Write a law or a cycle in the format of a controller, and say what the controller will run.\n\n"
-        "The file goes to --output or, without it, to stdout and the report to stderr."
-    ),
-    "laws.law": (
-        "Show a law of the catalogue, a coded law, a member of Savin's families or a stored law, with its constants."
-    ),
-    "laws.cycle:cam": (
-        "Cams of cycles: curves, enclosed pressure angles and curvatures, proof of no undercut, least sizes."
-    ),
-    "laws.cycle": (
-        "Whole cycles of a machine in physical units, optimal as a whole: peaks, joints, drives, tables and pictures."
-    ),
-    "laws.dwell": (
-        "Balancing mechanisms of types I, II and III for an executive link that dwells, and which of them to take."
-    ),
-    "laws.follower": (
-        "Response of an elastic follower's mass: peaks, dynamic factor, residual vibration, and the same off design."
-    ),
-    "laws.lever": (
-        "Law of motion of a mass that swings between torsion bars on a cam-lever mechanism: exact and asymptotic."
-    ),
-    "laws.loader": (
-        "Inertial loader that balances a law: energy parameter Y, peaks of its motion, its mass or stroke."
-    ),
-    "synthesis.atlas": (
-        "Look a law up in the atlas: the nearest point that keeps what is asked, then the law as asked."
-    ),
-    "synthesis.front": "Find the laws that exchange constants for one another: each the best of its own problem.",
-    "synthesis.ledger": (
-        "Show printed numbers, formulas, figures and claims, computed again, with their verdicts.\n\n"
-        "Ends with 0 if every verdict that is declared holds, 1 if one does not, 2 if an item cannot be computed."
-    ),
-    "synthesis.run": "Do the jobs of problem files and write their results.",
-    "synthesis.solve": "Find the law with the least peak constant or mixture of constants, and prove it.",
-    "synthesis.study": "Solve every point of a study; the same command goes on where an interrupted one stopped.",
-    "synthesis.verify": (
-        "Check solutions or certificates with every rounding enclosed; no solver takes part.\n\n"
-        "Ends with 0 if every claim of every file is proven, 1 if one is false or not proven, 2 if a file cannot be "
-        "checked."
-    ),
-}
+#: the files of the commands by their names, imported when one runs
+COMMANDS = {file.stem: file for file in sorted(Path(__file__).parent.glob("*/[!_]*.py"))}
+_HELP = ("--help", "-h")
 
 
 def _version() -> str:
@@ -73,20 +28,29 @@ def _version() -> str:
     return version("optlaws")
 
 
-app = App(
-    name="optlaws",
-    help="Optimal motion laws for cam mechanisms and servo axes, with proof of their optimality.",
-    version=_version,
-    help_format="plaintext",
-    default_parameter=Parameter(negative=()),
-    suppress_keyboard_interrupt=False,
-)
+def application(*, described: bool = False) -> App:
+    """The commands, each with what it does where they are to be listed; its file says it and is not imported for it."""
+    commands = App(
+        name="optlaws",
+        help="Optimal motion laws for cam mechanisms and servo axes, with proof of their optimality.",
+        version=_version,
+        help_format="plaintext",
+        default_parameter=Parameter(negative=()),
+        suppress_keyboard_interrupt=False,
+    )
+    for name, file in COMMANDS.items():
+        about = _about(name, file) if described else None
+        commands.command(f"optlaws.cli.{file.parent.name}.{name}:{name}", name=name, help=about)
+    return commands
 
 
-for _file, _about in COMMANDS.items():
-    _module, _, _name = _file.partition(":")
-    _name = _name or _module.rpartition(".")[2]
-    app.command(f"optlaws.cli.{_module}:{_name}", name=_name, help=_about)
+def _about(name: str, file: Path) -> str:
+    functions = (node for node in ast.parse(file.read_bytes()).body if isinstance(node, ast.FunctionDef))
+    does = next(ast.get_docstring(function) for function in functions if function.name == name)
+    return (does or "").partition("\n\nParameters")[0]
+
+
+app = application()
 
 
 class NotProven(OptlawsError):  # noqa: N818
@@ -104,7 +68,9 @@ def exit_code(arguments: Sequence[str]) -> int:
     try:
         with warnings.catch_warnings():
             warnings.showwarning = _warn
-            app(list(arguments), exit_on_error=False, print_error=False, result_action="return_none")
+            listing = not arguments or arguments[0] in _HELP
+            commands = application(described=True) if listing else app
+            commands(list(arguments), exit_on_error=False, print_error=False, result_action="return_none")
     except (CycloptsError, InputError) as error:
         text, code = cut(str(error)), BAD_INPUT
     except InfeasibleProblem as error:

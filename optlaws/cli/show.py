@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from math import inf
 from typing import TYPE_CHECKING, Any
@@ -30,13 +30,15 @@ def _plain(value: Any) -> object:  # noqa: ANN401 - a number of numpy
     return value.item()
 
 
-def table(*headings: str) -> Table:
+def table(*headings: str, rows: Iterable[Iterable[str]] = ()) -> Table:
     """A table without lines; one without headings tells facts by their names."""
     from rich.table import Table
 
     new_table = Table(*headings, show_header=bool(headings), box=None, pad_edge=False)
     if not headings:
         new_table.add_column(no_wrap=True)
+    for row in rows:
+        new_table.add_row(*row)
     return new_table
 
 
@@ -111,7 +113,4 @@ def busy(text: str) -> Iterator[None]:
 def constants_table(constants: optlaws.Constants) -> Table:
     """Constants with their places."""
     headings, *rows = constants.summary().cells()
-    peaks = table("constant", *headings[1:])
-    for row in rows:
-        peaks.add_row(*row)
-    return peaks
+    return table("constant", *headings[1:], rows=rows)

@@ -35,7 +35,7 @@ from optlaws.kept import kept_property
 from optlaws.mechanisms.machine.over_time import RepeatedMotion
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import TURN, quantity, written
-from optlaws.numbers import MOST_DEGREE, Quantity, derivative, real_times, whole
+from optlaws.numbers import MOST_DEGREE, Quantity, derivative, number_or_array, real_times, whole
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.status import Status
@@ -261,8 +261,7 @@ class Cycle(CycleInterchange):
 
     def __call__(self, time: Any, nu: int = 0) -> Any:  # noqa: ANN401 - a number for a number, an array for arrays
         """Position (nu 0), velocity, acceleration, jerk at a time in seconds, in SI units; the cycle repeats."""
-        values = self._timed.values(real_times(time), derivative(nu))
-        return values if values.ndim else float(values)
+        return number_or_array(self._timed.values(real_times(time), derivative(nu)))
 
     def at_angle(self, degrees: Any, nu: int = 0) -> Any:  # noqa: ANN401 - as for times
         """The motion at an angle of the master, in degrees or a text such as "0.5 rad"; derivatives are by time."""

@@ -17,7 +17,7 @@ from optlaws.laws.exporting import ExportOptions
 from optlaws.mechanisms.machine.machine import Machine
 from optlaws.motion.motion import Motion, motion_of_pieces
 from optlaws.motion.piece import unit_of
-from optlaws.motion.quantities import written
+from optlaws.motion.quantities import QUANTITIES, written
 from optlaws.numbers import Quantity
 from optlaws.shown.summary import Summary
 from optlaws.suggest import keywords_of, unknown_key
@@ -31,10 +31,9 @@ KINDS: dict[str, type[Any]] = {
     "free": Free,
 }
 FORMAT = "optlaws cycle 1"
-_ENTRIES = ("speed", "period", "minimise", "limits", "start", "advance", "drive", "load", "order", "degree")
-_CLOCK = ("speed", "period")
+ENTRIES = ("speed", "period", "minimise", "limits", "start", "advance", "drive", "load", "order", "degree")
+CLOCK = ("speed", "period")
 _SHOWN = 6  # segments in a line
-_NAMES = ("position", "velocity", "acceleration", "jerk")
 
 
 class CycleInterchange(JsonText):
@@ -56,7 +55,7 @@ class CycleInterchange(JsonText):
         >>> Cycle([Rise("35 mm", "120 deg"), Return()], speed="200 rpm").to_dict()["segments"][0]
         {'kind': 'rise', 'by': '35 mm', 'duration': '120 deg'}
         """
-        given = {name: _plain(getattr(self, name)) for name in _ENTRIES}
+        given = {name: _plain(getattr(self, name)) for name in ENTRIES}
         entries = {name: value for name, value in given.items() if value not in (None, {}, ())}
         return {"format": FORMAT, **entries, "segments": [_segment(segment) for segment in self._cycle.segments]}
 
@@ -69,8 +68,8 @@ class CycleInterchange(JsonText):
             raise InputError(f"a stored cycle has format {FORMAT!r}, got {shortened(data['format'])}")
         given = {name: value for name, value in data.items() if name not in {"format", "segments"}}
         for name in given:
-            if name not in _ENTRIES:
-                raise InputError(f"cycle: {unknown_key(name, ('segments', *_ENTRIES))}")
+            if name not in ENTRIES:
+                raise InputError(f"cycle: {unknown_key(name, ('segments', *ENTRIES))}")
         load = given.get("load")
         if isinstance(load, Mapping) and "A" in load:
             given["load"] = Machine.from_dict(load)
@@ -95,7 +94,7 @@ class CycleInterchange(JsonText):
         ...
         """
         data = self.to_dict()
-        clock = {name: data[name] for name in _CLOCK if name in data}
+        clock = {name: data[name] for name in CLOCK if name in data}
         return problem_file(title, clock, {axis: self})
 
     def to_pandas(self) -> Any:  # noqa: ANN401 - pandas is imported where it is asked for
@@ -103,16 +102,14 @@ class CycleInterchange(JsonText):
 
         Needs the extra `optlaws[studies]`.
         """
-        needed("pandas", "to_pandas")
-        import pandas as pd
-
+        pd = needed("pandas", "to_pandas")
         cycle = self._cycle
-        units = {name: unit_of(cycle.axis, nu) for nu, name in enumerate(_NAMES)}
+        units = {name: unit_of(cycle.axis, nu) for nu, name in enumerate(QUANTITIES)}
         rows = []
         for peaks, joint in zip(cycle.peaks, cycle.joints, strict=True):
             row = {"segment": peaks.name, "start, s": peaks.start, "duration, s": peaks.duration}
-            row |= {f"peak {name}, {units[name]}": peaks.peak(nu) for nu, name in enumerate(_NAMES)}
-            rows.append(row | {f"leap of {name}, {units[name]}": joint[name] for name in _NAMES[1:3]})
+            row |= {f"peak {name}, {units[name]}": peaks.peak(nu) for nu, name in enumerate(QUANTITIES)}
+            rows.append(row | {f"leap of {name}, {units[name]}": joint[name] for name in QUANTITIES[1:3]})
         return pd.DataFrame(rows)
 
     def __repr__(self) -> str:
@@ -252,7 +249,7 @@ def problem_file(title: str, clock: Mapping[str, Any], cycles: Mapping[str, Cycl
 
 
 def _axis_entries(axis: str, cycle: CycleInterchange) -> dict[str, Any]:
-    data = {name: value for name, value in cycle.to_dict().items() if name not in {"format", *_CLOCK}}
+    data = {name: value for name, value in cycle.to_dict().items() if name not in {"format", *CLOCK}}
     segments = data.pop("segments")
     for i, segment in enumerate(segments, start=1):
         if not isinstance(segment.get("law", ""), str):

@@ -109,9 +109,7 @@ class Comparison(JsonText):
 
     def to_pandas(self) -> Any:  # noqa: ANN401 - pandas is imported here alone
         """The rows as a data frame with the laws' names as index; needs the extra `optlaws[studies]`."""
-        needed("pandas", "to_pandas")
-        import pandas as pd
-
+        pd = needed("pandas", "to_pandas")
         return pd.DataFrame(self.rows).set_index("law")
 
     def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's

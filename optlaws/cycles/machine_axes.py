@@ -180,9 +180,7 @@ class Axes(JsonText, Mapping[str, Cycle]):
 
         Needs the extra `optlaws[studies]`.
         """
-        needed("pandas", "to_pandas")
-        import pandas as pd
-
+        pd = needed("pandas", "to_pandas")
         frames = {name: cycle.to_pandas() for name, cycle in self.items()}
         return pd.concat(frames, names=["axis", "segment number"])
 

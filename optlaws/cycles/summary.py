@@ -11,6 +11,7 @@ from optlaws.cycles.optimisation.objectives import FORCE, LOADED, POWER, kind_of
 from optlaws.cycles.specification.load import LOAD, read_load
 from optlaws.errors import OptlawsError
 from optlaws.motion.piece import unit_of
+from optlaws.motion.quantities import QUANTITIES
 from optlaws.shown.showing import drawing, facts, page, table
 from optlaws.shown.summary import Row, Summary
 
@@ -18,7 +19,6 @@ if TYPE_CHECKING:
     from optlaws.cycles.cycle import Cycle
 
 _SAMPLES = 241
-_NAMES = ("position", "velocity", "acceleration", "jerk")
 _LOAD_UNITS = {
     "length": "m",
     "angle": "rad",
@@ -58,7 +58,7 @@ def proof_rows(cycle: Cycle) -> list[Row]:
 def peak_rows(cycle: Cycle) -> list[Row]:
     """Peak velocity, acceleration and jerk, each with its time in seconds."""
     rows = []
-    for nu, name in enumerate(_NAMES[1:], 1):
+    for nu, name in enumerate(QUANTITIES[1:], 1):
         extremes = (extreme for peaks in cycle.peaks for extreme in peaks.extremes[nu])
         value, time = max(extremes, key=lambda extreme: abs(extreme[0]))
         rows.append(Row(f"peak {name}", abs(value), unit_of(cycle.axis, nu), time))
@@ -92,7 +92,7 @@ def joint_rows(cycle: Cycle) -> list[Row]:
             max(abs(joint[name]) for joint in cycle.joints),
             unit_of(cycle.axis, nu),
         )
-        for nu, name in enumerate(_NAMES[1:3], 1)
+        for nu, name in enumerate(QUANTITIES[1:3], 1)
     ]
 
 
@@ -113,7 +113,7 @@ def cycle_page(cycle: Cycle) -> str:
         known = summary(cycle)
     except OptlawsError as error:
         return page("Cycle", facts({"turn, s": cycle.duration, "error": error}))
-    names = [f"{name}, {unit_of(cycle.axis, nu)}" for nu, name in enumerate(_NAMES)]
+    names = [f"{name}, {unit_of(cycle.axis, nu)}" for nu, name in enumerate(QUANTITIES)]
     rows = [(peak.name, peak.duration, *(peak.peak(nu) for nu in (1, 2, 3))) for peak in cycle.peaks]
     times = np.linspace(0.0, cycle.duration, _SAMPLES)
     drawings = [drawing(name, times.tolist(), cycle(times, nu).tolist()) for nu, name in enumerate(names)]

@@ -19,10 +19,10 @@ from optlaws.cams.forces import CamForces
 from optlaws.cams.least_sizes import least_base_circle
 from optlaws.cams.summary import Labelled, named_forces
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError
-from optlaws.explorer.cycle_view import check_axis
+from optlaws.explorer.cycle_view import SEGMENTS, check_axis
 from optlaws.explorer.law_view import digits, drawn, refusal
 from optlaws.files.problem_file import convert
-from optlaws.jobs.cam_entries import CamProblemFile, Cams, ForcesEntries, read
+from optlaws.jobs.cam_entries import CamProblemFile, ForcesEntries
 from optlaws.jobs.cam_findings import FORCE, STIFFNESS, Findings
 from optlaws.motion.quantities import quantity
 from optlaws.numbers import Array
@@ -46,27 +46,27 @@ class CamRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 def answer(request: CamRequest) -> dict[str, Any]:
     """The view of a cam, or why there is none."""
     try:
-        return _view(*cams_of(request))
+        return _view(findings_of(request))
     except OptlawsError as error:
         return {"refused": refusal(error, "no such cam")}
 
 
-def cams_of(request: CamRequest) -> tuple[CamProblemFile, Cams]:
+def findings_of(request: CamRequest) -> Findings:
     """The entries of the cam's problem file, and the cams that they describe."""
     return _solved(json.dumps(request.study, sort_keys=True))
 
 
 @lru_cache(maxsize=32)
-def _solved(question: str) -> tuple[CamProblemFile, Cams]:
+def _solved(question: str) -> Findings:
     data = json.loads(question)
     if "barrel" in data:
         raise InputError("the explorer shows disc cams: barrel cams are made by the command `optlaws cam`")
     check_axis(convert(data, CamProblemFile, _WHERE).motion)
-    return read(data, _WHERE)
+    return Findings.read(data, _WHERE)
 
 
-def _view(spec: CamProblemFile, cams: Cams) -> dict[str, Any]:
-    cam = cams.first
+def _view(findings: Findings) -> dict[str, Any]:
+    spec, cam = findings.spec, findings.cam
     angles = np.linspace(0.0, 2.0 * np.pi, _STEPS + 1)
     curves = {"profile": cam.profile, "pitch": cam.pitch_curve}
     if spec.cutter_radius is not None:
@@ -182,8 +182,8 @@ def sizes(request: CamRequest) -> dict[str, Any]:
 
 @lru_cache(maxsize=32)
 def _least(question: str) -> tuple[str, ...]:
-    spec, cams = _solved(question)
-    cam = cams.first
+    findings = _solved(question)
+    spec, cam = findings.spec, findings.cam
     if spec.pressure_angle is None and spec.radius_of_curvature is None:
         return ()
     try:
@@ -203,15 +203,7 @@ def example() -> dict[str, Any]:
         "pressure_angle": "30 deg",
         "radius_of_curvature": "15 mm",
         "follower": {"kind": "translating roller", "radius": "12 mm", "offset": "6 mm"},
-        "motion": {
-            "name": "slide",
-            "segment": [
-                {"kind": "rise", "by": "35 mm", "duration": "120 deg"},
-                {"kind": "dwell", "duration": "90 deg"},
-                {"kind": "return", "by": "35 mm", "duration": "100 deg"},
-                {"kind": "dwell"},
-            ],
-        },
+        "motion": {"name": "slide", "segment": SEGMENTS},
     }
 
 
@@ -239,12 +231,10 @@ def loads(request: CamRequest) -> dict[str, Any]:
 
 @lru_cache(maxsize=32)
 def _loads(question: str) -> dict[str, Any]:
-    spec, cams = cams_of(CamRequest(study=json.loads(question)))
-    if spec.motion.drive is None:
+    findings = _solved(question)
+    if findings.spec.motion.drive is None:
         return {"panels": [], "facts": []}
-    findings = Findings(msgspec.structs.replace(spec, forces=spec.forces or ForcesEntries()), cams)
-    forces = findings.forces
-    assert forces is not None  # noqa: S101 - the line above asks for them
+    forces = findings.forces_with(findings.spec.forces or ForcesEntries())
     return {"panels": _load_panels(forces), "facts": [*_load_facts(forces), *_spring(findings)]}
 
 
@@ -291,7 +281,7 @@ def _spring(findings: Findings) -> list[str]:
         return [f"no spring: {error.args[0]}"]
     if spring is None:
         return []
-    axis = findings.cams.first.displacement.axis
+    axis = findings.cam.displacement.axis
     preload = 0.0 if abs(spring.preload) <= FORCE_ROUNDING * spring.greatest else spring.preload
     sizes = f"{digits(spring.stiffness, 6)} {STIFFNESS[axis]}, preload {digits(preload, 6)} {FORCE[axis]}"
     return [f"least spring without lift-off: {sizes}, up to {digits(spring.greatest, 6)} {FORCE[axis]} on the follower"]

@@ -19,7 +19,8 @@ from optlaws.explorer.requests import MOST_DEGREE, MOST_ORDER
 from optlaws.files.problem_file import convert
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile, cycle_of
 from optlaws.laws.catalogue import reading
-from optlaws.plots.cycle import QUANTITIES, UNITS, samples
+from optlaws.motion.quantities import QUANTITIES
+from optlaws.plots.cycle import UNITS, samples
 from optlaws.tolerances import AGREEMENT, BOUND_SLACK, CYCLE_ROUNDING
 
 _EACH = 100
@@ -210,6 +211,15 @@ def _ways(spec: CycleProblemFile, axis: AxisEntries) -> Iterator[dict[str, Any]]
         yield {"entry": name, "value": text, "text": f"raise the limit of {name} from {given} to {text}"}
 
 
+#: segments of what is shown at first, as a cycle and as a cam
+SEGMENTS = [
+    {"kind": "rise", "by": "35 mm", "duration": "120 deg"},
+    {"kind": "dwell", "duration": "90 deg"},
+    {"kind": "return", "by": "35 mm", "duration": "100 deg"},
+    {"kind": "dwell"},
+]
+
+
 def example() -> dict[str, Any]:
     """The cycle that the page shows where none was given."""
     return {
@@ -221,12 +231,7 @@ def example() -> dict[str, Any]:
                 "name": "slide",
                 "minimise": "acceleration",
                 "limits": {"velocity": "616 mm/s"},
-                "segment": [
-                    {"kind": "rise", "by": "35 mm", "duration": "120 deg"},
-                    {"kind": "dwell", "duration": "90 deg"},
-                    {"kind": "return", "by": "35 mm", "duration": "100 deg"},
-                    {"kind": "dwell"},
-                ],
+                "segment": SEGMENTS,
             }
         ],
     }

@@ -217,7 +217,7 @@ def _of_cycle(request: FileRequest) -> File:
 def _of_cam(request: FileRequest) -> File:
     if request.cam is None:
         raise InputError("there is no cam to save")
-    spec, cams = cam_view.cams_of(request.cam)
+    findings = cam_view.findings_of(request.cam)
     if request.kind == "problem":
         return _file("cam.toml", "application/toml", to_toml(request.cam.study))
     if request.kind != "cut":
@@ -226,7 +226,9 @@ def _of_cam(request: FileRequest) -> File:
         raise InputError(f"format: {unknown_key(request.format, cam_files.FORMATS, 'format')}")
     ending = next(end for end, name in cam_files.ENDINGS.items() if name.split()[0] == request.format.split()[0])
     return _file(
-        f"cam{ending}", "text/plain", cam_files.text(cams.first.profile, request.format, Cutting(about=spec.title))
+        f"cam{ending}",
+        "text/plain",
+        cam_files.text(findings.cam.profile, request.format, Cutting(about=findings.spec.title)),
     )
 
 

@@ -10,18 +10,17 @@ from typing import Any, Protocol
 
 from optlaws.errors import InputError
 from optlaws.exports.format import Format, Written, format_of
-from optlaws.exports.report import QUANTITIES, Report, TaskSampling, as_run, task_sampling
+from optlaws.exports.report import Report, TaskSampling, as_run, task_sampling
 from optlaws.exports.text import variable_names
 from optlaws.files import writing
 from optlaws.laws import MotionLaw
 from optlaws.motion.motion import Motion, motion_of_law
 from optlaws.motion.polynomials import PiecewiseMotion
+from optlaws.motion.quantities import QUANTITIES
 from optlaws.numbers import Quantity
 from optlaws.shown.summary import Row, Summary
 
 Comparison = tuple[str, float | None, float | None, float | None]
-
-_NAMES = [quantity.lower() for quantity in QUANTITIES]
 
 
 class _HasMotion(Protocol):
@@ -107,7 +106,7 @@ class Export:
         means = run.mean_absolute_velocity, law.mean_absolute_velocity
         effective = run.effective_acceleration, law.effective_acceleration
         where = "where it repeats" if self.motion.repeats else "from and to rest"
-        moving = list(enumerate(_NAMES))[1:]
+        moving = list(enumerate(QUANTITIES))[1:]
         rows: list[tuple[str, int, float | None, float | None, float | None]] = [
             *((f"peak of {name}", nu, run.peak(nu), law.peak(nu), self.report.ratio(nu)) for nu, name in moving),
             ("effective acceleration", 2, *effective, _ratio(*effective)),
@@ -115,7 +114,7 @@ class Export:
             *((f"leap of {q} inside", n, run.leaps[n - 1].value, law.leaps[n - 1].value, None) for n, q in moving),
             *((f"leap of {q} {where}", n, run.leaps_at_ends[n - 1], law.leaps_at_ends[n - 1], None) for n, q in moving),
             *(
-                (f"greatest deviation of {_NAMES[n]}", n, d.value, None, None)
+                (f"greatest deviation of {QUANTITIES[n]}", n, d.value, None, None)
                 for n, d in enumerate(self.report.deviation)
             ),
         ]

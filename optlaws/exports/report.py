@@ -18,7 +18,7 @@ from optlaws.numbers import MOST_VALUES, Array, Quantity
 from optlaws.numerics import bernstein
 from optlaws.numerics.roots import bisect_each
 
-QUANTITIES = ("Position", "Velocity", "Acceleration", "Jerk")
+_NAMES = ("Position", "Velocity", "Acceleration", "Jerk")
 ORDERS = range(4)
 ROUNDING = 1e-9, 2.0**-46  # leaps below these shares, of the peak and of what positions leave, are rounding
 
@@ -61,11 +61,11 @@ class Characteristics:
         """The characteristics by TwinCAT's names, as plain data; what is infinite is null."""
         data: dict[str, Any] = {"StartPoint": _point(self.start), "EndPoint": _point(self.end)}
         for side, extremes in (("Min", self.least), ("Max", self.greatest)):
-            for name, extreme in zip(QUANTITIES, extremes, strict=True):
+            for name, extreme in zip(_NAMES, extremes, strict=True):
                 data[f"PointAt{side}Slave{name}"] = {"MasterPosition": extreme.x, f"Slave{name}": _known(extreme.value)}
         data["SlaveMeanAbsoluteVelocity"] = self.mean_absolute_velocity
         data["SlaveEffectiveAcceleration"] = _known(self.effective_acceleration)
-        for name, extreme, end in zip(QUANTITIES[1:], self.leaps, self.leaps_at_ends, strict=True):
+        for name, extreme, end in zip(_NAMES[1:], self.leaps, self.leaps_at_ends, strict=True):
             data[f"Leap{name}"] = {"MasterPosition": extreme.x, f"Slave{name}": _known(extreme.value)}
             data[f"LeapAtEnds{name}"] = _known(end)
         return data
@@ -116,10 +116,10 @@ class Report:
             "NominalMasterVelocity": self.rate,
             "run": self.run.results(),
             "law": self.law.results(),
-            "ratio": {name: _known(self.ratio(nu)) for nu, name in enumerate(QUANTITIES) if nu},
+            "ratio": {name: _known(self.ratio(nu)) for nu, name in enumerate(_NAMES) if nu},
             "deviation": {
                 name: {"MasterPosition": extreme.x, f"Slave{name}": _known(extreme.value)}
-                for name, extreme in zip(QUANTITIES, self.deviation, strict=False)
+                for name, extreme in zip(_NAMES, self.deviation, strict=False)
             },
             "rounding_bound_acceleration": self.bound,
         }
@@ -215,7 +215,7 @@ def _known(value: float) -> float | None:
 
 
 def _point(values: tuple[float, ...]) -> dict[str, Any]:
-    return {f"Slave{name}": _known(value) for name, value in zip(QUANTITIES, values, strict=True)}
+    return {f"Slave{name}": _known(value) for name, value in zip(_NAMES, values, strict=True)}
 
 
 _EACH = 257

@@ -17,6 +17,7 @@ from optlaws.exports.error_bounds import FloatingPoint, error_bounds
 from optlaws.files.writing import MARK
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion
+from optlaws.motion.quantities import QUANTITIES
 
 WIDTH = 110
 
@@ -64,9 +65,6 @@ def safe(lines: Iterable[str]) -> list[str]:
                 text = text.replace(mark, f"{mark[0]} {mark[1]}")
             printable.append("".join(c if c.isprintable() else "?" for c in text.rstrip("\\ ")))
     return printable
-
-
-QUANTITIES = ("position", "velocity", "acceleration", "jerk")
 
 
 @dataclass(frozen=True)

@@ -23,7 +23,7 @@ from optlaws.cams.summary import named_forces
 from optlaws.cycles.summary import objective_unit
 from optlaws.files import tables, writing
 from optlaws.jobs import barrel_cam
-from optlaws.jobs.cam_entries import CamProblemFile, Cams, FileEntries, read
+from optlaws.jobs.cam_entries import CamProblemFile, FileEntries
 from optlaws.jobs.cam_findings import EXTREMES, FORCE, STIFFNESS, Findings, Limits, enclosure, extreme_rows, plain
 from optlaws.plots.cam import animated, cam_figure, forces_figure, pair_figure
 from optlaws.plots.cycle import UNITS
@@ -42,12 +42,12 @@ def run(results: Results) -> None:
     if "barrel" in results.entries:
         barrel_cam.run(results)
         return
-    spec, cams = read(results.entries, results.file)
+    findings = Findings.read(results.entries, results.file)
+    spec, first, second = findings.spec, findings.cam, findings.second
     results.title = spec.title
-    findings, first, second = Findings(spec, cams), cams.first, cams.second
     results.text("cam.md", str(page(findings)))
     results.data("cam.json", _to_data(findings))
-    results.table("cam", _columns(spec, cams), _rows(spec, cams))
+    results.table("cam", _columns(findings), _rows(findings))
     results.picture("cam", cam_figure(first, spec.title))
     if findings.forces is not None:
         results.picture("forces", forces_figure(findings.forces, spec.title))
@@ -72,14 +72,14 @@ def answer(data: Mapping[str, Any], file: Path) -> dict[str, Any]:
     """The data of the cam for programs, in metres and radians: enclosures as pairs, with the angle of the cam."""
     if "barrel" in data:
         return barrel_cam.answer(data, file)
-    return _to_data(Findings(*read(data, file)))
+    return _to_data(Findings.read(data, file))
 
 
 def _to_data(findings: Findings) -> dict[str, Any]:
-    extremes, limits = findings.cams.first.extremes, findings.limits
+    extremes, limits = findings.cam.extremes, findings.limits
     data: dict[str, Any] = {
         "unit": "SI",
-        **_best_data(findings.cams),
+        **_best_data(findings),
         "greatest_pressure_angle": enclosure(extremes.greatest_pressure_angle, limits.pressure),
         "least_pressure_angle": enclosure(extremes.pressure_angles[0], limits.pressure),
         "largest_pressure_angle": enclosure(extremes.pressure_angles[1], limits.pressure),
@@ -98,26 +98,26 @@ def _to_data(findings: Findings) -> dict[str, Any]:
     if roller is not None:
         angle = findings.angle(roller.angle)
         data["greatest_roller"] = {"radius": roller.radius, "too_large": roller.too_large, "angle": angle}
-    return data | _pair_data(findings.cams.second) | findings.to_data()
+    return data | _pair_data(findings.second) | findings.to_data()
 
 
-def _best_data(cams: Cams) -> dict[str, Any]:
+def _best_data(findings: Findings) -> dict[str, Any]:
     """How good the laws for the cam are; nothing where the laws are those of the cycle."""
-    best = cams.best
+    best = findings.best
     if best is None:
         return {}
     name, objective = (
         ("base circle", best.least.radius)
         if isinstance(best, BestBaseCircle)
-        else (cams.cycle.minimise, best.objective)
+        else (findings.cycle.minimise, best.objective)
     )
-    bound = {"status": _status(cams), "lower_bound": best.lower_bound}
+    bound = {"status": _status(findings), "lower_bound": best.lower_bound}
     return {"best": {"minimise": name, "objective": objective, **bound}}
 
 
-def _status(cams: Cams) -> str:
+def _status(findings: Findings) -> str:
     """Whether the best laws, or the least base circle, are proven optimal."""
-    best = cams.best
+    best = findings.best
     assert best is not None  # noqa: S101 - the callers have seen it
     if isinstance(best, BestCam):
         return best.status.value
@@ -140,27 +140,27 @@ def _pair_data(cam: DiscCam | None) -> dict[str, Any]:
 
 def page(findings: Findings) -> Page:
     """The page of results."""
-    spec, cams, least = findings.spec, findings.cams, findings.least
+    spec, least = findings.spec, findings.least
     result = Page(spec.title).text(spec.text).figure("cam", spec.title)
-    if cams.best is not None:
+    if findings.best is not None:
         result.heading("Laws for the cam").table(_HEADINGS, _best_rows(findings), digits=6)
-    result.text(f"Undercut: {cams.first.extremes.undercut}.")
-    result.table(EXTREMES, extreme_rows(cams.first, findings.limits), digits=7)
+    result.text(f"Undercut: {findings.cam.extremes.undercut}.")
+    result.table(EXTREMES, extreme_rows(findings.cam, findings.limits), digits=7)
     if rows := _size_rows(findings):
         result.heading("Sizes").table(("what", "kept with", "broken with", "unit", "at, deg"), rows, digits=7)
     if isinstance(least, str):
         result.text(f"{least[0].upper()}{least[1:]}.")
-    if cams.second is not None:
+    if findings.second is not None:
         result.heading("Return cam").figure("pair", "Both cams on one shaft, with their followers at the start")
-        result.text(f"Undercut: {cams.second.extremes.undercut}.")
-        result.table(EXTREMES, extreme_rows(cams.second, Limits()), digits=7)
+        result.text(f"Undercut: {findings.second.extremes.undercut}.")
+        result.table(EXTREMES, extreme_rows(findings.second, Limits()), digits=7)
         result.text(_links(spec, _RETURN))
     _add_forces(result, findings)
     if findings.spring is not None:
         result.heading("Spring")
-        result.table(("what", "value", "unit"), _spring_rows(findings.spring, cams.first), digits=6)
+        result.table(("what", "value", "unit"), _spring_rows(findings.spring, findings.cam), digits=6)
     if findings.as_made:
-        unit = "um" if cams.first.displacement.axis == "length" else "urad"
+        unit = "um" if findings.cam.displacement.axis == "length" else "urad"
         headings = ("what", f"deviation, {unit}", "peak acceleration, ratio", "peak jerk, ratio")
         result.heading("As made").table(headings, [_made_row(*item) for item in findings.as_made.items()], digits=5)
         if None in findings.as_made.values():
@@ -175,15 +175,15 @@ def _links(spec: CamProblemFile, prefix: str = "") -> str:
 
 
 def _best_rows(findings: Findings) -> list[list[tables.Cell]]:
-    cams, cycle = findings.cams, findings.cams.cycle
-    best, name, unit = cams.best, cycle.minimise, objective_unit(cycle)
+    best, cycle = findings.best, findings.cycle
+    name, unit = cycle.minimise, objective_unit(cycle)
     if isinstance(best, BestCam):
         return [
             [f"least {name} under the limits of the cam", best.objective, best.lower_bound, unit, best.status.value],
             [f"least {name} without them", cycle.objective, cycle.lower_bound, unit, cycle.status.value],
         ]
     assert best is not None  # noqa: S101 - the caller has seen it
-    sizes: list[tables.Cell] = [_MILLI * best.least.radius, _MILLI * best.lower_bound, "mm", _status(cams)]
+    sizes: list[tables.Cell] = [_MILLI * best.least.radius, _MILLI * best.lower_bound, "mm", _status(findings)]
     rows: list[list[tables.Cell]] = [["least base circle of all laws", *sizes]]
     of_cycle = findings.least_of_cycle
     if of_cycle is not None:
@@ -214,7 +214,7 @@ def _add_forces(result: Page, findings: Findings) -> None:
         f"{_rounded(0.5 * sum(forces.mean_torque), forces.torque.peak):.6g} N m. "
         + ("The follower lifts off." if forces.lifts_off else "The follower stays on the cam.")
     )
-    if findings.cams.first.extremes.undercut.status == UNDERCUT:
+    if findings.cam.extremes.undercut.status == UNDERCUT:
         result.text("That is so if the follower moves as asked, which it cannot on a cam that is undercut.")
 
 
@@ -252,20 +252,21 @@ def _rounded(value: float, size: float) -> float:
     return 0.0 if abs(value) <= FORCE_ROUNDING * abs(size) else value
 
 
-def _columns(spec: CamProblemFile, cams: Cams) -> list[str]:
-    curves = ["pitch", "profile", *(["cutter"] if spec.cutter_radius else [])]
-    if cams.second is not None:
+def _columns(findings: Findings) -> list[str]:
+    curves = ["pitch", "profile", *(["cutter"] if findings.spec.cutter_radius else [])]
+    if findings.second is not None:
         curves += [f"return {name}" for name in curves]
     points = [f"{name} {axis}, mm" for name in curves for axis in "xy"]
-    displacement = f"displacement, {UNITS[cams.first.displacement.axis][0][0]}"
+    displacement = f"displacement, {UNITS[findings.cam.displacement.axis][0][0]}"
     return ["cam, deg", displacement, *points, "pressure angle, deg", "curvature, 1/mm"]
 
 
-def _rows(spec: CamProblemFile, cams: Cams) -> list[list[tables.Cell]]:
-    cam, turns = cams.first, np.linspace(0.0, _TURN, spec.rows)
+def _rows(findings: Findings) -> list[list[tables.Cell]]:
+    spec, cam = findings.spec, findings.cam
+    turns = np.linspace(0.0, _TURN, spec.rows)
     angles = np.radians(turns)
     curves: list[PlaneCurve] = []
-    for disc in (cam, cams.second):
+    for disc in (cam, findings.second):
         if disc is not None:
             curves += [disc.pitch_curve, disc.profile]
             curves += [disc.cutter_path(spec.cutter_radius)] if spec.cutter_radius else []

@@ -2,27 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Literal, TypeAlias
 
 import msgspec
 
-from optlaws.cams.best_laws import BestBaseCircle, BestCam, best_base_circle, best_cam
-from optlaws.cams.conjugate import conjugate_cam
 from optlaws.cams.curves.cam_files import format_of
 from optlaws.cams.curves.file_options import Cutting
 from optlaws.cams.disc import DiscCam
-from optlaws.cams.followers.follower import read_follower
-from optlaws.cams.forces import CamForces
-from optlaws.cycles.cycle import Cycle
-from optlaws.errors import InputError, located
+from optlaws.errors import InputError
 from optlaws.files import writing
-from optlaws.files.problem_file import Text, convert
-from optlaws.jobs.cycle_entries import AxisEntries, cycle_of
+from optlaws.files.problem_file import Text
+from optlaws.jobs.cycle_entries import AxisEntries
 from optlaws.jobs.job import JobFile
-from optlaws.motion.quantities import TURN
 
 #: its kind, and the entries that this kind takes
 FollowerEntries: TypeAlias = dict[str, str]
@@ -119,78 +111,3 @@ class CamProblemFile(JobFile, kw_only=True, forbid_unknown_fields=True):
         """The limits of the cam, and how it turns, as functions of sizes and of best laws take them."""
         limits = {"pressure_angle": self.pressure_angle, "radius_of_curvature": self.radius_of_curvature}
         return {**limits, "turning": self.turning}
-
-
-@dataclass(frozen=True)
-class Cams:
-    """The cams that a problem file asks for.
-
-    Attributes
-    ----------
-    cycle
-        As the file gives it.
-    first
-        The cam; with the laws found where the best ones are sought.
-    best
-        How good these are, and the proof.
-    second
-        The return cam of a pair.
-    """
-
-    cycle: Cycle
-    first: DiscCam
-    best: BestCam | BestBaseCircle | None = None
-    second: DiscCam | None = None
-
-    def forces(self, options: ForcesEntries | None) -> CamForces | None:
-        """The cam's forces at the speed of its cycle; None without options."""
-        if options is None:
-            return None
-        # laws that were found for a cam are no cycle, but go as fast
-        beside: dict[str, Any] = {}
-        if self.first.motion is not self.cycle:
-            beside = {"speed": f"{TURN / self.cycle.duration!r} rad/s", "drive": self.cycle.drive}
-        return CamForces(
-            self.first, friction=options.friction, width=options.width, materials=options.materials, **beside
-        )
-
-
-def read(data: Mapping[str, Any], file: Path) -> tuple[CamProblemFile, Cams]:
-    """The entries of a file, and the cams; an error names the file."""
-    spec = convert(data, CamProblemFile, file)
-    with located(str(file)):
-        cams = _cams(spec)
-        if spec.cutter_radius is not None:
-            cams.first.cutter_path(spec.cutter_radius)
-        for entry in spec.file:
-            entry.check(cams.first)
-        cams.forces(spec.forces)
-    return spec, cams
-
-
-def _cams(spec: CamProblemFile) -> Cams:
-    follower = read_follower(spec.follower)
-    if spec.best != "base circle" and spec.base_radius is None:
-        raise InputError("base_radius is missing: give it, such as '60 mm', or ask for best = 'base circle'")
-    if spec.best == "base circle" and spec.base_radius is not None:
-        raise InputError("base_radius is what best = 'base circle' looks for: leave it out, or ask for best = 'laws'")
-    cycle = cycle_of(spec.motion, spec.speed, spec.period)
-    radius: Any = spec.base_radius
-    best: BestCam | BestBaseCircle | None = None
-    if spec.best is None:
-        cam = DiscCam(cycle, radius, follower, turning=spec.limits["turning"])
-    elif spec.best == "laws":
-        best = best_cam(cycle, radius, follower, **spec.limits)
-        cam = best.cam
-    else:
-        best = best_base_circle(cycle, follower, **spec.limits)
-        cam = best.least.cam
-    return Cams(cycle, cam, best, _second(spec.pair, cam))
-
-
-def _second(entries: PairEntries | None, cam: DiscCam) -> DiscCam | None:
-    if entries is None:
-        return None
-    follower = None if entries.follower is None else read_follower(entries.follower)
-    with located("pair"):
-        return conjugate_cam(cam, follower, distance=entries.distance, angle=entries.angle)

@@ -2,28 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
 from math import degrees
-from typing import Any
+from pathlib import Path
+from typing import Any, Self
 
 import msgspec
 import numpy as np
 
 from optlaws.cams.as_manufactured import AsMade, UnreachedProfileError, as_made, with_profile_error
-from optlaws.cams.best_laws import BestBaseCircle
+from optlaws.cams.best_laws import BestBaseCircle, BestCam, best_base_circle, best_cam
+from optlaws.cams.conjugate import conjugate_cam
 from optlaws.cams.curves.extremes import EnclosedExtreme
 from optlaws.cams.disc import DiscCam
+from optlaws.cams.followers.follower import read_follower
 from optlaws.cams.forces import CamForces
 from optlaws.cams.least_sizes import GreatestRoller, LeastBaseCircle, greatest_roller, least_base_circle
 from optlaws.cams.springs import Spring, least_spring
 from optlaws.cams.summary import geometry
-from optlaws.errors import InfeasibleProblem
+from optlaws.cycles.cycle import Cycle
+from optlaws.errors import InfeasibleProblem, InputError, located
 from optlaws.files import tables
-from optlaws.jobs.cam_entries import CamProblemFile, Cams
+from optlaws.files.problem_file import convert
+from optlaws.jobs.cam_entries import CamProblemFile, ForcesEntries
+from optlaws.jobs.cycle_entries import cycle_of
 from optlaws.kept import kept_property
-from optlaws.motion.quantities import quantity
+from optlaws.motion.quantities import TURN, quantity
 from optlaws.tolerances import CAM_FEASIBILITY, RADIUS_ROUNDING
 
 EXTREMES = ("what", "at least", "at most", "unit", "at, deg")
@@ -42,15 +48,64 @@ class Limits:
 
 @dataclass(frozen=True)
 class Findings:
-    """The results beside the cams of a problem file, each computed once."""
+    """The cams of a problem file and the results beside them, each computed once."""
 
     spec: CamProblemFile
-    cams: Cams
+
+    @classmethod
+    def read(cls, data: Mapping[str, Any], file: Path) -> Self:
+        """What the entries of a file ask for, checked; an error names the file."""
+        spec = convert(data, CamProblemFile, file)
+        findings = cls(spec)
+        with located(str(file)):
+            findings.second, findings.forces  # noqa: B018 - what is wrong is refused at once
+            if spec.cutter_radius is not None:
+                findings.cam.cutter_path(spec.cutter_radius)
+            for entry in spec.file:
+                entry.check(findings.cam)
+        return findings
+
+    @kept_property
+    def cycle(self) -> Cycle:
+        """The motion as the file gives it."""
+        return cycle_of(self.spec.motion, self.spec.speed, self.spec.period)
+
+    @kept_property
+    def best(self) -> BestCam | BestBaseCircle | None:
+        """How good the laws for the cam are, and the proof; None where they are those of the cycle."""
+        spec, follower = self.spec, read_follower(self.spec.follower)
+        if spec.best != "base circle" and spec.base_radius is None:
+            raise InputError("base_radius is missing: give it, such as '60 mm', or ask for best = 'base circle'")
+        if spec.best == "base circle" and spec.base_radius is not None:
+            raise InputError(
+                "base_radius is what best = 'base circle' looks for: leave it out, or ask for best = 'laws'"
+            )
+        if spec.best == "base circle":
+            return best_base_circle(self.cycle, follower, **spec.limits)
+        return best_cam(self.cycle, spec.base_radius or "", follower, **spec.limits) if spec.best else None
+
+    @kept_property
+    def cam(self) -> DiscCam:
+        """The cam; with the laws found where the best ones are sought."""
+        if self.best is not None:
+            return self.best.cam if isinstance(self.best, BestCam) else self.best.least.cam
+        turning = self.spec.limits["turning"]
+        return DiscCam(self.cycle, self.spec.base_radius or "", read_follower(self.spec.follower), turning=turning)
+
+    @kept_property
+    def second(self) -> DiscCam | None:
+        """The return cam of a pair."""
+        cam, entries = self.cam, self.spec.pair
+        if entries is None:
+            return None
+        follower = None if entries.follower is None else read_follower(entries.follower)
+        with located("pair"):
+            return conjugate_cam(cam, follower, distance=entries.distance, angle=entries.angle)
 
     @kept_property
     def limits(self) -> Limits:
         """The limits that the laws were made for; none where they are those of the cycle."""
-        if self.cams.best is None:
+        if self.best is None:
             return Limits()
         pressure, radius = self.spec.pressure_angle, self.spec.radius_of_curvature
         return Limits(
@@ -60,16 +115,16 @@ class Findings:
 
     def angle(self, angle: float) -> float | None:
         """An angle where a limit gives a size: laws that were made for it touch it at several."""
-        return angle if self.cams.best is None else None
+        return angle if self.best is None else None
 
     @kept_property
     def least(self) -> LeastBaseCircle | str | None:
         """The least base circle, why there is none, or None where no limit is given."""
         if not (self.spec.pressure_angle or self.spec.radius_of_curvature):
             return None
-        if isinstance(self.cams.best, BestBaseCircle):
-            return self.cams.best.least
-        cam = self.cams.first
+        if isinstance(self.best, BestBaseCircle):
+            return self.best.least
+        cam = self.cam
         try:
             return least_base_circle(cam.motion, cam.follower, **self.spec.limits)
         except InfeasibleProblem as error:
@@ -79,35 +134,43 @@ class Findings:
     def least_of_cycle(self) -> LeastBaseCircle | None:
         """The least base circle of the cycle's own laws; None where there is none."""
         try:
-            return least_base_circle(self.cams.cycle, self.cams.first.follower, **self.spec.limits)
+            return least_base_circle(self.cycle, self.cam.follower, **self.spec.limits)
         except InfeasibleProblem:
             return None
 
     @kept_property
     def roller(self) -> GreatestRoller | None:
         """The greatest roller; None under a flat face."""
-        if not self.cams.first.contact.roller:
+        if not self.cam.contact.roller:
             return None
-        return greatest_roller(self.cams.first, radius_of_curvature=self.spec.radius_of_curvature or "0 mm")
+        return greatest_roller(self.cam, radius_of_curvature=self.spec.radius_of_curvature or "0 mm")
 
     @kept_property
     def forces(self) -> CamForces | None:
         """The forces of the cam, if the file asks for them."""
-        return self.cams.forces(self.spec.forces)
+        return None if self.spec.forces is None else self.forces_with(self.spec.forces)
+
+    def forces_with(self, options: ForcesEntries) -> CamForces:
+        """The cam's forces at the speed of its cycle."""
+        # laws that were found for a cam are no cycle, but go as fast
+        beside: dict[str, Any] = {}
+        if self.cam.motion is not self.cycle:
+            beside = {"speed": f"{TURN / self.cycle.duration!r} rad/s", "drive": self.cycle.drive}
+        return CamForces(self.cam, **msgspec.structs.asdict(options), **beside)
 
     @kept_property
     def spring(self) -> Spring | None:
         """The least spring; mass, gravity and friction are those of the motion's drive."""
         if self.spec.spring is None:
             return None
-        given = self.cams.cycle.drive or {}
+        given = self.cycle.drive or {}
         load = {key: value for key, value in given.items() if key not in {"stiffness", "preload"}}
-        return least_spring(self.cams.first, drive=load, **msgspec.structs.asdict(self.spec.spring))
+        return least_spring(self.cam, drive=load, **msgspec.structs.asdict(self.spec.spring))
 
     @kept_property
     def as_made(self) -> dict[str, AsMade | None]:
         """Peaks of the cam as manufactured; None where its follower does not reach all of it."""
-        options, cam = self.spec.as_made, self.cams.first
+        options, cam = self.spec.as_made, self.cam
         if options is None:
             return {}
         peaks_by_name: dict[str, AsMade | None] = {}

@@ -17,7 +17,8 @@ from optlaws.exports.format import FORMATS, format_of
 from optlaws.exports.text import variable_names
 from optlaws.files import tables, writing
 from optlaws.jobs.cycle_entries import CycleProblemFile, ExportEntries, read
-from optlaws.plots.cycle import QUANTITIES, UNITS, axes_figure, cycle_figure
+from optlaws.motion.quantities import QUANTITIES
+from optlaws.plots.cycle import UNITS, axes_figure, cycle_figure
 from optlaws.results import Page, Results
 from optlaws.tolerances import CYCLE_ROUNDING
 

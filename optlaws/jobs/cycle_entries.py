@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal
 import msgspec
 
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.interchange import KINDS
+from optlaws.cycles.interchange import CLOCK, ENTRIES, KINDS
 from optlaws.cycles.specification.segments import CycleSegment
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.files.problem_file import Text, convert
@@ -114,19 +114,10 @@ def read(data: Mapping[str, Any], file: Path) -> tuple[CycleProblemFile, dict[st
 
 def cycle_of(axis: AxisEntries, speed: str | None, period: str | None) -> Cycle:
     """The cycle of an axis: that of the cam, where there is a follower."""
-    cycle = Cycle(
-        [segment_of(entry, i + 1) for i, entry in enumerate(axis.segment)],
-        speed=speed,
-        period=period,
-        minimise=axis.minimise,
-        limits=axis.limits,
-        start=axis.start,
-        advance=axis.advance,
-        drive=axis.drive,
-        load=None if axis.load is None else _given(axis.load),
-        order=axis.order,
-        degree=axis.degree,
-    )
+    segments = [segment_of(entry, i + 1) for i, entry in enumerate(axis.segment)]
+    given: dict[str, Any] = {name: getattr(axis, name) for name in ENTRIES if name not in CLOCK}
+    given["load"] = None if axis.load is None else _given(axis.load)
+    cycle = Cycle(segments, speed=speed, period=period, **given)
     return cycle if axis.follower is None else cycle.cam(axis.follower.period, axis.follower.damping)
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
 from importlib import import_module
 from pathlib import Path
 
@@ -11,18 +10,8 @@ from optlaws.files.packaged import packaged
 from optlaws.results import Entries, Results
 from optlaws.suggest import unknown_key
 
-#: puts what a problem file asks for into its results
-Job = Callable[[Results], None]
-
-_MODULES = {
-    "atlas": "atlas",
-    "cam": "cam",
-    "cycle": "cycle",
-    "force loaded": "force_loaded",
-    "fronts": "fronts",
-    "machine laws": "machine_laws",
-    "solutions": "solutions",
-}
+#: the job of a problem file is the function `run` of the module of its name
+JOBS = ("atlas", "cam", "cycle", "force loaded", "fronts", "machine laws", "solutions")
 #: the job of the problem files that come with optlaws and have a script beside them
 SCRIPT = "script"
 
@@ -33,24 +22,9 @@ class JobFile(Entries, kw_only=True, forbid_unknown_fields=True):
     job: str
 
 
-class _Jobs(Mapping[str, Job]):
-    """The function `run` of each job's module, which is imported, and matplotlib with it, when it is asked for."""
-
-    def __getitem__(self, name: str) -> Job:
-        job: Job = import_module(f"optlaws.jobs.{_MODULES[name]}").run
-        return job
-
-    def __contains__(self, name: object) -> bool:
-        return name in _MODULES
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(_MODULES)
-
-    def __len__(self) -> int:
-        return len(_MODULES)
-
-
-JOBS = _Jobs()
+def do(name: str, results: Results) -> None:
+    """Put what a problem file asks for into its results; the job's module is imported here, and matplotlib with it."""
+    import_module(f"optlaws.jobs.{name.replace(' ', '_')}").run(results)
 
 
 def run(file: Path, out: Path | None = None) -> list[Path]:
@@ -73,7 +47,7 @@ def run(file: Path, out: Path | None = None) -> list[Path]:
     if not isinstance(name, str) or name not in JOBS:
         raise InputError(f"{file}: {unknown_key(name, JOBS, 'job')}")
     try:
-        JOBS[name](results)
+        do(name, results)
         return results.write(target)
     except InputError as error:
         text = str(error)

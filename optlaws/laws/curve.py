@@ -14,7 +14,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.extras import needed
 from optlaws.kept import kept_property
-from optlaws.numbers import MOST_VALUES, Array, derivative, finite, whole
+from optlaws.numbers import MOST_VALUES, Array, derivative, finite, number_or_array, whole
 from optlaws.numerics import peaks
 from optlaws.numerics.peaks import Peak
 from optlaws.numerics.roots import crossings
@@ -77,7 +77,7 @@ class Curve(ABC):
         >>> smoothstep(3)([0.0, 0.5, 1.0], nu=1).tolist()
         [0.0, 1.875, 0.0]
         """
-        return _plain(self._derivative(self._times(k), derivative(nu)))
+        return number_or_array(self._derivative(self._times(k), derivative(nu)))
 
     @overload
     def a(self, k: float) -> float: ...
@@ -85,7 +85,7 @@ class Curve(ABC):
     def a(self, k: Many) -> Array: ...
     def a(self, k: float | Many) -> float | Array:
         """The displacement a at k."""
-        return _plain(self._derivative(self._times(k), 0))
+        return number_or_array(self._derivative(self._times(k), 0))
 
     @overload
     def b(self, k: float) -> float: ...
@@ -93,7 +93,7 @@ class Curve(ABC):
     def b(self, k: Many) -> Array: ...
     def b(self, k: float | Many) -> float | Array:
         """Velocity a' at k."""
-        return _plain(self._derivative(self._times(k), 1))
+        return number_or_array(self._derivative(self._times(k), 1))
 
     @overload
     def c(self, k: float) -> float: ...
@@ -101,7 +101,7 @@ class Curve(ABC):
     def c(self, k: Many) -> Array: ...
     def c(self, k: float | Many) -> float | Array:
         """Acceleration a'' at k."""
-        return _plain(self._derivative(self._times(k), 2))
+        return number_or_array(self._derivative(self._times(k), 2))
 
     @overload
     def j(self, k: float) -> float: ...
@@ -109,7 +109,7 @@ class Curve(ABC):
     def j(self, k: Many) -> Array: ...
     def j(self, k: float | Many) -> float | Array:
         """Jerk a''' at k."""
-        return _plain(self._derivative(self._times(k), 3))
+        return number_or_array(self._derivative(self._times(k), 3))
 
     @overload
     def d(self, k: float) -> float: ...
@@ -117,7 +117,7 @@ class Curve(ABC):
     def d(self, k: Many) -> Array: ...
     def d(self, k: float | Many) -> float | Array:
         """Kinetic power b c at k; finite where c grows without limit and b is zero."""
-        return _plain(self._power(self._times(k)))
+        return number_or_array(self._power(self._times(k)))
 
     def peak(self, nu: int) -> Peak:
         """Peak of |derivative of order nu| over the whole interval, at the smallest k where several tie.
@@ -292,9 +292,7 @@ class Curve(ABC):
         >>> smoothstep(3).to_pandas(3).loc[0.5].round(6).to_dict()
         {'a': 0.5, 'b': 1.875, 'c': 0.0, 'd': 0.0, 'j': -30.0}
         """
-        needed("pandas", "to_pandas")
-        import pandas as pd
-
+        pd = needed("pandas", "to_pandas")
         places, columns = self._sampled(count)
         return pd.DataFrame(columns, index=pd.Index(places, name=self._over))
 
@@ -410,7 +408,3 @@ class Curve(ABC):
     @abstractmethod
     def _mean_square(self, nu: int) -> float:
         """Mean over the interval of the square of the derivative of order `nu`, which has no impulse."""
-
-
-def _plain(values: Array) -> float | Array:
-    return values if np.ndim(values) else float(values)

@@ -184,13 +184,7 @@ class Follower:
         (3.5, 0.0)
         """
         return CycleResponse(
-            self.frequency,
-            self.damping,
-            motion_law(rise, "rise"),
-            motion_law(rise if fall is None else fall, "fall"),
-            not_negative(dwell, "dwell"),
-            positive(fall_duration, "fall_duration"),
-            not_negative(rest, "rest"),
+            self.frequency, self.damping, rise, rise if fall is None else fall, dwell, fall_duration, rest
         )
 
 

@@ -16,10 +16,10 @@ from optlaws.laws import MotionLaw, Peak
 from optlaws.laws.curve import Curve, Sides
 from optlaws.laws.law import motion_law
 from optlaws.mechanisms.chain import MassChain
-from optlaws.mechanisms.forcing import Forcing, forcings, leads_back, rest
+from optlaws.mechanisms.forcing import Forcing, RiseReturnCycle, forcings, rest
 from optlaws.mechanisms.vibration import Oscillator
 from optlaws.numbers import Array, derivative, real_times
-from optlaws.tolerances import RESONANCE, SHORTEST_STRETCH
+from optlaws.tolerances import RESONANCE
 
 
 class MassMotion(Curve):
@@ -195,7 +195,7 @@ class Response(MassMotion):
 
 
 @dataclass(frozen=True, repr=False)
-class CycleResponse(MassMotion):
+class CycleResponse(RiseReturnCycle, MassMotion):
     """Periodic motion of the mass under a periodic cam; made by `Follower.cycle`.
 
     Call it like a law, at any k; time is in durations of the rise. Peaks, extrema, root mean squares and samples are
@@ -227,13 +227,8 @@ class CycleResponse(MassMotion):
     rest: float
 
     def __post_init__(self) -> None:
-        leads_back(self.rise, self.fall)
+        super().__post_init__()
         self._initial  # noqa: B018 - a cycle in resonance is refused at once
-
-    @property
-    def period(self) -> float:
-        """Duration of the cycle, in durations of the rise."""
-        return 1.0 + self.dwell + self.fall_duration + self.rest
 
     @property
     def interval(self) -> tuple[float, float]:
@@ -248,14 +243,7 @@ class CycleResponse(MassMotion):
 
     @kept_property
     def _forcings(self) -> list[Forcing]:
-        low, high = float(self.rise.a(0.0)), float(self.rise.a(1.0))
-        driven = list(forcings(self.rise))
-        if self.dwell > SHORTEST_STRETCH:
-            driven.append(rest(1.0, self.dwell, high))
-        driven += forcings(self.fall, 1.0 + self.dwell, self.fall_duration, high, -1.0)
-        if self.rest > SHORTEST_STRETCH:
-            driven.append(rest(1.0 + self.dwell + self.fall_duration, self.rest, low))
-        return driven
+        return self._course(forcings, rest)
 
     @kept_property
     def _initial(self) -> tuple[float, float]:

@@ -15,7 +15,7 @@ from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.motion.piece import Piece, factor, values_of_pieces
 from optlaws.motion.quantities import Given, either, given_quantity, positive_quantity, quantity
-from optlaws.numbers import Quantity, derivative, real_times
+from optlaws.numbers import Quantity, derivative, number_or_array, real_times
 from optlaws.tolerances import CLOSURE, JUMP
 
 Place = tuple[float, float]
@@ -118,8 +118,7 @@ class Motion:
         if beyond.any():
             wrong = float(places[beyond].flat[0])
             raise InputError(f"x must be from {self.start:g} to {self.stop:g} {self.units.master}, got {wrong!r}")
-        values = values_of_pieces(self.pieces, places, nu)
-        return values if np.ndim(values) else float(values)
+        return number_or_array(values_of_pieces(self.pieces, places, nu))
 
     def sides(self, nu: int) -> Iterator[tuple[float, float, float]]:
         """Every joint of pieces inside, and leaps within laws: the place, the value before it and the one after."""

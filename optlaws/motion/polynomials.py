@@ -14,7 +14,7 @@ import numpy as np
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
-from optlaws.numbers import MAGNITUDE_LIMIT, Array, derivative, listed, numbers, real_times
+from optlaws.numbers import MAGNITUDE_LIMIT, Array, derivative, listed, number_or_array, numbers, real_times
 from optlaws.numerics import bernstein
 from optlaws.numerics.bernstein import greatest_difference
 from optlaws.tolerances import POLISHING_REACH, SAME_TIME
@@ -86,8 +86,7 @@ class PiecewiseMotion:
         outside = places[(places < self.start) | (places > self.stop)]
         if outside.size:
             raise InputError(f"x must be from {self.start!r} to {self.stop!r}, got {float(outside.flat[0])!r}")
-        values = self._values(places, nu)
-        return values if values.ndim else float(values)
+        return number_or_array(self._values(places, nu))
 
     @property
     def start(self) -> float:

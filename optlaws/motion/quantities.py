@@ -69,6 +69,8 @@ DIMENSIONS = {
 }
 
 TURN = 2.0 * pi
+#: the displacement of a motion and its derivatives, as tables and pictures call them
+QUANTITIES = ("position", "velocity", "acceleration", "jerk")
 
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?)(?:/([1-9]\d{0,8})(?!\d))?\s*(.*)")
 _UNIT = re.compile(r"[A-Za-zµ°_]+(?:\s*(?:\^|\*\*)\s*-?[1-4])?")

@@ -14,6 +14,7 @@ from optlaws.cams.forces import CamForces
 from optlaws.errors import InputError
 from optlaws.files.writing import MARK
 from optlaws.numbers import Array
+from optlaws.plots.cycle import UNITS
 from optlaws.plots.style import BLUES, GREEN, GREY, WARM, new_figure, plot_style, titled
 from optlaws.tolerances import OUTLINE_DRAWN
 
@@ -29,7 +30,6 @@ _MILLI = 1e3
 _SHOWN = 8  # followers around the cam
 _SAMPLES = 721
 _FILL = "#dfe9f3"
-_SIZES = {"length": ("displacement, mm", _MILLI), "angle": ("displacement, deg", 180.0 / np.pi)}
 
 
 def cam_figure(cam: DiscCam, title: str) -> Figure:
@@ -70,7 +70,8 @@ def pair_figure(first: DiscCam, second: DiscCam, title: str) -> Figure:
         for cam, colour, name in zip((first, second), colours, ("cam", "return cam"), strict=True):
             profile = _MILLI * cam.profile(np.linspace(*cam.displacement.interval, _SAMPLES))
             axes.plot(*profile.T, color=colour, zorder=4, label=name)
-            _draw_at_start(cam, axes, colour)
+            start = np.array(0.0)
+            _draw_body(cam, axes, start, colour, 0.6 * float(np.hypot(*(_MILLI * cam.profile(start)))))
         axes.plot(*_linked(first, second).T, color=GREY, linewidth=1.1, label="follower at the start")
         axes.plot([0.0], [0.0], "+", color=GREY, markersize=9.0, zorder=5)
         axes.set(xlabel="x of the cams, mm", ylabel="y of the cams, mm")
@@ -78,17 +79,17 @@ def pair_figure(first: DiscCam, second: DiscCam, title: str) -> Figure:
         return titled(figure, title)
 
 
-def _draw_at_start(cam: DiscCam, axes: Axes, colour: str) -> None:
-    """The roller, or the face, at the start."""
+def _draw_body(cam: DiscCam, axes: Axes, at: Array, colour: str, reach: float) -> None:
+    """The roller, or the face with so much on either side of where it touches, mm."""
     if cam.contact.roller:
         from matplotlib.patches import Circle
 
-        centre = tuple(_MILLI * cam.pitch_curve(np.array(0.0)))
+        centre = tuple(_MILLI * cam.pitch_curve(at))
         axes.add_patch(Circle(centre, _MILLI * cam.contact.roller, fill=False, edgecolor=colour, zorder=3))
         return
-    touched, normal = _MILLI * cam.profile(np.array(0.0)), cam.profile.normal(np.array(0.0))
-    reach = 0.6 * float(np.hypot(*touched)) * np.array([normal[1], -normal[0]])
-    axes.plot(*np.array([touched - reach, touched + reach]).T, color=colour, linewidth=1.1, zorder=3)
+    touched, normal = _MILLI * cam.profile(at), cam.profile.normal(at)
+    along = reach * np.array([normal[1], -normal[0]])
+    axes.plot(*np.array([touched - along, touched + along]).T, color=colour, linewidth=1.1, zorder=3)
 
 
 def _linked(first: DiscCam, second: DiscCam) -> Array:
@@ -113,9 +114,9 @@ def draw_cam(cam: DiscCam, axes: Any = None, **style: Any) -> list[Artist]:  # n
         raise InputError(f"a cam is drawn into one pair of axes or into four, got {len(panels)}")
     artists = _draw_mechanism(cam, panels[0], {"color": BLUES[3]} | style)
     edges = np.array(cam.displacement.breaks)
-    label, factor = _SIZES[cam.displacement.axis]
+    unit, factor = UNITS[cam.displacement.axis][0]
     curves: tuple[tuple[str, Values], ...] = (
-        (label, lambda at: factor * np.asarray(cam.displacement(at))),
+        (f"displacement, {unit}", lambda at: factor * np.asarray(cam.displacement(at))),
         ("pressure angle, deg", lambda at: np.degrees(cam.pressure_angle(at))),
         ("curvature, 1/mm", lambda at: np.asarray(cam.profile.curvature(at)) / _MILLI),
     )
@@ -182,19 +183,13 @@ def _lowest(cam: DiscCam) -> float:
 
 def _draw_follower(cam: DiscCam, axes: Axes, angle: float, colour: str) -> None:
     """A roller with its arm or rod, or a face, in the cam's coordinates."""
-    from matplotlib.patches import Circle
-
-    contact, at = cam.contact, np.array(angle)
-    touched, normal = (_MILLI * cam.profile(at), cam.profile.normal(at))
-    body: Any = {"color": colour, "linewidth": 1.1, "zorder": 3}
-    if contact.roller:
+    at = np.array(angle)
+    farthest = float(np.abs(_MILLI * cam.profile(np.linspace(*cam.displacement.interval, 61))).max())
+    _draw_body(cam, axes, at, colour, 0.45 * farthest)
+    if cam.contact.roller:
         centre = _MILLI * cam.pitch_curve(at)
-        axes.add_patch(Circle(tuple(centre), _MILLI * contact.roller, fill=False, edgecolor=colour, zorder=3))
-        axes.plot(*np.array([centre, _holder(cam, contact, angle, centre)]).T, **body)
-        return
-    along = np.array([normal[1], -normal[0]])
-    reach = 0.45 * float(np.abs(_MILLI * cam.profile(np.linspace(*cam.displacement.interval, 61))).max())
-    axes.plot(*np.array([touched - reach * along, touched + reach * along]).T, **body)
+        rod = np.array([centre, _holder(cam, cam.contact, angle, centre)])
+        axes.plot(*rod.T, color=colour, linewidth=1.1, zorder=3)
 
 
 def _holder(cam: DiscCam, contact: FollowerContact, angle: float, centre: Array) -> Array:

@@ -9,7 +9,7 @@ import numpy as np
 
 from optlaws.cycles.cycle import Cycle
 from optlaws.errors import InputError
-from optlaws.motion.quantities import TURN
+from optlaws.motion.quantities import QUANTITIES, TURN
 from optlaws.numbers import Array, derivative
 from optlaws.plots.law import four
 from optlaws.plots.style import BLUES, GREEN, GREY, WARM, new_figure, plot_style, titled
@@ -27,7 +27,6 @@ UNITS = {
     "length": (("mm", 1e3), ("mm/s", 1e3), ("m/s²", 1.0), ("m/s³", 1.0)),
     "angle": (("deg", 360.0 / TURN), ("deg/s", 360.0 / TURN), ("rad/s²", 1.0), ("rad/s³", 1.0)),
 }
-QUANTITIES = ("position", "velocity", "acceleration", "jerk")
 _EACH = 200
 _ABOVE: Any = {"loc": "lower left", "bbox_to_anchor": (0.0, 1.0), "ncols": 2, "frameon": False, "fontsize": 8.0}
 

@@ -228,9 +228,7 @@ class Study:
         return self._known_chunks
 
     def _parquet(self) -> Any:  # noqa: ANN401 - pyarrow has no types
-        needed("pyarrow", f"reading {self._directory.table}")
-        import pyarrow.parquet as pq
-
+        pq = needed("pyarrow.parquet", f"reading {self._directory.table}")
         there = self._directory.table.stat()
         state = (there.st_mtime_ns, there.st_size)
         if state != self._checked:

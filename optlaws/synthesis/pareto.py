@@ -126,9 +126,7 @@ class Front(JsonText):
         >>> front.to_pandas()[["B", "C", "status"]].round(4).to_dict("list")
         {'B': [1.5, ..., 1.8], 'C': [5.705, ..., 4.6958], 'status': ['optimal', 'optimal', 'optimal']}
         """
-        needed("pandas", "to_pandas")
-        import pandas as pd
-
+        pd = needed("pandas", "to_pandas")
         return pd.DataFrame(self.rows, columns=list(self.headings))
 
     def to_xarray(self) -> Any:  # noqa: ANN401 - xarray is imported here alone
@@ -142,9 +140,7 @@ class Front(JsonText):
         >>> front.to_xarray().C.sel(B=1.8, method="nearest").round(4).item()
         4.6958
         """
-        needed("xarray", "to_xarray")
-        import xarray as xr
-
+        xr = needed("xarray", "to_xarray")
         first, *others = map(title_of, self.over)
         columns = dict(zip(self.headings, zip(*self.rows, strict=True), strict=True))
         data = {name: (first, list(values)) for name, values in columns.items() if name != first}

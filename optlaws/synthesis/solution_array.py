@@ -356,9 +356,7 @@ class SolutionArray(JsonText):
 
     def to_pandas(self) -> pd.DataFrame:
         """A table with a row for each problem: what varies, the numbers and the status; needs pandas."""
-        needed("pandas", "to_pandas")
-        import pandas as pd
-
+        pd = needed("pandas", "to_pandas")
         varied = {name: arrays[0] for name, arrays in self.problems.varied.items() if len(arrays) == 1}
         columns = {**{_heading(name): values for name, values in varied.items()}, **self._columns}
         return pd.DataFrame({name: values.reshape(-1) for name, values in columns.items()})
@@ -369,14 +367,13 @@ class SolutionArray(JsonText):
         An axis along which one entry of numbers varies has its name and its values, such as "B asked"; others are
         "axis 0", "axis 1", ....
         """
-        needed("xarray", "to_xarray")
-        import xarray as xr
-
+        library = needed("xarray", "to_xarray")
         dims, coords = _axes(self.problems)
         variables: dict[str, Any] = {name: (dims, values) for name, values in self._columns.items()}
         variables["z_series"] = ([*dims, "coefficient"], self.z_series)
         variables |= {f"contact {name}": ([*dims, "contact"], values) for name, values in self.contacts.items()}
-        return xr.Dataset(variables, coords)
+        dataset: xr.Dataset = library.Dataset(variables, coords)
+        return dataset
 
     @property
     def _columns(self) -> dict[str, NDArray[Any]]:

@@ -21,7 +21,7 @@ from optlaws import (
     with_profile_error,
 )
 from tests.cams.curves import readers
-from tests.internals.cams import ArcChain, PointSpline, Spline, run_against, write_outline
+from tests.internals.cams import ArcChain, Spline, run_against, spline_through, write_outline
 
 Array = NDArray[np.float64]
 
@@ -76,7 +76,7 @@ def test_a_dxf_gives_the_motion_back_to_its_digits(cam: DiscCam, tmp_path: Path)
 
 def test_a_table_read_back_moves_the_follower_as_was_foretold(cam: DiscCam, tmp_path: Path) -> None:
     rows = readers.table(write_outline(cam.profile, tmp_path / "p.csv", points=361, decimals=4))
-    made = run_against(cam, PointSpline(1e-3 * rows[:, 1:]))
+    made = run_against(cam, spline_through(1e-3 * rows[:, 1:]))
     assert made.acceleration == pytest.approx(as_made(cam, points=361, decimals=4).acceleration, rel=1e-9)
 
 

@@ -23,12 +23,12 @@ from tests.internals.cams import (
     Following,
     Outline,
     PlaneCurve,
-    PointSpline,
     PolarSpline,
     arcs,
     polar,
     run_against,
     spline,
+    spline_through,
 )
 
 FOLLOWERS: list[tuple[CamFollower, str]] = [
@@ -39,7 +39,7 @@ FOLLOWERS: list[tuple[CamFollower, str]] = [
     (OscillatingFlat(pivot_distance="120 mm", face_offset="8 mm"), "10 deg"),
 ]
 CURVES: dict[str, Callable[[PlaneCurve], Outline]] = {
-    "csv": lambda profile: PointSpline(np.round(profile(np.linspace(0.0, tau, 181) % tau), 6)),
+    "csv": lambda profile: spline_through(np.round(profile(np.linspace(0.0, tau, 181) % tau), 6)),
     "csv polar": lambda profile: PolarSpline(np.round(polar(profile, 181), 6)),
     "dxf spline": lambda profile: spline(profile, 1e-6),
     "dxf arcs": lambda profile: ArcChain(arcs(profile, 1e-6)),

@@ -22,7 +22,7 @@ from cyclopts import App
 import optlaws
 from optlaws.results import Results
 from tests.internals.cli import app_of_app as app
-from tests.internals.jobs import JOBS
+from tests.internals.jobs import JOBS, do
 
 FROZEN = Path(__file__).with_name("frozen.json")
 Table = dict[str, dict[str, str]]
@@ -111,7 +111,7 @@ def spec_of(job: str) -> Any:
         file = Path(folder, "problem.toml")
         file.write_text(f'job = "{job}"\n', "utf-8")
         try:
-            JOBS[job](Results(file))
+            do(job, Results(file))
         except Asked as asked:
             return asked.spec
     raise AssertionError(f"the job {job!r} reads no problem file")

@@ -259,7 +259,7 @@ def test_toml_has_no_other_values() -> None:
 def test_a_cam_is_drawn_where_its_follower_touches_it(file: str) -> None:
     study = start(str(ROOT / "problems" / f"{file}.toml"))["cam"]
     view = cam_view.answer(CamRequest(study=study))
-    cam = cam_view.cams_of(CamRequest(study=study))[1].first
+    cam = cam_view.findings_of(CamRequest(study=study)).cam
     frames, roller = view["frames"], view["follower"]["roller"]
     for centre, contact in zip(frames["centre"], frames["contact"], strict=True):
         assert hypot(centre[0] - contact[0], centre[1] - contact[1]) == pytest.approx(roller or 0.0, abs=1e-3)
@@ -278,7 +278,7 @@ def test_a_cam_is_drawn_where_its_follower_touches_it(file: str) -> None:
 def test_the_loads_of_a_cam_are_those_of_the_library() -> None:
     study = start(str(ROOT / "problems" / "cam_press.toml"))["cam"]
     told = cam_view.loads(CamRequest(study=study))
-    cam = cam_view.cams_of(CamRequest(study=study))[1].first
+    cam = cam_view.findings_of(CamRequest(study=study)).cam
     forces = CamForces(cam, width="20 mm", friction=study["forces"]["friction"])
     contact, torque, pressure = told["panels"]
     assert [one["name"] for one in told["panels"]] == ["contact force", "torque at the shaft", "Hertz's pressure"]

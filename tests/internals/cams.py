@@ -1,7 +1,7 @@
 """Internals of `optlaws.cams` that tests look at by themselves."""
 
 from optlaws.cams import curved_limits
-from optlaws.cams.as_manufactured import ArcChain, Following, PointSpline, PolarSpline, run_against
+from optlaws.cams.as_manufactured import ArcChain, Following, PolarSpline, run_against, spline_through
 from optlaws.cams.best_laws import linear_limits
 from optlaws.cams.curved_limits import curvature_of
 from optlaws.cams.curves import cam_files

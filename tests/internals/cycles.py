@@ -2,4 +2,4 @@
 
 from optlaws.cycles.optimisation.objectives import FORCE, POWER
 from optlaws.cycles.optimisation.search_spaces import halved
-from optlaws.cycles.specification.drive import effort, peak_of, read_drive
+from optlaws.cycles.specification.drive import effort, read_drive, size_of

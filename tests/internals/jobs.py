@@ -6,5 +6,5 @@ from optlaws.jobs.atlas import read as read_of_atlas
 from optlaws.jobs.cam import answer
 from optlaws.jobs.cycle import table_of_motion
 from optlaws.jobs.cycle_entries import read as read_of_cycle_entries
-from optlaws.jobs.job import JOBS, run
+from optlaws.jobs.job import JOBS, do, run
 from optlaws.jobs.machine_laws import MachineTable, Measure

@@ -11,16 +11,15 @@ from typing import Unpack
 from optlaws.balancing.dwells.mechanism import (
     DEFAULTS,
     KINDS,
+    DwellEntries,
     DwellMechanism,
-    DwellOptions,
     DwellType,
     dwell_mechanism,
 )
 from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError
-from optlaws.laws import MotionLaw
 from optlaws.motion.quantities import si_number
-from optlaws.numbers import NumberOrQuantity, real
+from optlaws.numbers import real
 from optlaws.suggest import keywords_of
 
 SHORT, LONG = pi / 4.0, 5.0 * pi / 9.0
@@ -49,18 +48,9 @@ class DwellComparison:
     by_rule: DwellType
 
 
-@keywords_of(DwellOptions, **DEFAULTS)
+@keywords_of(DwellEntries, **DEFAULTS)
 def compare_dwell_mechanisms(
-    *,
-    law: MotionLaw,
-    dwell: NumberOrQuantity,
-    rise: NumberOrQuantity,
-    swing: NumberOrQuantity,
-    radius_ratio: float,
-    inertia_ratio: float,
-    most_torque: float,
-    most_size: float = inf,
-    **options: Unpack[DwellOptions],
+    *, most_torque: float, most_size: float = inf, **entries: Unpack[DwellEntries]
 ) -> DwellComparison:
     """Compare the types: the one with the smallest cam (a) among those whose residual torque (b) is small enough.
 
@@ -101,17 +91,8 @@ def compare_dwell_mechanisms(
     >>> comparison.reasons["II"]
     'no: b = 1.98 exceeds 0.5'
     """
-    make = partial(
-        dwell_mechanism,
-        law=law,
-        dwell=dwell,
-        rise=rise,
-        swing=swing,
-        radius_ratio=radius_ratio,
-        inertia_ratio=inertia_ratio,
-        **options,
-    )
-    upper, lower = dwell, options.get("lower_dwell")
+    make = partial(dwell_mechanism, **entries)
+    upper, lower = entries["dwell"], entries.get("lower_dwell")
     dwells = [si_number(angle, ("angle",), "dwell") for angle in (upper, upper if lower is None else lower)]
     return _compared(make, most_torque, most_size, _by_rule(*dwells))
 

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from itertools import pairwise
 from math import tau
 from typing import Any, Self, TypedDict, Unpack
 
 from optlaws.balancing.dwells.mechanism import DwellMechanism, DwellType, dwell_mechanism
-from optlaws.cams.curves.motion_by_angle import CamMotion, CamStretch
+from optlaws.cams.curves.motion_by_angle import CamMotion
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.oscillating_roller import OscillatingRoller
 from optlaws.cycles.cycle import Cycle
@@ -18,6 +17,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.files.reading import JsonText, entries_of
 from optlaws.laws import MotionLaw
+from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import positive_quantity, quantity
 from optlaws.numbers import Quantity, positive
 from optlaws.suggest import keywords_of
@@ -114,11 +114,7 @@ class DwellMachine(JsonText):
             If rise, return and dwells do not make a turn.
         """
         turn = self._turn()
-        stretches = []
-        for (low, high), segment in zip(pairwise(turn.motion.breaks), turn.motion.segments, strict=True):
-            offset = turn.swing * float(turn.motion.a(low))
-            stretches.append(CamStretch(tau * low, tau * high, offset, turn.swing, tau, segment, high - low))
-        return CamMotion(tuple(stretches), axis="angle", closed=True)
+        return CamMotion.of_pieces([Piece(0.0, tau, 0.0, turn.swing, turn.motion)], tau, "angle")
 
     def cams(self, roller: Quantity, pivot_distance: Quantity) -> dict[str, DiscCam]:
         """The executive cam and the loader's, with rollers on arms.

@@ -289,8 +289,17 @@ def _room(mechanism: DwellMechanism) -> None:
             )
 
 
-class DwellOptions(TypedDict, total=False):
-    """What a mechanism may have beside its rise and its upper dwell; `dwell_mechanism` says what each is."""
+class _DwellData(TypedDict):
+    law: MotionLaw
+    dwell: NumberOrQuantity
+    rise: NumberOrQuantity
+    swing: NumberOrQuantity
+    radius_ratio: float
+    inertia_ratio: float
+
+
+class DwellEntries(_DwellData, total=False):
+    """What a mechanism of any type is made of; `dwell_mechanism` says what each is."""
 
     clutch_angle: NumberOrQuantity
     law_1: MotionLaw | None
@@ -305,18 +314,8 @@ class DwellOptions(TypedDict, total=False):
 DEFAULTS: dict[str, float] = {"clutch_angle": 0.0, "standstill": 0.0, "reverse_share": 0.5}
 
 
-@keywords_of(DwellOptions, **DEFAULTS)
-def dwell_mechanism(
-    kind: DwellType,
-    *,
-    law: MotionLaw,
-    dwell: NumberOrQuantity,
-    rise: NumberOrQuantity,
-    swing: NumberOrQuantity,
-    radius_ratio: float,
-    inertia_ratio: float,
-    **options: Unpack[DwellOptions],
-) -> DwellMechanism:
+@keywords_of(DwellEntries, **DEFAULTS)
+def dwell_mechanism(kind: DwellType, **entries: Unpack[DwellEntries]) -> DwellMechanism:
     """A balancing cam mechanism with an inertial loader, for an executive rocker that dwells.
 
     While the executive link dwells, the loader keeps the kinetic energy. In type I its rocker runs on with it at
@@ -376,5 +375,5 @@ def dwell_mechanism(
     DwellMechanism(II, a=1, b=1.9827, S1=0.333333, S2=0.856932)
     DwellMechanism(III, a=1.59434, b=0.15, S1=0, S2=0.666667)
     """
-    angles: dict[str, Any] = {"dwell": dwell, "rise": rise, "swing": swing, **options}
-    return DwellMechanism(kind=kind, law=law, radius_ratio=radius_ratio, inertia_ratio=inertia_ratio, **angles)
+    given: Any = entries
+    return DwellMechanism(kind=kind, **given)

@@ -15,7 +15,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import PolynomialLaw
-from optlaws.motion.quantities import TURN, quantity
+from optlaws.motion.quantities import TURN, positive_quantity, quantity
 from optlaws.numbers import Array, positive
 from optlaws.numerics import chebyshev
 from optlaws.numerics.branch_and_bound import Extremes, extremes
@@ -96,10 +96,7 @@ class LeverCam:
     @kept_property
     def moved(self) -> float:
         """The moment of inertia, kg m²."""
-        inertia = quantity(self.inertia, "moment of inertia", "inertia")
-        if inertia <= 0.0:
-            raise InputError(f"inertia must be above 0, got {shortened(self.inertia)}")
-        return inertia
+        return positive_quantity(self.inertia, "moment of inertia", "inertia")
 
     @kept_property
     def angle(self) -> float:
@@ -112,10 +109,7 @@ class LeverCam:
     @kept_property
     def rate(self) -> float:
         """The cam's angular velocity, rad/s."""
-        rate = quantity(self.speed, "angular velocity", "speed")
-        if rate <= 0.0:
-            raise InputError(f"speed must be above 0, got {shortened(self.speed)}")
-        return rate
+        return positive_quantity(self.speed, "angular velocity", "speed")
 
     @property
     def stiffness(self) -> float:

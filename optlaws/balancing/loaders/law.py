@@ -116,20 +116,21 @@ class LoaderLaw(MotionLaw, kind="loader"):
         return LoaderSegment(self.executive, start, end, scale, kind)
 
     @kept_property
-    def _pieces(self) -> PiecewiseLaw:
+    def piecewise(self) -> PiecewiseLaw:
+        """The same law as segments between its breaks."""
         return PiecewiseLaw(self._stretches[0], self._segments(self.Y))
 
     @property
     def _breaks(self) -> tuple[float, ...]:
-        return self._pieces.breaks
+        return self.piecewise.breaks
 
     # each hook is that of the pieces, but for d, which is -Y² times that of the executive law and finite where c is not
 
     def _before_breaks(self, nu: int) -> Array:
-        return self._pieces._before_breaks(nu)  # noqa: SLF001
+        return self.piecewise._before_breaks(nu)  # noqa: SLF001
 
     def _derivative(self, k: Array, nu: int) -> Array:
-        return np.asarray(self._pieces(k, nu))
+        return np.asarray(self.piecewise(k, nu))
 
     def _power(self, k: Array) -> Array:
         c = self._derivative(k, 2)
@@ -138,14 +139,14 @@ class LoaderLaw(MotionLaw, kind="loader"):
         return values if known.all() else np.where(known, values, -(self.Y**2) * np.asarray(self.executive.d(k)))
 
     def _sides(self, nu: int) -> Sides:
-        return self._pieces._sides(nu)  # noqa: SLF001
+        return self.piecewise._sides(nu)  # noqa: SLF001
 
     def _power_sides(self) -> Sides:
         k, values = self.executive._whole_power()  # noqa: SLF001
         return k, -(self.Y**2) * values
 
     def _mean_square(self, nu: int) -> float:
-        return self._pieces._mean_square(nu)  # noqa: SLF001
+        return self.piecewise._mean_square(nu)  # noqa: SLF001
 
     def _summary(self) -> str:
         return f"Y={self.Y:g}"

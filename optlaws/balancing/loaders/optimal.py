@@ -153,7 +153,13 @@ def balanced_law(
     >>> round(C_loader.value(smoothstep(3)), 6)  # also of order 3 and with B = 1.875
     5.65925
     """
-    problem = balanced_problem(B, order=order, basis=basis, minimise=minimise, most_C=most_C)
+    goal, given = objective(minimise), Chebyshev(9) if basis is None else basis
+    _check_degree(given)
+    loader_velocity_limit(B)
+    limit = None if most_C is None else at_most(positive(most_C, "most_C"))
+    problem = Problem(B=B, order=order, basis=given, minimise=goal, monotone=True, C=limit)
+    if problem.order < _AT_REST:
+        raise InputError("order must be at least 2: the executive link starts at rest")
     return _balanced(synthesize(problem, bound=bound))
 
 
@@ -168,33 +174,6 @@ def _balanced(solution: Solution) -> BalancedLaw:
         solution.starts,
         solution,
     )
-
-
-def balanced_problem(
-    B: float,
-    *,
-    order: int,
-    basis: Basis | None = None,
-    minimise: str | Term | Expression = "C_loader",
-    most_C: float | None = None,
-) -> Problem:
-    """The problem that `balanced_law` solves, for `synthesize` with a neighbour or a tight bound, fronts and studies.
-
-    Parameters and errors are those of `balanced_law`.
-
-    Examples
-    --------
-    >>> balanced_problem(1.875, order=3, minimise="D_loader")
-    Problem(B=1.875, order=3, basis=Chebyshev(degree=9), minimise='D_loader', monotone=True)
-    """
-    goal, given = objective(minimise), Chebyshev(9) if basis is None else basis
-    _check_degree(given)
-    loader_velocity_limit(B)
-    limit = None if most_C is None else at_most(positive(most_C, "most_C"))
-    problem = Problem(B=B, order=order, basis=given, minimise=goal, monotone=True, C=limit)
-    if problem.order < _AT_REST:
-        raise InputError("order must be at least 2: the executive link starts at rest")
-    return problem
 
 
 def _check_degree(basis: Basis) -> None:

@@ -20,7 +20,7 @@ from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment, Segment
 from optlaws.motion.piece import Piece, factor, named_law
 from optlaws.motion.quantities import TURN, either, in_small_units, quantity
-from optlaws.numbers import Array, Quantity, derivative, real_times
+from optlaws.numbers import Array, Quantity, derivative, number_or_array, real_times
 from optlaws.numerics import chebyshev
 from optlaws.numerics.interval import Interval, exact, hull
 from optlaws.numerics.taylor import Jet
@@ -212,8 +212,7 @@ class CamMotion:
     def __call__(self, angle: Any, nu: int = 0) -> Any:  # noqa: ANN401 - a number for a number, an array for arrays
         """The derivative of order nu by the angle in rad; at a break that just after it."""
         nu = derivative(nu)
-        values = self.jet(real_times(angle), nu).derivative(nu)
-        return values if np.ndim(values) else float(values)
+        return number_or_array(self.jet(real_times(angle), nu).derivative(nu))
 
     def jet(self, angle: Array | Interval, nu: int, *, before: bool = False) -> Jet:
         """The displacement with its derivatives up to order nu; at a break those just after it, or just before it.

@@ -9,7 +9,7 @@ from typing import Any, Self
 
 import numpy as np
 
-from optlaws.numbers import Array, derivative, finite, real_times, whole
+from optlaws.numbers import Array, derivative, finite, number_or_array, real_times, whole
 from optlaws.numerics import chebyshev
 from optlaws.numerics.interval import Interval
 from optlaws.numerics.taylor import Jet, Pair
@@ -18,8 +18,20 @@ from optlaws.tolerances import CONTROL_POINT_BLUR
 _MOST = 1_000_000
 
 
+class CurveByJets(ABC):
+    """A closed plane curve that is known by its jets, over a parameter of its own."""
+
+    @abstractmethod
+    def jets(self, places: Array | Interval, order: int) -> Pair:
+        """Both coordinates with their Taylor terms by the parameter."""
+
+    def __call__(self, places: Array, nu: int = 0) -> Array:
+        """Points, or derivatives by the parameter, shape of `places` and two more."""
+        return np.stack([jet.derivative(nu) for jet in self.jets(np.asarray(places, dtype=np.float64), nu)], axis=-1)
+
+
 @dataclass(frozen=True, eq=False)
-class PiecewiseCurve:
+class PiecewiseCurve(CurveByJets):
     """Polynomials between knots, a row of coordinates each: what is enclosed are these, which are splines to rounding.
 
     `powers` are ascending in t, |t| <= 1 between two knots, shape (degree + 1, n, coordinates); coordinates may be
@@ -35,7 +47,7 @@ class PiecewiseCurve:
         """The pieces of a B-spline, control points of shape (count, coordinates)."""
         from scipy.interpolate import BSpline
 
-        places = np.unique(knots)
+        places = np.unique(knots[degree : len(knots) - degree])
         t = chebyshev.nodes(degree + 1)
         values = BSpline(knots, controls, degree)(
             0.5 * (places[1:] + places[:-1]) + np.multiply.outer(t, 0.5 * np.diff(places))
@@ -43,7 +55,12 @@ class PiecewiseCurve:
         powers = np.einsum("kt,tnd->knd", np.linalg.inv(np.vander(t, increasing=True)), values)
         return cls(places, powers, CONTROL_POINT_BLUR * float(np.abs(controls).max()))
 
-    def jets(self, places: Array | Interval, order: int) -> list[Jet]:
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """The knots."""
+        return tuple(self.knots.tolist())
+
+    def jets(self, places: Array | Interval, order: int) -> Any:  # noqa: ANN401 - as many as there are coordinates
         """The Taylor terms of each coordinate; intervals must lie between two knots."""
         middle = places.middle if isinstance(places, Interval) else np.asarray(places)
         which = np.clip(np.searchsorted(self.knots, middle, side="right") - 1, 0, len(self.knots) - 2)
@@ -59,18 +76,6 @@ class PiecewiseCurve:
         for k in range(len(self.powers) - 1, nu - 1, -1):
             total = total * t + comb(k, nu) * self.powers[k, which, coordinate]
         return total / half**nu
-
-
-class CurveByJets(ABC):
-    """A closed plane curve that is known by its jets, over a parameter of its own."""
-
-    @abstractmethod
-    def jets(self, places: Array | Interval, order: int) -> Pair:
-        """Both coordinates with their Taylor terms by the parameter."""
-
-    def __call__(self, places: Array, nu: int = 0) -> Array:
-        """Points, or derivatives by the parameter, shape of `places` and two more."""
-        return np.stack([jet.derivative(nu) for jet in self.jets(np.asarray(places, dtype=np.float64), nu)], axis=-1)
 
 
 class CurveByAngle(ABC):
@@ -169,14 +174,12 @@ class PlaneCurve(CurveByAngle):
         along = (tangents[0].terms[0] * ny.terms[0] - tangents[1].terms[0] * nx.terms[0]) * sign
         turns = (nx.terms[1] * ny.terms[0] - ny.terms[1] * nx.terms[0]) * sign
         with np.errstate(divide="ignore", invalid="ignore"):
-            values = turns / along
-        return values if np.ndim(values) else float(values)
+            return number_or_array(turns / along)
 
     def radius_of_curvature(self, angle: Any, *, before: bool = False) -> Any:  # noqa: ANN401 - as for points
         """The radius of curvature, m, with the sign of the curvature; infinite where the curve is straight."""
         with np.errstate(divide="ignore"):
-            values = 1.0 / np.asarray(self.curvature(angle, before=before))
-        return values if np.ndim(values) else float(values)
+            return number_or_array(1.0 / np.asarray(self.curvature(angle, before=before)))
 
     def offset(self, distance: float) -> OffsetCurve:
         """The parallel curve so many metres outward, or inward where it is below 0."""

@@ -50,7 +50,7 @@ class Spline(CurveByJets):
     @property
     def breaks(self) -> tuple[float, ...]:
         """The knots of the spline, each once, by which it is an outline itself."""
-        return tuple(np.unique(self.knots).tolist())
+        return self._pieces.breaks
 
 
 def spline(outline: Outline, tolerance: float, degree: int = 3) -> Spline:

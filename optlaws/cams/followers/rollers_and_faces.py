@@ -3,13 +3,25 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from math import inf, pi, sin
+from dataclasses import dataclass
+from math import atan, cos, degrees, inf, pi, sin, tan
 
 import numpy as np
 
 from optlaws.cams.curves.extremes import CamExtremes, EnclosedExtreme, Undercut, enclosed_extremes, widened
 from optlaws.cams.curves.motion_by_angle import CamMotion
-from optlaws.cams.followers.contact import ContactState, CurvatureTerms, FollowerContact, bearing, shifted
+from optlaws.cams.followers.contact import (
+    ContactState,
+    CurvatureTerms,
+    Drag,
+    FollowerContact,
+    LinearLimit,
+    Transmission,
+    bearing,
+    shifted,
+)
+from optlaws.errors import InputError
+from optlaws.motion.piece import Piece
 from optlaws.numbers import Array
 from optlaws.numerics.interval import Interval
 from optlaws.numerics.taylor import Jet, Pair, Term
@@ -176,6 +188,64 @@ class FaceContact(FollowerContact):
     @abstractmethod
     def reach(self, s: Jet) -> Jet:
         """The place along the face where it is touched."""
+
+
+@dataclass(frozen=True)
+class SlidingFace(FaceContact):
+    """A face on a slide, square to its way where the angle is 0: at y = height + s on the way, rho = (y + s'') cos."""
+
+    angle: float
+
+    def point(self, s: Jet) -> Pair:
+        far, reach = self._far(s), self.reach(s)
+        return reach * cos(self.angle) - far * sin(self.angle), reach * sin(self.angle) + far * cos(self.angle)
+
+    def normal(self, s: Jet) -> Pair:
+        return s * 0.0 - sin(self.angle), s * 0.0 + cos(self.angle)
+
+    def pressure(self, s: Jet) -> Jet:
+        """The tangent of the inclination, the same everywhere."""
+        return s.slope() * 0.0 + self.turning * tan(self.angle)
+
+    def radius(self, s: Jet) -> Jet:
+        return s.slope().slope() * cos(self.angle) + self._far(s)
+
+    def reach(self, s: Jet) -> Jet:
+        """The distance from the foot of the cam's centre, to the side to which the cam turns away from it."""
+        return s.slope() * (self.turning * cos(self.angle))
+
+    def _far(self, s: Jet) -> Jet:
+        """How far the face is from the cam's centre."""
+        return (s + (self.level - self.lowest)) * cos(self.angle)
+
+    def state(self, point: Pair, normal: Pair) -> ContactState:
+        far = point[0] * normal[0] + point[1] * normal[1]
+        height = far / cos(self.angle)
+        return ContactState(height + (self.lowest - self.level), far * 0.0 + (0.5 * pi + self.angle), bearing(*normal))
+
+    def transmission(self, s: Jet) -> Transmission:
+        aside, _ = self.point(s)
+        sine, cosine, none = sin(self.angle), cos(self.angle), aside * 0.0
+        sliding = self._far(s) + s.slope() * (self.turning * sine)
+        # the cam's surface runs past along the face, away from its turning unless it is touched below the shaft
+        past = sign(sliding) * -self.turning
+        drag = Drag(past * sine, past * cosine, aside * past * sine)
+        return Transmission(none + cosine, sliding.magnitude(), none - sine, aside * cosine, drag)
+
+    def radius_limits(self, piece: Piece, limit: float, angle: float) -> list[LinearLimit]:
+        stroke, size = piece.stroke, abs(piece.stroke)
+        high = (self.level - self.lowest + piece.offset - limit / cos(self.angle)) / size
+        return [LinearLimit((-stroke / size, 0.0, -stroke / (size * angle**2)), high)]
+
+    def pressure_limits(self, piece: Piece, limit: float, angle: float, *, below: bool) -> list[LinearLimit]:
+        """No limits: a greatest pressure angle is kept by every law, or by no law, which is refused."""
+        del piece, angle, below
+        if abs(tan(self.angle)) > limit:
+            raise InputError(
+                f"pressure_angle: it is that of the face, {degrees(abs(self.angle)):.6g} deg, whatever the law: give a"
+                f" limit above {degrees(atan(limit)):.6g} deg, or a face that is less inclined"
+            )
+        return []
 
 
 def sign(jet: Jet) -> Jet:

@@ -60,10 +60,11 @@ def compare(
     if as_json:
         print_json(comparison.to_dict())
         return
-    rows = table(*comparison.rows[0])
-    for row in comparison.rows:
-        rows.add_row(*(cell if isinstance(cell, str) else number(cell, VALUE_ROUNDING, ".7g") for cell in row.values()))
-    show(rows, *comparison.remarks)
+    rows = (
+        [cell if isinstance(cell, str) else number(cell, VALUE_ROUNDING, ".7g") for cell in row.values()]
+        for row in comparison.rows
+    )
+    show(table(*comparison.rows[0], rows=rows), *comparison.remarks)
 
 
 def _save(comparison: optlaws.Comparison, file: Path) -> None:

@@ -1,4 +1,4 @@
-"""The commands `optlaws cycle` and `optlaws cam`: whole cycles of a machine, and cams of them, from problem files."""
+"""The command `optlaws cycle`: whole cycles of a machine, from problem files."""
 
 from __future__ import annotations
 
@@ -22,25 +22,10 @@ def cycle(file: Path, /, *, out: Path | None = None, as_json: AsJson = False) ->
     as_json
         Print one JSON object on stdout and write nothing.
     """
-    _do("cycle", file, out, as_json=as_json)
+    do_job("cycle", file, out, as_json=as_json)
 
 
-def cam(file: Path, /, *, out: Path | None = None, as_json: AsJson = False) -> None:
-    """Cams of cycles: curves, enclosed pressure angles and curvatures, proof of no undercut, least sizes.
-
-    Parameters
-    ----------
-    file
-        A problem file whose job is "cam", or the name of one that comes with optlaws, such as cam_press.
-    out
-        Folder for the tables; otherwise where `optlaws run` puts them.
-    as_json
-        Print one JSON object on stdout and write nothing.
-    """
-    _do("cam", file, out, as_json=as_json)
-
-
-def _do(job: str, file: Path, out: Path | None, *, as_json: bool) -> None:
+def do_job(job: str, file: Path, out: Path | None, *, as_json: bool) -> None:
     """The job of a problem file, or its data for programs."""
     from optlaws.files.packaged import problem_of_job
 

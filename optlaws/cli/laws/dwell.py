@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from math import degrees, gcd, inf
 from typing import TYPE_CHECKING, Any
 
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from optlaws.balancing.dwells.clutch import Teeth
 
 _TEETH = 3
+_SIZES = ("a", "b", "S1", "S2")
 _TURN = 360.0 * (1.0 + 1e-9)
 
 
@@ -51,6 +52,11 @@ class DwellAngles:
     inertia_ratio: float
     clutch_angle: float
     lower_dwell: float | None = None
+
+    def in_radians(self) -> dict[str, Any]:
+        """All of them, angles in radians."""
+        given = {name: value for name, value in asdict(self).items() if value is not None}
+        return {name: value if name.endswith("ratio") else optlaws.deg(value) for name, value in given.items()}
 
 
 def dwell(
@@ -87,17 +93,11 @@ def dwell(
     _check_turn(angles.rise, angles.dwell, angles.lower_dwell)
     comparison = optlaws.compare_dwell_mechanisms(
         law=read_law(name),
-        dwell=optlaws.deg(angles.dwell),
-        rise=optlaws.deg(angles.rise),
-        swing=optlaws.deg(angles.swing),
-        radius_ratio=angles.radius_ratio,
-        inertia_ratio=angles.inertia_ratio,
-        clutch_angle=optlaws.deg(angles.clutch_angle),
         most_torque=most_torque,
         most_size=most_size,
-        lower_dwell=None if angles.lower_dwell is None else optlaws.deg(angles.lower_dwell),
         law_1=None if law_1 is None else read_law(law_1),
         law_2=None if law_2 is None else read_law(law_2),
+        **angles.in_radians(),
     )
     clutches = {kind: optlaws.Clutch(mechanism) for kind, mechanism in comparison.mechanisms.items() if kind != "I"}
     if as_json:
@@ -120,13 +120,8 @@ def _check_turn(rise: float, dwell: float, lower_dwell: float | None) -> None:
 def _show(comparison: DwellComparison, clutches: dict[str, optlaws.Clutch], teeth: int) -> None:
     types = table("type", "a", "b", "S1", "S2", "usable")
     for kind, reason in comparison.reasons.items():
-        mechanism = comparison.mechanisms.get(kind)
-        cells = (
-            ["", "", "", ""]
-            if mechanism is None
-            else [f"{value:.6g}" for value in (mechanism.a, mechanism.b, mechanism.S1, mechanism.S2)]
-        )
-        types.add_row(kind, *cells, reason)
+        known = comparison.mechanisms.get(kind)
+        types.add_row(kind, *("" if known is None else f"{getattr(known, name):.6g}" for name in _SIZES), reason)
     chosen = (
         "none is usable" if comparison.chosen is None else f"type {comparison.chosen}, the smallest cam of those usable"
     )

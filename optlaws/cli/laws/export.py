@@ -189,7 +189,5 @@ def _list(*, as_json: bool) -> None:
         keys = ("name", "target", "contents", "model", "limits", "extension", "takes")
         print_json([{key: getattr(file_format, key) for key in keys} for file_format in formats])
         return
-    rows = table("format", "target", "holds", "runs", "limits")
-    for file_format in formats:
-        rows.add_row(file_format.name, file_format.target, file_format.contents, file_format.model, file_format.limits)
-    show(rows)
+    rows = ([form.name, form.target, form.contents, form.model, form.limits] for form in formats)
+    show(table("format", "target", "holds", "runs", "limits", rows=rows))

@@ -25,16 +25,12 @@ class FollowerOptions:
     ----------
     frequency
         Frequency nu of the follower: radians of its undamped free vibration in the rise.
-    speed_rpm
-        In place of --frequency: speed of the cam, revolutions per minute.
-    rise_angle
-        With --speed-rpm: angle of the cam during the rise, degrees.
-    natural_period
-        With --speed-rpm: period of the undamped free vibration, s.
     natural_frequency
         In place of --frequency: frequency of the undamped free vibration with its unit, such as "16.7 Hz".
+    natural_period
+        In place of --natural-frequency: period of the undamped free vibration with its unit, such as "60 ms".
     speed
-        With --natural-frequency: speed of the cam with its unit, such as "105 rpm".
+        With --natural-frequency or --natural-period: speed of the cam with its unit, such as "105 rpm".
     rise
         With --speed: angle of the cam during the rise with its unit, such as "120 deg".
     duration
@@ -46,10 +42,8 @@ class FollowerOptions:
     """
 
     frequency: float | None = None
-    speed_rpm: float | None = None
-    rise_angle: float | None = None
-    natural_period: float | None = None
     natural_frequency: str | None = None
+    natural_period: str | None = None
     speed: str | None = None
     rise: str | None = None
     duration: Duration = None
@@ -59,12 +53,9 @@ class FollowerOptions:
     @property
     def quantities(self) -> dict[str, str | None]:
         """What is given with a unit, beside the stroke."""
-        return {name: getattr(self, name) for name in ("natural_frequency", "speed", "rise", "duration")}
-
-    @property
-    def numbers(self) -> tuple[float | None, ...]:
-        """What is given in units of its own."""
-        return self.speed_rpm, self.rise_angle, self.natural_period
+        return {
+            name: getattr(self, name) for name in ("natural_frequency", "natural_period", "speed", "rise", "duration")
+        }
 
 
 _NO_FOLLOWER = FollowerOptions()
@@ -126,39 +117,26 @@ def follower(
 
 def _follower_and_machine(options: FollowerOptions) -> tuple[optlaws.Follower, optlaws.MachineFollower | None]:
     """The follower, and the machine that it is of, where a stroke is given."""
-    stroke, damping = options.stroke, options.damping
-    if any(quantity is not None for quantity in options.quantities.values()):
-        if options.frequency is not None or any(number is not None for number in options.numbers):
+    frequency, stroke, damping = options.frequency, options.stroke, options.damping
+    united = any(quantity is not None for quantity in options.quantities.values())
+    if frequency is not None and not united:
+        if stroke is not None:
             raise InputError(
-                "--natural-frequency, --speed, --rise and --duration are of a machine: give no --frequency or numbers "
-                "beside"
+                "--stroke needs the time of the rise: give --natural-frequency with --speed and --rise, or --duration"
             )
-        machine = optlaws.machine_follower(stroke=stroke or "1 m", damping=damping, **options.quantities)
-        return machine.follower, machine if stroke else None
-    mass = _follower(options)
-    rpm, angle, period = options.numbers
-    if stroke is None:
-        return mass, None
-    if rpm is None or angle is None:
+        return optlaws.Follower(frequency, damping), None
+    if frequency is not None:
         raise InputError(
-            "--stroke needs the time of the rise: give --natural-frequency with --speed and --rise, or --duration"
+            "--natural-frequency, --natural-period, --speed, --rise and --duration are of a machine: give no "
+            "--frequency beside"
         )
-    return mass, optlaws.machine_follower(
-        stroke=stroke, natural_period=f"{period!r} s", speed=f"{rpm!r} rpm", rise=f"{angle!r} deg", damping=damping
-    )
-
-
-def _follower(options: FollowerOptions) -> optlaws.Follower:
-    frequency, damping = options.frequency, options.damping
-    rpm, angle, period = options.numbers
-    if frequency is not None and rpm is None and angle is None and period is None:
-        return optlaws.Follower(frequency, damping)
-    if frequency is None and rpm is not None and angle is not None and period is not None:
-        return optlaws.Follower.from_speed(speed_rpm=rpm, rise_angle_deg=angle, natural_period=period, damping=damping)
-    raise InputError(
-        "give either --frequency or all of --speed-rpm, --rise-angle and --natural-period, or, with units, "
-        "--natural-frequency with --duration or with --speed and --rise"
-    )
+    if not united:
+        raise InputError(
+            "give either --frequency or, with units, --natural-frequency or --natural-period with --duration or with "
+            "--speed and --rise"
+        )
+    machine = optlaws.machine_follower(stroke=stroke or "1 m", damping=damping, **options.quantities)
+    return machine.follower, machine if stroke else None
 
 
 def _summary(

@@ -86,19 +86,12 @@ def law(
 
 
 def _show(about: dict[str, Any], motion_law: optlaws.MotionLaw, values: list[dict[str, float]]) -> None:
-    head = table()
-    for key, value in _lines(about):
-        head.add_row(key, value)
-    show(head, constants_table(motion_law.constants))
+    show(table(rows=_lines(about)), constants_table(motion_law.constants))
     if values:
         from optlaws.laws.values import sizes
 
-        rows = table(*values[0])
-        for row in values:
-            rows.add_row(
-                *(number(value, size) for value, size in zip(row.values(), (1.0, *sizes(motion_law)), strict=True))
-            )
-        show(rows)
+        known = (1.0, *sizes(motion_law))
+        show(table(*values[0], rows=(map(number, row.values(), known) for row in values)))
 
 
 def _about(name: str, alpha: float | None, B: float | None, motion_law: optlaws.MotionLaw) -> dict[str, Any]:

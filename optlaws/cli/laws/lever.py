@@ -174,14 +174,8 @@ def _machine(motion: LeverMotion, bars: BarOptions, xi: float) -> dict[str, floa
 def _plain(lever: optlaws.TorsionLever) -> dict[str, Any]:
     linkage = lever.linkage
     return {
-        "beta": lever.beta,
-        "lam": lever.lam,
-        "rho": lever.rho,
-        "nu": lever.nu,
-        "swing": lever.swing,
-        "alpha": linkage.alpha,
-        "psi0": linkage.psi0,
-        **{name: getattr(linkage, name) for name in "QPSR"},
+        **{name: getattr(lever, name) for name in ("beta", "lam", "rho", "nu", "swing")},
+        **{name: getattr(linkage, name) for name in ("alpha", "psi0", *"QPSR")},
         **{name: getattr(lever, name) for name in ("xi", "gamma01", "n", "q", "p", "T0")},
         "twists": list(lever.twists),
         "twists_left": list(lever.twists_left),
@@ -203,33 +197,27 @@ def _save(file: Path, levers: tuple[optlaws.TorsionLever, ...]) -> None:
 
 
 def _show(lever: optlaws.TorsionLever, machine: dict[str, float]) -> None:
-    facts = table()
     linkage = lever.linkage
-    facts.add_row("beta, lambda", f"{lever.beta:.8g}, {lever.lam:.8g}")
-    facts.add_row("alpha, psi0", f"{linkage.alpha:.8g}, {degrees(linkage.psi0):.6g} deg")
-    facts.add_row("xi = c2/c1", f"{lever.xi:.8g}")
+    facts = [
+        ("beta, lambda", f"{lever.beta:.8g}, {lever.lam:.8g}"),
+        ("alpha, psi0", f"{linkage.alpha:.8g}, {degrees(linkage.psi0):.6g} deg"),
+        ("xi = c2/c1", f"{lever.xi:.8g}"),
+    ]
     for name, twist, left in zip(("1", "2"), lever.twists, lever.twists_left, strict=True):
-        slack = "" if left > 0.0 else ": slack"
-        facts.add_row(
-            f"twist of bar {name}", f"{degrees(twist):.6g} deg at rest, {degrees(left):.4g} deg at least{slack}"
-        )
+        ends = f"{degrees(twist):.6g} deg at rest, {degrees(left):.4g} deg at least"
+        facts.append((f"twist of bar {name}", ends if left > 0.0 else f"{ends}: slack"))
     for name, value in machine.items():
         unit = "s" if name == "period_seconds" else "N m/rad"
-        facts.add_row(name.replace("_", " ").replace(" seconds", ""), f"{value:.8g} {unit}")
-    show(facts, _compared(lever))
+        facts.append((name.replace("_", " ").replace(" seconds", ""), f"{value:.8g} {unit}"))
+    show(table(rows=facts), _compared(lever))
 
 
 def _compared(lever: optlaws.TorsionLever) -> Table:
-    rows = table("", "exact", "asymptotic", "off by, %")
-    exact, asymptotic = _motion(lever.exact), _motion(lever.asymptotic)
-    rows.add_row("T, sqrt(I/c1)", f"{exact['T']:.8g}", f"{asymptotic['T']:.8g}", f"{100 * lever.errors['T']:.2g}")
-    for name in (*_ANGLES, *_CONSTANTS):
-        scale, unit = (degrees(1.0), ", deg") if name in _ANGLES else (1.0, "")
-        rows.add_row(
-            f"{name}{unit}",
-            f"{scale * exact[name]:.8g}",
-            f"{scale * asymptotic[name]:.8g}",
-            f"{100 * lever.errors[name]:.2g}",
-        )
-    rows.add_row("max |da|", "", "", f"{100 * lever.errors['max |da|']:.2g}")
-    return rows
+    units = {"T": ", sqrt(I/c1)"} | dict.fromkeys(_ANGLES, ", deg")
+    motions, rows = (_motion(lever.exact), _motion(lever.asymptotic)), []
+    for name in motions[0]:
+        scale = degrees(1.0) if name in _ANGLES else 1.0
+        values = (f"{scale * motion[name]:.8g}" for motion in motions)
+        rows.append([f"{name}{units.get(name, '')}", *values, f"{100 * lever.errors[name]:.2g}"])
+    rows.append(["max |da|", "", "", f"{100 * lever.errors['max |da|']:.2g}"])
+    return table("", "exact", "asymptotic", "off by, %", rows=rows)

@@ -48,10 +48,9 @@ def atlas(
         law = solution.law.to_dict()
         print_json({"nearest": near, "status": solution.status.value, "constants": exact, "law": law})
         return
-    rows = table("constant", "in the atlas", "as asked")
-    for name, value in exact.items():
-        rows.add_row(name, f"{point.constants[name]:.8g}" if name in point.constants else "", f"{value:.10g}")
-    show(rows, f"{solution.status.value}: {solution.problem!r}")
+    nearest = {name: f"{value:.8g}" for name, value in point.constants.items()}
+    rows = ([name, nearest.get(name, ""), f"{value:.10g}"] for name, value in exact.items())
+    show(table("constant", "in the atlas", "as asked", rows=rows), f"{solution.status.value}: {solution.problem!r}")
 
 
 def _greatest(entries: Mapping[str, Any]) -> dict[str, float]:

@@ -110,14 +110,12 @@ def _table(front: optlaws.Front | optlaws.ProvenFront, points: int) -> tuple[tup
 
 
 def _show(front: optlaws.Front | optlaws.ProvenFront, headings: tuple[str, ...], lines: Rows) -> None:
-    rows = table(*headings)
-    for line in lines:
-        forms = (".0e" if name == "gap" else ".7g" for name in headings)
-        cells = ("" if cell is None else cell for cell in line)
-        rows.add_row(
-            *(cell if isinstance(cell, str) else format(cell, form) for cell, form in zip(cells, forms, strict=True))
-        )
-    show(rows)
+    def text(cell: Any, heading: str) -> str:  # noqa: ANN401 - a number, text or nothing
+        if cell is None or isinstance(cell, str):
+            return cell or ""
+        return format(cell, ".0e" if heading == "gap" else ".7g")
+
+    show(table(*headings, rows=(map(text, line, headings) for line in lines)))
     if isinstance(front, optlaws.ProvenFront):
         show(f"{front!r}")
         return

@@ -62,18 +62,12 @@ def ledger(
 
 
 def _show(judged: Sequence[Any]) -> None:
-    rows = table("paper", "item", "kind", "printed", "computed", "verdict")
+    rows = []
     for judgement in judged:
-        computed = "" if judgement.computed is None else f"{judgement.computed:.10g}"
-        rows.add_row(
-            judgement.paper,
-            judgement.item.id,
-            judgement.item.kind,
-            judgement.item.printed,
-            computed,
-            str(judgement.verdict),
-        )
+        computed, item = "" if judgement.computed is None else f"{judgement.computed:.10g}", judgement.item
+        rows.append([judgement.paper, item.id, item.kind, item.printed, computed, str(judgement.verdict)])
     reasons = [
         f"{judgement.item.id}: {why}" for judgement in judged if (why := judgement.item.reason or judgement.item.lost)
     ]
-    show(rows, *reasons, f"{len(judged)} items")
+    headings = ("paper", "item", "kind", "printed", "computed", "verdict")
+    show(table(*headings, rows=rows), *reasons, f"{len(judged)} items")

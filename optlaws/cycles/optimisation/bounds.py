@@ -16,7 +16,7 @@ from typing import Any
 
 from optlaws.cycles.optimisation.drive_formulas import driven_mean, driven_peak, may_turn
 from optlaws.cycles.optimisation.objectives import FORCE, LOADED, POWER, CycleObjective, kind_of
-from optlaws.cycles.specification.drive import CycleDrive, effort, read_drive
+from optlaws.cycles.specification.drive import CycleDrive, read_drive, size_of
 from optlaws.cycles.specification.joints import LawSpan, Layout
 from optlaws.errors import InfeasibleProblem, SolverFailure
 from optlaws.motion.piece import Piece, factor
@@ -119,7 +119,8 @@ def bound_of(layout: Layout, solved: Solved, objective: CycleObjective, period: 
     sizes = [
         (piece.duration, span_bound(layout.spans[i], *solved[i], objective)) for i, (piece, _) in enumerate(solved)
     ]
-    sizes += [(piece.duration, _taken(piece, objective)) for piece in layout.pieces]
+    drive = objective.drive or read_drive({}, "length")
+    sizes += [(piece.duration, size_of(piece, nu, drive, mean=mean)) for piece in layout.pieces]
     if not mean:
         return max(size for _, size in sizes)
     return reduce(hypot, (size * sqrt(time / period) for time, size in sizes), 0.0)
@@ -135,13 +136,3 @@ def span_bound(span: LawSpan, piece: Piece, solution: Solution, objective: Cycle
     effort = driven(span, objective.drive, piece.stroke)
     # neither a peak nor a mean is below 0, whether or not anything is proven
     return hypot(max(least, 0.0) * effort.unit, sqrt(max(effort.friction, 0.0)))
-
-
-def _taken(piece: Piece, objective: CycleObjective) -> float:
-    """The value of the objective for a law that was given, in SI units."""
-    nu, mean = kind_of(objective.minimise)
-    if nu in {FORCE, POWER}:
-        taken = effort(objective.drive or read_drive({}, "length"), [piece], piece.duration)
-        return taken.peak_power if nu == POWER else taken.rms_force if mean else taken.peak_force
-    constant = piece.law.rms(nu) if mean else piece.law.peak(nu).value
-    return constant * abs(factor(piece.stroke, piece.duration, nu)) if piece.stroke else 0.0

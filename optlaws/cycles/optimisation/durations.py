@@ -24,6 +24,7 @@ from optlaws.cycles.specification.segments import ConstantVelocity, Dwell, Free,
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.laws import MotionLaw
 from optlaws.motion.piece import factor, named_law
+from optlaws.numerics.roots import bisect
 from optlaws.synthesis.solve import synthesize
 from optlaws.tolerances import AGREEMENT, DURATION_STEP, SAME_TIME, SHORTEST_MOVE
 
@@ -207,10 +208,7 @@ def _shared(
         first -= 10.0
     while at(last).sum() > left * (1.0 + SAME_TIME) and last < 1e4:
         last += 10.0
-    for _ in range(200):
-        middle = 0.5 * (first + last)
-        first, last = (middle, last) if at(middle).sum() > left else (first, middle)
-    return at(0.5 * (first + last))
+    return at(0.5 * sum(bisect(lambda height: bool(at(height).sum() > left), first, last)))
 
 
 def _by_halves(

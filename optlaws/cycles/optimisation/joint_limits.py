@@ -10,7 +10,7 @@ from operator import itemgetter
 from optlaws.cycles.optimisation.drive_formulas import may_turn
 from optlaws.cycles.optimisation.objectives import FORCE, CycleObjective, in_units, kind_of, limits_of_stretch
 from optlaws.cycles.optimisation.optimal import solve
-from optlaws.cycles.specification.drive import peak_of
+from optlaws.cycles.specification.drive import size_of
 from optlaws.cycles.specification.joints import LawSpan, Layout, State
 from optlaws.cycles.specification.programme import TimedSegment, is_optimal
 from optlaws.errors import InfeasibleProblem, SolverFailure
@@ -88,10 +88,10 @@ def ties_broken(
     nu, mean = kind_of(objective.minimise)
     if mean or nu not in {_VELOCITY, FORCE} or not laws:
         return laws, ()
-    known = [(peak_of(piece, nu, objective.drive), piece.start) for piece in layout.pieces]
+    known = [(size_of(piece, nu, objective.drive), piece.start) for piece in layout.pieces]
     known += [(edge.demand(objective, nu), edge.time) for span in layout.spans for edge in _edges(span)]
     greatest, time = max(known, key=itemgetter(0), default=(0.0, 0.0))
-    if max(peak_of(piece, nu, objective.drive) for piece, _ in laws) > greatest * (1.0 + AGREEMENT):
+    if max(size_of(piece, nu, objective.drive) for piece, _ in laws) > greatest * (1.0 + AGREEMENT):
         return laws, ()
     calm = replace(
         objective,

@@ -24,7 +24,7 @@ from optlaws.cycles.optimisation.optimal import (
     with_least_limit,
     with_mean_square,
 )
-from optlaws.cycles.specification.drive import CycleDrive, peak_of, square_of_force
+from optlaws.cycles.specification.drive import CycleDrive, size_of, square_of_force
 from optlaws.cycles.specification.joints import LawSpan, Layout
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.kept import kept_property
@@ -197,7 +197,7 @@ class _SharedForceLimit:
         """The greatest of what is minimised over the whole cycle, whatever the laws were sought for."""
         nu, _ = kind_of(self.objective.minimise)
         pieces = [*(piece for piece, _ in laws), *self.layout.pieces]
-        return max(peak_of(piece, nu, self.drive) for piece in pieces)
+        return max(size_of(piece, nu, self.drive) for piece in pieces)
 
     def _by_multiplier(self, laws: Sequence[tuple[Piece, Solution]]) -> Best:
         """The least root mean square, by what the limit is worth."""

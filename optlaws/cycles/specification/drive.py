@@ -143,12 +143,15 @@ def effort(drive: CycleDrive, pieces: Sequence[Piece], period: float) -> Effort:
     return Effort(force, float(np.sqrt(square / period)), power, mean if abs(mean) > VALUE_ROUNDING * power else 0.0)
 
 
-def peak_of(piece: Piece, nu: int, drive: CycleDrive | None) -> float:
-    """The peak of a derivative, or of the force (-1) or power (-3) of a drive, in a piece, in SI units."""
+def size_of(piece: Piece, nu: int, drive: CycleDrive | None, *, mean: bool = False) -> float:
+    """The peak or RMS of a derivative, or of the force (-1) or power (-3) of a drive, in a piece, in SI units."""
     if nu > 0 or drive is None:
-        return piece.law.peak(nu).value * abs(factor(piece.stroke, piece.duration, nu)) if piece.stroke else 0.0
+        if not piece.stroke:
+            return 0.0
+        constant = piece.law.rms(nu) if mean else piece.law.peak(nu).value
+        return constant * abs(factor(piece.stroke, piece.duration, nu))
     taken = effort(drive, [piece], piece.duration)
-    return taken.peak_force if nu == -1 else taken.peak_power
+    return taken.peak_power if nu == -3 else taken.rms_force if mean else taken.peak_force
 
 
 def square_of_force(drive: CycleDrive, piece: Piece) -> float:

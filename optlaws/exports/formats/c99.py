@@ -10,10 +10,11 @@ from optlaws.errors import InputError
 from optlaws.exports.error_bounds import DOUBLE, SINGLE, as_stored
 from optlaws.exports.format import Request, Written, file_format
 from optlaws.exports.formats.program_polynomials import SOURCE_MODEL, SOURCE_PIECES, labels_of, source_polynomials
-from optlaws.exports.text import C_KEYWORDS, QUANTITIES, Labels, program_heading, real, safe, wrapped
+from optlaws.exports.text import C_KEYWORDS, Labels, program_heading, real, safe, wrapped
 from optlaws.files.writing import MARK
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion
+from optlaws.motion.quantities import QUANTITIES
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,30}")
 

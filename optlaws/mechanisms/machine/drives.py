@@ -27,9 +27,9 @@ def of_law(
     return [drive for forcing in forcings(law, start, length, a0, stroke) for drive in _drives(forcing)]
 
 
-def rest(start: float, length: float, level: Array) -> DriveStretch:
+def rest(start: float, length: float, level: Array | float) -> DriveStretch:
     """A dwell at displacements, one for each column."""
-    series = np.zeros((1, 3, len(level)))
+    series = np.zeros((1, 3, np.size(level)))
     series[0, 0] = level
     return DriveStretch(start, length, series)
 

@@ -281,14 +281,7 @@ class Machine(StateSpace):
         >>> machine.cycle(smoothstep(4), dwell=0.5, rest=1.0).peak("position")
         Peak(value=1.00..., k=...)
         """
-        return MachineCycle(
-            self,
-            motion_law(rise, "rise"),
-            motion_law(rise if fall is None else fall, "fall"),
-            not_negative(dwell, "dwell"),
-            positive(fall_duration, "fall_duration"),
-            not_negative(rest, "rest"),
-        )
+        return MachineCycle(self, rise, rise if fall is None else fall, dwell, fall_duration, rest)
 
     def peak(
         self,

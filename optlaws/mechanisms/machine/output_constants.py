@@ -16,6 +16,7 @@ from optlaws.errors import InputError, OptlawsError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, smoothstep
 from optlaws.laws.law import motion_law
+from optlaws.mechanisms.forcing import around
 from optlaws.mechanisms.machine import drives
 from optlaws.mechanisms.machine.dynamics import Panel, inverse_gain
 from optlaws.mechanisms.machine.over_time import (
@@ -23,7 +24,6 @@ from optlaws.mechanisms.machine.over_time import (
     MachineResponse,
     OutputCurve,
     RepeatedMotion,
-    around,
     jumps,
     steady,
 )
@@ -168,7 +168,7 @@ class OutputConstant(Functional):
         if self.cycle is not None:
             dwell, rest = self.cycle
             fall = drives.backward(rise, 1.0 + dwell, 1.0, high)
-            return steady(self.machine, around(rise, fall, (high, low), (dwell, 1.0, rest)), _RADIANS)
+            return steady(self.machine, around(rise, fall, (high, low), (dwell, 1.0, rest), drives.rest), _RADIANS)
         if self.within[1] > 1.0 + SHORTEST_STRETCH:
             rise.append(drives.rest(1.0, self.within[1] - 1.0, high))
         initial = self.machine.settled(low)

@@ -16,7 +16,7 @@ from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, Peak
 from optlaws.laws.curve import Curve, Sides
 from optlaws.laws.segments.piecewise import PiecewiseLaw
-from optlaws.mechanisms.forcing import leads_back
+from optlaws.mechanisms.forcing import RiseReturnCycle
 from optlaws.mechanisms.machine import drives
 from optlaws.mechanisms.machine.dynamics import RADIANS, DriveStretch, Panel
 from optlaws.mechanisms.machine.state_space import StateSpace
@@ -180,9 +180,7 @@ class MachineMotion(ABC):
         >>> mass.response(smoothstep(4), dwell=0.5).to_pandas(4).round(6)["position"].tolist()
         [0.0, 0.489570, 1.00..., 1.00...]
         """
-        needed("pandas", "to_pandas")
-        import pandas as pd
-
+        pd = needed("pandas", "to_pandas")
         return pd.concat([self[name].to_pandas(count) for name in self.machine.outputs], axis=1)
 
     @kept_property
@@ -257,7 +255,7 @@ class MachineResponse(MachineMotion):
         level = np.array([float(self.law.a(0.0))])
         moved = drives.of_law(self.law)
         if self.dwell > SHORTEST_STRETCH:
-            moved.append(drives.rest(1.0, self.dwell, np.array([float(self.law.a(1.0))])))
+            moved.append(drives.rest(1.0, self.dwell, float(self.law.a(1.0))))
         return self.machine.dynamics.moved(moved, self.machine.settled(level))[0]
 
     @property
@@ -269,7 +267,7 @@ class MachineResponse(MachineMotion):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class MachineCycle(MachineMotion):
+class MachineCycle(RiseReturnCycle, MachineMotion):
     """The steady outputs of a machine over a cycle that repeats; made by `Machine.cycle`. Time is in rises' durations.
 
     Attributes
@@ -295,21 +293,12 @@ class MachineCycle(MachineMotion):
     rest: float
 
     def __post_init__(self) -> None:
-        leads_back(self.rise, self.fall)
+        super().__post_init__()
         self._panels  # noqa: B018 - a cycle in resonance is refused at once
-
-    @property
-    def period(self) -> float:
-        """Duration of the cycle, in durations of the rise."""
-        return 1.0 + self.dwell + self.fall_duration + self.rest
 
     @kept_property
     def _panels(self) -> list[Panel]:
-        low, high = (np.array([float(self.rise.a(k))]) for k in (0.0, 1.0))
-        back = 1.0 + self.dwell
-        rise, fall = drives.of_law(self.rise), drives.of_law(self.fall, back, self.fall_duration, float(high[0]), -1.0)
-        moved = around(rise, fall, (high, low), (self.dwell, self.fall_duration, self.rest))
-        return steady(self.machine, moved)
+        return steady(self.machine, self._course(drives.of_law, drives.rest))
 
     @property
     def _velocity_jumps(self) -> list[tuple[float, float]]:
@@ -349,23 +338,6 @@ class RepeatedMotion(MachineMotion):
     def __repr__(self) -> str:
         last = self.drives[-1]
         return f"RepeatedMotion({self.machine!r}, period={last.start + last.length - self.drives[0].start:g})"
-
-
-def around(
-    rise: Sequence[DriveStretch],
-    fall: Sequence[DriveStretch],
-    levels: tuple[Array, Array],
-    durations: tuple[float, float, float],
-) -> list[DriveStretch]:
-    """A cycle: rise, dwell at the upper level, return, rest at the lower one; `durations` are those after the rise."""
-    (high, low), (dwell, fall_duration, pause) = levels, durations
-    moved = list(rise)
-    if dwell > SHORTEST_STRETCH:
-        moved.append(drives.rest(1.0, dwell, high))
-    moved += fall
-    if pause > SHORTEST_STRETCH:
-        moved.append(drives.rest(1.0 + dwell + fall_duration, pause, low))
-    return moved
 
 
 def steady(machine: StateSpace, cycle: Sequence[DriveStretch], radians: float = RADIANS) -> list[Panel]:

@@ -81,9 +81,7 @@ class MachineSpectrum:
         >>> table.columns.tolist()
         ['peak position', 'frequency of mode 1', 'mode 1 left in position']
         """
-        needed("pandas", "to_pandas")
-        import pandas as pd
-
+        pd = needed("pandas", "to_pandas")
         columns = {f"peak {name}": values for name, values in self.peaks.items()}
         for i, (frequency, left) in enumerate(zip(self.frequencies.T, self.residuals.T, strict=True), 1):
             columns |= {f"frequency of mode {i}": frequency, f"mode {i} left in {self.output}": left}

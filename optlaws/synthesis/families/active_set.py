@@ -29,7 +29,7 @@ class ActiveSet:
     equality_multipliers: Array
 
     @classmethod
-    def of_columns(cls, **columns: Any) -> Self:  # noqa: ANN401 - lists or arrays
+    def of_columns(cls, **columns: Any) -> Self:
         """An active set from sequences of numbers by its attributes."""
         return cls(**{name: np.asarray(values, _TYPES.get(name, np.float64)) for name, values in columns.items()})
 

@@ -292,7 +292,7 @@ def test_laws_of_loaders_are_stored_and_copied(name: str) -> None:
         assert np.array_equal(back(K), law(K))
     with pytest.raises(InputError, match="'excutive' is unknown"):
         MotionLaw.from_dict({**law.to_dict(), "excutive": {}})
-    segment = law._pieces.segments[0]
+    segment = law.piecewise.segments[0]
     assert type(segment).from_dict(segment.to_dict()) == segment
 
 

@@ -55,7 +55,7 @@ def test_a_design_without_damping_on_a_damped_follower(capsys: Capture) -> None:
 
 
 def test_a_law_of_the_catalogue_at_a_speed(capsys: Capture) -> None:
-    numbers = printed(capsys, "BESTEHORN", "--speed-rpm", 105, "--rise-angle", 120, "--natural-period", 0.06)
+    numbers = printed(capsys, "BESTEHORN", "--speed", "105 rpm", "--rise", "120 deg", "--natural-period", "60 ms")
     response = Follower(numbers["frequency"]).response(catalogue["cycloidal"].law)
     assert numbers["frequency"] == pytest.approx(60 * 2.0943951 / (105 * 0.06))
     assert numbers["residual_displacement"] == response.residual_displacement
@@ -101,8 +101,8 @@ def test_the_spectrum_is_drawn(capsys: Capture, tmp_path: Path) -> None:
         (["cycloidal", "--alpha", "1", "--frequency", "20"], "no other takes it"),
         (["IV", "--alpha", "20", "--frequency", "20"], "alpha"),
         (["cycloidl", "--frequency", "20"], "did you mean 'cycloidal'"),
-        (["cycloidal"], "either --frequency or all of --speed-rpm, --rise-angle and --natural-period"),
-        (["cycloidal", "--frequency", "20", "--speed-rpm", "100"], "either --frequency or"),
+        (["cycloidal"], "either --frequency or, with units, --natural-frequency or --natural-period"),
+        (["cycloidal", "--frequency", "20", "--speed", "100 rpm"], "give no --frequency beside"),
         (["cycloidal", "--frequency", "-20"], "frequency must be above 0"),
         (["cycloidal", "--frequency", "20", "--damping", "-1"], "damping must be at least 0"),
         (["cycloidal", "--frequency", "20", "--design-damping", "0.1"], "--design-damping needs --design-frequency"),
@@ -110,7 +110,7 @@ def test_the_spectrum_is_drawn(capsys: Capture, tmp_path: Path) -> None:
         (["cycloidal", "--frequency", "20", "--plot", "x.png"], "name both or neither"),
         (["cycloidal", "--frequency", "20", "--plot", "x.png", "--spectrum", "9", "2"], "two rising numbers above 0"),
         (["missing.json", "--frequency", "20"], "missing.json"),
-        (["cycloidal", "--frequenzy", "20"], "--frequency"),
+        (["cycloidal", "--frequencye", "20"], "--frequency"),
     ],
 )
 def test_nonsense_is_refused(capsys: Capture, arguments: list[str], says: str) -> None:
@@ -141,7 +141,7 @@ def test_a_stroke_with_its_unit_gives_machine_units(capsys: Capture) -> None:
     )
     assert data["machine"] == answer.results()
     code, out, _ = called(
-        capsys, "modified sine", "--speed-rpm", 105, "--rise-angle", 120, "--natural-period", 0.06, "--stroke", "35mm"
+        capsys, "modified sine", "--speed", "105 rpm", "--rise", "120 deg", "--natural-period", "60 ms", "--stroke", "35mm"
     )
     assert code == 0
     assert "residual displacement, m" in out

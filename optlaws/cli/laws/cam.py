@@ -1,0 +1,23 @@
+"""The command `optlaws cam`: cams of cycles, from problem files."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from optlaws.cli.laws.cycle import do_job
+from optlaws.cli.options import AsJson
+
+
+def cam(file: Path, /, *, out: Path | None = None, as_json: AsJson = False) -> None:
+    """Cams of cycles: curves, enclosed pressure angles and curvatures, proof of no undercut, least sizes.
+
+    Parameters
+    ----------
+    file
+        A problem file whose job is "cam", or the name of one that comes with optlaws, such as cam_press.
+    out
+        Folder for the tables; otherwise where `optlaws run` puts them.
+    as_json
+        Print one JSON object on stdout and write nothing.
+    """
+    do_job("cam", file, out, as_json=as_json)
