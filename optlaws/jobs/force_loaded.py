@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from decimal import ROUND_FLOOR, Context
 from typing import TYPE_CHECKING, Annotated
 
 import msgspec
@@ -84,10 +85,17 @@ def _laws(spec: ForceLoadedProblemFile, case: Case) -> Laws:
 def _line(case: Case, name: str, law: MotionLaw, solution: Solution | None) -> list[tables.Cell]:
     proof: list[tables.Cell] = [None, None, None]
     if solution is not None:
-        proof = [solution.lower_bound, gap(solution), solution.status.value]
+        proof = [_shown(solution), gap(solution), solution.status.value]
     constants = law.constants
     measures = [peak(case.torque).value(law), rms(case.torque).value(law), constants.B.value, constants.C.value]
     return [case.name, name, *measures, *proof]
+
+
+def _shown(solution: Solution) -> float:
+    """The lower bound; of the phase plane six digits, rounded down, for more depend on the machine."""
+    if solution.drive_limit is None:
+        return solution.lower_bound
+    return float(Context(prec=6, rounding=ROUND_FLOOR).create_decimal_from_float(solution.lower_bound))
 
 
 def draw(title: str, cases: Sequence[tuple[Case, Laws]]) -> Figure:

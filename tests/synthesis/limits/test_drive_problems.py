@@ -11,6 +11,7 @@ from optlaws import (
     Powers,
     Problem,
     Solution,
+    at_most,
     drive_limit,
     drive_torque,
     integral,
@@ -88,6 +89,7 @@ def test_without_a_limit_nothing_is_claimed(changes: dict[str, object]) -> None:
 
 
 LOADED = drive_torque(inertia="1 + 0.6*a^2", load="3*a")
+WITHIN: dict[str, Any] = {"B": (0, 2.2), "C": (0, 9)}
 
 
 @pytest.mark.parametrize(
@@ -102,7 +104,7 @@ def test_integrals_are_read_as_heat_and_energy(formula: str, options: dict[str, 
     known = drive_limit(LOADED, B=2.2, C=9.0, **options).value
     known = known**2 if options["minimise"] == "rms torque" else known
     for factor in (1.0, 0.05):
-        problem = Problem(**BASE, B=(0, 2.2), C=(0, 9), minimise=integral(f"{factor}*{formula}"))
+        problem = Problem(**BASE, **WITHIN, minimise=integral(f"{factor}*{formula}"))
         limit = limit_beside(problem)
         assert limit is not None
         assert limit.value == pytest.approx(factor * known, rel=1e-6)
@@ -112,7 +114,7 @@ def test_energy_and_heat_together_are_above_their_limits_alone() -> None:
     power, heat = f"max(({LOADED})*b, 0)", f"0.05*({LOADED})^2"
     values = []
     for formula in (power, heat, f"{power} + {heat}"):
-        limit = limit_beside(Problem(**BASE, B=(0, 2.2), C=(0, 9), minimise=integral(formula)))
+        limit = limit_beside(Problem(**BASE, **WITHIN, minimise=integral(formula)))
         assert limit is not None
         assert limit.gap < 1e-6
         values.append(limit.value)
@@ -120,7 +122,7 @@ def test_energy_and_heat_together_are_above_their_limits_alone() -> None:
 
 
 def test_a_bound_of_the_torque_counts() -> None:
-    bounded = Problem(**BASE, minimise=rms(LOADED), bounds={peak(LOADED): (0, 4.5)}, B=(0, 2.2))
+    bounded = Problem(**BASE, minimise=rms(LOADED), bounds={peak(LOADED): (0, 4.5)}, B=at_most(2.2))
     limit = limit_beside(bounded)
     assert limit is not None
     assert limit.value == pytest.approx(drive_limit(LOADED, "rms torque", B=2.2, P=4.5).value, rel=1e-6)
