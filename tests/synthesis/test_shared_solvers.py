@@ -19,7 +19,7 @@ def test_threads_and_children_answer_as_one_thread_does(rounds: int) -> None:
 
 
 def test_solvers_are_kept_as_many_as_their_rows_allow(monkeypatch: pytest.MonkeyPatch) -> None:
-    counts = [ipopt._Shapes(4, 1000, (RowShape(count, KINDS[0], (), None),), fine=False) for count in range(5)]
+    counts = [ipopt._Shapes(4, 333, (RowShape(count, KINDS[0], (), None),), fine=False) for count in range(5)]
     monkeypatch.setattr(ipopt, "_solvers", {})
     monkeypatch.setattr(ipopt, "_build", lambda counts, **_: counts)
     for one in (0, 1, 0, 2, 0, 3, 4):

@@ -36,8 +36,8 @@ _USUAL = {"ipopt.tol": 1e-9}
 
 
 # the lock is held during a solve, so that nothing is lost by waiting: the interpreter's is held too
-# a solver that was called holds 20 kB a row, most of it IPOPT's and MUMPS's: together some 60 MB
-_MOST_ROWS = 3000
+# a solver that was called holds 20 kB a row, most of it IPOPT's and MUMPS's: together some 20 MB; building takes 3 ms
+_MOST_ROWS = 1000
 
 
 @dataclass(frozen=True)
