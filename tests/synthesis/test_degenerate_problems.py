@@ -264,6 +264,26 @@ def test_an_objective_without_a_least_value_is_told_apart(unit: float, basis: Po
         synthesize(problem)
 
 
+def test_a_law_whose_constants_are_great_keeps_its_ends() -> None:
+    breaks = (0.0, 0.047, 0.1385, 0.1855, 0.4765, 0.5, 0.5235, 0.8145, 0.8615, 0.953, 1.0)
+    problem = Problem(
+        order=6,
+        basis=Pieces(breaks=breaks, degree=8, continuity=3),
+        minimise="0.0151183970856102*rms_j + 0.5*max(1.8255578093306288e-05*peak(4700*c - 2500*b, side=high), "
+        "0.0008844765342960289*rms_jounce + 1.2723214285714284e-09*rms(43600000*(1 + k)*c))",
+        symmetric=True,
+        windows=(
+            Window("1.32*b - 0.61*a", high=3.097535802690766, start=0.277, stop=0.4),
+            Window("336000000*b - 1760000000*a", low=-47926439.34790318, start=0.384, stop=0.508),
+            Window(
+                "6.24e-11*b - 6.14e-11*a", low=1.355394343371221e-11, high=1.5664652719433e-10, start=0.234, stop=0.463
+            ),
+        ),
+        bounds={"integral(0.0146*b^2 + 0.0113*c^2)": at_most(0.8266488211478923)},
+    )
+    assert broken(problem, synthesize(problem).law) == []
+
+
 def test_equations_that_leave_no_freedom_are_proven_to_contradict_a_bound() -> None:
     problem = Problem(
         order=4,

@@ -75,7 +75,8 @@ def _closer(program: Program, state: ActiveSet, roomy: Array) -> ActiveSet:
 def on_equations(program: Program, x: Array) -> Array:
     """The nearest x that keeps the equations to rounding; x itself if it does."""
     off = program.right - program.equalities @ x
-    if float(np.abs(off).max(initial=0.0)) <= EQUATIONS_RANK * max(1.0, float(np.abs(x).max(initial=0.0))):
+    # each by what its own sum is made of: the objective's variables may be great
+    if (np.abs(off) <= EQUATIONS_RANK * np.maximum(1.0, np.abs(program.equalities) @ np.abs(x))).all():
         return x
     return np.asarray(x + np.linalg.lstsq(program.equalities, off, rcond=EQUATIONS_RANK)[0])
 

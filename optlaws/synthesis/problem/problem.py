@@ -295,6 +295,9 @@ class Problem(JsonText):
     def _said(self) -> list[str]:
         """The entries that the problem says: some always, others where they are given."""
         given = {entry.name for entry in fields(self) if getattr(self, entry.name) != entry.default}
+        if self.symmetric and self.uneven:
+            # what does not fit has been asked
+            given.add("symmetric")
         return [entry.name for entry in fields(self) if entry.name in _ALWAYS or entry.name in given]
 
 

@@ -317,3 +317,9 @@ def test_the_error_says_nothing_of_values_that_no_motion_brings() -> None:
         "1/(c - 7) has no value where c - 7 = 0",
         "log(b) has no slope or no value where b <= 0",
     )
+
+
+def test_symmetric_laws_of_uneven_formulas_survive_text() -> None:
+    problem = Problem(order=2, minimise="rms((1 + k)*c)", symmetric=True)
+    assert eval(repr(problem), {"Problem": Problem, "Chebyshev": Chebyshev}) == problem  # noqa: S307 - a repr of our own
+    assert Problem(order=2, minimise="rms((1 + k)*c)") != problem
