@@ -71,7 +71,10 @@ def times(first: Polynomial, second: Polynomial) -> Polynomial:
     >>> times([Fraction(1), Fraction(1)], [Fraction(-1), Fraction(1)])
     [Fraction(-1, 1), Fraction(0, 1), Fraction(1, 1)]
     """
-    return np.convolve(*(np.array(part, dtype=object) for part in (first, second))).tolist() if first and second else []
+    if not first or not second:
+        return []
+    product: Polynomial = np.convolve(np.array(first, dtype=object), np.array(second, dtype=object)).tolist()
+    return product
 
 
 def plus(first: Polynomial, second: Polynomial) -> Polynomial:
