@@ -73,7 +73,7 @@ def times(first: Polynomial, second: Polynomial) -> Polynomial:
     """
     if not first or not second:
         return []
-    product: list[Fraction] = np.convolve(np.array(first, dtype=object), np.array(second, dtype=object)).tolist()
+    product: Polynomial = np.convolve(np.array(first, dtype=object), np.array(second, dtype=object)).tolist()
     return product
 
 

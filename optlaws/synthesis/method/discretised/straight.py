@@ -1,27 +1,24 @@
-"""Programs with kinks as linear programs on points: each kink is a variable, what is smooth is straight near a law.
+"""Programs with kinks as linear programs on points: what is the greatest of affine formulas is a variable above each.
 
 An integral of max(p, q) is a sum over places of the least variables above both. Where p and q are affine that is the
-program itself, but for the rule; where they are not, it is so near the law at which they are made straight.
+program itself, but for the rule.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
-from functools import reduce
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.formulas.affine import affine
-from optlaws.formulas.branches import branch_at, switches
+from optlaws.formulas.branches import switches
 from optlaws.formulas.of_motion import MotionFormula
-from optlaws.formulas.slopes import opposite
-from optlaws.formulas.tree import Call, Formula, Name, Negative, Product, Sum
+from optlaws.formulas.slopes import added, multiplied, opposite
+from optlaws.formulas.tree import Call, Formula, Name, Negative, Number, Product, Sum
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import gauss
-from optlaws.synthesis.families.curved import Slopes
-from optlaws.synthesis.families.family import LinearFamily, Points, Program
+from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, Points, Program
 from optlaws.synthesis.families.kinked import KinkedIntegralFamily
 
 _CELL, _PER_VARIABLE, _FEWEST = 6, 10, 160
@@ -29,191 +26,137 @@ _OPTIMAL = 0
 
 
 @dataclass(frozen=True, eq=False)
-class _Straight:
-    """Values at places as affine functions of a step, and of variables of which each place has its own."""
+class _Rows:
+    """Rows of variables and, in a sparse matrix, of the places' own variables, with what they are at most."""
 
-    value: Array
-    slope: Array
-    local: dict[int, Array] = field(default_factory=dict)
-
-    def times(self, factor: Array | float) -> _Straight:
-        spread = np.broadcast_to(factor, self.value.shape)
-        local = {i: spread * weight for i, weight in self.local.items()}
-        return _Straight(spread * self.value, spread[:, None] * self.slope, local)
-
-    def __add__(self, other: _Straight) -> _Straight:
-        nothing = np.zeros_like(self.value)
-        local = {i: self.local.get(i, nothing) + other.local.get(i, nothing) for i in {*self.local, *other.local}}
-        return _Straight(self.value + other.value, self.slope + other.slope, local)
+    matrix: Array
+    own: Any
+    most: Array
 
 
 class _Epigraph:
-    """A formula with kinks near a law, at places: its own variables, and what each is at least."""
+    """A formula with kinks as one of its names and of own ones, which are above or below what they stand for."""
 
-    def __init__(self, family: KinkedIntegralFamily, x: Array, k: Array) -> None:
-        columns = family.columns_at(k)
-        self.names, self.columns = family.names, columns[..., :-1]
-        values = columns @ np.append(x, 1.0)
-        self.at = {**dict(zip(family.names, values, strict=True)), "k": k}
-        self.above: list[tuple[int, _Straight]] = []
-        self.count = 0
-        #: whether it is the formula itself, whatever the law
-        self.exact = family.convex and not family.root
-        self.whole = self._of(family.formula, 1)
+    def __init__(self, formula: Formula, names: tuple[str, ...], k: Array) -> None:
+        self.names, self.k = names, k
+        self.own: list[str] = []
+        self.negative: list[Formula] = []  #: what is at most 0
+        self.whole = self._of(formula, 1)
 
-    def _of(self, formula: Formula, sign: int) -> _Straight:
-        """The formula, whose factor has a sign."""
+    def _of(self, formula: Formula, sign: int) -> Formula:
+        """The formula, whose factor has a sign; what is no sum of greatest ones stays."""
         if not switches(formula, self.names):
-            return self._smooth(formula)
+            return formula
         if isinstance(formula, Negative):
-            return self._of(formula.of, -sign).times(-1.0)
+            return opposite(self._of(formula.of, -sign))
         if isinstance(formula, Sum):
-            return reduce(_Straight.__add__, [self._of(term, sign) for term in formula.terms])
+            return added([self._of(term, sign) for term in formula.terms])
         if isinstance(formula, Product):
-            kinked = [factor for factor in formula.factors if switches(factor, self.names)]
-            others = [factor for factor in formula.factors if factor is not kinked[0]]
-            if not any(other.names() & set(self.names) for other in others):
-                weight = np.prod([MotionFormula(other).values({"k": self.at["k"]}) for other in others], axis=0)
-                if (weight >= 0.0).all() or (weight <= 0.0).all():
-                    return self._of(kinked[0], sign if (weight >= 0.0).all() else -sign).times(weight)
+            kinked = next(factor for factor in formula.factors if switches(factor, self.names))
+            weight = multiplied([factor for factor in formula.factors if factor is not kinked])
+            if not weight.names() & set(self.names):
+                values = _at(weight, self.k)
+                if (values >= 0.0).all() or (values <= 0.0).all():
+                    return multiplied([weight, self._of(kinked, sign if (values >= 0.0).all() else -sign)])
         if isinstance(formula, Call) and (formula.function, sign) in {("abs", 1), ("max", 1), ("min", -1)}:
-            return self._greatest(formula, sign)
-        return self._as_it_is(formula)
-
-    def _greatest(self, formula: Call, sign: int) -> _Straight:
-        """A variable that is above every part, or below."""
-        parts = formula.arguments if formula.function != "abs" else (*formula.arguments, opposite(formula.arguments[0]))
-        variable, self.count = self.count, self.count + 1
-        self.above += [(variable, self._of(part, sign).times(float(sign))) for part in parts]
-        nothing = _Straight(np.zeros_like(self.at["k"]), np.zeros((len(self.at["k"]), self.columns.shape[-1])))
-        return replace(nothing, local={variable: np.full(len(self.at["k"]), float(sign))})
-
-    def _smooth(self, formula: Formula) -> _Straight:
-        self.exact &= affine(formula, self.names) is not None
-        return self._along(formula, np.arange(len(self.at["k"])))
-
-    def _as_it_is(self, formula: Formula) -> _Straight:
-        """The smooth formulas that it is at the places."""
-        self.exact = False
-        at = [{name: float(values[i]) for name, values in self.at.items()} for i in range(len(self.at["k"]))]
-        formulas = [branch_at(formula, names) for names in at]
-        whole = self._smooth(Name("k"))
-        for branch in dict.fromkeys(formulas):
-            places = np.array([i for i, other in enumerate(formulas) if other == branch])
-            part = self._along(branch, places)
-            whole.value[places], whole.slope[places] = part.value, part.slope
-        return whole
-
-    def _along(self, formula: Formula, places: NDArray[np.intp]) -> _Straight:
-        slopes, at = Slopes(formula, self.names), {name: values[places] for name, values in self.at.items()}
-        slope = np.einsum("ip,ipn->pn", slopes.gradient(at), self.columns[:, places])
-        return _Straight(slopes.value(at).copy(), np.asarray(slope))
-
-
-def is_straight(program: Program, x: Array) -> bool:
-    """Whether a program is linear but for kinks that are those of a maximum."""
-    kinked = [family for family in program.families if isinstance(family, KinkedIntegralFamily)]
-    others = [family for family in program.families if not isinstance(family, KinkedIntegralFamily | LinearFamily)]
-    return bool(kinked) and not others and all(_Epigraph(family, x, np.array([0.5])).exact for family in kinked)
+            parts = (
+                formula.arguments if formula.function != "abs" else (*formula.arguments, opposite(formula.arguments[0]))
+            )
+            own = Name(str(len(self.own)))
+            self.own.append(own.name)
+            for part in parts:
+                above = added([self._of(part, sign), opposite(own)])
+                self.negative.append(above if sign > 0 else opposite(above))
+            return own
+        return formula
 
 
 def straight_step(program: Program, points: list[Points], x: Array, reach: float) -> Array | None:
-    """The step from x to the optimum of the program made straight there; None where there is none.
+    """The step from x to the optimum of a program that is linear but for kinks that are those of a maximum.
+
+    None where the program is another, or has no optimum.
 
     Parameters
     ----------
     program, points
-        What is solved, and where its families but integrals are held.
+        What is solved, and where its families but integrals are grid.
     x
-        Near what what is smooth is made straight.
+        Where the step begins.
     reach
         How far each variable may go.
     """
     from scipy import sparse
     from scipy.optimize import linprog
 
-    size, blocks = program.size, _Blocks(program.size)
-    for family, grid in zip(program.families, points, strict=True):
-        if isinstance(family, KinkedIntegralFamily):
-            blocks.integral(family, x)
-        elif isinstance(family, LinearFamily):
-            matrix, right = family.rows(grid.u, grid.s)
-            blocks.rows(matrix, right - matrix @ x)
-        else:
-            jet = family.jet(x, grid.u, grid.s)
-            blocks.rows(jet.gradient, -jet.value)
-    matrix, right = blocks.joined()
-    others = matrix.shape[1] - size
-    equations = sparse.hstack([sparse.csr_matrix(program.equalities), sparse.csr_matrix((len(program.right), others))])
+    if not any(isinstance(family, KinkedIntegralFamily) for family in program.families):
+        return None
+    grid = [_rows(family, points) for family, points in zip(program.families, points, strict=True)]
+    rows = [part for part in grid if part is not None]
+    if len(rows) < len(grid):
+        return None
+    own = sparse.block_diag([part.own for part in rows], "csr")
+    others = np.zeros(own.shape[1])
+    equations = np.hstack([program.equalities, np.zeros((len(program.right), len(others)))])
     solve: Any = linprog
     optimum = solve(
-        np.append(program.objective, np.zeros(others)),
-        A_ub=matrix,
-        b_ub=right,
+        np.append(program.objective, others),
+        A_ub=sparse.hstack([sparse.csr_matrix(np.vstack([part.matrix for part in rows])), own], "csr"),
+        b_ub=np.concatenate([part.most - part.matrix @ x for part in rows]),
         A_eq=equations if len(program.right) else None,
         b_eq=program.right - program.equalities @ x if len(program.right) else None,
-        bounds=[(-reach, reach)] * size + [(None, None)] * others,
+        bounds=[(-reach, reach)] * program.size + [(None, None)] * len(others),
         method="highs",
     )
-    return np.asarray(optimum.x[:size]) if optimum.status == _OPTIMAL else None
+    return np.asarray(optimum.x[: program.size]) if optimum.status == _OPTIMAL else None
 
 
-class _Blocks:
-    """Rows of a linear program whose variables beyond the step are the places' own."""
+def _rows(family: ConstraintFamily, points: Points) -> _Rows | None:
+    """What a family holds the variables to; None where it is not linear but for such kinks."""
+    from scipy import sparse
 
-    def __init__(self, size: int) -> None:
-        self.size, self.others = size, 0
-        self._parts: list[tuple[Array, dict[int, Array], Array]] = []
-        self._sums: list[tuple[Array, dict[int, Array], float]] = []
-
-    def rows(self, matrix: Array, right: Array) -> None:
-        """Take in rows: rows . step <= right."""
-        length = np.linalg.norm(matrix, axis=1)
-        finite = np.isfinite(right) & (length > 0.0)
-        self._parts.append((matrix[finite] / length[finite, None], {}, right[finite] / length[finite]))
-
-    def integral(self, family: KinkedIntegralFamily, x: Array) -> None:
-        """The integral's row, and those of its own variables."""
-        k, weights = _rule(family, len(x))
-        epigraph = _Epigraph(family, x, k)
-        begins = [self.others + i * len(k) for i in range(epigraph.count)]
-        self.others += epigraph.count * len(k)
-        for variable, part in epigraph.above:
-            several = {begins[i]: weight for i, weight in part.local.items()}
-            several[begins[variable]] = several.get(begins[variable], np.zeros_like(k)) - 1.0
-            self._parts.append((part.slope, several, -part.value))
-        whole = epigraph.whole
-        total = family.split(x).total
-        value, share = family.outer(np.array(total))
-        row = share * (weights @ whole.slope) - family.slack
-        right = family.right_side(x) - float(value) + float(share) * (total - float(weights @ whole.value))
-        self._sums.append((row, {begins[i]: share * weights * local for i, local in whole.local.items()}, right))
-
-    def joined(self) -> tuple[Any, Array]:
-        """The rows of all families together."""
-        from scipy import sparse
-
-        matrices, rights = [], []
-        for slope, local, right in self._parts:
-            count = len(right)
-            extra = sparse.lil_matrix((count, self.others))
-            for begin, weight in local.items():
-                extra[np.arange(count), begin + np.arange(count)] = weight
-            matrices.append(sparse.hstack([sparse.csr_matrix(slope), extra.tocsr()]))
-            rights.append(right)
-        for row, local, most in self._sums:
-            shares = np.zeros(self.others)
-            for begin, weight in local.items():
-                shares[begin : begin + len(weight)] += weight
-            matrices.append(sparse.csr_matrix(np.append(row, shares)[None]))
-            rights.append(np.array([most]))
-        return sparse.vstack(matrices).tocsr(), np.concatenate(rights)
+    if isinstance(family, KinkedIntegralFamily):
+        return _rows_of_integral(family)
+    if not isinstance(family, LinearFamily):
+        return None
+    matrix, most = family.rows(points.u, points.s)
+    length = np.linalg.norm(matrix, axis=1)
+    kept = np.isfinite(most) & (length > 0.0)
+    return _Rows(matrix[kept] / length[kept, None], sparse.csr_matrix((kept.sum(), 0)), most[kept] / length[kept])
 
 
-def _rule(family: KinkedIntegralFamily, size: int) -> tuple[Array, Array]:
+def _rows_of_integral(family: KinkedIntegralFamily) -> _Rows | None:
+    """The rows of its own variables, and the integral's; None unless it is convex, and affine but for its kinks."""
+    from scipy import sparse
+
+    if not family.convex or family.root:
+        return None
+    k, weights = _rule(family)
+    epigraph, columns = _Epigraph(family.formula, family.names, k), family.columns_at(k)
+    names, matrices, shares = (*family.names, *epigraph.own), [], []
+    for formula in (*epigraph.negative, epigraph.whole):
+        form = affine(formula, names)
+        if form is None:
+            return None
+        factors = dict(form.factors)
+        at = np.array([_at(factors.get(name, Number(0.0)), k) for name in names])
+        matrix = np.einsum("ip,ipn->pn", at[: len(columns)], columns)
+        matrix[:, -1] += _at(form.rest, k)
+        matrices.append(matrix)
+        shares.append(sparse.hstack([sparse.diags(share) for share in at[len(columns) :]], "csr"))
+    matrices[-1], shares[-1] = weights[None] @ matrices[-1], sparse.csr_matrix(weights[None] @ shares[-1])
+    matrices[-1][0] -= np.append(family.slack, family.bound)
+    rows = np.vstack(matrices)
+    return _Rows(rows[:, :-1], sparse.vstack(shares), -rows[:, -1])
+
+
+def _at(formula: Formula, k: Array) -> Array:
+    return np.broadcast_to(MotionFormula(formula).values({"k": k}), k.shape)
+
+
+def _rule(family: KinkedIntegralFamily) -> tuple[Array, Array]:
     """Places and weights, enough to see where kinks are."""
     x, share = gauss(_CELL)
-    cells = -(-max(_FEWEST, _PER_VARIABLE * size) // (_CELL * (len(family.edges) - 1)))
+    cells = -(-max(_FEWEST, _PER_VARIABLE * len(family.slack)) // (_CELL * (len(family.edges) - 1)))
     edges = np.concatenate(
         [
             *(np.linspace(a, b, cells + 1)[:-1] for a, b in zip(family.edges, family.edges[1:], strict=False)),

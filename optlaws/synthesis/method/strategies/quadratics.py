@@ -14,7 +14,7 @@ from optlaws.synthesis.families.family import Points, Program
 from optlaws.synthesis.families.kinked import KinkedIntegralFamily
 from optlaws.synthesis.method.discretised.grids import with_extrema
 from optlaws.synthesis.method.discretised.quadratic_steps import stepwise_on_points
-from optlaws.synthesis.method.discretised.straight import is_straight, straight_step
+from optlaws.synthesis.method.discretised.straight import straight_step
 from optlaws.synthesis.method.strategies.identified import as_answered, optimum_near
 from optlaws.synthesis.method.strategies.strategy import Strategy
 from optlaws.tolerances import EXCESS
@@ -58,7 +58,7 @@ class ByQuadratics(Strategy[list[Points], ActiveSet]):
 
     def answered(self, points: list[Points]) -> tuple[ActiveSet | None, list[Points] | None]:
         """The optimum, or the points with the extrema of the answer; neither where there is none."""
-        if self.count == 0 and is_straight(self.program, self.x):
+        if self.count == 0:
             step = straight_step(self.program, points, self.x, _REACH * max(1.0, float(np.abs(self.x).max())))
             if step is not None:
                 self.x = self.x + step

@@ -79,7 +79,7 @@ def test_sums_of_sizes_are_proven_and_what_a_grid_says(seed: int) -> None:
     assert solution.objective == pytest.approx(least_on_grid(polynomials(order, degree, _POINTS), sizes), rel=2e-3)
 
 
-@pytest.mark.parametrize("formula", ["abs(j)", "abs(c)", "abs(c - 2*b)", "abs(j + 3*c) + max(c, -2*c)"])
+@pytest.mark.parametrize("formula", ["abs(j)", "(1 + k)*abs(c)", "abs(c - 2*b)", "abs(j + 3*c) + max(c, -2*c)"])
 @pytest.mark.parametrize("options", [{"B": 1.8, "order": 4}, {"order": 3, "basis": Chebyshev(15), "symmetric": False}])
 def test_integrals_of_sizes_are_proven(formula: str, options: dict[str, object]) -> None:
     solution = synthesize(Problem(**options, minimise=f"integral({formula})"))  # type: ignore[arg-type]
