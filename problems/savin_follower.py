@@ -245,7 +245,11 @@ def spectrum(spec: Study, cams: Sequence[Cam]) -> Figure:
         for axes in (upper, lower):
             axes.axvline(spec.frequency, color=GREY, linewidth=0.8, zorder=1)
         upper.set(xlabel="", xlim=(shown.least, shown.most), ylim=(0.0, None), ylabel="residual acceleration / C")
-        lower.set(ylim=(0.0, None), ylabel="dynamic factor max |a''| / C")
+        lower.set(
+            xlabel="nu, radians of the free vibration in the rise",
+            ylim=(0.0, None),
+            ylabel="dynamic factor max |a''| / C",
+        )
         figure.suptitle(
             f"Response spectra, damping ratio {shown.damping:g}; design at nu = {spec.frequency:g}",
             x=0.01,

@@ -13,7 +13,7 @@ law = catalogue["modified sine"].law
 response = Follower(frequency=20, damping=0.02).response(law)
 k = np.linspace(0.0, 1.6, 1601)
 plt.plot(k[k <= 1], law.c(k[k <= 1]), "--", label="cam")
-plt.plot(k, response.c(k), label="mass, nu = 20")
+plt.plot(k, response.c(k), label="mass, frequency 20")
 plt.xlabel("k (dimensionless time; the dwell begins at 1)")
 plt.ylabel("acceleration (dimensionless)")
 plt.legend()

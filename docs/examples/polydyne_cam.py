@@ -12,7 +12,7 @@ from optlaws import Follower, polydyne, savin
 cam = polydyne(savin("III", 7.2), frequency=20)
 k = np.linspace(0.0, 1.5, 1501)
 for frequency in (18, 20, 22):
-    plt.plot(k, Follower(frequency=frequency).response(cam).c(k), label=f"mass, nu = {frequency}")
+    plt.plot(k, Follower(frequency=frequency).response(cam).c(k), label=f"mass, frequency {frequency}")
 plt.xlabel("k (dimensionless time; the dwell begins at 1)")
 plt.ylabel("acceleration (dimensionless)")
 plt.legend()

@@ -1,7 +1,7 @@
 """A law that leaves no vibration
 ==============================
 
-The residual of modified sine, and of a law that keeps it below 0.1 from nu = 18 to 22.
+The residual of modified sine, and of a law that keeps it below 0.1 at frequencies from 18 to 22.
 """
 
 import numpy as np
@@ -16,6 +16,6 @@ robust = synthesize(
 for law, name in ((catalogue["modified sine"].law, "modified sine"), (robust, "least C, residual at most 0.1")):
     plt.semilogy(frequencies, response_spectrum(law, frequencies).residual_acceleration, label=name)
 plt.ylim(1e-2, None)
-plt.xlabel("nu, radians of the free vibration in the rise")
+plt.xlabel("frequency, radians of the free vibration in the rise")
 plt.ylabel("residual acceleration (dimensionless)")
 plt.legend()

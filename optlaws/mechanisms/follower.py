@@ -214,7 +214,7 @@ class Deviation:
     Parameters
     ----------
     percent
-        Change of nu in percent of the design's.
+        Change of the frequency in percent of the design's.
     response
         What the mass does.
     reference
@@ -251,10 +251,11 @@ def off_design(
     deviations: Sequence[float] = DEVIATIONS,
     change: Change = "speed",
 ) -> tuple[Deviation, ...]:
-    """Responses to one cam of followers whose nu deviates from the design's.
+    """Responses to one cam of followers whose frequency deviates from the design's.
 
-    nu = T sqrt(stiffness/mass) falls by as many percent as the speed rises, to first order, and by half as many as the
-    stiffness falls. A change of speed leaves the damping ratio as it is, a change of stiffness n = h T / 2 mass.
+    The frequency nu = T sqrt(stiffness/mass) falls by as many percent as the speed rises, to first order, and by half
+    as many as the stiffness falls. A change of speed leaves the damping ratio as it is, one of stiffness n = h T / 2
+    mass.
 
     Parameters
     ----------
@@ -265,7 +266,7 @@ def off_design(
     design
         The follower for which the cam was made.
     deviations
-        Changes of nu in percent, above -100.
+        Changes of the frequency in percent, above -100.
     change
         "speed" keeps the damping ratio, "stiffness" keeps n.
 
@@ -288,7 +289,9 @@ def off_design(
     meant = motion_law(reference, "reference")
     percents = numbers(list(deviations), "deviations")
     if min(percents, default=0.0) <= -100.0:
-        raise InputError(f"deviations are changes of nu in percent and must be above -100, got {min(percents):g}")
+        raise InputError(
+            f"deviations are changes of the frequency in percent and must be above -100, got {min(percents):g}"
+        )
     if change not in ("speed", "stiffness"):
         raise InputError(f'change must be "speed" or "stiffness", got {shortened(change)}')
     compared = []

@@ -23,13 +23,13 @@ def draw_spectrum(
     over: float = 1.0,
     **style: Any,
 ) -> list[Artist]:
-    """Draw residual or peak acceleration over nu into axes, new ones unless given, and return the artists.
+    """Draw residual or peak acceleration over the frequency into axes, new ones unless given, and return the artists.
 
     `over` divides the acceleration, for example by C of the law meant for the mass.
     """
     axes = axes or new_axes()
     values = spectrum.residual_acceleration if what == "residual" else spectrum.peak_acceleration
-    axes.set(xlabel="nu, radians of the free vibration in the rise", ylabel=f"{what} acceleration")
+    axes.set(xlabel="frequency, radians of the free vibration in the rise", ylabel=f"{what} acceleration")
     return list(axes.plot(spectrum.frequency, values / over, **style))
 
 

@@ -1,4 +1,4 @@
-"""The inverse task: lengths of the torsion lever for wanted constants of its motion."""
+"""The inverse task: lengths of the torsion lever for constants that its motion shall have."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ def find_torsion_levers(
     """
     for name, value in targets.items():
         if name not in QUANTITIES:
-            raise InputError(unknown_key(name, QUANTITIES, "wanted constant"))
+            raise InputError(unknown_key(name, QUANTITIES, "constant of the lever"))
         finite(value, name)
     spans = {"beta": beta, "lam": lam}
     sought = {name: _span(name, span) for name, span in spans.items() if isinstance(span, tuple)}

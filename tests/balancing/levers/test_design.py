@@ -59,7 +59,7 @@ def test_a_value_at_the_very_limit_is_reached() -> None:
             {},
             r"no lever has T = 6\.1 and B1/B3 = 0\.9: the nearest has .* alone each reaches",
         ),
-        ({"B2": 1.0}, {"lam": 1.0}, "unknown wanted constant 'B2'"),
+        ({"B2": 1.0}, {"lam": 1.0}, "unknown constant of the lever 'B2'"),
         ({"T": 6.1}, {}, r"1 targets \(T\), 2 sought \(beta, lam\)"),
         ({}, {}, r"0 targets \(none\)"),
         ({"T": float("inf")}, {"lam": 1.0}, "T"),
