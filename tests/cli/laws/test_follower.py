@@ -141,7 +141,16 @@ def test_a_stroke_with_its_unit_gives_machine_units(capsys: Capture) -> None:
     )
     assert data["machine"] == answer.results()
     code, out, _ = called(
-        capsys, "modified sine", "--speed", "105 rpm", "--rise", "120 deg", "--natural-period", "60 ms", "--stroke", "35mm"
+        capsys,
+        "modified sine",
+        "--speed",
+        "105 rpm",
+        "--rise",
+        "120 deg",
+        "--natural-period",
+        "60 ms",
+        "--stroke",
+        "35mm",
     )
     assert code == 0
     assert "residual displacement, m" in out
