@@ -44,6 +44,22 @@ class Formula:
         for part in self.parts:
             yield from part.walk()
 
+    def different(self) -> list[Formula]:
+        """The formula itself and all parts within it, equal ones once.
+
+        >>> from optlaws.formulas.reading import read
+        >>> read("2*b + sin(2*b)").different()
+        [2*b + sin(2*b), 2*b, 2, b, sin(2*b)]
+        """
+        seen: dict[Formula, None] = {}
+        waiting: list[Formula] = [self]
+        while waiting:
+            part = waiting.pop()
+            if part not in seen:
+                seen[part] = None
+                waiting.extend(part.parts[::-1])
+        return list(seen)
+
     def names(self) -> frozenset[str]:
         """The names that occur anywhere in it."""
         return self._names

@@ -96,7 +96,8 @@ def by_taylor(formula: Formula, x: np.ndarray, order: int) -> Jet:
         "atan": Jet.arctangent,
     }
     jets = Arithmetic(lambda value: zero + value, functions, power)
-    return evaluate(formula, {"x": variable(x, order)}, jets)
+    jet: Jet = evaluate(formula, {"x": variable(x, order)}, jets)
+    return jet
 
 
 @pytest.mark.parametrize("name", ["formula", "four-bar", "toggle", "traced", "rod"])
