@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from typing import Any, NamedTuple
 
 from optlaws.kept import kept_property
@@ -78,6 +78,10 @@ class Formula:
 
     def __hash__(self) -> int:
         return self._hash
+
+    def __getstate__(self) -> dict[str, Any]:
+        # what is kept beside the fields is computed again: hashes of texts differ from process to process
+        return {entry.name: getattr(self, entry.name) for entry in fields(self)}
 
     @kept_property
     def _hash(self) -> int:

@@ -1,5 +1,10 @@
 """Equal parts of a formula are computed once, and functions of Python become formulas."""
 
+import os
+import pickle
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 
@@ -50,6 +55,21 @@ def test_equal_formulas_are_equal_and_others_are_not() -> None:
             assert (read(text) == read(other)) == (i == j)
     assert len({read(text) for text in texts + texts}) == len(texts)
     assert read("a") != "a"
+
+
+def test_formulas_go_to_processes_whose_hashes_differ() -> None:
+    formula = read("sin(2*a)*c + max(b, 0)")
+    assert hash(formula) == hash(read(str(formula)))
+    assert len(formula.steps) == 10
+    reader = (
+        "import pickle, sys; from optlaws.formulas.reading import read;"
+        "formula = pickle.loads(sys.stdin.buffer.read());"
+        "sys.exit(not {formula: 1}.get(read('sin(2*a)*c + max(b, 0)')))"
+    )
+    for seed in ("1", "2"):
+        environment = {**os.environ, "PYTHONHASHSEED": seed}
+        run = subprocess.run([sys.executable, "-c", reader], input=pickle.dumps(formula), env=environment, check=False)
+        assert run.returncode == 0
 
 
 @pytest.mark.parametrize(
