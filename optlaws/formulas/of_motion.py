@@ -228,14 +228,14 @@ def of_text(text: str, start: float = 0.0, stop: float = 1.0) -> MotionFormula:
 
 def checked(motion: MotionFormula, text: str) -> MotionFormula:
     """The formula with d written as b c, if it has a value for every k."""
-    for part in motion.formula.walk():
+    for part in motion.formula.different():
         if (
             isinstance(part, Product)
             and sum(bool(factor.names() & {*ORDERS, "d"}) for factor in part.factors) > _FACTORS
         ):
             raise refused(f"a product may have {_FACTORS} factors that depend on the law", text, part)
     k = np.linspace(motion.start, motion.stop, 1025)
-    still = [part for part in motion.formula.walk() if not part.names() & {*ORDERS, "d"}]
+    still = [part for part in motion.formula.different() if not part.names() & {*ORDERS, "d"}]
     for part in still:
         if isinstance(part, Call) and part.function == "tan":
             beneath = MotionFormula(Call("cos", part.arguments)).values({"k": k})

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from typing import Any, NamedTuple
 
 from optlaws.kept import kept_property
@@ -44,6 +44,22 @@ class Formula:
         for part in self.parts:
             yield from part.walk()
 
+    def different(self) -> list[Formula]:
+        """The formula itself and all parts within it, equal ones once.
+
+        >>> from optlaws.formulas.reading import read
+        >>> read("2*b + sin(2*b)").different()
+        [2*b + sin(2*b), 2*b, 2, b, sin(2*b)]
+        """
+        seen: dict[Formula, None] = {}
+        waiting: list[Formula] = [self]
+        while waiting:
+            part = waiting.pop()
+            if part not in seen:
+                seen[part] = None
+                waiting.extend(part.parts[::-1])
+        return list(seen)
+
     def names(self) -> frozenset[str]:
         """The names that occur anywhere in it."""
         return self._names
@@ -62,6 +78,10 @@ class Formula:
 
     def __hash__(self) -> int:
         return self._hash
+
+    def __getstate__(self) -> dict[str, Any]:
+        # what is kept beside the fields is computed again: hashes of texts differ from process to process
+        return {entry.name: getattr(self, entry.name) for entry in fields(self)}
 
     @kept_property
     def _hash(self) -> int:

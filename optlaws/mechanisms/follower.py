@@ -248,9 +248,9 @@ def off_design(
     """Responses to one cam of followers whose frequency deviates from the design's.
 
     The frequency nu = T sqrt(stiffness/mass) falls by as many percent as the speed rises, to first order, and by half
-        as many as the stiffness falls. A change of speed leaves the damping ratio as it is, one of stiffness n = h T / 2
+    as many as the stiffness falls. A change of speed leaves the damping ratio as it is, one of stiffness n = h T / 2
     mass.
-    
+
     Parameters
     ----------
     cam

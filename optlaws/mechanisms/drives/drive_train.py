@@ -296,6 +296,31 @@ class Drive(JsonText):
         motion, time = self._move(law, start, stroke, duration, period)
         return best_ratio(motion, self.motor, time)
 
+    def plot(
+        self,
+        law: str | MotionLaw,
+        start: NumberOrQuantity,
+        stroke: NumberOrQuantity,
+        duration: NumberOrQuantity,
+        ax: Any = None,  # noqa: ANN401 - matplotlib's
+        **style: Any,
+    ) -> list[Any]:
+        """Draw torque over speed at the motor during a move, with the motor's curves; return the artists of matplotlib.
+
+        Parameters
+        ----------
+        law, start, stroke, duration
+            As `sheet` takes them.
+        ax
+            Axes of matplotlib; a new figure unless given.
+        style
+            What `Axes.plot` takes, for the move.
+        """
+        from optlaws.plots.motors import draw_torque_over_speed
+
+        motion, _ = self._move(law, start, stroke, duration, None)
+        return draw_torque_over_speed(motion, self.motor, ax, **style)
+
     def _move(
         self,
         law: str | MotionLaw,

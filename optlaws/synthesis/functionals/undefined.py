@@ -29,7 +29,7 @@ def check_ends(motion: MotionFormula, conditions: BoundaryConditions) -> None:
     """Refuse a formula without a value where the end conditions say what the law is: at rest 1/b divides by 0."""
     for k, end in ((0.0, conditions.start), (1.0, conditions.end)):
         known = {name: end[nu] for name, nu in ORDERS.items() if nu < len(end)}
-        every = motion.formula.walk() if motion.start <= k <= motion.stop else ()
+        every = motion.formula.different() if motion.start <= k <= motion.stop else ()
         parts = [part for part in every if part.names() <= {*known, "k"} and part.names() & ORDERS.keys()]
         wrong = [part for part in parts if not np.isfinite(MotionFormula(part).values({**known, "k": k}))]
         if wrong:
@@ -56,7 +56,7 @@ def check_passed(motion: MotionFormula, conditions: BoundaryConditions, *, smoot
     """
     at_rest = conditions.start[:2] == (0, 0) and conditions.end[:2] == (1, 0)
     passed = {"a": (0.0, 1.0), "b": (0.0, 1.0)} | ({"c": (-1.0, 1.0)} if smooth else {})
-    for part in motion.formula.walk() if at_rest and (motion.start, motion.stop) == (0.0, 1.0) else ():
+    for part in motion.formula.different() if at_rest and (motion.start, motion.stop) == (0.0, 1.0) else ():
         (name,) = part.names() if len(part.names()) == 1 else ("",)
         if name not in passed:
             continue
@@ -71,7 +71,7 @@ def check_passed(motion: MotionFormula, conditions: BoundaryConditions, *, smoot
 
 def pitfalls(motion: MotionFormula) -> Iterator[str]:
     """Parts of a formula that some motions bring where they have no value or no slope, in words."""
-    for part in motion.formula.walk():
+    for part in motion.formula.different():
         if not part.names() & ORDERS.keys():
             continue
         if isinstance(part, Reciprocal):

@@ -170,6 +170,10 @@ def test_sheets_are_kept_and_shown() -> None:
     assert used == pytest.approx({"peak torque": 3.685803 / 3, "RMS torque": 1.489759 / 2, "speed": 1055.762 / 3000})
     assert not sheet.fits
     assert "too weak" in [row.note for row in sheet.summary()]
+    pictured = drive.plot("modified sine", 0.0, "45 deg", "0.25 s")
+    assert len(pictured) == 5
+    assert max(pictured[-1].get_ydata()) == pytest.approx(sheet.peak_torque, rel=1e-4)
+    assert max(pictured[-1].get_xdata()) == pytest.approx(sheet.peak_speed / RPM, rel=1e-4)
     lines = drive.best_ratio("cycloidal", 0.0, "20 deg", "0.3 s").plot()
     assert len(lines) == 4
 

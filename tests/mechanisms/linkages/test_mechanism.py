@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import reduce
+from operator import mul
 from typing import Any
 
 import numpy as np
@@ -31,7 +33,9 @@ from optlaws import (
     smoothstep,
     toggle,
 )
-from tests.internals.formulas import NUMPY, evaluate, read
+from optlaws.typing import Jet
+from tests.internals.formulas import NUMPY, Arithmetic, Formula, evaluate, read
+from tests.internals.numerics import variable
 
 KNEE = {"crank": "60 mm", "rod": "250 mm", "upper": "200 mm", "lower": "200 mm", "frame": "280 mm"}
 ALL = {
@@ -75,6 +79,41 @@ def test_slopes_are_those_of_the_values(mechanism: Mechanism) -> None:
             ) / (12.0 * step)
             size = 1e-30 + np.abs(values(x, nu)).max() / (high - low)
             assert values(x, nu + 1) == pytest.approx(by_differences, rel=1e-6, abs=1e-6 * size)
+
+
+def by_taylor(formula: Formula, x: np.ndarray, order: int) -> Jet:
+    """The derivatives of a formula by Taylor arithmetic, which shares nothing with the formulas of slopes."""
+
+    zero = variable(x, order) * 0.0
+
+    def power(base: Jet, exponent: Jet) -> Jet:
+        return reduce(mul, [base] * int(exponent.terms[0][0]))
+
+    functions = {
+        "sin": lambda of: of.waves()[0],
+        "cos": lambda of: of.waves()[1],
+        "sqrt": Jet.root,
+        "atan": Jet.arctangent,
+    }
+    jets = Arithmetic(lambda value: zero + value, functions, power)
+    jet: Jet = evaluate(formula, {"x": variable(x, order)}, jets)
+    return jet
+
+
+@pytest.mark.parametrize("name", ["formula", "four-bar", "toggle", "traced", "rod"])
+def test_derivatives_are_those_of_taylor_arithmetic(name: str) -> None:
+    mechanism = ALL.get(name) or slider_crank(
+        0.1, 0.4, offset=0.05, bodies={"rod": Body(2.0, centre=(0.1, 0.02), inertia=0.01)}, loads=Loads(gravity="1 rad")
+    )
+    x = np.linspace(*mechanism.over, 13)
+    for formula, values in (
+        (mechanism.inertia_formula, mechanism.inertia),
+        (mechanism.load_formula, mechanism.load),
+    ):
+        jet = by_taylor(formula, x, 3)
+        for nu in range(4):
+            exact = jet.derivative(nu)
+            assert values(x, nu) == pytest.approx(exact, rel=1e-11, abs=1e-11 * np.abs(exact).max() + 1e-300)
 
 
 @pytest.mark.parametrize("share", [0.6, -0.6])
