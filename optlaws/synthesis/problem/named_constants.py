@@ -15,6 +15,7 @@ from collections.abc import Callable, Mapping
 from functools import lru_cache
 
 from optlaws.errors import InputError
+from optlaws.formulas.reading import LONGEST
 from optlaws.formulas.reading import parse as parse_formula
 from optlaws.formulas.scanner import FormulaError, Scanner, Token
 from optlaws.formulas.tree import VOCABULARY
@@ -26,7 +27,6 @@ Value = float | Expression
 Argument = float | str | tuple[float, float]
 
 _DEPTH = 40
-_LONGEST = 10_000
 _LONGEST_WITH_TABLES = 1_000_000
 #: machines, which are numbers for the greatest part
 _TABLE = re.compile(r"'\{[^']*\}'")
@@ -45,8 +45,8 @@ def parse(text: str, names: Mapping[str, Term], makers: Makers | None = None) ->
     0.125*C + 0.25*D
     """
     length = len(_TABLE.sub("", text))
-    if length > _LONGEST or len(text) > _LONGEST_WITH_TABLES:
-        most = f"{_LONGEST} characters, {_LONGEST_WITH_TABLES} with its machines"
+    if length > LONGEST or len(text) > _LONGEST_WITH_TABLES:
+        most = f"{LONGEST} characters, {_LONGEST_WITH_TABLES} with its machines"
         raise InputError(f"an objective may have {most}, got {length} and {len(text)}")
     try:
         return _objective(text, names, makers or {})

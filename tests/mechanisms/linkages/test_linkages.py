@@ -10,7 +10,21 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.optimize import fsolve
 
-from optlaws import Body, Loads, Mechanism, four_bar, mechanism_of_motion, slider_crank, smoothstep, toggle
+from optlaws import (
+    Body,
+    Chebyshev,
+    Loads,
+    Mechanism,
+    Problem,
+    Solution,
+    four_bar,
+    mechanism_of_motion,
+    rms,
+    slider_crank,
+    smoothstep,
+    synthesize,
+    toggle,
+)
 from optlaws.typing import Array
 
 G = 9.80665
@@ -214,3 +228,11 @@ def test_four_bars_that_turn_far() -> None:
     assert np.trapezoid(dragged.load(x), x) == pytest.approx(-4.0 * pi, rel=1e-6)
     with pytest.raises(ValueError, match="over='input'"):
         four_bar(*lengths, bodies=bodies, loads=Loads("2*s"))
+
+
+def test_the_law_of_a_linkage_with_long_formulas_is_stored() -> None:
+    moved = linkage().dimensionless("200 deg", "-150 deg", "0.3 s")
+    assert len(moved.torque) > 10_000
+    solution = synthesize(Problem(order=3, basis=Chebyshev(5), minimise=rms(moved.torque)))
+    assert solution.objective < rms(moved.torque).value(LAW)
+    assert Solution.from_json(solution.to_json()) == solution
