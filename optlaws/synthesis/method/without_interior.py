@@ -35,13 +35,8 @@ def fallbacks_without_interior(model: Model) -> Iterator[tuple[ActiveSet, Array]
     None where the constraints contradict each other, or where they are not convex.
     """
     problem = model.problem
-<<<<<<< HEAD
-    bounded = any(isfinite(limits.high) for _, limits in problem.bounded)
-    if not (bounded or problem.windows) or not all(constant.convex for constant, _ in problem.bounded):
-=======
-    bounded = [asked for _, asked in problem.bounded if isfinite(asked.high)]
+    bounded = [limits for _, limits in problem.bounded if isfinite(limits.high)]
     if not bounded or not all(constant.convex for constant, _ in problem.bounded):
->>>>>>> random24
         return
 
     def excess(coordinates: Array) -> float:

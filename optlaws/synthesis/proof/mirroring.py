@@ -69,8 +69,8 @@ def _with_equations(program: Program, x: Array, contacts: list[Contact]) -> Acti
     state = ActiveSet.of_contacts(x, contacts, np.empty(0))
     slope = program.objective.copy()
     for i, rows in enumerate(program.families):
-        own = state.family == i
-        if own.any():
-            slope += state.multipliers[own] @ rows.jet(x, state.u[own], state.s[own]).gradient
+        here = state.family == i
+        if here.any():
+            slope += state.multipliers[here] @ rows.jet(x, state.u[here], state.s[here]).gradient
     weights = np.linalg.lstsq(program.equalities.T, -slope, rcond=None)[0] if len(program.right) else np.empty(0)
     return replace(state, equality_multipliers=np.asarray(weights, dtype=np.float64))

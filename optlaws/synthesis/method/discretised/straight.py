@@ -26,7 +26,7 @@ _OPTIMAL = 0
 
 
 @dataclass(frozen=True, eq=False)
-class _Rows:
+class _LinearRows:
     """Rows of variables and, in a sparse matrix, of the places' own variables, with what they are at most."""
 
     matrix: Array
@@ -110,7 +110,7 @@ def straight_step(program: Program, points: list[Points], x: Array, reach: float
     return np.asarray(optimum.x[: program.size]) if optimum.status == _OPTIMAL else None
 
 
-def _rows(family: ConstraintFamily, points: Points) -> _Rows | None:
+def _rows(family: ConstraintFamily, points: Points) -> _LinearRows | None:
     """What a family holds the variables to; None where it is not linear but for such kinks."""
     from scipy import sparse
 
@@ -121,10 +121,10 @@ def _rows(family: ConstraintFamily, points: Points) -> _Rows | None:
     matrix, most = family.rows(points.u, points.s)
     length = np.linalg.norm(matrix, axis=1)
     kept = np.isfinite(most) & (length > 0.0)
-    return _Rows(matrix[kept] / length[kept, None], sparse.csr_matrix((kept.sum(), 0)), most[kept] / length[kept])
+    return _LinearRows(matrix[kept] / length[kept, None], sparse.csr_matrix((kept.sum(), 0)), most[kept] / length[kept])
 
 
-def _rows_of_integral(family: KinkedIntegralFamily) -> _Rows | None:
+def _rows_of_integral(family: KinkedIntegralFamily) -> _LinearRows | None:
     """The rows of its own variables, and the integral's; None unless it is convex, and affine but for its kinks."""
     from scipy import sparse
 
@@ -146,7 +146,7 @@ def _rows_of_integral(family: KinkedIntegralFamily) -> _Rows | None:
     matrices[-1], shares[-1] = weights[None] @ matrices[-1], sparse.csr_matrix(weights[None] @ shares[-1])
     matrices[-1][0] -= np.append(family.slack, family.bound)
     rows = np.vstack(matrices)
-    return _Rows(rows[:, :-1], sparse.vstack(shares), -rows[:, -1])
+    return _LinearRows(rows[:, :-1], sparse.vstack(shares), -rows[:, -1])
 
 
 def _at(formula: Formula, k: Array) -> Array:
