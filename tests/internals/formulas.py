@@ -1,6 +1,7 @@
 """Internals of `optlaws.formulas` that tests look at by themselves."""
 
 from optlaws.formulas.affine import affine, degree, quadratic
+from optlaws.formulas.arithmetic import NUMPY, Arithmetic, casadi_arithmetic, evaluate, horner, pieces
 from optlaws.formulas.convexity import Curvature, Judge, judge
 from optlaws.formulas.functions import SMOOTH_FUNCTIONS
 from optlaws.formulas.intervals import Endpoints, enclosed
