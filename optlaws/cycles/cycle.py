@@ -28,10 +28,13 @@ from optlaws.cycles.optimisation.search_spaces import remark_on_degrees, search_
 from optlaws.cycles.specification.drive import CycleDrive, Effort, effort, read_drive
 from optlaws.cycles.specification.joints import LawSpan, Layout, layout
 from optlaws.cycles.specification.load import LOAD, Load, read_load
+from optlaws.cycles.specification.position_drive import PositionDrive
 from optlaws.cycles.specification.programme import Programme, is_optimal, period_of, programme
 from optlaws.cycles.specification.segments import CycleSegment
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
+from optlaws.mechanisms.drives.drive_train import Drive
+from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.mechanisms.machine.over_time import RepeatedMotion
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import TURN, quantity, written
@@ -67,7 +70,8 @@ class Cycle(CycleInterchange):
         How far each cycle goes on from the one before; 0 unless given.
     drive
         What the motion drives: `{"mass": "2 kg", "stiffness": "3 N/mm", "viscous": ..., "dry": ..., "gravity": ...}`,
-        with inertia in place of mass for tables.
+        with inertia in place of mass for tables; a `Mechanism` whose input moves as the cycle does, or the `Drive` of
+        its motor. Objectives and limits are then of the torque at the input, or at the motor.
     load
         What the motion drives elastically, over the whole cycle: `{"period": "20 ms", "damping": 0.05, "mass": "2 kg"}`
         for a follower's mass on its spring, the damping as its ratio to the critical one, between mass and ground; or a
@@ -101,7 +105,7 @@ class Cycle(CycleInterchange):
     limits: Mapping[str, Any] = field(default_factory=dict, kw_only=True)
     start: Quantity | None = field(default=None, kw_only=True)
     advance: Quantity | None = field(default=None, kw_only=True)
-    drive: Mapping[str, Any] | None = field(default=None, kw_only=True)
+    drive: Mapping[str, Any] | Mechanism | Drive | None = field(default=None, kw_only=True)
     load: Any = field(default=None, kw_only=True)
     order: int = field(default=3, kw_only=True)
     degree: int = field(default=9, kw_only=True)
@@ -336,7 +340,7 @@ class Cycle(CycleInterchange):
         return TimedCycle(self.programme, self._layout.starts, self.pieces)
 
     @kept_property
-    def _drive(self) -> CycleDrive | None:
+    def _drive(self) -> CycleDrive | PositionDrive | None:
         return None if self.drive is None else read_drive(self.drive, self.axis)
 
     @kept_property

@@ -14,6 +14,8 @@ from optlaws.files.reading import JsonText
 from optlaws.files.tables import to_toml
 from optlaws.laws import MotionLaw
 from optlaws.laws.exporting import ExportOptions
+from optlaws.mechanisms.drives.drive_train import Drive
+from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.mechanisms.machine.machine import Machine
 from optlaws.motion.motion import Motion, motion_of_pieces
 from optlaws.motion.piece import unit_of
@@ -73,6 +75,11 @@ class CycleInterchange(JsonText):
         load = given.get("load")
         if isinstance(load, Mapping) and "A" in load:
             given["load"] = Machine.from_dict(load)
+        drive = given.get("drive")
+        if isinstance(drive, Mapping) and "mechanism" in drive:
+            given["drive"] = Drive.from_dict(drive)
+        elif isinstance(drive, Mapping) and "axis" in drive:
+            given["drive"] = Mechanism.from_dict(drive)
         segments = [_read_segment(entry, i) for i, entry in enumerate(data["segments"], start=1)]
         return cls(**given | {"segments": segments})
 
@@ -285,7 +292,7 @@ def _read_segment(data: Any, number: int) -> CycleSegment:  # noqa: ANN401 - it 
 
 
 def _plain(value: Any) -> Any:  # noqa: ANN401 - whatever a person gave
-    if isinstance(value, MotionLaw | Machine):
+    if isinstance(value, MotionLaw | Machine | Mechanism | Drive):
         return value.to_dict()
     if isinstance(value, Mapping):
         return {str(key): _plain(part) for key, part in value.items()}

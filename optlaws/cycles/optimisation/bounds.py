@@ -61,7 +61,7 @@ def bound_by_energy(span: LawSpan, objective: CycleObjective, stroke: float, sol
     if (
         solution.problem.convex
         or not (least or most)
-        or objective.drive is None
+        or not isinstance(objective.drive, CycleDrive)
         or not _is_plain(span, objective.drive)
     ):
         return solution.lower_bound

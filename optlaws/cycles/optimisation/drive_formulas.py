@@ -15,6 +15,7 @@ from itertools import pairwise
 from optlaws.cycles.optimisation.objectives import POWER
 from optlaws.cycles.specification.drive import CycleDrive
 from optlaws.cycles.specification.joints import LawSpan
+from optlaws.cycles.specification.position_drive import PositionDrive
 from optlaws.cycles.specification.segments import Dwell
 from optlaws.errors import InputError
 from optlaws.motion.piece import factor
@@ -42,16 +43,23 @@ def may_turn(span: LawSpan) -> bool:
     return any(state.velocity * span.displacement < 0.0 for state in (span.first, span.last))
 
 
-def driven_peak(span: LawSpan, drive: CycleDrive | None, stroke: float, nu: int) -> Driven:
+def driven_peak(span: LawSpan, drive: CycleDrive | PositionDrive | None, stroke: float, nu: int) -> Driven:
     """Peak of the force (nu -1) or the power (nu -3) along a span's law."""
     known = _known(drive)
-    if nu == POWER and known.inertia > 0.0 and known == CycleDrive(known.inertia, 0.0, 0.0, 0.0, 0.0):
+    if (
+        nu == POWER
+        and isinstance(known, CycleDrive)
+        and known.inertia > 0.0
+        and known == CycleDrive(known.inertia, 0.0, 0.0, 0.0, 0.0)
+    ):
         return Driven(FUNCTIONALS["D"], known.inertia * stroke**2 / span.duration**3)
     formula, unit = driven_formula(span, drive, stroke, nu)
     return Driven(peak(formula), unit)
 
 
-def driven_formula(span: LawSpan, drive: CycleDrive | None, stroke: float, nu: int) -> tuple[str, float]:
+def driven_formula(
+    span: LawSpan, drive: CycleDrive | PositionDrive | None, stroke: float, nu: int
+) -> tuple[str, float]:
     """Force or power along a span's law as a formula, and its unit."""
     known = _known(drive)
     if known.dry > 0.0 and may_turn(span):
@@ -61,20 +69,23 @@ def driven_formula(span: LawSpan, drive: CycleDrive | None, stroke: float, nu: i
             "rms force"
         )
     unit = _unit(span, known, stroke)
-    formula = known.formula(stroke, span.duration, span.origin, 1.0 if span.displacement > 0.0 else -1.0, unit)
+    formula = _formula(span, known, stroke, unit)
     if nu == POWER:
         return f"({formula})*b", unit * abs(factor(stroke, span.duration, 1))
     return formula, unit
 
 
-def driven_mean(span: LawSpan, drive: CycleDrive | None, stroke: float) -> Driven:
+def driven_mean(span: LawSpan, drive: CycleDrive | PositionDrive | None, stroke: float) -> Driven:
     """Root mean square of the force along a span's law."""
     known = _known(drive)
     unit = _unit(span, known, stroke)
     if known.dry == 0.0 or not may_turn(span):
-        direction = 1.0 if span.displacement > 0.0 else -1.0
-        formula = known.formula(stroke, span.duration, span.origin, direction, unit)
+        formula = _formula(span, known, stroke, unit)
         return Driven(rms(formula), unit, formula=formula)
+    if isinstance(known, PositionDrive):
+        raise InputError(
+            f"drive: {span.where} may turn back, where friction of a mechanism jumps: take moves between rests"
+        )
     if known.stiffness or known.constant or not (known.inertia or known.viscous):
         raise InputError(
             f"drive: dry: {span.where} may turn back: with dry friction the rms force of such a motion is convex only "
@@ -84,22 +95,33 @@ def driven_mean(span: LawSpan, drive: CycleDrive | None, stroke: float) -> Drive
     return Driven(rms(formula), unit, _friction(span, known), formula)
 
 
-def force_unit(span: LawSpan, drive: CycleDrive, stroke: float) -> float:
+def force_unit(span: LawSpan, drive: CycleDrive | PositionDrive, stroke: float) -> float:
     """About how great the force along a span is: a unit in which it is near 1."""
     return drive.size(stroke, span.duration, span.origin)
 
 
-def _unit(span: LawSpan, drive: CycleDrive, stroke: float) -> float:
+def _unit(span: LawSpan, drive: CycleDrive | PositionDrive, stroke: float) -> float:
     unit = force_unit(span, drive, stroke)
     if unit == 0.0:
         raise InputError("drive: nothing resists the motion: give it a mass, an inertia, a spring or friction")
     return unit
 
 
-def _known(drive: CycleDrive | None) -> CycleDrive:
+def _known(drive: CycleDrive | PositionDrive | None) -> CycleDrive | PositionDrive:
     if drive is None:
         raise InputError("force, torque and power are of a drive: give one, such as drive={'mass': '2 kg'}")
     return drive
+
+
+def _formula(span: LawSpan, drive: CycleDrive | PositionDrive, stroke: float, unit: float) -> str:
+    """The force along a span's law, in a unit."""
+    if isinstance(drive, CycleDrive):
+        return drive.formula(stroke, span.duration, span.origin, 1.0 if span.displacement > 0.0 else -1.0, unit)
+    if may_turn(span):
+        raise InputError(
+            f"drive: {span.where} may turn back, and its torque is that of laws that do not: take moves between rests"
+        )
+    return drive.formula(stroke, span.duration, span.origin, unit)
 
 
 def _friction(span: LawSpan, drive: CycleDrive) -> float:

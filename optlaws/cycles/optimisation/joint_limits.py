@@ -12,6 +12,7 @@ from optlaws.cycles.optimisation.objectives import FORCE, CycleObjective, in_uni
 from optlaws.cycles.optimisation.optimal import solve
 from optlaws.cycles.specification.drive import size_of
 from optlaws.cycles.specification.joints import LawSpan, Layout, State
+from optlaws.cycles.specification.position_drive import PositionDrive
 from optlaws.cycles.specification.programme import TimedSegment, is_optimal
 from optlaws.errors import InfeasibleProblem, SolverFailure
 from optlaws.motion.piece import Piece
@@ -40,11 +41,11 @@ class SegmentEnd:
         if nu == _VELOCITY:
             return abs(self.state.velocity)
         drive = objective.drive
-        if nu != FORCE or drive is None or (drive.inertia and objective.order < _ACCELERATION_KNOWN):
+        if nu != FORCE or drive is None:
             return 0.0
-        moved = drive.inertia * self.state.acceleration + drive.viscous * self.state.velocity
-        static = drive.stiffness * self.position + drive.constant
-        return abs(moved + static + drive.dry * self.direction)
+        if (isinstance(drive, PositionDrive) or drive.inertia) and objective.order < _ACCELERATION_KNOWN:
+            return 0.0
+        return abs(drive.at_joint(self.position, self.state.velocity, self.state.acceleration, self.direction))
 
 
 def check_limits_at_joints(layout: Layout, objective: CycleObjective, axis: str, period: float) -> None:

@@ -26,6 +26,7 @@ from optlaws.cycles.optimisation.optimal import (
 )
 from optlaws.cycles.specification.drive import CycleDrive, size_of, square_of_force
 from optlaws.cycles.specification.joints import LawSpan, Layout
+from optlaws.cycles.specification.position_drive import PositionDrive
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.kept import kept_property
 from optlaws.motion.piece import Piece, factor
@@ -73,7 +74,7 @@ class _SharedForceLimit:
 
     layout: Layout
     objective: CycleObjective
-    drive: CycleDrive
+    drive: CycleDrive | PositionDrive
     most: float
     axis: str
     period: float

@@ -8,6 +8,7 @@ from typing import Any
 
 from optlaws.cycles.specification.drive import CycleDrive
 from optlaws.cycles.specification.load import LOAD, Load, load_output
+from optlaws.cycles.specification.position_drive import PositionDrive
 from optlaws.cycles.specification.programme import AXES, TimedSegment
 from optlaws.cycles.specification.segments import Free, Move
 from optlaws.errors import InputError
@@ -47,7 +48,7 @@ class CycleObjective:
     limits: Mapping[int, float]
     order: int
     degree: int
-    drive: CycleDrive | None
+    drive: CycleDrive | PositionDrive | None
     load: Load | None = None
     loaded: Mapping[tuple[str, bool], float] = field(default_factory=dict)
     mean_force: float | None = None

@@ -34,6 +34,7 @@ from optlaws.cycles.optimisation.search_spaces import (
 )
 from optlaws.cycles.specification.joints import LawSpan, State
 from optlaws.cycles.specification.load import load_output
+from optlaws.cycles.specification.position_drive import PositionDrive
 from optlaws.cycles.specification.programme import is_optimal
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.motion.piece import Piece, factor
@@ -159,8 +160,9 @@ def with_mean_square(problem: Problem, span: LawSpan, objective: CycleObjective,
 
 
 def never_back(span: LawSpan, objective: CycleObjective) -> bool:
-    """Whether dry friction asks that a span's law never goes back, so that it is a constant force."""
-    return objective.drive is not None and objective.drive.dry > 0.0 and not may_turn(span)
+    """Whether a span's law is never to go back, so that dry friction is a constant force and limits of drives hold."""
+    drive = objective.drive
+    return drive is not None and (isinstance(drive, PositionDrive) or drive.dry > 0.0) and not may_turn(span)
 
 
 def scale(span: LawSpan) -> float:

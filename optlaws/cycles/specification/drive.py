@@ -9,8 +9,11 @@ from typing import Any
 
 import numpy as np
 
+from optlaws.cycles.specification.position_drive import PositionDrive, position_drive
 from optlaws.errors import InputError
 from optlaws.laws.storage import PlainNumbers
+from optlaws.mechanisms.drives.drive_train import Drive
+from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.motion.piece import Piece, factor
 from optlaws.motion.quantities import quantity, table
 from optlaws.numbers import Array
@@ -60,6 +63,11 @@ class CycleDrive:
         terms = [f"({value!r})*{name}" for value, name in zip(factors, "abc", strict=True) if value]
         return " + ".join([*terms, f"({constant / unit!r})"])
 
+    def at_joint(self, position: float, velocity: float, acceleration: float, direction: float) -> float:
+        """The force where a move begins or ends, on its way in a direction."""
+        moved = self.inertia * acceleration + self.viscous * velocity
+        return moved + self.stiffness * position + self.constant + self.dry * direction
+
     def size(self, stroke: float, duration: float, offset: float) -> float:
         """About how great the force is along a motion: a unit in which it is near 1."""
         spring, damper, inertia = (abs(factor) for factor in self._factors(stroke, duration))
@@ -78,8 +86,10 @@ class CycleDrive:
         return self.force(*(piece.values(times, nu) for nu in range(3)))
 
 
-def read_drive(entries: Mapping[str, Any], axis: str) -> CycleDrive:
-    """A drive from its entries, each a quantity with its unit; what is not given is 0."""
+def read_drive(entries: Mapping[str, Any] | Mechanism | Drive, axis: str) -> CycleDrive | PositionDrive:
+    """A drive from its entries, each a quantity with its unit, of which what is not given is 0, or from a mechanism."""
+    if isinstance(entries, Mechanism | Drive):
+        return position_drive(entries, axis)
     known = ENTRIES[axis]
     for key in table(entries, "drive", "{'mass': '2 kg'}"):
         if key not in known:
@@ -124,7 +134,7 @@ class Effort(PlainNumbers):
         return self.peak_power / angular_velocity
 
 
-def effort(drive: CycleDrive, pieces: Sequence[Piece], period: float) -> Effort:
+def effort(drive: CycleDrive | PositionDrive, pieces: Sequence[Piece], period: float) -> Effort:
     """The force and power of a drive over pieces that make a cycle.
 
     >>> from optlaws.laws import smoothstep
@@ -143,7 +153,7 @@ def effort(drive: CycleDrive, pieces: Sequence[Piece], period: float) -> Effort:
     return Effort(force, float(np.sqrt(square / period)), power, mean if abs(mean) > VALUE_ROUNDING * power else 0.0)
 
 
-def size_of(piece: Piece, nu: int, drive: CycleDrive | None, *, mean: bool = False) -> float:
+def size_of(piece: Piece, nu: int, drive: CycleDrive | PositionDrive | None, *, mean: bool = False) -> float:
     """The peak or RMS of a derivative, or of the force (-1) or power (-3) of a drive, in a piece, in SI units."""
     if nu > 0 or drive is None:
         if not piece.stroke:
@@ -154,16 +164,16 @@ def size_of(piece: Piece, nu: int, drive: CycleDrive | None, *, mean: bool = Fal
     return taken.peak_power if nu == -3 else taken.rms_force if mean else taken.peak_force
 
 
-def square_of_force(drive: CycleDrive, piece: Piece) -> float:
+def square_of_force(drive: CycleDrive | PositionDrive, piece: Piece) -> float:
     """The integral of the square of the force over a piece, in SI units."""
     return _integral(piece, partial(_square, drive, piece))
 
 
-def _power(drive: CycleDrive, piece: Piece, times: Array) -> Array:
+def _power(drive: CycleDrive | PositionDrive, piece: Piece, times: Array) -> Array:
     return drive.along(piece, times) * piece.values(times, 1)
 
 
-def _square(drive: CycleDrive, piece: Piece, times: Array) -> Array:
+def _square(drive: CycleDrive | PositionDrive, piece: Piece, times: Array) -> Array:
     return drive.along(piece, times) ** 2
 
 

@@ -1,0 +1,75 @@
+"""Mechanisms whose inertia and load vary with the position, and motors with gears before them, as drives of a cycle."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from optlaws.errors import InputError
+from optlaws.mechanisms.drives.drive_train import Drive
+from optlaws.mechanisms.linkages.mechanism import Mechanism
+from optlaws.motion.piece import Piece
+from optlaws.numbers import Array
+from optlaws.tolerances import TINY
+
+
+@dataclass(frozen=True)
+class PositionDrive:
+    """The torque or force at the input of a mechanism, or at the motor that drives it, in SI units.
+
+    The motion of the cycle is that of the mechanism's input.
+    """
+
+    source: Mechanism | Drive
+
+    @property
+    def mechanism(self) -> Mechanism:
+        """The mechanism itself."""
+        return self.source.mechanism if isinstance(self.source, Drive) else self.source
+
+    @property
+    def dry(self) -> float:
+        """The greatest friction that turns with the velocity; 0 where there is none."""
+        motor = self.source.train.coulomb if isinstance(self.source, Drive) else 0.0
+        return self.mechanism.coulomb + motor
+
+    def force(self, y: Array, velocity: Array, acceleration: Array) -> Array:
+        """The torque or force along a motion."""
+        return np.asarray(self.source.torque(y, velocity, acceleration), dtype=np.float64)
+
+    def along(self, piece: Piece, times: Array) -> Array:
+        """The torque or force at times in a piece."""
+        return self.force(*(piece.values(times, nu) for nu in range(3)))
+
+    def at_joint(self, position: float, velocity: float, acceleration: float, direction: float) -> float:
+        """The torque or force where a move begins or ends, on its way in a direction."""
+        return float(self.source.torque(position, velocity or TINY * direction, acceleration))
+
+    def formula(self, stroke: float, duration: float, offset: float, unit: float) -> str:
+        """The torque in a unit, counted in the direction of the stroke, of a law that never turns back."""
+        moved = self.source.dimensionless(offset, stroke, duration)
+        return f"{moved.unit / unit!r}*({moved.torque})"
+
+    def size(self, stroke: float, duration: float, offset: float) -> float:
+        """About how great the torque is along a motion: a unit in which it is near 1."""
+        return 4.0 * self.source.dimensionless(offset, stroke, duration).unit
+
+
+def position_drive(source: Mechanism | Drive, axis: str) -> PositionDrive:
+    """A mechanism or a motor with its mechanism as the drive of a cycle along an axis.
+
+    Raises
+    ------
+    InputError
+        If the input of the mechanism turns and the cycle slides, or the other way round.
+    """
+    drive = PositionDrive(source)
+    own = drive.mechanism.axis
+    if own != axis:
+        moves = {"angle": "turns", "length": "slides"}
+        raise InputError(
+            f"drive: the input of the {drive.mechanism.name} {moves[own]} and the motion of the cycle {moves[axis]}: "
+            f"give the cycle the positions of that input, {'angles' if own == 'angle' else 'lengths'}"
+        )
+    return drive
