@@ -58,6 +58,8 @@ __getattr__, __dir__, __all__ = face(
         "optlaws.synthesis.families.active_set": "ActiveSet",
         "optlaws.synthesis.families.family": "ConstraintFamily",
         "optlaws.synthesis.functionals.makers": "FormulaKind PeakSide",
+        "optlaws.synthesis.limits.drive_limits": "DriveObjective",
+        "optlaws.synthesis.limits.phase_plane": "PhasePlane",
         "optlaws.synthesis.problem.constants": "Asked",
         "optlaws.synthesis.problem.expression": "Maximum Term",
         "optlaws.synthesis.proof.nodes": "Node",

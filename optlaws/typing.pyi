@@ -72,6 +72,8 @@ from optlaws.synthesis.families.active_set import ActiveSet as ActiveSet
 from optlaws.synthesis.families.family import ConstraintFamily as ConstraintFamily
 from optlaws.synthesis.functionals.makers import FormulaKind as FormulaKind
 from optlaws.synthesis.functionals.makers import PeakSide as PeakSide
+from optlaws.synthesis.limits.drive_limits import DriveObjective as DriveObjective
+from optlaws.synthesis.limits.phase_plane import PhasePlane as PhasePlane
 from optlaws.synthesis.problem.constants import Asked as Asked
 from optlaws.synthesis.problem.expression import Maximum as Maximum
 from optlaws.synthesis.problem.expression import Term as Term
@@ -107,6 +109,7 @@ __all__ = [
     "DimensionlessDrive",
     "DimensionlessMechanism",
     "Direction",
+    "DriveObjective",
     "DriveSheet",
     "DrivenLink",
     "DwellComparison",
@@ -146,6 +149,7 @@ __all__ = [
     "OutputPeak",
     "OutputRms",
     "PeakSide",
+    "PhasePlane",
     "Piece",
     "PiecewiseBasis",
     "Place",

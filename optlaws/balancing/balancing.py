@@ -12,7 +12,7 @@ import numpy as np
 from optlaws.balancing.loaders.loader import Loader
 from optlaws.cams.curves.motion_by_angle import CamMotion
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.specification.drive import CycleDrive, read_drive
+from optlaws.cycles.specification.drive import CycleDrive, read_constant_drive
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
@@ -83,7 +83,7 @@ class Balancing:
         """The load that the cycle drives."""
         if self.cycle.drive is None:
             raise InputError("the cycle has no drive: give one, such as drive={'mass': '3 kg'}")
-        return read_drive(self.cycle.drive, self.cycle.axis)
+        return read_constant_drive(self.cycle.drive, self.cycle.axis)
 
     @property
     def rate(self) -> float:

@@ -13,7 +13,7 @@ from optlaws.cams.curves.extremes import UNDERCUT
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.contact import Friction, Transmission
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.specification.drive import CycleDrive, read_drive
+from optlaws.cycles.specification.drive import CycleDrive, read_constant_drive
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
@@ -162,12 +162,11 @@ class CamForces:
     @kept_property
     def load(self) -> CycleDrive:
         """The inertia, spring and friction that the follower moves, in SI units."""
-        given = self.drive
-        if given is None and isinstance(self.cam.motion, Cycle):
-            given = self.cam.motion.drive
+        motion = self.cam.motion
+        given = motion.drive if self.drive is None and isinstance(motion, Cycle) else self.drive
         if given is None:
             raise InputError("forces need what the follower moves: give a drive, such as drive={'mass': '2 kg'}")
-        return read_drive(given, self.cam.displacement.axis)
+        return read_constant_drive(given, self.cam.displacement.axis)
 
     @kept_property
     def edges(self) -> Array:

@@ -142,7 +142,7 @@ class Number(Formula):
 
     @property
     def data(self) -> float:
-        """The value."""
+        """The value of the number."""
         return self.value
 
     def __str__(self) -> str:
@@ -158,7 +158,7 @@ class Name(Formula):
 
     @property
     def data(self) -> str:
-        """The name."""
+        """The text of the name."""
         return self.name
 
     @kept_property

@@ -163,7 +163,7 @@ class Findings:
         """The least spring; mass, gravity and friction are those of the motion's drive."""
         if self.spec.spring is None:
             return None
-        given = self.cycle.drive or {}
+        given = self.cycle.drive if isinstance(self.cycle.drive, Mapping) else {}
         load = {key: value for key, value in given.items() if key not in {"stiffness", "preload"}}
         return least_spring(self.cam, drive=load, **msgspec.structs.asdict(self.spec.spring))
 

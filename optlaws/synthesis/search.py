@@ -233,8 +233,8 @@ def _of_any_way(search: LawSearch) -> Solution | None:
     if solution is None or (problem.convex and search.outcomes[0].optimum is None):
         unfolded = from_symmetric(search) if problem.mirrored else None
         around = unfolded or (solved_without_interior(search) if problem.convex else None)
-        known = [one for one in (solution, around) if one is not None]
-        return min(known, key=lambda one: abs(one.gap), default=None)
+        known = [answer for answer in (solution, around) if answer is not None]
+        return min(known, key=lambda answer: abs(answer.gap), default=None)
     if problem.convex and _beyond_proof(solution):
         return solved_without_interior(search) or solution
     if problem.mirrored and solution.status is Status.INACCURATE:
@@ -312,8 +312,8 @@ def attempt(model: Model, warm: ActiveSet | None, point: Array | None) -> tuple[
 
     outcome = solve(model.program, warm, start=point, holds=holds)
     led = outcome.tried if outcome.optimum is None else (outcome.optimum,)
-    found = (laws.candidate(state.at(on_equations(model.program, state.x))) for state in led)
-    return outcome, min((law for law in found if law is not None), key=lambda law: law.objective, default=None)
+    candidates = (laws.candidate(state.at(on_equations(model.program, state.x))) for state in led)
+    return outcome, min((law for law in candidates if law is not None), key=lambda law: law.objective, default=None)
 
 
 def feasible(model: Model, optimum: ActiveSet) -> Candidate | None:

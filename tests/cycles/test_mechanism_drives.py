@@ -1,6 +1,7 @@
 """Cycles that drive mechanisms: torques along the cycle, laws of least torque, their limits, and motors with gears."""
 
 from math import sqrt
+from typing import Any
 
 import numpy as np
 import pytest
@@ -41,7 +42,7 @@ def test_a_limit_of_the_torque_is_kept_or_refused_with_the_least() -> None:
 def test_a_motor_with_a_gear_needs_less_by_a_law_of_its_own() -> None:
     """A rotary table: proven, for its inertia is the same everywhere."""
     drive = Drive(Mechanism("0.8 kg m^2"), Motor("3e-4 kg m^2"), ratio=20)
-    indexed = {"period": "0.6 s", "advance": "45 deg", "drive": drive}
+    indexed: dict[str, Any] = {"period": "0.6 s", "advance": "45 deg", "drive": drive}
     known = Cycle([Rise("45 deg", "0.25 s", law="modified sine"), Dwell()], **indexed)
     sheet = drive.sheet("modified sine", "0 deg", "45 deg", "0.25 s", period="0.6 s")
     assert known.effort.peak_force == pytest.approx(sheet.peak_torque, rel=1e-6)

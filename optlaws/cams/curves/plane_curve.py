@@ -57,7 +57,7 @@ class PiecewiseCurve(CurveByJets):
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """The knots."""
+        """The places where its pieces meet."""
         return tuple(self.knots.tolist())
 
     def jets(self, places: Array | Interval, order: int) -> Any:  # noqa: ANN401 - as many as there are coordinates

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from optlaws.cycles.specification.position_drive import PositionDrive, position_drive
+from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws.storage import PlainNumbers
 from optlaws.mechanisms.drives.drive_train import Drive
@@ -103,6 +104,23 @@ def read_drive(entries: Mapping[str, Any] | Mechanism | Drive, axis: str) -> Cyc
     return CycleDrive(
         inertia, quantities.get("viscous", 0.0), quantities.get("stiffness", 0.0), constant, quantities.get("dry", 0.0)
     )
+
+
+def read_constant_drive(entries: Mapping[str, Any] | Mechanism | Drive, axis: str) -> CycleDrive:
+    """A drive of constants, as of a cam's follower.
+
+    Raises
+    ------
+    InputError
+        If it is a mechanism or a motor with one.
+    """
+    drive = read_drive(entries, axis)
+    if isinstance(drive, PositionDrive):
+        raise InputError(
+            f"drive: forces of a cam's follower are of constants such as {{'mass': '2 kg'}}, got {shortened(entries)}; "
+            "what a cam and its follower are to the cam's shaft is `cam_mechanism`"
+        )
+    return drive
 
 
 _EVEN = 400  # stretches of a piece in which extremes and zeros are looked for, before they are polished

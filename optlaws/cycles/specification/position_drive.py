@@ -25,7 +25,7 @@ class PositionDrive:
 
     @property
     def mechanism(self) -> Mechanism:
-        """The mechanism itself."""
+        """The mechanism whose input moves."""
         return self.source.mechanism if isinstance(self.source, Drive) else self.source
 
     @property
@@ -65,11 +65,12 @@ def position_drive(source: Mechanism | Drive, axis: str) -> PositionDrive:
         If the input of the mechanism turns and the cycle slides, or the other way round.
     """
     drive = PositionDrive(source)
-    own = drive.mechanism.axis
-    if own != axis:
+    moved_by = drive.mechanism.axis
+    if moved_by != axis:
         moves = {"angle": "turns", "length": "slides"}
         raise InputError(
-            f"drive: the input of the {drive.mechanism.name} {moves[own]} and the motion of the cycle {moves[axis]}: "
-            f"give the cycle the positions of that input, {'angles' if own == 'angle' else 'lengths'}"
+            f"drive: the input of the {drive.mechanism.name} {moves[moved_by]} and the motion of the cycle "
+            f"{moves[axis]}: "
+            f"give the cycle the positions of that input, {'angles' if moved_by == 'angle' else 'lengths'}"
         )
     return drive

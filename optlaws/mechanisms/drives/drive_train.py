@@ -289,8 +289,8 @@ class Drive(JsonText):
         Examples
         --------
         >>> drive = Drive(Mechanism("0.8 kg m^2"), Motor("3e-4 kg m^2"))
-        >>> found = drive.best_ratio("modified sine", "0 deg", "45 deg", "0.25 s")
-        >>> round(found.ratio, 6), round((0.8 / 3e-4) ** 0.5, 6)
+        >>> best = drive.best_ratio("modified sine", "0 deg", "45 deg", "0.25 s")
+        >>> round(best.ratio, 6), round((0.8 / 3e-4) ** 0.5, 6)
         (51.639778, 51.639778)
         """
         motion, time = self._move(law, start, stroke, duration, period)

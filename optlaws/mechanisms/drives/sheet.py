@@ -229,7 +229,7 @@ class _ByRatio:
         return np.asarray(np.sqrt(self.torques(ratio) ** 2 @ self.weights + self.holding / np.asarray(ratio) ** 2))
 
     def peak(self, ratio: Any) -> Array:  # noqa: ANN401
-        """The greatest magnitude."""
+        """The greatest magnitude of values."""
         return np.asarray(np.abs(self.torques(ratio)).max(axis=-1))
 
     def use(self, ratio: Any, motor: Motor) -> Array:  # noqa: ANN401

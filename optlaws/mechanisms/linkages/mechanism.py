@@ -71,7 +71,7 @@ class LinkGeometry(JsonText):
 
     @classmethod
     def from_dict(cls, data: Any) -> LinkGeometry:  # noqa: ANN401 - it is checked here
-        """What `to_dict` described."""
+        """The links that `to_dict` described."""
         try:
             driven = tuple((str(name), read(text, ("x",))) for name, text in data["driven"].items())
             chains = tuple(tuple((read(x, ("x",)), read(y, ("x",))) for x, y in chain) for chain in data["chains"])

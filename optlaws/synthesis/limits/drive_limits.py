@@ -25,7 +25,7 @@ from optlaws.synthesis.limits.phase_plane import PhasePlane, PhaseTorque, Torque
 from optlaws.synthesis.limits.phase_plane_bound import Guess, Potential, proven_bound
 from optlaws.synthesis.limits.phase_plane_program import PhaseOptimum, optimum
 from optlaws.synthesis.problem.problem import Problem
-from optlaws.tolerances import STATED_BOUND
+from optlaws.tolerances import PHASE_GAP, SMALL_PHASE_GAP, STATED_BOUND
 
 #: what a drive is to take as little of
 DriveObjective: TypeAlias = Literal["peak torque", "rms torque", "energy", "time"]
@@ -33,9 +33,8 @@ DriveObjective: TypeAlias = Literal["peak torque", "rms torque", "energy", "time
 _KEYS = ("minimise", "value", "attained", "plane", "unit", "weight", "edges", "potential", "s", "b")
 #: by which shares of its size a potential is made to fall more where it proves little, and which gap is little enough
 _STEEPER = (0.0, 1e-8, 1e-6, 1e-4)
-_NEAR = 1e-5
 #: a gap that is small, and how often programs are refined where it is not
-_SMALL, _FINER = 1e-6, 6
+_FINER = 6
 
 
 @dataclass(frozen=True)
@@ -219,7 +218,7 @@ def limit_of_plane(plane: PhasePlane, minimise: DriveObjective, unit: float = 1.
     if plane.kind == "time":
         return _least_time(plane)
     try:
-        found = optimum(plane)
+        motion = optimum(plane)
     except SolverFailure:
         of_time = replace(plane, squared=None, maxima=(), peak=None)
         if plane.bounds:
@@ -231,12 +230,12 @@ def limit_of_plane(plane: PhasePlane, minimise: DriveObjective, unit: float = 1.
                     proof=shortest,
                 ) from None
         raise
-    return _finer(plane, minimise, unit, _limit(plane, minimise, unit, found))
+    return _finer(plane, minimise, unit, _limit(plane, minimise, unit, motion))
 
 
 def _finer(plane: PhasePlane, minimise: DriveObjective, unit: float, limit: DriveLimit) -> DriveLimit:
     """The limit or, where its gap is not small, that on finer elements if it proves more."""
-    if limit.gap <= _SMALL:
+    if limit.gap <= SMALL_PHASE_GAP:
         return limit
     try:
         other = _limit(plane, minimise, unit, optimum(plane, _FINER))
@@ -249,19 +248,19 @@ def _least_time(plane: PhasePlane) -> DriveLimit:
     """The least time, in a unit in which it is about 1."""
     bounds = [sqrt(1.0 / bound.at_rest * bound.torque.size) for bound in plane.bounds]
     unit = power_of_two(max([*bounds, 1.0 / plane.B]))
-    found = optimum(plane.slowed(unit))
-    if not 0.5 <= found.objective <= 2.0:
-        unit *= power_of_two(found.objective)
-        found = optimum(plane.slowed(unit))
+    motion = optimum(plane.slowed(unit))
+    if not 0.5 <= motion.objective <= 2.0:
+        unit *= power_of_two(motion.objective)
+        motion = optimum(plane.slowed(unit))
     slow = plane.slowed(unit)
-    return _finer(slow, "time", unit, _limit(slow, "time", unit, found))
+    return _finer(slow, "time", unit, _limit(slow, "time", unit, motion))
 
 
-def _limit(plane: PhasePlane, minimise: DriveObjective, unit: float, found: PhaseOptimum) -> DriveLimit:
+def _limit(plane: PhasePlane, minimise: DriveObjective, unit: float, motion: PhaseOptimum) -> DriveLimit:
     """The limit by the potential that was found or, where that proves little, by one that falls more."""
-    potential = Potential(found.edges, found.potential)
-    attained = _in_units(max(found.objective, 0.0), minimise, unit, inf)
-    size, best = float(np.abs(found.potential).max()), None
+    potential = Potential(motion.edges, motion.potential)
+    attained = _in_units(max(motion.objective, 0.0), minimise, unit, inf)
+    size, best = float(np.abs(motion.potential).max()), None
     for share in _STEEPER:
         trial = potential.steeper(share * size) if share else potential
         limit = DriveLimit(
@@ -270,16 +269,16 @@ def _limit(plane: PhasePlane, minimise: DriveObjective, unit: float, found: Phas
             attained,
             plane,
             unit,
-            found.weight,
-            tuple(found.edges.tolist()),
+            motion.weight,
+            tuple(motion.edges.tolist()),
             tuple(map(tuple, trial.coefficients.tolist())),
-            tuple(found.s.tolist()),
-            tuple(found.b.tolist()),
+            tuple(motion.s.tolist()),
+            tuple(motion.b.tolist()),
         )
         limit = replace(limit, value=_bound(limit))
         if best is None or limit.value > best.value:
             best = limit
-        if best.gap < _NEAR:
+        if best.gap < PHASE_GAP:
             break
     assert best is not None  # noqa: S101 - there are several shares
     return best
@@ -294,7 +293,7 @@ def _bound(limit: DriveLimit) -> float:
 
 
 def _in_units(value: float, minimise: DriveObjective, unit: float, towards: float) -> float:
-    """What is minimised in its own unit, the root of a mean square rounded towards a side; units are powers of 2."""
+    """What is minimised in its last unit, the root of a mean square rounded towards a side; units are powers of 2."""
     return unit * (nextafter(sqrt(value), towards) if minimise == "rms torque" else value)
 
 
@@ -386,14 +385,14 @@ def _of_integral(formula: Formula) -> tuple[float, PhasePlane | None]:
     squares: list[tuple[float, PhaseTorque]] = []
     for part in formula.terms if isinstance(formula, Sum) else (formula,):
         factors = part.factors if isinstance(part, Product) else (part,)
-        own, weight = factors[-1], constant(product([Number(1.0), *factors[:-1]]))
+        last, weight = factors[-1], constant(product([Number(1.0), *factors[:-1]]))
         if weight is None or weight <= 0.0:
             return 1.0, None
-        if isinstance(own, Exponentiation) and constant(own.exponent) == 2.0:
-            form = PhaseTorque.of(own.base)
+        if isinstance(last, Exponentiation) and constant(last.exponent) == 2.0:
+            form = PhaseTorque.of(last.base)
             squares += [] if form is None else [(weight, form)]
-        elif isinstance(own, Call) and own.function == "max" and len(own.arguments) == 2:
-            first, second = map(PhaseTorque.of_power, own.arguments)
+        elif isinstance(last, Call) and last.function == "max" and len(last.arguments) == 2:
+            first, second = map(PhaseTorque.of_power, last.arguments)
             powers += [] if first is None or second is None else [(first.scaled(weight), second.scaled(weight))]
     parts = formula.terms if isinstance(formula, Sum) else (formula,)
     if len(powers) + len(squares) != len(parts) or len(squares) > 1:

@@ -10,7 +10,7 @@ For a squared torque is at least p tau b - p² b²/4, a maximum of torques at le
 price n a torque within |tau| <= M is at least -|n| M; what all this has of c adds up to q w', which is integrated by
 parts.
 
-In cells of s prices are affine but for one, which follows from q; with b = scale * x the integrand is f(x) = A + B1 x
+In cells of s prices are affine but for unity, which follows from q; with b = scale * x the integrand is f(x) = A + B1 x
 + C2 x² + L/x. With K = L/z², E = B1 + 2 C2 z - K, it is f(z) + (x - z)² (C2 + K/x) + E (x - z) for any z. An affine z
 near the minimum leaves f(z), whose integral is enclosed by Taylor's formula, and what E can still lower.
 """
@@ -32,7 +32,7 @@ from optlaws.numerics.taylor import Jet, variable
 from optlaws.synthesis.limits.formula_jets import formula_jet
 from optlaws.synthesis.limits.phase_plane import PhasePlane, PhaseTorque
 from optlaws.synthesis.limits.phase_plane_velocity import InnerMinimum, entries_of
-from optlaws.tolerances import AFFINE_SLACK, ROUNDOFF, SMALLEST_SIZE, STATIONARY_SLACK
+from optlaws.tolerances import AFFINE_SLACK, ROUNDOFF, SHORT_CELL, SMALLEST_SIZE, STATIONARY_SLACK, WEAK_CELL
 
 _CELLS = 160  # in the whole, besides a few in every piece
 _FEW = 3
@@ -41,7 +41,6 @@ _FAR = 4.0
 _ENDS_ROUNDING = 64.0 * ROUNDOFF  # cells are a little wider than they are
 #: cells of which little is proven: in how many parts they are divided, how often, how many may be, and what is little
 _PARTS, _DEEPEST, _MOST_WEAK = 4, 6, 60
-_WEAK, _SHORT = 5e-7, 1e-3
 _NEWTON = 12
 _END, _INSIDE, _NEAR_B = 0.12, 0.02, 0.9
 _PI = Interval(np.array(pi), np.array(ROUNDOFF * pi))
@@ -58,14 +57,14 @@ class Potential:
     edges
         The ends of its pieces, from 0 to 1.
     coefficients
-        Bernstein coefficients, one row a piece; neighbours share those at their ends.
+        Bernstein coefficients, unity row a piece; neighbours share those at their ends.
     """
 
     edges: Array
     coefficients: Array
 
     def jet(self, piece: NDArray[np.intp], s: Interval, order: int) -> Jet:
-        """The jet of pi(s) by s at one place, or over one cell, of each given piece."""
+        """The jet of pi(s) by s at unity place, or over unity cell, of each given piece."""
         start, length = exact(self.edges[piece]), exact(self.edges[piece + 1]) - self.edges[piece]
         degree = self.coefficients.shape[1] - 1
         x = variable((exact(s.middle) - start) * (1.0 / length), degree)
@@ -112,7 +111,7 @@ def proven_bound(plane: PhasePlane, potential: Potential, weight: float, guess: 
     guess
         Near what the inner minimum is looked for.
     """
-    total, price = _Cells(plane, potential, weight, guess).integrals()
+    total, price = _ProofCells(plane, potential, weight, guess).integrals()
     if plane.kind == "time":
         return total
     total = nextafter(total - weight, -inf)
@@ -144,8 +143,8 @@ class _Integrand(NamedTuple):
     price: Jet
 
 
-class _Cells:
-    """Cells of s, each within a piece of the potential, with affine prices of all torques but one."""
+class _ProofCells:
+    """Cells of s, each within a piece of the potential, with affine prices of all torques but unity."""
 
     def __init__(self, plane: PhasePlane, potential: Potential, weight: float, guess: Guess) -> None:
         self.plane, self.potential, self.weight, self.guess = plane, potential, weight, guess
@@ -241,7 +240,9 @@ class _Cells:
         loss = self._loss(here, around, z, z_around, ranges)
         with np.errstate(invalid="ignore"):
             least = (mean - loss).low
-            weak = ~((loss + mean.radius) * self.half <= _WEAK * np.abs(mean.middle) * np.maximum(self.half, _SHORT))
+            weak = ~(
+                (loss + mean.radius) * self.half <= WEAK_CELL * np.abs(mean.middle) * np.maximum(self.half, SHORT_CELL)
+            )
         least = np.fmax(np.where(np.isfinite(least), least, -inf), _least([v.low for v in ranges], self.x, self.most))
         known = np.isfinite(least) & ~self._outside
         total = np.where(known, (exact(np.where(known, least, 0.0)) * length).low, -inf)
@@ -278,8 +279,8 @@ class _Cells:
         s = variable(places, order + 1)
         sine, cosine = (s * _PI).waves()
         a = (1.0 - cosine) * 0.5
-        one = s * 0.0 + 1.0
-        scale, share = self._at_ends(sine, one), self._at_ends(one, sine)
+        unity = s * 0.0 + 1.0
+        scale, share = self._at_ends(sine, unity), self._at_ends(unity, sine)
         inverse = 1.0 / share
         torques = [entry.torque for entry in self.entries] + [torque for pair in self.plane.maxima for torque in pair]
         jets = {torque: torque.jets(a.cut(order)) for torque in dict.fromkeys(torques)}

@@ -157,7 +157,7 @@ class _Program:
         """All other rows with their cones, and what is minimised."""
         import clarabel
 
-        plane, one, slack = self.plane, np.ones(self.count), _VARIABLES
+        plane, ones, slack = self.plane, np.ones(self.count), _VARIABLES
         if plane.kind == "time":
             self._cost(_PACE, 1.0)
         else:
@@ -166,7 +166,7 @@ class _Program:
             self.entries.append((np.full(self.count, self.height), places, self.weights))
             self._close(np.ones(1), [clarabel.NonnegativeConeT(1)])
         if inf > plane.B:
-            self._at_most({_VELOCITY: one}, plane.B * one)
+            self._at_most({_VELOCITY: ones}, plane.B * ones)
         for bound in plane.bounds:
             parts, load, size = self._torque(bound.torque)
             for sign in (1.0, -1.0):
@@ -174,29 +174,29 @@ class _Program:
                 signed[_VELOCITY] = signed[_VELOCITY] + bound.fall / size
                 self._at_most(signed, bound.at_rest / size - sign * load)
         # b² <= w and 1 <= b y
-        self._cone(({_SQUARE: one}, one), ({_VELOCITY: 2.0 * one}, 0.0 * one), ({_SQUARE: one}, -one))
-        ways = {_VELOCITY: one, _PACE: one}, {_VELOCITY: -one, _PACE: one}
-        self._cone((ways[0], 0.0 * one), ({}, 2.0 * one), (ways[1], 0.0 * one))
+        self._cone(({_SQUARE: ones}, ones), ({_VELOCITY: 2.0 * ones}, 0.0 * ones), ({_SQUARE: ones}, -ones))
+        ways = {_VELOCITY: ones, _PACE: ones}, {_VELOCITY: -ones, _PACE: ones}
+        self._cone((ways[0], 0.0 * ones), ({}, 2.0 * ones), (ways[1], 0.0 * ones))
         if plane.squared is not None:
             parts, load, size = self._torque(plane.squared)
             double = {variable: 2.0 * part for variable, part in parts.items()}
-            ways = {_VELOCITY: one, slack: one}, {_VELOCITY: -one, slack: one}
-            self._cone((ways[0], 0.0 * one), (double, 2.0 * load), (ways[1], 0.0 * one))
+            ways = {_VELOCITY: ones, slack: ones}, {_VELOCITY: -ones, slack: ones}
+            self._cone((ways[0], 0.0 * ones), (double, 2.0 * load), (ways[1], 0.0 * ones))
             self._cost(slack, plane.heat * size**2)
             slack += 1
         for torques in plane.maxima:
             size = max(self._torque(torque)[2] for torque in torques)
             for torque in torques:
-                parts, load, own = self._torque(torque)
-                scaled = {variable: own / size * part for variable, part in parts.items()}
-                self._at_most({**scaled, slack: -one}, -own / size * load)
+                parts, load, scale = self._torque(torque)
+                scaled = {variable: scale / size * part for variable, part in parts.items()}
+                self._at_most({**scaled, slack: -ones}, -scale / size * load)
             self._cost(slack, size)
             slack += 1
         if plane.peak is not None:
             parts, load, self.costs[-1] = self._torque(plane.peak)
             for sign in (1.0, -1.0):
                 signed = {variable: sign * part for variable, part in parts.items()}
-                self.entries.append((self.height + np.arange(self.count), np.full(self.count, self.width - 1), -one))
+                self.entries.append((self.height + np.arange(self.count), np.full(self.count, self.width - 1), -ones))
                 self._at_most(signed, -sign * load)
 
     def _cost(self, variable: int, size: float) -> None:
@@ -235,7 +235,7 @@ class _Program:
 
 
 def _bernstein(x: Array) -> tuple[Array, Array]:
-    """Values and slopes of the Bernstein polynomials on [0, 1], one row a place."""
+    """Values and slopes of the Bernstein polynomials on [0, 1], ones row a place."""
     from scipy.special import comb
 
     def values(degree: int) -> Array:
@@ -256,7 +256,7 @@ def _refined(plane: PhasePlane, solved: PhaseOptimum) -> Array:
 
 
 def _active(plane: PhasePlane, solved: PhaseOptimum) -> Array:
-    """Which bounds are active at every place, one row a bound and sign."""
+    """Which bounds are active at every place, ones row a bound and sign."""
     a, b, c = np.sin(np.pi * solved.s / 2.0) ** 2, solved.b, solved.c
 
     def along(torque: PhaseTorque) -> Array:

@@ -10,16 +10,15 @@ import numpy as np
 
 from optlaws.numbers import Array
 from optlaws.synthesis.limits.phase_plane import PhasePlane, PhaseTorque
-from optlaws.tolerances import PHASE_TIE
+from optlaws.tolerances import INNER_SHARE, PHASE_TIE
 
 _GOLD = (5.0**0.5 - 1.0) / 2.0
 _SEARCH = 48
 _AROUND = 2.5  # of the logarithm
-_WITHIN = 1e-3
 
 
 @dataclass(frozen=True)
-class Entry:
+class PricedTorque:
     """A torque that has a price: squared, minimised by its peak, or bounded by at_rest - fall * b."""
 
     torque: PhaseTorque
@@ -28,16 +27,16 @@ class Entry:
     fall: float = 0.0
 
 
-def entries_of(plane: PhasePlane) -> list[Entry]:
+def entries_of(plane: PhasePlane) -> list[PricedTorque]:
     """The torques that have prices; the last one is the plane's reference.
 
     >>> from optlaws.synthesis.limits.phase_plane import ACCELERATION
     >>> [entry.role for entry in entries_of(PhasePlane(squared=ACCELERATION, C=9.0))]
     ['squared', 'bound']
     """
-    entries = [Entry(plane.squared, "squared")] if plane.squared is not None else []
-    entries += [Entry(plane.peak, "peak")] if plane.peak is not None else []
-    return entries + [Entry(bound.torque, "bound", bound.at_rest, bound.fall) for bound in plane.bounds]
+    entries = [PricedTorque(plane.squared, "squared")] if plane.squared is not None else []
+    entries += [PricedTorque(plane.peak, "peak")] if plane.peak is not None else []
+    return entries + [PricedTorque(bound.torque, "bound", bound.at_rest, bound.fall) for bound in plane.bounds]
 
 
 class Prices(NamedTuple):
@@ -57,7 +56,8 @@ class InnerMinimum:
     def __init__(self, plane: PhasePlane, weight: float, a: Array, potential: tuple[Array, Array], peak: float) -> None:
         self.plane, self.weight, (self.q, self.slope) = plane, weight, potential
         self.entries = [
-            Entry(entry.torque, entry.role, peak) if entry.role == "peak" else entry for entry in entries_of(plane)
+            PricedTorque(entry.torque, entry.role, peak) if entry.role == "peak" else entry
+            for entry in entries_of(plane)
         ]
         torques = dict.fromkeys([entry.torque for entry in self.entries] + [t for ts in plane.maxima for t in ts])
         self.factors = {torque: torque.values(a) for torque in torques}
@@ -103,7 +103,7 @@ class InnerMinimum:
             share = np.where(tie & np.isfinite(share), share, more > 0.0)
             shares.append(share)
             rest = rest - share * inertia - (1.0 - share) * other
-            within = (share > _WITHIN) & (share < 1.0 - _WITHIN) & (self.plane.squared is None)
+            within = (share > INNER_SHARE) & (share < 1.0 - INNER_SHARE) & (self.plane.squared is None)
             follows = np.where(within, i, follows)
         open_ones = np.ones(b.shape, dtype=bool)
         for i, entry in enumerate(self.entries[len(prices) :], len(prices)):

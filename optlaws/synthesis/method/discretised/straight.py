@@ -27,19 +27,19 @@ _OPTIMAL = 0
 
 @dataclass(frozen=True, eq=False)
 class _LinearRows:
-    """Rows of variables and, in a sparse matrix, of the places' own variables, with what they are at most."""
+    """Rows of variables and, in a sparse matrix, of the places' local variables, with what they are at most."""
 
     matrix: Array
-    own: Any
+    local: Any
     most: Array
 
 
 class _Epigraph:
-    """A formula with kinks as one of its names and of own ones, which are above or below what they stand for."""
+    """A formula with kinks as one of its names and of local ones, which are above or below what they stand for."""
 
     def __init__(self, formula: Formula, names: tuple[str, ...], k: Array) -> None:
         self.names, self.k = names, k
-        self.own: list[str] = []
+        self.local: list[str] = []
         self.negative: list[Formula] = []  #: what is at most 0
         self.whole = self._of(formula, 1)
 
@@ -62,12 +62,12 @@ class _Epigraph:
             parts = (
                 formula.arguments if formula.function != "abs" else (*formula.arguments, opposite(formula.arguments[0]))
             )
-            own = Name(str(len(self.own)))
-            self.own.append(own.name)
+            local = Name(str(len(self.local)))
+            self.local.append(local.name)
             for part in parts:
-                above = added([self._of(part, sign), opposite(own)])
+                above = added([self._of(part, sign), opposite(local)])
                 self.negative.append(above if sign > 0 else opposite(above))
-            return own
+            return local
         return formula
 
 
@@ -94,13 +94,13 @@ def straight_step(program: Program, points: list[Points], x: Array, reach: float
     rows = [part for part in grid if part is not None]
     if len(rows) < len(grid):
         return None
-    own = sparse.block_diag([part.own for part in rows], "csr")
-    others = np.zeros(own.shape[1])
+    local = sparse.block_diag([part.local for part in rows], "csr")
+    others = np.zeros(local.shape[1])
     equations = np.hstack([program.equalities, np.zeros((len(program.right), len(others)))])
     solve: Any = linprog
     optimum = solve(
         np.append(program.objective, others),
-        A_ub=sparse.hstack([sparse.csr_matrix(np.vstack([part.matrix for part in rows])), own], "csr"),
+        A_ub=sparse.hstack([sparse.csr_matrix(np.vstack([part.matrix for part in rows])), local], "csr"),
         b_ub=np.concatenate([part.most - part.matrix @ x for part in rows]),
         A_eq=equations if len(program.right) else None,
         b_eq=program.right - program.equalities @ x if len(program.right) else None,
@@ -120,19 +120,19 @@ def _rows(family: ConstraintFamily, points: Points) -> _LinearRows | None:
         return None
     matrix, most = family.rows(points.u, points.s)
     length = np.linalg.norm(matrix, axis=1)
-    kept = np.isfinite(most) & (length > 0.0)
-    return _LinearRows(matrix[kept] / length[kept, None], sparse.csr_matrix((kept.sum(), 0)), most[kept] / length[kept])
+    used = np.isfinite(most) & (length > 0.0)
+    return _LinearRows(matrix[used] / length[used, None], sparse.csr_matrix((used.sum(), 0)), most[used] / length[used])
 
 
 def _rows_of_integral(family: KinkedIntegralFamily) -> _LinearRows | None:
-    """The rows of its own variables, and the integral's; None unless it is convex, and affine but for its kinks."""
+    """The rows of its local variables, and the integral's; None unless it is convex, and affine but for its kinks."""
     from scipy import sparse
 
     if not family.convex or family.root:
         return None
     k, weights = _rule(family)
     epigraph, columns = _Epigraph(family.formula, family.names, k), family.columns_at(k)
-    names, matrices, shares = (*family.names, *epigraph.own), [], []
+    names, matrices, shares = (*family.names, *epigraph.local), [], []
     for formula in (*epigraph.negative, epigraph.whole):
         form = affine(formula, names)
         if form is None:
