@@ -69,3 +69,11 @@ def test_a_motor_with_a_gear_needs_less_by_a_law_of_its_own() -> None:
 def test_wrong_drives_are_refused(segments: list[object], drive: object, says: str) -> None:
     with pytest.raises(InputError, match=says):
         Cycle(segments, period="0.5 s", drive=drive, minimise="rms torque").objective  # type: ignore[arg-type]  # noqa: B018
+
+
+def test_peaks_behind_a_gear_with_losses_are_refused() -> None:
+    drive = Drive(Mechanism("0.8 kg m^2"), Motor("3e-4 kg m^2"), ratio=20, efficiency=0.85)
+    with pytest.raises(InputError, match="take the rms torque"):
+        Cycle(  # noqa: B018 - laws are looked for when they are needed
+            [Rise("45 deg", "0.25 s"), Dwell()], period="0.6 s", advance="45 deg", minimise="torque", drive=drive
+        ).objective

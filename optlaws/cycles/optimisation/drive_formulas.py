@@ -53,6 +53,11 @@ def driven_peak(span: LawSpan, drive: CycleDrive | PositionDrive | None, stroke:
         and known == CycleDrive(known.inertia, 0.0, 0.0, 0.0, 0.0)
     ):
         return Driven(FUNCTIONALS["D"], known.inertia * stroke**2 / span.duration**3)
+    if isinstance(known, PositionDrive) and known.loses:
+        raise InputError(
+            "drive: peaks at a motor behind a gear with losses are neither minimised nor limited: take the rms torque, "
+            "or efficiency=1 and the peak that the losses leave"
+        )
     formula, unit = driven_formula(span, drive, stroke, nu)
     return Driven(peak(formula), unit)
 

@@ -34,6 +34,11 @@ class PositionDrive:
         motor = self.source.train.coulomb if isinstance(self.source, Drive) else 0.0
         return self.mechanism.coulomb + motor
 
+    @property
+    def loses(self) -> bool:
+        """Whether a gear loses power, so that the torque at the motor is the greater of two."""
+        return isinstance(self.source, Drive) and self.source.efficiencies != (1.0, 1.0)
+
     def force(self, y: Array, velocity: Array, acceleration: Array) -> Array:
         """The torque or force along a motion."""
         return np.asarray(self.source.torque(y, velocity, acceleration), dtype=np.float64)

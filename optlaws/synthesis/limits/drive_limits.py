@@ -206,8 +206,8 @@ def phase_torque(torque: str) -> PhaseTorque:
     form = PhaseTorque.of(read(torque, ("a", "b", "c", "k")))
     if form is None:
         raise InputError(
-            f"a torque in the phase plane is I*c + S*b^2 + R*b + T with factors of a alone, got {torque!r}: give loads "
-            "over the position a, not over k"
+            f"a torque in the phase plane is I*c + S*b^2 + R*b + T with factors of a alone, got {shortened(torque)}: "
+            "give loads over the position a, not over k, and the torque before a gear with losses"
         )
     return form
 
