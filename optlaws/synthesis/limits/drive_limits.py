@@ -97,10 +97,13 @@ class DriveLimit(JsonText):
         >>> drive_limit("c", "peak torque", B=1.8).velocity([0.0, 0.5, 1.0]).round(3)
         array([0. , 1.8, 0. ])
         """
+        from scipy.interpolate import PchipInterpolator
+
         given = np.asarray(a, dtype=np.float64)
         s = 2.0 / np.pi * np.arcsin(np.sqrt(np.clip(given, 0.0, 1.0)))
-        places, shape = np.array(self.s), np.sin(np.pi * np.array(self.s))
-        return np.asarray(np.interp(s, places, np.array(self.b) / shape) * np.sin(np.pi * s))
+        places = np.array(self.s)
+        shape = PchipInterpolator(places, np.array(self.b) / np.sin(np.pi * places), extrapolate=True)
+        return np.asarray(shape(s) * np.sin(np.pi * s))
 
     def to_dict(self) -> dict[str, Any]:
         """The limit and its certificate as plain data."""
