@@ -63,8 +63,11 @@ def joined_basis(span: LawSpan, order: int, degree: int, minimised: int) -> Piec
 
 def least_velocity(span: LawSpan) -> float:
     """The velocity that no motion of a span stays below: the greatest mean between two points, or one that is known."""
-    means = [abs(z - y) / (high - low) for _, points in _points(span) for (low, y), (high, z) in pairwise(points)]
-    return max(*means, *(abs(state.velocity) for state in (span.first, span.last, *span.states) if state is not None))
+    steps = [(low, y, high, z) for _, points in _points(span) for (low, y), (high, z) in pairwise(points)]
+    means = [abs(z - y) / (high - low) for low, y, high, z in steps if high > low]
+    return max(
+        0.0, *means, *(abs(state.velocity) for state in (span.first, span.last, *span.states) if state is not None)
+    )
 
 
 def _points(span: LawSpan) -> Iterator[tuple[TimedSegment, Points]]:
