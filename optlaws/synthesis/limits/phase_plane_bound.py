@@ -270,7 +270,9 @@ class _ProofCells:
         with np.errstate(all="ignore"):
             steep, beyond = ((C2 + np.where(np.isfinite(x), (K / exact(x)).low, 0.0)).low for x in (far, self.most))
             above = np.where((self.x == self.most).all(axis=0), np.maximum(E.high, 0.0), _greatest(E))
-            known = (steep > 0.0) & (beyond >= 0.0) & (K.low > 0.0) & (above <= 0.75 * K.low)
+            # beyond far (x - z)/x is at least 3/4, and x - z at least 3 z
+            safe = (C2.low >= 0.0) | (far >= self.most) | (3.0 * z_over.terms[0].low * beyond >= above)
+            known = (steep > 0.0) & (beyond >= 0.0) & (K.low > 0.0) & (above <= 0.75 * K.low) & safe
             loss = above**2 / (4.0 * steep) * (1.0 + 8.0 * ROUNDOFF)
         return np.where((above == 0.0) & (beyond >= 0.0) & (K.low > 0.0), 0.0, np.where(known, loss, inf))
 
