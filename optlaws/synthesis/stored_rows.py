@@ -21,7 +21,7 @@ from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFa
 from optlaws.laws import MotionLaw, smoothstep
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Program
-from optlaws.synthesis.limits.drive_limits import DriveLimit, plane_of
+from optlaws.synthesis.limits.drive_limits import DriveLimit
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.evaluation import shortfalls, worth
@@ -195,7 +195,7 @@ def _proven(row: StatedSolution, problem: Problem) -> Iterator[float]:
             yield proof.bound
     drive = _read(DriveLimit.from_dict, row.drive_limit)
     if drive is not None:
-        if (drive.plane, drive.minimise, drive.unit) != plane_of(problem):
+        if not drive.is_of(problem):
             raise InputError("the limit of a drive beside its law is of another problem")
         yield drive.bound
     limit = known_limit(problem)

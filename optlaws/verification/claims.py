@@ -13,7 +13,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
 from optlaws.suggest import unknown_key
-from optlaws.synthesis.limits.drive_limits import DriveLimit, plane_of
+from optlaws.synthesis.limits.drive_limits import DriveLimit
 from optlaws.synthesis.limits.rounding import rounded_down, rounded_up
 from optlaws.synthesis.problem.constants import FUNCTIONALS
 from optlaws.synthesis.problem.problem import Problem
@@ -145,7 +145,7 @@ def _solution(data: Mapping[str, Any]) -> Verification:
         accurate = data.get("status") != "inaccurate"
         claims += _proof_claims(proof, certificate, data[key], _name(key), accurate=accurate)
     if drive is not None:
-        same = (drive.plane, drive.minimise, drive.unit) == plane_of(problem)
+        same = drive.is_of(problem)
         claims.append(Claim("the drive's limit", same, "of the file's problem" if same else "of another problem"))
     if data.get("lower_bound") is not None:
         scale = problem.objective.scale
@@ -176,7 +176,7 @@ def _best(
         for key, (certificate, proof) in proofs.items()
         if certificate.problem == problem and proof.value is not None
     ]
-    if drive is not None and (drive.plane, drive.minimise, drive.unit) == plane_of(problem):
+    if drive is not None and drive.is_of(problem):
         known.append((Fraction(drive.bound), " by the phase plane"))
     limit = exact_limit(problem)
     if limit is not None:

@@ -12,6 +12,7 @@ from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.numbers import Array
+from optlaws.numerics.chebyshev import gauss
 from optlaws.tolerances import BEFORE_BREAK, VALUE_ROUNDING
 
 _PANELS = 200
@@ -124,7 +125,7 @@ class MotorMotion:
     @kept_property
     def places(self) -> tuple[Array, Array]:
         """Places and weights of an integral over k."""
-        u, weights = np.polynomial.legendre.leggauss(_GAUSS)
+        u, weights = gauss(_GAUSS)
         edges = self._smooth
         middles, halves = 0.5 * (edges[:-1] + edges[1:]), 0.5 * np.diff(edges)
         return (middles[:, None] + halves[:, None] * u).ravel(), (halves[:, None] * weights).ravel()

@@ -31,9 +31,9 @@ from optlaws.tolerances import PHASE_GAP, SMALL_PHASE_GAP, STATED_BOUND
 DriveObjective: TypeAlias = Literal["peak torque", "rms torque", "energy", "time"]
 
 _KEYS = ("minimise", "value", "attained", "plane", "unit", "weight", "edges", "potential", "s", "b")
-#: by which shares of its size a potential is made to fall more where it proves little, and which gap is little enough
+#: by which shares of its size a potential falls more where it proves little
 _STEEPER = (0.0, 1e-8, 1e-6, 1e-4)
-#: a gap that is small, and how often programs are refined where it is not
+#: how often a program is solved on finer elements where its gap is not small
 _FINER = 6
 
 
@@ -88,6 +88,10 @@ class DriveLimit(JsonText):
     def bound(self) -> float:
         """The lower bound, computed from the certificate alone with every rounding counted."""
         return _bound(self)
+
+    def is_of(self, problem: Problem) -> bool:
+        """Whether it is the limit of a problem's objective within its bounds."""
+        return plane_of(problem) == (self.plane, self.minimise, self.unit)
 
     def velocity(self, a: Any) -> Array:  # noqa: ANN401 - numbers of any shape
         """The velocity at positions of the motion that was found, dimensionless.
@@ -217,7 +221,6 @@ def phase_torque(torque: str) -> PhaseTorque:
 
 def limit_of_plane(plane: PhasePlane, minimise: DriveObjective, unit: float = 1.0) -> DriveLimit:
     """The limit of a phase plane of torques in a unit, with its certificate."""
-    _ = plane.reference
     if plane.kind == "time":
         return _least_time(plane)
     try:
@@ -296,7 +299,7 @@ def _bound(limit: DriveLimit) -> float:
 
 
 def _in_units(value: float, minimise: DriveObjective, unit: float, towards: float) -> float:
-    """What is minimised in its last unit, the root of a mean square rounded towards a side; units are powers of 2."""
+    """What is minimised in its own unit, the root of a mean square rounded towards a side; units are powers of 2."""
     return unit * (nextafter(sqrt(value), towards) if minimise == "rms torque" else value)
 
 

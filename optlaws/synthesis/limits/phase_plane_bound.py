@@ -10,7 +10,7 @@ For a squared torque is at least p tau b - p² b²/4, a maximum of torques at le
 price n a torque within |tau| <= M is at least -|n| M; what all this has of c adds up to q w', which is integrated by
 parts.
 
-In cells of s prices are affine but for unity, which follows from q; with b = scale * x the integrand is f(x) = A + B1 x
+In cells of s prices are affine but for one, which follows from q; with b = scale * x the integrand is f(x) = A + B1 x
 + C2 x² + L/x. With K = L/z², E = B1 + 2 C2 z - K, it is f(z) + (x - z)² (C2 + K/x) + E (x - z) for any z. An affine z
 near the minimum leaves f(z), whose integral is enclosed by Taylor's formula, and what E can still lower.
 """
@@ -57,14 +57,14 @@ class Potential:
     edges
         The ends of its pieces, from 0 to 1.
     coefficients
-        Bernstein coefficients, unity row a piece; neighbours share those at their ends.
+        Bernstein coefficients, one row a piece; neighbours share those at their ends.
     """
 
     edges: Array
     coefficients: Array
 
     def jet(self, piece: NDArray[np.intp], s: Interval, order: int) -> Jet:
-        """The jet of pi(s) by s at unity place, or over unity cell, of each given piece."""
+        """The jet of pi(s) by s at one place, or over one cell, of each given piece."""
         start, length = exact(self.edges[piece]), exact(self.edges[piece + 1]) - self.edges[piece]
         degree = self.coefficients.shape[1] - 1
         x = variable((exact(s.middle) - start) * (1.0 / length), degree)
@@ -133,6 +133,13 @@ class _Terms(NamedTuple):
     rate: Jet  #: what multiplies x² of -q' b²
 
 
+class _Prices(NamedTuple):
+    """Prices in every cell, as jets in s."""
+
+    of_entries: list[Jet]  #: times scale
+    shares: list[tuple[Jet, PhaseTorque]]  #: of the torques of maxima
+
+
 class _Integrand(NamedTuple):
     """The factors of 1, x, x² and 1/x, and the price of the peak torque."""
 
@@ -144,7 +151,7 @@ class _Integrand(NamedTuple):
 
 
 class _ProofCells:
-    """Cells of s, each within a piece of the potential, with affine prices of all torques but unity."""
+    """Cells of s, each within a piece of the potential, with affine prices of all torques but one."""
 
     def __init__(self, plane: PhasePlane, potential: Potential, weight: float, guess: Guess) -> None:
         self.plane, self.potential, self.weight, self.guess = plane, potential, weight, guess
@@ -163,6 +170,7 @@ class _ProofCells:
         self.middle = 0.5 * (low + high)
         self.half = 0.5 * (high - low) * (1.0 + 8.0 * ROUNDOFF)
         self._choose(self.guess)
+        self.at, self.over = self._terms(exact(self.middle), _ORDER - 2), self._terms(between(low, high), _ORDER)
 
     def _divide(self, cells: NDArray[np.bool_]) -> None:
         """A few equal parts of every given cell are looked at instead."""
@@ -230,10 +238,10 @@ class _ProofCells:
 
     def _in_cells(self) -> tuple[Array, Array, NDArray[np.bool_]]:
         """Lower bounds of the integrals of the inner minimum over cells, upper ones of the price's, and where weak."""
-        at, over = self._terms(exact(self.middle), _ORDER - 2), self._terms(between(self.low, self.high), _ORDER)
-        self._lines = self._lines_above(at, over)
-        here, around = self._integrand(at), self._integrand(over)
-        z, z_around = self._affine(self.x, at.s), self._affine(self.x, over.s)
+        prices, prices_around = self._prices(self.at), self._prices(self.over)
+        lines = self._lines_above(prices.of_entries, prices_around.of_entries)
+        here, around = self._integrand(self.at, prices, lines), self._integrand(self.over, prices_around, lines)
+        z, z_around = self._affine(self.x, self.at.s), self._affine(self.x, self.over.s)
         along = [f.A + f.B1 * x + f.C2 * x * x + f.L / x for f, x in ((here, z), (around, z_around))]
         ranges = [self._range(*pair) for pair in zip(here[:4], around[:4], strict=True)]
         mean, length = self._mean(*along), exact(self.half) * 2.0
@@ -244,7 +252,7 @@ class _ProofCells:
                 (loss + mean.radius) * self.half <= WEAK_CELL * np.abs(mean.middle) * np.maximum(self.half, SHORT_CELL)
             )
         least = np.fmax(np.where(np.isfinite(least), least, -inf), _least([v.low for v in ranges], self.x, self.most))
-        known = np.isfinite(least) & ~self._outside
+        known = np.isfinite(least) & self._within(prices, prices_around)
         total = np.where(known, (exact(np.where(known, least, 0.0)) * length).low, -inf)
         return total, (self._mean(here.price, around.price) * length).high, weak | ~known
 
@@ -282,7 +290,7 @@ class _ProofCells:
         sine, cosine = (s * _PI).waves()
         a = (1.0 - cosine) * 0.5
         unity = s * 0.0 + 1.0
-        scale, share = self._at_ends(sine, unity), self._at_ends(unity, sine)
+        scale, share = self._chosen(self.end, sine, unity), self._chosen(self.end, unity, sine)
         inverse = 1.0 / share
         torques = [entry.torque for entry in self.entries] + [torque for pair in self.plane.maxima for torque in pair]
         jets = {torque: torque.jets(a.cut(order)) for torque in dict.fromkeys(torques)}
@@ -293,16 +301,12 @@ class _ProofCells:
         sine, scale, share, inverse = (jet.cut(order) for jet in (sine, scale, share, inverse))
         return _Terms(s.cut(order), sine, scale, share, inverse, jets, potential.cut(order) * inverse * 2.0, rate)
 
-    def _at_ends(self, at_ends: Jet, between_them: Jet) -> Jet:
-        pairs = zip(at_ends.terms, between_them.terms, strict=True)
-        return Jet(tuple(chosen(self.end, first, second) for first, second in pairs))
-
     def _affine(self, ends: Array, s: Jet) -> Jet:
         """The affine function in every cell with given values near its ends."""
         line: Jet = (s - exact(self.low)) * ((ends[1] - ends[0]) / (self.high - self.low)) + ends[0]
         return line
 
-    def _prices(self, terms: _Terms) -> tuple[list[Jet], list[tuple[Jet, PhaseTorque]]]:
+    def _prices(self, terms: _Terms) -> _Prices:
         """The prices of all entries, times scale, and the torques of maxima with their shares, in every cell."""
         prices = [self._affine(price, terms.s) for price in self.prices]
         shares = [self._affine(share, terms.s) for share in self.shares]
@@ -323,7 +327,7 @@ class _ProofCells:
         shared = []
         for share, (first, second) in zip(shares, self.plane.maxima, strict=True):
             shared += [(share, first), (1.0 - share, second)]
-        return prices, shared
+        return _Prices(prices, shared)
 
     def _ratio(self, rest: Jet, terms: _Terms, torque: PhaseTorque) -> Jet:
         """What is left of 2 q over an inertia; where nothing else has a price, without a division by it."""
@@ -337,40 +341,41 @@ class _ProofCells:
     def _chosen(self, mask: Array, first: Jet, second: Jet) -> Jet:
         return Jet(tuple(chosen(mask, p, q) for p, q in zip(first.terms, second.terms, strict=True)))
 
-    def _lines_above(self, at: _Terms, over: _Terms) -> list[tuple[Array, Array]]:
+    def _lines_above(self, prices: list[Jet], around: list[Jet]) -> list[tuple[Array, Array]]:
         """The sign of every entry's price, 0 where it is not sure, and ends of a line that is above its magnitude."""
-        (prices, shares), (around, around_shares) = self._prices(at), self._prices(over)
         lines = []
-        for jet, over_cell in zip(prices, around, strict=True):
-            ends, bend = self._ends(jet, over_cell)
+        for price, over_cell in zip(prices, around, strict=True):
+            ends, bend = self._ends(price, over_cell)
             above = np.stack([_greatest(end) + bend for end in ends]) * (1.0 + AFFINE_SLACK)
             low, high = (np.array([getattr(end, side) for end in ends]) for side in ("low", "high"))
             sign = np.where((low > bend).all(axis=0), 1.0, np.where((high < -bend).all(axis=0), -1.0, 0.0))
             lines.append((sign, above))
-        outside = np.zeros(len(self.half), dtype=bool)
-        for (jet, _), (over_cell, _) in zip(shares, around_shares, strict=True):
-            ends, bend = self._ends(jet, over_cell)
-            outside |= ~np.all([(end.low >= bend) & (end.high <= 1.0 - bend) for end in ends], axis=0)
-        self._outside = outside
         return lines
+
+    def _within(self, prices: _Prices, around: _Prices) -> NDArray[np.bool_]:
+        """Where all shares of maxima are surely from 0 to 1."""
+        within = np.ones(len(self.half), dtype=bool)
+        for (share, _), (over_cell, _) in zip(prices.shares, around.shares, strict=True):
+            ends, bend = self._ends(share, over_cell)
+            within &= np.all([(end.low >= bend) & (end.high <= 1.0 - bend) for end in ends], axis=0)
+        return within
 
     def _ends(self, at: Jet, over: Jet) -> tuple[list[Interval], Array]:
         """A function's values at the ends of every cell but for a bend, and twice that: it is so near to their line."""
         ends = [at.terms[0] + at.terms[1] * (sign * self.half) for sign in (-1.0, 1.0)]
         return ends, 2.0 * _greatest(over.terms[2]) * self.half**2
 
-    def _integrand(self, terms: _Terms) -> _Integrand:
+    def _integrand(self, terms: _Terms, prices: _Prices, lines: list[tuple[Array, Array]]) -> _Integrand:
         """The factors of the integrand, and the price of the peak torque."""
         scale, share = terms.scale, terms.share
-        prices, shared = self._prices(terms)
         zero = terms.s * 0.0
         A, B1, C2, price_of_peak = zero, zero, terms.rate, zero
-        priced = [(price * share, entry.torque) for price, entry in zip(prices, self.entries, strict=True)]
-        priced += [(part * terms.sine, torque) for part, torque in shared]
+        priced = [(price * share, entry.torque) for price, entry in zip(prices.of_entries, self.entries, strict=True)]
+        priced += [(part * terms.sine, torque) for part, torque in prices.shares]
         for price, torque in priced:
             _, square, drag, load = terms.torques[torque]
             A, B1, C2 = A + price * load, B1 + price * drag * scale, C2 + price * square * scale * scale
-        for price, (sign, above), entry in zip(prices, self._lines, self.entries, strict=True):
+        for price, (sign, above), entry in zip(prices.of_entries, lines, self.entries, strict=True):
             if entry.role == "squared":
                 B1 = B1 - share * price * price * 0.25 / self.plane.heat
                 continue

@@ -235,7 +235,7 @@ class _Program:
 
 
 def _bernstein(x: Array) -> tuple[Array, Array]:
-    """Values and slopes of the Bernstein polynomials on [0, 1], ones row a place."""
+    """Values and slopes of the Bernstein polynomials on [0, 1], one row a place."""
     from scipy.special import comb
 
     def values(degree: int) -> Array:
@@ -256,7 +256,7 @@ def _refined(plane: PhasePlane, solved: PhaseOptimum) -> Array:
 
 
 def _active(plane: PhasePlane, solved: PhaseOptimum) -> Array:
-    """Which bounds are active at every place, ones row a bound and sign."""
+    """Which bounds are active at every place, one row a bound and sign."""
     a, b, c = np.sin(np.pi * solved.s / 2.0) ** 2, solved.b, solved.c
 
     def along(torque: PhaseTorque) -> Array:
