@@ -23,8 +23,9 @@ from optlaws.synthesis.spaces.space import LawSpace, Quadrature
 def below_peak(acceleration: PieceSeries, jerk: PieceSeries, centre: float, *, smooth: bool) -> PieceSeries:
     """Piecewise series of (b - b0) / w with w > 0, b0 the velocity at the centre: at most 0 if and only if b <= b0.
 
-    On a piece that reaches the centre w = (u - u0)², or |u - u0| where c may jump, which leaves a polynomial; on the
-    others it is this at the end nearer to the centre. All is integrated from the centre outward, so nothing cancels.
+    On a piece that reaches the centre w = (u - u0)², or |u - u0| where c may jump at the centre, which leaves a
+    polynomial; on the others it is this at the end nearer to the centre. All is integrated from the centre outward, so
+    nothing cancels.
 
     Parameters
     ----------
@@ -185,7 +186,9 @@ class PiecewiseSpace(LawSpace):
 
     def below(self, slack: Array, peak: float = 0.5) -> ConstraintFamily:
         """Rows b <= b(peak), divided by what they vanish like there: undivided they would be ill posed."""
-        series = below_peak(self.pieces(2), self.pieces(3), 1.0 - 2.0 * peak, smooth=self.continuity > 1)
+        centre = 1.0 - 2.0 * peak
+        smooth = self.continuity > 1 or centre not in self.pieces(2).breaks
+        series = below_peak(self.pieces(2), self.pieces(3), centre, smooth=smooth)
         return PieceFamily(RowName.BELOW_PEAK, slack, domain=self.domain, **self.given(series, len(slack), jumps=True))
 
     def quadrature(self, nu: int) -> Quadrature:

@@ -110,24 +110,24 @@ class ExactSpace:
     def chord(self, peak: Fraction, k: Fraction) -> list[arb]:
         """(b - b(peak)) / w of laws with c = 0 at the peak, w > 0: (x - x of the peak)² on the piece with the peak.
 
-        On other pieces w is the least value of this there. Where c may jump it is the distance and not its square.
+        On other pieces w is the least value of this there. If c may jump at the peak it is the distance and not its
+        square.
         """
         piece = self.piece(k)
         divided = values(self._chords(peak)[piece], x_of(k))
         low, high = self.breaks[piece : piece + 2]
-        falling = not self._smooth and low < peak <= high and (k < peak or high == peak)
+        falling = not self._smooth_at(peak) and high == peak
         return [-value for value in divided] if falling else divided
 
-    @property
-    def _smooth(self) -> bool:
-        return self.continuity is None or self.continuity > 1
+    def _smooth_at(self, k: Fraction) -> bool:
+        return self.continuity is None or self.continuity > 1 or k not in self.breaks
 
     @kept_property
     def _chords(self) -> Callable[[Fraction], list[Functions]]:
         return cache(self._made_chords)
 
     def _made_chords(self, peak: Fraction) -> list[Functions]:
-        centre, power = rational(2 * peak - 1), 2 if self._smooth else 1
+        centre, power = rational(2 * peak - 1), 2 if (smooth := self._smooth_at(peak)) else 1
         edges = [rational(2 * k - 1) for k in self.breaks]
         touching = [i for i, (low, high) in enumerate(pairwise(self.breaks)) if low <= peak <= high]
         if not touching:
@@ -145,7 +145,7 @@ class ExactSpace:
                 continue
             before = i < touching[0]
             inner, joint = (touching[0], edges[touching[0]]) if before else (touching[-1], edges[touching[-1] + 1])
-            slopes = [function(centre) / 2 * (joint - centre) if self._smooth else fmpq(0) for function in c[inner]]
+            slopes = [function(centre) / 2 * (joint - centre) if smooth else fmpq(0) for function in c[inner]]
             scale = abs(edges[i + 1 if before else i] - centre) ** power
             together = zip(part, heights, slopes, strict=True)
             chords.append([(function - height - slope) / scale for function, height, slope in together])

@@ -100,3 +100,28 @@ def test_the_proof_of_a_one_sided_peak_holds_in_exact_arithmetic() -> None:
         assert proof.unknown == 0
         assert proof.value is not None
         assert float(proof.value) == pytest.approx(solution.objective, rel=1e-10)
+
+
+@pytest.mark.parametrize("breaks", [(0.0, 0.3, 0.55, 1.0), (0.0, 0.3, 0.5, 1.0)], ids=["within a piece", "at a break"])
+@pytest.mark.parametrize("continuity", [1, 2])
+def test_a_peak_within_a_piece_or_at_a_break_is_where_highs_has_it(breaks: tuple[float, ...], continuity: int) -> None:
+    problem = Problem(B=1.9, order=3, basis=Pieces(breaks, 5, continuity), symmetric=False)
+    solution = synthesize(problem)
+    judge(solution)
+    value = prove(solution.certificate).value
+    assert value is not None
+    assert float(value) == pytest.approx(solution.objective, rel=1e-9)
+    space = piece_space(BoundaryConditions.rest(3), breaks, 5, continuity, symmetric=False)
+    # no place is a break, where rows of both sides count
+    k = (np.arange(4000) + 0.5) / 4000
+    b, c = (np.vstack([space.row(nu, place) for place in k.tolist()]) for nu in (1, 2))
+    ones, nothing = np.ones((len(k), 1)), np.zeros((len(k), 1))
+    rows = np.vstack([np.hstack([sign * c[:, :-1], -ones]) for sign in (1.0, -1.0)] + [np.hstack([b[:, :-1], nothing])])
+    right = np.concatenate([-c[:, -1], c[:, -1], 1.9 - b[:, -1]])
+    equal = [(equation.row, equation.right) for equation in space.equations()]
+    equal += [(row[:-1], value - row[-1]) for row, value in ((space.row(1, 0.5), 1.9), (space.row(2, 0.5), 0.0))]
+    found = linprog(
+        np.append(np.zeros(space.terms), 1.0), rows, right, np.array([[*row, 0.0] for row, _ in equal]),
+        [value for _, value in equal], bounds=(None, None),
+    )  # fmt: skip
+    assert solution.objective == pytest.approx(found.fun, rel=2e-3)
