@@ -115,7 +115,7 @@ class ExactSpace:
         """
         piece = self.piece(k)
         divided = values(self._chords(peak)[piece], x_of(k))
-        low, high = self.breaks[piece : piece + 2]
+        high = self.breaks[piece + 1]
         falling = not self._smooth_at(peak) and high == peak
         return [-value for value in divided] if falling else divided
 
