@@ -1,0 +1,216 @@
+/* A proof file checked in exact numbers: what each certificate proves, and what of the file's claims follows.
+
+   It shares no code with the library that writes the proofs: docs/reference/proof-format.md says what is computed. */
+
+import { ONE, Rational, ZERO, exact, greatest, least, quotientRounded, solvedWhole, whole, wholeNumbers } from "./proof_numbers.mjs";
+import { MEANS, PEAKS, ROOT, Rows, Unknown, parsed, rangeOf } from "./proof_rows.mjs";
+import { boxesHold } from "./proof_boxes.mjs";
+import { endVelocities, ends, stroke } from "./proof_laws.mjs";
+import { enclosed, missesOf, motionOf, objectiveOf } from "./proof_motion.mjs";
+
+/* Stated bounds and constants are doubles: by how much of themselves they may be off, and the ends of a law. */
+const STATED = exact(1e-9);
+const ROUNDED = exact(1e-11);
+const ROUNDING = exact(1e-12);
+
+function isCertificate(data) {
+  return typeof data.problem === "object" && data.problem !== null && ("contacts" in data || "steps" in data || "cells" in data);
+}
+
+/* What a certificate proves: {verdict: "proven" | "not proven" | "not checked", detail, bound}. */
+export function checked(certificate) {
+  try {
+    if ("steps" in certificate) return boxesChecked(certificate);
+    if ("cells" in certificate) throw new Unknown("places of a peak");
+    return leafChecked(certificate);
+  } catch (error) {
+    if (error instanceof Unknown) return { verdict: "not checked", detail: `this program does not know ${error.message}`, bound: null };
+    return { verdict: "not proven", detail: `the file is no certificate: ${error.message}`, bound: null };
+  }
+}
+
+function boxesChecked(certificate) {
+  const { claim, bound = null } = certificate;
+  const holds = boxesHold(certificate);
+  const stated = bound === null || bound <= claim;
+  const detail = !holds ? `the steps do not show that no law has an objective below ${claim}` : stated ? `no law has an objective below ${claim}` : `${bound} is stated, ${claim} is proven`;
+  return { verdict: holds && stated ? "proven" : "not proven", detail, bound: holds ? exact(claim) : null };
+}
+
+function leafChecked(certificate) {
+  const { bound, contradiction } = provenBy(certificate);
+  if (contradiction) {
+    const proven = bound !== null && bound.sign > 0;
+    return { verdict: proven ? "proven" : "not proven", detail: proven ? "no law of the problem exists" : "the rows do not contradict each other", bound: null };
+  }
+  const stated = certificate.bound ?? null;
+  if (stated === null) return { verdict: "proven", detail: "no bound is stated", bound };
+  if (bound === null) return { verdict: "not proven", detail: `${stated} is stated, and nothing is proven`, bound };
+  const holds = !bound.plus(STATED.times(bound.magnitude())).below(exact(stated));
+  return { verdict: holds ? "proven" : "not proven", detail: `${stated} is stated, ${bound.toNumber()} is proven`, bound };
+}
+
+/* The lower bound that one leaf proves, or by how much its rows contradict each other. */
+export function provenBy(certificate) {
+  const { program, contacts, equations, tangent } = certificate;
+  if (!["objective", "relaxed", "violation"].includes(program)) throw new TypeError(`there is no program ${program}`);
+  const rows = new Rows(certificate.problem, program, tangent ?? 0);
+  const contradiction = program === "violation";
+  const total = { z: Array(rows.laws.terms).fill(ZERO), names: new Map(rows.cost), constant: ZERO };
+  for (const contact of contacts) {
+    const multiplier = exact(contact.multiplier);
+    const row = multiplier.sign > 0 ? rows.row(contact) : null;
+    if (row) add(total, multiplier, row);
+  }
+  rows.equations.forEach((row, i) => { if (equations[i]) add(total, exact(equations[i]), row); });
+  const claim = contradiction ? ZERO : greatest(total.constant, ZERO);
+  const charge = chargeOf(rows, total, claim, contradiction);
+  if (charge === null) return { bound: contradiction ? ZERO : floorOf(rows), contradiction };
+  const value = total.constant.minus(charge);
+  if (contradiction) return { bound: value, contradiction };
+  return { bound: greatest(least(value, claim), floorOf(rows) ?? value), contradiction };
+}
+
+function add(total, multiplier, row) {
+  row.z.forEach((entry, i) => { total.z[i] = total.z[i].plus(multiplier.times(entry)); });
+  for (const [name, entry] of Object.entries(row.names)) total.names.set(name, (total.names.get(name) ?? ZERO).plus(multiplier.times(entry)));
+  total.constant = total.constant.plus(multiplier.times(row.constant));
+}
+
+/* What the objective is at least because none of its constants is negative; null where one may be. */
+function floorOf(rows) {
+  return [...rows.cost.keys()].every((name) => never(rows, name)) ? ZERO : null;
+}
+
+/* Whether a variable is never below 0 in a law. */
+function never(rows, name) {
+  const oneSided = ["C_plus", "C_minus"].some((constant) => name.includes(constant));
+  const velocities = endVelocities(rows.problem);
+  return !oneSided || (velocities !== null && velocities.change.sign === 0);
+}
+
+/* What the slopes that are left can be worth at most in a law whose objective is below the claim; null if nothing bounds it. */
+function chargeOf(rows, total, claim, contradiction) {
+  const most = greatestValues(rows, claim, contradiction);
+  let charge = ZERO;
+  for (const [name, slope] of total.names) {
+    if (slope.sign === 0 || (slope.sign > 0 && never(rows, name))) continue;
+    if (slope.sign > 0 || !most.has(name)) return null;
+    charge = charge.minus(slope.times(most.get(name)));
+  }
+  if (total.z.every((slope) => slope.sign === 0)) return charge;
+  const worths = meansOf(rows, most).map(([nu, mean]) => worth(rows, total.z, nu, mean)).filter((value) => value !== null);
+  return worths.length ? charge.plus(worths.reduce(least)) : null;
+}
+
+/* The greatest values of constants, maxima and B in a law whose objective is below the claim. */
+function greatestValues(rows, claim, contradiction) {
+  const most = new Map();
+  const lower = (name, value) => most.set(name, most.has(name) ? least(most.get(name), value) : value);
+  function spread(terms, value) {
+    for (const [weight, term] of terms) {
+      if (terms.some(([, other]) => other !== term && !never(rows, other.name))) continue;
+      lower(term.name, value.over(weight));
+      if (term.parts) for (const part of term.parts) spread(part, value.over(weight));
+    }
+  }
+  if (!contradiction) spread(rows.objective, claim);
+  for (const name of [...Object.keys(PEAKS), ...Object.keys(MEANS), "D"]) {
+    const range = rangeOf(rows.problem, name);
+    if (range?.high) lower(name, range.high);
+  }
+  if (rows.relaxed && most.has("D")) most.set(ROOT, most.get("D").rootAbove());
+  return most;
+}
+
+/* Orders of derivatives whose mean magnitude is bounded in such a law, each with the bound. */
+function meansOf(rows, most) {
+  const { problem } = rows;
+  const known = [];
+  for (const [name, nu] of [["C", 2], ["rms_c", 2], ["J", 3], ["rms_j", 3], ["jounce", 4], ["rms_jounce", 4]]) {
+    if (most.has(name)) known.push([nu, most.get(name)]);
+  }
+  const velocities = endVelocities(problem);
+  if (velocities) {
+    const twice = (name) => greatest(most.get(name), ZERO).times(whole(2));
+    if (most.has("C_plus")) known.push([2, twice("C_plus").minus(velocities.change)]);
+    if (most.has("C_minus")) known.push([2, twice("C_minus").plus(velocities.change)]);
+    const rest = velocities.start.sign === 0 && velocities.change.sign === 0;
+    if (rest && most.has(ROOT)) known.push([1, most.get(ROOT)]);
+  }
+  const way = stroke(problem);
+  if (most.has("B")) known.push([1, most.get("B").times(whole(2)).plus(way.magnitude())]);
+  if (problem.monotone) known.push([1, way.magnitude()]);
+  return known;
+}
+
+/* What slopes in the coordinates are worth at most where a derivative's mean magnitude is bounded: by Legendre moments. */
+function worth(rows, slopes, nu, mean) {
+  const moments = rows.laws.moments(nu);
+  const { whole: all, factor } = wholeNumbers(moments.flatMap((row) => row.slice(0, -1)));
+  const columns = slopes.length;
+  const matrix = moments.map((_, m) => all.slice(m * columns, (m + 1) * columns));
+  const dot = (i, j) => matrix.reduce((total, row) => total + row[i] * row[j], 0n);
+  const gram = slopes.map((_, i) => slopes.map((__, j) => (j < i ? 0n : dot(i, j))));
+  const right = wholeNumbers(slopes);
+  const solution = solvedWhole(gram.map((row, i) => row.map((entry, j) => (j < i ? gram[j][i] : entry))), right.whole);
+  if (solution === null) return null;
+  let total = ZERO;
+  matrix.forEach((row, m) => {
+    const weight = row.reduce((value, entry, i) => value + entry * solution.numerators[i], 0n);
+    const size = new Rational(weight).magnitude().rounded(1);
+    total = total.plus(size.times(mean.plus(moments[m].at(-1).magnitude()).rounded(1)));
+  });
+  // the moments are whole / factor, the slopes whole / right.factor: weights grow by the quotient of both
+  const value = quotientRounded(total, new Rational(solution.divisor).magnitude(), 1, 160);
+  return value.times(factor).over(right.factor).rounded(1);
+}
+
+/* What a solution states beside its proofs, held against its law and against what the proofs prove. */
+function solutionChecked(data, path, proven) {
+  const claims = [];
+  const claim = (name, holds, detail) => claims.push({ path: `${path}: ${name}`, verdict: holds ? "proven" : "not proven", detail });
+  try {
+    const motion = motionOf(data.law);
+    for (const [name, entry] of Object.entries(data.constants ?? {})) {
+      const stated = typeof entry === "object" && entry !== null ? entry.value : entry;
+      if (stated === null || !(name in PEAKS || name in MEANS || name === "D")) continue;
+      claim(name, near(stated, enclosed(motion, name)), `${stated} is stated`);
+    }
+    const objective = objectiveOf(motion, parsed(data.problem.minimise));
+    if (data.objective !== undefined) claim("objective", near(data.objective, objective), `${data.objective} is stated, ${objective[1].toNumber()} is that of the law`);
+    const misses = missesOf(motion, ends(data.problem)).filter(({ by, size }) => ROUNDING.times(size).below(by));
+    claim("ends", misses.length === 0, misses.length ? `derivative ${misses[0].nu} at ${misses[0].end} is off by ${misses[0].by.toNumber()}` : "the law has the derivatives that are given");
+    const bounds = proven.filter(({ bound }) => bound);
+    const best = bounds.length ? bounds.map(({ bound }) => bound).reduce(greatest) : null;
+    const stated = data.lower_bound ?? null;
+    if (stated !== null && best !== null && !best.plus(STATED.times(best.magnitude())).below(exact(stated))) {
+      claim("lower bound", true, `${stated} is stated, ${best.toNumber()} is proven`);
+    } else if (stated !== null) {
+      const other = data.limit != null && data.limit >= stated ? "a limit of laws of any degree, which this program does not know" : "no proof in the file that this program knows";
+      claims.push({ path: `${path}: lower bound`, verdict: "not checked", detail: `${stated} is stated, by ${other}` });
+    }
+  } catch (error) {
+    const known = error instanceof Unknown;
+    claims.push({ path: `${path}: law`, verdict: known ? "not checked" : "not proven", detail: known ? `this program does not know ${error.message}` : error.message });
+  }
+  return claims;
+}
+
+function near(stated, [low, high]) {
+  const room = ROUNDED.times(greatest(ONE, high.magnitude()));
+  return !exact(stated).below(low.minus(room)) && !high.plus(room).below(exact(stated));
+}
+
+/* Everything in a file that this program can check, each with its verdict. */
+export function fileChecked(data, path = "") {
+  if (Array.isArray(data)) return data.flatMap((entry, i) => fileChecked(entry, `${path}[${i}]`));
+  if (data === null || typeof data !== "object") return [];
+  if (isCertificate(data)) return [{ path: path || "the file", ...checked(data) }];
+  const inner = Object.entries(data).flatMap(([key, entry]) => fileChecked(entry, path ? `${path}.${key}` : key));
+  if (!data.law || !data.certificate || !data.problem) return inner;
+  const same = JSON.stringify(data.problem);
+  const of = (key) => (data[key] && JSON.stringify(data[key].problem) === same ? [`${path ? `${path}.` : ""}${key}`] : []);
+  const proofs = ["certificate", "power_certificate"].flatMap(of);
+  return [...inner, ...solutionChecked(data, path || "the file", inner.filter((result) => proofs.includes(result.path)))];
+}

@@ -1,0 +1,147 @@
+/* The constants of a stored law, enclosed: of the very function that its numbers describe. */
+
+import { ONE, Rational, TWO, ZERO, exact, greatest, sum, whole } from "./proof_numbers.mjs";
+import { derivative, inPlace, multiplied } from "./proof_laws.mjs";
+import { MEANS, PEAKS, Unknown } from "./proof_rows.mjs";
+
+const BITS = 256;
+/* Peaks are enclosed to this share of themselves. */
+const NARROW = new Rational(1n, 1n, -46);
+
+/* The pieces of a stored law: where each begins and ends, and its acceleration, velocity and position over t in [0, 1]. */
+export function motionOf(law) {
+  const several = law.kind === "piecewise";
+  const breaks = (several ? law.breaks : [0, 1]).map(exact);
+  const segments = several ? law.segments : [law];
+  let position = exact(law.a0 ?? 0);
+  return segments.map((segment, i) => {
+    if (segment.kind !== "polynomial") throw new Unknown(`segments of the kind ${segment.kind}`);
+    const [start, stop] = [breaks[i], breaks[i + 1]];
+    const length = stop.minus(start);
+    // Chebyshev polynomials of x = 2 t - 1
+    const c = inPlace(ofChebyshev(segment.acceleration.map(exact)), ONE.negative(), TWO);
+    const b = integral(c, length, exact(segment.b0 ?? 0));
+    const a = integral(b, length, position);
+    position = sum(a);
+    return { start, stop, length, by: [a, b, c] };
+  });
+}
+
+function ofChebyshev(coefficients) {
+  let [before, polynomial] = [[ONE], [ZERO, ONE]];
+  const total = coefficients.map(() => ZERO);
+  coefficients.forEach((coefficient, i) => {
+    const own = i === 0 ? before : polynomial;
+    own.forEach((entry, j) => { total[j] = total[j].plus(coefficient.times(entry)); });
+    if (i > 0) {
+      const next = [ZERO, ...polynomial.map((entry) => entry.times(TWO))];
+      before.forEach((entry, j) => { next[j] = next[j].minus(entry); });
+      [before, polynomial] = [polynomial, next];
+    }
+  });
+  return total;
+}
+
+function integral(polynomial, length, start) {
+  return [start, ...polynomial.map((entry, i) => entry.times(length).over(whole(i + 1)))];
+}
+
+/* The derivative of order nu by k on a piece, over t. */
+function of(piece, nu) {
+  while (piece.by.length <= nu) piece.by.push(derivative(piece.by.at(-1)).map((entry) => entry.over(piece.length)));
+  return piece.by[nu];
+}
+
+/* A constant of a law between two numbers. */
+export function enclosed(motion, name) {
+  if (name in MEANS) {
+    const square = sum(motion.map((piece) => sum(integral(multiplied(of(piece, MEANS[name]), of(piece, MEANS[name])), piece.length, ZERO))));
+    const high = square.rootAbove();
+    return [high.sign ? square.over(high).rounded(-1) : ZERO, high];
+  }
+  if (name === "D") return extreme(motion.map((piece) => multiplied(of(piece, 1), of(piece, 2))), [1, -1]);
+  const [nu, signs] = PEAKS[name];
+  return extreme(motion.map((piece) => of(piece, nu)), signs);
+}
+
+/* The greatest value of signs times polynomials over [0, 1], between two numbers. */
+function extreme(polynomials, signs) {
+  const parts = polynomials.flatMap((polynomial) => signs.map((sign) => bernstein(polynomial).map((entry) => entry.times(whole(sign)))));
+  let low = parts.map((part) => greatest(part[0], part.at(-1))).reduce(greatest);
+  const size = parts.flat().map((entry) => entry.magnitude()).reduce(greatest, ZERO);
+  if (size.sign === 0) return [ZERO, ZERO];
+  const unit = BITS - Math.ceil(Math.log2(size.rounded(1, 60).toNumber() || 1));
+  let waiting = parts.map((part) => [part.map((entry) => entry.floorIn(unit)), part.map((entry) => -entry.negative().floorIn(unit))]);
+  let best = low.floorIn(unit);
+  const room = size.times(NARROW).floorIn(unit) >> 6n;
+  let high = best;
+  for (let depth = 0; waiting.length && depth < 200; depth += 1) {
+    const halves = [];
+    for (const [lows, highs] of waiting) {
+      const most = highs.reduce((first, second) => (first > second ? first : second));
+      if (most <= best + room) {
+        if (most > high) high = most;
+        continue;
+      }
+      const [firstLows, secondLows] = halved(lows, 0n);
+      const [firstHighs, secondHighs] = halved(highs, 1n);
+      if (firstLows.at(-1) > best) best = firstLows.at(-1);
+      halves.push([firstLows, firstHighs], [secondLows, secondHighs]);
+    }
+    waiting = halves;
+  }
+  if (waiting.length) throw new Unknown("a peak that is flat");
+  low = new Rational(best, 1n, -unit);
+  return [low, new Rational(high > best ? high : best, 1n, -unit)];
+}
+
+/* De Casteljau's halves, each rounding down (0) or up (1). */
+function halved(coefficients, up) {
+  let row = [...coefficients];
+  const [first, second] = [[row[0]], [row.at(-1)]];
+  while (row.length > 1) {
+    row = row.slice(1).map((entry, i) => (entry + row[i] + up) >> 1n);
+    first.push(row[0]);
+    second.unshift(row.at(-1));
+  }
+  return [first, second];
+}
+
+function bernstein(polynomial) {
+  const degree = Math.max(polynomial.length - 1, 0);
+  const choose = (n, k) => {
+    let value = 1n;
+    for (let i = 1n; i <= BigInt(k); i += 1n) value = (value * (BigInt(n) - i + 1n)) / i;
+    return value;
+  };
+  return Array.from({ length: degree + 1 }, (_, i) => {
+    let value = ZERO;
+    for (let j = 0; j <= i && j < polynomial.length; j += 1) {
+      value = value.plus(polynomial[j].times(new Rational(choose(i, j)).over(new Rational(choose(degree, j)))));
+    }
+    return value;
+  });
+}
+
+/* The value of an objective along a law, between two numbers. */
+export function objectiveOf(motion, terms) {
+  const known = new Map();
+  const constant = (name) => {
+    if (!known.has(name)) known.set(name, enclosed(motion, name));
+    return known.get(name);
+  };
+  const total = (parts) => parts.reduce(([low, high], [weight, term]) => {
+    const [least, most] = term.parts ? term.parts.map(total).reduce((a, b) => [greatest(a[0], b[0]), greatest(a[1], b[1])]) : constant(term.name);
+    return [low.plus(weight.times(least)), high.plus(weight.times(most))];
+  }, [ZERO, ZERO]);
+  return total(terms);
+}
+
+/* By how much a law misses the derivatives that its ends are given. */
+export function missesOf(motion, ends) {
+  return ends.flatMap((values, end) => values.map((value, nu) => {
+    const polynomial = of(end ? motion.at(-1) : motion[0], nu);
+    const there = end ? sum(polynomial) : polynomial[0] ?? ZERO;
+    return { nu, end, by: there.minus(value).magnitude(), size: polynomial.map((entry) => entry.magnitude()).reduce(greatest, ONE) };
+  }));
+}
