@@ -1,15 +1,28 @@
-/* node check_proof.mjs FILE...: every certificate of proof files, checked in exact numbers. */
+/* node check_proof.mjs [--json] FILE...: what proof files state, checked in exact numbers.
+
+   It ends with 1 where something is not proven, with 2 where a file cannot be read. */
 
 import { readFileSync } from "node:fs";
 import { fileChecked } from "./proof_check.mjs";
 
-const files = process.argv.slice(2);
-let worst = 0;
-for (const file of files) {
-  const results = fileChecked(JSON.parse(readFileSync(file, "utf8")));
-  for (const { path, verdict, detail } of results) {
-    console.log(`${file}: ${path}: ${verdict}: ${detail}`);
-    if (verdict === "not proven") worst = 1;
+const plain = process.argv.slice(2).filter((argument) => argument !== "--json");
+const asJson = plain.length + 2 < process.argv.length;
+process.exitCode = plain.length ? 0 : 2;
+for (const file of plain) {
+  let results = [];
+  try {
+    results = fileChecked(JSON.parse(readFileSync(file, "utf8")));
+  } catch (error) {
+    console.error(`${file}: ${error.message}`);
+    process.exitCode = 2;
+    continue;
   }
+  if (results.some(({ verdict }) => verdict === "not proven")) process.exitCode ||= 1;
+  if (asJson) {
+    console.log(JSON.stringify(results.map((result) => ({ ...result, bound: result.bound?.toNumber() ?? null }))));
+    continue;
+  }
+  for (const { path, verdict, detail } of results) console.log(`${file}: ${path}: ${verdict}: ${detail}`);
+  const counts = ["proven", "not proven", "not checked"].map((word) => `${results.filter(({ verdict }) => verdict === word).length} ${word}`);
+  console.log(`${file}: ${counts.join(", ")}`);
 }
-process.exitCode = files.length ? worst : 2;

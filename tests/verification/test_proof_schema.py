@@ -1,0 +1,59 @@
+"""The JSON Schema of certificates: every stored one obeys it, and what it refuses the library refuses too."""
+
+import json
+from collections.abc import Iterator
+from functools import cache
+from typing import Any
+
+import pytest
+from jsonschema import Draft202012Validator
+
+from optlaws import InputError
+from optlaws.verification import verify
+from tests.documents import ROOT
+
+SCHEMA = json.loads((ROOT / "optlaws" / "verification" / "proof.schema.json").read_text(encoding="utf8"))
+
+
+@cache
+def validator() -> Draft202012Validator:
+    Draft202012Validator.check_schema(SCHEMA)
+    return Draft202012Validator(SCHEMA)
+
+
+def certificates(data: object) -> Iterator[dict[str, Any]]:
+    if isinstance(data, dict):
+        if "problem" in data and data.keys() & {"contacts", "steps", "cells"}:
+            yield data
+            return
+        for entry in data.values():
+            yield from certificates(entry)
+    elif isinstance(data, list):
+        for entry in data:
+            yield from certificates(entry)
+
+
+@cache
+def stored(name: str) -> list[dict[str, Any]]:
+    return list(certificates(json.loads((ROOT / "results" / name / "laws.json").read_text(encoding="utf8"))))
+
+
+@pytest.mark.parametrize("name", ["optimal_table", "d_minimal", "mixed", "machine_sloshing"])
+def test_stored_certificates_obey_it(name: str) -> None:
+    assert stored(name)
+    for certificate in stored(name):
+        assert [error.message for error in validator().iter_errors(certificate)] == []
+
+
+@pytest.mark.parametrize("kind", ["contacts", "steps"])
+def test_what_it_refuses_is_refused(kind: str) -> None:
+    whole = next(proof for proof in stored("d_minimal") if kind in proof)
+    wrong = [
+        *(whole | {key: value} for key in whole if key not in {"problem", "about"} for value in ("text", {}, [None], 1e200)),
+        *({key: value for key, value in whole.items() if key != missing} for missing in whole if missing != "bound"),
+        whole | {"further": 1},
+    ]  # fmt: skip
+    for data in wrong:
+        assert not validator().is_valid(data), data.keys()
+        with pytest.raises(InputError):
+            verify(data)

@@ -1,0 +1,198 @@
+"""Proofs checked by the program in JavaScript, which shares no code with the library: both must agree."""
+
+import json
+import subprocess
+from collections.abc import Iterator, Mapping, Sequence
+from copy import deepcopy
+from functools import cache
+from pathlib import Path
+from random import Random
+from shutil import which
+from typing import Any
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from optlaws import (
+    BSplines,
+    Chebyshev,
+    InfeasibleProblem,
+    OptlawsError,
+    Pieces,
+    Problem,
+    Solution,
+    Window,
+    synthesize,
+    via,
+)
+from optlaws.verification import exact_bound
+from tests.documents import ROOT
+
+PROGRAM = ROOT / "optlaws" / "explorer" / "page" / "check_proof.mjs"
+RESULTS = ROOT / "results"
+
+
+@cache
+def node() -> str:
+    """Node.js of this machine, or that of the browser's driver."""
+    installed = which("node")
+    if installed is not None:
+        return installed
+    from playwright._impl._driver import compute_driver_executable
+
+    return str(compute_driver_executable()[0])
+
+
+def checked(data: object, folder: Path) -> list[dict[str, Any]]:
+    """What the program says of data."""
+    file = folder / "proofs.json"
+    file.write_text(json.dumps(data), encoding="utf8")
+    ended = subprocess.run([node(), PROGRAM, "--json", file], capture_output=True, text=True, check=False)
+    assert ended.returncode in {0, 1}, ended.stderr
+    results: list[dict[str, Any]] = json.loads(ended.stdout)
+    return results
+
+
+@pytest.mark.parametrize(
+    ("name", "least"),
+    [("orders", 300), ("j_minimal", 300), *(pytest.param(*case, marks=pytest.mark.long) for case in [
+        ("optimal_table", 500), ("d_minimal", 200), ("mixed", 250)])],
+)  # fmt: skip
+def test_stored_proofs_hold_there_too(name: str, least: int, tmp_path: Path) -> None:
+    results = checked(json.loads((RESULTS / name / "laws.json").read_text(encoding="utf8")), tmp_path)
+    unchecked = {result["detail"] for result in results if result["verdict"] == "not checked"}
+    assert all("by a limit of laws of any degree" in detail for detail in unchecked)
+    assert not [result for result in results if result["verdict"] == "not proven"]
+    assert len(results) - len(unchecked) >= least
+
+
+def test_what_it_does_not_know_it_says(tmp_path: Path) -> None:
+    results = checked(json.loads((RESULTS / "machine_sloshing" / "laws.json").read_text(encoding="utf8")), tmp_path)
+    assert {result["verdict"] for result in results} <= {"proven", "not checked"}
+    assert any("does not know" in result["detail"] for result in results)
+
+
+def _problems(count: int, seed: int) -> Iterator[Problem]:
+    rng = Random(seed)
+    objectives = ["C", "J", "rms_c", "rms_j", "C + 0.1*J", "max(C, 0.1*J)", "C_plus", "B", "jounce", "D"]
+    windows = [
+        via("a", 0.3, at=0.4), Window("c", -5, 5, 0.2, 0.4), Window("a", 0.1, 0.9, 0.3, 0.6),
+        Window("b", -1, 1.4, 0.6, 0.9), Window("j", -60, 60, 0, 0.1),
+    ]  # fmt: skip
+    while count:
+        minimise, symmetric = rng.choice(objectives), rng.random() < 0.5
+        basis = rng.choice([
+            Chebyshev(rng.randrange(1, 12)),
+            Pieces(rng.choice([3, 4] if symmetric else [3, 4, (0.0, 0.3, 0.55, 1.0)]), rng.choice([5, 6, 7]), rng.choice([1, 2, 3])),
+            BSplines(rng.choice([3, 4]), rng.choice([3, 4])),
+        ])  # fmt: skip
+        asked: dict[str, Any] = {}
+        if minimise != "B":
+            asked["B"] = rng.choice([None, rng.uniform(1.2, 2.2), (1.0, rng.uniform(1.3, 2.2)), (1.7, 1.9)])
+        asked["C"] = rng.choice([None, None, None, (0.0, rng.uniform(4.0, 9.0))])
+        asked["J"] = rng.choice([None, None, None, None, (0.0, rng.uniform(30.0, 120.0))])
+        asked["windows"] = rng.choice([(), (), (rng.choice(windows),)])
+        try:
+            yield Problem(
+                order=rng.choice([2, 3, 4]), basis=basis, minimise=minimise, symmetric=symmetric,
+                monotone=rng.random() < 0.3, **asked,
+            )  # fmt: skip
+        except OptlawsError:
+            continue
+        count -= 1
+
+
+def _proofs(problems: Iterator[Problem]) -> Iterator[tuple[Any, float]]:
+    """Certificates of problems that have one, with the bound that the library proves in exact arithmetic."""
+    for problem in problems:
+        try:
+            certificate: Any = synthesize(problem).certificate
+        except InfeasibleProblem as error:
+            certificate = error.proof
+        except OptlawsError:
+            continue
+        if hasattr(certificate, "contacts"):
+            value = exact_bound(certificate)
+            yield certificate, float("-inf") if value is None else float(value)
+
+
+@pytest.mark.parametrize(("count", "seed"), [(16, 7), pytest.param(2000, 8, marks=pytest.mark.long)])
+def test_random_proofs_are_worth_the_same(count: int, seed: int, tmp_path: Path) -> None:
+    proofs = list(_proofs(_problems(count, seed)))
+    results = checked([certificate.to_dict() for certificate, _ in proofs], tmp_path)
+    assert len(results) == len(proofs) > 0.8 * count
+    for (certificate, value), result in zip(proofs, results, strict=True):
+        if certificate.program == "violation":
+            assert (result["verdict"] == "proven") == (value > 0.0), (certificate.problem, result)
+            continue
+        stated = certificate.bound
+        proven = stated <= value + 1e-9 * abs(value)
+        assert (result["verdict"] == "proven") == proven, (certificate.problem, value, result)
+        if proven and value > 0.0:
+            assert result["bound"] == pytest.approx(value, rel=1e-9)
+
+
+@cache
+def _solution() -> Solution:
+    return synthesize(Problem(B=1.859, order=3, basis=Chebyshev(7), windows=(Window("c", -6, 6, 0.0, 0.3),)))
+
+
+def _leaves(data: object, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
+    entries = data.items() if isinstance(data, Mapping) else enumerate(data) if isinstance(data, list) else ()
+    below = [leaf for key, entry in entries for leaf in _leaves(entry, (*path, key))]
+    yield from below
+    if not isinstance(data, Mapping | list):
+        yield path
+
+
+def _changed(data: object, path: Sequence[Any], change: Any) -> Any:  # noqa: ANN401 - plain data
+    copy: Any = deepcopy(data)
+    at = copy
+    for key in path[:-1]:
+        at = at[key]
+    at[path[-1]] = change(at[path[-1]])
+    return copy
+
+
+CHANGES = [
+    lambda value: value * 1.01 if isinstance(value, float) else value,
+    lambda value: value * 0.9 - 0.01 if isinstance(value, float) else value,
+    lambda value: -value if isinstance(value, float) else value,
+    lambda value: "C" if isinstance(value, str) else 1e300,
+    lambda _: None,
+    lambda value: [value],
+]
+
+
+def test_a_tampered_certificate_is_refused_or_proves_less(tmp_path: Path) -> None:
+    solution = _solution()
+    proof = {key: entry for key, entry in solution.certificate.to_dict().items() if key != "bound"}
+    places = [path for path in _leaves(proof) if path[0] != "problem"]
+    tampered = [_changed(proof, path, change) for path in places for change in CHANGES]
+    results = checked(tampered, tmp_path)
+    assert len(tampered) > 50
+    assert all(result["bound"] is None or result["bound"] <= solution.objective * (1 + 1e-12) for result in results)
+
+
+def test_a_raised_bound_is_refused(tmp_path: Path) -> None:
+    solution = _solution().to_dict()
+    for path in (("certificate", "bound"), ("lower_bound",), ("objective",), ("constants", "C", "value")):
+        raised = checked(_changed(solution, path, lambda value: value * (1 + 1e-8)), tmp_path)
+        assert "not proven" in {result["verdict"] for result in raised} or path == ("lower_bound",), path
+        assert not all(result["verdict"] == "proven" for result in raised), path
+
+
+@settings(max_examples=3)
+@given(st.floats(1.3, 2.6), st.sampled_from([3, 5, 7]))
+def test_the_least_power_by_boxes_is_proven_there_too(B: float, degree: int) -> None:
+    from tempfile import TemporaryDirectory
+
+    solution = synthesize(Problem(B=B, order=3, basis=Chebyshev(degree), minimise="D"), bound="tight")
+    if solution.power_certificate is None:
+        return
+    with TemporaryDirectory() as folder:
+        results = checked(solution.power_certificate.to_dict(), Path(folder))
+        assert [result["verdict"] for result in results] == ["proven"]
+        above = solution.power_certificate.to_dict() | {"claim": solution.objective * 1.001, "bound": None}
+        assert [result["verdict"] for result in checked(above, Path(folder))] == ["not proven"]
