@@ -29,7 +29,8 @@ if TYPE_CHECKING:
 
 #: no question of the page is longer
 MOST_BYTES = 400_000
-_TYPES = {".html": "text/html", ".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml"}
+_SCRIPT = "text/javascript"
+_TYPES = {".html": "text/html", ".css": "text/css", ".js": _SCRIPT, ".mjs": _SCRIPT, ".svg": "image/svg+xml"}
 #: members of Savin's families that the page offers by name
 _MEMBERS = ("I(0)", "II(6)", "III(7.2)", "IV(10)")
 _BAD, _TOO_LONG, _WRONG = 400, 413, 422
