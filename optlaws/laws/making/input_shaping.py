@@ -89,9 +89,9 @@ def shaped_law(
     if duration < _LEAST_TIME:
         periods = _SHARES[shaper](1.0)[-1].start
         raise InputError(
-            f"{shaper} takes {periods:g} of a period of each vibration, {impulses[-1].start:.3g} of the total time at the "
-            f"frequency {shortened(frequency)}, and leaves no time for the law; a slower motion or a stiffer machine has "
-            "room for it"
+            f"{shaper} takes {periods:g} of a period of each vibration, {impulses[-1].start:.3g} of the total time at "
+            f"the frequency {shortened(frequency)}, and leaves no time for the law; a slower motion or a stiffer machine "
+            "has room for it"
         )
     inner = np.array(law.breaks if isinstance(law, PiecewiseLaw) else (0.0, 1.0))
     places = np.unique(np.concatenate([start + duration * inner for start, _ in impulses]).round(15))
@@ -103,7 +103,7 @@ def shaped_law(
 
 def _trains(frequency: object, damping: object, shaper: object) -> list[list[Impulse]]:
     """The repetitions of each vibration's shaper, in times of the law."""
-    if shaper not in _SHARES:
+    if not isinstance(shaper, str) or shaper not in _SHARES:
         raise InputError(unknown_key(shaper, tuple(_SHARES), "shaper"))
     frequencies = list(frequency) if isinstance(frequency, Sequence) and not isinstance(frequency, str) else [frequency]
     dampings = list(damping) if isinstance(damping, Sequence) and not isinstance(damping, str) else [damping]
@@ -152,7 +152,7 @@ def _three_humps(v: float) -> list[float]:
 
 
 _V = EI_RESIDUAL
-_SHARES: dict[object, Callable[[float], list[Impulse]]] = {
+_SHARES: dict[str, Callable[[float], list[Impulse]]] = {
     "ZV": _decaying([0.0, 0.5], [1.0, 1.0]),
     "MZV": _decaying([0.0, 0.375, 0.75], [1.0 - sqrt(0.5), sqrt(2.0) - 1.0, 1.0 - sqrt(0.5)]),
     "ZVD": _decaying([0.0, 0.5, 1.0], [1.0, 2.0, 1.0]),
