@@ -90,8 +90,8 @@ def shaped_law(
         periods = _SHARES[shaper](1.0)[-1].start
         raise InputError(
             f"{shaper} takes {periods:g} of a period of each vibration, {impulses[-1].start:.3g} of the total time at "
-            f"the frequency {shortened(frequency)}, and leaves no time for the law; a slower motion or a stiffer machine "
-            "has room for it"
+            f"the frequency {shortened(frequency)}, and leaves no time for the law; a slower motion or a stiffer "
+            "machine has room for it"
         )
     inner = np.array(law.breaks if isinstance(law, PiecewiseLaw) else (0.0, 1.0))
     places = np.unique(np.concatenate([start + duration * inner for start, _ in impulses]).round(15))

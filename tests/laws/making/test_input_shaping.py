@@ -56,9 +56,9 @@ def test_wrong_shapers_are_named(says: str, arguments: tuple[float, float, Shape
         shaped_law(smoothstep(3), *arguments)
 
 
-#: by how many per cent a frequency may be off while at most 5 % is left of an impulse: the first three from the table of
-#: a controller of printers (github.com/Klipper3d/klipper, docs/Resonance_Compensation.md, commit 84104bb), the others half
-#: the widths 0.73 and 0.93 of Singhose, Porter, Tuttle and Singer 1997
+#: by how many per cent a frequency may be off while at most 5 % is left of an impulse: the first three from the table
+#: of a controller of printers (github.com/Klipper3d/klipper, docs/Resonance_Compensation.md, commit 84104bb), the other
+#: two half the widths 0.73 and 0.93 of Singhose, Porter, Tuttle and Singer 1997
 BANDS = {"MZV": 4.0, "ZVD": 15.0, "EI": 19.9, "two-hump EI": 36.2, "three-hump EI": 46.6}
 
 
