@@ -28,6 +28,7 @@ _load, __dir__, __all__ = face(
         "optlaws.cams.least_sizes": "greatest_roller least_base_circle",
         "optlaws.cycles.machine_axes": "Axes",
         "optlaws.cycles.cycle": "Cycle",
+        "optlaws.cycles.old_tables": "OldTable read_cycle_table split_table",
         "optlaws.cycles.specification.segments": "ConstantVelocity Dwell Free Move Return Rise",
         "optlaws.cycles.machine_follower": "MachineFollower machine_follower",
         "optlaws.errors": "InfeasibleProblem InputError NoisyTable NotNormalised OptlawsError SolverFailure",

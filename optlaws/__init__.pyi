@@ -43,6 +43,9 @@ from optlaws.cycles.law_comparison import compare_laws as compare_laws
 from optlaws.cycles.machine_axes import Axes as Axes
 from optlaws.cycles.machine_follower import MachineFollower as MachineFollower
 from optlaws.cycles.machine_follower import machine_follower as machine_follower
+from optlaws.cycles.old_tables import OldTable as OldTable
+from optlaws.cycles.old_tables import read_cycle_table as read_cycle_table
+from optlaws.cycles.old_tables import split_table as split_table
 from optlaws.cycles.specification.segments import ConstantVelocity as ConstantVelocity
 from optlaws.cycles.specification.segments import Dwell as Dwell
 from optlaws.cycles.specification.segments import Free as Free
@@ -233,6 +236,7 @@ __all__ = [
     "Move",
     "NoisyTable",
     "NotNormalised",
+    "OldTable",
     "OptlawsError",
     "OscillatingFlat",
     "OscillatingRoller",
@@ -316,6 +320,7 @@ __all__ = [
     "polydyne",
     "proven_front",
     "rack",
+    "read_cycle_table",
     "read_law",
     "read_motors",
     "residual_functional",
@@ -335,6 +340,7 @@ __all__ = [
     "shaped_law",
     "slider_crank",
     "smoothstep",
+    "split_table",
     "sweep",
     "synthesize",
     "synthesize_array",

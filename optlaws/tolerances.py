@@ -130,6 +130,11 @@ LEAST_PEAK_SLACK = 1e-6  # of a least peak, given to problems that are not conve
 LIMIT_USED = 1e-6  # of a motor's limit: so much of it is left, as peaks are looked for at places alone
 PEAK_BRACKET = 1e-11  # of a peak: where a limit is met
 
+# --- old tables -----------------------------------------------------------------------------------------------------
+NOISE_ROOM = 4.0  # of the standard deviation of a table's noise: points that are farther from a law speak against it
+STANDARD_LAW_ROOM = 1e-7  # of the stroke of a table with all digits: by how much a standard law may be off its points
+MODERNISED_JERK = 1.2  # of an old law's greatest jerk: what a law of less acceleration in its place may have
+
 # --- laws and exports -----------------------------------------------------------------------------------------------
 MULTIPLIER_MET = 1e-10  # of a wanted constant: it is met
 MULTIPLIER_CLOSE = 1e-14  # of a wanted constant: no further step is taken

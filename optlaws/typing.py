@@ -20,6 +20,7 @@ __getattr__, __dir__, __all__ = face(
         "optlaws.cams.followers.rollers_and_faces": "FaceContact RollerContact",
         "optlaws.cams.least_sizes": "GreatestRoller LeastBaseCircle",
         "optlaws.cycles.machine_follower": "MachineAnswer",
+        "optlaws.cycles.old_tables": "Stretch",
         "optlaws.cycles.specification.segments": "CycleSegment",
         "optlaws.exports.best_breaks": "BestBreaks",
         "optlaws.formulas.tree": "Formula",

@@ -22,6 +22,7 @@ from optlaws.cams.followers.rollers_and_faces import RollerContact as RollerCont
 from optlaws.cams.least_sizes import GreatestRoller as GreatestRoller
 from optlaws.cams.least_sizes import LeastBaseCircle as LeastBaseCircle
 from optlaws.cycles.machine_follower import MachineAnswer as MachineAnswer
+from optlaws.cycles.old_tables import Stretch as Stretch
 from optlaws.cycles.specification.segments import CycleSegment as CycleSegment
 from optlaws.exports.best_breaks import BestBreaks as BestBreaks
 from optlaws.formulas.tree import Formula as Formula
@@ -168,6 +169,7 @@ __all__ = [
     "SpaceCurve",
     "Span",
     "StateSpace",
+    "Stretch",
     "Study",
     "Summary",
     "SweptParameter",

@@ -58,6 +58,38 @@ class _Table(NamedTuple):
         return [str(match[1]) for line in self.lines if (match := line.numbers(self.columns)[place])]
 
 
+class TablePoints(NamedTuple):
+    """The points of a table.
+
+    Attributes
+    ----------
+    places, heights
+        Times or angles, and displacements, as the table has them.
+    digit
+        The unit of the last digit of the displacements.
+    lines
+        Where the points stand in the file.
+    """
+
+    places: list[float]
+    heights: list[float]
+    digit: float
+    lines: list[int]
+
+
+def points_of(file: Path, columns: Sequence[Column] | None = None) -> TablePoints:
+    """The points of a table, as `law_of_points` reads it.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, has more columns and none are chosen, or a line is no point.
+    """
+    table = _read(reading.text(file, _LARGEST, legacy=True), str(file), columns)
+    places, heights = ([_value(text) for text in table.texts(place)] for place in (0, 1))
+    return TablePoints(places, heights, _resolution(table.texts(1), heights), [line.number for line in table.lines])
+
+
 def law_of_points(file: Path, tolerance: float | None = None, columns: Sequence[Column] | None = None) -> MotionLaw:
     """The law of a table of points: as near as its last digit, or as its noise lets it be.
 
@@ -80,16 +112,15 @@ def law_of_points(file: Path, tolerance: float | None = None, columns: Sequence[
     InputError
         If the file cannot be read, has more columns and none are chosen, a line is no point, or no law keeps to them.
     """
-    table = _read(reading.text(file, _LARGEST, legacy=True), str(file), columns)
-    k, a = ([_value(text) for text in table.texts(place)] for place in (0, 1))
-    unit, stroke = _resolution(table.texts(1), a), abs(a[-1] - a[0])
+    points = points_of(file, columns)
+    k, a, unit, stroke = points.places, points.heights, points.digit, abs(points.heights[-1] - points.heights[0])
     if unit > _COARSEST * stroke > 0.0:
         raise InputError(f"{file}: the displacements have too few digits, {unit:g} of a stroke of {stroke:g}")
     try:
         if tolerance is not None:
             return law_through(k, a, not_negative(tolerance, "tolerance"))
         exact = unit <= EXACT_DIGITS * stroke and len(k) <= MOST_THROUGH
-        return law_of_table(k, a, 0.0 if exact else unit, lines=[line.number for line in table.lines])
+        return law_of_table(k, a, 0.0 if exact else unit, lines=points.lines)
     except InputError as error:
         raise InputError(f"{file}: {error}") from None
 

@@ -1,0 +1,102 @@
+"""Tables of whole cycles: their parts, the laws that they are, and better ones within a tolerance."""
+
+import numpy as np
+import pytest
+
+from optlaws import Cycle, Dwell, InputError, Return, Rise, catalogue, read_cycle_table, smoothstep, split_table
+
+PROGRAMME = [Rise("35 mm", "120 deg"), Dwell("90 deg"), Return("35 mm", "100 deg"), Dwell()]
+
+
+def table(rise: str, back: str, digits: int, step: float = 1.0, lead: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
+    x = np.arange(0.0, 360.0 + 0.5 * step, step)
+    up = catalogue[rise].law(np.clip((x - lead) / 120.0, 0.0, 1.0))
+    down = catalogue[back].law(np.clip((x - lead - 210.0) / 100.0, 0.0, 1.0))
+    return x, np.round(35.0 * (up - down), digits)
+
+
+@pytest.mark.parametrize("lead", [0.0, 20.0])
+@pytest.mark.parametrize("digits", [2, 4])
+@pytest.mark.parametrize("laws", [("modified sine", "cycloidal"), ("3-4-5 polynomial", "modified trapezoid")])
+def test_standard_laws_and_their_ends_are_recognised(laws: tuple[str, str], digits: int, lead: float) -> None:
+    split = split_table(*table(*laws, digits, lead=lead), digit=10.0**-digits)
+    moves = [part for part in split.stretches if part.law is not None]
+    assert [part.kind for part in moves] == ["rise", "return"]
+    assert [part.law for part in moves] == list(laws)
+    ends = [end for part in moves for end in (part.start, part.stop)]
+    assert ends == pytest.approx([lead, lead + 120.0, lead + 210.0, lead + 310.0], abs=0.3 if digits == 2 else 1e-9)
+    assert [round(part.stroke, digits) for part in moves] == [35.0, -35.0]
+    cycle = split.cycle(speed="200 rpm")
+    x, y = table(*laws, digits, lead=lead)
+    assert 1000.0 * np.asarray(cycle.at_angle(x[:-1])) == pytest.approx(y[:-1], abs=2.0 * split.room)
+
+
+def test_a_law_of_nobody_is_fitted_and_bettered() -> None:
+    law = smoothstep(6)
+    x = np.arange(361.0)
+    y = np.round(35.0 * (law(np.clip(x / 120.0, 0.0, 1.0)) - law(np.clip((x - 200.0) / 120.0, 0.0, 1.0))), 4)
+    split = split_table(x, y, digit=1e-4)
+    moves = [part for part in split.stretches if part.law is not None]
+    assert [part.kind for part in moves] == ["rise", "return"]
+    assert not any(isinstance(part.law, str) for part in moves)
+    assert all(part.distance > split.room for part in moves)
+    old, new = split.cycle(speed="100 rpm"), split.modernised(0.3, speed="100 rpm")
+    assert 1000.0 * np.abs(np.asarray(new.at_angle(x)) - np.asarray(old.at_angle(x))).max() < 0.31
+    greatest = [max(abs(np.asarray(cycle.at_angle(np.linspace(0.0, 360.0, 3601), 2)))) for cycle in (old, new)]
+    assert greatest[1] < 0.9 * greatest[0]
+
+
+def test_noise_and_a_seam_are_reported() -> None:
+    x, y = table("cycloidal", "cycloidal", 6)
+    noisy = y + np.random.default_rng(1).normal(0.0, 0.01, len(y))
+    noisy[-20:] += 0.2
+    split = split_table(x, noisy)
+    assert split.scatter == pytest.approx(0.01, rel=0.3)
+    assert split.seam == pytest.approx(0.2, abs=0.08)
+    assert "scatter by" in str(split)
+    assert "from the first one" in str(split)
+
+
+#: rows of a cam profile as a controller's project stores them: (0, 0), (40, 20), (100, 25), slopes 1 and 0 at the ends
+L5X = (
+    "<Value>[2,0,0,0,0,1,0,0,1072693248,0,-1080956027,515396076,1059086925,-755914243],"
+    "[2,1078198272,0,1077149696,0,1,0,0,1070176665,-1717986918,-1083933983,1202590845,1055091462,-418679770],"
+    "[2,1079574528,0,1077477376,0,1,0,0,0,0,0,0,0,0]</Value>"
+)
+
+
+def test_cubic_splines_of_logix_designer_are_decoded(tmp_path) -> None:  # type: ignore[no-untyped-def] # noqa: ANN001
+    from scipy.interpolate import CubicSpline
+
+    from tests.internals.cycles import spline_of_l5x
+
+    x, y = spline_of_l5x(L5X, "cam")
+    wanted = CubicSpline([0.0, 40.0, 100.0], [0.0, 20.0, 25.0], bc_type=((1, np.array(1.0)), (1, np.array(0.0))))
+    assert y == pytest.approx(wanted(x), abs=1e-13)
+    (tmp_path / "empty.L5X").write_text("<Value>[1,2]</Value>", encoding="utf8")
+    with pytest.raises(InputError, match="holds no cam profile"):
+        read_cycle_table(tmp_path / "empty.L5X")
+
+
+def test_a_file_of_a_cycle_is_read(tmp_path) -> None:  # type: ignore[no-untyped-def] # noqa: ANN001
+    x, y = table("modified sine", "cycloidal", 3)
+    file = tmp_path / "old.csv"
+    file.write_text("degree;mm\n" + "\n".join(f"{a:g};{b:.3f}".replace(".", ",") for a, b in zip(x, y, strict=True)))
+    split = read_cycle_table(file)
+    assert [part.law for part in split.stretches] == ["modified sine", None, "cycloidal", None]
+    assert split.cycle(speed="200 rpm").duration == pytest.approx(0.3)
+    whole = Cycle(PROGRAMME, speed="200 rpm")
+    assert split.cycle(speed="200 rpm").duration == whole.duration
+
+
+@pytest.mark.parametrize(
+    ("says", "x", "y"),
+    [
+        ("at least 12 points", [0.0, 1.0], [0.0, 1.0]),
+        ("must increase", [*range(12), 3], [0.0] * 13),
+        ("never moves", range(13), [1.0] * 13),
+    ],
+)
+def test_what_is_no_cycle_is_refused(says: str, x: list[float], y: list[float]) -> None:
+    with pytest.raises(InputError, match=says):
+        split_table(x, y)
