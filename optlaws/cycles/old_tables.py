@@ -297,15 +297,31 @@ def split_table(
     if stroke == 0.0:
         raise InputError("the table never moves: all its positions are the same")
     scatter = noise((places - places[0]) / np.ptp(places), heights / stroke) * stroke
-    least, noisy = max(digit, STANDARD_LAW_ROOM * stroke), NOISE_ROOM * scatter
-    room = least if tolerance is None else max(not_negative(tolerance, "tolerance"), STANDARD_LAW_ROOM * stroke)
+    least = max(digit, STANDARD_LAW_ROOM * stroke)
+    if tolerance is not None:
+        room = max(not_negative(tolerance, "tolerance"), STANDARD_LAW_ROOM * stroke)
+    else:
+        room = max(least, NOISE_ROOM * scatter)
+        # joints of a standard law may look like noise
+        if room > least and (split := _of_standard_laws(places, heights, least)):
+            return OldTable(split, least, 0.0, _seam(heights, least), unit, master)
     stretches = tuple(_stretches(places, heights, room))
-    # joints of a standard law may look like noise
-    if tolerance is None and noisy > room and any(isinstance(part.law, MotionLaw) for part in stretches):
-        room, stretches = noisy, tuple(_stretches(places, heights, noisy))
+    return OldTable(stretches, room, scatter, _seam(heights, room), unit, master)
+
+
+def _of_standard_laws(places: Array, heights: Array, room: float) -> tuple[Stretch, ...] | None:
+    """The parts of a table whose moves are all standard laws; None where one is not."""
+    try:
+        stretches = tuple(_stretches(places, heights, room))
+    except InputError:
+        return None
+    return None if any(isinstance(part.law, MotionLaw) for part in stretches) else stretches
+
+
+def _seam(heights: Array, room: float) -> float:
+    """By how much the last position differs from the first one; 0 within the room."""
     seam = float(heights[-1] - heights[0])
-    scatter = scatter if room > least else 0.0
-    return OldTable(stretches, room, scatter, seam if abs(seam) > room else 0.0, unit, master)
+    return seam if abs(seam) > room else 0.0
 
 
 @dataclass(frozen=True)
