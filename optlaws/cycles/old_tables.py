@@ -282,9 +282,9 @@ def split_table(
     >>> rise, back = np.clip(x / 100.0, 0.0, 1.0), np.clip((x - 160.0) / 100.0, 0.0, 1.0)
     >>> law = catalogue["modified trapezoid"].law
     >>> print(split_table(x, np.round(20.0 * (law(rise) - law(back)), 4), digit=1e-4))
-    rise   0 to 100 deg, +20 mm: modified trapezoid (within 4.9e-05 mm)
+    rise   0 to 100 deg, +20 mm: modified trapezoid (within 4.2e-05 mm)
     dwell  100 to 160 deg
-    return 160 to 260 deg, -20 mm: modified trapezoid (within 4.9e-05 mm)
+    return 160 to 260 deg, -20 mm: modified trapezoid (within 4.2e-05 mm)
     dwell  260 to 360 deg
     within 0.0001 mm of the points
     """
