@@ -100,8 +100,8 @@ def _arrays(data: Mapping[str, Any]) -> Verification:
         claim = Claim("the arrays", proven=False, detail=str(error))
         return Verification(problem=None, bound=None, claims=(claim,))
     detail = "their problems, laws, bounds and proofs are those of the solutions"
-    claim = Claim("the arrays", proven=False, detail=detail, recomputed=True)
-    return Verification(problem=None, bound=None, recomputed=(claim,))
+    claim = Claim("the arrays", proven=False, detail=detail, checked=False)
+    return Verification(problem=None, bound=None, unchecked=(claim,))
 
 
 def _law(data: Mapping[str, Any]) -> ExactLaw:
@@ -197,8 +197,8 @@ def _verification(
         problem=problem,
         infeasible=contradiction and proof.value is not None and proof.value > 0,
         charge=proof.charge,
-        claims=tuple(claim for claim in claims if not claim.recomputed),
-        recomputed=tuple(claim for claim in claims if claim.recomputed),
+        claims=tuple(claim for claim in claims if claim.checked),
+        unchecked=tuple(claim for claim in claims if not claim.checked),
         **known,
     )
 

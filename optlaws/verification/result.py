@@ -15,8 +15,9 @@ class Claim:
 
     Attributes
     ----------
-    recomputed
-        Whether it was only computed again in doubles and agrees, so that nothing of it is proven or refuted.
+    checked
+        Whether it was checked with every rounding enclosed; if not, it was computed again in doubles and agrees, so that
+        nothing of it is proven or refuted.
 
     Examples
     --------
@@ -27,10 +28,10 @@ class Claim:
     name: str
     proven: bool
     detail: str
-    recomputed: bool = False
+    checked: bool = True
 
     def __str__(self) -> str:
-        word = "recomputed" if self.recomputed else "proven" if self.proven else "NOT PROVEN"
+        word = "proven" if self.proven else "not proven" if self.checked else "not checked"
         return f"{word:<12}{self.name}: {self.detail}"
 
 
@@ -58,7 +59,7 @@ class Verification:
         What the bound lost to moments that had to be charged; mostly 0.
     claims
         Everything that was checked, and is proven or not.
-    recomputed
+    unchecked
         What was only computed again in doubles, and agrees.
 
     Examples
@@ -79,7 +80,7 @@ class Verification:
     excesses: dict[str, float] = field(default_factory=dict)
     charge: float = 0.0
     claims: tuple[Claim, ...] = ()
-    recomputed: tuple[Claim, ...] = ()
+    unchecked: tuple[Claim, ...] = ()
 
     @property
     def proven(self) -> bool:
@@ -98,7 +99,7 @@ class Verification:
             "excesses": {name: bounded(by) for name, by in self.excesses.items()},
             "charge": self.charge,
             "claims": [{name: getattr(claim, name) for name in ("name", "proven", "detail")} for claim in self.claims],
-            "recomputed": [{"name": claim.name, "detail": claim.detail} for claim in self.recomputed],
+            "unchecked": [{"name": claim.name, "detail": claim.detail} for claim in self.unchecked],
             "problem": None if self.problem is None else self.problem.to_dict(),
         }
 
@@ -113,7 +114,7 @@ class Verification:
         if self.gap is not None:
             lines.append(f"gap          at most {self.gap:.2e}")
         lines += [f"{name:<12} in [{low!r}, {high!r}]" for name, (low, high) in self.constants.items()]
-        return "\n".join([*lines, *map(str, (*self.claims, *self.recomputed))])
+        return "\n".join([*lines, *map(str, (*self.claims, *self.unchecked))])
 
 
 def _pair(pair: tuple[float, float]) -> list[float | None]:

@@ -56,7 +56,7 @@ def _limit(value: float, problem: Problem) -> Claim:
     if claim.proven or known is None:
         return claim
     agrees = value <= known + STATED_BOUND * max(scale, known)
-    return Claim("the limit", proven=False, detail=f"{value!r} stated, {known!r} in doubles", recomputed=agrees)
+    return Claim("the limit", proven=False, detail=f"{value!r} stated, {known!r} in doubles", checked=not agrees)
 
 
 def stated_constants(data: Mapping[str, Any], law: ExactLaw) -> Iterator[Claim]:

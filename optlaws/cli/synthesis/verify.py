@@ -39,7 +39,7 @@ def verify(*files: Path, as_json: AsJson = False) -> None:
         print_json({name: verification.results() for name, verification in verifications.items()})
     else:
         for name, verification in verifications.items():
-            word = "NOT PROVEN" if not verification.proven else "proven" if verification.claims else "recomputed"
+            word = "not proven" if not verification.proven else "proven" if verification.claims else "not checked"
             alone = len(verifications) == len(files)
             print(f"{name}: {word}\n{verification}\n" if alone else _line(name, word, verification))
     failed = [
