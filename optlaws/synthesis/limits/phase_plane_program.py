@@ -21,8 +21,8 @@ from optlaws.errors import SolverFailure
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import gauss
 from optlaws.synthesis.limits.phase_plane import PhasePlane
-from optlaws.synthesis.limits.phase_torque import AnyTorque, PhaseTorque
-from optlaws.tolerances import PHASE_ACTIVE, PHASE_PACE, SMALLEST_ELEMENT
+from optlaws.synthesis.limits.phase_torque import AnyTorque, GearTorque, PhaseTorque
+from optlaws.tolerances import PHASE_ACTIVE, PHASE_PACE, SMALLEST_ELEMENT, SMALLEST_SIZE
 
 DEGREE = 4
 _ELEMENTS = 8
@@ -111,10 +111,18 @@ def _first(plane: PhasePlane, edges: Array) -> PhaseOptimum:
 
 
 def _driven(plane: PhasePlane, solved: PhaseOptimum) -> _Driven:
-    """Where power flows to the load in a motion: the places where that changes, and what it does between them."""
+    """Where power flows to the load of a motor that brakes: the places where that changes, and what it does between."""
     if plane.gear_load is None:
         return solved.driven
-    positive = _along(plane.gear_load, solved) > 0.0
+    torque = next(torque for torque in plane.torques if isinstance(torque, GearTorque))
+    value = _along(torque, solved)
+    # where it does not brake it would as hard as it drives or, where a bound counts, as hard as anywhere
+    most = np.abs(value) if plane.squared is not None else float(np.abs(value).max())
+    a = np.sin(np.pi * solved.s / 2.0) ** 2
+    least = []
+    for inertia, square, drag, load in (branch.values(a) for branch in torque.branches):
+        least.append((-most - (square * solved.b + drag) * solved.b - load) / np.maximum(inertia, SMALLEST_SIZE))
+    positive = np.where(value < 0.0, _along(plane.gear_load, solved) > 0.0, least[0] < least[1])
     changes = np.flatnonzero(positive[1:] != positive[:-1])
     places = 0.5 * (solved.s[changes] + solved.s[changes + 1])
     return tuple(places.tolist()), tuple(positive[np.append(changes, len(positive) - 1)].tolist())
