@@ -26,7 +26,7 @@ from optlaws.synthesis.limits.phase_plane_bound import Guess, Potential, proven_
 from optlaws.synthesis.limits.phase_plane_program import PhaseOptimum, optimum
 from optlaws.synthesis.limits.phase_torque import AnyTorque, greater_power, torque_of
 from optlaws.synthesis.problem.problem import Problem
-from optlaws.tolerances import PHASE_GAP, SMALL_PHASE_GAP, STATED_BOUND
+from optlaws.tolerances import MOST_PHASE_GAP, PHASE_GAP, SMALL_PHASE_GAP, STATED_BOUND
 
 #: what a drive is to take as little of
 DriveObjective: TypeAlias = Literal["peak torque", "rms torque", "energy", "time"]
@@ -285,7 +285,7 @@ def _limit(plane: PhasePlane, minimise: DriveObjective, unit: float, motion: Pha
         limit = replace(limit, value=_bound(limit))
         if best is None or limit.value > best.value:
             best = limit
-        if best.gap < PHASE_GAP:
+        if best.gap < (PHASE_GAP if share else MOST_PHASE_GAP):
             break
     assert best is not None  # noqa: S101 - there are several shares
     return best

@@ -25,7 +25,7 @@ from optlaws.numbers import Array
 from optlaws.numerics.interval import Interval, exact
 from optlaws.synthesis.limits.phase_plane import PhasePlane
 from optlaws.synthesis.limits.phase_plane_cells import CellBounds, Guess, Potential, ProofCells
-from optlaws.tolerances import ROUNDOFF, SHORT_CELL, WEAK_CELL
+from optlaws.tolerances import ROUNDOFF
 
 __all__ = ["Guess", "Potential", "proven_bound"]
 
@@ -71,9 +71,11 @@ def _sums(plane: PhasePlane, potential: Potential, weight: float, guess: Guess) 
     for deep in range(_DEEPEST):
         first.take(piece, low, high)
         known = _proven(first, others[0] if others else None)
-        weak = known.weak
-        if deep + 1 == _DEEPEST or np.count_nonzero(weak) > _MOST_WEAK:
+        weak = known.weak > 0.0
+        if deep + 1 == _DEEPEST or np.count_nonzero(np.isinf(known.weak)) > _MOST_WEAK:
             weak = np.zeros_like(weak)
+        elif np.count_nonzero(weak) > _MOST_WEAK:
+            weak &= known.weak >= np.sort(known.weak)[-_MOST_WEAK]
         length = exact(first.half) * 2.0
         sums += _times(known.least, length)[~weak].tolist()
         free += _times(known.free, length)[~weak].tolist()
@@ -131,8 +133,8 @@ def _proven(first: ProofCells, other: ProofCells | None) -> CellBounds:
     return known._replace(**arrays)
 
 
-def _lower_of(one: CellBounds, two: CellBounds, cells: ProofCells) -> tuple[Array, NDArray[np.bool_]]:
-    """What the mean of the lower of two inner minima is at least, and where much may be lost."""
+def _lower_of(one: CellBounds, two: CellBounds, cells: ProofCells) -> tuple[Array, Array]:
+    """What the mean of the lower of two inner minima is at least, and by how much more may be lost than is little."""
     at, over = (first - second for first, second in zip(one.below, two.below, strict=True))
     with np.errstate(invalid="ignore"):
         more = exact(two.loss) - one.loss
@@ -147,6 +149,6 @@ def _lower_of(one: CellBounds, two: CellBounds, cells: ProofCells) -> tuple[Arra
         second = (low >= 0.0) | (one.floor >= tops[1])
         likely = np.where(first, one.mean, np.where(second, two.mean, crossing))
         best = np.fmax(np.minimum(one.floor, two.floor), likely)
-        lost = (np.minimum(one.mean, two.mean) - best) * cells.half
-        near = lost <= WEAK_CELL * one.size * np.maximum(cells.half, SHORT_CELL)
-    return best, np.where(first, one.weak, np.where(second, two.weak, one.weak | two.weak | ~near))
+        lost = cells.weakness((np.minimum(one.mean, two.mean) - best) * cells.half, one.size)
+        either = np.maximum(np.maximum(one.weak, two.weak), lost)
+    return best, np.where(first, one.weak, np.where(second, two.weak, either))

@@ -123,7 +123,7 @@ class CellBounds(NamedTuple):
     loss: Array
     free: Array  #: what it is at least everywhere without the price of a peak
     size: Array  #: of the numbers whose sum it is
-    weak: NDArray[np.bool_]  #: where much may be lost
+    weak: Array  #: by how much more may be lost than is little; above 0 in weak cells
     shared: NDArray[np.bool_]  #: where it is proven of the other direction of the power too
 
     @property
@@ -144,9 +144,7 @@ class CellBounds(NamedTuple):
             for first, second in zip(self.below, other.below, strict=True)
         ]
         arrays = {
-            name: np.where(cells, getattr(self, name), getattr(other, name))
-            for name in self._fields
-            if name != "below"
+            name: np.where(cells, getattr(self, name), getattr(other, name)) for name in self._fields if name != "below"
         }
         return self._replace(below=(jets[0], jets[1]), **arrays)
 
@@ -208,18 +206,34 @@ class ProofCells:
         self.follows, self.beside = known.follows.reshape(shape), known.beside.reshape(shape).any(axis=0)
         # in a cell the price follows from q that does so at both ends, else that of the reference
         last = len(self.entries) - 1
-        self.follows = np.where(self.follows[0] == self.follows[1], self.follows[0], last)
+        self.mixed = self.follows[0] != self.follows[1]
+        self.follows = np.where(self.mixed, last, self.follows[0])
 
     def bounds(self) -> CellBounds:
         """What is proven of the inner minimum in every cell."""
-        known = self._in_cells()
-        unknown = ~np.isfinite(known.least)
-        if unknown.any():
-            self.follows = np.where(unknown, len(self.entries) - 1, self.follows)
-            again = self._in_cells()
-            weak = known.weak & again.weak
-            known = again.where(again.least > known.least, known)._replace(weak=weak)
+        known, last = self._in_cells(), len(self.entries) - 1
+        squared = [i for i, entry in enumerate(self.entries) if entry.role == "squared" and len(self.plane.limits) > 1]
+        for i in dict.fromkeys([*squared, last]):
+            unknown = ~np.isfinite(known.least)
+            if unknown.any():
+                self.follows = np.where(unknown, i, self.follows)
+                again = self._in_cells()
+                weak = np.minimum(known.weak, again.weak)
+                known = again.where(again.least > known.least, known)._replace(weak=weak)
         return known
+
+    def _paid(self, terms: _Terms, prices: _Prices) -> Array:
+        """What the reference takes in the middles of cells, if it is bounded."""
+        entry = self.entries[-1]
+        if entry.role != "bound":
+            return np.zeros_like(self.half)
+        price = prices.of_entries[-1].terms[0].middle * terms.share.terms[0].middle
+        return np.asarray(price * entry.at_rest)
+
+    def weakness(self, lost: Array, size: Array) -> Array:
+        """By how much more may be lost in cells than is little."""
+        more = lost - WEAK_CELL * size * np.maximum(self.half, SHORT_CELL)
+        return np.where(np.isnan(more), inf, more)
 
     def _in_cells(self) -> CellBounds:
         prices, prices_around = self._prices(self.at), self._prices(self.over)
@@ -233,12 +247,13 @@ class ProofCells:
         size = np.abs(mean.middle) + self.peak * np.abs(price.middle)
         with np.errstate(invalid="ignore"):
             least = (mean - loss).low
-            weak = ~((loss + mean.radius) * self.half <= WEAK_CELL * size * np.maximum(self.half, SHORT_CELL))
+            paid = np.where(self.mixed, np.abs(self._paid(self.at, prices)), 0.0)
+            weak = self.weakness((loss + mean.radius + paid) * self.half, size)
         known = self._within(prices, prices_around) & np.isfinite(price.high)
         free = self.peak * np.maximum(self.range(here.price, around.price).low, 0.0)
         least = np.where(np.isfinite(least) & known, least, -inf)
         floor = np.where(known, _least([v.low for v in ranges], self.x, self.most), -inf)
-        weak |= ~(known & np.isfinite(np.fmax(least, floor)))
+        weak = np.where(known & np.isfinite(np.fmax(least, floor)), weak, inf)
         shared = self._shared(prices, prices_around)
         loss = np.where(known, loss, inf)
         return CellBounds(least, floor, (along[0], along[1]), loss, floor + free, size, weak, shared)
@@ -421,9 +436,10 @@ def _least(factors: list[Array], near: Array, most: Array) -> Array:
 
 
 def _spreads(plane: PhasePlane, side: int) -> list[float]:
-    """By how much more of the load's price stands for one of every torque in the other direction; empty without a gear.
+    """By how much the load's price changes with one of every torque in the other direction; empty without a gear.
 
-    That price has the sign of its side, here always taken above 0. In the order of the prices of a branch: the load, all other torques, and those of maxima.
+    It has the sign of its side, here taken above 0. In the order of the prices of a branch: the load, all other
+    torques, and those of maxima.
     """
     if plane.gear_load is None:
         return []
@@ -432,7 +448,10 @@ def _spreads(plane: PhasePlane, side: int) -> list[float]:
     torques += [torque for torque in (plane.squared, plane.peak) if torque is not None]
     torques += [bound.torque for bound in bounds if not bound.side]
     torques += [torque for pair in plane.maxima for torque in pair]
-    return [-1.0 if side else 1.0, *(torque.to_load - torque.back if isinstance(torque, GearTorque) else 0.0 for torque in torques)]
+    return [
+        -1.0 if side else 1.0,
+        *(torque.to_load - torque.back if isinstance(torque, GearTorque) else 0.0 for torque in torques),
+    ]
 
 
 def _of_side(ends: Array, side: int) -> Array:
@@ -440,7 +459,7 @@ def _of_side(ends: Array, side: int) -> Array:
     if side == 0:
         return ends
     sizes = np.maximum(side * ends, 0.0)
-    return side * np.maximum(sizes, AFFINE_SLACK * sizes.max(axis=0))
+    return np.asarray(side * np.maximum(sizes, AFFINE_SLACK * sizes.max(axis=0)))
 
 
 def _to_ends(inside: Array) -> Array:

@@ -203,7 +203,7 @@ class _Program:
         """All other rows with their cones, and what is minimised."""
         import clarabel
 
-        plane, ones, slack = self.plane, np.ones(self.count), _VARIABLES
+        plane, ones = self.plane, np.ones(self.count)
         if plane.kind == "time":
             self._cost(_PACE, 1.0)
         else:
@@ -223,31 +223,37 @@ class _Program:
         ways = {_VELOCITY: ones, _PACE: ones}, {_VELOCITY: -ones, _PACE: ones}
         self._cone((ways[0], 0.0 * ones), ({}, 2.0 * ones), (ways[1], 0.0 * ones))
         if plane.squared is not None:
-            sides, size = self._sides(plane.squared)
-            parts, load = sides[0]
-            if len(plane.squared.branches) > 1:  # the square of a variable that is at least the magnitude
-                for side, more in sides:
-                    self._at_most({**side, slack + 1: -ones}, -more)
-                parts, load = {slack + 1: ones}, 0.0 * ones
-            double = {variable: 2.0 * part for variable, part in parts.items()}
-            ways = {_VELOCITY: ones, slack: ones}, {_VELOCITY: -ones, slack: ones}
-            self._cone((ways[0], 0.0 * ones), (double, 2.0 * load), (ways[1], 0.0 * ones))
-            self._cost(slack, plane.heat * size**2)
-            slack += len(plane.squared.branches)
-        for torques in plane.maxima:
-            branches = [branch for torque in torques for branch in torque.branches]
-            size = max(self._torque(branch)[2] for branch in branches)
-            for branch in branches:
-                parts, load, scale = self._torque(branch)
-                scaled = {variable: scale / size * part for variable, part in parts.items()}
-                self._at_most({**scaled, slack: -ones}, -scale / size * load)
-            self._cost(slack, size)
-            slack += 1
+            self._write_squared(plane.squared)
+        for i, torques in enumerate(plane.maxima, self.width // self.count - len(plane.maxima)):
+            self._write_maximum([branch for torque in torques for branch in torque.branches], i)
         if plane.peak is not None:
             sides, self.costs[-1] = self._sides(plane.peak)
             for parts, load in sides:
                 self.entries.append((self.height + np.arange(self.count), np.full(self.count, self.width - 1), -ones))
                 self._at_most(parts, -load)
+
+    def _write_squared(self, torque: AnyTorque) -> None:
+        """The rows of a squared torque; behind a gear with losses of what is at least its magnitude."""
+        ones, slack = np.ones(self.count), _VARIABLES
+        sides, size = self._sides(torque)
+        parts, load = sides[0]
+        if len(torque.branches) > 1:
+            for side, more in sides:
+                self._at_most({**side, slack + 1: -ones}, -more)
+            parts, load = {slack + 1: ones}, 0.0 * ones
+        double = {variable: 2.0 * part for variable, part in parts.items()}
+        ways = {_VELOCITY: ones, slack: ones}, {_VELOCITY: -ones, slack: ones}
+        self._cone((ways[0], 0.0 * ones), (double, 2.0 * load), (ways[1], 0.0 * ones))
+        self._cost(slack, self.plane.heat * size**2)
+
+    def _write_maximum(self, branches: list[PhaseTorque], slack: int) -> None:
+        """The rows of a variable that is at least several torques."""
+        size = max(self._torque(branch)[2] for branch in branches)
+        for branch in branches:
+            parts, load, scale = self._torque(branch)
+            scaled = {variable: scale / size * part for variable, part in parts.items()}
+            self._at_most({**scaled, slack: -np.ones(self.count)}, -scale / size * load)
+        self._cost(slack, size)
 
     def _cost(self, variable: int, size: float) -> None:
         self.costs[variable * self.count : (variable + 1) * self.count] = size * self.weights

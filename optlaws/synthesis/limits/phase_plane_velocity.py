@@ -7,6 +7,7 @@ from math import inf
 from typing import Literal, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from optlaws.numbers import Array
 from optlaws.synthesis.limits.phase_plane import PhasePlane
@@ -147,7 +148,7 @@ class InnerMinimum:
             follows = np.where(within, i, follows)
         return shares, follows, rest
 
-    def _is_active(self, entry: PricedTorque, b: Array, c: Array) -> Array:
+    def _is_active(self, entry: PricedTorque, b: Array, c: Array) -> NDArray[np.bool_]:
         if entry.side:
             return np.asarray(np.abs(self._beyond(entry, b, c)) <= PHASE_TIE * entry.torque.size)
         most = entry.at_rest - entry.fall * b
