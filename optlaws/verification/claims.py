@@ -34,7 +34,9 @@ from optlaws.verification.file_entries import (
     check_keys,
     entries,
     is_array,
+    is_drive_limit,
     is_entry,
+    is_move_limit,
     is_proven_front,
 )
 from optlaws.verification.proven_fronts import proven_front
@@ -81,6 +83,8 @@ def _alone(data: Mapping[str, Any]) -> Verification:
         return _arrays(data)
     if is_proven_front(data):
         return proven_front(built(ProvenFront.from_dict, data, "the proven front"), number(data, "gap"))
+    if is_drive_limit(data) or is_move_limit(data):
+        return _limit_of_drive(data)
     if "certificate" in data:
         return _solution(data)
     if "law" in data:
@@ -102,6 +106,16 @@ def _arrays(data: Mapping[str, Any]) -> Verification:
     detail = "their problems, laws, bounds and proofs are those of the solutions"
     claim = Claim("the arrays", proven=False, detail=detail, checked=False)
     return Verification(problem=None, bound=None, unchecked=(claim,))
+
+
+def _limit_of_drive(data: Mapping[str, Any]) -> Verification:
+    """A limit of drives, whose bound is computed again from its potential; in SI units by a factor."""
+    unit, inner = (Fraction(1), data) if is_drive_limit(data) else (Fraction(number(data, "unit")), data["drive_limit"])
+    if not isinstance(inner, Mapping) or unit <= 0:
+        raise InputError(f"the limit of a move has a drive_limit and a unit above 0, got {shortened(data)}")
+    limit = built(DriveLimit.from_dict, inner, "the drive's limit")
+    claim = at_most("the drive's limit", limit.value, Fraction(limit.bound), limit.bound, " by the phase plane")
+    return Verification(problem=None, bound=rounded_down(Fraction(limit.bound) * unit), claims=(claim,))
 
 
 def _law(data: Mapping[str, Any]) -> ExactLaw:

@@ -126,7 +126,8 @@ def is_entry(data: Data) -> bool:
     """Whether this is a solution, a certificate, a law with its constants or a proven front, whatever else it says."""
     solution = {"problem", "law", "certificate"} <= data.keys()
     certificate = {"problem", "contacts"} <= data.keys() or {"problem", "steps"} <= data.keys()
-    return solution or certificate or is_proven_front(data) or {"law", "constants"} <= data.keys()
+    several = is_proven_front(data) or is_drive_limit(data) or is_move_limit(data)
+    return solution or certificate or several or {"law", "constants"} <= data.keys()
 
 
 def is_array(data: Data) -> bool:
@@ -137,6 +138,16 @@ def is_array(data: Data) -> bool:
 def is_proven_front(data: Data) -> bool:
     """Whether this is a front that is proven at every value of a number."""
     return {"runs", "problem", "points"} <= data.keys()
+
+
+def is_drive_limit(data: Data) -> bool:
+    """Whether this is the limit of a drive, with its potential as certificate."""
+    return {"plane", "potential"} <= data.keys()
+
+
+def is_move_limit(data: Data) -> bool:
+    """Whether this is the limit of a drive in SI units."""
+    return {"drive_limit", "unit", "dimension"} == data.keys()
 
 
 def check_keys(data: Data) -> None:

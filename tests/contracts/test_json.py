@@ -113,6 +113,7 @@ def values(jumping: Solution) -> dict[str, Any]:
         "Motor": optlaws.Motor("3e-4 kg m^2"),
         "DriveLimit": optlaws.drive_limit("c + 0.5*a", "rms torque", C=9.0),
         "PhasePlane": optlaws.drive_limit("c + 0.5*a", B=1.8).plane,
+        "MoveLimit": optlaws.Mechanism("0.8 kg m^2").limit("rms torque", "0 deg", "45 deg", "0.25 s"),
         "DriveSheet": optlaws.Drive(optlaws.rack("20 mm", "5 kg"), optlaws.Motor(0.0)).sheet("0050", 0.0, 1.0, 1.0),
         "Cycle": slide,
         "Axes": optlaws.Axes({"slide": slide}),

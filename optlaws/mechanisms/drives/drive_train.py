@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
@@ -14,11 +15,13 @@ from optlaws.laws import MotionLaw
 from optlaws.mechanisms.drives.motor import Motor
 from optlaws.mechanisms.drives.motor_motion import MotorMotion, Train
 from optlaws.mechanisms.drives.sheet import BestRatio, DriveSheet, best_ratio, drive_sheet
-from optlaws.mechanisms.linkages.mechanism import Mechanism
+from optlaws.mechanisms.linkages.mechanism import DIMENSIONS, Mechanism, duration_of
+from optlaws.mechanisms.linkages.move_limits import MoveBounds, MoveCosts, MoveLimit, MoveScales, move_limit
 from optlaws.motion.piece import named_law
 from optlaws.motion.quantities import si_number
 from optlaws.numbers import NumberOrQuantity, finite, not_negative, positive, real
 from optlaws.suggest import unknown_key
+from optlaws.synthesis.limits.drive_limits import DriveObjective
 from optlaws.tolerances import CLOSURE
 
 
@@ -215,6 +218,57 @@ class Drive(JsonText):
         several = powers if self.regeneration == 1.0 else [*powers, *fed_back]
         power, energy = (some[0] if len(some) == 1 else f"max({', '.join(some)})" for some in (powers, several))
         return DimensionlessDrive(torque, power, energy, unit, unit * i * speed, unit * i * abs(moved.stroke))
+
+    def limit(
+        self,
+        minimise: DriveObjective,
+        start: NumberOrQuantity,
+        stroke: NumberOrQuantity,
+        duration: NumberOrQuantity | None = None,
+        *,
+        limits: Mapping[str, Any] | None = None,
+        heat: float = 0.0,
+    ) -> MoveLimit:
+        """What no motion from rest to rest that never turns back can beat at the motor, proven, in SI units.
+
+        It is the limit within the motor's greatest speed, peak torque and curve; for the peak torque within its speed.
+        A curve that is not concave counts by its concave hull. What the gear loses is in it.
+
+        Parameters
+        ----------
+        minimise
+            "peak torque", "rms torque", "energy" (without what is fed back) or "time", all at the motor.
+        start, stroke, duration
+            Of the mechanism's input; the least time has no duration.
+        limits
+            Greatest "velocity" and "acceleration" of the mechanism's input, and "torque" of the motor.
+        heat
+            Copper heat, in W a squared N m, that is minimised together with the energy.
+
+        Raises
+        ------
+        InputError
+            If the stroke leaves the range, or nothing keeps the acceleration finite.
+        InfeasibleProblem
+            If the motor is too weak; the error says what is reachable, and its `proof` proves it.
+
+        Examples
+        --------
+        >>> motor = Motor("3e-4 kg m^2", peak_torque="6 N m", greatest_speed="3000 rpm")
+        >>> drive = Drive(Mechanism("0.8 kg m^2"), motor, ratio=20, efficiency=0.85)
+        >>> print(drive.limit("rms torque", "0 deg", "45 deg", "0.25 s"))
+        rms torque at least 1.90063 N m
+        """
+        moved = self.dimensionless(start, stroke, duration_of(minimise, duration))
+        velocity = moved.power_unit / moved.unit / self.ratio
+        time = moved.energy_unit / moved.power_unit
+        scales = MoveScales(moved.unit, moved.energy_unit, velocity, time)
+        lines = [] if minimise == "peak torque" else self.motor.peak_lines
+        bounds = MoveBounds.read(limits, DIMENSIONS[self.mechanism.axis])
+        bounds = bounds.within(
+            self.motor.greatest_speed / self.ratio, [(most, fall * self.ratio) for most, fall in lines]
+        )
+        return move_limit(moved.torque, minimise, scales, bounds, MoveCosts.read(self.regeneration, heat))
 
     def sheet(
         self,

@@ -110,6 +110,31 @@ class Motor(JsonText):
         """The torque that the motor bears for ever at speeds in rad/s, N m."""
         return np.minimum(self._along(self.continuous, speed), self.rated_torque)
 
+    @property
+    def peak_lines(self) -> tuple[tuple[float, float], ...]:
+        """Straight lines over the speed that the peak torque is below: each a torque at rest, and how much it falls.
+
+        They are those of the concave hull of the curve, and of the peak torque.
+
+        Examples
+        --------
+        >>> motor = Motor("3e-4 kg m^2", curve=[("0 rad/s", "9 N m"), ("200 rad/s", "9 N m"), ("300 rad/s", "4 N m")])
+        >>> motor.peak_lines
+        ((9.0, 0.0), (19.0, 0.05))
+        """
+        lines = [(self.peak_torque, 0.0)] if self.peak_torque < inf else []
+        hull: list[tuple[float, float]] = []
+        for point in self.curve:
+            while len(hull) > 1 and _slope(hull[-2], hull[-1]) <= _slope(hull[-1], point):
+                hull.pop()
+            hull.append(point)
+        if hull:
+            lines.append((max(torque for _, torque in hull), 0.0))
+        for first, second in pairwise(hull):
+            if (fall := -_slope(first, second)) > 0.0:
+                lines.append((first[1] + fall * first[0], fall))
+        return tuple(lines)
+
     def _along(self, curve: Curve, speed: Any) -> Array:  # noqa: ANN401
         size = np.abs(np.asarray(speed, dtype=np.float64))
         values = np.interp(size, *np.transpose(curve)) if curve else np.full(size.shape, inf)
@@ -183,6 +208,10 @@ def read_motors(file: str | Path) -> dict[str, Motor]:
         except InputError as error:
             raise InputError(f"{Path(file).name}: {name}: {error}") from None
     return motors
+
+
+def _slope(first: tuple[float, float], second: tuple[float, float]) -> float:
+    return (second[1] - first[1]) / (second[0] - first[0])
 
 
 def _entry(value: Any, name: str) -> float:  # noqa: ANN401

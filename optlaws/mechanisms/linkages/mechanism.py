@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any, Literal, Self
+from typing import TYPE_CHECKING, Any, Literal, Self
 
 import numpy as np
 
@@ -23,6 +23,10 @@ from optlaws.motion.quantities import either, in_small_units, si_number
 from optlaws.numbers import Array, NumberOrQuantity, derivative, finite, not_negative, positive, real_times
 from optlaws.suggest import unknown_key
 from optlaws.tolerances import CLOSURE, VALUE_ROUNDING
+
+if TYPE_CHECKING:
+    from optlaws.mechanisms.linkages.move_limits import MoveLimit
+    from optlaws.synthesis.limits.drive_limits import DriveObjective
 
 InputAxis = Literal["angle", "length"]
 #: of the inertia, of the load, of viscous friction, and of the input's velocity and acceleration
@@ -305,6 +309,53 @@ class Mechanism(JsonText):
         friction = InputFriction(self.coulomb, self.viscous)
         return dimensionless(self.inertia_formula, self.load_formula, friction, (first, way, time))
 
+    def limit(
+        self,
+        minimise: DriveObjective,
+        start: NumberOrQuantity,
+        stroke: NumberOrQuantity,
+        duration: NumberOrQuantity | None = None,
+        *,
+        limits: Mapping[str, Any] | None = None,
+        recovered: float = 0.0,
+        heat: float = 0.0,
+    ) -> MoveLimit:
+        """What no motion from rest to rest that never turns back can beat at the input, proven, in SI units.
+
+        Parameters
+        ----------
+        minimise
+            "peak torque", "rms torque", "energy" (without what is recovered) or "time"; a force where the input slides.
+        start, stroke, duration
+            As `dimensionless` takes them; the least time has no duration.
+        limits
+            Greatest "velocity", "acceleration" and "torque" (or "force") of the input.
+        recovered
+            Which share of the braking energy is used again, 0 to 1.
+        heat
+            Copper heat, in W a squared N m (or N), that is minimised together with the energy.
+
+        Raises
+        ------
+        InputError
+            If the stroke leaves the range, or nothing keeps the acceleration finite.
+        InfeasibleProblem
+            If no motion keeps the limits; the error says what is reachable, and its `proof` proves it.
+
+        Examples
+        --------
+        >>> table = Mechanism("0.8 kg m^2")
+        >>> print(table.limit("time", "0 deg", "45 deg", limits={"torque": "50 N m", "velocity": "6 rad/s"}))
+        time at least 0.2269 s
+        """
+        from optlaws.mechanisms.linkages.move_limits import MoveBounds, MoveCosts, MoveScales, move_limit
+
+        moved = self.dimensionless(start, stroke, duration_of(minimise, duration))
+        velocity, dimension = abs(moved.stroke) / moved.duration, "N m" if self.axis == "angle" else "N"
+        scales = MoveScales(moved.unit, moved.energy_unit, velocity, moved.duration, dimension)
+        bounds, costs = MoveBounds.read(limits, DIMENSIONS[self.axis]), MoveCosts.read(recovered, heat)
+        return move_limit(moved.torque, minimise, scales, bounds, costs)
+
     def with_friction(self, *, coulomb: NumberOrQuantity = 0.0, viscous: NumberOrQuantity = 0.0) -> Self:
         """The mechanism with this friction at its input in place of what it has."""
         return self._changed(coulomb=coulomb, viscous=viscous)
@@ -431,6 +482,21 @@ def _end(value: Any, axis: Any) -> tuple[Any, float]:  # noqa: ANN401
     if isinstance(value, str) or hasattr(value, "units"):
         return either(value, (axis,) if axis else ("angle", "length"), "over")
     return None, finite(value, "over")
+
+
+def duration_of(minimise: str, duration: NumberOrQuantity | None) -> NumberOrQuantity:
+    """The duration of a move, or a second where the least time is looked for.
+
+    Raises
+    ------
+    InputError
+        If it is missing, or there is one of the least time.
+    """
+    if (duration is None) != (minimise == "time"):
+        raise InputError(
+            "duration is missing, such as '0.25 s'" if duration is None else "leave out the duration: it is minimised"
+        )
+    return 1.0 if duration is None else duration
 
 
 @lru_cache(maxsize=256)

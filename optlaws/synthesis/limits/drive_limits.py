@@ -21,11 +21,12 @@ from optlaws.kept import kept_property
 from optlaws.numbers import Array, not_negative, numbers, positive, power_of_two
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaPeak, FormulaRms, OfFormula
-from optlaws.synthesis.limits.phase_plane import PhasePlane, PhaseTorque, TorqueLimit
+from optlaws.synthesis.limits.phase_plane import PhasePlane, TorqueLimit
 from optlaws.synthesis.limits.phase_plane_bound import Guess, Potential, proven_bound
 from optlaws.synthesis.limits.phase_plane_program import PhaseOptimum, optimum
+from optlaws.synthesis.limits.phase_torque import AnyTorque, greater_power, torque_of
 from optlaws.synthesis.problem.problem import Problem
-from optlaws.tolerances import PHASE_GAP, SMALL_PHASE_GAP, STATED_BOUND
+from optlaws.tolerances import MOST_PHASE_GAP, PHASE_GAP, SMALL_PHASE_GAP, STATED_BOUND
 
 #: what a drive is to take as little of
 DriveObjective: TypeAlias = Literal["peak torque", "rms torque", "energy", "time"]
@@ -208,13 +209,13 @@ def drive_limit(
     return limit_of_plane(plane, minimise, unit)
 
 
-def phase_torque(torque: str) -> PhaseTorque:
+def phase_torque(torque: str) -> AnyTorque:
     """The torque of a text, as one of the phase plane."""
-    form = PhaseTorque.of(read(torque, ("a", "b", "c", "k")))
+    form = torque_of(read(torque, ("a", "b", "c", "k")))
     if form is None:
         raise InputError(
-            f"a torque in the phase plane is I*c + S*b^2 + R*b + T with factors of a alone, got {shortened(torque)}: "
-            "give loads over the position a, not over k, and the torque before a gear with losses"
+            "a torque in the phase plane is I*c + S*b^2 + R*b + T with factors of a alone, or such torques and the "
+            f"greater of two, got {shortened(torque)}: give loads over the position a, not over k"
         )
     return form
 
@@ -284,7 +285,7 @@ def _limit(plane: PhasePlane, minimise: DriveObjective, unit: float, motion: Pha
         limit = replace(limit, value=_bound(limit))
         if best is None or limit.value > best.value:
             best = limit
-        if best.gap < PHASE_GAP:
+        if best.gap < (PHASE_GAP if share else MOST_PHASE_GAP):
             break
     assert best is not None  # noqa: S101 - there are several shares
     return best
@@ -360,7 +361,7 @@ def plane_of(problem: Problem) -> tuple[PhasePlane, DriveObjective, float] | Non
     limits = []
     for bounded, bounds in problem.bounded:
         if isinstance(bounded, FormulaPeak) and bounded.of_magnitude and bounds.high < inf:
-            form = PhaseTorque.of(bounded.motion.formula)
+            form = torque_of(bounded.motion.formula)
             if form is not None and (bounded.motion.start, bounded.motion.stop) == (0.0, 1.0):
                 limits.append(TorqueLimit(form.scaled(1.0 / unit), bounds.high / unit))
     B, C = (inf if (known := problem.range(name)) is None else known.high for name in ("B", "C"))
@@ -374,7 +375,7 @@ def _objective(term: OfFormula) -> tuple[float, PhasePlane | None]:
     formula = term.motion.formula
     if isinstance(term, FormulaIntegral):
         return _of_integral(formula)
-    form = PhaseTorque.of(formula)
+    form = torque_of(formula)
     if form is None:
         return 1.0, None
     scaled = form.scaled(1.0 / form.size)
@@ -387,19 +388,19 @@ def _objective(term: OfFormula) -> tuple[float, PhasePlane | None]:
 
 def _of_integral(formula: Formula) -> tuple[float, PhasePlane | None]:
     """The plane of a sum of powers, each the greater of two, and of one squared torque, each with a factor."""
-    powers: list[tuple[PhaseTorque, PhaseTorque]] = []
-    squares: list[tuple[float, PhaseTorque]] = []
+    powers: list[tuple[AnyTorque, AnyTorque]] = []
+    squares: list[tuple[float, AnyTorque]] = []
     for part in formula.terms if isinstance(formula, Sum) else (formula,):
         factors = part.factors if isinstance(part, Product) else (part,)
         last, weight = factors[-1], constant(product([Number(1.0), *factors[:-1]]))
         if weight is None or weight <= 0.0:
             return 1.0, None
         if isinstance(last, Exponentiation) and constant(last.exponent) == 2.0:
-            form = PhaseTorque.of(last.base)
+            form = torque_of(last.base)
             squares += [] if form is None else [(weight, form)]
-        elif isinstance(last, Call) and last.function == "max" and len(last.arguments) == 2:
-            first, second = map(PhaseTorque.of_power, last.arguments)
-            powers += [] if first is None or second is None else [(first.scaled(weight), second.scaled(weight))]
+        elif isinstance(last, Call) and last.function == "max":
+            pair = greater_power(last.arguments)
+            powers += [] if pair is None else [(pair[0].scaled(weight), pair[1].scaled(weight))]
     parts = formula.terms if isinstance(formula, Sum) else (formula,)
     if len(powers) + len(squares) != len(parts) or len(squares) > 1:
         return 1.0, None

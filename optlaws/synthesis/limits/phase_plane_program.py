@@ -3,6 +3,9 @@
 The position is a = sin²(pi s/2), so that velocities, which begin and end with the root of a, are smooth in s. The
 equation of motion w' = 2 c is tested with functions J phi(s)/sin(pi s), phi piecewise polynomials; its multipliers are
 the potential q(a) = J(a) pi(s)/sin(pi s), J the inertia of the plane's reference, of which every bound is made.
+
+Behind a gear with losses |torque| <= s is that neither branch is above s, and that one of both is not below -s: the one
+in which the last motion was. So a motion that is found keeps the bounds, but need not be the best.
 """
 
 from __future__ import annotations
@@ -17,8 +20,9 @@ from numpy.typing import NDArray
 from optlaws.errors import SolverFailure
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import gauss
-from optlaws.synthesis.limits.phase_plane import PhasePlane, PhaseTorque
-from optlaws.tolerances import PHASE_ACTIVE, PHASE_PACE, SMALLEST_ELEMENT
+from optlaws.synthesis.limits.phase_plane import PhasePlane
+from optlaws.synthesis.limits.phase_torque import AnyTorque, GearTorque, PhaseTorque
+from optlaws.tolerances import PHASE_ACTIVE, PHASE_PACE, SMALLEST_ELEMENT, SMALLEST_SIZE
 
 DEGREE = 4
 _ELEMENTS = 8
@@ -42,6 +46,9 @@ class PhaseOptimum:
         Places, and velocity and acceleration there.
     objective
         What is minimised, as the places see it.
+    driven
+        Behind a gear with losses: places, and whether the power of a motor that brakes flows to the load before each of
+        them and after the last.
     """
 
     edges: Array
@@ -51,6 +58,7 @@ class PhaseOptimum:
     b: Array
     c: Array
     objective: float
+    driven: tuple[tuple[float, ...], tuple[bool, ...]]
 
 
 def optimum(plane: PhasePlane, rounds: int = _ROUNDS) -> PhaseOptimum:
@@ -70,17 +78,54 @@ def optimum(plane: PhasePlane, rounds: int = _ROUNDS) -> PhaseOptimum:
     """
     kinks = 2.0 / np.pi * np.arcsin(np.sqrt(np.array(plane.kinks)))
     edges = np.union1d(np.linspace(0.0, 1.0, _ELEMENTS + 1), kinks)
-    solved, pace = _Program(plane, edges).solved(), 0.0
+    solved, pace = _first(plane, edges), 0.0
     if plane.kind != "time" and solved.weight < PHASE_PACE * abs(solved.objective):
         # where the time costs nothing, velocities are not determined: it is given a little price
         pace = PHASE_PACE * abs(solved.objective)
-        solved = _Program(plane, edges, pace).solved()
+        solved = _Program(plane, edges, pace, _driven(plane, solved)).solved()
     for _ in range(rounds - 1):
-        finer = _refined(plane, solved)
-        if len(finer) == len(solved.edges):
+        finer, driven = _refined(plane, solved), _driven(plane, solved)
+        if len(finer) == len(solved.edges) and driven == solved.driven:
             break
-        solved = _Program(plane, finer, pace).solved()
+        try:
+            solved = _Program(plane, finer, pace, driven).solved()
+        except SolverFailure:
+            if plane.gear_load is None:
+                raise
+            break
     return solved
+
+
+#: where power flows to the load: places, and whether it does so up to the next place
+_Driven: TypeAlias = tuple[tuple[float, ...], tuple[bool, ...]]
+
+
+def _first(plane: PhasePlane, edges: Array) -> PhaseOptimum:
+    """The optimum as if power flowed back wherever a motor brakes or, where there is none, nowhere."""
+    try:
+        return _Program(plane, edges, 0.0, ((0.5,), (False, False))).solved()
+    except SolverFailure:
+        if plane.gear_load is None:
+            raise
+        return _Program(plane, edges, 0.0, ((0.5,), (True, True))).solved()
+
+
+def _driven(plane: PhasePlane, solved: PhaseOptimum) -> _Driven:
+    """Where power flows to the load of a motor that brakes: the places where that changes, and what it does between."""
+    if plane.gear_load is None:
+        return solved.driven
+    torque = next(torque for torque in plane.torques if isinstance(torque, GearTorque))
+    value = _along(torque, solved)
+    # where it does not brake it would as hard as it drives or, where a bound counts, as hard as anywhere
+    most = np.abs(value) if plane.squared is not None else float(np.abs(value).max())
+    a = np.sin(np.pi * solved.s / 2.0) ** 2
+    least = []
+    for inertia, square, drag, load in (branch.values(a) for branch in torque.branches):
+        least.append((-most - (square * solved.b + drag) * solved.b - load) / np.maximum(inertia, SMALLEST_SIZE))
+    positive = np.where(value < 0.0, _along(plane.gear_load, solved) > 0.0, least[0] < least[1])
+    changes = np.flatnonzero(positive[1:] != positive[:-1])
+    places = 0.5 * (solved.s[changes] + solved.s[changes + 1])
+    return tuple(places.tolist()), tuple(positive[np.append(changes, len(positive) - 1)].tolist())
 
 
 #: factors of variables at the places, by variable: w = b², c, b and 1/b, then slacks
@@ -92,15 +137,16 @@ _SQUARE, _ACCELERATION, _VELOCITY, _PACE = range(_VARIABLES)
 class _Program:
     """The conic program on given elements: variables at every place, and the peak."""
 
-    def __init__(self, plane: PhasePlane, edges: Array, pace: float = 0.0) -> None:
-        self.plane, self.edges, self.pace = plane, edges, pace
+    def __init__(self, plane: PhasePlane, edges: Array, pace: float, driven: _Driven) -> None:
+        self.plane, self.edges, self.pace, self.driven = plane, edges, pace, driven
         x, share = gauss(DEGREE)
         lengths = np.diff(edges)
         self.s = (edges[:-1, None] + lengths[:, None] * (x + 1.0) / 2.0).ravel()
         self.a, self.sine = np.sin(np.pi * self.s / 2.0) ** 2, np.sin(np.pi * self.s)
         self.count = len(self.s)
         self.weights = (lengths[:, None] * share / 2.0).ravel() * np.pi / 2.0 * self.sine
-        slacks = int(plane.squared is not None) + len(plane.maxima)
+        self.drives = np.array(driven[1])[np.searchsorted(np.array(driven[0]), self.s)]
+        slacks = len(plane.maxima) + (len(plane.squared.branches) if plane.squared is not None else 0)
         self.width = (_VARIABLES + slacks) * self.count + 1
         self.height = 0
         self.entries: list[tuple[Places, Places, Array]] = []
@@ -131,7 +177,7 @@ class _Program:
         c, b = (x[i * self.count : (i + 1) * self.count] for i in (_ACCELERATION, _VELOCITY))
         potential = -unit * z[: self.count + 1][places]
         return PhaseOptimum(
-            self.edges, potential, weight, self.s, b, c, unit * float(result.obj_val) - self.pace * time
+            self.edges, potential, weight, self.s, b, c, unit * float(result.obj_val) - self.pace * time, self.driven
         )
 
     def _write_motion(self, x: Array) -> None:
@@ -157,7 +203,7 @@ class _Program:
         """All other rows with their cones, and what is minimised."""
         import clarabel
 
-        plane, ones, slack = self.plane, np.ones(self.count), _VARIABLES
+        plane, ones = self.plane, np.ones(self.count)
         if plane.kind == "time":
             self._cost(_PACE, 1.0)
         else:
@@ -168,36 +214,46 @@ class _Program:
         if inf > plane.B:
             self._at_most({_VELOCITY: ones}, plane.B * ones)
         for bound in plane.bounds:
-            parts, load, size = self._torque(bound.torque)
-            for sign in (1.0, -1.0):
-                signed = {variable: sign * part for variable, part in parts.items()}
-                signed[_VELOCITY] = signed[_VELOCITY] + bound.fall / size
-                self._at_most(signed, bound.at_rest / size - sign * load)
+            sides, size = self._sides(bound.torque)
+            for parts, load in sides:
+                falling = {**parts, _VELOCITY: parts[_VELOCITY] + bound.fall / size}
+                self._at_most(falling, bound.at_rest / size - load)
         # b² <= w and 1 <= b y
         self._cone(({_SQUARE: ones}, ones), ({_VELOCITY: 2.0 * ones}, 0.0 * ones), ({_SQUARE: ones}, -ones))
         ways = {_VELOCITY: ones, _PACE: ones}, {_VELOCITY: -ones, _PACE: ones}
         self._cone((ways[0], 0.0 * ones), ({}, 2.0 * ones), (ways[1], 0.0 * ones))
         if plane.squared is not None:
-            parts, load, size = self._torque(plane.squared)
-            double = {variable: 2.0 * part for variable, part in parts.items()}
-            ways = {_VELOCITY: ones, slack: ones}, {_VELOCITY: -ones, slack: ones}
-            self._cone((ways[0], 0.0 * ones), (double, 2.0 * load), (ways[1], 0.0 * ones))
-            self._cost(slack, plane.heat * size**2)
-            slack += 1
-        for torques in plane.maxima:
-            size = max(self._torque(torque)[2] for torque in torques)
-            for torque in torques:
-                parts, load, scale = self._torque(torque)
-                scaled = {variable: scale / size * part for variable, part in parts.items()}
-                self._at_most({**scaled, slack: -ones}, -scale / size * load)
-            self._cost(slack, size)
-            slack += 1
+            self._write_squared(plane.squared)
+        for i, torques in enumerate(plane.maxima, self.width // self.count - len(plane.maxima)):
+            self._write_maximum([branch for torque in torques for branch in torque.branches], i)
         if plane.peak is not None:
-            parts, load, self.costs[-1] = self._torque(plane.peak)
-            for sign in (1.0, -1.0):
-                signed = {variable: sign * part for variable, part in parts.items()}
+            sides, self.costs[-1] = self._sides(plane.peak)
+            for parts, load in sides:
                 self.entries.append((self.height + np.arange(self.count), np.full(self.count, self.width - 1), -ones))
-                self._at_most(signed, -sign * load)
+                self._at_most(parts, -load)
+
+    def _write_squared(self, torque: AnyTorque) -> None:
+        """The rows of a squared torque; behind a gear with losses of what is at least its magnitude."""
+        ones, slack = np.ones(self.count), _VARIABLES
+        sides, size = self._sides(torque)
+        parts, load = sides[0]
+        if len(torque.branches) > 1:
+            for side, more in sides:
+                self._at_most({**side, slack + 1: -ones}, -more)
+            parts, load = {slack + 1: ones}, 0.0 * ones
+        double = {variable: 2.0 * part for variable, part in parts.items()}
+        ways = {_VELOCITY: ones, slack: ones}, {_VELOCITY: -ones, slack: ones}
+        self._cone((ways[0], 0.0 * ones), (double, 2.0 * load), (ways[1], 0.0 * ones))
+        self._cost(slack, self.plane.heat * size**2)
+
+    def _write_maximum(self, branches: list[PhaseTorque], slack: int) -> None:
+        """The rows of a variable that is at least several torques."""
+        size = max(self._torque(branch)[2] for branch in branches)
+        for branch in branches:
+            parts, load, scale = self._torque(branch)
+            scaled = {variable: scale / size * part for variable, part in parts.items()}
+            self._at_most({**scaled, slack: -np.ones(self.count)}, -scale / size * load)
+        self._cost(slack, size)
 
     def _cost(self, variable: int, size: float) -> None:
         self.costs[variable * self.count : (variable + 1) * self.count] = size * self.weights
@@ -207,6 +263,18 @@ class _Program:
         inertia, square, drag, load = torque.values(self.a)
         size = float(np.max(4.0 * np.abs(inertia) + 4.0 * np.abs(square) + 2.0 * np.abs(drag) + np.abs(load))) or 1.0
         return {_SQUARE: square / size, _ACCELERATION: inertia / size, _VELOCITY: drag / size}, load / size, size
+
+    def _sides(self, torque: AnyTorque) -> tuple[list[tuple[_Parts, Array]], float]:
+        """Torques, divided by a size, of which the greatest is the magnitude of a torque, with their loads."""
+        branches = [self._torque(branch) for branch in torque.branches]
+        size = branches[0][2]
+        scaled = [
+            ({variable: scale / size * part for variable, part in parts.items()}, scale / size * load)
+            for parts, load, scale in branches
+        ]
+        (first, first_load), (last, last_load) = scaled[0], scaled[-1]
+        braking = {variable: -np.where(self.drives, first[variable], last[variable]) for variable in first}
+        return [*scaled, (braking, -np.where(self.drives, first_load, last_load))], size
 
     def _at_most(self, parts: _Parts, right: Array) -> None:
         import clarabel
@@ -255,22 +323,31 @@ def _refined(plane: PhasePlane, solved: PhaseOptimum) -> Array:
     return np.asarray(edges[np.append(True, np.diff(edges) > SMALLEST_ELEMENT)])
 
 
-def _active(plane: PhasePlane, solved: PhaseOptimum) -> Array:
-    """Which bounds are active at every place, one row a bound and sign."""
+def _along(torque: AnyTorque, solved: PhaseOptimum) -> Array:
+    """A torque at the places of a motion."""
     a, b, c = np.sin(np.pi * solved.s / 2.0) ** 2, solved.b, solved.c
 
-    def along(torque: PhaseTorque) -> Array:
-        inertia, square, drag, load = torque.values(a)
-        return inertia * c + square * b**2 + drag * b + load
+    def of(branch: PhaseTorque) -> Array:
+        inertia, square, drag, load = branch.values(a)
+        return np.asarray(inertia * c + square * b**2 + drag * b + load)
 
-    near, rows = 1.0 - PHASE_ACTIVE, [b > plane.B * (1.0 - PHASE_ACTIVE)]
-    bounds = [(along(bound.torque), bound.at_rest - bound.fall * b) for bound in plane.bounds]
+    return np.asarray(np.max([of(branch) for branch in torque.branches], axis=0))
+
+
+def _active(plane: PhasePlane, solved: PhaseOptimum) -> Array:
+    """Which bounds are active at every place, one row a bound and sign."""
+    near, rows = 1.0 - PHASE_ACTIVE, [solved.b > plane.B * (1.0 - PHASE_ACTIVE)]
+    bounds = [(_along(bound.torque, solved), bound.at_rest - bound.fall * solved.b) for bound in plane.bounds]
     if plane.peak is not None:
-        bounds.append((along(plane.peak), np.full(len(b), solved.objective)))
+        bounds.append((_along(plane.peak, solved), np.full(len(solved.b), solved.objective)))
     for torque, most in bounds:
         rows += [torque > near * most, torque < -near * most]
     for torques in plane.maxima:
-        values = np.array([along(torque) for torque in torques])
+        values = np.array([_along(torque, solved) for torque in torques])
         top = values.max(axis=0)
         rows += list(values > top - PHASE_ACTIVE * float(np.abs(values).max()))
+    if plane.gear_load is not None:  # what its direction is counts where torques have prices
+        load = _along(plane.gear_load, solved)
+        counts = np.any(rows[1:], axis=0) | (plane.squared is not None)
+        rows += [counts & (sign * load > PHASE_ACTIVE * float(np.abs(load).max())) for sign in (1.0, -1.0)]
     return np.array(rows)

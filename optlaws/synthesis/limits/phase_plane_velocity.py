@@ -7,36 +7,47 @@ from math import inf
 from typing import Literal, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from optlaws.numbers import Array
-from optlaws.synthesis.limits.phase_plane import PhasePlane, PhaseTorque
+from optlaws.synthesis.limits.phase_plane import PhasePlane
+from optlaws.synthesis.limits.phase_torque import PhaseTorque
 from optlaws.tolerances import INNER_SHARE, PHASE_TIE
 
 _GOLD = (5.0**0.5 - 1.0) / 2.0
 _SEARCH = 48
 _AROUND = 2.5  # of the logarithm
+_STEEP = 8.0  # of the price of a torque: what a load is priced at most on the side of 0 where it may not be
 
 
 @dataclass(frozen=True)
 class PricedTorque:
-    """A torque that has a price: squared, minimised by its peak, or bounded by at_rest - fall * b."""
+    """A torque that has a price: squared, minimised by its peak, or bounded by at_rest - fall * b.
+
+    A bound of one side, 1 above and -1 below, has a price of the same sign.
+    """
 
     torque: PhaseTorque
     role: Literal["squared", "peak", "bound"]
     at_rest: float = inf
     fall: float = 0.0
+    side: Literal[-1, 0, 1] = 0
 
 
 def entries_of(plane: PhasePlane) -> list[PricedTorque]:
-    """The torques that have prices; the last one is the plane's reference.
+    """The torques that have prices, each of one form; the last one is the reference.
 
-    >>> from optlaws.synthesis.limits.phase_plane import ACCELERATION
+    >>> from optlaws.synthesis.limits.phase_torque import ACCELERATION
     >>> [entry.role for entry in entries_of(PhasePlane(squared=ACCELERATION, C=9.0))]
     ['squared', 'bound']
     """
-    entries = [PricedTorque(plane.squared, "squared")] if plane.squared is not None else []
-    entries += [PricedTorque(plane.peak, "peak")] if plane.peak is not None else []
-    return entries + [PricedTorque(bound.torque, "bound", bound.at_rest, bound.fall) for bound in plane.bounds]
+    bounds = [
+        PricedTorque(bound.torque.branches[0], "bound", bound.at_rest, bound.fall, bound.side) for bound in plane.bounds
+    ]
+    entries = [entry for entry in bounds if entry.side != 0]
+    entries += [] if plane.squared is None else [PricedTorque(plane.squared.branches[0], "squared")]
+    entries += [] if plane.peak is None else [PricedTorque(plane.peak.branches[0], "peak")]
+    return entries + [entry for entry in bounds if entry.side == 0]
 
 
 class Prices(NamedTuple):
@@ -45,12 +56,14 @@ class Prices(NamedTuple):
     prices: list[Array]
     shares: list[Array]
     follows: Array  #: the entry, or after these the maximum, whose price follows from q and all others
+    beside: Array  #: where a bound of one side is active
 
 
 class InnerMinimum:
     """The least of Lagrangians over velocity and acceleration, at many positions at once, in doubles.
 
-    The Lagrangian is that of an element of length: what is minimised per b, + weight/b - q' b² - 2 q c.
+    The Lagrangian is that of an element of length: what is minimised per b, + weight/b - q' b² - 2 q c. Torques of the
+    plane have one form each.
     """
 
     def __init__(self, plane: PhasePlane, weight: float, a: Array, potential: tuple[Array, Array], peak: float) -> None:
@@ -59,8 +72,12 @@ class InnerMinimum:
             PricedTorque(entry.torque, entry.role, peak) if entry.role == "peak" else entry
             for entry in entries_of(plane)
         ]
-        torques = dict.fromkeys([entry.torque for entry in self.entries] + [t for ts in plane.maxima for t in ts])
+        self.maxima = [(first.branches[0], second.branches[0]) for first, second in plane.maxima]
+        torques = dict.fromkeys([entry.torque for entry in self.entries] + [t for ts in self.maxima for t in ts])
         self.factors = {torque: torque.values(a) for torque in torques}
+        self.squared = next((entry.torque for entry in self.entries if entry.role == "squared"), None)
+        with np.errstate(all="ignore"):
+            self.steep = 2.0 * _STEEP * np.abs(self.q) / self.factors[self.entries[-1].torque][0]
 
     def velocity(self, near: Array) -> Array:
         """The velocities of least Lagrangian around given ones, by golden sections of their logarithms."""
@@ -86,34 +103,84 @@ class InnerMinimum:
     def prices(self, b: Array) -> Prices:
         """The prices of all torques at velocities, and the shares of the first torque in every maximum."""
         c, _ = self._acceleration(b)
-        nothing, last = np.zeros_like(b), len(self.entries) - 1
-        rest, prices = 2.0 * self.q, list[Array]()
-        follows = np.full(b.shape, 0 if self.entries[0].role in {"squared", "peak"} else last)
-        if self.plane.squared is not None:
-            price = 2.0 * self.plane.heat * self._torque(self.plane.squared, b, c) / b
-            rest = rest - price * self.factors[self.plane.squared][0]
-            prices.append(price)
-        shares = []
-        for i, (first, second) in enumerate(self.plane.maxima, len(self.entries)):
-            more = self._torque(first, b, c) - self._torque(second, b, c)
-            tie = np.abs(more) <= PHASE_TIE * (1.0 + np.abs(self._torque(first, b, c)))
-            inertia, other = self.factors[first][0], self.factors[second][0]
+        last = len(self.entries) - 1
+        rest, prices = 2.0 * self.q, [np.zeros_like(b)] * len(self.entries)
+        first = next(i for i, entry in enumerate(self.entries) if entry.side == 0)
+        follows = np.full(b.shape, first if self.entries[first].role in {"squared", "peak"} else last)
+        if self.squared is not None:
+            prices[first] = 2.0 * self.plane.heat * self._torque(self.squared, b, c) / b
+            rest = rest - prices[first] * self.factors[self.squared][0]
+        shares, follows, rest = self._shares(b, c, follows, rest)
+        beside = np.zeros(b.shape, dtype=bool)
+        for i, entry in enumerate(self.entries):
+            if entry.side:
+                over = self._beyond(entry, b, c) / entry.torque.size
+                beside |= over >= -PHASE_TIE
+                prices[i] = np.where(over > PHASE_TIE, entry.side * self.steep, 0.0)
+                rest = rest - prices[i] * self.factors[entry.torque][0]
+        open_ones = follows < len(self.entries)  # where no share follows
+        for i, entry in sorted(enumerate(self.entries), key=lambda pair: pair[1].side != 0):
+            if entry.role == "squared":
+                continue
+            active = open_ones & self._is_active(entry, b, c)
             with np.errstate(all="ignore"):
-                share = np.clip((rest - other) / (inertia - other), 0.0, 1.0)
+                price = np.where(active, rest / self.factors[entry.torque][0], 0.0)
+            price = np.where(np.isfinite(price), price, 0.0)
+            side = entry.side * np.clip(entry.side * price, 0.0, self.steep)
+            prices[i] = price if entry.side == 0 else np.where(active, side, prices[i])
+            follows, open_ones = np.where(active, i, follows), open_ones & ~active
+        self._at_vertices(b, c, prices)
+        return Prices(prices, shares, follows, beside)
+
+    def _shares(self, b: Array, c: Array, follows: Array, rest: Array) -> tuple[list[Array], Array, Array]:
+        """The shares of first torques in maxima, what follows from q, and what the prices still to come add up to."""
+        shares = []
+        for i, (one, other) in enumerate(self.maxima, len(self.entries)):
+            more = self._torque(one, b, c) - self._torque(other, b, c)
+            tie = np.abs(more) <= PHASE_TIE * (1.0 + np.abs(self._torque(one, b, c)))
+            inertia, second = self.factors[one][0], self.factors[other][0]
+            with np.errstate(all="ignore"):
+                share = np.clip((rest - second) / (inertia - second), 0.0, 1.0)
             share = np.where(tie & np.isfinite(share), share, more > 0.0)
             shares.append(share)
-            rest = rest - share * inertia - (1.0 - share) * other
-            within = (share > INNER_SHARE) & (share < 1.0 - INNER_SHARE) & (self.plane.squared is None)
+            rest = rest - share * inertia - (1.0 - share) * second
+            within = (share > INNER_SHARE) & (share < 1.0 - INNER_SHARE) & (self.squared is None)
             follows = np.where(within, i, follows)
-        open_ones = np.ones(b.shape, dtype=bool)
-        for i, entry in enumerate(self.entries[len(prices) :], len(prices)):
-            size = np.abs(self._torque(entry.torque, b, c))
-            active = open_ones & (size >= (entry.at_rest - entry.fall * b) * (1.0 - PHASE_TIE))
-            with np.errstate(all="ignore"):
-                price = np.where(active, rest / self.factors[entry.torque][0], nothing)
-            prices.append(np.where(np.isfinite(price), price, nothing))
-            follows, open_ones = np.where(active, i, follows), open_ones & ~active
-        return Prices(prices, shares, follows)
+        return shares, follows, rest
+
+    def _is_active(self, entry: PricedTorque, b: Array, c: Array) -> NDArray[np.bool_]:
+        if entry.side:
+            return np.asarray(np.abs(self._beyond(entry, b, c)) <= PHASE_TIE * entry.torque.size)
+        most = entry.at_rest - entry.fall * b
+        return np.asarray(np.abs(self._torque(entry.torque, b, c)) >= most * (1.0 - PHASE_TIE))
+
+    def _at_vertices(self, b: Array, c: Array, prices: list[Array]) -> None:
+        """Prices of a bound and of one of one side that are active together: so that no other velocity is better."""
+        if self.squared is not None or self.maxima:
+            return
+        for j in (j for j, entry in enumerate(self.entries) if entry.side):
+            other = self.entries[j]
+            for i in (i for i, entry in enumerate(self.entries) if not entry.side):
+                entry = self.entries[i]
+                both = self._is_active(entry, b, c) & self._is_active(other, b, c) & (prices[i] != 0.0)
+                sign = np.sign(self._torque(entry.torque, b, c))
+                inertia, second = self.factors[entry.torque][0], self.factors[other.torque][0]
+                rate, rate_of_other = self._rate(entry, b, sign), self._rate(other, b, other.side)
+                right = 2.0 * self.slope * b + self.weight / b**2
+                with np.errstate(all="ignore"):
+                    price = (2.0 * self.q * rate_of_other - right * second) / (inertia * rate_of_other - second * rate)
+                    beside = (2.0 * self.q - price * inertia) / second
+                    both &= np.isfinite(beside) & (price * sign >= 0.0) & (beside * other.side >= 0.0)
+                prices[i], prices[j] = np.where(both, price, prices[i]), np.where(both, beside, prices[j])
+
+    def _rate(self, entry: PricedTorque, b: Array, sign: Array | float) -> Array:
+        """By how much a bounded torque rises with the velocity, measured at its bound."""
+        _, square, drag, _ = self.factors[entry.torque]
+        return np.asarray(2.0 * square * b + drag + sign * entry.fall)
+
+    def _beyond(self, entry: PricedTorque, b: Array, c: Array) -> Array:
+        """By how much a torque is beyond its bound of one side."""
+        return np.asarray(entry.side * self._torque(entry.torque, b, c) - entry.at_rest + entry.fall * b)
 
     def _torque(self, torque: PhaseTorque, b: Array, c: Array) -> Array:
         inertia, square, drag, load = self.factors[torque]
@@ -129,7 +196,7 @@ class InnerMinimum:
         low, high = np.full_like(b, -inf), np.full_like(b, inf)
         with np.errstate(all="ignore"):
             for entry in self.entries:
-                if entry.role == "squared":
+                if entry.role == "squared" or entry.side:
                     continue
                 inertia, square, drag, load = self.factors[entry.torque]
                 free, most = (square * b + drag) * b + load, entry.at_rest - entry.fall * b
@@ -148,22 +215,31 @@ class InnerMinimum:
         lines: list[tuple[Array, Array]] = [(nothing, nothing)]  # slopes and values at c = 0 of sums of torques
         candidates = [low, high]
         with np.errstate(all="ignore"):
-            for torques in self.plane.maxima:
+            candidates += [self._at_side(entry, b) for entry in self.entries if entry.side]
+            for torques in self.maxima:
                 here = [(self.factors[t][0], self._torque(t, b, nothing)) for t in torques]
                 for i, (slope, value) in enumerate(here):
                     candidates += [(value - other) / (steeper - slope) for steeper, other in here[i + 1 :]]
                 lines = [(slope + more, value + other) for slope, value in lines for more, other in here]
-            if self.plane.squared is not None:
-                inertia, free = self.factors[self.plane.squared][0], self._torque(self.plane.squared, b, nothing)
+            if self.squared is not None:
+                inertia, free = self.factors[self.squared][0], self._torque(self.squared, b, nothing)
                 pace = b / (self.plane.heat * inertia)
                 candidates += [((self.q - 0.5 * slope) * pace - free) / inertia for slope, _ in lines]
         clipped = [np.fmin(np.fmax(candidate, low), high) for candidate in candidates]
         return [np.where(np.isfinite(c), c, 0.0) for c in clipped]
 
+    def _at_side(self, entry: PricedTorque, b: Array) -> Array:
+        """The acceleration at which a bound of one side is active."""
+        inertia, square, drag, load = self.factors[entry.torque]
+        return np.asarray((entry.side * (entry.at_rest - entry.fall * b) - (square * b + drag) * b - load) / inertia)
+
     def _cost(self, b: Array, c: Array) -> Array:
         total = -2.0 * self.q * c
-        if self.plane.squared is not None:
-            total = total + self.plane.heat * self._torque(self.plane.squared, b, c) ** 2 / b
-        for torques in self.plane.maxima:
+        if self.squared is not None:
+            total = total + self.plane.heat * self._torque(self.squared, b, c) ** 2 / b
+        for torques in self.maxima:
             total = total + np.max([self._torque(torque, b, c) for torque in torques], axis=0)
+        for entry in self.entries:
+            if entry.side:  # a load beyond it has the highest price
+                total = total + self.steep * np.maximum(self._beyond(entry, b, c), 0.0)
         return np.asarray(total)

@@ -1,0 +1,273 @@
+"""What no motion of a mechanism over one stroke can beat, in SI units, with its certificate."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from math import inf, nextafter
+from typing import Any, NamedTuple, get_args
+
+from optlaws.echo import shortened
+from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
+from optlaws.files.reading import JsonText, entries_of
+from optlaws.motion.quantities import si_number
+from optlaws.numbers import finite, not_negative, positive
+from optlaws.suggest import unknown_key
+from optlaws.synthesis.limits.drive_limits import DriveLimit, DriveObjective, limit_of_plane, phase_torque
+from optlaws.synthesis.limits.phase_plane import PhasePlane, TorqueLimit
+from optlaws.synthesis.limits.phase_torque import AnyTorque
+
+_ENTRIES = ("dimension", "unit", "drive_limit")
+_DIGITS = 6
+
+
+@dataclass(frozen=True)
+class MoveLimit(JsonText):
+    """What no motion from rest to rest that never turns back can beat over one stroke, in SI units.
+
+    Attributes
+    ----------
+    drive_limit
+        The limit without dimensions, with its certificate.
+    unit, dimension
+        By what its value is multiplied, and the unit that it then has: "N m", "N", "J" or "s".
+
+    Examples
+    --------
+    >>> from optlaws import Mechanism
+    >>> limit = Mechanism("0.8 kg m^2").limit("peak torque", "0 deg", "45 deg", "0.25 s")
+    >>> print(limit)
+    peak torque at least 40.2124 N m
+    >>> limit.value < limit.attained, limit.gap < 1e-6, MoveLimit.from_json(limit.to_json()) == limit
+    (True, True, True)
+    """
+
+    drive_limit: DriveLimit
+    unit: float
+    dimension: str
+
+    _json_name = "the limit of a move"
+
+    @property
+    def minimise(self) -> DriveObjective:
+        """Of what it is the limit."""
+        return self.drive_limit.minimise
+
+    @property
+    def value(self) -> float:
+        """The proven lower bound, rounded down."""
+        return nextafter(self.drive_limit.value * self.unit, -inf)
+
+    @property
+    def attained(self) -> float:
+        """What the motion takes that was found; not proven."""
+        return self.drive_limit.attained * self.unit
+
+    @property
+    def gap(self) -> float:
+        """By how much of the value the motion that was found is above it."""
+        return self.drive_limit.gap
+
+    def __str__(self) -> str:
+        return f"{self.minimise} at least {self.value:.{_DIGITS}g} {self.dimension}"
+
+    def to_dict(self) -> dict[str, Any]:
+        """The limit and its certificate as plain data."""
+        return {"dimension": self.dimension, "unit": self.unit, "drive_limit": self.drive_limit.to_dict()}
+
+    @classmethod
+    def from_dict(cls, data: Any) -> MoveLimit:  # noqa: ANN401 - it is checked here
+        """The limit that `to_dict` described, its bound computed again.
+
+        Raises
+        ------
+        InputError
+            If the data is no such limit, or claims more than its certificate proves.
+        """
+        known = entries_of(data, _ENTRIES, "the limit of a move")
+        for name in data:
+            if name not in _ENTRIES:
+                raise InputError(unknown_key(name, _ENTRIES, "entry of the limit of a move"))
+        if known["dimension"] not in ("N m", "N", "J", "s"):
+            raise InputError(f"dimension must be N m, N, J or s, got {shortened(known['dimension'])}")
+        return cls(DriveLimit.from_dict(known["drive_limit"]), positive(known["unit"], "unit"), known["dimension"])
+
+
+class MoveBounds(NamedTuple):
+    """Bounds of a move, in SI units.
+
+    Attributes
+    ----------
+    velocity, acceleration
+        The greatest ones of the mechanism's input.
+    torques
+        Pairs of a torque at rest and by how much less it is with the velocity of the input.
+    """
+
+    velocity: float = inf
+    acceleration: float = inf
+    torques: tuple[tuple[float, float], ...] = ()
+
+    @classmethod
+    def read(cls, limits: Mapping[str, Any] | None, dimensions: Mapping[str, str]) -> MoveBounds:
+        """The bounds that a table names: velocity, acceleration and torque, or force where the input slides.
+
+        Raises
+        ------
+        InputError
+            If a name is unknown, or a bound is of another dimension or not above 0.
+        """
+        load = "torque" if dimensions["load"] == "torque" else "force"
+        known = {"velocity": "velocity", "acceleration": "acceleration", load: "load"}
+        given = {}
+        for name, value in (limits or {}).items():
+            if name not in known:
+                raise InputError(unknown_key(name, known, "limit of a move"))
+            given[name] = positive(si_number(value, (dimensions[known[name]],), name), name)
+        torques = ((given[load], 0.0),) if load in given else ()
+        return cls(given.get("velocity", inf), given.get("acceleration", inf), torques)
+
+    def within(self, velocity: float, torques: Sequence[tuple[float, float]]) -> MoveBounds:
+        """The bounds with those of a motor as well."""
+        return self._replace(velocity=min(self.velocity, velocity), torques=(*self.torques, *torques))
+
+
+class MoveScales(NamedTuple):
+    """What the numbers of a dimensionless move mean: torque and energy, the input's mean velocity, and the time.
+
+    The dimension is that of the torque, or force: "N m" or "N".
+    """
+
+    torque: float
+    energy: float
+    velocity: float
+    duration: float
+    dimension: str = "N m"
+
+    @property
+    def of_velocity(self) -> str:
+        """The unit of the velocity."""
+        return "rad/s" if self.dimension == "N m" else "m/s"
+
+
+class MoveCosts(NamedTuple):
+    """What of a move's energy counts: the share of the braking power that is recovered, and copper heat.
+
+    The heat is in W a squared N m, or N, of the torque.
+    """
+
+    recovered: float = 0.0
+    heat: float = 0.0
+
+    @classmethod
+    def read(cls, recovered: Any, heat: Any) -> MoveCosts:  # noqa: ANN401 - they are checked here
+        """The costs, checked.
+
+        Raises
+        ------
+        InputError
+            If the share is not from 0 to 1, or the heat is below 0.
+        """
+        share = finite(recovered, "recovered")
+        if not 0.0 <= share <= 1.0:
+            raise InputError(f"recovered must be a share from 0 to 1, got {shortened(recovered)}")
+        return cls(share, not_negative(heat, "heat"))
+
+
+def move_limit(
+    torque: str, minimise: DriveObjective, scales: MoveScales, bounds: MoveBounds, costs: MoveCosts
+) -> MoveLimit:
+    """The limit of a dimensionless torque over one stroke within bounds in SI units.
+
+    Parameters
+    ----------
+    torque
+        The torque over a, b and c.
+    minimise
+        As `drive_limit` takes it.
+    scales
+        What the torque's numbers mean; for the least time the duration is a unit of time alone.
+    bounds
+        In SI units.
+    costs
+        What of an energy counts.
+
+    Raises
+    ------
+    InputError
+        If the torque is of another form, or nothing keeps the acceleration finite.
+    InfeasibleProblem
+        If no motion keeps the bounds; the error says what is reachable.
+    """
+    if minimise not in get_args(DriveObjective):
+        raise InputError(unknown_key(minimise, get_args(DriveObjective), "minimise"))
+    if costs.heat and minimise != "energy":
+        raise InputError("heat is a part of the energy that is minimised: take minimise='energy'")
+    if minimise != "time" and bounds.velocity <= scales.velocity:
+        least = scales.velocity * scales.duration / bounds.velocity
+        fastest, given = f"{bounds.velocity:.{_DIGITS}g} {scales.of_velocity}", f"{scales.duration:.{_DIGITS}g} s"
+        raise InfeasibleProblem(
+            f"at the greatest velocity of {fastest} alone the stroke takes {least:.{_DIGITS}g} s, and {given} are "
+            "given: take more time, or a greater velocity"
+        )
+    form = phase_torque(torque)
+    unit = form.size
+    plane = _plane(form, minimise, scales, bounds, costs)
+    try:
+        limit = limit_of_plane(plane, minimise, unit)
+    except InfeasibleProblem as error:
+        raise _infeasible(plane, form, scales, error) from None
+    except SolverFailure as error:
+        if not plane.bounds:
+            raise
+        raise InfeasibleProblem(
+            "no motion was found within the limits, in whatever time: the load may be beyond the torque that is "
+            "allowed. Allow more of it",
+            tried=str(error),
+        ) from None
+    known = {"energy": (scales.energy, "J"), "time": (scales.duration, "s")}
+    return MoveLimit(limit, *known.get(minimise, (scales.torque, scales.dimension)))
+
+
+def _plane(
+    form: AnyTorque, minimise: DriveObjective, scales: MoveScales, bounds: MoveBounds, costs: MoveCosts
+) -> PhasePlane:
+    """The phase plane of a move, its torques divided by their size."""
+    unit = form.size
+    form = form.scaled(1.0 / unit)
+    torque = unit * scales.torque
+    limits = tuple(TorqueLimit(form, most / torque, fall * scales.velocity / torque) for most, fall in bounds.torques)
+    B, C = bounds.velocity / scales.velocity, bounds.acceleration * scales.duration / scales.velocity
+    plane = PhasePlane(limits=limits, B=B, C=C)
+    if minimise == "peak torque":
+        return replace(plane, peak=form)
+    if minimise == "rms torque":
+        return replace(plane, squared=form)
+    if minimise == "time":
+        return plane
+    plane = replace(plane, maxima=((form, form.scaled(costs.recovered)),))
+    if not costs.heat:
+        return plane
+    # the mean of the squared torque over the time, in the unit of the energy
+    return replace(plane, squared=form, heat=costs.heat * torque**2 * scales.duration / scales.energy / unit)
+
+
+def _infeasible(plane: PhasePlane, form: AnyTorque, scales: MoveScales, error: InfeasibleProblem) -> InfeasibleProblem:
+    """The error in SI units: the least time and, where torques are bounded, the least peak torque in the time given."""
+    if not isinstance(error.proof, DriveLimit):
+        return error
+    least = error.proof.value * scales.duration
+    reached = [f"within them the move takes at least {least:.{_DIGITS}g} s"]
+    if plane.limits:
+        unit = form.size
+        free = replace(plane, squared=None, maxima=(), peak=form.scaled(1.0 / unit), limits=())
+        try:
+            peak = limit_of_plane(free, "peak torque", unit).value * scales.torque
+            time = f"{scales.duration:.{_DIGITS}g} s"
+            reached.append(f"and in {time} a peak of at least {peak:.{_DIGITS}g} {scales.dimension}")
+        except (InfeasibleProblem, SolverFailure, InputError):
+            pass
+    return InfeasibleProblem(
+        f"no motion keeps the limits in {scales.duration:.{_DIGITS}g} s, which is proven: {', '.join(reached)}",
+        proof=MoveLimit(error.proof, scales.duration, "s"),
+    )
