@@ -75,6 +75,7 @@ POLISHING_REACH = 1e-3  # of an interval: Newton's steps towards a root go no fu
 POLISHED = 1e-12  # a step of Newton's method that is the last
 EXTREME_POLISHED = 1e-11  # of the whole: a place of an extreme that moves by less is settled
 SAME_EXPONENT = 1e-9  # exponents nearer to each other were the same number before they were rounded
+NEAR_NOTHING = 0.5  # of the least value looked at beside it: a turning point that comes nearer to 0 is looked at itself
 QUOTIENT_BLUR = 1e-8  # of the greatest value: quotients of small numbers are rounded more than others
 DIFFERENCE_SHARE = 1e-10  # of the greatest difference: to so much it is resolved
 

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.formulas.affine import degree, quadratic
-from optlaws.formulas.arithmetic import NUMPY, evaluate
+from optlaws.formulas.arithmetic import NUMPY, Together, evaluate
 from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.slopes import derivative, scaled
 from optlaws.formulas.tree import Call, Exponentiation, Formula, Number, total
@@ -39,36 +39,54 @@ class Slopes:
     names: tuple[str, ...]
 
     @kept_property
-    def first(self) -> list[Formula]:
+    def first(self) -> Together:
         """Derivatives by each of the names."""
-        return [derivative(self.formula, name) for name in self.names]
+        return Together(tuple(derivative(self.formula, name) for name in self.names))
 
     @kept_property
-    def second(self) -> list[list[Formula]]:
-        """Second derivatives by each two names."""
-        return [[derivative(slope, name) for name in self.names] for slope in self.first]
+    def both(self) -> Together:
+        """The formula and its derivatives by each of the names."""
+        return Together((self.formula, *self.first.formulas))
+
+    @kept_property
+    def second(self) -> Together:
+        """Second derivatives by each two names, those by the second name up to the first: the others are the same."""
+        slopes = enumerate(self.first.formulas, 1)
+        return Together(tuple(derivative(slope, name) for i, slope in slopes for name in self.names[:i]))
 
     def value(self, at: Mapping[str, Array]) -> Array:
         """Values of the formula at the places."""
-        return _values(self.formula, at)
+        with np.errstate(all="ignore"):
+            return np.broadcast_to(evaluate(self.formula, at, NUMPY), np.shape(at["k"])).astype(np.float64)
+
+    def value_and_gradient(self, at: Mapping[str, Array]) -> tuple[Array, Array]:
+        """Values of the formula, and its derivatives, shape (names, places)."""
+        values = _values(self.both, at)
+        return values[0], _slopes(values[1:])
 
     def gradient(self, at: Mapping[str, Array]) -> Array:
         """Its derivatives, shape (names, places)."""
-        return np.array([_slope(slope, at) for slope in self.first])
+        return _slopes(_values(self.first, at))
 
     def hessian(self, at: Mapping[str, Array]) -> Array:
         """Its second derivatives, shape (names, names, places)."""
-        return np.array([[_slope(bend, at) for bend in row] for row in self.second])
+        values = _slopes(_values(self.second, at))
+        rows, columns = np.tril_indices(len(self.names))
+        bends = np.empty((len(self.names), len(self.names), *values.shape[1:]))
+        bends[rows, columns], bends[columns, rows] = values, values
+        return bends
 
 
-def _values(formula: Formula, at: Mapping[str, Array]) -> Array:
+def _values(formulas: Together, at: Mapping[str, Array]) -> Array:
+    values = np.empty((len(formulas.formulas), *np.shape(at["k"])))
     with np.errstate(all="ignore"):
-        return np.broadcast_to(evaluate(formula, at, NUMPY), np.shape(at["k"])).astype(np.float64)
+        for i, value in enumerate(formulas.values(at, NUMPY)):
+            values[i] = value
+    return values
 
 
-def _slope(formula: Formula, at: Mapping[str, Array]) -> Array:
-    """The values of a slope; 0 where it has none: at the tip of a norm that is a slope of some tangent."""
-    values = _values(formula, at)
+def _slopes(values: Array) -> Array:
+    """The values of slopes; 0 where there is none: at the tip of a norm that is a slope of some tangent."""
     return np.where(np.isnan(values), 0.0, values)
 
 

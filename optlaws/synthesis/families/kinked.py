@@ -6,7 +6,7 @@ between them, and what a kink moves by adds to its second derivatives.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import lru_cache, partial
 from itertools import pairwise
@@ -14,15 +14,19 @@ from typing import Self
 
 import numpy as np
 
-from optlaws.formulas.arithmetic import NUMPY, evaluate
-from optlaws.formulas.branches import branch_at, knots
-from optlaws.formulas.tree import Formula
+from optlaws.formulas.arithmetic import NUMPY, Together
+from optlaws.formulas.branches import branches_at, knots
+from optlaws.formulas.tree import Formula, Number
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import gauss
-from optlaws.numerics.roots import cut_at_all, cut_at_roots
+from optlaws.numerics.roots import sign_changes
 from optlaws.synthesis.families.curved import IntegralFamily, Slopes, between
 from optlaws.synthesis.families.family import RowJet, last_result
+
+_ZERO = Number(0.0)
+#: places at which kinks are looked for on a piece, times those of the rule
+_LOOKS = 4
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,11 +49,14 @@ class KinkSplit:
     names: dict[str, Array]
     weights: Array
 
-    def of(self, i: int) -> tuple[dict[str, Array], Array, Array]:
-        """What the names are on a stretch, their columns, and the weights."""
+    def by_formula(self) -> Iterator[tuple[Formula, dict[str, Array], Array, Array]]:
+        """Each smooth formula but 0 with what the names are where it holds, their columns, and the weights."""
         count = len(self.weights) // len(self.stretches)
-        some = slice(i * count, (i + 1) * count)
-        return {name: values[some] for name, values in self.names.items()}, self.columns[:, some], self.weights[some]
+        for formula in dict.fromkeys(stretch.formula for stretch in self.stretches):
+            if formula != _ZERO:
+                here = np.repeat([stretch.formula == formula for stretch in self.stretches], count)
+                names = {name: values[here] for name, values in self.names.items()}
+                yield formula, names, self.columns[:, here], self.weights[here]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -63,8 +70,9 @@ class KinkedIntegralFamily(IntegralFamily):
     length: int  #: how many places a stretch needs
 
     @kept_property
-    def _switches(self) -> tuple[list[Formula], list[Formula]]:
-        return knots(self.formula, self.names)
+    def _switches(self) -> tuple[Together, Together]:
+        plain, bent = knots(self.formula, self.names)
+        return Together(tuple(plain)), Together(tuple(bent))
 
     def in_units(self, units: Array, unit: float) -> Self:
         """The family of variables in other units; its own unit stays."""
@@ -100,33 +108,32 @@ class KinkedIntegralFamily(IntegralFamily):
         columns = self.columns_at(k)
         split = KinkSplit(stretches, 0.0, np.zeros(len(point)), columns, self._names(point, k, columns), weights)
         total, slope = 0.0, split.slope
-        for i, stretch in enumerate(stretches):
-            names, columns, weights = split.of(i)
-            slopes = _slopes(stretch.formula, self.names)
-            total += float(weights @ slopes.value(names))
-            slope += np.einsum("ip,ipn->n", slopes.gradient(names) * weights, columns)
+        for formula, names, rows, shares in split.by_formula():
+            values, gradient = _slopes(formula, self.names).value_and_gradient(names)
+            total += float(shares @ values)
+            slope += np.tensordot(gradient * shares, rows, 2)
         return replace(split, total=total)
 
     def _stretches(self, point: Array) -> list[SmoothStretch]:
-        plain, bent = self._switches
-        edges = cut_at_all((partial(self._value, switch, point) for switch in plain), list(self.edges))
-        for switch in bent:
-            value = partial(self._value, switch, point)
-            edges = cut_at_roots(_same(value), edges)
+        edges = list(self.edges)
+        for switches in self._switches:
+            if switches.formulas:
+                changes = sign_changes(partial(self._values, switches, point), edges, _LOOKS * self.length)
+                edges = sorted({*edges, *changes.tolist()})
         stretches: list[SmoothStretch] = []
         middles = (np.array(edges[1:]) + np.array(edges[:-1])) / 2.0
-        names = self._names(point, middles, self.columns_at(middles))
-        for i, (low, high) in enumerate(pairwise(edges)):
-            formula = branch_at(self.formula, {name: float(values[i]) for name, values in names.items()})
+        formulas = branches_at(self.formula, self._names(point, middles, self.columns_at(middles)), len(middles))
+        for (low, high), formula in zip(pairwise(edges), formulas, strict=True):
             if stretches and stretches[-1].formula == formula and low not in self.edges:
                 stretches[-1] = replace(stretches[-1], high=high)
             else:
                 stretches.append(SmoothStretch(low, high, formula))
         return stretches
 
-    def _value(self, formula: Formula, point: Array, k: Array) -> Array:
+    def _values(self, formulas: Together, point: Array, k: Array) -> Array:
         names = self._names(point, k, self.columns_at(k))
-        return np.broadcast_to(np.asarray(evaluate(formula, names, NUMPY), dtype=np.float64), k.shape)
+        with np.errstate(all="ignore"):
+            return np.array([np.broadcast_to(value, k.shape) for value in formulas.values(names, NUMPY)])
 
     def touching(self, x: Array, u: float) -> tuple[float, ...]:  # noqa: ARG002 - it has no place
         """The variables of the law."""
@@ -154,9 +161,8 @@ class KinkedIntegralFamily(IntegralFamily):
         """The second derivatives of f, times the sum of weights."""
         split = self.split(x)
         matrix = self._moved(split, np.append(x, 1.0))
-        for i, stretch in enumerate(split.stretches):
-            names, columns, share = split.of(i)
-            bend = _slopes(stretch.formula, self.names).hessian(names) * share
+        for formula, names, columns, shares in split.by_formula():
+            bend = _slopes(formula, self.names).hessian(names) * shares
             matrix += between(bend[:, :, None], columns[:, None, :, :-1])[0]
         if self.root:
             size, slope = self.outer(np.array(split.total))
@@ -168,10 +174,10 @@ class KinkedIntegralFamily(IntegralFamily):
         k = np.array([right.low for right in split.stretches[1:]])
         columns, turns = self.columns_at(k), self.columns_at(k, 1)
         names, matrix = self._names(point, k, columns), np.zeros((len(point) - 1,) * 2)
-        for i, both in enumerate(pairwise(split.stretches)):
-            at = {name: values[i : i + 1] for name, values in names.items()}
-            left, right = (_slopes(side.formula, (*self.names, "k")).gradient(at)[:, 0] for side in both)
-            apart = left - right
+        formulas = dict.fromkeys(stretch.formula for stretch in split.stretches)
+        slopes = {formula: _slopes(formula, (*self.names, "k")).gradient(names) for formula in formulas}
+        for i, (left, right) in enumerate(pairwise(split.stretches)):
+            apart = slopes[left.formula][:, i] - slopes[right.formula][:, i]
             across = apart[:-1] @ columns[:, i, :-1]
             falls = float(apart[:-1] @ (turns[:, i] @ point) + apart[-1])
             if falls != 0.0:
@@ -181,10 +187,6 @@ class KinkedIntegralFamily(IntegralFamily):
     def value(self, x: Array, u: Array) -> Array:
         """Values of f at the places."""
         return np.full(len(u), self.outer(np.array(self.split(x).total))[0])
-
-
-def _same(value: Callable[[Array], Array]) -> Callable[[float, float], Callable[[Array], Array]]:
-    return lambda low, high: value  # noqa: ARG005 - it is smooth beyond them too
 
 
 @lru_cache(maxsize=256)

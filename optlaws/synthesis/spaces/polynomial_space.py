@@ -17,7 +17,7 @@ from numpy.polynomial import chebyshev, legendre
 from optlaws.kept import kept_property
 from optlaws.laws import PolynomialLaw
 from optlaws.numbers import Array
-from optlaws.numerics.chebyshev import from_values, nodes
+from optlaws.numerics.chebyshev import basis_values, from_values, nodes
 from optlaws.numerics.gegenbauer import gegenbauer
 from optlaws.synthesis.families.family import (
     ConstraintFamily,
@@ -217,7 +217,8 @@ class PolynomialSpace(LawSpace):
 
     def columns(self, nu: int, u: Array) -> Array:
         """The derivative of order nu at places u = 1 - 2k: free functions, then the base law."""
-        return np.asarray(chebyshev.chebval(u, self.series(nu)).T)
+        series = self.series(nu)
+        return np.asarray(basis_values(np.clip(u, -1.0, 1.0), len(series)) @ series)
 
     def degree_of(self, nu: int) -> int:
         """The degree of the derivative of order nu."""
