@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from optlaws.errors import InputError
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import derivative, from_values, interpolated, nodes, real_parts_of_roots
-from optlaws.tolerances import EPSILON, NEAR_NOTHING, QUOTIENT_BLUR, TOUCHING, VALUE_ROUNDING
+from optlaws.tolerances import EPSILON, NEAR_NOTHING, QUOTIENT_BLUR, ROUNDOFF, TOUCHING, VALUE_ROUNDING
 
 _DEEPEST = 12
 #: how often parabolas lead to a turning point
@@ -114,7 +114,8 @@ def cut_at_all(functions: Iterable[Callable[[Array], Array]], edges: list[float]
 def sign_changes(functions: Callable[[Array], Array], edges: Sequence[float], count: int) -> Array:
     """Places between edges where any of several smooth functions changes its sign, ascending.
 
-    Looked at where a series of as many terms would be fixed, and at turning points near 0 between these.
+    Looked at where a series of as many terms would be fixed, and at turning points near 0 between these; a root is
+    known to rounding, or to what rounding of the greatest value makes of it.
 
     Parameters
     ----------
@@ -156,6 +157,7 @@ def sign_changes(functions: Callable[[Array], Array], edges: Sequence[float], co
             lambda x: functions(x)[rows, columns],
             (places[before], places[after]),
             (values[rows, before], values[rows, after]),
+            ROUNDOFF * np.abs(values).max(axis=1)[rows],
         )
     )
 
@@ -175,9 +177,12 @@ def _turning_points(places: Array, values: Array) -> Array:
 
 
 def bracketed_roots(
-    function: Callable[[Array], Array], ends: tuple[Array, Array], values: tuple[Array, Array]
+    function: Callable[[Array], Array],
+    ends: tuple[Array, Array],
+    values: tuple[Array, Array],
+    nothing: Array | float = 0.0,
 ) -> Array:
-    """Roots many at once, each between two places where a function has values of different signs.
+    """Roots many at once, each between two places where a function has values of different signs, or nearly `nothing`.
 
     Inverse quadratic interpolation where it is safe, and halving (Chandrupatla, Advances in Engineering Software 28
     (1997) 145).
@@ -197,7 +202,7 @@ def bracketed_roots(
         a, fa = x, fx
         width = np.abs(b - a)
         least = 2.0 * EPSILON * np.maximum(np.abs(a), np.abs(b))
-        done = (width <= 2.0 * least) | (fa == 0.0)
+        done = (width <= 2.0 * least) | (np.abs(fa) <= nothing)
         if done.all():
             break
         with np.errstate(all="ignore"):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Self
@@ -12,15 +11,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.formulas.affine import degree, quadratic
-from optlaws.formulas.arithmetic import NUMPY, Together, evaluate
+from optlaws.formulas.arithmetic import NUMPY, Together
+from optlaws.formulas.branches import switches
 from optlaws.formulas.of_motion import MotionFormula
-from optlaws.formulas.slopes import derivative, scaled
+from optlaws.formulas.slopes import scaled
 from optlaws.formulas.tree import Call, Exponentiation, Formula, Number, total
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import FEWEST, MOST, from_values, nodes
-from optlaws.numerics.roots import candidates
+from optlaws.numerics.roots import candidates, sign_changes
 from optlaws.synthesis.families.family import LinearFamily, NonlinearFamily, RowJet, WholeLawFamily, last_result
+from optlaws.synthesis.families.formula_slopes import Slopes
 from optlaws.synthesis.families.peaks import peaks
 from optlaws.synthesis.families.squares import SumOfSquares, sum_of_squares
 from optlaws.tolerances import FORMULA_RESOLVED, LEAST_ENERGY, ROUNDOFF
@@ -29,65 +30,8 @@ _PLACES_PER_DEGREE = 2
 _SQUARE = 2
 #: roundings of a formula's slope in a row
 _IN_A_ROW = 16
-
-
-@dataclass(frozen=True, eq=False)
-class Slopes:
-    """A formula with its first and second derivatives by some of its names."""
-
-    formula: Formula
-    names: tuple[str, ...]
-
-    @kept_property
-    def first(self) -> Together:
-        """Derivatives by each of the names."""
-        return Together(tuple(derivative(self.formula, name) for name in self.names))
-
-    @kept_property
-    def both(self) -> Together:
-        """The formula and its derivatives by each of the names."""
-        return Together((self.formula, *self.first.formulas))
-
-    @kept_property
-    def second(self) -> Together:
-        """Second derivatives by each two names, those by the second name up to the first: the others are the same."""
-        slopes = enumerate(self.first.formulas, 1)
-        return Together(tuple(derivative(slope, name) for i, slope in slopes for name in self.names[:i]))
-
-    def value(self, at: Mapping[str, Array]) -> Array:
-        """Values of the formula at the places."""
-        with np.errstate(all="ignore"):
-            return np.broadcast_to(evaluate(self.formula, at, NUMPY), np.shape(at["k"])).astype(np.float64)
-
-    def value_and_gradient(self, at: Mapping[str, Array]) -> tuple[Array, Array]:
-        """Values of the formula, and its derivatives, shape (names, places)."""
-        values = _values(self.both, at)
-        return values[0], _slopes(values[1:])
-
-    def gradient(self, at: Mapping[str, Array]) -> Array:
-        """Its derivatives, shape (names, places)."""
-        return _slopes(_values(self.first, at))
-
-    def hessian(self, at: Mapping[str, Array]) -> Array:
-        """Its second derivatives, shape (names, names, places)."""
-        values = _slopes(_values(self.second, at))
-        rows, columns = np.tril_indices(len(self.names))
-        bends = np.empty((len(self.names), len(self.names), *values.shape[1:]))
-        bends[rows, columns], bends[columns, rows] = values, values
-        return bends
-
-
-def _values(formulas: Together, at: Mapping[str, Array]) -> Array:
-    values = np.empty((len(formulas.formulas), *np.shape(at["k"])))
-    with np.errstate(all="ignore"):
-        for i, value in enumerate(formulas.values(at, NUMPY)):
-            values[i] = value
-    return values
-
-
-def _slopes(values: Array) -> Array:
-    """The values of slopes; 0 where there is none: at the tip of a norm that is a slope of some tangent."""
-    return np.where(np.isnan(values), 0.0, values)
+#: places at which knots are looked for, beside one for every variable
+_LOOKS = 32
 
 
 def between(bend: Array, rows: Array) -> Array:
@@ -305,8 +249,25 @@ class CurvedFamily(FormulaFamily):
     def stationary(self, x: Array) -> Array:
         """Places among which every stationary point of the domain is, and the edges; beyond it f may have no value."""
         count = None if self.degree is None else self.degree + 1
-        inner = [candidates(lambda u: self.value(x, u), ends, count) for ends in self._stretches]
-        return np.concatenate([*inner, self.edges])
+        stretches = [ends for stretch in self._stretches for ends in pairwise(self._cut_at_knots(x, stretch))]
+        inner = [candidates(lambda u: self.value(x, u), ends, count) for ends in stretches]
+        return np.concatenate([*inner, *(np.array(ends) for ends in stretches), self.edges])
+
+    @kept_property
+    def _knots(self) -> Together:
+        """What vanishes where a law passes a knot of a spline."""
+        return Together(tuple(switches(self.formula, self.names)))
+
+    def _cut_at_knots(self, x: Array, ends: tuple[float, float]) -> list[float]:
+        """The ends of a stretch, and between them the places where a law passes a knot of a spline."""
+        if not self._knots.formulas or ends[0] == ends[1]:
+            return list(ends)
+
+        def values(u: Array) -> Array:
+            at = self._at(np.array([part.value(x, u) for _, part in self.parts]), u)
+            return np.array([np.broadcast_to(value, u.shape) for value in self._knots.values(at, NUMPY)])
+
+        return sorted({*ends, *sign_changes(values, ends, _LOOKS + len(self.slack)).tolist()})
 
     @property
     def _stretches(self) -> list[tuple[float, float]]:

@@ -21,8 +21,9 @@ from optlaws.kept import kept_property
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import gauss
 from optlaws.numerics.roots import sign_changes
-from optlaws.synthesis.families.curved import IntegralFamily, Slopes, between
+from optlaws.synthesis.families.curved import IntegralFamily, between
 from optlaws.synthesis.families.family import RowJet, last_result
+from optlaws.synthesis.families.formula_slopes import FactorTables, Slopes, tabulated
 
 _ZERO = Number(0.0)
 #: places at which kinks are looked for on a piece, times those of the rule
@@ -70,9 +71,11 @@ class KinkedIntegralFamily(IntegralFamily):
     length: int  #: how many places a stretch needs
 
     @kept_property
-    def _switches(self) -> tuple[Together, Together]:
+    def _tabulated(self) -> tuple[Formula, Together, Together, FactorTables | None]:
+        """The formula and its switches, plain and bent ones, over names for factors of the position; their tables."""
         plain, bent = knots(self.formula, self.names)
-        return Together(tuple(plain)), Together(tuple(bent))
+        (formula, *switches), tables = tabulated((self.formula, *plain, *bent))
+        return formula, Together(tuple(switches[: len(plain)])), Together(tuple(switches[len(plain) :])), tables
 
     def in_units(self, units: Array, unit: float) -> Self:
         """The family of variables in other units; its own unit stays."""
@@ -109,31 +112,42 @@ class KinkedIntegralFamily(IntegralFamily):
         split = KinkSplit(stretches, 0.0, np.zeros(len(point)), columns, self._names(point, k, columns), weights)
         total, slope = 0.0, split.slope
         for formula, names, rows, shares in split.by_formula():
-            values, gradient = _slopes(formula, self.names).value_and_gradient(names)
+            values, gradient = self._slopes(formula, self.names).value_and_gradient(names)
             total += float(shares @ values)
             slope += np.tensordot(gradient * shares, rows, 2)
         return replace(split, total=total)
 
     def _stretches(self, point: Array) -> list[SmoothStretch]:
         edges = list(self.edges)
-        for switches in self._switches:
+        formula, plain, bent, tables = self._tabulated
+        for switches in (plain, bent):
             if switches.formulas:
                 changes = sign_changes(partial(self._values, switches, point), edges, _LOOKS * self.length)
                 edges = sorted({*edges, *changes.tolist()})
         stretches: list[SmoothStretch] = []
         middles = (np.array(edges[1:]) + np.array(edges[:-1])) / 2.0
-        formulas = branches_at(self.formula, self._names(point, middles, self.columns_at(middles)), len(middles))
-        for (low, high), formula in zip(pairwise(edges), formulas, strict=True):
-            if stretches and stretches[-1].formula == formula and low not in self.edges:
+        names = self._with_factors(self._names(point, middles, self.columns_at(middles)))
+        for (low, high), branch in zip(pairwise(edges), branches_at(formula, names, len(middles)), strict=True):
+            # of factors in tables the stretches end at the knots too
+            same = tables is None and low not in self.edges and stretches and stretches[-1].formula == branch
+            if same:
                 stretches[-1] = replace(stretches[-1], high=high)
             else:
-                stretches.append(SmoothStretch(low, high, formula))
+                stretches.append(SmoothStretch(low, high, branch))
         return stretches
 
     def _values(self, formulas: Together, point: Array, k: Array) -> Array:
-        names = self._names(point, k, self.columns_at(k))
+        names = self._with_factors(self._names(point, k, self.columns_at(k)))
         with np.errstate(all="ignore"):
             return np.array([np.broadcast_to(value, k.shape) for value in formulas.values(names, NUMPY)])
+
+    def _with_factors(self, names: dict[str, Array]) -> dict[str, Array]:
+        """What the names are, and those for factors of the position."""
+        tables = self._tabulated[-1]
+        return names if tables is None else {**names, **tables.by_name(names["a"])}
+
+    def _slopes(self, formula: Formula, names: tuple[str, ...]) -> Slopes:
+        return _slopes(formula, names, self._tabulated[-1])
 
     def touching(self, x: Array, u: float) -> tuple[float, ...]:  # noqa: ARG002 - it has no place
         """The variables of the law."""
@@ -162,7 +176,7 @@ class KinkedIntegralFamily(IntegralFamily):
         split = self.split(x)
         matrix = self._moved(split, np.append(x, 1.0))
         for formula, names, columns, shares in split.by_formula():
-            bend = _slopes(formula, self.names).hessian(names) * shares
+            bend = self._slopes(formula, self.names).hessian(names) * shares
             matrix += between(bend[:, :, None], columns[:, None, :, :-1])[0]
         if self.root:
             size, slope = self.outer(np.array(split.total))
@@ -175,7 +189,7 @@ class KinkedIntegralFamily(IntegralFamily):
         columns, turns = self.columns_at(k), self.columns_at(k, 1)
         names, matrix = self._names(point, k, columns), np.zeros((len(point) - 1,) * 2)
         formulas = dict.fromkeys(stretch.formula for stretch in split.stretches)
-        slopes = {formula: _slopes(formula, (*self.names, "k")).gradient(names) for formula in formulas}
+        slopes = {formula: self._slopes(formula, (*self.names, "k")).gradient(names) for formula in formulas}
         for i, (left, right) in enumerate(pairwise(split.stretches)):
             apart = slopes[left.formula][:, i] - slopes[right.formula][:, i]
             across = apart[:-1] @ columns[:, i, :-1]
@@ -190,5 +204,5 @@ class KinkedIntegralFamily(IntegralFamily):
 
 
 @lru_cache(maxsize=256)
-def _slopes(formula: Formula, names: tuple[str, ...]) -> Slopes:
-    return Slopes(formula, names)
+def _slopes(formula: Formula, names: tuple[str, ...], tables: FactorTables | None) -> Slopes:
+    return Slopes(formula, names, tables)
