@@ -34,7 +34,7 @@ JUMP = 1e-9  # share of a derivative's greatest value below which it neither jum
 JUMP_OF_LOWER = 1e-13  # the same as a share of a lower derivative: uniform motion has c = 0 but for it
 FLAT_OUTPUT_JUMP = 1e-7  # the same of the derivatives from which a machine's input is computed
 AGREEMENT = 1e-9  # share within which two computed numbers are one
-NEAR_LIMIT = 0.0  # of a drive's limit: a law that is so near it is searched from that limit alone
+NEAR_LIMIT = 0.25  # of the limit of a drive: of a law that is so near it no other starts are tried
 CLOSURE = 1e-9  # of a stroke or a turn: what is to close may be open by so much
 FEASIBILITY = 1e-10  # of a limit, by which a law may miss it
 CAM_FEASIBILITY = 1e-7  # of a limit of a cam, by which the rounding of its law may break it

@@ -89,24 +89,24 @@ def tabulated(formulas: tuple[Formula, ...]) -> tuple[tuple[Formula, ...], Facto
     >>> outer, bool(tables.values(np.array([0.0]), 1)[0, 0] == 1.0)
     (a0*c + b, True)
     """
-    found: dict[Formula, str] = {}
-    outer = tuple(_outer(formula, found) for formula in formulas)
-    tables = _tables(tuple(found)) if found else None
+    shorthand: dict[Formula, str] = {}
+    outer = tuple(_outer(formula, shorthand) for formula in formulas)
+    tables = _tables(tuple(shorthand)) if shorthand else None
     return (formulas, None) if tables is None else (outer, tables)
 
 
-def _outer(formula: Formula, found: dict[Formula, str]) -> Formula:
+def _outer(formula: Formula, shorthand: dict[Formula, str]) -> Formula:
     """The formula with names for its long factors, which it notes."""
     if _POSITION not in formula.names():
         return formula
     if _of_position(formula):
-        return _named(formula, found)
+        return _named(formula, shorthand)
     if isinstance(formula, Sum | Product):
         together = added if isinstance(formula, Sum) else multiplied
         inner = [part for part in formula.parts if _of_position(part)]
-        others = [_outer(part, found) for part in formula.parts if not _of_position(part)]
-        return together([_named(together(inner), found), *others]) if inner else together(others)
-    return rebuilt(formula, [_outer(part, found) for part in formula.parts])
+        others = [_outer(part, shorthand) for part in formula.parts if not _of_position(part)]
+        return together([_named(together(inner), shorthand), *others]) if inner else together(others)
+    return rebuilt(formula, [_outer(part, shorthand) for part in formula.parts])
 
 
 def _of_position(formula: Formula) -> bool:
@@ -114,9 +114,9 @@ def _of_position(formula: Formula) -> bool:
     return formula.names() - {"pi"} == {_POSITION} and smooth
 
 
-def _named(formula: Formula, found: dict[Formula, str]) -> Formula:
+def _named(formula: Formula, shorthand: dict[Formula, str]) -> Formula:
     long = len(formula.steps) >= _LONG or any(isinstance(step.formula, Table) for step in formula.steps)
-    return Name(found.setdefault(formula, f"{_POSITION}{len(found)}")) if long else formula
+    return Name(shorthand.setdefault(formula, f"{_POSITION}{len(shorthand)}")) if long else formula
 
 
 def _tables(factors: tuple[Formula, ...]) -> FactorTables | None:

@@ -365,8 +365,16 @@ def _cached(plane: PhasePlane, minimise: DriveObjective, unit: float) -> DriveLi
 def plane_of(problem: Problem) -> tuple[PhasePlane, DriveObjective, float] | None:
     """The phase plane of a problem's objective within its bounds of B, C and torques, what is minimised and its unit.
 
-    Other bounds and windows are left out: what holds without them holds with them.
+    Other bounds and windows are left out: what holds without them holds with them. None where the objective is no
+    drive's, as where an inertia is below 0.
     """
+    try:
+        return _plane_of(problem)
+    except InputError:
+        return None
+
+
+def _plane_of(problem: Problem) -> tuple[PhasePlane, DriveObjective, float] | None:
     [(weight, term), *others] = problem.objective.terms
     if others or weight != 1.0 or not problem.monotone or problem.boundary is not None or problem.order < 2:
         return None
