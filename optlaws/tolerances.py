@@ -221,6 +221,7 @@ VERTEX_BALANCED = 1e-12  # of the greatest multiplier: by so much a vertex may f
 KINK_RADIUS = 0.003  # of hyperbolas in place of kinks, in units of the problem
 SMOOTH_NORM = 1e-12  # keeps a norm's slope finite where it vanishes; Newton's method goes without it
 STEP_SETTLED = 1e-11  # of the greatest variable: a quadratic step that is less ends the search
+STEP_OF_SMOOTH = 1e-2  # the same where formulas without kinks stand for those with
 STEP_SHOWS_CONTACTS = 1e-4  # the same: after one that is less Newton's method may find the exact contacts
 STEP_PAYS = 1e-4  # of what a quadratic step promises: the share that it must hold
 STEP_FEASIBILITY = 1e-9  # what a row may be exceeded by in a quadratic step

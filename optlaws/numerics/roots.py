@@ -21,6 +21,8 @@ _DEEPEST = 12
 _TURNS = 3
 #: more than roots between places that are near each other need
 _CHANDRUPATLA = 100
+#: how near its ends, in shares of a bracket, the first place is
+_EDGE = 0.05
 #: for parts so short that nothing is smooth on them
 _CLOSE = np.cos(np.linspace(0.0, np.pi, 129))
 
@@ -192,7 +194,7 @@ def bracketed_roots(
     array([1.41421356, 1.73205081])
     """
     (a, b), (fa, fb) = ends, values
-    c, fc, share = a, fa, np.full(len(a), 0.5)
+    c, fc, share = a, fa, np.clip(fa / (fa - fb), _EDGE, 1.0 - _EDGE)
     for _ in range(_CHANDRUPATLA):
         x = a + share * (b - a)
         fx = function(x)

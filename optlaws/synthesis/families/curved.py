@@ -21,7 +21,7 @@ from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import FEWEST, MOST, from_values, nodes
 from optlaws.numerics.roots import candidates, sign_changes
 from optlaws.synthesis.families.family import LinearFamily, NonlinearFamily, RowJet, WholeLawFamily, last_result
-from optlaws.synthesis.families.formula_slopes import Slopes
+from optlaws.synthesis.families.formula_slopes import FactorTables, Slopes
 from optlaws.synthesis.families.peaks import peaks
 from optlaws.synthesis.families.squares import SumOfSquares, sum_of_squares
 from optlaws.tolerances import FORMULA_RESOLVED, LEAST_ENERGY, ROUNDOFF
@@ -300,11 +300,12 @@ class IntegralFamily(WholeLawFamily, FormulaFamily):
     weights: Array  #: of the nodes
     root: bool = False  #: whether the root of the sum is meant
     convex: bool = False  #: whether f is convex, so that its tangents are nowhere above it
+    tables: FactorTables | None = None  #: of factors for which the formula has names
 
     @kept_property
     def slopes(self) -> Slopes:
         """The formula with its derivatives by the names."""
-        return Slopes(self.formula, self.names)
+        return Slopes(self.formula, self.names, self.tables)
 
     def scaled_down(self, by: float) -> Self:
         """The same row, divided by a power of 2; under a root the formula is by its square."""

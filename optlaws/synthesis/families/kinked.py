@@ -7,7 +7,7 @@ between them, and what a kink moves by adds to its second derivatives.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from functools import lru_cache, partial
 from itertools import pairwise
 from typing import Self
@@ -15,7 +15,7 @@ from typing import Self
 import numpy as np
 
 from optlaws.formulas.arithmetic import NUMPY, Together
-from optlaws.formulas.branches import branches_at, knots
+from optlaws.formulas.branches import branches_at, knots, rounded
 from optlaws.formulas.tree import Formula, Number
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
@@ -80,6 +80,13 @@ class KinkedIntegralFamily(IntegralFamily):
     def in_units(self, units: Array, unit: float) -> Self:
         """The family of variables in other units; its own unit stays."""
         return replace(super().in_units(units, unit), units=self.units * np.append(units, 1.0))
+
+    def rounded(self, share: float, x: Array) -> IntegralFamily:
+        """The integral at its nodes of a smooth formula near it, with hyperbolas of a share of f in a law as radius."""
+        formula, *_, tables = self._tabulated
+        given = {field.name: getattr(self, field.name) for field in fields(IntegralFamily)}
+        smooth = rounded(formula, share * abs(float(self.value(x, np.ones(1))[0])))
+        return IntegralFamily(**{**given, "formula": smooth, "tables": tables, "convex": False})
 
     @property
     def quadratic(self) -> bool:

@@ -113,7 +113,7 @@ class _Descent:
         """Step after step, until these are nothing."""
         program = self.program
         x = start + np.linalg.lstsq(program.equalities, program.right - program.equalities @ start, rcond=None)[0]
-        damping, taken, settled, last = _FIRST_DAMPING, 0, False, None
+        damping, taken, settled, refused, last = _FIRST_DAMPING, 0, False, False, None
         x, rows = self._rows(x)
         multipliers = np.zeros(self.ends[-1])
         for i, factor, rows_above in self.raised:
@@ -139,12 +139,14 @@ class _Descent:
                 x = x if ratio is None or ratio < STEP_PAYS else onward[0]
                 break
             if ratio < STEP_PAYS:
-                damping *= _DAMPED
+                damping, refused = damping * _DAMPED, True
                 continue
             multipliers = step.rows
             x, rows = onward
-            if ratio > _AS_PROMISED:
+            if ratio > _AS_PROMISED and not refused:
                 damping *= _EASED
+            # what was too little damping just now mostly still is
+            refused = False
         if last is None:
             return None
         weights = np.split(np.maximum(multipliers, 0.0), self.ends[1:-1])

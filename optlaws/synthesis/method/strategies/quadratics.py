@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -18,11 +18,13 @@ from optlaws.synthesis.method.discretised.quadratic_steps import stepwise_on_poi
 from optlaws.synthesis.method.discretised.straight import straight_step
 from optlaws.synthesis.method.strategies.identified import as_answered, optimum_near
 from optlaws.synthesis.method.strategies.strategy import Strategy
-from optlaws.tolerances import EXCESS, STEP_SETTLED, STEP_SHOWS_CONTACTS
+from optlaws.tolerances import EXCESS, STEP_OF_SMOOTH, STEP_SETTLED, STEP_SHOWS_CONTACTS
 
 #: how far a linear program may go, in times the greatest variable: beyond what laws of the field have
 _REACH = 1e4
 _ROUNDS = 14
+#: the radius of kinks that are made smooth, as a share of the integral
+_RADIUS = 0.2
 
 
 def bends_both_ways(program: Program) -> bool:
@@ -47,7 +49,7 @@ class ByQuadratics(Strategy[list[Points], ActiveSet]):
     holds
         May tell from x alone, and more quickly than the families do, whether every constraint holds.
     straight
-        Whether a linear program shows the kinks first.
+        Whether a linear program shows the kinks first; else, near an optimum, smooth formulas do.
     count, iterations, answer
         The rounds and the quadratic programs so far, and where these led.
     """
@@ -63,6 +65,8 @@ class ByQuadratics(Strategy[list[Points], ActiveSet]):
 
     def answered(self, points: list[Points]) -> tuple[ActiveSet | None, list[Points] | None]:
         """The optimum, or the points with the extrema of the answer; neither where there is none."""
+        if self.count == 0 and not self.straight:
+            self._smoothed(points)
         if self.count == 0 and self.straight:
             step = straight_step(self.program, points, self.x, _REACH * max(1.0, float(np.abs(self.x).max())))
             if step is not None:
@@ -83,6 +87,18 @@ class ByQuadratics(Strategy[list[Points], ActiveSet]):
             # an optimum may be so flat that no exact active set shows
             return as_answered(points, answer), None
         return (None, None) if known else (None, onward)
+
+    def _smoothed(self, points: list[Points]) -> None:
+        """Some steps with integrals of smooth formulas, whose kinks are not in the way yet."""
+        if not any(isinstance(family, KinkedIntegralFamily) for family in self.program.families):
+            return
+        families = tuple(
+            family.rounded(_RADIUS, self.x) if isinstance(family, KinkedIntegralFamily) else family
+            for family in self.program.families
+        )
+        answer = stepwise_on_points(replace(self.program, families=families), points, self.x, STEP_OF_SMOOTH)
+        if answer is not None:
+            self.x, self.iterations = answer.x, self.iterations + answer.iterations
 
     def _stepped(self, points: list[Points], settled: float) -> None:
         """The answer that quadratic programs lead to, until a step is less than a share of the variables."""
