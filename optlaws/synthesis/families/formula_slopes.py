@@ -110,8 +110,7 @@ def _outer(formula: Formula, shorthand: dict[Formula, str]) -> Formula:
 
 
 def _of_position(formula: Formula) -> bool:
-    smooth = all(smooth_itself(step.formula) for step in formula.steps)
-    return formula.names() - {"pi"} == {_POSITION} and smooth
+    return formula.names() - {"pi"} == {_POSITION} and all(smooth_itself(step.formula) for step in formula.steps)
 
 
 def _named(formula: Formula, shorthand: dict[Formula, str]) -> Formula:
