@@ -34,6 +34,7 @@ JUMP = 1e-9  # share of a derivative's greatest value below which it neither jum
 JUMP_OF_LOWER = 1e-13  # the same as a share of a lower derivative: uniform motion has c = 0 but for it
 FLAT_OUTPUT_JUMP = 1e-7  # the same of the derivatives from which a machine's input is computed
 AGREEMENT = 1e-9  # share within which two computed numbers are one
+NEAR_LIMIT = 0.25  # of the limit of a drive: of a law that is so near it no other starts are tried
 CLOSURE = 1e-9  # of a stroke or a turn: what is to close may be open by so much
 FEASIBILITY = 1e-10  # of a limit, by which a law may miss it
 CAM_FEASIBILITY = 1e-7  # of a limit of a cam, by which the rounding of its law may break it
@@ -75,6 +76,8 @@ POLISHING_REACH = 1e-3  # of an interval: Newton's steps towards a root go no fu
 POLISHED = 1e-12  # a step of Newton's method that is the last
 EXTREME_POLISHED = 1e-11  # of the whole: a place of an extreme that moves by less is settled
 SAME_EXPONENT = 1e-9  # exponents nearer to each other were the same number before they were rounded
+BESIDE_TABLE = 1e-9  # of a stroke: positions so near a table's end are as good as in it, and places one
+NEAR_NOTHING = 0.5  # of the least value looked at beside it: a turning point that comes nearer to 0 is looked at itself
 QUOTIENT_BLUR = 1e-8  # of the greatest value: quotients of small numbers are rounded more than others
 DIFFERENCE_SHARE = 1e-10  # of the greatest difference: to so much it is resolved
 
@@ -223,6 +226,8 @@ VERTEX_BALANCED = 1e-12  # of the greatest multiplier: by so much a vertex may f
 KINK_RADIUS = 0.003  # of hyperbolas in place of kinks, in units of the problem
 SMOOTH_NORM = 1e-12  # keeps a norm's slope finite where it vanishes; Newton's method goes without it
 STEP_SETTLED = 1e-11  # of the greatest variable: a quadratic step that is less ends the search
+STEP_OF_SMOOTH = 1e-2  # the same where formulas without kinks stand for those with
+STEP_SHOWS_CONTACTS = 1e-4  # the same: after one that is less Newton's method may find the exact contacts
 STEP_PAYS = 1e-4  # of what a quadratic step promises: the share that it must hold
 STEP_FEASIBILITY = 1e-9  # what a row may be exceeded by in a quadratic step
 STEP_GAIN = 1e-13  # of the objective: a quadratic step that promises less is rounding

@@ -164,15 +164,22 @@ def degree(formula: Formula, names: Mapping[str, int]) -> int | None:
     >>> degree(read("k^2*c + b"), {"k": 1, "c": 5, "b": 6}), degree(read("sin(k)"), {"k": 1})
     (7, None)
     """
+    degrees: list[int | None] = []
+    for part, places, _ in formula.steps:
+        degrees.append(_degree(part, [degrees[place] for place in places], names))
+    return degrees[-1]
+
+
+def _degree(formula: Formula, parts: list[int | None], names: Mapping[str, int]) -> int | None:
+    """The degree from those of its parts."""
     if not formula.names() & names.keys():
         return 0
     if isinstance(formula, Name):
         return names[formula.name]
     if isinstance(formula, Exponentiation):
-        base, exponent = degree(formula.base, names), constant(formula.exponent)
+        base, exponent = parts[0], constant(formula.exponent)
         whole = exponent is not None and exponent >= 0.0 and exponent % 1.0 == 0.0
         return int(exponent) * base if whole and exponent is not None and base is not None else None
-    parts = [degree(part, names) for part in formula.parts]
     known = [part for part in parts if part is not None]
     if len(known) < len(parts):
         return None

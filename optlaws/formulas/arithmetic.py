@@ -12,7 +12,21 @@ from typing import Any
 import numpy as np
 
 from optlaws.formulas.functions import SMOOTH_FUNCTIONS
-from optlaws.formulas.tree import Call, Exponentiation, Formula, Name, Negative, Number, Product, Reciprocal, Sum, Table
+from optlaws.formulas.tree import (
+    Call,
+    Exponentiation,
+    Formula,
+    Name,
+    Negative,
+    Number,
+    Product,
+    Reciprocal,
+    Step,
+    Sum,
+    Table,
+    shared_steps,
+)
+from optlaws.kept import kept_property
 from optlaws.numbers import Array
 from optlaws.tolerances import NORM_OFFSET
 
@@ -57,12 +71,41 @@ def evaluate(formula: Formula, names: Mapping[str, Any], arithmetic: Arithmetic)
     >>> evaluate(read("c + 0.5*b"), {"b": np.array([2.0, 4.0]), "c": 1.0}, NUMPY)
     array([2., 3.])
     """
+    return _computed(formula.steps, names, arithmetic)[-1]
+
+
+@dataclass(frozen=True, eq=False)
+class Together:
+    """Formulas that are evaluated together: what several of them have in common is computed once.
+
+    Examples
+    --------
+    >>> from optlaws.formulas.reading import read
+    >>> [float(value) for value in Together((read("b*c"), read("b*c + c"))).values({"b": 2.0, "c": 3.0}, NUMPY)]
+    [6.0, 9.0]
+    """
+
+    formulas: tuple[Formula, ...]
+
+    @kept_property
+    def _steps(self) -> tuple[tuple[Step, ...], tuple[int, ...]]:
+        return shared_steps(self.formulas)
+
+    def values(self, names: Mapping[str, Any], arithmetic: Arithmetic) -> list[Any]:
+        """The values of all formulas, in their order."""
+        steps, places = self._steps
+        computed = _computed(steps, names, arithmetic)
+        return [computed[place] for place in places]
+
+
+def _computed(steps: Sequence[Step], names: Mapping[str, Any], arithmetic: Arithmetic) -> list[Any]:
+    """The values of steps; None where they are done with."""
     values: list[Any] = []
-    for part, places, done in formula.steps:
+    for part, places, done in steps:
         values.append(step_value(part, [values[place] for place in places], names, arithmetic))
         for place in done:
             values[place] = None
-    return values[-1]
+    return values
 
 
 def step_value(

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from bisect import bisect_right
 from collections.abc import Callable, Collection, Mapping, Sequence
 from functools import reduce
 from itertools import combinations
 from itertools import product as every
+
+import numpy as np
+from numpy.typing import NDArray
 
 from optlaws.formulas.arithmetic import NUMPY, pieces, step_value
 from optlaws.formulas.functions import SMOOTH_FUNCTIONS
@@ -24,6 +26,7 @@ from optlaws.formulas.tree import (
     number,
     rebuilt,
 )
+from optlaws.numbers import Array
 
 _MOST = 16
 _RISING = frozenset(name for name, function in SMOOTH_FUNCTIONS.items() if function.rising)
@@ -97,36 +100,37 @@ def knots(formula: Formula, names: Collection[str]) -> tuple[list[Formula], list
     return [switch for switch in several if not inner[switch]], [switch for switch in several if inner[switch]]
 
 
-def branch_at(formula: Formula, names: Mapping[str, float]) -> Formula:
-    """The smooth formula that it is where its names, all of them, have these values.
+def branches_at(formula: Formula, names: Mapping[str, Array], count: int) -> list[Formula]:
+    """The smooth formulas that it is at as many places, where its names have arrays of values.
 
     >>> from optlaws.formulas.reading import read
-    >>> branch_at(read("abs(b) + max(c, 2*b)"), {"b": -1.0, "c": 3.0})
-    -b + c
-    >>> branch_at(read("table(a, 0:0, 0.5:2, 1:3)"), {"a": 0.75})
-    2 + 2*(a - 0.5)
+    >>> branches_at(read("abs(b) + max(c, 2*b)"), {"b": np.array([-1.0, 2.0]), "c": 3.0}, 2)
+    [-b + c, b + 2*b]
+    >>> branches_at(read("table(a, 0:0, 0.5:2, 1:3)"), {"a": np.array([0.75])}, 1)
+    [2 + 2*(a - 0.5)]
     """
-    values: list[float] = []
-    choices: list[int] = []
+    values: list[Array] = []
+    choices: list[NDArray[np.intp]] = []
     for part, places, _ in formula.steps:
         of = [values[place] for place in places]
-        values.append(float(step_value(part, of, names, NUMPY)))
+        values.append(np.broadcast_to(step_value(part, of, names, NUMPY), (count,)))
         if isinstance(part, Table) or not smooth_itself(part):
             choices.append(_choice(part, of))
-    key = tuple(choices)
-    if key not in formula.known_branches:
-        formula.known_branches[key] = _chosen(formula, choices)
-    return formula.known_branches[key]
+    keys = np.array(choices, dtype=np.intp).reshape(len(choices), count).T.tolist()
+    for key in map(tuple, keys):
+        if key not in formula.known_branches:
+            formula.known_branches[key] = _chosen(formula, key)
+    return [formula.known_branches[tuple(key)] for key in keys]
 
 
-def _choice(part: Formula, values: list[float]) -> int:
+def _choice(part: Formula, values: Sequence[Array]) -> NDArray[np.intp]:
     """Which of the smooth formulas a part with a kink is, where its parts have these values."""
     if isinstance(part, Table):
-        return min(max(bisect_right(part.places, values[0]) - 1, 0), len(part.places) - 2)
+        return np.clip(np.searchsorted(part.places, values[0], side="right") - 1, 0, len(part.places) - 2)
     if len(values) == 1:
-        return int(values[0] < 0.0)
-    best = max(values) if isinstance(part, Call) and part.function == "max" else min(values)
-    return values.index(best)
+        return np.asarray(values[0] < 0.0, dtype=np.intp)
+    greatest = isinstance(part, Call) and part.function == "max"
+    return np.asarray(np.argmax(values, axis=0) if greatest else np.argmin(values, axis=0))
 
 
 def _chosen(formula: Formula, choices: Sequence[int]) -> Formula:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from typing import Any, NamedTuple
 
@@ -105,26 +105,7 @@ class Formula:
         >>> [str(step.formula) for step in read("sin(2*a) + sin(2*a)^2").steps]
         ['2', 'a', '2*a', 'sin(2*a)', 'sin(2*a)^2', 'sin(2*a) + sin(2*a)^2']
         """
-        places: dict[int, int] = {}
-        known: dict[Any, int] = {}
-        different: list[tuple[Formula, tuple[int, ...]]] = []
-
-        def place(formula: Formula) -> int:
-            at = places.get(id(formula))
-            if at is None:
-                parts = tuple(place(part) for part in formula.parts)
-                at = known.setdefault((type(formula), formula.data, parts), len(different))
-                if at == len(different):
-                    different.append((formula, parts))
-                places[id(formula)] = at
-            return at
-
-        place(self)
-        last = {part: i for i, (_, parts) in enumerate(different) for part in parts}
-        done: list[list[int]] = [[] for _ in different]
-        for part, i in last.items():
-            done[i].append(part)
-        return tuple(Step(formula, parts, tuple(over)) for (formula, parts), over in zip(different, done, strict=True))
+        return shared_steps((self,))[0]
 
     def within(self, level: int) -> str:
         """Its text, in brackets where it binds less than its surroundings."""
@@ -311,6 +292,38 @@ class Step(NamedTuple):
     formula: Formula
     parts: tuple[int, ...]
     done: tuple[int, ...]
+
+
+def shared_steps(formulas: Sequence[Formula]) -> tuple[tuple[Step, ...], tuple[int, ...]]:
+    """All different formulas within several, those first that others are made of; and which of them the several are.
+
+    >>> from optlaws.formulas.reading import read
+    >>> steps, places = shared_steps([read("2*a + b"), read("2*a")])
+    >>> [str(step.formula) for step in steps], places
+    (['2', 'a', '2*a', 'b', '2*a + b'], (4, 2))
+    """
+    places: dict[int, int] = {}
+    known: dict[Any, int] = {}
+    different: list[tuple[Formula, tuple[int, ...]]] = []
+
+    def place(formula: Formula) -> int:
+        at = places.get(id(formula))
+        if at is None:
+            parts = tuple(place(part) for part in formula.parts)
+            at = known.setdefault((type(formula), formula.data, parts), len(different))
+            if at == len(different):
+                different.append((formula, parts))
+            places[id(formula)] = at
+        return at
+
+    results = tuple(place(formula) for formula in formulas)
+    last = {part: i for i, (_, parts) in enumerate(different) for part in parts}
+    done: list[list[int]] = [[] for _ in different]
+    for part, i in last.items():
+        if part not in results:
+            done[i].append(part)
+    steps = (Step(formula, parts, tuple(over)) for (formula, parts), over in zip(different, done, strict=True))
+    return tuple(steps), results
 
 
 def plain(value: float) -> str:

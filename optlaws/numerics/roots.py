@@ -5,7 +5,7 @@ Series of smooth parts have them all; bisection finds one between two places.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import pairwise
 
 import numpy as np
@@ -14,9 +14,15 @@ from numpy.typing import NDArray
 from optlaws.errors import InputError
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import derivative, from_values, interpolated, nodes, real_parts_of_roots
-from optlaws.tolerances import QUOTIENT_BLUR, TOUCHING, VALUE_ROUNDING
+from optlaws.tolerances import EPSILON, NEAR_NOTHING, QUOTIENT_BLUR, ROUNDOFF, TOUCHING, VALUE_ROUNDING
 
 _DEEPEST = 12
+#: how often parabolas lead to a turning point
+_TURNS = 3
+#: more than roots between places that are near each other need
+_CHANDRUPATLA = 100
+#: how near its ends, in shares of a bracket, the first place is
+_EDGE = 0.05
 #: for parts so short that nothing is smooth on them
 _CLOSE = np.cos(np.linspace(0.0, np.pi, 129))
 
@@ -105,6 +111,110 @@ def cut_at_all(functions: Iterable[Callable[[Array], Array]], edges: list[float]
     for function in functions:
         places.update(cut_at_roots(lambda low, high: function, edges))  # noqa: ARG005, B023 - it is called at once
     return sorted(places)
+
+
+def sign_changes(functions: Callable[[Array], Array], edges: Sequence[float], count: int) -> Array:
+    """Places between edges where any of several smooth functions changes its sign, ascending.
+
+    Looked at where a series of as many terms would be fixed, and at turning points near 0 between these; a root is
+    known to rounding, or to what rounding of the greatest value makes of it.
+
+    Parameters
+    ----------
+    functions
+        Of places, the values of all functions, one row each.
+    edges
+        Ascending; at none of them a change is looked for.
+    count
+        How many places are looked at between two edges, at the least.
+
+    Examples
+    --------
+    >>> sign_changes(lambda x: np.array([np.cos(x), np.sin(x)]), [1.0, 2.5, 4.0], 8).round(12)
+    array([1.57079633, 3.14159265])
+    """
+    low, width = np.array(edges[:-1])[:, None], np.diff(edges)[:, None]
+    places = (low + width * (1.0 - nodes(count)) / 2.0).ravel()
+    values = functions(places)
+    for _ in range(_TURNS):
+        turning = np.setdiff1d(_turning_points(places, values), places)
+        if not len(turning):
+            break
+        places = np.concatenate([places, turning])
+        order = np.argsort(places, kind="stable")
+        places, values = places[order], np.hstack([values, functions(turning)])[:, order]
+    brackets: list[tuple[int, int, int]] = []
+    piece = np.searchsorted(edges, places)
+    for row, of in enumerate(values):
+        plain = np.flatnonzero(np.abs(of) > VALUE_ROUNDING * np.abs(of).max(initial=0.0))
+        first, second = plain[:-1], plain[1:]
+        turns = (np.sign(of[first]) != np.sign(of[second])) & (piece[first] == piece[second])
+        brackets += [(row, int(i), int(j)) for i, j in zip(first[turns], second[turns], strict=True)]
+    if not brackets:
+        return np.empty(0)
+    rows, before, after = np.array(brackets).T
+    columns = np.arange(len(rows))
+    return np.unique(
+        bracketed_roots(
+            lambda x: functions(x)[rows, columns],
+            (places[before], places[after]),
+            (values[rows, before], values[rows, after]),
+            ROUNDOFF * np.abs(values).max(axis=1)[rows],
+        )
+    )
+
+
+def _turning_points(places: Array, values: Array) -> Array:
+    """Where parabolas through three values of one sign come near 0 or beyond."""
+    x, y, z = places[:-2], places[1:-1], places[2:]
+    f, g, h = values[:, :-2], values[:, 1:-1], values[:, 2:]
+    rise, fall = (g - f) / (y - x), (h - g) / (z - y)
+    bend = (fall - rise) / (z - x)
+    with np.errstate(all="ignore"):
+        slope = rise + bend * (y - x)
+        at = y - slope / (2.0 * bend)
+        height = g - slope**2 / (4.0 * bend)
+    near = (np.sign(f) == np.sign(g)) & (np.sign(g) == np.sign(h)) & (height * np.sign(g) < NEAR_NOTHING * np.abs(g))
+    return np.unique(at[near & (x < at) & (at < z)])
+
+
+def bracketed_roots(
+    function: Callable[[Array], Array],
+    ends: tuple[Array, Array],
+    values: tuple[Array, Array],
+    nothing: Array | float = 0.0,
+) -> Array:
+    """Roots many at once, each between two places where a function has values of different signs, or nearly `nothing`.
+
+    Inverse quadratic interpolation where it is safe, and halving (Chandrupatla, Advances in Engineering Software 28
+    (1997) 145).
+
+    >>> ends = np.array([1.0, 1.0]), np.array([2.0, 2.0])
+    >>> bracketed_roots(lambda x: x * x - [2.0, 3.0], ends, (np.array([-1.0, -2.0]), np.array([2.0, 1.0])))
+    array([1.41421356, 1.73205081])
+    """
+    (a, b), (fa, fb) = ends, values
+    c, fc, share = a, fa, np.clip(fa / (fa - fb), _EDGE, 1.0 - _EDGE)
+    for _ in range(_CHANDRUPATLA):
+        x = a + share * (b - a)
+        fx = function(x)
+        same = np.sign(fx) == np.sign(fa)
+        c, fc = np.where(same, a, b), np.where(same, fa, fb)
+        b, fb = np.where(same, b, a), np.where(same, fb, fa)
+        a, fa = x, fx
+        width = np.abs(b - a)
+        least = 2.0 * EPSILON * np.maximum(np.abs(a), np.abs(b))
+        done = (width <= 2.0 * least) | (np.abs(fa) <= nothing)
+        if done.all():
+            break
+        with np.errstate(all="ignore"):
+            xi, phi = (a - b) / (c - b), (fa - fb) / (fc - fb)
+            smooth = (phi**2 < xi) & ((1.0 - phi) ** 2 < 1.0 - xi)
+            inverse = fa / (fb - fa) * fc / (fb - fc) + (c - a) / (b - a) * fa / (fc - fa) * fb / (fc - fb)
+            nearest = np.minimum(least / width, 0.5)
+        share = np.where(smooth & np.isfinite(inverse), np.clip(inverse, nearest, 1.0 - nearest), 0.5)
+        share = np.where(done, 0.0, share)
+    return np.where(np.abs(fa) <= np.abs(fb), a, b)
 
 
 def _changes(function: Callable[[Array], Array], places: Array) -> list[float]:

@@ -37,6 +37,7 @@ from optlaws.tolerances import (
     AGREEMENT,
     BEYOND_PROOF,
     FIRST_MOVE,
+    NEAR_LIMIT,
     NO_OBJECTIVE,
     OPTIMALITY_GAP,
     UNDIVIDED_ROUNDING,
@@ -101,19 +102,30 @@ class LawSearch:
         return failure(self.problem, self.outcomes[0])
 
     def _try_starts(self) -> None:
-        """The default start or a neighbour's optimum; where several optima may be, others until two agree."""
-        first = self._try(self.warm, None)
-        if self.problem.convex or self.warm is not None:
+        """A drive's limit, the default start or a neighbour's optimum; where several may be, others until two agree."""
+        first = self._try_drive() if self.warm is None else None
+        if first is not None and self._near_limit(first):
             return
+        last = self._try(self.warm, None)
+        if self.problem.convex or self.warm is not None or _agree(first, last):
+            return
+        first = first or last
         for point in starts.points(self.model):
-            last = self._try(None, point)
-            if first is None or last is None:
-                continue
-            if abs(first.objective - last.objective) <= AGREEMENT * abs(first.objective):
+            if _agree(first, self._try(None, point)):
                 return
 
-    def _try(self, warm: ActiveSet | None, point: Array | None) -> Candidate | None:
-        outcome, candidate = attempt(self.model, warm, point)
+    def _try_drive(self) -> Candidate | None:
+        """Where the motion leads that is the limit of a drive."""
+        limit = None if self.problem.convex else limit_beside(self.problem)
+        return None if limit is None else self._try(None, starts.in_phase_plane(self.model, limit), near=True)
+
+    def _near_limit(self, law: Candidate) -> bool:
+        """Whether the limit of a drive leaves a law little room."""
+        limit = limit_beside(self.problem)
+        return limit is not None and law.objective <= limit.value * (1.0 + NEAR_LIMIT)
+
+    def _try(self, warm: ActiveSet | None, point: Array | None, *, near: bool = False) -> Candidate | None:
+        outcome, candidate = attempt(self.model, warm, point, near=near)
         self.outcomes.append(outcome)
         if candidate is not None:
             self.candidates = sorted([*self.candidates, candidate], key=lambda law: law.objective)
@@ -300,8 +312,17 @@ class _Laws:
         return Candidate(optimum, law, value.objective) if value.sound else None
 
 
-def attempt(model: Model, warm: ActiveSet | None, point: Array | None) -> tuple[Outcome, Candidate | None]:
-    """Where a neighbour's optimum or a start leads."""
+def _agree(first: Candidate | None, last: Candidate | None) -> bool:
+    """Whether two starts led to laws that are as good."""
+    if first is None or last is None:
+        return False
+    return abs(first.objective - last.objective) <= AGREEMENT * abs(first.objective)
+
+
+def attempt(
+    model: Model, warm: ActiveSet | None, point: Array | None, *, near: bool = False
+) -> tuple[Outcome, Candidate | None]:
+    """Where a neighbour's optimum or a start leads, which may be near the optimum."""
     claim, laws = model.program.objective * model.unit, _Laws(model)
 
     def holds(x: Array) -> bool:
@@ -310,7 +331,8 @@ def attempt(model: Model, warm: ActiveSet | None, point: Array | None) -> tuple[
         # a constant that is minimised is a variable, which may have to be above the law's own
         return exact and not shortfalls(model.problem, law)
 
-    outcome = solve(model.program, warm, start=point, holds=holds)
+    rounds = {"rounds": 0} if near else {}
+    outcome = solve(model.program, warm, start=point, holds=holds, **rounds)
     led = outcome.tried if outcome.optimum is None else (outcome.optimum,)
     candidates = (laws.candidate(state.at(on_equations(model.program, state.x))) for state in led)
     return outcome, min((law for law in candidates if law is not None), key=lambda law: law.objective, default=None)

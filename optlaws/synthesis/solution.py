@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import MISSING, dataclass, field, fields
+from dataclasses import MISSING, dataclass, field, fields, replace
 from functools import cache
 from typing import TYPE_CHECKING, Any, Self
 
@@ -16,12 +16,17 @@ from optlaws.laws.exporting import LawExport
 from optlaws.numbers import bounded
 from optlaws.shown.summary import Row, Summary
 from optlaws.synthesis.families.active_set import ActiveSet
-from optlaws.synthesis.limits.drive_limits import DriveLimit
+from optlaws.synthesis.limits.drive_limits import DriveLimit, plane_of
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.spaces.bases import PolynomialBasis, Powers
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
 from optlaws.synthesis.status import Status, measure
+
+_MAY_TURN_BACK = (
+    "of laws that may turn back nothing is proven here: with monotone=True, for laws that never turn back, what no law "
+    "of any degree can beat is known"
+)
 
 
 @dataclass(frozen=True)
@@ -140,11 +145,13 @@ class Solution(LawExport, JsonText):
         ('laws need not be symmetric: rms(c + 4*a) says another thing of a law than of its mirror image',)
         """
         problem = self.problem
+        local = self.status is Status.LOCAL and not problem.monotone
+        notes = (_MAY_TURN_BACK,) if local and plane_of(replace(problem, monotone=True)) is not None else ()
         if problem.symmetric or problem.boundary is not None or not problem.uneven:
-            return ()
+            return notes
         names = problem.titled(" and ".join(map(repr, problem.uneven)))
         says = "says" if len(problem.uneven) == 1 else "say"
-        return (f"laws need not be symmetric: {names} {says} another thing of a law than of its mirror image",)
+        return (*notes, f"laws need not be symmetric: {names} {says} another thing of a law than of its mirror image")
 
     def summary(self) -> Summary:
         """What was found and is proven, with the constants of the law, as rows.
@@ -168,8 +175,11 @@ class Solution(LawExport, JsonText):
             laws = f"which no {limited_laws(problem)} can beat, whatever its degree"
             rows.append(Row("limit", self.limit, note=laws))
         if self.drive_limit is not None:
-            laws = "which no law that never turns back can beat, whatever its degree"
+            laws = "which no law that never turns back can beat, whatever its order and degree"
             rows.append(Row("limit", self.drive_limit.value, note=laws))
+            if self.drive_limit.value > 0.0:
+                cost = self.objective / self.drive_limit.value - 1.0
+                rows.append(Row("cost of order and degree", 100.0 * cost, "%", note="at most"))
         if starts:
             rows.append(Row("starts", f"{len(starts)}", note=f"from {starts[0]:.10g} to {starts[-1]:.10g}"))
         if self.z is not None:

@@ -12,6 +12,7 @@ from optlaws.synthesis.families.cone import ConeFamily, stationary_places
 from optlaws.synthesis.families.curved import CurvedFamily, FormulaFamily
 from optlaws.synthesis.families.energy import EnergyFamily
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, Points, ProductFamily, Program
+from optlaws.synthesis.families.formula_slopes import Slopes, tabulated
 from optlaws.synthesis.families.kinked import KinkedIntegralFamily
 from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.families.peaks import peaks
@@ -28,7 +29,7 @@ from optlaws.synthesis.limits.drive_limits import limit_beside
 from optlaws.synthesis.limits.formula_jets import formula_jet
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.limits.rounding import not_above, root_rounded_down, rounded_down, rounded_up
-from optlaws.synthesis.method import exchange
+from optlaws.synthesis.method import exchange, starts
 from optlaws.synthesis.method.discretised import ipopt
 from optlaws.synthesis.method.discretised.expressions import KINDS, RowShape
 from optlaws.synthesis.method.discretised.grids import first_points
@@ -70,7 +71,7 @@ from optlaws.synthesis.proof.power.rows import Anchors, PowerRows, rows_of, velo
 from optlaws.synthesis.proof.power.search import _points, searched
 from optlaws.synthesis.proof.power.shared_energy import secant_over_inverse, secant_over_root
 from optlaws.synthesis.proof.sublevel_bounds import greatest_values, least_values, means, spread
-from optlaws.synthesis.search import LawSearch, from_symmetric
+from optlaws.synthesis.search import LawSearch, attempt, from_symmetric
 from optlaws.synthesis.solve import _neighbours
 from optlaws.synthesis.solve_many import _together, solved
 from optlaws.synthesis.spaces.bases import basis

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Self
@@ -12,15 +11,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.formulas.affine import degree, quadratic
-from optlaws.formulas.arithmetic import NUMPY, evaluate
+from optlaws.formulas.arithmetic import NUMPY, Together
+from optlaws.formulas.branches import switches
 from optlaws.formulas.of_motion import MotionFormula
-from optlaws.formulas.slopes import derivative, scaled
+from optlaws.formulas.slopes import scaled
 from optlaws.formulas.tree import Call, Exponentiation, Formula, Number, total
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import FEWEST, MOST, from_values, nodes
-from optlaws.numerics.roots import candidates
+from optlaws.numerics.roots import candidates, sign_changes
 from optlaws.synthesis.families.family import LinearFamily, NonlinearFamily, RowJet, WholeLawFamily, last_result
+from optlaws.synthesis.families.formula_slopes import FactorTables, Slopes
 from optlaws.synthesis.families.peaks import peaks
 from optlaws.synthesis.families.squares import SumOfSquares, sum_of_squares
 from optlaws.tolerances import FORMULA_RESOLVED, LEAST_ENERGY, ROUNDOFF
@@ -29,47 +30,8 @@ _PLACES_PER_DEGREE = 2
 _SQUARE = 2
 #: roundings of a formula's slope in a row
 _IN_A_ROW = 16
-
-
-@dataclass(frozen=True, eq=False)
-class Slopes:
-    """A formula with its first and second derivatives by some of its names."""
-
-    formula: Formula
-    names: tuple[str, ...]
-
-    @kept_property
-    def first(self) -> list[Formula]:
-        """Derivatives by each of the names."""
-        return [derivative(self.formula, name) for name in self.names]
-
-    @kept_property
-    def second(self) -> list[list[Formula]]:
-        """Second derivatives by each two names."""
-        return [[derivative(slope, name) for name in self.names] for slope in self.first]
-
-    def value(self, at: Mapping[str, Array]) -> Array:
-        """Values of the formula at the places."""
-        return _values(self.formula, at)
-
-    def gradient(self, at: Mapping[str, Array]) -> Array:
-        """Its derivatives, shape (names, places)."""
-        return np.array([_slope(slope, at) for slope in self.first])
-
-    def hessian(self, at: Mapping[str, Array]) -> Array:
-        """Its second derivatives, shape (names, names, places)."""
-        return np.array([[_slope(bend, at) for bend in row] for row in self.second])
-
-
-def _values(formula: Formula, at: Mapping[str, Array]) -> Array:
-    with np.errstate(all="ignore"):
-        return np.broadcast_to(evaluate(formula, at, NUMPY), np.shape(at["k"])).astype(np.float64)
-
-
-def _slope(formula: Formula, at: Mapping[str, Array]) -> Array:
-    """The values of a slope; 0 where it has none: at the tip of a norm that is a slope of some tangent."""
-    values = _values(formula, at)
-    return np.where(np.isnan(values), 0.0, values)
+#: places at which knots are looked for, beside one for every variable
+_LOOKS = 32
 
 
 def between(bend: Array, rows: Array) -> Array:
@@ -287,8 +249,25 @@ class CurvedFamily(FormulaFamily):
     def stationary(self, x: Array) -> Array:
         """Places among which every stationary point of the domain is, and the edges; beyond it f may have no value."""
         count = None if self.degree is None else self.degree + 1
-        inner = [candidates(lambda u: self.value(x, u), ends, count) for ends in self._stretches]
-        return np.concatenate([*inner, self.edges])
+        stretches = [ends for stretch in self._stretches for ends in pairwise(self._cut_at_knots(x, stretch))]
+        inner = [candidates(lambda u: self.value(x, u), ends, count) for ends in stretches]
+        return np.concatenate([*inner, *(np.array(ends) for ends in stretches), self.edges])
+
+    @kept_property
+    def _knots(self) -> Together:
+        """What vanishes where a law passes a knot of a spline."""
+        return Together(tuple(switches(self.formula, self.names)))
+
+    def _cut_at_knots(self, x: Array, ends: tuple[float, float]) -> list[float]:
+        """The ends of a stretch, and between them the places where a law passes a knot of a spline."""
+        if not self._knots.formulas or ends[0] == ends[1]:
+            return list(ends)
+
+        def values(u: Array) -> Array:
+            at = self._at(np.array([part.value(x, u) for _, part in self.parts]), u)
+            return np.array([np.broadcast_to(value, u.shape) for value in self._knots.values(at, NUMPY)])
+
+        return sorted({*ends, *sign_changes(values, ends, _LOOKS + len(self.slack)).tolist()})
 
     @property
     def _stretches(self) -> list[tuple[float, float]]:
@@ -321,11 +300,12 @@ class IntegralFamily(WholeLawFamily, FormulaFamily):
     weights: Array  #: of the nodes
     root: bool = False  #: whether the root of the sum is meant
     convex: bool = False  #: whether f is convex, so that its tangents are nowhere above it
+    tables: FactorTables | None = None  #: of factors for which the formula has names
 
     @kept_property
     def slopes(self) -> Slopes:
         """The formula with its derivatives by the names."""
-        return Slopes(self.formula, self.names)
+        return Slopes(self.formula, self.names, self.tables)
 
     def scaled_down(self, by: float) -> Self:
         """The same row, divided by a power of 2; under a root the formula is by its square."""

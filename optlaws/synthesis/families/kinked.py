@@ -6,23 +6,28 @@ between them, and what a kink moves by adds to its second derivatives.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, fields, replace
 from functools import lru_cache, partial
 from itertools import pairwise
 from typing import Self
 
 import numpy as np
 
-from optlaws.formulas.arithmetic import NUMPY, evaluate
-from optlaws.formulas.branches import branch_at, knots
-from optlaws.formulas.tree import Formula
+from optlaws.formulas.arithmetic import NUMPY, Together
+from optlaws.formulas.branches import branches_at, knots, rounded
+from optlaws.formulas.tree import Formula, Number
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import gauss
-from optlaws.numerics.roots import cut_at_all, cut_at_roots
-from optlaws.synthesis.families.curved import IntegralFamily, Slopes, between
+from optlaws.numerics.roots import sign_changes
+from optlaws.synthesis.families.curved import IntegralFamily, between
 from optlaws.synthesis.families.family import RowJet, last_result
+from optlaws.synthesis.families.formula_slopes import FactorTables, Slopes, tabulated
+
+_ZERO = Number(0.0)
+#: places at which kinks are looked for on a piece, times those of the rule
+_LOOKS = 4
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,11 +50,14 @@ class KinkSplit:
     names: dict[str, Array]
     weights: Array
 
-    def of(self, i: int) -> tuple[dict[str, Array], Array, Array]:
-        """What the names are on a stretch, their columns, and the weights."""
+    def by_formula(self) -> Iterator[tuple[Formula, dict[str, Array], Array, Array]]:
+        """Each smooth formula but 0 with what the names are where it holds, their columns, and the weights."""
         count = len(self.weights) // len(self.stretches)
-        some = slice(i * count, (i + 1) * count)
-        return {name: values[some] for name, values in self.names.items()}, self.columns[:, some], self.weights[some]
+        for formula in dict.fromkeys(stretch.formula for stretch in self.stretches):
+            if formula != _ZERO:
+                here = np.repeat([stretch.formula == formula for stretch in self.stretches], count)
+                names = {name: values[here] for name, values in self.names.items()}
+                yield formula, names, self.columns[:, here], self.weights[here]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -63,12 +71,22 @@ class KinkedIntegralFamily(IntegralFamily):
     length: int  #: how many places a stretch needs
 
     @kept_property
-    def _switches(self) -> tuple[list[Formula], list[Formula]]:
-        return knots(self.formula, self.names)
+    def _tabulated(self) -> tuple[Formula, Together, Together, FactorTables | None]:
+        """The formula and its switches, plain and bent ones, over names for factors of the position; their tables."""
+        plain, bent = knots(self.formula, self.names)
+        (formula, *switches), tables = tabulated((self.formula, *plain, *bent))
+        return formula, Together(tuple(switches[: len(plain)])), Together(tuple(switches[len(plain) :])), tables
 
     def in_units(self, units: Array, unit: float) -> Self:
         """The family of variables in other units; its own unit stays."""
         return replace(super().in_units(units, unit), units=self.units * np.append(units, 1.0))
+
+    def rounded(self, share: float, x: Array) -> IntegralFamily:
+        """The integral at its nodes of a smooth formula near it, with hyperbolas of a share of f in a law as radius."""
+        formula, *_, tables = self._tabulated
+        given = {field.name: getattr(self, field.name) for field in fields(IntegralFamily)}
+        smooth = rounded(formula, share * abs(float(self.value(x, np.ones(1))[0])))
+        return IntegralFamily(**{**given, "formula": smooth, "tables": tables, "convex": False})
 
     @property
     def quadratic(self) -> bool:
@@ -100,33 +118,43 @@ class KinkedIntegralFamily(IntegralFamily):
         columns = self.columns_at(k)
         split = KinkSplit(stretches, 0.0, np.zeros(len(point)), columns, self._names(point, k, columns), weights)
         total, slope = 0.0, split.slope
-        for i, stretch in enumerate(stretches):
-            names, columns, weights = split.of(i)
-            slopes = _slopes(stretch.formula, self.names)
-            total += float(weights @ slopes.value(names))
-            slope += np.einsum("ip,ipn->n", slopes.gradient(names) * weights, columns)
+        for formula, names, rows, shares in split.by_formula():
+            values, gradient = self._slopes(formula, self.names).value_and_gradient(names)
+            total += float(shares @ values)
+            slope += np.tensordot(gradient * shares, rows, 2)
         return replace(split, total=total)
 
     def _stretches(self, point: Array) -> list[SmoothStretch]:
-        plain, bent = self._switches
-        edges = cut_at_all((partial(self._value, switch, point) for switch in plain), list(self.edges))
-        for switch in bent:
-            value = partial(self._value, switch, point)
-            edges = cut_at_roots(_same(value), edges)
+        edges = list(self.edges)
+        formula, plain, bent, tables = self._tabulated
+        for switches in (plain, bent):
+            if switches.formulas:
+                changes = sign_changes(partial(self._values, switches, point), edges, _LOOKS * self.length)
+                edges = sorted({*edges, *changes.tolist()})
         stretches: list[SmoothStretch] = []
         middles = (np.array(edges[1:]) + np.array(edges[:-1])) / 2.0
-        names = self._names(point, middles, self.columns_at(middles))
-        for i, (low, high) in enumerate(pairwise(edges)):
-            formula = branch_at(self.formula, {name: float(values[i]) for name, values in names.items()})
-            if stretches and stretches[-1].formula == formula and low not in self.edges:
+        names = self._with_factors(self._names(point, middles, self.columns_at(middles)))
+        for (low, high), branch in zip(pairwise(edges), branches_at(formula, names, len(middles)), strict=True):
+            # of factors in tables the stretches end at the knots too
+            same = tables is None and low not in self.edges and stretches and stretches[-1].formula == branch
+            if same:
                 stretches[-1] = replace(stretches[-1], high=high)
             else:
-                stretches.append(SmoothStretch(low, high, formula))
+                stretches.append(SmoothStretch(low, high, branch))
         return stretches
 
-    def _value(self, formula: Formula, point: Array, k: Array) -> Array:
-        names = self._names(point, k, self.columns_at(k))
-        return np.broadcast_to(np.asarray(evaluate(formula, names, NUMPY), dtype=np.float64), k.shape)
+    def _values(self, formulas: Together, point: Array, k: Array) -> Array:
+        names = self._with_factors(self._names(point, k, self.columns_at(k)))
+        with np.errstate(all="ignore"):
+            return np.array([np.broadcast_to(value, k.shape) for value in formulas.values(names, NUMPY)])
+
+    def _with_factors(self, names: dict[str, Array]) -> dict[str, Array]:
+        """What the names are, and those for factors of the position."""
+        tables = self._tabulated[-1]
+        return names if tables is None else {**names, **tables.by_name(names["a"])}
+
+    def _slopes(self, formula: Formula, names: tuple[str, ...]) -> Slopes:
+        return _slopes(formula, names, self._tabulated[-1])
 
     def touching(self, x: Array, u: float) -> tuple[float, ...]:  # noqa: ARG002 - it has no place
         """The variables of the law."""
@@ -154,9 +182,8 @@ class KinkedIntegralFamily(IntegralFamily):
         """The second derivatives of f, times the sum of weights."""
         split = self.split(x)
         matrix = self._moved(split, np.append(x, 1.0))
-        for i, stretch in enumerate(split.stretches):
-            names, columns, share = split.of(i)
-            bend = _slopes(stretch.formula, self.names).hessian(names) * share
+        for formula, names, columns, shares in split.by_formula():
+            bend = self._slopes(formula, self.names).hessian(names) * shares
             matrix += between(bend[:, :, None], columns[:, None, :, :-1])[0]
         if self.root:
             size, slope = self.outer(np.array(split.total))
@@ -168,10 +195,10 @@ class KinkedIntegralFamily(IntegralFamily):
         k = np.array([right.low for right in split.stretches[1:]])
         columns, turns = self.columns_at(k), self.columns_at(k, 1)
         names, matrix = self._names(point, k, columns), np.zeros((len(point) - 1,) * 2)
-        for i, both in enumerate(pairwise(split.stretches)):
-            at = {name: values[i : i + 1] for name, values in names.items()}
-            left, right = (_slopes(side.formula, (*self.names, "k")).gradient(at)[:, 0] for side in both)
-            apart = left - right
+        formulas = dict.fromkeys(stretch.formula for stretch in split.stretches)
+        slopes = {formula: self._slopes(formula, (*self.names, "k")).gradient(names) for formula in formulas}
+        for i, (left, right) in enumerate(pairwise(split.stretches)):
+            apart = slopes[left.formula][:, i] - slopes[right.formula][:, i]
             across = apart[:-1] @ columns[:, i, :-1]
             falls = float(apart[:-1] @ (turns[:, i] @ point) + apart[-1])
             if falls != 0.0:
@@ -183,10 +210,6 @@ class KinkedIntegralFamily(IntegralFamily):
         return np.full(len(u), self.outer(np.array(self.split(x).total))[0])
 
 
-def _same(value: Callable[[Array], Array]) -> Callable[[float, float], Callable[[Array], Array]]:
-    return lambda low, high: value  # noqa: ARG005 - it is smooth beyond them too
-
-
 @lru_cache(maxsize=256)
-def _slopes(formula: Formula, names: tuple[str, ...]) -> Slopes:
-    return Slopes(formula, names)
+def _slopes(formula: Formula, names: tuple[str, ...], tables: FactorTables | None) -> Slopes:
+    return Slopes(formula, names, tables)

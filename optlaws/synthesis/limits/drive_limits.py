@@ -110,6 +110,24 @@ class DriveLimit(JsonText):
         shape = PchipInterpolator(places, np.array(self.b) / np.sin(np.pi * places), extrapolate=True)
         return np.asarray(shape(s) * np.sin(np.pi * s))
 
+    def motion(self) -> tuple[Array, Array, Array]:
+        """Times k from 0 to 1 of the motion that was found, with its positions and velocities there.
+
+        Examples
+        --------
+        >>> k, a, b = drive_limit("c", "peak torque", B=1.8).motion()
+        >>> bool(abs(a[k < 0.25] - 2.025 * k[k < 0.25] ** 2).max() < 1e-3)
+        True
+        """
+        from scipy.interpolate import PchipInterpolator
+
+        places, b = np.array(self.s), np.array(self.b)
+        # the time passes with s at a finite rate, even at the ends
+        rate = PchipInterpolator(places, np.sin(np.pi * places) / b, extrapolate=True).antiderivative()
+        s = np.concatenate([[0.0], places, [1.0]])
+        share = (rate(s) - rate(0.0)) / (rate(1.0) - rate(0.0))
+        return np.asarray(share), np.sin(0.5 * np.pi * s) ** 2, np.concatenate([[0.0], b, [0.0]])
+
     def to_dict(self) -> dict[str, Any]:
         """The limit and its certificate as plain data."""
         return {
@@ -348,8 +366,16 @@ def _cached(plane: PhasePlane, minimise: DriveObjective, unit: float) -> DriveLi
 def plane_of(problem: Problem) -> tuple[PhasePlane, DriveObjective, float] | None:
     """The phase plane of a problem's objective within its bounds of B, C and torques, what is minimised and its unit.
 
-    Other bounds and windows are left out: what holds without them holds with them.
+    Other bounds and windows are left out: what holds without them holds with them. None where the objective is no
+    drive's, as where an inertia is below 0.
     """
+    try:
+        return _plane_of(problem)
+    except InputError:
+        return None
+
+
+def _plane_of(problem: Problem) -> tuple[PhasePlane, DriveObjective, float] | None:
     [(weight, term), *others] = problem.objective.terms
     if others or weight != 1.0 or not problem.monotone or problem.boundary is not None or problem.order < 2:
         return None

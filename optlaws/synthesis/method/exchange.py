@@ -59,7 +59,8 @@ def solve(
 ) -> Outcome:
     """Solve a semi-infinite program; a neighbour's optimum as `warm` is tried before IPOPT, which begins at `start`.
 
-    `holds` may tell from x alone, and more quickly than the families do, whether every constraint holds.
+    `holds` may tell from x alone, and more quickly than the families do, whether every constraint holds. With no
+    `rounds` of interior points quadratic programs lead on from a start, which they do not leave for a worse law.
     """
     units = units_of(program)
     if units is None:
@@ -113,6 +114,10 @@ def _solved(program: Program, start: Array | None, holds: Callable[[Array], bool
         optimum = polished(program, guess, holds) if guess is not None else None
         if optimum is not None:
             return Outcome(optimum, 0, 0, "least squares")
+    if start is not None and not rounds:
+        stepwise = ByQuadratics(program, start, holds, straight=False)
+        optimum, count = cutting_plane_loop(stepwise, points)
+        return Outcome(optimum, stepwise.iterations, count, "quadratic programs")
     if many_pieces(program):
         optimum, count = cutting_plane_loop(ByVertices(program, holds), points)
         if optimum is not None:

@@ -7,8 +7,11 @@ from dataclasses import replace
 from math import inf, isfinite
 
 import numpy as np
+from scipy.linalg import null_space
 
 from optlaws.numbers import Array
+from optlaws.synthesis.functionals.curved_rows import columns_of
+from optlaws.synthesis.limits.drive_limits import DriveLimit
 from optlaws.synthesis.method.exchange import solve
 from optlaws.synthesis.problem.constants import PowerConstant
 from optlaws.synthesis.program.writer import Model, model_of
@@ -41,6 +44,22 @@ def points(model: Model) -> Iterator[Array]:
     for i in range(_RANDOM):
         away = _SPREAD * size * generator.normal(size=model.space.terms)
         yield _completed(model, convex[i % len(convex)] + away)
+
+
+def in_phase_plane(model: Model, limit: DriveLimit) -> Array:
+    """The variables of the law whose velocity is nearest to the motion that is a drive's limit."""
+    k, a, b = limit.motion()
+    space = model.space
+    share = np.sqrt(np.gradient(k))[:, None]
+    rows = np.vstack([share * columns_of(space, 1, k), share * columns_of(space, 0, k)])
+    right = np.concatenate([share[:, 0] * b, share[:, 0] * a]) - rows[:, -1]
+    equations = space.equations()
+    fixed = np.array([equation.row for equation in equations]).reshape(-1, space.terms)
+    to = np.array([equation.right for equation in equations])
+    least = np.linalg.lstsq(fixed, to, rcond=None)[0]
+    free = null_space(fixed) if len(fixed) else np.eye(space.terms)
+    moved = np.linalg.lstsq(rows[:, :-1] @ free, right - rows[:, :-1] @ least, rcond=None)[0]
+    return _completed(model, least + free @ moved)
 
 
 def _from_symmetric(model: Model) -> list[Array]:

@@ -17,7 +17,7 @@ from numpy.polynomial import chebyshev, legendre
 from optlaws.kept import kept_property
 from optlaws.laws import PolynomialLaw
 from optlaws.numbers import Array
-from optlaws.numerics.chebyshev import from_values, nodes
+from optlaws.numerics.chebyshev import basis_values, from_values, nodes
 from optlaws.numerics.gegenbauer import gegenbauer
 from optlaws.synthesis.families.family import (
     ConstraintFamily,
@@ -94,6 +94,8 @@ class PolynomialSpace(LawSpace):
 
     def __init__(self, boundary: BoundaryConditions, degree: int, *, symmetric: bool) -> None:
         super().__init__()
+        #: the places of the last columns, as bytes, with Chebyshev polynomials there
+        self._last_basis: tuple[bytes, Array] = (b"", np.empty((0, 0)))
         self.boundary, self.degree, self.symmetric = boundary, degree, symmetric
         self.order = boundary.order
         self.at_rest = boundary == BoundaryConditions.rest(self.order)
@@ -217,7 +219,11 @@ class PolynomialSpace(LawSpace):
 
     def columns(self, nu: int, u: Array) -> Array:
         """The derivative of order nu at places u = 1 - 2k: free functions, then the base law."""
-        return np.asarray(chebyshev.chebval(u, self.series(nu)).T)
+        series, key, known = self.series(nu), u.tobytes(), self._last_basis
+        if known[0] != key or known[1].shape[1] < len(series):
+            # derivatives are asked for at the same places, the lowest mostly first
+            known = self._last_basis = key, basis_values(np.clip(u, -1.0, 1.0), len(self.series(0)))
+        return np.asarray(known[1][:, : len(series)] @ series)
 
     def degree_of(self, nu: int) -> int:
         """The degree of the derivative of order nu."""

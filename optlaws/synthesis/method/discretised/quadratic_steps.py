@@ -58,7 +58,9 @@ class _Step:
     left: float
 
 
-def stepwise_on_points(program: Program, points: list[Points], start: Array) -> Answer | None:
+def stepwise_on_points(
+    program: Program, points: list[Points], start: Array, settled: float = STEP_SETTLED
+) -> Answer | None:
     """Where quadratic programs lead from a start, with the families held at the points only; None if nowhere.
 
     Parameters
@@ -67,8 +69,10 @@ def stepwise_on_points(program: Program, points: list[Points], start: Array) -> 
         What is solved, and where its families are held.
     start
         Variables near which it begins; the equations need not hold.
+    settled
+        Of the greatest variable: a step that is less is the last.
     """
-    return _Descent(program, points).answer(start)
+    return _Descent(program, points).answer(start, settled)
 
 
 class _Descent:
@@ -105,11 +109,11 @@ class _Descent:
                 rows = [np.arange(*self.ends[n : n + 2]) for n, raises in enumerate(above) if raises]
                 yield int(i), min(factors), np.concatenate(rows)
 
-    def answer(self, start: Array) -> Answer | None:
+    def answer(self, start: Array, least: float) -> Answer | None:
         """Step after step, until these are nothing."""
         program = self.program
         x = start + np.linalg.lstsq(program.equalities, program.right - program.equalities @ start, rcond=None)[0]
-        damping, taken, settled, last = _FIRST_DAMPING, 0, False, None
+        damping, taken, settled, refused, last = _FIRST_DAMPING, 0, False, False, None
         x, rows = self._rows(x)
         multipliers = np.zeros(self.ends[-1])
         for i, factor, rows_above in self.raised:
@@ -129,17 +133,20 @@ class _Descent:
             last, size = step, float(np.abs(step.x).max()) / max(1.0, float(np.abs(x).max()))
             self.price = max(self.price, min(_DEARER * float(step.rows.sum()), _DEARER * self.price))
             onward, ratio = self._tried(x, rows, step, bend, damping)
-            settled = ratio is None or size <= STEP_SETTLED
+            settled = ratio is None or size <= least
             if ratio is None or settled:
                 multipliers = step.rows
+                x = x if ratio is None or ratio < STEP_PAYS else onward[0]
                 break
             if ratio < STEP_PAYS:
-                damping *= _DAMPED
+                damping, refused = damping * _DAMPED, True
                 continue
             multipliers = step.rows
             x, rows = onward
-            if ratio > _AS_PROMISED:
+            if ratio > _AS_PROMISED and not refused:
                 damping *= _EASED
+            # what was too little damping just now mostly still is
+            refused = False
         if last is None:
             return None
         weights = np.split(np.maximum(multipliers, 0.0), self.ends[1:-1])
