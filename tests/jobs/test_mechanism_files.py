@@ -1,0 +1,296 @@
+"""Mechanisms and motors in problem files: each kind as its function makes it, files written again, what is refused."""
+
+import copy
+import json
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from optlaws import (
+    Body,
+    Cycle,
+    DiscCam,
+    Drive,
+    Dwell,
+    InputError,
+    Loads,
+    Mechanism,
+    Motor,
+    OptlawsError,
+    Return,
+    Rise,
+    TranslatingRoller,
+    belt,
+    cam_mechanism,
+    four_bar,
+    rack,
+    screw,
+    slider_crank,
+    toggle,
+)
+from tests.internals.cli import exit_code
+from tests.internals.files import reading
+from tests.internals.jobs import read_of_cycle_entries as read
+
+LENGTHS = {"crank": "60 mm", "rod": "250 mm", "upper": "200 mm", "lower": "200 mm", "frame": "280 mm"}
+FORCE = [["0.3 m", "0 N"], ["0.31 m", "-400 N"], ["0.5 m", "-400 N"]]
+CAM = {
+    "base_radius": "60 mm",
+    "follower": {"kind": "translating roller", "radius": "12 mm"},
+    "moved": "2 kg",
+    "segment": [
+        {"kind": "rise", "by": "30 mm", "duration": "120 deg", "law": "3-4-5"},
+        {"kind": "return", "law": "cycloidal"},
+    ],
+    "loads": {"force": "-60 N", "stiffness": "3 N/mm"},
+}
+TABLE = {
+    "inertia": [
+        ["0 deg", "0.02 kg m^2"],
+        ["30 deg", "0.05 kg m^2"],
+        ["60 deg", "0.07 kg m^2"],
+        ["90 deg", "0.06 kg m^2"],
+    ]
+}
+MOTOR = {"inertia": "3e-4 kg m^2", "rated_torque": "2 N m", "curve": [["0 rpm", "9 N m"], ["3000 rpm", "6 N m"]]}
+DRIVE = {"motor": MOTOR, "ratio": 20, "efficiency": [0.9, 0.8], "inertia": "1e-4 kg m^2", "regeneration": 0.5}
+CRANK = {
+    "kind": "slider crank",
+    "crank": "0.1 m",
+    "rod": "0.4 m",
+    "bodies": {"crank": "0.02 kg m^2", "slider": "5 kg", "rod": {"mass": "2 kg", "centre": ["0.2 m", "0 m"]}},
+    "loads": {"force": FORCE, "gravity": "180 deg"},
+    "over": ["0 deg", "180 deg"],
+    "coulomb": "0.5 N m",
+}
+
+
+def roller_cam() -> DiscCam:
+    motion = Cycle([Rise("30 mm", "120 deg", law="3-4-5"), Return(law="cycloidal")], period="1 s")
+    return DiscCam(motion, "60 mm", TranslatingRoller("12 mm"))
+
+
+#: the tables of files with what the functions make of the same
+KINDS: dict[str, tuple[Mapping[str, Any], Mechanism]] = {
+    "slider crank": (
+        CRANK,
+        slider_crank(
+            "0.1 m",
+            "0.4 m",
+            bodies={"crank": "0.02 kg m^2", "slider": "5 kg", "rod": Body("2 kg", centre=("0.2 m", "0 m"))},
+            loads=Loads([tuple(pair) for pair in FORCE], gravity="180 deg"),
+            over=("0 deg", "180 deg"),
+        ).with_friction(coulomb="0.5 N m"),
+    ),
+    "four bar": (
+        {
+            "crank": "0.1 m",
+            "coupler": "0.3 m",
+            "rocker": "0.25 m",
+            "frame": "0.35 m",
+            "bodies": {"rocker": "0.05 kg m^2", "coupler": {"mass": "1 kg", "centre": ["0.1 m", "50 mm"]}},
+            "branch": "crossed",
+        },
+        four_bar(
+            "0.1 m",
+            "0.3 m",
+            "0.25 m",
+            "0.35 m",
+            bodies={"rocker": "0.05 kg m^2", "coupler": Body("1 kg", centre=("0.1 m", "50 mm"))},
+            branch="crossed",
+        ),
+    ),
+    "toggle": (
+        {"lengths": LENGTHS, "bodies": {"ram": "40 kg"}, "loads": {"force": "-20 kN"}},
+        toggle(LENGTHS, bodies={"ram": "40 kg"}, loads=Loads("-20 kN")),
+    ),
+    "rack": ({"radius": "20 mm", "mass": "12 kg"}, rack("20 mm", "12 kg")),
+    "belt": (
+        {"radius": "30 mm", "mass": "8 kg", "loads": {"gravity": "180 deg"}},
+        belt("30 mm", "8 kg", loads=Loads(gravity="180 deg")),
+    ),
+    "screw": (
+        {"lead": "10 mm", "mass": "80 kg", "inertia": "3e-4 kg m^2"},
+        screw("10 mm", "80 kg", inertia="3e-4 kg m^2"),
+    ),
+    "cam": (CAM, cam_mechanism(roller_cam(), "2 kg", loads=Loads("-60 N", stiffness="3 N/mm"))),
+    "table": (TABLE | {"viscous": "0.1 N m s/rad"}, Mechanism(TABLE["inertia"], viscous="0.1 N m s/rad")),
+}
+
+
+def entries(mechanism: Mapping[str, Any] | None, drive: Mapping[str, Any] | None = None) -> dict[str, Any]:
+    """The entries of a problem file with an axis that turns by 45 deg and returns."""
+    segments = [{"kind": "rise", "by": "45 deg", "duration": "0.2 s"}, {"kind": "return"}]
+    tables = {name: table for name, table in {"mechanism": mechanism, "drive": drive}.items() if table is not None}
+    axis = {"name": "input", "minimise": "rms torque", "segment": segments, **tables}
+    return {"job": "cycle", "title": "Driven", "period": "0.5 s", "axis": [axis]}
+
+
+def driven(mechanism: Mapping[str, Any] | None, drive: Mapping[str, Any] | None = None) -> Any:  # noqa: ANN401
+    """What drives the axis of such a file."""
+    return read(entries(mechanism, drive), Path("driven.toml"))[1]["input"].drive
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_kind_is_what_its_function_makes(kind: str) -> None:
+    table, mechanism = KINDS[kind]
+    assert driven({"kind": kind} | table) == mechanism
+
+
+def test_a_motor_is_given_in_the_file_or_by_a_catalogue(tmp_path: Path) -> None:
+    drive = driven(CRANK, DRIVE)
+    assert drive == Drive(
+        KINDS["slider crank"][1],
+        Motor("3e-4 kg m^2", rated_torque="2 N m", curve=MOTOR["curve"]),
+        ratio=20.0,
+        efficiency=(0.9, 0.8),
+        inertia="1e-4 kg m^2",
+        regeneration=0.5,
+    )
+    (tmp_path / "motors.toml").write_text('[small]\ninertia = "3e-4 kg m^2"\nrated_torque = "2 N m"\n', "utf-8")
+    named = entries(CRANK, {"motor": "small", "motors": "motors.toml", "ratio": 3.0})
+    taken: Any = read(named, tmp_path / "driven.toml")[1]["input"].drive
+    assert taken.motor == Motor("3e-4 kg m^2", rated_torque="2 N m", name="small")
+    with pytest.raises(InputError, match=r"axis input: drive: motor: motors.toml: unknown motor 'smal'; .*'small'"):
+        read(entries(CRANK, {"motor": "smal", "motors": "motors.toml"}), tmp_path / "driven.toml")
+
+
+@pytest.mark.parametrize(
+    "drive", [KINDS["cam"][1], KINDS["four bar"][1], driven(CRANK, DRIVE)], ids=["cam", "linkage", "motor"]
+)
+def test_a_file_that_is_written_is_read_again(drive: Mechanism | Drive, tmp_path: Path) -> None:
+    cycle = Cycle(
+        [Rise("45 deg", "0.2 s"), Dwell("0.1 s"), Return()], period="0.5 s", drive=drive, minimise="rms torque"
+    )
+    file = tmp_path / "written.toml"
+    file.write_text(cycle.to_toml("Written", axis="input"), "utf-8")
+    again = read(reading.toml(file), file)[1]["input"]
+    assert again.to_dict() == cycle.to_dict()
+    assert again.drive == drive
+
+
+def places(data: object, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
+    """Where the leaves and branches of plain data are."""
+    for key, value in data.items() if isinstance(data, dict) else enumerate(data) if isinstance(data, list) else ():
+        yield (*path, key)
+        yield from places(value, (*path, key))
+
+
+def damaged(data: dict[str, Any], path: tuple[Any, ...], value: object) -> dict[str, Any]:
+    """A copy of plain data with another value in a place."""
+    changed = copy.deepcopy(data)
+    place: Any = changed
+    for key in path[:-1]:
+        place = place[key]
+    place[path[-1]] = value
+    return changed
+
+
+@pytest.mark.parametrize("value", [{"x": 1}, [[1]], "3 mm s", -1], ids=str)
+def test_damage_is_refused_by_name_or_leaves_something_whole(value: object) -> None:
+    """No place of a file or of stored data gives an error of Python; most give one of ours."""
+    file = entries(CRANK, DRIVE)["axis"][0]
+    stored = json.loads(
+        Cycle([Rise("45 deg", "0.2 s"), Return()], period="0.5 s", drive=driven(CRANK, DRIVE)).to_json()
+    )
+    refused = 0
+    tried = [damaged(file, path, value) for path in places(file) if path[0] in {"mechanism", "drive"}]
+    for axis in tried:
+        try:
+            read({**entries(CRANK), "axis": [axis]}, Path("driven.toml"))
+        except OptlawsError as error:
+            refused += "axis input: " in str(error) or "driven.toml" in str(error)
+    damaged_json = [damaged(stored, path, value) for path in places(stored) if path[0] == "drive"]
+    for data in damaged_json:
+        try:
+            Cycle.from_dict(data)
+        except OptlawsError:
+            refused += 1
+    assert refused > 0.85 * (len(tried) + len(damaged_json))
+
+
+SHORT_TABLE = {"kind": "table", "inertia": "0.1 kg m^2", "load": [["0 deg", "1 N m"], ["30 deg", "4 N m"]]}
+WRONG: dict[str, tuple[dict[str, Any], dict[str, Any] | None, str]] = {
+    "no kind": ({"crank": "0.1 m"}, None, "mechanism: kind is missing: give one of slider crank, four bar"),
+    "kind": (
+        {**CRANK, "kind": "slider cranc"},
+        None,
+        "mechanism: unknown kind 'slider cranc'; did you mean 'slider crank'",
+    ),
+    "key": (
+        {**CRANK, "ofset": "1 mm"},
+        None,
+        "mechanism: unknown entry of a slider crank 'ofset'; did you mean 'offset'",
+    ),
+    "missing": ({"kind": "belt", "radius": "3 cm"}, None, "mechanism: a belt needs mass too"),
+    "body": ({**CRANK, "bodies": {"slidr": "5 kg"}}, None, "mechanism: unknown body 'slidr'; did you mean 'slider'"),
+    "entry of a body": (
+        {**CRANK, "bodies": {"rod": {"mas": "5 kg"}}},
+        None,
+        "mechanism: bodies: rod: unknown key 'mas'; did you mean 'mass'",
+    ),
+    "load": (
+        {**CRANK, "loads": {"forces": "5 N"}},
+        None,
+        "mechanism: loads: unknown key 'forces'; did you mean 'force'",
+    ),
+    "negative inertia": (
+        {**CRANK, "bodies": {"crank": "-0.02 kg m^2"}},
+        None,
+        "mechanism: bodies: crank must be at least 0, got -0.02",
+    ),
+    "not assembled": (
+        {"kind": "four bar", "crank": "0.2 m", "coupler": "0.15 m", "rocker": "0.2 m", "frame": "0.3 m", "bodies": {}},
+        None,
+        "mechanism: the crank reaches no angle from 86.4167 to 273.583 deg",
+    ),
+    "short table": (SHORT_TABLE, None, "the mechanism is defined from 0 deg to 30 deg, got 45 deg"),
+    "table and range": (
+        {**SHORT_TABLE, "over": ["0 deg", "45 deg"]},
+        None,
+        "the table of the load goes from 0 deg to 30 deg, and the mechanism from 0 deg to 45 deg",
+    ),
+    "slides": (
+        {"kind": "table", "inertia": "3 kg", "axis": "length"},
+        None,
+        "the input of the mechanism slides and the motion of the cycle turns",
+    ),
+    "time in a cam": (
+        {"kind": "cam", **CAM, "segment": [{"kind": "rise", "by": "3 mm", "duration": "0.1 s"}]},
+        None,
+        "segment 1: duration over a turn of the cam must be an angle",
+    ),
+    "constants beside": (CRANK, {"mass": "3 kg"}, "drive: beside a mechanism it has a motor"),
+    "ratio": (CRANK, {**DRIVE, "ratio": -3.0}, "drive: ratio must be above 0, got -3.0"),
+    "drive key": (CRANK, {**DRIVE, "eficiency": 0.9}, "drive: unknown key 'eficiency'; did you mean 'efficiency'"),
+    "motor key": (
+        CRANK,
+        {**DRIVE, "motor": {"inertia": "3e-4 kg m^2", "peak_torqe": "3 N m"}},
+        "drive: motor: unknown entry of a motor 'peak_torqe'; did you mean 'peak_torque'",
+    ),
+    "no catalogue": (CRANK, {"motor": "small"}, "drive: motor: 'small' is one of a catalogue: give its file"),
+}
+
+
+@pytest.mark.parametrize("name", WRONG)
+def test_what_is_wrong_is_named(name: str) -> None:
+    mechanism, drive, text = WRONG[name]
+    with pytest.raises(InputError) as caught:
+        read(entries(mechanism, drive), Path("driven.toml"))[1]["input"].objective  # noqa: B018 - laws are looked for now
+    assert text in str(caught.value)
+
+
+def test_a_motor_without_a_mechanism_is_refused() -> None:
+    with pytest.raises(InputError, match="axis input: drive: a motor drives a mechanism: give the axis its table"):
+        driven(None, DRIVE)
+
+
+def test_the_command_tells_the_file_and_the_entry(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "driven.toml"
+    press = Cycle([Rise("45 deg", "0.2 s"), Return()], period="0.5 s", drive=KINDS["belt"][1], minimise="rms torque")
+    file.write_text(press.to_toml("Driven").replace("coulomb", "colomb"), "utf-8")
+    assert exit_code(["cycle", str(file)]) == 2
+    text = capsys.readouterr().err
+    assert "driven.toml: axis axis: mechanism: unknown entry of a table 'colomb'; did you mean 'coulomb'" in text
