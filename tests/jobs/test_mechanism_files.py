@@ -116,7 +116,7 @@ KINDS: dict[str, tuple[Mapping[str, Any], Mechanism]] = {
         screw("10 mm", "80 kg", inertia="3e-4 kg m^2"),
     ),
     "cam": (CAM, cam_mechanism(roller_cam(), "2 kg", loads=Loads("-60 N", stiffness="3 N/mm"))),
-    "table": (TABLE | {"viscous": "0.1 N m s/rad"}, Mechanism(TABLE["inertia"], viscous="0.1 N m s/rad")),
+    "table": ({**TABLE, "viscous": "0.1 N m s/rad"}, Mechanism(TABLE["inertia"], viscous="0.1 N m s/rad")),
 }
 
 
@@ -136,7 +136,7 @@ def driven(mechanism: Mapping[str, Any] | None, drive: Mapping[str, Any] | None 
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_kind_is_what_its_function_makes(kind: str) -> None:
     table, mechanism = KINDS[kind]
-    assert driven({"kind": kind} | table) == mechanism
+    assert driven({"kind": kind, **table}) == mechanism
 
 
 def test_a_motor_is_given_in_the_file_or_by_a_catalogue(tmp_path: Path) -> None:
@@ -294,3 +294,73 @@ def test_the_command_tells_the_file_and_the_entry(tmp_path: Path, capsys: pytest
     assert exit_code(["cycle", str(file)]) == 2
     text = capsys.readouterr().err
     assert "driven.toml: axis axis: mechanism: unknown entry of a table 'colomb'; did you mean 'coulomb'" in text
+
+
+TURNTABLE = """
+job = "cycle"
+title = "Table"
+period = "0.6 s"
+rows = 13
+[[axis]]
+name = "table"
+advance = "45 deg"
+mechanism = { kind = "table", inertia = "0.8 kg m^2" }
+[axis.drive]
+motor = { inertia = "3e-4 kg m^2", rated_torque = "2 N m", peak_torque = "3 N m", greatest_speed = "3000 rpm" }
+ratio = 20
+efficiency = 0.85
+[[axis.segment]]
+kind = "rise"
+by = "45 deg"
+duration = "0.25 s"
+law = "modified sine"
+[[axis.segment]]
+kind = "dwell"
+"""
+
+
+def test_pages_and_tables_say_what_the_motor_needs(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A rotary table of known sizing: 3.686 N m, 1.490 N m RMS, 1056 rpm, 229 W; a motor of 3 N m is too weak."""
+    file = tmp_path / "table.toml"
+    file.write_text(TURNTABLE, "utf-8")
+    assert exit_code(["cycle", str(file), "--json"]) == 0
+    motor = json.loads(capsys.readouterr().out)["table"]["motor"]
+    known = {"peak_torque": 3.686, "rms_torque": 1.490, "peak_speed": 110.559, "motoring_power": 228.645}
+    assert {name: round(motor[name], 3) for name in known} == pytest.approx(known, abs=5e-4)
+    assert exit_code(["cycle", str(file), "--out", str(tmp_path / "out")]) == 0
+    files = {path.name for path in (tmp_path / "out").iterdir()}
+    assert files == {f"table{end}.{kind}" for end in ("", "_effort") for kind in ("svg", "png")} | {
+        "cycle.md",
+        "cycle.json",
+        "table.csv",
+    }
+    rows = [line.split(",") for line in (tmp_path / "out" / "table.csv").read_text("utf-8").splitlines()[1:]]
+    heading = ",".join(rows[0])
+    assert heading.endswith('"torque, N m","power, W","motor speed, rpm"')
+    values = [[float(cell) for cell in row[-3:]] for row in rows[1:]]
+    # torque times speed is power
+    assert all(t * n * 3.141592653589793 / 30.0 == pytest.approx(p, rel=1e-6, abs=1e-6) for t, p, n in values)
+    page = (tmp_path / "out" / "cycle.md").read_text("utf-8")
+    assert "| peak torque, used                | 122.8601 | %    | too weak |" in page
+    picture = (tmp_path / "out" / "table_effort.svg").read_text("utf-8")
+    assert "<!-- continuous torque -->" in picture
+    assert "<!-- motor speed, rpm -->" in picture
+
+
+def test_the_energies_of_a_cycle_differ_by_what_friction_takes(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A lift with 0.1 N m of friction over 20 rad, which holds 8 kg at 30 mm by the ratio."""
+    lift = belt("30 mm", "8 kg", inertia="2e-4 kg m^2", loads=Loads(gravity="180 deg")).with_friction(coulomb="0.1 N m")
+    drive = Drive(lift, Motor("3e-4 kg m^2"), ratio=2.5, regeneration=0.75)
+    ways = [Rise("10 rad", "0.3 s", law="345"), Dwell("0.2 s"), Return(duration="0.25 s", law="cycloidal"), Dwell()]
+    file = tmp_path / "lift.toml"
+    file.write_text(Cycle(ways, period="1 s", drive=drive).to_toml("Lift", axis="lift"), "utf-8")
+    assert exit_code(["cycle", str(file), "--json"]) == 0
+    motor = json.loads(capsys.readouterr().out)["lift"]["motor"]
+    assert motor["motoring_energy"] - motor["braking_energy"] == pytest.approx(2.0, rel=1e-9)
+    assert motor["energy"] == pytest.approx(2.0 + 0.25 * motor["braking_energy"], rel=1e-9)
+    assert motor["braking_heat"] == pytest.approx(0.25 * motor["braking_energy"], rel=1e-9)
+    assert motor["holding_torque"] == pytest.approx(8.0 * 9.80665 * 0.03 / 2.5, rel=1e-12)
+    sheets = [drive.sheet(law, "0 rad", "10 rad", time) for law, time in (("345", "0.3 s"), ("cycloidal", "0.25 s"))]
+    assert motor["peak_speed"] == pytest.approx(max(sheet.peak_speed for sheet in sheets), rel=1e-9)
