@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -18,13 +18,15 @@ from optlaws.exports.format import FORMATS, format_of
 from optlaws.exports.text import variable_names
 from optlaws.files import tables, writing
 from optlaws.jobs.axes.motor_sheet import motor_sheet
-from optlaws.jobs.cycle_entries import CycleProblemFile, ExportEntries, read
+from optlaws.jobs.axes.sweep import SweptCycle, sweep_table
+from optlaws.jobs.cycle_entries import CycleProblemFile, ExportEntries, read, sweeps_of
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.motion.quantities import QUANTITIES
 from optlaws.plots.cycle import UNITS, axes_figure, cycle_figure
 from optlaws.plots.cycle_effort import effort_along, effort_columns, effort_figure
 from optlaws.plots.mechanism import mechanism_figure
+from optlaws.plots.sweep import sweep_figure
 from optlaws.results import Page, Results
 from optlaws.tolerances import CYCLE_ROUNDING
 
@@ -36,6 +38,8 @@ Exports = dict[str, dict[str, Export]]
 
 #: what the picture of all axes is called
 TOGETHER = "axes"
+#: what tables and pictures of sweeps are called, before their numbers
+SWEEP = "sweep_"
 _PEAKS = ("peak velocity", "peak acceleration", "peak jerk")
 _EXPORT_HEADINGS = ("file", "format", "points", *_PEAKS, "greatest deviation, unit")
 
@@ -46,6 +50,7 @@ def exports_of(spec: CycleProblemFile, cycles: Mapping[str, Cycle], file: Path) 
     if len(spec.axis) > 1 and TOGETHER in {plain_name(axis.name) for axis in spec.axis}:
         raise InputError(f"{file}: an axis is called {TOGETHER}, as the picture of all is: give it another name")
     taken = {"cycle.md", "cycle.json", f"{TOGETHER}.svg", f"{TOGETHER}.png"}
+    taken |= {f"{SWEEP}{i}{end}" for i in range(1, len(spec.sweep) + 1) for end in (".csv", ".svg", ".png")}
     taken |= {f"{plain_name(axis.name)}{ending}" for axis in spec.axis for ending in (".csv", ".svg", ".png")}
     drawn = (picture.name for pictures in _drive_pictures(cycles).values() for picture in pictures)
     taken |= {f"{name}{ending}" for name in drawn for ending in (".svg", ".png")}
@@ -98,8 +103,12 @@ def run(results: Results) -> None:
     """Put the page, the motions, the pictures, the laws and the exports of all axes into results."""
     spec, cycles = read(results.entries, results.file)
     exports = exports_of(spec, cycles, results.file)
+    sweeps = sweeps_of(spec, results.file)
     results.title = spec.title
-    results.text("cycle.md", str(page(spec, cycles, exports)))
+    results.text("cycle.md", str(page(spec, cycles, exports, sweeps)))
+    for number, (sweep, rows) in enumerate(zip(spec.sweep, sweeps, strict=True), 1):
+        results.table(f"{SWEEP}{number}", *sweep_table(sweep, rows))
+        results.picture(f"{SWEEP}{number}", sweep_figure(*sweep_table(sweep, rows), f"{spec.title}: {sweep.axis}"))
     results.data("cycle.json", {"unit": "SI", "axes": {name: _stored(cycle) for name, cycle in cycles.items()}})
     pictures = _drive_pictures(cycles)
     for name, cycle in cycles.items():
@@ -153,7 +162,9 @@ def answer(entries: Mapping[str, Any], file: Path) -> dict[str, Any]:
     return {name: _facts(cycle) for name, cycle in read(entries, file)[1].items()}
 
 
-def page(spec: CycleProblemFile, cycles: Mapping[str, Cycle], exports: Exports) -> Page:
+def page(
+    spec: CycleProblemFile, cycles: Mapping[str, Cycle], exports: Exports, sweeps: Sequence[list[SweptCycle]] = ()
+) -> Page:
     """The page of results."""
     result = Page(spec.title).text(spec.text)
     if len(cycles) > 1:
@@ -177,6 +188,9 @@ def page(spec: CycleProblemFile, cycles: Mapping[str, Cycle], exports: Exports) 
         if exports[name]:
             result.text("What controllers will run: peaks of the exported files as interpolated, over the law's.")
             result.table(_EXPORT_HEADINGS, [_export_row(*item) for item in exports[name].items()], digits=7)
+    for number, (sweep, swept_cycles) in enumerate(zip(spec.sweep, sweeps, strict=True), 1):
+        result.heading(f"{sweep.axis} by {sweep.entry}").figure(f"{SWEEP}{number}", f"{sweep.axis} by {sweep.entry}")
+        result.table(*sweep_table(sweep, swept_cycles), digits=7)
     return result
 
 

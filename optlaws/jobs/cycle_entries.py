@@ -10,11 +10,13 @@ import msgspec
 
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.interchange import CLOCK, ENTRIES
-from optlaws.errors import InfeasibleProblem, InputError
+from optlaws.errors import InfeasibleProblem, InputError, located
 from optlaws.files.problem_file import Text, convert
 from optlaws.jobs.axes.drive_entries import drive_of
 from optlaws.jobs.axes.segment_entries import SegmentEntries, given, segment_of
+from optlaws.jobs.axes.sweep import SweepEntries, SweptCycle, swept
 from optlaws.jobs.job import JobFile
+from optlaws.suggest import unknown_key
 
 
 class ElasticFollowerEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
@@ -74,6 +76,7 @@ class CycleProblemFile(JobFile, kw_only=True, forbid_unknown_fields=True):
     speed: str | None = None
     period: str | None = None
     rows: Annotated[int, msgspec.Meta(ge=2, le=100_000)] = 361
+    sweep: Annotated[list[SweepEntries], msgspec.Meta(max_length=4)] = msgspec.field(default_factory=list)
 
 
 def read(data: Mapping[str, Any], file: Path) -> tuple[CycleProblemFile, dict[str, Cycle]]:
@@ -94,6 +97,28 @@ def read(data: Mapping[str, Any], file: Path) -> tuple[CycleProblemFile, dict[st
         except (InputError, InfeasibleProblem) as error:
             raise type(error)(f"{file}: axis {axis.name}: {error}") from None
     return spec, cycles
+
+
+def sweeps_of(spec: CycleProblemFile, file: Path) -> list[list[SweptCycle]]:
+    """The cycles of every sweep of a file.
+
+    Raises
+    ------
+    InputError
+        If a sweep names an axis or an entry that is not there, or a value is wrong; the error names the file.
+    """
+    axes = {axis.name: msgspec.to_builtins(axis) for axis in spec.axis}
+
+    def changed(data: dict[str, Any]) -> Cycle:
+        return cycle_of(convert(data, AxisEntries, Path(data["name"])), spec.speed, spec.period, file.parent)
+
+    rows = []
+    with located(str(file)):
+        for sweep in spec.sweep:
+            if sweep.axis not in axes:
+                raise InputError(f"sweep of {sweep.entry}: {unknown_key(sweep.axis, axes, 'axis')}")
+            rows.append(swept(sweep, axes[sweep.axis], changed))
+    return rows
 
 
 def cycle_of(axis: AxisEntries, speed: str | None, period: str | None, folder: Path = Path()) -> Cycle:

@@ -1,7 +1,9 @@
 """Mechanisms and motors in problem files: each kind as its function makes it, files written again, what is refused."""
 
 import copy
+import csv
 import json
+import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -33,6 +35,7 @@ from optlaws import (
 from tests.internals.cli import exit_code
 from tests.internals.files import reading
 from tests.internals.jobs import read_of_cycle_entries as read
+from tests.internals.jobs import sweep_table, sweeps_of
 
 LENGTHS = {"crank": "60 mm", "rod": "250 mm", "upper": "200 mm", "lower": "200 mm", "frame": "280 mm"}
 FORCE = [["0.3 m", "0 N"], ["0.31 m", "-400 N"], ["0.5 m", "-400 N"]]
@@ -364,3 +367,75 @@ def test_the_energies_of_a_cycle_differ_by_what_friction_takes(
     assert motor["holding_torque"] == pytest.approx(8.0 * 9.80665 * 0.03 / 2.5, rel=1e-12)
     sheets = [drive.sheet(law, "0 rad", "10 rad", time) for law, time in (("345", "0.3 s"), ("cycloidal", "0.25 s"))]
     assert motor["peak_speed"] == pytest.approx(max(sheet.peak_speed for sheet in sheets), rel=1e-9)
+
+
+def with_sweep(sweep: str, text: str = TURNTABLE) -> str:
+    """A problem file with a sweep."""
+    return text.replace("[[axis]]", f"[[sweep]]\n{sweep}\n[[axis]]", 1)
+
+
+def test_a_sweep_of_the_ratio_says_what_each_costs(tmp_path: Path) -> None:
+    file = tmp_path / "swept.toml"
+    file.write_text(with_sweep('axis = "table"\nentry = "drive.ratio"\nvalues = [20, 60, 100]'), "utf-8")
+    spec, _ = read(reading.toml(file), file)
+    headings, rows = sweep_table(spec.sweep[0], sweeps_of(spec, file)[0])
+    assert headings[0] == "drive.ratio"
+    for row, ratio in zip(rows, (20, 60, 100), strict=True):
+        sheet = Drive(Mechanism("0.8 kg m^2"), Motor("3e-4 kg m^2"), ratio=ratio, efficiency=0.85).sheet(
+            "modified sine", "0 deg", "45 deg", "0.25 s", period="0.6 s"
+        )
+        cells = dict(zip(headings, row, strict=True))
+        assert cells["drive.ratio"] == ratio
+        assert cells["peak torque, N m"] == pytest.approx(sheet.peak_torque, rel=1e-9)
+        assert cells["RMS torque, N m"] == pytest.approx(sheet.rms_torque, rel=1e-9)
+    assert rows[0][-1] == pytest.approx(122.8601, rel=1e-5)  # of the peak torque of 3 N m
+    assert rows[2][-1] == pytest.approx(100.0 * 1055.762 * 5.0 / 3000.0, rel=1e-5)  # of the speed
+
+
+def test_a_sweep_of_a_limit_has_rows_without_a_law(tmp_path: Path) -> None:
+    text = TURNTABLE.replace('law = "modified sine"\n', 'limits = { velocity = "4.8 rad/s" }\n')
+    sweep = 'axis = "table"\nentry = "segment.1.limits.velocity"\nvalues = ["3 rad/s", "4.8 rad/s"]'
+    file = tmp_path / "swept.toml"
+    file.write_text(with_sweep(sweep, text), "utf-8")
+    assert exit_code(["run", str(file), "--out", str(tmp_path / "out")]) == 0
+    with (tmp_path / "out" / "sweep_1.csv").open(encoding="utf-8") as lines:
+        rows = list(csv.reader(lines))[1:]
+    assert [row[:2] for row in rows[1:]] == [["3 rad/s", "infeasible"], ["4.8 rad/s", "optimal"]]
+    assert rows[0][2] == "least acceleration, rad/s²"
+    assert rows[1][2] == ""
+    assert float(rows[2][2]) > 4.0 * (3.141592653589793 / 4.0) / 0.25**2  # C is at least 4
+    assert "<!-- least acceleration -->" in (tmp_path / "out" / "sweep_1.svg").read_text("utf-8")
+
+
+@pytest.mark.parametrize(
+    ("sweep", "text"),
+    [
+        (
+            'axis = "tabel"\nentry = "drive.ratio"\nvalues = [1, 2]',
+            "sweep of drive.ratio: unknown axis 'tabel'; did you",
+        ),
+        ('axis = "table"\nentry = "drvie.ratio"\nvalues = [1, 2]', "unknown entry 'drvie'; did you mean 'drive'"),
+        (
+            'axis = "table"\nentry = "drive.ratoi"\nvalues = [1, 2]',
+            "sweep of drive.ratoi, 1.*unknown key 'ratoi'; did you",
+        ),
+        ('axis = "table"\nentry = "drive.ratio"\nvalues = [1, -2]', "sweep of drive.ratio, -2.*ratio must be above 0"),
+        ('axis = "table"\nentry = "segment.3.by"\nvalues = ["1 deg", "2 deg"]', "unknown entry '3'; known are 1, 2"),
+        ('axis = "table"\nentry = "drive"\nvalues = [1, 2]', "sweep of drive, 1"),
+        ('axis = "table"\nentry = "drive.ratio"\nvalues = [1]', "values"),
+    ],
+)
+def test_a_wrong_sweep_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str], sweep: str, text: str) -> None:
+    file = tmp_path / "swept.toml"
+    file.write_text(with_sweep(sweep), "utf-8")
+    assert exit_code(["run", str(file), "--out", str(tmp_path / "out")]) == 2
+    assert re.search(f"swept.toml.*{text}", capsys.readouterr().err)
+
+
+def test_a_motor_that_is_too_weak_is_infeasible(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """No law of the table's moves takes less than the least RMS torque, which the error says."""
+    text = TURNTABLE.replace('law = "modified sine"\n', "").replace("efficiency = 0.85\n", "")
+    file = tmp_path / "weak.toml"
+    file.write_text(text.replace("[axis.drive]", 'limits = { "rms torque" = "1 N m" }\n[axis.drive]'), "utf-8")
+    assert exit_code(["cycle", str(file), "--json"]) == 3
+    assert re.search("infeasible: .*the rms torque over the cycle is to be at most 1.*no law", capsys.readouterr().err)
