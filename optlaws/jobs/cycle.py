@@ -17,8 +17,8 @@ from optlaws.exports.export import Export, export_cycle
 from optlaws.exports.format import FORMATS, format_of
 from optlaws.exports.text import variable_names
 from optlaws.files import tables, writing
+from optlaws.jobs.axes.entry_sweep import SweptCycle, sweep_table
 from optlaws.jobs.axes.motor_sheet import motor_sheet
-from optlaws.jobs.axes.sweep import SweptCycle, sweep_table
 from optlaws.jobs.cycle_entries import CycleProblemFile, ExportEntries, read, sweeps_of
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.linkages.mechanism import Mechanism

@@ -13,8 +13,8 @@ from optlaws.cycles.interchange import CLOCK, ENTRIES
 from optlaws.errors import InfeasibleProblem, InputError, located
 from optlaws.files.problem_file import Text, convert
 from optlaws.jobs.axes.drive_entries import drive_of
+from optlaws.jobs.axes.entry_sweep import SweepEntries, SweptCycle, swept
 from optlaws.jobs.axes.segment_entries import SegmentEntries, given, segment_of
-from optlaws.jobs.axes.sweep import SweepEntries, SweptCycle, swept
 from optlaws.jobs.job import JobFile
 from optlaws.suggest import unknown_key
 

@@ -3,7 +3,7 @@
 from optlaws.jobs import fronts, job, solutions
 from optlaws.jobs.atlas import COLUMNS, best_law, look_up
 from optlaws.jobs.atlas import read as read_of_atlas
-from optlaws.jobs.axes.sweep import sweep_table
+from optlaws.jobs.axes.entry_sweep import sweep_table
 from optlaws.jobs.cam import answer
 from optlaws.jobs.cycle import table_of_motion
 from optlaws.jobs.cycle_entries import read as read_of_cycle_entries
