@@ -103,3 +103,13 @@ def test_a_motor_holds_its_load_in_dwells() -> None:
     sheet = drive.sheet("modified sine", "0 deg", "300 deg", "0.3 s", period="1 s")
     assert drive.torque(1.0, 0.0, 0.0) == pytest.approx(8.0 * 9.80665 * 0.03 / 3.0)
     assert resting.effort.rms_force == pytest.approx(sheet.rms_torque, rel=1e-9)
+
+
+def test_a_peak_along_the_corners_of_a_table_is_refused_with_the_remedy() -> None:
+    force = {"0 deg": "0 N", "90 deg": "-20 N", "150 deg": "-50 N", "360 deg": "0 N"}
+    press = slider_crank("0.1 m", "0.4 m", bodies={"crank": "0.02 kg m^2"}, loads=Loads(force, over="input"))
+    with pytest.raises(
+        InputError, match="the lines of a table have corners: a spline has none, of loads by interp"
+    ) as caught:
+        Cycle(STROKES, period="1 s", minimise="torque", drive=press).objective  # noqa: B018
+    assert len(str(caught.value)) < 700
