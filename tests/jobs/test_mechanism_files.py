@@ -475,3 +475,20 @@ def test_a_stroke_of_a_mechanism_has_laws_of_least_torque(tmp_path: Path, capsys
         file.write_text(STROKE.replace(old, new, 1), "utf-8")
         assert exit_code(["run", str(file), "--out", str(tmp_path / "none")]) == 2
         assert text in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("scale", [1e-12, 1e9])
+def test_machines_of_other_sizes_need_as_much_in_proportion(scale: float) -> None:
+    """Inertias times a factor: torques, powers and energies times it, shares and speeds as they are."""
+    drive = {
+        "motor": {"inertia": f"{3e-4 * scale!r} kg m^2", "peak_torque": f"{6.0 * scale!r} N m"},
+        "ratio": 20,
+        "efficiency": 0.85,
+    }
+    cycle = read(entries({"kind": "table", "inertia": f"{0.8 * scale!r} kg m^2"}, drive), Path("scaled.toml"))[1][
+        "input"
+    ]
+    plain = {"motor": {"inertia": "3e-4 kg m^2", "peak_torque": "6 N m"}, "ratio": 20, "efficiency": 0.85}
+    usual = read(entries({"kind": "table", "inertia": "0.8 kg m^2"}, plain), Path("usual.toml"))[1]["input"]
+    assert cycle.objective == pytest.approx(scale * usual.objective, rel=1e-6)
+    assert cycle.effort.peak_force == pytest.approx(scale * usual.effort.peak_force, rel=1e-4)
