@@ -20,6 +20,27 @@ def _whole(_: object, tokens: Sequence[Token]) -> int:
     return int(tokens[0].value)
 
 
+def _numbers_without_unit(remedy: str, tokens: Sequence[Token]) -> list[float]:
+    try:
+        return [float(token.value) for token in tokens]
+    except ValueError:
+        given = " ".join(token.value for token in tokens)
+        raise ValueError(f"{shortened(given)} is no number without a unit: {remedy}") from None
+
+
+def _follower_frequency(_: object, tokens: Sequence[Token]) -> float:
+    remedy = "the frequency nu is in radians in the rise; one in Hz is --natural-frequency, with --duration or --speed"
+    return _numbers_without_unit(remedy, tokens)[0]
+
+
+def _law_frequencies(_: object, tokens: Sequence[Token]) -> list[float]:
+    remedy = "the frequency nu is in radians in the motion: 2 pi times that in Hz and the duration in s"
+    return _numbers_without_unit(remedy, tokens)
+
+
+#: frequencies of an elastic follower without dimension, which people give in Hz
+FollowerFrequency = Annotated[float, Parameter(converter=_follower_frequency)]
+Frequencies = Annotated[list[float], Parameter(converter=_law_frequencies)]
 Whole = Annotated[int, Parameter(converter=_whole)]
 #: how long a motion takes, which older scripts call its time
 Duration = Annotated[str | None, Parameter(name=("--duration", "--time"))]

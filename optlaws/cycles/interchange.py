@@ -263,7 +263,18 @@ def _axis_entries(axis: str, cycle: CycleInterchange) -> dict[str, Any]:
             raise InputError(f"segment {i}: a problem file names its law: save the law as a JSON file and name that")
     if "A" in data.get("load", {}):
         raise InputError("load: a problem file takes a mass on a spring: a machine is kept by Cycle.to_json")
-    return {"name": axis, **data, "segment": segments}
+    return {"name": axis, **data, **_drive_tables(cycle._cycle.drive), "segment": segments}  # noqa: SLF001
+
+
+def _drive_tables(drive: Any) -> dict[str, Any]:  # noqa: ANN401 - whatever drives a cycle
+    """A mechanism, and the motor before it, as the tables of an axis; nothing of a drive of constants."""
+    if isinstance(drive, Mechanism):
+        entries = {name: value for name, value in drive.to_dict().items() if name != "format"}
+        return {"drive": None, "mechanism": {"kind": "table", **entries}}
+    if isinstance(drive, Drive):
+        entries = {name: value for name, value in drive.to_dict().items() if name != "mechanism"}
+        return {**_drive_tables(drive.mechanism), "drive": entries}
+    return {}
 
 
 def _segment(segment: CycleSegment) -> dict[str, Any]:

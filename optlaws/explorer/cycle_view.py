@@ -64,9 +64,11 @@ def read(request: CycleRequest) -> tuple[CycleProblemFile, AxisEntries]:
 
 
 def check_axis(axis: AxisEntries) -> None:
-    """Refuse what is larger than the explorer takes, and laws that are named by files."""
+    """Refuse what is larger than the explorer takes, laws that are named by files, and mechanisms."""
     if axis.order > MOST_ORDER or axis.degree > MOST_DEGREE:
         raise InputError(f"the explorer takes cycles of order up to {MOST_ORDER} and degree up to {MOST_DEGREE}")
+    if axis.mechanism is not None:
+        raise InputError("mechanism: the page takes none: `optlaws cycle` runs the problem file of this cycle")
     for segment in axis.segment:
         if segment.law is not None and reading.is_file(segment.law):
             raise InputError(f"law: {segment.law} names a file, and the page reads none: take a law of the catalogue")

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import msgspec
 import numpy as np
@@ -16,17 +17,29 @@ from optlaws.exports.export import Export, export_cycle
 from optlaws.exports.format import FORMATS, format_of
 from optlaws.exports.text import variable_names
 from optlaws.files import tables, writing
-from optlaws.jobs.cycle_entries import CycleProblemFile, ExportEntries, read
+from optlaws.jobs.axes.entry_sweep import SweptCycle, sweep_table
+from optlaws.jobs.axes.motor_sheet import motor_sheet
+from optlaws.jobs.cycle_entries import CycleProblemFile, ExportEntries, read, sweeps_of
+from optlaws.mechanisms.drives.drive_train import Drive
+from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.motion.quantities import QUANTITIES
 from optlaws.plots.cycle import UNITS, axes_figure, cycle_figure
+from optlaws.plots.cycle_effort import effort_along, effort_columns, effort_figure
+from optlaws.plots.mechanism import mechanism_figure
+from optlaws.plots.sweep import sweep_figure
 from optlaws.results import Page, Results
 from optlaws.tolerances import CYCLE_ROUNDING
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 #: the exports of each axis by the names of their files
 Exports = dict[str, dict[str, Export]]
 
 #: what the picture of all axes is called
 TOGETHER = "axes"
+#: what tables and pictures of sweeps are called, before their numbers
+SWEEP = "sweep_"
 _PEAKS = ("peak velocity", "peak acceleration", "peak jerk")
 _EXPORT_HEADINGS = ("file", "format", "points", *_PEAKS, "greatest deviation, unit")
 
@@ -37,7 +50,10 @@ def exports_of(spec: CycleProblemFile, cycles: Mapping[str, Cycle], file: Path) 
     if len(spec.axis) > 1 and TOGETHER in {plain_name(axis.name) for axis in spec.axis}:
         raise InputError(f"{file}: an axis is called {TOGETHER}, as the picture of all is: give it another name")
     taken = {"cycle.md", "cycle.json", f"{TOGETHER}.svg", f"{TOGETHER}.png"}
+    taken |= {f"{SWEEP}{i}{end}" for i in range(1, len(spec.sweep) + 1) for end in (".csv", ".svg", ".png")}
     taken |= {f"{plain_name(axis.name)}{ending}" for axis in spec.axis for ending in (".csv", ".svg", ".png")}
+    drawn = (picture.name for pictures in _drive_pictures(cycles).values() for picture in pictures)
+    taken |= {f"{name}{ending}" for name in drawn for ending in (".svg", ".png")}
     names = variable_names(axis.name for axis in spec.axis)
     for axis in spec.axis:
         exports[axis.name] = {}
@@ -87,20 +103,57 @@ def run(results: Results) -> None:
     """Put the page, the motions, the pictures, the laws and the exports of all axes into results."""
     spec, cycles = read(results.entries, results.file)
     exports = exports_of(spec, cycles, results.file)
+    sweeps = sweeps_of(spec, results.file)
     results.title = spec.title
-    results.text("cycle.md", str(page(spec, cycles, exports)))
+    results.text("cycle.md", str(page(spec, cycles, exports, sweeps)))
+    for number, (sweep, rows) in enumerate(zip(spec.sweep, sweeps, strict=True), 1):
+        results.table(f"{SWEEP}{number}", *sweep_table(sweep, rows))
+        results.picture(f"{SWEEP}{number}", sweep_figure(*sweep_table(sweep, rows), f"{spec.title}: {sweep.axis}"))
     results.data("cycle.json", {"unit": "SI", "axes": {name: _stored(cycle) for name, cycle in cycles.items()}})
+    pictures = _drive_pictures(cycles)
     for name, cycle in cycles.items():
         results.text(f"{plain_name(name)}.csv", table_of_motion(cycle, spec.rows, results.about))
         results.picture(plain_name(name), cycle_figure(cycle, f"{spec.title}: {name}"))
+        for picture in pictures[name]:
+            results.picture(picture.name, picture.draw(f"{spec.title}: {name}, {picture.caption}"))
         for file, export in exports[name].items():
             results.add(file, export.write)
     if len(cycles) > 1:
         results.picture(TOGETHER, axes_figure(cycles, spec.title))
 
 
+class _DrivePicture(NamedTuple):
+    """A picture of a mechanism or of what drives it: its name, its caption, and what draws it under a title."""
+
+    name: str
+    caption: str
+    draw: Callable[[str], Figure]
+
+
+def _drive_pictures(cycles: Mapping[str, Cycle]) -> dict[str, list[_DrivePicture]]:
+    """The pictures of each axis with a mechanism: the mechanism where it is the first of its kind and varies."""
+    pictures: dict[str, list[_DrivePicture]] = {}
+    drawn: list[Mechanism] = []
+    for name, cycle in cycles.items():
+        pictures[name] = []
+        if not isinstance(cycle.drive, Mechanism | Drive):
+            continue
+        effort = f"{effort_columns(cycle)[0].partition(',')[0]} and power over the cycle"
+        pictures[name].append(_DrivePicture(f"{plain_name(name)}_effort", effort, partial(effort_figure, cycle)))
+        mechanism = cycle.drive.mechanism if isinstance(cycle.drive, Drive) else cycle.drive
+        varies = mechanism.inertia_formula.names() | mechanism.load_formula.names()
+        if varies and mechanism not in drawn:
+            drawn.append(mechanism)
+            picture = partial(mechanism_figure, mechanism)
+            pictures[name].append(_DrivePicture(f"{plain_name(name)}_mechanism", f"the {mechanism.name}", picture))
+    return pictures
+
+
 def table_of_motion(cycle: Cycle, rows: int, about: str) -> str:
-    """Angle, time, position, velocity, acceleration and jerk at equal steps over the cycle, as CSV."""
+    """Angle, time, position, velocity, acceleration and jerk at equal steps over the cycle, as CSV.
+
+    Of a mechanism with torque (or force) and power, of a motor with its speed.
+    """
     return tables.to_csv(_columns(cycle), _rows(cycle, rows), about=about)
 
 
@@ -109,19 +162,35 @@ def answer(entries: Mapping[str, Any], file: Path) -> dict[str, Any]:
     return {name: _facts(cycle) for name, cycle in read(entries, file)[1].items()}
 
 
-def page(spec: CycleProblemFile, cycles: Mapping[str, Cycle], exports: Exports) -> Page:
+def page(
+    spec: CycleProblemFile, cycles: Mapping[str, Cycle], exports: Exports, sweeps: Sequence[list[SweptCycle]] = ()
+) -> Page:
     """The page of results."""
     result = Page(spec.title).text(spec.text)
     if len(cycles) > 1:
         result.figure(TOGETHER, f"{spec.title}: all axes over one time")
+    pictures = _drive_pictures(cycles)
     for name, cycle in cycles.items():
         result.heading(name).figure(plain_name(name), f"{spec.title}: {name}")
         result.table(_headings(cycle), [*_segment_rows(cycle), _whole_row(cycle)], digits=7)
         rows = [*proof_rows(cycle), *drive_rows(cycle), *joint_rows(cycle)]
         result.table(("what", "value", "unit"), [[row.name, row.value, row.unit or None] for row in rows], digits=9)
+        for picture in pictures[name]:
+            result.figure(picture.name, f"{spec.title}: {name}, {picture.caption}")
+        if isinstance(cycle.drive, Drive):
+            result.text("What the cycle asks of the motor, with the share of each of its limits that is used.")
+            rows = list(motor_sheet(cycle, cycle.drive).summary())
+            result.table(
+                ("motor", "value", "unit", "note"),
+                [[row.name, row.value, row.unit, row.note] for row in rows],
+                digits=7,
+            )
         if exports[name]:
             result.text("What controllers will run: peaks of the exported files as interpolated, over the law's.")
             result.table(_EXPORT_HEADINGS, [_export_row(*item) for item in exports[name].items()], digits=7)
+    for number, (sweep, swept_cycles) in enumerate(zip(spec.sweep, sweeps, strict=True), 1):
+        result.heading(f"{sweep.axis} by {sweep.entry}").figure(f"{SWEEP}{number}", f"{sweep.axis} by {sweep.entry}")
+        result.table(*sweep_table(sweep, swept_cycles), digits=7)
     return result
 
 
@@ -158,16 +227,22 @@ def _columns(cycle: Cycle) -> list[str]:
         "master, deg",
         "time, s",
         *(f"{name}, {unit}" for name, (unit, _) in zip(QUANTITIES, UNITS[cycle.axis], strict=True)),
+        *(effort_columns(cycle) if isinstance(cycle.drive, Mechanism | Drive) else []),
     ]
 
 
 def _rows(cycle: Cycle, count: int) -> list[list[tables.Cell]]:
     degrees = np.linspace(0.0, _SHARE, count)
     times = degrees * (cycle.duration / _SHARE)
+    motion = [cycle(times, nu) for nu in range(len(QUANTITIES))]
     columns = [
-        [_plain(value * factor, cycle.peak(nu) * factor) for value in cycle(times, nu).tolist()]
+        [_plain(value * factor, cycle.peak(nu) * factor) for value in motion[nu].tolist()]
         for nu, (_, factor) in enumerate(UNITS[cycle.axis])
     ]
+    if isinstance(cycle.drive, Mechanism | Drive):
+        for curve in effort_along(cycle, *motion[:3]):
+            size = float(np.abs(curve).max())
+            columns.append([_plain(value, size) for value in curve.tolist()])
     return [list(row) for row in zip(degrees.tolist(), times.tolist(), *columns, strict=True)]
 
 
@@ -187,6 +262,8 @@ def _stored(cycle: Cycle) -> dict[str, Any]:
 
 def _facts(cycle: Cycle) -> dict[str, Any]:
     drive: dict[str, Any] = {} if cycle.drive is None else {"effort": cycle.effort.to_dict()}
+    if isinstance(cycle.drive, Drive):
+        drive["motor"] = motor_sheet(cycle, cycle.drive).to_dict()
     if cycle.load is not None:
         drive["load"] = {name: cycle.load_motion.peak(name).value for name in cycle.load_motion.machine.outputs}
     return {

@@ -4,34 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
 import msgspec
 
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.interchange import CLOCK, ENTRIES, KINDS
-from optlaws.cycles.specification.segments import CycleSegment
-from optlaws.errors import InfeasibleProblem, InputError
+from optlaws.cycles.interchange import CLOCK, ENTRIES
+from optlaws.errors import InfeasibleProblem, InputError, located
 from optlaws.files.problem_file import Text, convert
+from optlaws.jobs.axes.drive_entries import drive_of
+from optlaws.jobs.axes.entry_sweep import SweepEntries, SweptCycle, swept
+from optlaws.jobs.axes.segment_entries import SegmentEntries, given, segment_of
 from optlaws.jobs.job import JobFile
-
-Kind = Literal["dwell", "constant velocity", "move", "rise", "return", "free"]
-
-
-class SegmentEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """A segment; which entries it may have beside its duration depends on its kind."""
-
-    kind: Kind
-    duration: str | list[str] | None = None
-    name: str | None = None
-    by: str | None = None
-    to: str | None = None
-    law: Text | None = None
-    limits: dict[str, str] | None = None
-    velocity: str | None = None
-    start_velocity: str | None = None
-    end_velocity: str | None = None
-    via: list[list[str]] | None = None
+from optlaws.suggest import unknown_key
 
 
 class ElasticFollowerEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
@@ -75,7 +60,8 @@ class AxisEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     limits: dict[str, str] = {}
     start: str | None = None
     advance: str | None = None
-    drive: dict[str, str] | None = None
+    mechanism: dict[str, Any] | None = None
+    drive: dict[str, Any] | None = None
     load: LoadEntries | None = None
     follower: ElasticFollowerEntries | None = None
     export: Annotated[list[ExportEntries], msgspec.Meta(max_length=20)] = []
@@ -90,6 +76,7 @@ class CycleProblemFile(JobFile, kw_only=True, forbid_unknown_fields=True):
     speed: str | None = None
     period: str | None = None
     rows: Annotated[int, msgspec.Meta(ge=2, le=100_000)] = 361
+    sweep: Annotated[list[SweepEntries], msgspec.Meta(max_length=4)] = msgspec.field(default_factory=list)
 
 
 def read(data: Mapping[str, Any], file: Path) -> tuple[CycleProblemFile, dict[str, Cycle]]:
@@ -106,36 +93,39 @@ def read(data: Mapping[str, Any], file: Path) -> tuple[CycleProblemFile, dict[st
         if axis.name in cycles:
             raise InputError(f"{file}: two axes are called {axis.name}: give each a name of its own")
         try:
-            cycles[axis.name] = cycle_of(axis, spec.speed, spec.period)
+            cycles[axis.name] = cycle_of(axis, spec.speed, spec.period, file.parent)
         except (InputError, InfeasibleProblem) as error:
             raise type(error)(f"{file}: axis {axis.name}: {error}") from None
     return spec, cycles
 
 
-def cycle_of(axis: AxisEntries, speed: str | None, period: str | None) -> Cycle:
-    """The cycle of an axis: that of the cam, where there is a follower."""
+def sweeps_of(spec: CycleProblemFile, file: Path) -> list[list[SweptCycle]]:
+    """The cycles of every sweep of a file.
+
+    Raises
+    ------
+    InputError
+        If a sweep names an axis or an entry that is not there, or a value is wrong; the error names the file.
+    """
+    axes = {axis.name: msgspec.to_builtins(axis) for axis in spec.axis}
+
+    def changed(data: dict[str, Any]) -> Cycle:
+        return cycle_of(convert(data, AxisEntries, Path(data["name"])), spec.speed, spec.period, file.parent)
+
+    rows = []
+    with located(str(file)):
+        for sweep in spec.sweep:
+            if sweep.axis not in axes:
+                raise InputError(f"sweep of {sweep.entry}: {unknown_key(sweep.axis, axes, 'axis')}")
+            rows.append(swept(sweep, axes[sweep.axis], changed))
+    return rows
+
+
+def cycle_of(axis: AxisEntries, speed: str | None, period: str | None, folder: Path = Path()) -> Cycle:
+    """The cycle of an axis: that of the cam, where there is a follower; `folder` is where catalogues of motors are."""
     segments = [segment_of(entry, i + 1) for i, entry in enumerate(axis.segment)]
-    given: dict[str, Any] = {name: getattr(axis, name) for name in ENTRIES if name not in CLOCK}
-    given["load"] = None if axis.load is None else _given(axis.load)
-    cycle = Cycle(segments, speed=speed, period=period, **given)
+    entries: dict[str, Any] = {name: getattr(axis, name) for name in ENTRIES if name not in CLOCK}
+    entries["load"] = None if axis.load is None else given(axis.load)
+    entries["drive"] = drive_of(axis.mechanism, axis.drive, folder)
+    cycle = Cycle(segments, speed=speed, period=period, **entries)
     return cycle if axis.follower is None else cycle.cam(axis.follower.period, axis.follower.damping)
-
-
-def _given(entries: msgspec.Struct) -> dict[str, Any]:
-    """Entries that were given."""
-    return {name: value for name, value in msgspec.structs.asdict(entries).items() if value is not None}
-
-
-def segment_of(entries: SegmentEntries, number: int) -> CycleSegment:
-    """A segment of a file."""
-    kind = KINDS[entries.kind]
-    given = _given(entries)
-    del given["kind"]
-    taken = kind.__dataclass_fields__
-    for name in given:
-        if name not in taken:
-            raise InputError(f"segment {number}: a {entries.kind} takes no {name}; it takes {', '.join(taken)}")
-    if entries.kind == "constant velocity" and entries.velocity is None:
-        raise InputError(f"segment {number}: a constant velocity needs its velocity, such as velocity = '300 mm/s'")
-    segment: CycleSegment = kind(**given)
-    return segment

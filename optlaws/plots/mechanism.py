@@ -10,11 +10,12 @@ from optlaws.errors import InputError
 from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.formulas.tree import Formula
 from optlaws.numbers import Array
-from optlaws.plots.style import BLUES, GREEN, GREY, WARM, new_figure, plot_style
+from optlaws.plots.style import BLUES, GREEN, GREY, WARM, new_figure, plot_style, titled
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
     from optlaws.mechanisms.linkages.mechanism import Mechanism
 
@@ -44,6 +45,13 @@ def draw_mechanism(mechanism: Mechanism, axes: Any = None, **style: Any) -> list
             )
         artists = _linkage(mechanism, panels.pop(0)) if linked else []
         return artists + _curves(mechanism, panels, style)
+
+
+def mechanism_figure(mechanism: Mechanism, title: str) -> Figure:
+    """A mechanism with its inertia and load, as a figure."""
+    figure: Figure = draw_mechanism(mechanism)[0].get_figure()  # type: ignore[assignment] # a figure of our own
+    with plot_style():
+        return titled(figure, title)
 
 
 def _new_panels(linked: bool) -> list[Axes]:  # noqa: FBT001

@@ -24,8 +24,18 @@ def draw_torque_over_speed(motion: MotorMotion, motor: Motor, axes: Axes | None 
     """Draw torque over speed at the motor during a move, within the motor's curves of peak and continuous torque."""
     axes = axes or new_axes()
     k = np.linspace(0.0, 1.0, _SAMPLES)
+    artists = draw_motor_curves(motor, axes, float(np.abs(motion.speed(k)).max()))
+    artists += axes.plot(_RPM * motion.speed(k), motion.torque(k), **{"color": BLUES[3], "label": "move", **style})
+    axes.axhline(0.0, color=GREY, linewidth=0.8)
+    axes.set(xlabel="speed of the motor, rpm", ylabel="torque at the motor, N m")
+    axes.legend(frameon=False)
+    return artists
+
+
+def draw_motor_curves(motor: Motor, axes: Axes, greatest_speed: float) -> list[Artist]:
+    """Draw peak and continuous torque of a motor to both sides, beyond the greatest speed of a motion in rad/s."""
     artists: list[Artist] = []
-    fastest = min(motor.greatest_speed, 1.5 * float(np.abs(motion.speed(k)).max()))
+    fastest = min(motor.greatest_speed, 1.5 * greatest_speed)
     speeds = np.unique([*np.linspace(0.0, fastest, _SAMPLES), *(speed for speed, _ in motor.curve if speed <= fastest)])
     limits = (motor.peak_at(speeds), "peak torque", "-"), (motor.continuous_at(speeds), "continuous torque", "--")
     for values, name, dashes in limits:
@@ -33,10 +43,6 @@ def draw_torque_over_speed(motion: MotorMotion, motor: Motor, axes: Axes | None 
             for side, label in ((1.0, name), (-1.0, None)):
                 line = axes.plot(_RPM * speeds, side * values, color=GREY, linestyle=dashes, linewidth=1.1, label=label)
                 artists += line
-    artists += axes.plot(_RPM * motion.speed(k), motion.torque(k), **{"color": BLUES[3], "label": "move", **style})
-    axes.axhline(0.0, color=GREY, linewidth=0.8)
-    axes.set(xlabel="speed of the motor, rpm", ylabel="torque at the motor, N m")
-    axes.legend(frameon=False)
     return artists
 
 

@@ -74,6 +74,10 @@ def values(jumping: Solution) -> dict[str, Any]:
     front = pareto_front(replace(JUMPS, B=None), points=2, between=(1.7, 1.9))
     proven = optlaws.proven_front(Problem(order=2, basis=Chebyshev(3)), "B", between=(1.6, 1.61), gap=1e-4)
     slide = optlaws.Cycle([optlaws.Rise("35 mm", law="cycloidal"), optlaws.Return(law="cycloidal")], period="0.2 s")
+    turns = [optlaws.Rise("35 deg", law="cycloidal"), optlaws.Return(law="cycloidal")]
+    rack = optlaws.rack("20 mm", "5 kg", loads=optlaws.Loads({"0 mm": "0 N", "20 mm": "-3 N"}))
+    crank = optlaws.Cycle(turns, period="0.2 s", drive=rack, minimise="rms torque")
+    motor = optlaws.Drive(rack, optlaws.Motor("3e-4 kg m^2"), ratio=3.0, efficiency=0.9)
     return {
         "Solution": jumping,
         "Solution with a power certificate": power,
@@ -116,7 +120,11 @@ def values(jumping: Solution) -> dict[str, Any]:
         "MoveLimit": optlaws.Mechanism("0.8 kg m^2").limit("rms torque", "0 deg", "45 deg", "0.25 s"),
         "DriveSheet": optlaws.Drive(optlaws.rack("20 mm", "5 kg"), optlaws.Motor(0.0)).sheet("0050", 0.0, 1.0, 1.0),
         "Cycle": slide,
+        "Cycle with a mechanism": crank,
         "Axes": optlaws.Axes({"slide": slide}),
+        "Axes with a mechanism and a motor": optlaws.Axes(
+            {"crank": crank, "motor": {"segments": turns, "drive": motor}}, period="0.2 s"
+        ),
         "AsMade": AsMade(1e-5, 1.0, float("inf"), 0.1, 1.01, float("inf")),
         "Spring": Spring(3000.0, 20.0, 140.0, "stiffness", 3000.0, 0.0, (92.0, 31.4)),
     }

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from optlaws import Axes, Cycle, Dwell, InputError, Move, Return, Rise
+from optlaws import Axes, Cycle, Drive, Dwell, InputError, Mechanism, Motor, Move, Return, Rise, slider_crank
 from tests.internals.exports import FORMATS
 from tests.internals.files import reading
 from tests.internals.jobs import read_of_cycle_entries as read
@@ -92,3 +92,27 @@ def test_axes_are_exported_under_their_own_names(form: str) -> None:
 def test_what_is_wrong_names_the_axis(make: Any, says: str) -> None:  # noqa: ANN401 - a function
     with pytest.raises(InputError, match=says):
         make()
+
+
+def test_axes_with_mechanisms_and_motors_are_kept_exported_and_made_faster(tmp_path: Path) -> None:
+    press = slider_crank("0.1 m", "0.4 m", bodies={"crank": "0.05 kg m^2", "slider": "5 kg"})
+    motor = Motor("3e-4 kg m^2", peak_torque="6 N m", curve=[("0 rpm", "6 N m"), ("3000 rpm", "4 N m")])
+    geared = Drive(Mechanism("0.8 kg m^2"), motor, ratio=20, efficiency=0.85)
+    turn = {"segments": [Rise("360 deg", "0.4 s", law="345"), Dwell()], "advance": "360 deg", "drive": press}
+    machine = Axes(
+        {"crank": turn, "table": TABLE | {"drive": geared}, "pusher": [Rise("30 mm", law="345"), Return(law="345")]},
+        period="2 s",
+    )
+    assert Axes.from_json(machine.to_json()) == machine
+    assert (machine["crank"].drive, machine["table"].drive) == (press, geared)
+    file = tmp_path / "machine.toml"
+    file.write_text(machine.to_toml("A machine"), "utf-8")
+    _, cycles = read(reading.toml(file), file)
+    assert [cycle.drive for cycle in cycles.values()] == [press, geared, None]
+    assert cycles["table"].effort == machine["table"].effort
+    exports = machine.export("codesys-xyva", points=41)
+    assert [export.points for export in exports.values()] == [41, 41, 41]
+    fast = machine.at("60 rpm")  # twice as fast: four times the torque, where there is nothing but inertia
+    for name in ("crank", "table"):
+        assert fast[name].effort.peak_force == pytest.approx(4.0 * machine[name].effort.peak_force, rel=1e-9)
+        assert fast[name].effort.rms_force == pytest.approx(4.0 * machine[name].effort.rms_force, rel=1e-9)

@@ -6,7 +6,21 @@ from typing import Any
 import numpy as np
 import pytest
 
-from optlaws import Cycle, Drive, Dwell, InputError, Mechanism, Motor, Move, Return, Rise, catalogue, slider_crank
+from optlaws import (
+    Cycle,
+    Drive,
+    Dwell,
+    InputError,
+    Loads,
+    Mechanism,
+    Motor,
+    Move,
+    Return,
+    Rise,
+    belt,
+    catalogue,
+    slider_crank,
+)
 
 PRESS = slider_crank("0.1 m", "0.4 m", bodies={"crank": "0.02 kg m^2", "slider": "5 kg"})
 STROKES = [Rise("180 deg", "0.3 s"), Dwell("0.1 s"), Return(duration="0.3 s"), Dwell()]
@@ -77,3 +91,25 @@ def test_peaks_behind_a_gear_with_losses_are_refused() -> None:
         Cycle(  # noqa: B018 - laws are looked for when they are needed
             [Rise("45 deg", "0.25 s"), Dwell()], period="0.6 s", advance="45 deg", minimise="torque", drive=drive
         ).objective
+
+
+def test_a_motor_holds_its_load_in_dwells() -> None:
+    """A lift of 8 kg: the torque at rest is the weight at the pulley by the ratio, as in the sheet of the move."""
+    lift = belt("30 mm", "8 kg", loads=Loads(gravity="180 deg"))
+    drive = Drive(lift, Motor("3e-4 kg m^2"), ratio=3, efficiency=0.9)
+    resting = Cycle(
+        [Rise("300 deg", "0.3 s", law="modified sine"), Dwell()], period="1 s", advance="300 deg", drive=drive
+    )
+    sheet = drive.sheet("modified sine", "0 deg", "300 deg", "0.3 s", period="1 s")
+    assert drive.torque(1.0, 0.0, 0.0) == pytest.approx(8.0 * 9.80665 * 0.03 / 3.0)
+    assert resting.effort.rms_force == pytest.approx(sheet.rms_torque, rel=1e-9)
+
+
+def test_a_peak_along_the_corners_of_a_table_is_refused_with_the_remedy() -> None:
+    force = {"0 deg": "0 N", "90 deg": "-20 N", "150 deg": "-50 N", "360 deg": "0 N"}
+    press = slider_crank("0.1 m", "0.4 m", bodies={"crank": "0.02 kg m^2"}, loads=Loads(force, over="input"))
+    with pytest.raises(
+        InputError, match="the lines of a table have corners: a spline has none, of loads by interp"
+    ) as caught:
+        Cycle(STROKES, period="1 s", minimise="torque", drive=press).objective  # noqa: B018
+    assert len(str(caught.value)) < 700

@@ -139,6 +139,10 @@ def test_the_page_reads_no_file(tmp_path: Path) -> None:
         given_law(LawRequest(name=str(file)))
     with pytest.raises(InputError, match="reads none"):
         cycle_view.read(cycle_of(segment=with_law(str(file))))
+    motors = {"motor": "small", "motors": str(file)}
+    with pytest.raises(InputError, match="mechanism: the page takes none: `optlaws cycle` runs"):
+        cycle_view.read(cycle_of(mechanism={"kind": "table", "inertia": "1 kg"}, drive=motors))
+    assert "a motor drives a mechanism" in cycle_view.answer(cycle_of(drive=motors))["refused"]["reason"]
 
 
 def test_a_peak_without_bound_is_said_to_be() -> None:

@@ -3,8 +3,10 @@
 from optlaws.jobs import fronts, job, solutions
 from optlaws.jobs.atlas import COLUMNS, best_law, look_up
 from optlaws.jobs.atlas import read as read_of_atlas
+from optlaws.jobs.axes.entry_sweep import sweep_table
 from optlaws.jobs.cam import answer
 from optlaws.jobs.cycle import table_of_motion
 from optlaws.jobs.cycle_entries import read as read_of_cycle_entries
+from optlaws.jobs.cycle_entries import sweeps_of
 from optlaws.jobs.job import JOBS, do, run
 from optlaws.jobs.machine_laws import MachineTable, Measure

@@ -118,7 +118,7 @@ def read_follower(entries: Mapping[str, Any]) -> CamFollower:
     kinds = follower_kinds()
     if "kind" not in entries:
         raise InputError(f"follower: kind is missing: give one of {', '.join(kinds)}")
-    if entries["kind"] not in kinds:
+    if not isinstance(entries["kind"], str) or entries["kind"] not in kinds:
         raise InputError(f"follower: {unknown_key(entries['kind'], kinds, 'kind')}")
     kind = kinds[entries["kind"]]
     given = {name: value for name, value in entries.items() if name != "kind"}

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import optlaws
-from optlaws.cli.options import AsJson, Duration, check_files, save_picture
+from optlaws.cli.options import AsJson, Duration, Frequencies, check_files, save_picture
 from optlaws.cli.show import number, print_json, show, table
 from optlaws.errors import InputError
 from optlaws.tolerances import VALUE_ROUNDING
@@ -17,7 +17,7 @@ def compare(
     *laws: str,
     stroke: str | None = None,
     duration: Duration = None,
-    frequency: list[float] | None = None,
+    frequency: Frequencies | None = None,
     damping: float = 0.0,
     plot: Path | None = None,
     csv: Path | None = None,

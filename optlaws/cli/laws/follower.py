@@ -9,7 +9,7 @@ from typing import Any
 from cyclopts import Parameter
 
 import optlaws
-from optlaws.cli.options import AsJson, Duration, check_files, read_law
+from optlaws.cli.options import AsJson, Duration, FollowerFrequency, check_files, read_law
 from optlaws.cli.show import print_json, show, table
 from optlaws.errors import InputError
 
@@ -41,7 +41,7 @@ class FollowerOptions:
         Damping ratio of the follower.
     """
 
-    frequency: float | None = None
+    frequency: FollowerFrequency | None = None
     natural_frequency: str | None = None
     natural_period: str | None = None
     speed: str | None = None

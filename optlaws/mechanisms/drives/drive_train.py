@@ -169,13 +169,15 @@ class Drive(JsonText):
     def torque(self, position: Any, velocity: Any, acceleration: Any) -> Any:  # noqa: ANN401 - numbers or arrays
         """The torque at the motor, N m, from position, velocity and acceleration of the mechanism's input, SI units.
 
-        It moves the way of its velocity, and from rest that of its acceleration.
+        It moves the way of its velocity, and from rest that of its acceleration; at rest the motor holds the load
+        without help of the gear's losses.
         """
         v, w = np.asarray(velocity, dtype=np.float64), np.asarray(acceleration, dtype=np.float64)
         direction, train, i = np.where(v == 0.0, np.sign(w), np.sign(v)), self.train, self.ratio
         load = np.asarray(self.mechanism.torque(position, v, w)) + self.mechanism.coulomb * (direction - np.sign(v))
         inertial = i * (train.inertia * w + train.viscous * v) + train.coulomb * direction
-        values = inertial + train.through_gear(load * direction) * direction / i
+        through = np.where(direction == 0.0, load, train.through_gear(load * direction) * direction)
+        values = inertial + through / i
         return values if np.ndim(values) else float(values)
 
     def dimensionless(

@@ -168,7 +168,7 @@ class Motor(JsonText):
         0.0003
         """
         known = (*ENTRIES, *CURVES, "name")
-        if not isinstance(data, Mapping) or "inertia" not in data:
+        if not isinstance(data, Mapping) or data.get("inertia") is None:
             raise InputError(f"a motor is a table with an inertia, got {shortened(data)}")
         for key in data:
             if key not in known:

@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from optlaws.echo import cut
 from optlaws.formulas.branches import smooth
 from optlaws.formulas.convexity import Judge
 from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.slopes import opposite
-from optlaws.formulas.tree import ORDERS, Negative
+from optlaws.formulas.tree import ORDERS, Negative, Table
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.numbers import Array, power_of_two
@@ -38,6 +39,8 @@ from optlaws.tolerances import VALUE_ROUNDING
 if TYPE_CHECKING:
     from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
     from optlaws.synthesis.spaces.space import LawSpace
+
+_SHOWN = 200  # letters of a formula in an error
 
 
 @dataclass(frozen=True, repr=False)
@@ -312,7 +315,10 @@ def refusal(constant: OfFormula) -> str | None:
     if not bad or not isinstance(constant, FormulaPeak | FormulaValue):
         return None
     hint = '; side="high" may be' if len(signs) == 2 and len(bad) == 1 else ""
-    return f"{constant.motion.formula} has kinks, but not those of a maximum: it is neither smooth nor known{hint}"
+    formula = constant.motion.formula
+    if any(isinstance(part, Table) and not part.smooth for part in formula.walk()):
+        hint += "; the lines of a table have corners: a spline has none, of loads by interpolation='spline'"
+    return f"{cut(str(formula), _SHOWN)} has kinks, but not those of a maximum: it is neither smooth nor known{hint}"
 
 
 def boxes_of(problem: Asked) -> dict[str, tuple[float, float]]:

@@ -170,3 +170,18 @@ def test_what_is_wrong_with_quantities_is_said(capsys: Capture, options: tuple[o
     code, _, err = called(capsys, "modified sine", *options)
     assert code == 2
     assert why in err
+
+
+@pytest.mark.parametrize(
+    ("command", "remedy"),
+    [
+        (["follower", "III(7.2)"], "one in Hz is --natural-frequency, with --duration or --speed"),
+        (["compare", "cycloidal", "345"], "2 pi times that in Hz and the duration in s"),
+    ],
+)
+def test_a_frequency_in_hertz_is_refused_with_the_remedy(capsys: Capture, command: list[str], remedy: str) -> None:
+    assert app.exit_code([*command, "--frequency", "16.7Hz"]) == 2
+    text = capsys.readouterr().err
+    assert "--frequency: '16.7Hz' is no number without a unit" in text
+    assert remedy in text
+    assert app.exit_code([*command, "--frequency", "20"]) == 0

@@ -1,0 +1,494 @@
+"""Mechanisms and motors in problem files: each kind as its function makes it, files written again, what is refused."""
+
+import copy
+import csv
+import json
+import re
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from optlaws import (
+    Body,
+    Cycle,
+    DiscCam,
+    Drive,
+    Dwell,
+    InputError,
+    Loads,
+    Mechanism,
+    Motor,
+    OptlawsError,
+    Return,
+    Rise,
+    TranslatingRoller,
+    belt,
+    cam_mechanism,
+    four_bar,
+    rack,
+    screw,
+    slider_crank,
+    toggle,
+)
+from tests.internals.cli import exit_code
+from tests.internals.files import reading
+from tests.internals.jobs import read_of_cycle_entries as read
+from tests.internals.jobs import sweep_table, sweeps_of
+
+LENGTHS = {"crank": "60 mm", "rod": "250 mm", "upper": "200 mm", "lower": "200 mm", "frame": "280 mm"}
+FORCE = [["0.3 m", "0 N"], ["0.31 m", "-400 N"], ["0.5 m", "-400 N"]]
+CAM = {
+    "base_radius": "60 mm",
+    "follower": {"kind": "translating roller", "radius": "12 mm"},
+    "moved": "2 kg",
+    "segment": [
+        {"kind": "rise", "by": "30 mm", "duration": "120 deg", "law": "3-4-5"},
+        {"kind": "return", "law": "cycloidal"},
+    ],
+    "loads": {"force": "-60 N", "stiffness": "3 N/mm"},
+}
+TABLE = {
+    "inertia": [
+        ["0 deg", "0.02 kg m^2"],
+        ["30 deg", "0.05 kg m^2"],
+        ["60 deg", "0.07 kg m^2"],
+        ["90 deg", "0.06 kg m^2"],
+    ]
+}
+MOTOR = {"inertia": "3e-4 kg m^2", "rated_torque": "2 N m", "curve": [["0 rpm", "9 N m"], ["3000 rpm", "6 N m"]]}
+DRIVE = {"motor": MOTOR, "ratio": 20, "efficiency": [0.9, 0.8], "inertia": "1e-4 kg m^2", "regeneration": 0.5}
+CRANK = {
+    "kind": "slider crank",
+    "crank": "0.1 m",
+    "rod": "0.4 m",
+    "bodies": {"crank": "0.02 kg m^2", "slider": "5 kg", "rod": {"mass": "2 kg", "centre": ["0.2 m", "0 m"]}},
+    "loads": {"force": FORCE, "gravity": "180 deg"},
+    "over": ["0 deg", "180 deg"],
+    "coulomb": "0.5 N m",
+}
+
+
+def roller_cam() -> DiscCam:
+    motion = Cycle([Rise("30 mm", "120 deg", law="3-4-5"), Return(law="cycloidal")], period="1 s")
+    return DiscCam(motion, "60 mm", TranslatingRoller("12 mm"))
+
+
+#: the tables of files with what the functions make of the same
+KINDS: dict[str, tuple[Mapping[str, Any], Mechanism]] = {
+    "slider crank": (
+        CRANK,
+        slider_crank(
+            "0.1 m",
+            "0.4 m",
+            bodies={"crank": "0.02 kg m^2", "slider": "5 kg", "rod": Body("2 kg", centre=("0.2 m", "0 m"))},
+            loads=Loads([tuple(pair) for pair in FORCE], gravity="180 deg"),
+            over=("0 deg", "180 deg"),
+        ).with_friction(coulomb="0.5 N m"),
+    ),
+    "four bar": (
+        {
+            "crank": "0.1 m",
+            "coupler": "0.3 m",
+            "rocker": "0.25 m",
+            "frame": "0.35 m",
+            "bodies": {"rocker": "0.05 kg m^2", "coupler": {"mass": "1 kg", "centre": ["0.1 m", "50 mm"]}},
+            "branch": "crossed",
+        },
+        four_bar(
+            "0.1 m",
+            "0.3 m",
+            "0.25 m",
+            "0.35 m",
+            bodies={"rocker": "0.05 kg m^2", "coupler": Body("1 kg", centre=("0.1 m", "50 mm"))},
+            branch="crossed",
+        ),
+    ),
+    "toggle": (
+        {"lengths": LENGTHS, "bodies": {"ram": "40 kg"}, "loads": {"force": "-20 kN"}},
+        toggle(LENGTHS, bodies={"ram": "40 kg"}, loads=Loads("-20 kN")),
+    ),
+    "rack": ({"radius": "20 mm", "mass": "12 kg"}, rack("20 mm", "12 kg")),
+    "belt": (
+        {"radius": "30 mm", "mass": "8 kg", "loads": {"gravity": "180 deg"}},
+        belt("30 mm", "8 kg", loads=Loads(gravity="180 deg")),
+    ),
+    "screw": (
+        {"lead": "10 mm", "mass": "80 kg", "inertia": "3e-4 kg m^2"},
+        screw("10 mm", "80 kg", inertia="3e-4 kg m^2"),
+    ),
+    "cam": (CAM, cam_mechanism(roller_cam(), "2 kg", loads=Loads("-60 N", stiffness="3 N/mm"))),
+    "table": ({**TABLE, "viscous": "0.1 N m s/rad"}, Mechanism(TABLE["inertia"], viscous="0.1 N m s/rad")),
+}
+
+
+def entries(mechanism: Mapping[str, Any] | None, drive: Mapping[str, Any] | None = None) -> dict[str, Any]:
+    """The entries of a problem file with an axis that turns by 45 deg and returns."""
+    segments = [{"kind": "rise", "by": "45 deg", "duration": "0.2 s"}, {"kind": "return"}]
+    tables = {name: table for name, table in {"mechanism": mechanism, "drive": drive}.items() if table is not None}
+    axis = {"name": "input", "minimise": "rms torque", "segment": segments, **tables}
+    return {"job": "cycle", "title": "Driven", "period": "0.5 s", "axis": [axis]}
+
+
+def driven(mechanism: Mapping[str, Any] | None, drive: Mapping[str, Any] | None = None) -> Any:  # noqa: ANN401
+    """What drives the axis of such a file."""
+    return read(entries(mechanism, drive), Path("driven.toml"))[1]["input"].drive
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_kind_is_what_its_function_makes(kind: str) -> None:
+    table, mechanism = KINDS[kind]
+    assert driven({"kind": kind, **table}) == mechanism
+
+
+def test_a_motor_is_given_in_the_file_or_by_a_catalogue(tmp_path: Path) -> None:
+    drive = driven(CRANK, DRIVE)
+    assert drive == Drive(
+        KINDS["slider crank"][1],
+        Motor("3e-4 kg m^2", rated_torque="2 N m", curve=MOTOR["curve"]),
+        ratio=20.0,
+        efficiency=(0.9, 0.8),
+        inertia="1e-4 kg m^2",
+        regeneration=0.5,
+    )
+    (tmp_path / "motors.toml").write_text('[small]\ninertia = "3e-4 kg m^2"\nrated_torque = "2 N m"\n', "utf-8")
+    named = entries(CRANK, {"motor": "small", "motors": "motors.toml", "ratio": 3.0})
+    taken: Any = read(named, tmp_path / "driven.toml")[1]["input"].drive
+    assert taken.motor == Motor("3e-4 kg m^2", rated_torque="2 N m", name="small")
+    with pytest.raises(InputError, match=r"axis input: drive: motor: motors.toml: unknown motor 'smal'; .*'small'"):
+        read(entries(CRANK, {"motor": "smal", "motors": "motors.toml"}), tmp_path / "driven.toml")
+
+
+@pytest.mark.parametrize(
+    "drive", [KINDS["cam"][1], KINDS["four bar"][1], driven(CRANK, DRIVE)], ids=["cam", "linkage", "motor"]
+)
+def test_a_file_that_is_written_is_read_again(drive: Mechanism | Drive, tmp_path: Path) -> None:
+    cycle = Cycle(
+        [Rise("45 deg", "0.2 s"), Dwell("0.1 s"), Return()], period="0.5 s", drive=drive, minimise="rms torque"
+    )
+    file = tmp_path / "written.toml"
+    file.write_text(cycle.to_toml("Written", axis="input"), "utf-8")
+    again = read(reading.toml(file), file)[1]["input"]
+    assert again.to_dict() == cycle.to_dict()
+    assert again.drive == drive
+
+
+def places(data: object, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
+    """Where the leaves and branches of plain data are."""
+    for key, value in data.items() if isinstance(data, dict) else enumerate(data) if isinstance(data, list) else ():
+        yield (*path, key)
+        yield from places(value, (*path, key))
+
+
+def damaged(data: dict[str, Any], path: tuple[Any, ...], value: object) -> dict[str, Any]:
+    """A copy of plain data with another value in a place."""
+    changed = copy.deepcopy(data)
+    place: Any = changed
+    for key in path[:-1]:
+        place = place[key]
+    place[path[-1]] = value
+    return changed
+
+
+@pytest.mark.parametrize("value", [{"x": 1}, [[1]], "3 mm s", -1], ids=str)
+def test_damage_is_refused_by_name_or_leaves_something_whole(value: object) -> None:
+    """No place of a file or of stored data gives an error of Python; most give one of ours."""
+    file = entries(CRANK, DRIVE)["axis"][0]
+    stored = json.loads(
+        Cycle([Rise("45 deg", "0.2 s"), Return()], period="0.5 s", drive=driven(CRANK, DRIVE)).to_json()
+    )
+    refused = 0
+    tried = [damaged(file, path, value) for path in places(file) if path[0] in {"mechanism", "drive"}]
+    for axis in tried:
+        try:
+            read({**entries(CRANK), "axis": [axis]}, Path("driven.toml"))
+        except OptlawsError as error:
+            refused += "axis input: " in str(error) or "driven.toml" in str(error)
+    damaged_json = [damaged(stored, path, value) for path in places(stored) if path[0] == "drive"]
+    for data in damaged_json:
+        try:
+            Cycle.from_dict(data)
+        except OptlawsError:
+            refused += 1
+    assert refused > 0.85 * (len(tried) + len(damaged_json))
+
+
+SHORT_TABLE = {"kind": "table", "inertia": "0.1 kg m^2", "load": [["0 deg", "1 N m"], ["30 deg", "4 N m"]]}
+WRONG: dict[str, tuple[dict[str, Any], dict[str, Any] | None, str]] = {
+    "no kind": ({"crank": "0.1 m"}, None, "mechanism: kind is missing: give one of slider crank, four bar"),
+    "kind": (
+        {**CRANK, "kind": "slider cranc"},
+        None,
+        "mechanism: unknown kind 'slider cranc'; did you mean 'slider crank'",
+    ),
+    "key": (
+        {**CRANK, "ofset": "1 mm"},
+        None,
+        "mechanism: unknown entry of a slider crank 'ofset'; did you mean 'offset'",
+    ),
+    "missing": ({"kind": "belt", "radius": "3 cm"}, None, "mechanism: a belt needs mass too"),
+    "body": ({**CRANK, "bodies": {"slidr": "5 kg"}}, None, "mechanism: unknown body 'slidr'; did you mean 'slider'"),
+    "entry of a body": (
+        {**CRANK, "bodies": {"rod": {"mas": "5 kg"}}},
+        None,
+        "mechanism: bodies: rod: unknown key 'mas'; did you mean 'mass'",
+    ),
+    "load": (
+        {**CRANK, "loads": {"forces": "5 N"}},
+        None,
+        "mechanism: loads: unknown key 'forces'; did you mean 'force'",
+    ),
+    "negative inertia": (
+        {**CRANK, "bodies": {"crank": "-0.02 kg m^2"}},
+        None,
+        "mechanism: bodies: crank must be at least 0, got -0.02",
+    ),
+    "not assembled": (
+        {"kind": "four bar", "crank": "0.2 m", "coupler": "0.15 m", "rocker": "0.2 m", "frame": "0.3 m", "bodies": {}},
+        None,
+        "mechanism: the crank reaches no angle from 86.4167 to 273.583 deg",
+    ),
+    "short table": (SHORT_TABLE, None, "the mechanism is defined from 0 deg to 30 deg, got 45 deg"),
+    "table and range": (
+        {**SHORT_TABLE, "over": ["0 deg", "45 deg"]},
+        None,
+        "the table of the load goes from 0 deg to 30 deg, and the mechanism from 0 deg to 45 deg",
+    ),
+    "slides": (
+        {"kind": "table", "inertia": "3 kg", "axis": "length"},
+        None,
+        "the input of the mechanism slides and the motion of the cycle turns",
+    ),
+    "time in a cam": (
+        {"kind": "cam", **CAM, "segment": [{"kind": "rise", "by": "3 mm", "duration": "0.1 s"}]},
+        None,
+        "segment 1: duration over a turn of the cam must be an angle",
+    ),
+    "constants beside": (CRANK, {"mass": "3 kg"}, "drive: beside a mechanism it has a motor"),
+    "ratio": (CRANK, {**DRIVE, "ratio": -3.0}, "drive: ratio must be above 0, got -3.0"),
+    "drive key": (CRANK, {**DRIVE, "eficiency": 0.9}, "drive: unknown key 'eficiency'; did you mean 'efficiency'"),
+    "motor key": (
+        CRANK,
+        {**DRIVE, "motor": {"inertia": "3e-4 kg m^2", "peak_torqe": "3 N m"}},
+        "drive: motor: unknown entry of a motor 'peak_torqe'; did you mean 'peak_torque'",
+    ),
+    "no catalogue": (CRANK, {"motor": "small"}, "drive: motor: 'small' is one of a catalogue: give its file"),
+}
+
+
+@pytest.mark.parametrize("name", WRONG)
+def test_what_is_wrong_is_named(name: str) -> None:
+    mechanism, drive, text = WRONG[name]
+    with pytest.raises(InputError) as caught:
+        read(entries(mechanism, drive), Path("driven.toml"))[1]["input"].objective  # noqa: B018 - laws are looked for now
+    assert text in str(caught.value)
+
+
+def test_a_motor_without_a_mechanism_is_refused() -> None:
+    with pytest.raises(InputError, match="axis input: drive: a motor drives a mechanism: give the axis its table"):
+        driven(None, DRIVE)
+
+
+def test_the_command_tells_the_file_and_the_entry(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "driven.toml"
+    press = Cycle([Rise("45 deg", "0.2 s"), Return()], period="0.5 s", drive=KINDS["belt"][1], minimise="rms torque")
+    file.write_text(press.to_toml("Driven").replace("coulomb", "colomb"), "utf-8")
+    assert exit_code(["cycle", str(file)]) == 2
+    text = capsys.readouterr().err
+    assert "driven.toml: axis axis: mechanism: unknown entry of a table 'colomb'; did you mean 'coulomb'" in text
+
+
+TURNTABLE = """
+job = "cycle"
+title = "Table"
+period = "0.6 s"
+rows = 13
+[[axis]]
+name = "table"
+advance = "45 deg"
+mechanism = { kind = "table", inertia = "0.8 kg m^2" }
+[axis.drive]
+motor = { inertia = "3e-4 kg m^2", rated_torque = "2 N m", peak_torque = "3 N m", greatest_speed = "3000 rpm" }
+ratio = 20
+efficiency = 0.85
+[[axis.segment]]
+kind = "rise"
+by = "45 deg"
+duration = "0.25 s"
+law = "modified sine"
+[[axis.segment]]
+kind = "dwell"
+"""
+
+
+def test_pages_and_tables_say_what_the_motor_needs(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A rotary table of known sizing: 3.686 N m, 1.490 N m RMS, 1056 rpm, 229 W; a motor of 3 N m is too weak."""
+    file = tmp_path / "table.toml"
+    file.write_text(TURNTABLE, "utf-8")
+    assert exit_code(["cycle", str(file), "--json"]) == 0
+    motor = json.loads(capsys.readouterr().out)["table"]["motor"]
+    known = {"peak_torque": 3.686, "rms_torque": 1.490, "peak_speed": 110.559, "motoring_power": 228.645}
+    assert {name: round(motor[name], 3) for name in known} == pytest.approx(known, abs=5e-4)
+    assert exit_code(["cycle", str(file), "--out", str(tmp_path / "out")]) == 0
+    files = {path.name for path in (tmp_path / "out").iterdir()}
+    assert files == {f"table{end}.{kind}" for end in ("", "_effort") for kind in ("svg", "png")} | {
+        "cycle.md",
+        "cycle.json",
+        "table.csv",
+    }
+    rows = [line.split(",") for line in (tmp_path / "out" / "table.csv").read_text("utf-8").splitlines()[1:]]
+    heading = ",".join(rows[0])
+    assert heading.endswith('"torque, N m","power, W","motor speed, rpm"')
+    values = [[float(cell) for cell in row[-3:]] for row in rows[1:]]
+    # torque times speed is power
+    assert all(t * n * 3.141592653589793 / 30.0 == pytest.approx(p, rel=1e-6, abs=1e-6) for t, p, n in values)
+    page = (tmp_path / "out" / "cycle.md").read_text("utf-8")
+    assert "| peak torque, used                | 122.8601 | %    | too weak |" in page
+    picture = (tmp_path / "out" / "table_effort.svg").read_text("utf-8")
+    assert "<!-- continuous torque -->" in picture
+    assert "<!-- motor speed, rpm -->" in picture
+
+
+def test_the_energies_of_a_cycle_differ_by_what_friction_takes(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A lift with 0.1 N m of friction over 20 rad, which holds 8 kg at 30 mm by the ratio."""
+    lift = belt("30 mm", "8 kg", inertia="2e-4 kg m^2", loads=Loads(gravity="180 deg")).with_friction(coulomb="0.1 N m")
+    drive = Drive(lift, Motor("3e-4 kg m^2"), ratio=2.5, regeneration=0.75)
+    ways = [Rise("10 rad", "0.3 s", law="345"), Dwell("0.2 s"), Return(duration="0.25 s", law="cycloidal"), Dwell()]
+    file = tmp_path / "lift.toml"
+    file.write_text(Cycle(ways, period="1 s", drive=drive).to_toml("Lift", axis="lift"), "utf-8")
+    assert exit_code(["cycle", str(file), "--json"]) == 0
+    motor = json.loads(capsys.readouterr().out)["lift"]["motor"]
+    assert motor["motoring_energy"] - motor["braking_energy"] == pytest.approx(2.0, rel=1e-9)
+    assert motor["energy"] == pytest.approx(2.0 + 0.25 * motor["braking_energy"], rel=1e-9)
+    assert motor["braking_heat"] == pytest.approx(0.25 * motor["braking_energy"], rel=1e-9)
+    assert motor["holding_torque"] == pytest.approx(8.0 * 9.80665 * 0.03 / 2.5, rel=1e-12)
+    sheets = [drive.sheet(law, "0 rad", "10 rad", time) for law, time in (("345", "0.3 s"), ("cycloidal", "0.25 s"))]
+    assert motor["peak_speed"] == pytest.approx(max(sheet.peak_speed for sheet in sheets), rel=1e-9)
+
+
+def with_sweep(sweep: str, text: str = TURNTABLE) -> str:
+    """A problem file with a sweep."""
+    return text.replace("[[axis]]", f"[[sweep]]\n{sweep}\n[[axis]]", 1)
+
+
+def test_a_sweep_of_the_ratio_says_what_each_costs(tmp_path: Path) -> None:
+    file = tmp_path / "swept.toml"
+    file.write_text(with_sweep('axis = "table"\nentry = "drive.ratio"\nvalues = [20, 60, 100]'), "utf-8")
+    spec, _ = read(reading.toml(file), file)
+    headings, rows = sweep_table(spec.sweep[0], sweeps_of(spec, file)[0])
+    assert headings[0] == "drive.ratio"
+    for row, ratio in zip(rows, (20, 60, 100), strict=True):
+        sheet = Drive(Mechanism("0.8 kg m^2"), Motor("3e-4 kg m^2"), ratio=ratio, efficiency=0.85).sheet(
+            "modified sine", "0 deg", "45 deg", "0.25 s", period="0.6 s"
+        )
+        cells = dict(zip(headings, row, strict=True))
+        assert cells["drive.ratio"] == ratio
+        assert cells["peak torque, N m"] == pytest.approx(sheet.peak_torque, rel=1e-9)
+        assert cells["RMS torque, N m"] == pytest.approx(sheet.rms_torque, rel=1e-9)
+    assert rows[0][-1] == pytest.approx(122.8601, rel=1e-5)  # of the peak torque of 3 N m
+    assert rows[2][-1] == pytest.approx(100.0 * 1055.762 * 5.0 / 3000.0, rel=1e-5)  # of the speed
+
+
+def test_a_sweep_of_a_limit_has_rows_without_a_law(tmp_path: Path) -> None:
+    text = TURNTABLE.replace('law = "modified sine"\n', 'limits = { velocity = "4.8 rad/s" }\n')
+    sweep = 'axis = "table"\nentry = "segment.1.limits.velocity"\nvalues = ["3 rad/s", "4.8 rad/s"]'
+    file = tmp_path / "swept.toml"
+    file.write_text(with_sweep(sweep, text), "utf-8")
+    assert exit_code(["run", str(file), "--out", str(tmp_path / "out")]) == 0
+    with (tmp_path / "out" / "sweep_1.csv").open(encoding="utf-8") as lines:
+        rows = list(csv.reader(lines))[1:]
+    assert [row[:2] for row in rows[1:]] == [["3 rad/s", "infeasible"], ["4.8 rad/s", "optimal"]]
+    assert rows[0][2] == "least acceleration, rad/s²"
+    assert rows[1][2] == ""
+    assert float(rows[2][2]) > 4.0 * (3.141592653589793 / 4.0) / 0.25**2  # C is at least 4
+    assert "<!-- least acceleration -->" in (tmp_path / "out" / "sweep_1.svg").read_text("utf-8")
+
+
+@pytest.mark.parametrize(
+    ("sweep", "text"),
+    [
+        (
+            'axis = "tabel"\nentry = "drive.ratio"\nvalues = [1, 2]',
+            "sweep of drive.ratio: unknown axis 'tabel'; did you",
+        ),
+        ('axis = "table"\nentry = "drvie.ratio"\nvalues = [1, 2]', "unknown entry 'drvie'; did you mean 'drive'"),
+        (
+            'axis = "table"\nentry = "drive.ratoi"\nvalues = [1, 2]',
+            "sweep of drive.ratoi, 1.*unknown key 'ratoi'; did you",
+        ),
+        ('axis = "table"\nentry = "drive.ratio"\nvalues = [1, -2]', "sweep of drive.ratio, -2.*ratio must be above 0"),
+        ('axis = "table"\nentry = "segment.3.by"\nvalues = ["1 deg", "2 deg"]', "unknown entry '3'; known are 1, 2"),
+        ('axis = "table"\nentry = "drive"\nvalues = [1, 2]', "sweep of drive, 1"),
+        ('axis = "table"\nentry = "drive.ratio"\nvalues = [1]', "values"),
+    ],
+)
+def test_a_wrong_sweep_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str], sweep: str, text: str) -> None:
+    file = tmp_path / "swept.toml"
+    file.write_text(with_sweep(sweep), "utf-8")
+    assert exit_code(["run", str(file), "--out", str(tmp_path / "out")]) == 2
+    assert re.search(f"swept.toml.*{text}", capsys.readouterr().err)
+
+
+def test_a_motor_that_is_too_weak_is_infeasible(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """No law of the table's moves takes less than the least RMS torque, which the error says."""
+    text = TURNTABLE.replace('law = "modified sine"\n', "").replace("efficiency = 0.85\n", "")
+    file = tmp_path / "weak.toml"
+    file.write_text(text.replace("[axis.drive]", 'limits = { "rms torque" = "1 N m" }\n[axis.drive]'), "utf-8")
+    assert exit_code(["cycle", str(file), "--json"]) == 3
+    assert re.search("infeasible: .*the rms torque over the cycle is to be at most 1.*no law", capsys.readouterr().err)
+
+
+STROKE = """
+job = "force loaded"
+title = "A crank"
+[problem]
+order = 3
+degree = 9
+symmetric = false
+[[case]]
+name = "crank"
+mechanism = { kind = "slider crank", crank = "0.1 m", rod = "0.4 m", bodies = { crank = "0.02 kg m^2", slider = 5 } }
+move = { start = "0 deg", stroke = "180 deg", duration = "0.3 s" }
+"""
+
+
+def test_a_stroke_of_a_mechanism_has_laws_of_least_torque(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """The least RMS torque of this crank is 3.989601 N m at degree 9, another optimiser's."""
+    file = tmp_path / "stroke.toml"
+    file.write_text(STROKE, "utf-8")
+    assert exit_code(["run", str(file), "--out", str(tmp_path / "out")]) == 0
+    with (tmp_path / "out" / "table.csv").open(encoding="utf-8") as lines:
+        rows = {row["law"]: row for row in csv.DictReader(list(lines)[1:])}
+    assert float(rows["least RMS torque"]["RMS torque"]) == pytest.approx(3.989601, rel=1e-6)
+    assert {row["case"] for row in rows.values()} == {"crank, N m"}
+    capsys.readouterr()
+    for old, new, text in (
+        ('"0.3 s"', '"0.3 m"', "case crank: duration must be a time"),
+        ('name = "crank"', 'name = "crank"\nload = "3*a"', "case crank: a case has either inertia, friction and load"),
+        ('kind = "slider crank", ', "", "case crank: mechanism: kind is missing"),
+        ("move = {", "# move = {", "case crank: a mechanism has a move"),
+    ):
+        assert old in STROKE
+        file.write_text(STROKE.replace(old, new, 1), "utf-8")
+        assert exit_code(["run", str(file), "--out", str(tmp_path / "none")]) == 2
+        assert text in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("scale", [1e-12, 1e9])
+def test_machines_of_other_sizes_need_as_much_in_proportion(scale: float) -> None:
+    """Inertias times a factor: torques, powers and energies times it, shares and speeds as they are."""
+    drive = {
+        "motor": {"inertia": f"{3e-4 * scale!r} kg m^2", "peak_torque": f"{6.0 * scale!r} N m"},
+        "ratio": 20,
+        "efficiency": 0.85,
+    }
+    cycle = read(entries({"kind": "table", "inertia": f"{0.8 * scale!r} kg m^2"}, drive), Path("scaled.toml"))[1][
+        "input"
+    ]
+    plain = {"motor": {"inertia": "3e-4 kg m^2", "peak_torque": "6 N m"}, "ratio": 20, "efficiency": 0.85}
+    usual = read(entries({"kind": "table", "inertia": "0.8 kg m^2"}, plain), Path("usual.toml"))[1]["input"]
+    assert cycle.objective == pytest.approx(scale * usual.objective, rel=1e-6)
+    assert cycle.effort.peak_force == pytest.approx(scale * usual.effort.peak_force, rel=1e-4)
