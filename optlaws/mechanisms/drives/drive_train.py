@@ -258,7 +258,7 @@ class Drive(JsonText):
         >>> motor = Motor("3e-4 kg m^2", peak_torque="6 N m", greatest_speed="3000 rpm")
         >>> drive = Drive(Mechanism("0.8 kg m^2"), motor, ratio=20, efficiency=0.85)
         >>> print(drive.limit("rms torque", "0 deg", "45 deg", "0.25 s"))
-        rms torque at least 1.90063 N m
+        rms torque at least 2.02548 N m
         """
         moved = self.dimensionless(start, stroke, duration_of(minimise, duration))
         way = self.mechanism.dimensionless(start, stroke, duration_of(minimise, duration))
