@@ -141,7 +141,7 @@ def follower_cycle(motion: AxisEntries, speed: str | None, period: str | None) -
     """
     if motion.mechanism is not None:
         raise InputError(
-            "motion: a cam's follower has no mechanism: an axis of a cycle has one, and a mechanism of the kind 'cam' is "
+            "motion: a cam's follower has no mechanism: an axis of a cycle has one, and the kind 'cam' of it is "
             "what this cam's shaft feels"
         )
     return cycle_of(motion, speed, period)
