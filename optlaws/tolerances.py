@@ -329,6 +329,7 @@ AFFINE_SLACK = 1e-12  # of a price: keeps affine shares within 0 and 1 and magni
 STATIONARY_SLACK = 1e-10  # of a velocity: beyond the flat place of a function without a bound it only rises
 PHASE_GAP = 1e-5  # of a limit in the phase plane: a potential that leaves no more needs no more fall
 MOST_PHASE_GAP = 1e-2  # of a limit in the phase plane: what leaves less is not mended by more fall
+WINDOW_EDGE = 1e-9  # of the stroke: so far within a window the places of a conic program begin that are bounded
 SMALL_PHASE_GAP = 1e-6  # of a limit: more is looked for on finer elements
 WEAK_CELL = 5e-7  # of what a cell adds to a bound: a cell that may lose more is divided
 SHORT_CELL = 1e-3  # of the move: of shorter cells what is lost is measured by this length

@@ -15,7 +15,7 @@ from optlaws.errors import located
 from optlaws.files import tables
 from optlaws.files.problem_file import convert
 from optlaws.jobs.cam_findings import EXTREMES, enclosure, extreme_row, plain
-from optlaws.jobs.cycle_entries import AxisEntries, cycle_of
+from optlaws.jobs.cycle_entries import AxisEntries, follower_cycle
 from optlaws.jobs.job import JobFile
 from optlaws.numbers import Array
 from optlaws.plots.style import BLUES, GREY, WARM, new_figure, plot_style, titled
@@ -81,7 +81,7 @@ def read(data: Mapping[str, Any], file: Path) -> tuple[BarrelProblemFile, Barrel
     """The entries of a file, and the cam; an error names the file."""
     spec = convert(data, BarrelProblemFile, file)
     with located(str(file)):
-        cycle = cycle_of(spec.motion, spec.speed, spec.period)
+        cycle = follower_cycle(spec.motion, spec.speed, spec.period)
         sizes: dict[str, Any] = {**msgspec.structs.asdict(spec.barrel), "turning": spec.turning}
         cam = BarrelCam(cycle, **sizes)
         if spec.cutter_radius is not None:

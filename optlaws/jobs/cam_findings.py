@@ -27,7 +27,7 @@ from optlaws.errors import InfeasibleProblem, InputError, located
 from optlaws.files import tables
 from optlaws.files.problem_file import convert
 from optlaws.jobs.cam_entries import CamProblemFile, ForcesEntries
-from optlaws.jobs.cycle_entries import cycle_of
+from optlaws.jobs.cycle_entries import follower_cycle
 from optlaws.kept import kept_property
 from optlaws.motion.quantities import TURN, quantity
 from optlaws.tolerances import CAM_FEASIBILITY, RADIUS_ROUNDING
@@ -68,7 +68,7 @@ class Findings:
     @kept_property
     def cycle(self) -> Cycle:
         """The motion as the file gives it."""
-        return cycle_of(self.spec.motion, self.spec.speed, self.spec.period)
+        return follower_cycle(self.spec.motion, self.spec.speed, self.spec.period)
 
     @kept_property
     def best(self) -> BestCam | BestBaseCircle | None:

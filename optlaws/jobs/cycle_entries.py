@@ -129,3 +129,19 @@ def cycle_of(axis: AxisEntries, speed: str | None, period: str | None, folder: P
     entries["drive"] = drive_of(axis.mechanism, axis.drive, folder)
     cycle = Cycle(segments, speed=speed, period=period, **entries)
     return cycle if axis.follower is None else cycle.cam(axis.follower.period, axis.follower.damping)
+
+
+def follower_cycle(motion: AxisEntries, speed: str | None, period: str | None) -> Cycle:
+    """The motion of a cam's follower.
+
+    Raises
+    ------
+    InputError
+        If it has a mechanism: forces of a cam are of constants.
+    """
+    if motion.mechanism is not None:
+        raise InputError(
+            "motion: a cam's follower has no mechanism: an axis of a cycle has one, and the kind 'cam' of it is "
+            "what this cam's shaft feels"
+        )
+    return cycle_of(motion, speed, period)

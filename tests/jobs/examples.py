@@ -193,6 +193,11 @@ EXAMPLES = {
             ("mass =", "inertia =", "drive: .*inertia"),
             ('width = "20 mm"', 'width = "0 mm"', "width must be above 0"),
             ("decimals = [3]", "decimal = [3]", "decimal.*decimals"),
+            (
+                "[motion]",
+                "[motion]\nmechanism = { kind = 'table', inertia = '1 kg' }",
+                "a cam's follower has no mechanism",
+            ),
             ('"50 mm"', '"50"', "base_radius must be a length"),
             ('base_radius = "50 mm"', 'turning = "CLOCKWISE"\nbest = "base circle"', "did you mean 'clockwise'"),
         ),

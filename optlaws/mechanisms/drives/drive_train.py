@@ -243,7 +243,8 @@ class Drive(JsonText):
         start, stroke, duration
             Of the mechanism's input; the least time has no duration.
         limits
-            Greatest "velocity" and "acceleration" of the mechanism's input, and "torque" of the motor.
+            Greatest "velocity" and "acceleration" of the mechanism's input, and "torque" of the motor, each a quantity,
+            or a list of parts of the way such as [("10 deg", "20 deg", "2 rad/s")].
         heat
             Copper heat, in W a squared N m, that is minimised together with the energy.
 
@@ -259,14 +260,13 @@ class Drive(JsonText):
         >>> motor = Motor("3e-4 kg m^2", peak_torque="6 N m", greatest_speed="3000 rpm")
         >>> drive = Drive(Mechanism("0.8 kg m^2"), motor, ratio=20, efficiency=0.85)
         >>> print(drive.limit("rms torque", "0 deg", "45 deg", "0.25 s"))
-        rms torque at least 1.90063 N m
+        rms torque at least 2.02548 N m
         """
         moved = self.dimensionless(start, stroke, duration_of(minimise, duration))
-        velocity = moved.power_unit / moved.unit / self.ratio
-        time = moved.energy_unit / moved.power_unit
-        scales = MoveScales(moved.unit, moved.energy_unit, velocity, time)
+        way = self.mechanism.dimensionless(start, stroke, duration_of(minimise, duration))
+        scales = MoveScales(moved.unit, moved.energy_unit, abs(way.stroke) / way.duration, way.duration)
         lines = [] if minimise == "peak torque" else self.motor.peak_lines
-        bounds = MoveBounds.read(limits, DIMENSIONS[self.mechanism.axis])
+        bounds = MoveBounds.read(limits, DIMENSIONS[self.mechanism.axis]).over(way.start, way.stroke)
         bounds = bounds.within(
             self.motor.greatest_speed / self.ratio, [(most, fall * self.ratio) for most, fall in lines]
         )

@@ -329,7 +329,8 @@ class Mechanism(JsonText):
         start, stroke, duration
             As `dimensionless` takes them; the least time has no duration.
         limits
-            Greatest "velocity", "acceleration" and "torque" (or "force") of the input.
+            Greatest "velocity", "acceleration" and "torque" (or "force") of the input, each a quantity, or a list of
+            parts of the way such as [("10 deg", "20 deg", "2 rad/s")].
         recovered
             Which share of the braking energy is used again, 0 to 1.
         heat
@@ -353,8 +354,8 @@ class Mechanism(JsonText):
         moved = self.dimensionless(start, stroke, duration_of(minimise, duration))
         velocity, dimension = abs(moved.stroke) / moved.duration, "N m" if self.axis == "angle" else "N"
         scales = MoveScales(moved.unit, moved.energy_unit, velocity, moved.duration, dimension)
-        bounds, costs = MoveBounds.read(limits, DIMENSIONS[self.axis]), MoveCosts.read(recovered, heat)
-        return move_limit(moved.torque, minimise, scales, bounds, costs)
+        bounds = MoveBounds.read(limits, DIMENSIONS[self.axis]).over(moved.start, moved.stroke)
+        return move_limit(moved.torque, minimise, scales, bounds, MoveCosts.read(recovered, heat))
 
     def with_friction(self, *, coulomb: NumberOrQuantity = 0.0, viscous: NumberOrQuantity = 0.0) -> Self:
         """The mechanism with this friction at its input in place of what it has."""

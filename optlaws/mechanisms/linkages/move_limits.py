@@ -14,11 +14,13 @@ from optlaws.motion.quantities import si_number
 from optlaws.numbers import finite, not_negative, positive
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.limits.drive_limits import DriveLimit, DriveObjective, limit_of_plane, phase_torque
-from optlaws.synthesis.limits.phase_plane import PhasePlane, TorqueLimit
-from optlaws.synthesis.limits.phase_torque import AnyTorque
+from optlaws.synthesis.limits.phase_plane import PhasePlane, TorqueLimit, VelocityLimit
+from optlaws.synthesis.limits.phase_torque import ACCELERATION, AnyTorque
+from optlaws.tolerances import CLOSURE
 
 _ENTRIES = ("dimension", "unit", "drive_limit")
 _DIGITS = 6
+_PART = 3
 
 
 @dataclass(frozen=True)
@@ -102,30 +104,62 @@ class MoveBounds(NamedTuple):
         The greatest ones of the mechanism's input.
     torques
         Pairs of a torque at rest and by how much less it is with the velocity of the input.
+    windows
+        Bounds over parts of the way: what is bounded, two positions of the input, and the bound.
     """
 
     velocity: float = inf
     acceleration: float = inf
     torques: tuple[tuple[float, float], ...] = ()
+    windows: tuple[tuple[str, float, float, float], ...] = ()
 
     @classmethod
     def read(cls, limits: Mapping[str, Any] | None, dimensions: Mapping[str, str]) -> MoveBounds:
         """The bounds that a table names: velocity, acceleration and torque, or force where the input slides.
+
+        Each is one bound, or a list of bounds over parts of the way: two positions and the bound.
 
         Raises
         ------
         InputError
             If a name is unknown, or a bound is of another dimension or not above 0.
         """
-        load = "torque" if dimensions["load"] == "torque" else "force"
+        axis, load = ("angle", "torque") if dimensions["load"] == "torque" else ("length", "force")
         known = {"velocity": "velocity", "acceleration": "acceleration", load: "load"}
-        given = {}
+        given, windows = dict[str, float](), list[tuple[str, float, float, float]]()
         for name, value in (limits or {}).items():
             if name not in known:
                 raise InputError(unknown_key(name, known, "limit of a move"))
-            given[name] = positive(si_number(value, (dimensions[known[name]],), name), name)
+            for part in value if isinstance(value, list) else [(None, None, value)]:
+                if not isinstance(part, list | tuple) or len(part) != _PART:
+                    raise InputError(
+                        f"{name} must be one bound, or a list of two positions with a bound, got {shortened(value)}"
+                    )
+                bound = positive(si_number(part[2], (dimensions[known[name]],), name), name)
+                if part[0] is None:
+                    given[name] = bound
+                else:
+                    ends = sorted(finite(si_number(end, (axis,), f"{name}: position"), name) for end in part[:2])
+                    windows.append((known[name], ends[0], ends[1], bound))
         torques = ((given[load], 0.0),) if load in given else ()
-        return cls(given.get("velocity", inf), given.get("acceleration", inf), torques)
+        return cls(given.get("velocity", inf), given.get("acceleration", inf), torques, tuple(windows))
+
+    def over(self, start: float, stroke: float) -> MoveBounds:
+        """The bounds with windows over a, from 0 to 1, in place of positions of the input.
+
+        Raises
+        ------
+        InputError
+            If a window is not within the stroke.
+        """
+        windows = []
+        for name, *positions, bound in self.windows:
+            low, high = sorted((position - start) / stroke for position in positions)
+            slack = CLOSURE if -CLOSURE <= low < high <= 1.0 + CLOSURE else 0.0
+            if not slack:
+                raise InputError(f"a part of the way must be within the stroke and have a length, got {positions!r}")
+            windows.append((name, max(low, 0.0), min(high, 1.0), bound))
+        return self._replace(windows=tuple(windows))
 
     def within(self, velocity: float, torques: Sequence[tuple[float, float]]) -> MoveBounds:
         """The bounds with those of a motor as well."""
@@ -237,8 +271,16 @@ def _plane(
     form = form.scaled(1.0 / unit)
     torque = unit * scales.torque
     limits = tuple(TorqueLimit(form, most / torque, fall * scales.velocity / torque) for most, fall in bounds.torques)
-    B, C = bounds.velocity / scales.velocity, bounds.acceleration * scales.duration / scales.velocity
-    plane = PhasePlane(limits=limits, B=B, C=C)
+    unit_of = {"velocity": scales.velocity, "acceleration": scales.velocity / scales.duration, "load": torque}
+    B, C = bounds.velocity / unit_of["velocity"], bounds.acceleration / unit_of["acceleration"]
+    windows = [(name, low, high, bound / unit_of[name]) for name, low, high, bound in bounds.windows]
+    velocities = [VelocityLimit(low, high, most) for name, low, high, most in windows if name == "velocity"]
+    limits += tuple(
+        TorqueLimit(form if name == "load" else ACCELERATION, most, start=low, stop=high)
+        for name, low, high, most in windows
+        if name != "velocity"
+    )
+    plane = PhasePlane(limits=limits, B=B, C=C, velocities=tuple(velocities))
     if minimise == "peak torque":
         return replace(plane, peak=form)
     if minimise == "rms torque":

@@ -330,8 +330,6 @@ def _check(limit: DriveLimit) -> None:
         raise InputError(f"edges must ascend from 0 to 1, got {shortened(edges)}")
     if len(rows) != len(edges) - 1 or len({len(row) for row in rows}) != 1 or len(rows[0]) < 2:
         raise InputError(f"potential must have one row of as many coefficients for each of {len(edges) - 1} pieces")
-    if any(row[-1] != after[0] for row, after in pairwise(rows)):
-        raise InputError("potential must be continuous: a row ends with the coefficient with which the next begins")
     inside = all(0.0 < place < 1.0 for place in limit.s)
     if not limit.s or len(limit.s) != len(limit.b) or not inside or min(limit.b) <= 0.0:
         raise InputError("s and b must be as many places within (0, 1) with velocities above 0")

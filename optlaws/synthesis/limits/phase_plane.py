@@ -14,13 +14,14 @@ from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.files.reading import JsonText
 from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.kept import kept_property
-from optlaws.numbers import bounded, positive
+from optlaws.numbers import Array, bounded, positive
 from optlaws.synthesis.limits.phase_torque import ACCELERATION, AnyTorque, GearTorque, PhaseTorque, torque_from
-from optlaws.tolerances import VALUE_ROUNDING
+from optlaws.tolerances import VALUE_ROUNDING, WINDOW_EDGE
 
 #: what is least: the mean over time of a torque's square and of powers, the peak of a torque, or the time itself
 PhasePlaneKind: TypeAlias = Literal["mean", "peak", "time"]
@@ -30,7 +31,8 @@ PhasePlaneKind: TypeAlias = Literal["mean", "peak", "time"]
 class TorqueLimit:
     """The bound |torque| <= at_rest - fall * b: a peak torque, or a straight part of a motor's curve.
 
-    Where `side` is 1 only torque <= at_rest - fall * b is meant, and where it is -1 only -torque.
+    Where `side` is 1 only torque <= at_rest - fall * b is meant, and where it is -1 only -torque. It holds at the
+    positions from `start` to `stop`.
 
     Examples
     --------
@@ -42,6 +44,53 @@ class TorqueLimit:
     at_rest: float
     fall: float = 0.0
     side: Literal[-1, 0, 1] = 0
+    start: float = 0.0
+    stop: float = 1.0
+
+    def __post_init__(self) -> None:
+        _check_window(self.start, self.stop)
+
+    @property
+    def everywhere(self) -> bool:
+        """Whether it holds in the whole stroke."""
+        return (self.start, self.stop) == (0.0, 1.0)
+
+    def to_data(self) -> list[Any]:
+        """Its torque and numbers as plain data."""
+        numbers = [self.at_rest, self.fall] if self.everywhere else [self.at_rest, self.fall, self.start, self.stop]
+        return [self.torque.to_data(), *numbers]
+
+    @classmethod
+    def from_data(cls, data: Any) -> TorqueLimit:  # noqa: ANN401 - it is checked here
+        """The limit that `to_data` described."""
+        if not isinstance(data, list | tuple) or len(data) not in {3, 5}:
+            raise InputError(f"a limit is a torque, a value at rest, a fall, and a window, got {shortened(data)}")
+        at_rest, fall, *window = (float(value) for value in data[1:])
+        return cls(torque_from(data[0]), at_rest, fall, 0, *window)
+
+
+@dataclass(frozen=True)
+class VelocityLimit:
+    """The bound b <= B at the positions from `start` to `stop`.
+
+    Examples
+    --------
+    >>> VelocityLimit(0.2, 0.4, 1.1).B
+    1.1
+    """
+
+    start: float
+    stop: float
+    B: float
+
+    def __post_init__(self) -> None:
+        _check_window(self.start, self.stop)
+        positive(self.B, "B")
+
+
+def _check_window(start: float, stop: float) -> None:
+    if not 0.0 <= start < stop <= 1.0:
+        raise InputError(f"a window has two positions that ascend from 0 to 1, got {start!r} and {stop!r}")
 
 
 @dataclass(frozen=True)
@@ -60,6 +109,8 @@ class PhasePlane(JsonText):
         Bounds of torques.
     B, C
         The greatest velocity and the greatest acceleration; infinite where they are free.
+    velocities
+        Bounds of the velocity over parts of the stroke.
 
     Examples
     --------
@@ -75,6 +126,7 @@ class PhasePlane(JsonText):
     B: float = inf
     C: float = inf
     heat: float = 1.0
+    velocities: tuple[VelocityLimit, ...] = ()
 
     _json_name = "a phase plane"
 
@@ -106,8 +158,9 @@ class PhasePlane(JsonText):
 
     @property
     def bounds(self) -> tuple[TorqueLimit, ...]:
-        """The limits and, as the last of them, that of the acceleration."""
-        return (*self.limits, *([TorqueLimit(ACCELERATION, self.C)] if inf > self.C else []))
+        """The limits, those over parts of the stroke first, and as the last of them that of the acceleration."""
+        limits = sorted(self.limits, key=lambda limit: limit.everywhere)
+        return (*limits, *([TorqueLimit(ACCELERATION, self.C)] if inf > self.C else []))
 
     @property
     def greatest_velocity(self) -> float:
@@ -151,7 +204,7 @@ class PhasePlane(JsonText):
         InputError
             If nothing keeps the acceleration finite.
         """
-        bounds = [bound.torque for bound in self.bounds if bound.side == 0]
+        bounds = [bound.torque for bound in self.bounds if bound.side == 0 and bound.everywhere]
         several = bounds[-1] if bounds else self.peak or self.squared
         if several is None:
             raise InputError("nothing keeps the acceleration finite: bound C or a torque")
@@ -169,14 +222,37 @@ class PhasePlane(JsonText):
     def kinks(self) -> tuple[float, ...]:
         """The positions strictly between 0 and 1 at which a torque is not smooth, ascending."""
         branches = [branch for torque in self.torques for branch in torque.branches]
-        return tuple(sorted({place for branch in branches for place in branch.kinks}))
+        ends = {place for branch in branches for place in branch.kinks}
+        # a little within windows, so that what is nearest to an end surely is
+        ends |= {limit.start + WINDOW_EDGE for limit in self.windows if limit.start > 0.0}
+        ends |= {limit.stop - WINDOW_EDGE for limit in self.windows if limit.stop < 1.0}
+        return tuple(sorted(ends))
+
+    @property
+    def jumps(self) -> tuple[float, ...]:
+        """The positions at which the potential may jump: where a bounded velocity begins and ends, ascending."""
+        ends = {limit.start + WINDOW_EDGE for limit in self.velocities if limit.start > 0.0}
+        return tuple(sorted(ends | {limit.stop - WINDOW_EDGE for limit in self.velocities if limit.stop < 1.0}))
+
+    @property
+    def windows(self) -> tuple[TorqueLimit | VelocityLimit, ...]:
+        """The bounds that hold over parts of the stroke."""
+        return (*self.velocities, *(limit for limit in self.limits if not limit.everywhere))
+
+    def velocity_bound(self, low: Array, high: Array) -> Array:
+        """The greatest velocity in parts of the stroke, each from one position to another."""
+        most = np.full(low.shape, self.greatest_velocity)
+        for limit in self.velocities:
+            most = np.where((low >= limit.start) & (high <= limit.stop), np.minimum(most, limit.B), most)
+        return most
 
     def slowed(self, time: float) -> PhasePlane:
         """The plane of the least time, measured in another unit."""
         limits = tuple(
             replace(limit, torque=limit.torque.slowed(time), fall=limit.fall / time) for limit in self.limits
         )
-        return PhasePlane(limits=limits, B=self.B * time, C=self.C * time**2)
+        velocities = tuple(replace(limit, B=limit.B * time) for limit in self.velocities)
+        return PhasePlane(limits=limits, B=self.B * time, C=self.C * time**2, velocities=velocities)
 
     def to_dict(self) -> dict[str, Any]:
         """The plane as plain data: torques as the texts of I, S, R and T."""
@@ -184,19 +260,22 @@ class PhasePlane(JsonText):
             "squared": None if self.squared is None else self.squared.to_data(),
             "maxima": [[torque.to_data() for torque in torques] for torques in self.maxima],
             "peak": None if self.peak is None else self.peak.to_data(),
-            "limits": [[limit.torque.to_data(), limit.at_rest, limit.fall] for limit in self.limits],
+            "limits": [limit.to_data() for limit in self.limits],
             "B": bounded(self.B),
             "C": bounded(self.C),
             "heat": self.heat,
+            "velocities": [[limit.start, limit.stop, limit.B] for limit in self.velocities],
         }
 
     @classmethod
     def from_dict(cls, data: Any) -> PhasePlane:  # noqa: ANN401 - it is checked here
         """The plane that `to_dict` described."""
-        if not isinstance(data, Mapping) or set(data) != {"squared", "maxima", "peak", "limits", "B", "C", "heat"}:
-            raise InputError("a phase plane has the keys squared, maxima, peak, limits, B, C and heat")
+        keys = {"squared", "maxima", "peak", "limits", "B", "C", "heat"}
+        if not isinstance(data, Mapping) or set(data) - {"velocities"} != keys:
+            raise InputError("a phase plane has the keys squared, maxima, peak, limits, B, C, heat and velocities")
         squared, peak = (None if data[key] is None else torque_from(data[key]) for key in ("squared", "peak"))
         maxima = tuple((torque_from(first), torque_from(second)) for first, second in data["maxima"])
-        limits = tuple(TorqueLimit(torque_from(torque), float(P), float(fall)) for torque, P, fall in data["limits"])
+        limits = tuple(map(TorqueLimit.from_data, data["limits"]))
+        velocities = tuple(VelocityLimit(*map(float, limit)) for limit in data.get("velocities", []))
         B, C = (inf if data[key] is None else float(data[key]) for key in ("B", "C"))
-        return cls(squared, maxima, peak, limits, B, C, positive(data["heat"], "heat"))
+        return cls(squared, maxima, peak, limits, B, C, positive(data["heat"], "heat"), velocities)

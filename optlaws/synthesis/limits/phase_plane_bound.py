@@ -10,6 +10,8 @@ For a squared torque is at least p tau b - p² b²/4, a maximum of torques at le
 price n a torque within |tau| <= M is at least -|n| M; what all this has of c adds up to q w', which is integrated by
 parts.
 
+Where the velocity is bounded from a position on, the potential may jump there: by the squared velocity times the jump.
+
 Behind a gear with losses torques have one form while power flows to the load, x >= 0, and another while it flows back,
 x <= 0, and what is least is the lower of two inner minima, with prices of their own and a price of x >= 0 or of x <= 0.
 """
@@ -22,10 +24,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.numbers import Array
-from optlaws.numerics.interval import Interval, exact
+from optlaws.numerics.interval import Interval, between, exact
+from optlaws.numerics.taylor import Jet
+from optlaws.synthesis.limits.formula_jets import formula_jet
 from optlaws.synthesis.limits.phase_plane import PhasePlane
-from optlaws.synthesis.limits.phase_plane_cells import CellBounds, Guess, Potential, ProofCells
-from optlaws.tolerances import ROUNDOFF
+from optlaws.synthesis.limits.phase_plane_cells import PI, CellBounds, Guess, Potential, ProofCells, positions
+from optlaws.tolerances import ROUNDOFF, SMALLEST_SIZE
 
 __all__ = ["Guess", "Potential", "proven_bound"]
 
@@ -82,7 +86,24 @@ def _sums(plane: PhasePlane, potential: Potential, weight: float, guess: Guess) 
         if not weak.any():
             break
         piece, low, high = _divided(piece[weak], low[weak], high[weak])
-    return _sum(sums), _sum(free)
+    jumps = _jumps(plane, potential)
+    return nextafter(_sum(sums) - jumps, -inf), nextafter(_sum(free) - jumps, -inf)
+
+
+def _jumps(plane: PhasePlane, potential: Potential) -> float:
+    """What jumps of the potential take at most: each times the greatest squared velocity there, if it rises."""
+    rises = exact(potential.coefficients[1:, 0]) - potential.coefficients[:-1, -1]
+    places = np.flatnonzero(rises.high > ROUNDOFF * SMALLEST_SIZE)
+    places = places[potential.coefficients[1:, 0][places] != potential.coefficients[:-1, -1][places]]
+    if not len(places):
+        return 0.0
+    s = exact(potential.edges[1:-1][places])
+    low, high = positions(s)
+    sine, a = (s * PI).sine(), between(low, high)
+    size = formula_jet(plane.reference.inertia, "a", Jet((a,))).terms[0] / sine
+    most = plane.velocity_bound(low, high)
+    with np.errstate(invalid="ignore", over="ignore"):
+        return nextafter(fsum((rises[places] * size * exact(most) * most).high) * (1.0 + _ENDS_ROUNDING), inf)
 
 
 def _times(values: Array, lengths: Interval) -> Array:

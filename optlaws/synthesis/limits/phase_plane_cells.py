@@ -30,7 +30,7 @@ _ORDER = 4  # of the remainder in a cell
 _FAR = 4.0
 _NEWTON = 12
 _END, _INSIDE, _NEAR_B = 0.12, 0.02, 0.9
-_PI = Interval(np.array(pi), np.array(ROUNDOFF * pi))
+PI = Interval(np.array(pi), np.array(ROUNDOFF * pi))
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +44,7 @@ class Potential:
     edges
         The ends of its pieces, from 0 to 1.
     coefficients
-        Bernstein coefficients, one row a piece; neighbours share those at their ends.
+        Bernstein coefficients, one row a piece; neighbours share those at their ends, but where it jumps.
     """
 
     edges: Array
@@ -186,7 +186,7 @@ class ProofCells:
         shape = (2, len(self.middle))
         known = inner.prices(b)
         distance = np.minimum(self.middle, 1.0 - self.middle)
-        near = (b.reshape(shape) >= _NEAR_B * self.plane.B).any(axis=0)
+        near = (b.reshape(shape) >= _NEAR_B * self.plane.velocity_bound(a, a).reshape(shape)).any(axis=0)
         sides = self.middle < 0.5, self.middle >= 0.5
         if self.reach is None:  # up to where the bound of b may count, and at least the first cell and the last
             self.reach = tuple(
@@ -194,7 +194,7 @@ class ProofCells:
                 for side in sides
             )
         self.end = np.logical_or(*(side & (distance < most) for side, most in zip(sides, self.reach, strict=True)))
-        self.most = np.where(self.end, inf, self.plane.greatest_velocity)
+        self.most = np.where(self.end, inf, self.plane.velocity_bound(*self._positions()))
         scale = np.where(self.end, sine.reshape(shape), 1.0)
         self.x = np.minimum(_to_ends(b.reshape(shape) / scale), self.most)
         self.prices = [
@@ -206,8 +206,22 @@ class ProofCells:
         self.follows, self.beside = known.follows.reshape(shape), known.beside.reshape(shape).any(axis=0)
         # in a cell the price follows from q that does so at both ends, else that of the reference
         last = len(self.entries) - 1
+        self._keep_to_windows()
         self.mixed = self.follows[0] != self.follows[1]
         self.follows = np.where(self.mixed, last, self.follows[0])
+
+    def _positions(self) -> tuple[Array, Array]:
+        """The least and the greatest position in every cell, rounded outward."""
+        return positions(exact(self.low))[0], positions(exact(self.high))[1]
+
+    def _keep_to_windows(self) -> None:
+        """Bounds over a part of the stroke have no price in cells that are not wholly in it."""
+        last, (low, high) = len(self.entries) - 1, self._positions()
+        for i, entry in enumerate(self.entries):
+            if (entry.start, entry.stop) != (0.0, 1.0):
+                inside = (low >= entry.start) & (high <= entry.stop)
+                self.prices[i] = np.where(inside, self.prices[i], 0.0)
+                self.follows = np.where((self.follows == i) & ~inside, last, self.follows)
 
     def bounds(self) -> CellBounds:
         """What is proven of the inner minimum in every cell."""
@@ -289,7 +303,7 @@ class ProofCells:
     def _terms(self, places: Interval, order: int) -> _Terms:
         """What the integrand is made of, up to an order."""
         s = variable(places, order + 1)
-        sine, cosine = (s * _PI).waves()
+        sine, cosine = (s * PI).waves()
         a = (1.0 - cosine) * 0.5
         unity = s * 0.0 + 1.0
         scale, share = self._chosen(self.end, sine, unity), self._chosen(self.end, unity, sine)
@@ -298,8 +312,8 @@ class ProofCells:
         jets = {torque: torque.jets(a.cut(order)) for torque in dict.fromkeys(torques)}
         potential = self.potential.jet(self.piece, places, order + 1)
         potential = potential * formula_jet(self.inertia.inertia, "a", a)
-        turned = (inverse * inverse * potential * cosine).cut(order) * _PI
-        rate = (turned - scale.cut(order) * inverse.cut(order) * potential.slope()) * (2.0 / _PI)
+        turned = (inverse * inverse * potential * cosine).cut(order) * PI
+        rate = (turned - scale.cut(order) * inverse.cut(order) * potential.slope()) * (2.0 / PI)
         sine, scale, share, inverse = (jet.cut(order) for jet in (sine, scale, share, inverse))
         return _Terms(s.cut(order), sine, scale, share, inverse, jets, potential.cut(order) * inverse * 2.0, rate)
 
@@ -406,8 +420,15 @@ class ProofCells:
                 price_of_peak = magnitude
             A = A - magnitude * (self.peak if entry.role == "peak" else entry.at_rest)
             B1 = B1 + magnitude * scale * entry.fall
-        half_pi = _PI * 0.5
+        half_pi = PI * 0.5
         return _Integrand(*(jet * half_pi for jet in (A, B1, C2, share * self.weight, price_of_peak)))
+
+
+def positions(s: Interval) -> tuple[Array, Array]:
+    """The least and the greatest position a = sin²(pi s/2) at places s, rounded outward."""
+    sine = (s * PI * 0.5).sine()
+    square = sine * sine
+    return np.maximum(square.low, 0.0), np.minimum(square.high, 1.0)
 
 
 def _least(factors: list[Array], near: Array, most: Array) -> Array:

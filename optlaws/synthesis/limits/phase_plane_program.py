@@ -10,6 +10,7 @@ in which the last motion was. So a motion that is found keeps the bounds, but ne
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import inf
 from typing import Any, TypeAlias
@@ -20,7 +21,7 @@ from numpy.typing import NDArray
 from optlaws.errors import SolverFailure
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import gauss
-from optlaws.synthesis.limits.phase_plane import PhasePlane
+from optlaws.synthesis.limits.phase_plane import PhasePlane, TorqueLimit, VelocityLimit
 from optlaws.synthesis.limits.phase_torque import AnyTorque, GearTorque, PhaseTorque
 from optlaws.tolerances import PHASE_ACTIVE, PHASE_PACE, SMALLEST_ELEMENT, SMALLEST_SIZE
 
@@ -28,6 +29,8 @@ DEGREE = 4
 _ELEMENTS = 8
 _ROUNDS = 3
 _VARIABLES = 4
+#: the first Bernstein coefficient of degree 4 by the others, where the degree is 3
+_LOWER = (4.0, -6.0, 4.0, -1.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,6 +52,8 @@ class PhaseOptimum:
     driven
         Behind a gear with losses: places, and whether the power of a motor that brakes flows to the load before each of
         them and after the last.
+    beyond
+        Whether w is beyond the square of the greatest velocity, where only b is bounded.
     """
 
     edges: Array
@@ -59,6 +64,7 @@ class PhaseOptimum:
     c: Array
     objective: float
     driven: tuple[tuple[float, ...], tuple[bool, ...]]
+    beyond: bool
 
 
 def optimum(plane: PhasePlane, rounds: int = _ROUNDS) -> PhaseOptimum:
@@ -76,24 +82,33 @@ def optimum(plane: PhasePlane, rounds: int = _ROUNDS) -> PhaseOptimum:
     SolverFailure
         If no motion keeps the bounds, or the program was not solved.
     """
-    kinks = 2.0 / np.pi * np.arcsin(np.sqrt(np.array(plane.kinks)))
+    kinks = _in_s(plane.kinks)
     edges = np.union1d(np.linspace(0.0, 1.0, _ELEMENTS + 1), kinks)
     solved, pace = _first(plane, edges), 0.0
+    strict = False
+    if solved.beyond:
+        other = _Program(plane, edges, pace, solved.driven, strict=True).solved()
+        strict = other.objective > solved.objective * (1.0 + PHASE_ACTIVE)
+        solved = other if strict else solved
     if plane.kind != "time" and solved.weight < PHASE_PACE * abs(solved.objective):
         # where the time costs nothing, velocities are not determined: it is given a little price
         pace = PHASE_PACE * abs(solved.objective)
-        solved = _Program(plane, edges, pace, _driven(plane, solved)).solved()
+        solved = _Program(plane, edges, pace, _driven(plane, solved), strict=strict).solved()
     for _ in range(rounds - 1):
         finer, driven = _refined(plane, solved), _driven(plane, solved)
         if len(finer) == len(solved.edges) and driven == solved.driven:
             break
         try:
-            solved = _Program(plane, finer, pace, driven).solved()
+            solved = _Program(plane, finer, pace, driven, strict=strict).solved()
         except SolverFailure:
             if plane.gear_load is None:
                 raise
             break
     return solved
+
+
+def _in_s(positions: Sequence[float]) -> Array:
+    return np.asarray(2.0 / np.pi * np.arcsin(np.sqrt(np.array(positions))))
 
 
 #: where power flows to the load: places, and whether it does so up to the next place
@@ -137,8 +152,8 @@ _SQUARE, _ACCELERATION, _VELOCITY, _PACE = range(_VARIABLES)
 class _Program:
     """The conic program on given elements: variables at every place, and the peak."""
 
-    def __init__(self, plane: PhasePlane, edges: Array, pace: float, driven: _Driven) -> None:
-        self.plane, self.edges, self.pace, self.driven = plane, edges, pace, driven
+    def __init__(self, plane: PhasePlane, edges: Array, pace: float, driven: _Driven, *, strict: bool = False) -> None:
+        self.plane, self.edges, self.pace, self.driven, self.strict = plane, edges, pace, driven, strict
         x, share = gauss(DEGREE)
         lengths = np.diff(edges)
         self.s = (edges[:-1, None] + lengths[:, None] * (x + 1.0) / 2.0).ravel()
@@ -147,7 +162,11 @@ class _Program:
         self.weights = (lengths[:, None] * share / 2.0).ravel() * np.pi / 2.0 * self.sine
         self.drives = np.array(driven[1])[np.searchsorted(np.array(driven[0]), self.s)]
         slacks = len(plane.maxima) + (len(plane.squared.branches) if plane.squared is not None else 0)
-        self.width = (_VARIABLES + slacks) * self.count + 1
+        #: ends of elements at which the potential may jump, and before every element how many there were
+        self.jumps = np.flatnonzero(np.isin(edges, _in_s(plane.jumps)))
+        self.before = np.searchsorted(self.jumps, np.arange(len(edges) - 1), side="right")
+        self.columns = (_VARIABLES + slacks) * self.count
+        self.width = self.columns + len(self.jumps) + 1
         self.height = 0
         self.entries: list[tuple[Places, Places, Array]] = []
         self.right: list[Array] = []
@@ -159,7 +178,7 @@ class _Program:
     def solved(self) -> PhaseOptimum:
         """The optimum with its multipliers."""
         import clarabel
-        from scipy.sparse import csc_matrix
+        from scipy.sparse import csc_matrix, vstack
 
         rows, columns, values = (np.concatenate(several) for several in zip(*self.entries, strict=True))
         matrix = csc_matrix((values, (rows, columns)), shape=(self.height, self.width))
@@ -167,18 +186,23 @@ class _Program:
         settings = clarabel.DefaultSettings()
         settings.verbose = False
         nothing, right = csc_matrix((self.width, self.width)), np.concatenate(self.right)
+        tests = self.count + 1 + len(self.jumps)
+        smooth = self._smooth_tests(tests)
+        if len(self.jumps):
+            matrix, right = vstack([smooth.T @ matrix[:tests], matrix[tests:]], format="csc"), right[len(self.jumps) :]
+            self.cones[0] = clarabel.ZeroConeT(self.count + 1)
         result = clarabel.DefaultSolver(nothing, self.costs / unit, matrix, right, self.cones, settings).solve()
         if str(result.status) not in {"Solved", "AlmostSolved"}:
             raise SolverFailure(f"no motion in the phase plane was found within the bounds: {result.status}")
         x, z = np.array(result.x), np.array(result.z)
-        places = np.arange(len(self.edges) - 1)[:, None] * DEGREE + np.arange(DEGREE + 1)
+        places = self._tests(np.arange(len(self.edges) - 1))
         weight = unit * float(z[self.count + 1]) + self.pace if self.plane.kind != "time" else 1.0
         time = float(self.weights @ x[_PACE * self.count : (_PACE + 1) * self.count])
         c, b = (x[i * self.count : (i + 1) * self.count] for i in (_ACCELERATION, _VELOCITY))
-        potential = -unit * z[: self.count + 1][places]
-        return PhaseOptimum(
-            self.edges, potential, weight, self.s, b, c, unit * float(result.obj_val) - self.pace * time, self.driven
-        )
+        potential = -unit * (smooth @ z[: self.count + 1])[places]
+        beyond = bool(np.any(x[: self.count] > (self.plane.B * (1.0 + PHASE_ACTIVE)) ** 2))
+        objective = unit * float(result.obj_val) - self.pace * time
+        return PhaseOptimum(self.edges, potential, weight, self.s, b, c, objective, self.driven, beyond)
 
     def _write_motion(self, x: Array) -> None:
         """The equation of motion, tested with J phi/sin(pi s), whose slope by a is that of w, and twice itself of c."""
@@ -192,12 +216,43 @@ class _Program:
         sine, cosine = self.sine[:, None], np.cos(np.pi * self.s)[:, None]
         rate = inertia[:, None] / (np.pi / 2.0 * sine) * (by_s / sine - np.pi * cosine / sine**2 * phi)
         rate += (by_a / self.sine)[:, None] * phi
-        row = element[:, None] * DEGREE + np.arange(DEGREE + 1)
+        row = self._tests(element)
         column = np.broadcast_to(np.arange(self.count)[:, None], row.shape)
         weights = self.weights[:, None]
         for variable, factor in ((_SQUARE, rate), (_ACCELERATION, 2.0 * (inertia[:, None] / sine) * phi)):
             self.entries.append((row.ravel(), (variable * self.count + column).ravel(), (weights * factor).ravel()))
-        self._close(np.zeros(self.count + 1), [clarabel.ZeroConeT(self.count + 1)])
+        self._write_jumps()
+        tests = self.count + 1 + len(self.jumps)
+        self._close(np.zeros(tests), [clarabel.ZeroConeT(tests)])
+
+    def _tests(self, elements: Places) -> Places:
+        """The rows of the functions of elements with which the equation is tested."""
+        return (elements * DEGREE + self.before[elements])[:, None] + np.arange(DEGREE + 1)
+
+    def _smooth_tests(self, tests: int) -> Any:  # noqa: ANN401 - a matrix of scipy
+        """The functions of elements by those of the program, of lower degree after a jump: as many as there are places.
+
+        Of degree 4 there is one that vanishes at all places of an element, and nothing would hold it.
+        """
+        from scipy.sparse import csc_matrix
+
+        first = self._tests(self.jumps)[:, 0] if len(self.jumps) else np.zeros(0, dtype=np.intp)
+        others = np.setdiff1d(np.arange(tests), first)
+        column = np.full(tests, -1)
+        column[others] = np.arange(len(others))
+        parts = column[first[:, None] + np.arange(1, DEGREE + 1)]
+        rows = np.concatenate([others, np.repeat(first, DEGREE)])
+        shares = np.concatenate([np.ones(len(others)), np.tile(_LOWER, len(first))])
+        return csc_matrix((shares, (rows, np.concatenate([column[others], parts.ravel()]))), shape=(tests, len(others)))
+
+    def _write_jumps(self) -> None:
+        """What of w is left where the functions of neighbours are not the same: its value there is a variable."""
+        for i, edge in enumerate(self.jumps):
+            s = self.edges[edge : edge + 1]
+            size = self.plane.reference.values(np.sin(np.pi * s / 2.0) ** 2)[0] / np.sin(np.pi * s)
+            left, right = self._tests(np.array([edge - 1, edge]))
+            rows, column = np.array([left[-1], right[0]]), np.full(2, self.columns + i)
+            self.entries.append((rows, column, np.concatenate([-size, size])))
 
     def _write(self) -> None:
         """All other rows with their cones, and what is minimised."""
@@ -212,19 +267,23 @@ class _Program:
             self.entries.append((np.full(self.count, self.height), places, self.weights))
             self._close(np.ones(1), [clarabel.NonnegativeConeT(1)])
         if inf > plane.B:
-            self._at_most({_VELOCITY: ones}, plane.B * ones)
+            # of both the first has the more accurate prices, but where energy would be stored beyond it
+            self._at_most({_SQUARE: ones} if self.strict else {_VELOCITY: ones}, plane.B ** (1 + self.strict) * ones)
+        self._bound_jumps()
+        for limit in plane.velocities:
+            self._at_most({_SQUARE: ones}, limit.B**2 * ones, self._within(limit))
         for bound in plane.bounds:
             sides, size = self._sides(bound.torque)
             for parts, load in sides:
                 falling = {**parts, _VELOCITY: parts[_VELOCITY] + bound.fall / size}
-                self._at_most(falling, bound.at_rest / size - load)
+                self._at_most(falling, bound.at_rest / size - load, self._within(bound))
         # b² <= w and 1 <= b y
         self._cone(({_SQUARE: ones}, ones), ({_VELOCITY: 2.0 * ones}, 0.0 * ones), ({_SQUARE: ones}, -ones))
         ways = {_VELOCITY: ones, _PACE: ones}, {_VELOCITY: -ones, _PACE: ones}
         self._cone((ways[0], 0.0 * ones), ({}, 2.0 * ones), (ways[1], 0.0 * ones))
         if plane.squared is not None:
             self._write_squared(plane.squared)
-        for i, torques in enumerate(plane.maxima, self.width // self.count - len(plane.maxima)):
+        for i, torques in enumerate(plane.maxima, self.columns // self.count - len(plane.maxima)):
             self._write_maximum([branch for torque in torques for branch in torque.branches], i)
         if plane.peak is not None:
             sides, self.costs[-1] = self._sides(plane.peak)
@@ -255,6 +314,16 @@ class _Program:
             self._at_most({**scaled, slack: -np.ones(self.count)}, -scale / size * load)
         self._cost(slack, size)
 
+    def _bound_jumps(self) -> None:
+        """That w is within its bounds where the potential may jump."""
+        import clarabel
+
+        count = len(self.jumps)
+        if count:
+            a = np.sin(np.pi * self.edges[self.jumps] / 2.0) ** 2
+            self.entries.append((self.height + np.arange(count), self.columns + np.arange(count), np.ones(count)))
+            self._close(self.plane.velocity_bound(a, a) ** 2, [clarabel.NonnegativeConeT(count)])
+
     def _cost(self, variable: int, size: float) -> None:
         self.costs[variable * self.count : (variable + 1) * self.count] = size * self.weights
 
@@ -276,11 +345,18 @@ class _Program:
         braking = {variable: -np.where(self.drives, first[variable], last[variable]) for variable in first}
         return [*scaled, (braking, -np.where(self.drives, first_load, last_load))], size
 
-    def _at_most(self, parts: _Parts, right: Array) -> None:
+    def _within(self, limit: TorqueLimit | VelocityLimit) -> Places:
+        """The places within the window of a bound."""
+        return np.flatnonzero((self.a >= limit.start) & (self.a <= limit.stop))
+
+    def _at_most(self, parts: _Parts, right: Array, places: Places | None = None) -> None:
         import clarabel
 
-        self._put(parts, self.height + np.arange(self.count), 1.0)
-        self._close(right, [clarabel.NonnegativeConeT(self.count)])
+        at = np.arange(self.count) if places is None else places
+        rows = self.height + np.arange(len(at))
+        for variable, part in parts.items():
+            self.entries.append((rows, variable * self.count + at, part[at]))
+        self._close(right[at], [clarabel.NonnegativeConeT(len(at))])
 
     def _cone(self, *sides: tuple[_Parts, Array]) -> None:
         """That the first side is at least the size of the two others, at every place."""
@@ -318,9 +394,13 @@ def _refined(plane: PhasePlane, solved: PhaseOptimum) -> Array:
     """The elements with further ends around every change of what is active."""
     active = _active(plane, solved)
     changes = np.flatnonzero((active[:, 1:] != active[:, :-1]).any(axis=0))
+    ends = np.sort(_in_s([end for limit in plane.windows for end in (limit.start, limit.stop)]))
+    # at the end of a window there is an end already
+    changes = changes[np.searchsorted(ends, solved.s[changes]) == np.searchsorted(ends, solved.s[changes + 1])]
     before, after = solved.s[changes], solved.s[changes + 1]
     edges = np.unique(np.concatenate([solved.edges, before, after, 0.5 * (before + after)]))
-    return np.asarray(edges[np.append(True, np.diff(edges) > SMALLEST_ELEMENT)])
+    far = np.append(True, np.diff(edges) > SMALLEST_ELEMENT)
+    return np.asarray(edges[far | np.isin(edges, _in_s(plane.jumps))])
 
 
 def _along(torque: AnyTorque, solved: PhaseOptimum) -> Array:
@@ -336,8 +416,13 @@ def _along(torque: AnyTorque, solved: PhaseOptimum) -> Array:
 
 def _active(plane: PhasePlane, solved: PhaseOptimum) -> Array:
     """Which bounds are active at every place, one row a bound and sign."""
-    near, rows = 1.0 - PHASE_ACTIVE, [solved.b > plane.B * (1.0 - PHASE_ACTIVE)]
-    bounds = [(_along(bound.torque, solved), bound.at_rest - bound.fall * solved.b) for bound in plane.bounds]
+    near, a = 1.0 - PHASE_ACTIVE, np.sin(np.pi * solved.s / 2.0) ** 2
+    rows = [solved.b > near * np.minimum(plane.B, plane.velocity_bound(a, a))]
+    bounds = []
+    for bound in plane.bounds:
+        within = (a >= bound.start) & (a <= bound.stop)
+        most = np.where(within, bound.at_rest - bound.fall * solved.b, inf)
+        bounds.append((_along(bound.torque, solved), most))
     if plane.peak is not None:
         bounds.append((_along(plane.peak, solved), np.full(len(solved.b), solved.objective)))
     for torque, most in bounds:

@@ -32,6 +32,8 @@ class PricedTorque:
     at_rest: float = inf
     fall: float = 0.0
     side: Literal[-1, 0, 1] = 0
+    start: float = 0.0
+    stop: float = 1.0
 
 
 def entries_of(plane: PhasePlane) -> list[PricedTorque]:
@@ -42,7 +44,8 @@ def entries_of(plane: PhasePlane) -> list[PricedTorque]:
     ['squared', 'bound']
     """
     bounds = [
-        PricedTorque(bound.torque.branches[0], "bound", bound.at_rest, bound.fall, bound.side) for bound in plane.bounds
+        PricedTorque(bound.torque.branches[0], "bound", bound.at_rest, bound.fall, bound.side, bound.start, bound.stop)
+        for bound in plane.bounds
     ]
     entries = [entry for entry in bounds if entry.side != 0]
     entries += [] if plane.squared is None else [PricedTorque(plane.squared.branches[0], "squared")]
@@ -72,6 +75,12 @@ class InnerMinimum:
             PricedTorque(entry.torque, entry.role, peak) if entry.role == "peak" else entry
             for entry in entries_of(plane)
         ]
+        self.most_velocity = plane.velocity_bound(a, a)
+        self.outside = {
+            entry: np.where((a >= entry.start) & (a <= entry.stop), 0.0, inf)
+            for entry in self.entries
+            if (entry.start, entry.stop) != (0.0, 1.0)
+        }
         self.maxima = [(first.branches[0], second.branches[0]) for first, second in plane.maxima]
         torques = dict.fromkeys([entry.torque for entry in self.entries] + [t for ts in self.maxima for t in ts])
         self.factors = {torque: torque.values(a) for torque in torques}
@@ -81,7 +90,7 @@ class InnerMinimum:
 
     def velocity(self, near: Array) -> Array:
         """The velocities of least Lagrangian around given ones, by golden sections of their logarithms."""
-        B = self.plane.greatest_velocity
+        B = self.most_velocity
         start = np.log(np.minimum(near, B))
         low, high = start - _AROUND, np.minimum(start + _AROUND, np.log(B))
         inner = [high - _GOLD * (high - low), low + _GOLD * (high - low)]
@@ -95,10 +104,14 @@ class InnerMinimum:
             new = self._value(np.exp(np.where(left, first, second)))
             inner, values = [first, second], [np.where(left, new, known), np.where(left, known, new)]
         best = np.exp(0.5 * (low + high))
-        if inf == B:
+        if np.isinf(B).all():
             return best
-        at_bound = np.full_like(best, B)
+        at_bound = np.where(np.isfinite(B), B, best)
         return np.where(self._value(best) <= self._value(at_bound), best, at_bound)
+
+    def _most(self, entry: PricedTorque, b: Array) -> Array:
+        """The bound of a torque at velocities, infinite outside its window."""
+        return np.asarray(entry.at_rest - entry.fall * b + self.outside.get(entry, 0.0))
 
     def prices(self, b: Array) -> Prices:
         """The prices of all torques at velocities, and the shares of the first torque in every maximum."""
@@ -151,8 +164,7 @@ class InnerMinimum:
     def _is_active(self, entry: PricedTorque, b: Array, c: Array) -> NDArray[np.bool_]:
         if entry.side:
             return np.asarray(np.abs(self._beyond(entry, b, c)) <= PHASE_TIE * entry.torque.size)
-        most = entry.at_rest - entry.fall * b
-        return np.asarray(np.abs(self._torque(entry.torque, b, c)) >= most * (1.0 - PHASE_TIE))
+        return np.asarray(np.abs(self._torque(entry.torque, b, c)) >= self._most(entry, b) * (1.0 - PHASE_TIE))
 
     def _at_vertices(self, b: Array, c: Array, prices: list[Array]) -> None:
         """Prices of a bound and of one of one side that are active together: so that no other velocity is better."""
@@ -199,7 +211,7 @@ class InnerMinimum:
                 if entry.role == "squared" or entry.side:
                     continue
                 inertia, square, drag, load = self.factors[entry.torque]
-                free, most = (square * b + drag) * b + load, entry.at_rest - entry.fall * b
+                free, most = (square * b + drag) * b + load, self._most(entry, b)
                 low = np.fmax(low, (-most - free) / inertia)
                 high = np.fmin(high, (most - free) / inertia)
         candidates = self._candidates(b, low, high)
