@@ -25,7 +25,8 @@ from optlaws.cycles.optimisation.objectives import (
     read_mean_force,
 )
 from optlaws.cycles.optimisation.search_spaces import remark_on_degrees, search_space
-from optlaws.cycles.specification.drive import CycleDrive, Effort, effort, read_drive
+from optlaws.cycles.specification.drive import CycleDrive, read_drive
+from optlaws.cycles.specification.effort import Effort, effort
 from optlaws.cycles.specification.joints import LawSpan, Layout, layout
 from optlaws.cycles.specification.load import LOAD, Load, read_load
 from optlaws.cycles.specification.position_drive import PositionDrive

@@ -47,6 +47,10 @@ def test_a_motor_with_a_gear_needs_less_by_a_law_of_its_own() -> None:
     sheet = drive.sheet("modified sine", "0 deg", "45 deg", "0.25 s", period="0.6 s")
     assert known.effort.peak_force == pytest.approx(sheet.peak_torque, rel=1e-6)
     assert known.effort.rms_force == pytest.approx(sheet.rms_torque, rel=1e-6)
+    assert known.effort.motoring_power == pytest.approx(sheet.motoring_power, rel=1e-9)
+    assert known.effort.braking_power == pytest.approx(sheet.braking_power, rel=1e-9)
+    assert known.effort.energy == pytest.approx(sheet.energy, rel=1e-9)
+    assert known.effort.braking_energy == pytest.approx(sheet.braking_energy, rel=1e-9)
     best = Cycle([Rise("45 deg", "0.25 s"), Dwell()], minimise="rms torque", **indexed)
     assert best.status.value == "optimal"
     assert best.objective < 0.92 * sheet.rms_torque

@@ -16,7 +16,8 @@ from typing import Any
 
 from optlaws.cycles.optimisation.drive_formulas import driven_mean, driven_peak, may_turn
 from optlaws.cycles.optimisation.objectives import FORCE, LOADED, POWER, CycleObjective, kind_of
-from optlaws.cycles.specification.drive import CycleDrive, read_drive, size_of
+from optlaws.cycles.specification.drive import CycleDrive, read_drive
+from optlaws.cycles.specification.effort import size_of
 from optlaws.cycles.specification.joints import LawSpan, Layout
 from optlaws.errors import InfeasibleProblem, SolverFailure
 from optlaws.motion.piece import Piece, factor

@@ -9,7 +9,7 @@ v, and F = u + d sgn v with u = m v' + c v. The mean of F² is then that of u² 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from optlaws.cycles.optimisation.objectives import POWER
@@ -50,7 +50,7 @@ def driven_peak(span: LawSpan, drive: CycleDrive | PositionDrive | None, stroke:
         nu == POWER
         and isinstance(known, CycleDrive)
         and known.inertia > 0.0
-        and known == CycleDrive(known.inertia, 0.0, 0.0, 0.0, 0.0)
+        and replace(known, regeneration=0.0) == CycleDrive(known.inertia, 0.0, 0.0, 0.0, 0.0)
     ):
         return Driven(FUNCTIONALS["D"], known.inertia * stroke**2 / span.duration**3)
     if isinstance(known, PositionDrive) and known.loses:
@@ -76,7 +76,7 @@ def driven_formula(
     unit = _unit(span, known, stroke)
     formula = _formula(span, known, stroke, unit)
     if nu == POWER:
-        return f"({formula})*b", unit * abs(factor(stroke, span.duration, 1))
+        return f"({formula})*b", unit * known.speed_ratio * abs(factor(stroke, span.duration, 1))
     return formula, unit
 
 

@@ -10,7 +10,7 @@ from operator import itemgetter
 from optlaws.cycles.optimisation.drive_formulas import may_turn
 from optlaws.cycles.optimisation.objectives import FORCE, CycleObjective, in_units, kind_of, limits_of_stretch
 from optlaws.cycles.optimisation.optimal import solve
-from optlaws.cycles.specification.drive import size_of
+from optlaws.cycles.specification.effort import size_of
 from optlaws.cycles.specification.joints import LawSpan, Layout, State
 from optlaws.cycles.specification.position_drive import PositionDrive
 from optlaws.cycles.specification.programme import TimedSegment, is_optimal

@@ -24,7 +24,8 @@ from optlaws.cycles.optimisation.optimal import (
     with_least_limit,
     with_mean_square,
 )
-from optlaws.cycles.specification.drive import CycleDrive, size_of, square_of_force
+from optlaws.cycles.specification.drive import CycleDrive
+from optlaws.cycles.specification.effort import size_of, square_of_force
 from optlaws.cycles.specification.joints import LawSpan, Layout
 from optlaws.cycles.specification.position_drive import PositionDrive
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -38,6 +39,24 @@ class PositionDrive:
     def loses(self) -> bool:
         """Whether a gear loses power, so that the torque at the motor is the greater of two."""
         return isinstance(self.source, Drive) and self.source.efficiencies != (1.0, 1.0)
+
+    @property
+    def regeneration(self) -> float:
+        """The share of the braking energy that is fed back; none without a motor."""
+        return self.source.regeneration if isinstance(self.source, Drive) else 0.0
+
+    @property
+    def speed_ratio(self) -> float:
+        """The speed of the motor by that of the mechanism's input; 1 without a motor."""
+        return self.source.ratio if isinstance(self.source, Drive) else 1.0
+
+    def kinks(self, piece: Piece) -> list[Callable[[Array], Array]]:
+        """Functions of the time at whose zeros the torque has kinks: where the power through a gear turns."""
+        return [lambda times: self._before_gear(piece, times)] if self.loses else []
+
+    def _before_gear(self, piece: Piece, times: Array) -> Array:
+        """The torque at the mechanism's input."""
+        return np.asarray(self.mechanism.torque(*(piece.values(times, nu) for nu in range(3))), dtype=np.float64)
 
     def force(self, y: Array, velocity: Array, acceleration: Array) -> Array:
         """The torque or force along a motion."""

@@ -170,23 +170,23 @@ class BestRatio:
 
 def drive_sheet(motion: MotorMotion, motor: Motor, period: float, regeneration: float) -> DriveSheet:
     """The sheet of a move that is made once in a period, with the share of the braking energy that is fed back."""
-    peak = motion.greatest(lambda k: np.abs(motion.torque(k)))
-    speed = motion.greatest(lambda k: np.abs(motion.speed(k)))
-    given, taken = motion.greatest(motion.power).value, motion.greatest(lambda k: -motion.power(k)).value
-    driving = motion.duration * motion.mean(lambda k: np.maximum(motion.power(k), 0.0))
-    braking = motion.duration * motion.mean(lambda k: np.maximum(-motion.power(k), 0.0))
+    peak = motion.parts.greatest(lambda k: np.abs(motion.torque(k)))
+    speed = motion.parts.greatest(lambda k: np.abs(motion.speed(k)))
+    given, taken = motion.parts.greatest(motion.power).value, motion.parts.greatest(lambda k: -motion.power(k)).value
+    driving = motion.duration * motion.parts.integral(lambda k: np.maximum(motion.power(k), 0.0))
+    braking = motion.duration * motion.parts.integral(lambda k: np.maximum(-motion.power(k), 0.0))
     rms = _rms(motion, period)
-    mean_speed = motion.duration / period * motion.mean(lambda k: np.abs(motion.speed(k)))
-    use = motion.greatest(lambda k: _use(np.abs(motion.torque(k)), motor.peak_at(motion.speed(k))))
+    mean_speed = motion.duration / period * motion.parts.integral(lambda k: np.abs(motion.speed(k)))
+    use = motion.parts.greatest(lambda k: _use(np.abs(motion.torque(k)), motor.peak_at(motion.speed(k))))
     rated = float(motor.continuous_at(mean_speed))
     load = float(np.max(motion.mechanism.inertia(motion.start + motion.stroke * np.linspace(0.0, 1.0, 721))))
     inertia = motion.train.inertia
     return DriveSheet(
-        *(peak.value, peak.k, rms, motion.holding_torque, speed.value, mean_speed),
+        *(peak.value, peak.place, rms, motion.holding_torque, speed.value, mean_speed),
         *(max(given, 0.0), max(taken, 0.0), driving, braking, driving - regeneration * braking),
         (1.0 - regeneration) * braking / period,
         load / motion.ratio**2 / inertia if inertia else inf,
-        *((use.value, use.k) if motor.curve else (0.0, 0.0)),
+        *((use.value, use.place) if motor.curve else (0.0, 0.0)),
         float(_use(np.array(rms), np.array(rated))),
         *(motor.peak_torque, rated, motor.greatest_speed),
     )
@@ -200,7 +200,7 @@ def _use(torque: Array, limit: Array) -> Array:
 
 def _rms(motion: MotorMotion, period: float) -> float:
     """The root mean square of the torque over a period."""
-    square = motion.duration * motion.mean(lambda k: motion.torque(k) ** 2)
+    square = motion.duration * motion.parts.integral(lambda k: motion.torque(k) ** 2)
     return sqrt((square + (period - motion.duration) * motion.holding_torque**2) / period)
 
 
@@ -209,7 +209,7 @@ class _ByRatio:
 
     def __init__(self, motion: MotorMotion, period: float) -> None:
         direct = motion.with_ratio(1.0)
-        self.k, self.weights = direct.places
+        self.k, self.weights = direct.parts.places
         self.weights = self.weights * (motion.duration / period)
         self.speed = np.asarray(direct.speed(self.k))
         self.dry = motion.train.coulomb * np.where(self.speed < 0.0, -1.0, 1.0)
