@@ -11,20 +11,23 @@ from optlaws.cycles.interchange import CycleInterchange
 from optlaws.cycles.kinematics import SegmentPeaks, TimedCycle
 from optlaws.cycles.optimisation.durations import durations
 from optlaws.cycles.optimisation.joint_limits import check_limits_at_joints
-from optlaws.cycles.optimisation.mean_force import Best, best_of
 from optlaws.cycles.optimisation.objectives import (
     FORCE,
     LOADED,
     POWER,
+    SUMS,
     CycleObjective,
     check_objective,
     kind_of,
     limits_of_stretch,
+    read_energy,
     read_limits,
     read_load_limits,
     read_mean_force,
 )
 from optlaws.cycles.optimisation.search_spaces import remark_on_degrees, search_space
+from optlaws.cycles.optimisation.shared_limits import Best, best_of
+from optlaws.cycles.optimisation.sums import total
 from optlaws.cycles.specification.drive import CycleDrive, read_drive
 from optlaws.cycles.specification.effort import Effort, effort
 from optlaws.cycles.specification.joints import LawSpan, Layout, layout
@@ -61,10 +64,11 @@ class Cycle(CycleInterchange):
         Of the master, "200 rpm", or the duration of the cycle, "0.3 s": one of them.
     minimise
         "acceleration", "velocity", "jerk", "rms acceleration", "rms jerk", "rms snap" of optimal segments, or of the
-        drive "force", "rms force" (of a table "torque", "rms torque") and "power".
+        drive "force", "rms force" (of a table "torque", "rms torque"), "power", "energy" and, of a `Drive` whose motor
+        has a motor constant, "heat": what its winding and its brake resistor burn.
     limits
-        Of all optimal segments: `{"velocity": "616 mm/s", "power": "400 W"}`; "rms force" and "rms torque" are of the
-        whole cycle, as motors are rated.
+        Of all optimal segments: `{"velocity": "616 mm/s", "power": "400 W"}`; "rms force", "rms torque" and "energy"
+        are of the whole cycle, as motors are rated.
     start
         Position at the start, 0 unless given.
     advance
@@ -174,6 +178,8 @@ class Cycle(CycleInterchange):
             return self.effort.peak_power
         if nu == FORCE:
             return self.effort.rms_force if mean else self.effort.peak_force
+        if nu in SUMS:
+            return total(self.pieces, nu, self._drive)
         if not mean:
             return max(peak.peak(nu) for peak in self.peaks)
         return sqrt(sum(piece.duration * piece.mean_square(nu) for piece in self.pieces) / self.duration)
@@ -355,6 +361,7 @@ class Cycle(CycleInterchange):
             self._load,
             read_load_limits(self.limits, self._load),
             read_mean_force(self.limits, self.axis),
+            read_energy(self.limits),
         )
 
     @kept_property

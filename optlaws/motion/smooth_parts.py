@@ -16,6 +16,9 @@ from optlaws.tolerances import BEFORE_BREAK, VALUE_ROUNDING
 _PANELS = 200
 _GAUSS = 10
 _POLISHED = 3
+_GOLDEN = 0.5 * (5.0**0.5 - 1.0)
+_SECTIONS = 44  # of a part: it is then as short as its share next to a break
+_HALVES = 52
 
 RealFunction = Callable[[Array], Array]
 
@@ -64,8 +67,6 @@ class SmoothParts:
 
     def greatest(self, function: RealFunction) -> Greatest:
         """The greatest value of a function: at the edges, beside them, and polished inside of the best parts."""
-        from scipy.optimize import minimize_scalar
-
         edges, lengths = self.edges, np.diff(self.edges)
         sides = (edges[:-1] + BEFORE_BREAK * lengths, edges[1:] - BEFORE_BREAK * lengths)
         places = np.concatenate([*sides, self.places[0], edges])
@@ -73,23 +74,33 @@ class SmoothParts:
         best = int(np.argmax(values))
         greatest = Greatest(float(values[best]), float(places[best]))
         inner = np.searchsorted(edges, places[np.argsort(values)[-_POLISHED:]], side="right") - 1
-        for i in np.unique(np.clip(inner, 0, len(lengths) - 1)):
-            place = minimize_scalar(
-                lambda at: -float(function(np.array([at]))[0]), bounds=(edges[i], edges[i + 1]), method="bounded",
-                options={"xatol": BEFORE_BREAK * lengths[i]},
-            )  # fmt: skip
-            if -place.fun > greatest.value:
-                greatest = Greatest(float(-place.fun), float(place.x))
-        return greatest
+        best_parts = np.unique(np.clip(inner, 0, len(lengths) - 1))
+        polished = _polished(function, edges[best_parts], edges[best_parts + 1])
+        return max(greatest, polished, key=lambda each: each.value)
+
+
+def _polished(function: RealFunction, low: Array, high: Array) -> Greatest:
+    """The greatest value between places, by golden sections of all parts at once."""
+    for _ in range(_SECTIONS):
+        first, last = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
+        left = np.asarray(function(first)) >= np.asarray(function(last))
+        low, high = np.where(left, low, first), np.where(left, last, high)
+    places = 0.5 * (low + high)
+    values = np.asarray(function(places))
+    best = int(np.argmax(values))
+    return Greatest(float(values[best]), float(places[best]))
 
 
 def _crossings(function: RealFunction, places: Array) -> Array:
     """Where a function changes its sign between places, by more than its rounding."""
-    from scipy.optimize import brentq
-
     lengths = np.diff(places)
     low, high = places[:-1] + BEFORE_BREAK * lengths, places[1:] - BEFORE_BREAK * lengths
     first, last = np.asarray(function(low)), np.asarray(function(high))
     rounding = VALUE_ROUNDING * float(np.max(np.abs([first, last]), initial=0.0))
-    changed = np.flatnonzero((first * last < 0.0) & (np.maximum(np.abs(first), np.abs(last)) > rounding))
-    return np.array([brentq(lambda at: float(function(np.array([at]))[0]), low[i], high[i]) for i in changed])
+    changed = (first * last < 0.0) & (np.maximum(np.abs(first), np.abs(last)) > rounding)
+    low, high, rising = low[changed], high[changed], last[changed] > 0.0
+    for _ in range(_HALVES if len(low) else 0):
+        middle = 0.5 * (low + high)
+        beyond = (np.asarray(function(middle)) > 0.0) == rising
+        low, high = np.where(beyond, low, middle), np.where(beyond, middle, high)
+    return 0.5 * (low + high)

@@ -15,7 +15,9 @@ from optlaws.errors import InputError
 from optlaws.motion.quantities import in_small_units, positive_quantity, table
 from optlaws.suggest import unknown_key
 
-FORCE, LOADED, POWER = -1, -2, -3
+FORCE, LOADED, POWER, ENERGY, HEAT = -1, -2, -3, -4, -5
+#: what is summed over the motions of a cycle as it is
+SUMS = (ENERGY, HEAT)
 #: what may be least over a cycle: the order of the derivative, and whether it is its root mean square
 OBJECTIVES = {
     "velocity": (1, False),
@@ -29,10 +31,13 @@ OBJECTIVES = {
     "power": (POWER, False),
     "rms force": (FORCE, True),
     "rms torque": (FORCE, True),
+    "energy": (ENERGY, False),
+    "heat": (HEAT, False),
 }
 LIMITS = {"velocity": 1, "acceleration": 2, "jerk": 3, "force": FORCE, "torque": FORCE, "power": POWER}
 #: limits of the whole cycle alone
 MEANS = ("rms force", "rms torque")
+TOTALS = (*MEANS, "energy")
 _FORCES = {"length": "force", "angle": "torque"}
 
 
@@ -41,7 +46,8 @@ class CycleObjective:
     """The objective of a cycle, one of `OBJECTIVES`, the limits of the whole in SI units, and the degree of its laws.
 
     `limits` are by the order of the derivative, of force or torque by -1, of power by -3; `loaded` by the load's output
-    and whether of its root mean square; `mean_force` is that of the root mean square of the force over the whole cycle.
+    and whether of its root mean square; `mean_force` is that of the root mean square of the force over the whole cycle,
+    `energy` that of its energy.
     """
 
     minimise: str
@@ -52,6 +58,12 @@ class CycleObjective:
     load: Load | None = None
     loaded: Mapping[tuple[str, bool], float] = field(default_factory=dict)
     mean_force: float | None = None
+    energy: float | None = None
+
+    @property
+    def shares(self) -> bool:
+        """Whether a limit is of the whole cycle, so that its motions share it."""
+        return self.mean_force is not None or self.energy is not None
 
     @property
     def of_load(self) -> bool:
@@ -60,7 +72,9 @@ class CycleObjective:
 
 
 def kind_of(minimise: str) -> tuple[int, bool]:
-    """The order of what is minimised (-1 a force, -2 of the load, -3 the power), and whether its root mean square.
+    """The order of what is minimised, and whether its root mean square.
+
+    -1 is a force, -2 of the load, -3 the power, -4 the energy, -5 the heat.
 
     >>> kind_of("rms jerk"), kind_of("load acceleration")
     ((3, True), (-2, False))
@@ -91,10 +105,10 @@ def read_limits(entries: Mapping[str, Any], axis: str, where: str) -> dict[int, 
         if name in LIMITS:
             limits[LIMITS[name]] = positive_quantity(value, _dimension(LIMITS[name], axis), f"{where}, {name}")
             continue
-        if where != "limits" and name in MEANS:
+        if where != "limits" and name in TOTALS:
             raise InputError(f"{where}, {name} is of the whole cycle: give it among the limits of the Cycle")
-        if name not in MEANS and (where != "limits" or not name.removeprefix("rms ").startswith(LOAD)):
-            raise InputError(f"{where}: {unknown_key(name, (*LIMITS, *MEANS), 'limit')}")
+        if name not in TOTALS and (where != "limits" or not name.removeprefix("rms ").startswith(LOAD)):
+            raise InputError(f"{where}: {unknown_key(name, (*LIMITS, *TOTALS), 'limit')}")
     return limits
 
 
@@ -106,6 +120,15 @@ def read_mean_force(entries: Mapping[str, Any], axis: str) -> float | None:
     if not given:
         return None
     return positive_quantity(entries[given[0]], _FORCES[axis], f"limits, {given[0]}")
+
+
+def read_energy(entries: Mapping[str, Any]) -> float | None:
+    """The limit of the energy over the cycle, J; None if there is none."""
+    if "energy" not in entries:
+        return None
+    if any(name in entries for name in MEANS):
+        raise InputError("limits: energy and an rms force or torque are both of the whole cycle: give one of them")
+    return positive_quantity(entries["energy"], "energy", "limits, energy")
 
 
 def in_units(nu: int, value: float, axis: str) -> str:

@@ -85,6 +85,11 @@ class CycleDrive:
         )
 
     @property
+    def copper(self) -> float:
+        """The copper heat by the squared force: of no motor here."""
+        return 0.0
+
+    @property
     def speed_ratio(self) -> float:
         """The velocity at which the force acts by that of the motion."""
         return 1.0

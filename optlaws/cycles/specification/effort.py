@@ -110,6 +110,11 @@ class PieceEffort:
         return given - self.drive.regeneration * taken
 
     @property
+    def heat(self) -> float:
+        """The copper heat and the energy that is taken back and not fed back, J."""
+        return self.drive.copper * self.square + (1.0 - self.drive.regeneration) * self.energies[1]
+
+    @property
     def square(self) -> float:
         """The integral of the square of the force."""
         return self.parts.integral(lambda times: self.force(times) ** 2)
@@ -147,8 +152,3 @@ def size_of(piece: Piece, nu: int, drive: CycleDrive | PositionDrive | None, *, 
     if nu == POWER:
         return max(along.powers)
     return sqrt(along.square / piece.duration) if mean else along.peak_force.value
-
-
-def square_of_force(drive: CycleDrive | PositionDrive, piece: Piece) -> float:
-    """The integral of the square of the force over a piece, in SI units."""
-    return PieceEffort(drive, piece).square

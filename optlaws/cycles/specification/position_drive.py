@@ -8,7 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from optlaws.errors import InputError
-from optlaws.mechanisms.drives.drive_train import Drive
+from optlaws.formulas.tree import Number
+from optlaws.mechanisms.drives.drive_train import DimensionlessDrive, Drive
+from optlaws.mechanisms.linkages.dimensionless import DimensionlessMechanism
 from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.motion.piece import Piece
 from optlaws.numbers import Array
@@ -46,6 +48,11 @@ class PositionDrive:
         return self.source.regeneration if isinstance(self.source, Drive) else 0.0
 
     @property
+    def copper(self) -> float:
+        """The copper heat of the motor by its squared torque, W/(N m)²; 0 without a motor constant."""
+        return self.source.motor.constant**-2 if isinstance(self.source, Drive) else 0.0
+
+    @property
     def speed_ratio(self) -> float:
         """The speed of the motor by that of the mechanism's input; 1 without a motor."""
         return self.source.ratio if isinstance(self.source, Drive) else 1.0
@@ -70,14 +77,32 @@ class PositionDrive:
         """The torque or force where a move begins or ends, on its way in a direction."""
         return float(self.source.torque(position, velocity or TINY * direction, acceleration))
 
+    def moved(self, stroke: float, duration: float, offset: float) -> DimensionlessMechanism | DimensionlessDrive:
+        """Torque, power and energy over a stroke as formulas of a law that never turns back."""
+        return self.source.dimensionless(offset, stroke, duration)
+
     def formula(self, stroke: float, duration: float, offset: float, unit: float) -> str:
         """The torque in a unit, counted in the direction of the stroke, of a law that never turns back."""
-        moved = self.source.dimensionless(offset, stroke, duration)
+        moved = self.moved(stroke, duration, offset)
         return f"{moved.unit / unit!r}*({moved.torque})"
+
+    @property
+    def brakes_as_it_drives(self) -> bool:
+        """Whether motor and load are braked together: the torque of power back is then never greater than the torque.
+
+        So it is where nothing but constant inertia is moved, and where motor and gear take no torque themselves.
+        """
+        if not isinstance(self.source, Drive):
+            return True
+        mechanism, train = self.mechanism, self.source.train
+        if not (train.inertia or train.viscous or train.coulomb):
+            return True
+        rubs = mechanism.viscous or mechanism.coulomb or train.viscous or train.coulomb
+        return not rubs and isinstance(mechanism.inertia_formula, Number) and mechanism.load_formula == Number(0.0)
 
     def size(self, stroke: float, duration: float, offset: float) -> float:
         """About how great the torque is along a motion: a unit in which it is near 1."""
-        return 4.0 * self.source.dimensionless(offset, stroke, duration).unit
+        return 4.0 * self.moved(stroke, duration, offset).unit
 
 
 def position_drive(source: Mechanism | Drive, axis: str) -> PositionDrive:

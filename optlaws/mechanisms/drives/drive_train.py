@@ -32,10 +32,16 @@ class DimensionlessDrive:
     ----------
     torque
         At the motor, above 0 in the direction of the stroke.
+    branches
+        The torques of which it is the greatest: where a gear loses power, that of power to the load and that of power
+        back.
     power
         Of the motor, above 0 where it drives: torque times b.
     energy
         Of which the integral is the energy of the move: braking counts by the share that is fed back.
+    heat
+        Of which the integral is the copper heat and the braking energy that is not fed back; empty of a motor without
+        a motor constant.
     unit
         Of the torque, N m.
     power_unit, energy_unit
@@ -43,8 +49,10 @@ class DimensionlessDrive:
     """
 
     torque: str
+    branches: tuple[str, ...]
     power: str
     energy: str
+    heat: str
     unit: float
     power_unit: float
     energy_unit: float
@@ -166,13 +174,14 @@ class Drive(JsonText):
     def torque(self, position: Any, velocity: Any, acceleration: Any) -> Any:  # noqa: ANN401 - numbers or arrays
         """The torque at the motor, N m, from position, velocity and acceleration of the mechanism's input, SI units.
 
-        It moves the way of its velocity, and from rest that of its acceleration.
+        It moves the way of its velocity, and from rest that of its acceleration; without both it holds the load.
         """
         v, w = np.asarray(velocity, dtype=np.float64), np.asarray(acceleration, dtype=np.float64)
         direction, train, i = np.where(v == 0.0, np.sign(w), np.sign(v)), self.train, self.ratio
         load = np.asarray(self.mechanism.torque(position, v, w)) + self.mechanism.coulomb * (direction - np.sign(v))
         inertial = i * (train.inertia * w + train.viscous * v) + train.coulomb * direction
-        values = inertial + train.through_gear(load * direction) * direction / i
+        through = np.where(direction == 0.0, load, train.through_gear(load * direction) * direction)
+        values = inertial + through / i
         return values if np.ndim(values) else float(values)
 
     def dimensionless(
@@ -210,11 +219,22 @@ class Drive(JsonText):
         shares = (1.0,) if to_load == back == 1.0 else (1.0 / to_load, back)
         through = [f"{share!r}*({moved.torque})" if share != 1.0 else moved.torque for share in shares]
         torque = " + ".join([*motor, through[0] if len(through) == 1 else f"max({', '.join(through)})"])
-        powers = [f"({' + '.join([*motor, load])})*b" for load in through]
+        branches = tuple(" + ".join([*motor, load]) for load in through)
+        powers = [f"({branch})*b" for branch in branches]
         fed_back = [f"{self.regeneration!r}*{power}" for power in powers] if self.regeneration else ["0"]
         several = powers if self.regeneration == 1.0 else [*powers, *fed_back]
         power, energy = (some[0] if len(some) == 1 else f"max({', '.join(some)})" for some in (powers, several))
-        return DimensionlessDrive(torque, power, energy, unit, unit * i * speed, unit * i * abs(moved.stroke))
+        units = (unit, unit * i * speed, unit * i * abs(moved.stroke))
+        copper = unit * moved.duration / (self.motor.constant**2 * i * abs(moved.stroke))
+        heat = f"{copper!r}*({torque})^2 + {self._burnt(powers)}" if copper else ""
+        return DimensionlessDrive(torque, branches, power, energy, heat, *units)
+
+    def _burnt(self, powers: list[str]) -> str:
+        """The braking power that is not fed back, from the powers of which the greatest is the motor's."""
+        share = 1.0 - self.regeneration
+        if len(powers) == 1:
+            return f"{share!r}*(max({powers[0]}, 0) - {powers[0]})"
+        return f"{share!r}*(max({', '.join(powers)}, 0) - max({', '.join(powers)}))"
 
     def sheet(
         self,

@@ -50,6 +50,21 @@ class DimensionlessMechanism:
         return drive_torque(inertia=self.inertia, friction=self.friction, load=self.load)
 
     @property
+    def branches(self) -> tuple[str, ...]:
+        """The torques of which `torque` is the greatest: one, where no gear loses power."""
+        return (self.torque,)
+
+    @property
+    def power(self) -> str:
+        """The power, above 0 where the input is driven: torque times b."""
+        return f"({self.torque})*b"
+
+    @property
+    def energy(self) -> str:
+        """A formula of which the integral is the energy of the move, of which nothing is fed back."""
+        return f"max({self.power}, 0)"
+
+    @property
     def power_unit(self) -> float:
         """The unit of torque times b, W."""
         return self.unit * abs(self.stroke) / self.duration
