@@ -11,6 +11,7 @@ from optlaws.cycles.interchange import CycleInterchange
 from optlaws.cycles.kinematics import SegmentPeaks, TimedCycle
 from optlaws.cycles.optimisation.durations import durations
 from optlaws.cycles.optimisation.joint_limits import check_limits_at_joints
+from optlaws.cycles.optimisation.motor_limits import motor_limits
 from optlaws.cycles.optimisation.objectives import (
     FORCE,
     LOADED,
@@ -19,11 +20,13 @@ from optlaws.cycles.optimisation.objectives import (
     CycleObjective,
     check_objective,
     kind_of,
+    least_of,
     limits_of_stretch,
     read_energy,
     read_limits,
     read_load_limits,
     read_mean_force,
+    tightest,
 )
 from optlaws.cycles.optimisation.search_spaces import remark_on_degrees, search_space
 from optlaws.cycles.optimisation.shared_limits import Best, best_of
@@ -68,7 +71,7 @@ class Cycle(CycleInterchange):
         has a motor constant, "heat": what its winding and its brake resistor burn.
     limits
         Of all optimal segments: `{"velocity": "616 mm/s", "power": "400 W"}`; "rms force", "rms torque" and "energy"
-        are of the whole cycle, as motors are rated.
+        are of the whole cycle, as motors are rated; `{"motor": True}` are all those of the motor of a `Drive`.
     start
         Position at the start, 0 unless given.
     advance
@@ -352,15 +355,16 @@ class Cycle(CycleInterchange):
 
     @kept_property
     def _cycle_objective(self) -> CycleObjective:
+        motor = motor_limits(self.limits, self._drive, self.programme)
         return CycleObjective(
             self.minimise,
-            read_limits(self.limits, self.axis, "limits"),
+            tightest(read_limits(self.limits, self.axis, "limits"), motor.of_motions),
             whole(self.order, "order", least=2, most=10),
             whole(self.degree, "degree", most=MOST_DEGREE),
             self._drive,
             self._load,
             read_load_limits(self.limits, self._load),
-            read_mean_force(self.limits, self.axis),
+            least_of(read_mean_force(self.limits, self.axis), motor.mean_torque),
             read_energy(self.limits),
         )
 

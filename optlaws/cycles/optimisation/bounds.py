@@ -16,6 +16,7 @@ from typing import Any
 
 from optlaws.cycles.optimisation.drive_formulas import Driven, driven_mean, driven_peak, may_turn
 from optlaws.cycles.optimisation.objectives import (
+    CURVE,
     FORCE,
     LOADED,
     POWER,
@@ -172,4 +173,4 @@ def is_exact(span: LawSpan, objective: CycleObjective) -> bool:
     if not isinstance(drive, PositionDrive) or not drive.loses or drive.brakes_as_it_drives:
         return True
     limited = {order for stretch in span.stretches for order in limits_of_stretch(stretch, objective, "angle")}
-    return not limited & {FORCE, POWER} and (mean or nu not in {FORCE, POWER})
+    return not limited & {CURVE, FORCE, POWER} and (mean or nu not in {FORCE, POWER})

@@ -144,6 +144,12 @@ def _formula(span: LawSpan, drive: CycleDrive | PositionDrive, stroke: float, un
     return drive.formula(stroke, span.duration, span.origin, unit)
 
 
+def branches_of(span: LawSpan, drive: PositionDrive, stroke: float) -> tuple[str, str, float]:
+    """The torque at the motor, that of power that flows back through the gear, and their unit."""
+    formula, unit = driven_formula(span, drive, stroke, FORCE)
+    return formula, _branches(span, drive, stroke)[-1], unit
+
+
 def _branches(span: LawSpan, drive: PositionDrive, stroke: float) -> tuple[str, ...]:
     """The torques at the motor of power that flows to the load and back, in the unit of the span's force."""
     moved = drive.moved(stroke, span.duration, span.origin)

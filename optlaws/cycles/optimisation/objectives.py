@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from math import inf
 from typing import Any
 
 from optlaws.cycles.specification.drive import CycleDrive
@@ -15,7 +16,7 @@ from optlaws.errors import InputError
 from optlaws.motion.quantities import in_small_units, positive_quantity, table
 from optlaws.suggest import unknown_key
 
-FORCE, LOADED, POWER, ENERGY, HEAT = -1, -2, -3, -4, -5
+FORCE, LOADED, POWER, ENERGY, HEAT, CURVE = -1, -2, -3, -4, -5, -6
 #: what is summed over the motions of a cycle as it is
 SUMS = (ENERGY, HEAT)
 #: what may be least over a cycle: the order of the derivative, and whether it is its root mean square
@@ -37,7 +38,7 @@ OBJECTIVES = {
 LIMITS = {"velocity": 1, "acceleration": 2, "jerk": 3, "force": FORCE, "torque": FORCE, "power": POWER}
 #: limits of the whole cycle alone
 MEANS = ("rms force", "rms torque")
-TOTALS = (*MEANS, "energy")
+TOTALS = (*MEANS, "energy", "motor")
 _FORCES = {"length": "force", "angle": "torque"}
 
 
@@ -126,8 +127,11 @@ def read_energy(entries: Mapping[str, Any]) -> float | None:
     """The limit of the energy over the cycle, J; None if there is none."""
     if "energy" not in entries:
         return None
-    if any(name in entries for name in MEANS):
-        raise InputError("limits: energy and an rms force or torque are both of the whole cycle: give one of them")
+    if any(name in entries for name in (*MEANS, "motor")):
+        raise InputError(
+            "limits: energy and an rms force or torque, which a motor has as well, are both of the whole cycle: give "
+            "one of them"
+        )
     return positive_quantity(entries["energy"], "energy", "limits, energy")
 
 
@@ -137,6 +141,8 @@ def in_units(nu: int, value: float, axis: str) -> str:
     >>> in_units(1, 0.616, "length"), in_units(FORCE, 120.0, "length"), in_units(3, 900.0, "angle")
     ('the velocity 616 mm/s', 'the force 120 N', 'the jerk 900 rad/s^3')
     """
+    if nu == CURVE:
+        return f"the share {value:.6g} of the motor's curve"
     if nu in {FORCE, POWER}:
         name, unit = ("power", "W") if nu == POWER else (_FORCES[axis], "N" if axis == "length" else "N m")
         return f"the {name} {value:.6g} {unit}"
@@ -154,6 +160,14 @@ def limits_of_stretch(stretch: TimedSegment, objective: CycleObjective, axis: st
     """Limits of a segment by order: its own and those of the whole cycle, whichever is less."""
     entries = stretch.given.limits if isinstance(stretch.given, Move | Free) else {}
     given = read_limits(entries, axis, f"{stretch.where}: limits")
-    orders = {*objective.limits, *given}
-    infinite = float("inf")
-    return {nu: min(objective.limits.get(nu, infinite), given.get(nu, infinite)) for nu in sorted(orders)}
+    return tightest(objective.limits, given)
+
+
+def tightest(limits: Mapping[int, float], others: Mapping[int, float]) -> dict[int, float]:
+    """Limits of both, whichever is less."""
+    return {nu: min(limits.get(nu, inf), others.get(nu, inf)) for nu in sorted({*limits, *others})}
+
+
+def least_of(limit: float | None, other: float | None) -> float | None:
+    """The lesser of two limits of which any may be none."""
+    return min((known for known in (limit, other) if known is not None), default=None)

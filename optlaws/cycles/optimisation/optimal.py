@@ -13,8 +13,10 @@ from math import inf, sqrt
 from operator import itemgetter
 from typing import Any
 
-from optlaws.cycles.optimisation.drive_formulas import driven_formula, driven_mean, driven_peak, may_turn
+from optlaws.cycles.optimisation.drive_formulas import Driven, driven_formula, driven_mean, driven_peak, may_turn
+from optlaws.cycles.optimisation.motor_limits import driven_curve
 from optlaws.cycles.optimisation.objectives import (
+    CURVE,
     ENERGY,
     FORCE,
     LOADED,
@@ -42,7 +44,8 @@ from optlaws.cycles.specification.programme import is_optimal
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.motion.piece import Piece, factor
 from optlaws.motion.quantities import in_small_units
-from optlaws.synthesis.functionals.makers import integral
+from optlaws.synthesis.functionals.makers import integral, peak
+from optlaws.synthesis.limits.drive_limits import limit_beside
 from optlaws.synthesis.problem.constants import FUNCTIONALS, Functional
 from optlaws.synthesis.problem.expression import maximum
 from optlaws.synthesis.problem.problem import Problem
@@ -55,7 +58,7 @@ from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 from optlaws.synthesis.status import Status
 from optlaws.tolerances import AGREEMENT
 
-_DRIVEN = (FORCE, POWER)
+_DRIVEN = (FORCE, POWER, CURVE)
 _BY_DRIVE = (*_DRIVEN, *SUMS)
 _PEAKS = {1: "B", 2: "C", 3: "J"}
 _ROUGH = 15  # degree of Z where points on the way or velocities bend the law
@@ -132,9 +135,8 @@ def with_least_limit(
     stroke = scale(span)
     problem = span_problem(span, objective, axis, stroke)
     for nu, most in limits_of_stretch(span.stretches[0], objective, axis).items():
-        constants = (
-            driven_peak(span, objective.drive, stroke, nu).constants if nu in _DRIVEN else (FUNCTIONALS[_PEAKS[nu]],)
-        )
+        driven = _limited(span, objective, stroke, nu) if nu in _DRIVEN else None
+        constants = (FUNCTIONALS[_PEAKS[nu]],) if driven is None else driven.constants
         limit = problem.range(constants[0].name)
         others = {other: best for other, best in problem.bounded if other not in constants}
         least_of = constants[0] if len(constants) == 1 else maximum(*constants)
@@ -146,14 +148,29 @@ def with_least_limit(
         if limit is not None and least > limit.high:
             allowed, needed = (in_units(nu, value, axis) for value in (most, least / limit.high * most))
             space = search_space(problem, span, objective.order)
+            proven = _whatever_degree(replace(problem, minimise=least_of), driven)
+            beyond = ""
+            if proven is not None and driven is not None and proven > limit.high:
+                beyond = "; no law that never turns back, of whatever degree, takes less than "
+                beyond += in_units(nu, proven / limit.high * most, axis)
             return InfeasibleProblem(
                 f"{span.where}: no law keeps its limits in {span.duration:.9g} s: among {space} the least is {needed}, "
-                f"but its limit is {allowed}: give it more time, a wider limit or a higher degree",
+                f"but its limit is {allowed}{beyond}: give it more time, a wider limit or a higher degree",
                 problem=problem,
                 tried=error.tried,
                 proof=error.proof,
             )
     return error
+
+
+def _whatever_degree(problem: Problem, driven: Driven | None) -> float | None:
+    """What no law that never turns back can beat of a peak of a drive; None where it is not known."""
+    if driven is None:
+        return None
+    free = replace(problem, bounds={}, B=None, C=None, D=None, J=None)
+    peaks: list[Any] = [peak(formula) for formula in driven.beneath] or [problem.minimise]
+    limits = (limit_beside(replace(free, minimise=each, symmetric=False, monotone=True)) for each in peaks)
+    return max((limit.value for limit in limits if limit is not None), default=None)
 
 
 def with_share(problem: Problem, span: LawSpan, objective: CycleObjective, stroke: float, share: float) -> Problem:
@@ -279,9 +296,16 @@ def _limits(
 def _bound(span: LawSpan, objective: CycleObjective, stroke: float, nu: int, most: float) -> list[tuple[Any, Range]]:
     """A limit of a whole span as bounds of its constants."""
     if nu in _DRIVEN:
-        driven = driven_peak(span, objective.drive, stroke, nu)
+        driven = _limited(span, objective, stroke, nu)
         return [(constant, Range(0.0, most / driven.unit)) for constant in driven.constants]
     return [(_PEAKS[nu], Range(0.0, _law_limit(span, stroke, nu, most)))]
+
+
+def _limited(span: LawSpan, objective: CycleObjective, stroke: float, nu: int) -> Driven:
+    """What a limit of the drive is of."""
+    if nu == CURVE:
+        return driven_curve(span, objective.drive, stroke)
+    return driven_peak(span, objective.drive, stroke, nu)
 
 
 def _quantity(span: LawSpan, objective: CycleObjective, stroke: float, nu: int, most: float) -> tuple[str, float]:
