@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from math import sqrt
 from typing import Any
 
+import numpy as np
+
 from optlaws.cycles.interchange import CycleInterchange
 from optlaws.cycles.kinematics import SegmentPeaks, TimedCycle
+from optlaws.cycles.optimisation.drive_formulas import known_drive
 from optlaws.cycles.optimisation.durations import durations
 from optlaws.cycles.optimisation.joint_limits import check_limits_at_joints
 from optlaws.cycles.optimisation.motor_limits import motor_limits
@@ -31,8 +35,9 @@ from optlaws.cycles.optimisation.objectives import (
 from optlaws.cycles.optimisation.search_spaces import remark_on_degrees, search_space
 from optlaws.cycles.optimisation.shared_limits import Best, best_of
 from optlaws.cycles.optimisation.sums import total
+from optlaws.cycles.specification.cycle_sheet import CycleSheet, cycle_sheet
 from optlaws.cycles.specification.drive import CycleDrive, read_drive
-from optlaws.cycles.specification.effort import Effort, effort
+from optlaws.cycles.specification.effort import Effort, PieceEffort, SegmentEffort, effort
 from optlaws.cycles.specification.joints import LawSpan, Layout, layout
 from optlaws.cycles.specification.load import LOAD, Load, read_load
 from optlaws.cycles.specification.position_drive import PositionDrive
@@ -43,9 +48,9 @@ from optlaws.kept import kept_property
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.mechanisms.machine.over_time import RepeatedMotion
-from optlaws.motion.piece import Piece
+from optlaws.motion.piece import Piece, by_pieces
 from optlaws.motion.quantities import TURN, quantity, written
-from optlaws.numbers import MOST_DEGREE, Quantity, derivative, number_or_array, real_times, whole
+from optlaws.numbers import MOST_DEGREE, Array, Quantity, derivative, number_or_array, real_times, whole
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.status import Status
@@ -272,6 +277,43 @@ class Cycle(CycleInterchange):
         if self._drive is None:
             raise InputError("the cycle has no drive: give one, such as drive={'mass': '2 kg', 'gravity': '20 N'}")
         return effort(self._drive, self.pieces, self.duration)
+
+    @kept_property
+    def sheet(self) -> CycleSheet:
+        """What the cycle asks of its motor: torques, speed, powers, energies, and margins to the motor's limits.
+
+        Raises
+        ------
+        InputError
+            If the drive is no `Drive` with a motor.
+        """
+        if not isinstance(self._drive, PositionDrive):
+            raise InputError("the cycle has no motor: give one, as drive=Drive(mechanism, Motor(...), ratio=20)")
+        return cycle_sheet(self._drive, self.effort, self.pieces, self.duration)
+
+    @kept_property
+    def efforts(self) -> tuple[SegmentEffort, ...]:
+        """Peaks of force and power, the RMS force and the energies of every segment, in SI units."""
+        drive, pieces = known_drive(self._drive), self.pieces
+        spans = [(next(p for p in reversed(pieces) if p.start <= each.start), each) for each in self.peaks]
+        return tuple(
+            PieceEffort(drive, piece, (each.start, each.start + each.duration)).of_segment(each.name)
+            for piece, each in spans
+        )
+
+    def force(self, time: Any) -> Any:  # noqa: ANN401 - a number for a number, an array for arrays
+        """Force or torque of the drive at a time in seconds: at the follower or table, the input or the motor."""
+        return self._of_drive(time, PieceEffort.force)
+
+    def power(self, time: Any) -> Any:  # noqa: ANN401 - as the force
+        """Power of the drive at a time in seconds, W: above 0 where it drives, below where it brakes."""
+        return self._of_drive(time, PieceEffort.power)
+
+    def _of_drive(self, time: Any, function: Callable[[PieceEffort, Array], Array]) -> Any:  # noqa: ANN401
+        drive = known_drive(self._drive)
+        places = np.mod(real_times(time), self.duration)
+        along = [partial(function, PieceEffort(drive, piece)) for piece in self.pieces]
+        return number_or_array(by_pieces(self.pieces, along, places))
 
     def __call__(self, time: Any, nu: int = 0) -> Any:  # noqa: ANN401 - a number for a number, an array for arrays
         """Position (nu 0), velocity, acceleration, jerk at a time in seconds, in SI units; the cycle repeats."""

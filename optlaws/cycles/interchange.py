@@ -117,6 +117,10 @@ class CycleInterchange(JsonText):
             row = {"segment": peaks.name, "start, s": peaks.start, "duration, s": peaks.duration}
             row |= {f"peak {name}, {units[name]}": peaks.peak(nu) for nu, name in enumerate(QUANTITIES)}
             rows.append(row | {f"leap of {name}, {units[name]}": joint[name] for name in QUANTITIES[1:3]})
+        for row, taken in zip(rows, cycle.efforts if cycle.drive is not None else (), strict=False):
+            name, unit = ("force", "N") if cycle.axis == "length" else ("torque", "N m")
+            row |= {f"peak {name}, {unit}": taken.peak_force, f"RMS {name}, {unit}": taken.rms_force}
+            row |= {"motoring power, W": taken.motoring_power, "braking power, W": taken.braking_power}
         return pd.DataFrame(rows)
 
     def __repr__(self) -> str:
@@ -215,8 +219,9 @@ class CycleInterchange(JsonText):
     def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
         """Draw position, velocity, acceleration and jerk over time, with segments and limits; return the artists.
 
-        `ax` are four axes of matplotlib, or one for all, where every curve is divided by its peak; a new figure unless
-        given. `style` is what `Axes.plot` takes, for the curves.
+        `ax` are four axes of matplotlib, six of a cycle with a drive, which have torque and power as well, or one for
+        all, where every curve is divided by its peak; a new figure unless given. `style` is what `Axes.plot` takes, for
+        the curves.
 
         Examples
         --------
@@ -228,6 +233,23 @@ class CycleInterchange(JsonText):
         from optlaws.plots.cycle import draw_cycle
 
         return draw_cycle(self._cycle, ax, **style)
+
+    def plot_motor(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
+        """Draw torque over speed at the motor, with the motor's curves; return the artists of matplotlib.
+
+        `ax` are axes of matplotlib, new ones unless given; `style` is what `Axes.plot` takes, for the cycle.
+
+        Raises
+        ------
+        InputError
+            If the drive of the cycle is no `Drive` with a motor.
+        """
+        from optlaws.plots.motors import draw_motor_of_cycle
+
+        cycle = self._cycle
+        if not isinstance(cycle.drive, Drive):
+            raise InputError("the cycle has no motor: give one, as drive=Drive(mechanism, Motor(...), ratio=20)")
+        return draw_motor_of_cycle(cycle, cycle.drive, ax, **style)
 
     def summary(self) -> Summary:
         """The proof of the cycle, its peaks, its drive and its joints, as rows in SI units.

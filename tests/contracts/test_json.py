@@ -114,6 +114,18 @@ def values(jumping: Solution) -> dict[str, Any]:
         "DriveLimit": optlaws.drive_limit("c + 0.5*a", "rms torque", C=9.0),
         "PhasePlane": optlaws.drive_limit("c + 0.5*a", B=1.8).plane,
         "DriveSheet": optlaws.Drive(optlaws.rack("20 mm", "5 kg"), optlaws.Motor(0.0)).sheet("0050", 0.0, 1.0, 1.0),
+        "Effort": optlaws.Cycle(
+            [optlaws.Rise("1 rad", "1 s", law="0050")],
+            period="1 s",
+            advance="1 rad",
+            drive={"inertia": "1 kg m^2"},
+        ).effort,
+        "CycleSheet": optlaws.Cycle(
+            [optlaws.Rise("1 rad", "1 s", law="0050")],
+            period="1 s",
+            advance="1 rad",
+            drive=optlaws.Drive(optlaws.rack("20 mm", "5 kg"), optlaws.Motor(0.0)),
+        ).sheet,
         "Cycle": slide,
         "Axes": optlaws.Axes({"slide": slide}),
         "AsMade": AsMade(1e-5, 1.0, float("inf"), 0.1, 1.01, float("inf")),

@@ -99,8 +99,55 @@ def test_peaks_of_a_lossy_gear_with_a_load_are_kept_and_called_local() -> None:
     )
     best = Cycle(INDEXED, **EACH, minimise="torque", drive=drive)
     assert best.status.value == "local"
-    assert best.lower_bound == 0.0
+    assert best.lower_bound == pytest.approx(3.0 * np.sin(np.pi / 4) / 20)  # which holds the load between the moves
     rms = Cycle(
         INDEXED, **EACH, minimise="rms torque", drive=drive, limits={"torque": f"{1.05 * best.objective!r} N m"}
     )
     assert best.objective < rms.effort.peak_force <= 1.05 * best.objective * (1 + 1e-9)
+
+
+def test_the_sheet_of_a_cycle_is_that_of_its_move() -> None:
+    """One move and a rest: the same as the sheet of the move; and of two moves the sums of both."""
+    motor = Motor("3e-4 kg m^2", rated_torque="2 N m", constant=0.4, curve=[("0 rpm", "6 N m"), ("2000 rpm", "4 N m")])
+    drive = Drive(LOADED, motor, ratio=20, efficiency=0.85, regeneration=0.3)
+    cycle = Cycle([Rise("45 deg", "0.25 s", law="modified sine"), Dwell()], **EACH, drive=drive)
+    move = drive.sheet("modified sine", "0 deg", "45 deg", "0.25 s", period="0.6 s")
+    same = {name: value for name, value in move.to_dict().items() if value and not name.endswith("_at")}
+    assert {name: cycle.sheet.to_dict()[name] for name in same} == pytest.approx(same, rel=1e-9)
+    assert cycle.sheet.peak_torque_at == pytest.approx(0.25 * move.peak_torque_at, rel=1e-5)
+    assert (cycle.sheet.fits, [margin.name for margin in cycle.sheet.margins]) == (
+        True,
+        ["peak torque", "torque-speed curve", "RMS torque", "speed"][1:],
+    )
+    rise, rest = cycle.efforts
+    assert rise.motoring_energy == pytest.approx(move.motoring_energy, rel=1e-9)
+    assert rest.peak_force == pytest.approx(move.holding_torque, rel=1e-9)
+    assert cycle.effort.rms_force**2 * 0.6 == pytest.approx(rise.rms_force**2 * 0.25 + rest.rms_force**2 * 0.35)
+    assert "RMS torque, used" in str(cycle.summary())
+
+
+def test_torque_and_power_over_time_are_of_the_drive() -> None:
+    """At a joint those of what follows; later cycles repeat, though an index goes on."""
+    drive = Drive(TABLE, Motor("3e-4 kg m^2"), ratio=20)
+    cycle = Cycle([Rise("45 deg", "0.25 s", law="modified sine"), Dwell()], **EACH, drive=drive)
+    times = np.linspace(0.01, 0.24, 7)
+    torque = 20 * 3e-4 * cycle(times, 2) + 0.8 * cycle(times, 2) / 20
+    assert cycle.force(times) == pytest.approx(torque, rel=1e-9)
+    assert cycle.power(times + 0.6) == pytest.approx(torque * 20 * cycle(times, 1), rel=1e-9)
+    assert cycle.force(0.4) == 0.0
+    with pytest.raises(InputError, match="no motor"):
+        Cycle([Rise("45 deg", "0.25 s", law="modified sine"), Dwell()], **EACH, drive=TABLE).sheet  # noqa: B018
+
+
+def test_pictures_of_a_cycle_with_a_motor() -> None:
+    drive = Drive(TABLE, Motor("3e-4 kg m^2", curve=[(0.0, 3.0), (400.0, 1.0)]), ratio=20)
+    cycle = Cycle([Rise("45 deg", "0.25 s", law="modified sine"), Dwell()], **EACH, drive=drive)
+    labels = list(dict.fromkeys(artist.axes.get_ylabel() for artist in cycle.plot()))
+    assert labels[-2:] == ["torque, N m", "power, W"]
+    curve, *_, course = cycle.plot_motor()
+    assert max(course.get_ydata()) == pytest.approx(cycle.sheet.peak_torque, rel=1e-4)
+    assert max(course.get_xdata()) == pytest.approx(cycle.sheet.peak_speed * 30 / np.pi, rel=1e-4)
+    assert max(curve.get_ydata()) == 3.0
+    assert len(Cycle(cycle.segments, **EACH).plot()) == 4
+    with pytest.raises(InputError, match="no motor"):
+        Cycle(cycle.segments, **EACH, drive=TABLE).plot_motor()

@@ -60,12 +60,38 @@ class Effort(PlainNumbers):
         return self.peak_power / angular_velocity
 
 
+@dataclass(frozen=True)
+class SegmentEffort:
+    """What a drive takes in a segment of a cycle, in SI units.
+
+    Attributes
+    ----------
+    name
+        Of the segment.
+    peak_force, rms_force
+        Greatest magnitude and root mean square of the force, or of the torque.
+    motoring_power, braking_power
+        Greatest, both at least 0.
+    motoring_energy, braking_energy
+        J, both at least 0.
+    """
+
+    name: str
+    peak_force: float
+    rms_force: float
+    motoring_power: float
+    braking_power: float
+    motoring_energy: float
+    braking_energy: float
+
+
 @dataclass(frozen=True, eq=False)
 class PieceEffort:
-    """What a drive does along a piece, in SI units."""
+    """What a drive does along a piece, or between two times in it, in SI units."""
 
     drive: CycleDrive | PositionDrive
     piece: Piece
+    ends: tuple[float, float] | None = None
 
     def force(self, times: Array) -> Array:
         """The force or torque."""
@@ -73,7 +99,11 @@ class PieceEffort:
 
     def power(self, times: Array) -> Array:
         """Force times velocity: at the motor, torque times its speed."""
-        return self.force(times) * (self.drive.speed_ratio * self.piece.values(times, 1))
+        return self.force(times) * self.speed(times)
+
+    def speed(self, times: Array) -> Array:
+        """The velocity at which the force acts: at the motor, its speed."""
+        return self.drive.speed_ratio * self.piece.values(times, 1)
 
     @kept_property
     def parts(self) -> SmoothParts:
@@ -83,7 +113,15 @@ class PieceEffort:
         signs: list[Callable[[Array], Array]] = []
         if piece.stroke:
             signs = [lambda times: piece.values(times, 1), *self.drive.kinks(piece), self.force]
-        return SmoothParts.between(piece.start, piece.stop, breaks=breaks, signs=signs)
+        start, stop = self.ends or (piece.start, piece.stop)
+        inside = [time for time in breaks if start < time < stop]
+        return SmoothParts.between(start, stop, breaks=inside, signs=signs)
+
+    def of_segment(self, name: str) -> SegmentEffort:
+        """Peaks, the root mean square and the energies, of a segment of this name."""
+        start, stop = self.ends or (self.piece.start, self.piece.stop)
+        rms = sqrt(self.square / (stop - start))
+        return SegmentEffort(name, self.peak_force.value, rms, *self.powers, *self.energies)
 
     @property
     def peak_force(self) -> Greatest:
@@ -94,7 +132,7 @@ class PieceEffort:
     def powers(self) -> tuple[float, float]:
         """The greatest power that is given, and that is taken back, both at least 0."""
         given, taken = self.parts.greatest(self.power), self.parts.greatest(lambda times: -self.power(times))
-        return max(given.value, 0.0), max(taken.value, 0.0)
+        return max(0.0, given.value), max(0.0, taken.value)
 
     @kept_property
     def energies(self) -> tuple[float, float]:

@@ -336,10 +336,10 @@ class Drive(JsonText):
         style
             What `Axes.plot` takes, for the move.
         """
-        from optlaws.plots.motors import draw_torque_over_speed
+        from optlaws.plots.motors import draw_move
 
         motion, _ = self._move(law, start, stroke, duration, None)
-        return draw_torque_over_speed(motion, self.motor, ax, **style)
+        return draw_move(motion, self.motor, ax, **style)
 
     def _move(
         self,
