@@ -40,7 +40,8 @@ from optlaws.cycles.specification.drive import CycleDrive, read_drive
 from optlaws.cycles.specification.effort import Effort, PieceEffort, SegmentEffort, effort
 from optlaws.cycles.specification.joints import LawSpan, Layout, layout
 from optlaws.cycles.specification.load import LOAD, Load, read_load
-from optlaws.cycles.specification.position_drive import PositionDrive
+from optlaws.cycles.specification.position_drive import PositionDrive, position_drive
+from optlaws.cycles.specification.process import is_process, read_process
 from optlaws.cycles.specification.programme import Programme, is_optimal, period_of, programme
 from optlaws.cycles.specification.segments import CycleSegment
 from optlaws.errors import InputError
@@ -89,7 +90,10 @@ class Cycle(CycleInterchange):
         What the motion drives elastically, over the whole cycle: `{"period": "20 ms", "damping": 0.05, "mass": "2 kg"}`
         for a follower's mass on its spring, the damping as its ratio to the critical one, between mass and ground; or a
         `Machine` in seconds and SI units. Its outputs may be minimised and
-        bounded: "load acceleration", "rms load deflection", "load force"; the cycle is then one problem.
+        bounded: "load acceleration", "rms load deflection", "load force"; the cycle is then one problem. Or a process
+        force on the mechanism of the drive, `{"force": {"0 deg": "0 N", "360 deg": "-400 N"}, "over": "master", "on":
+        "slider"}`: a table or formula over the "time", the "master" or the position of the "driven" link or of the
+        "input", above 0 where it pushes to greater positions.
     order, degree
         Number of end conditions of optimal laws, and the degree of their Z, at least 15 where a velocity is given at an
         end. They make the laws that are compared: `search_space` says which.
@@ -393,7 +397,15 @@ class Cycle(CycleInterchange):
 
     @kept_property
     def _drive(self) -> CycleDrive | PositionDrive | None:
-        return None if self.drive is None else read_drive(self.drive, self.axis)
+        if not is_process(self.load):
+            return None if self.drive is None else read_drive(self.drive, self.axis)
+        if not isinstance(self.drive, Mechanism | Drive):
+            raise InputError(
+                "load: a process force is of a mechanism: give drive=Mechanism(...) or Drive(...); a mass alone is "
+                "Mechanism('2 kg', axis='length')"
+            )
+        known = position_drive(self.drive, self.axis)
+        return replace(known, process=read_process(self.load, known.mechanism, self.duration))
 
     @kept_property
     def _cycle_objective(self) -> CycleObjective:
@@ -412,7 +424,7 @@ class Cycle(CycleInterchange):
 
     @kept_property
     def _load(self) -> Load | None:
-        return None if self.load is None else read_load(self.load, self.axis)
+        return None if self.load is None or is_process(self.load) else read_load(self.load, self.axis)
 
     @kept_property
     def _layout(self) -> Layout:

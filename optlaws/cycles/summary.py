@@ -9,6 +9,7 @@ import numpy as np
 
 from optlaws.cycles.optimisation.objectives import FORCE, LOADED, POWER, SUMS, kind_of
 from optlaws.cycles.specification.load import LOAD, read_load
+from optlaws.cycles.specification.process import is_process
 from optlaws.errors import OptlawsError
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.linkages.mechanism import Mechanism
@@ -88,7 +89,7 @@ def drive_rows(cycle: Cycle) -> list[Row]:
                 Row("energy of a cycle, motoring", effort.motoring_energy, "J"),
                 Row("energy of a cycle, braking", effort.braking_energy, "J"),
             ]
-    if cycle.load is not None:
+    if cycle.load is not None and not is_process(cycle.load):
         for name in cycle.load_motion.machine.outputs:
             peak = cycle.load_motion.peak(name).value
             rows.append(Row(f"peak of the load's {name}", peak, _load_unit(cycle, name)))

@@ -10,6 +10,7 @@ import msgspec
 import numpy as np
 
 from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.specification.process import is_process
 from optlaws.cycles.summary import drive_rows, joint_rows, proof_rows
 from optlaws.errors import InputError, located
 from optlaws.exports.export import Export, export_cycle
@@ -187,7 +188,7 @@ def _stored(cycle: Cycle) -> dict[str, Any]:
 
 def _facts(cycle: Cycle) -> dict[str, Any]:
     drive: dict[str, Any] = {} if cycle.drive is None else {"effort": cycle.effort.to_dict()}
-    if cycle.load is not None:
+    if cycle.load is not None and not is_process(cycle.load):
         drive["load"] = {name: cycle.load_motion.peak(name).value for name in cycle.load_motion.machine.outputs}
     return {
         "period": cycle.duration,

@@ -116,7 +116,7 @@ def driven_mean(span: LawSpan, drive: CycleDrive | PositionDrive | None, stroke:
 
 def force_unit(span: LawSpan, drive: CycleDrive | PositionDrive, stroke: float) -> float:
     """About how great the force along a span is: a unit in which it is near 1."""
-    return drive.size(stroke, span.duration, span.origin)
+    return drive.size(stroke, span.times, span.origin)
 
 
 def _unit(span: LawSpan, drive: CycleDrive | PositionDrive, stroke: float) -> float:
@@ -141,7 +141,7 @@ def _formula(span: LawSpan, drive: CycleDrive | PositionDrive, stroke: float, un
         raise InputError(
             f"drive: {span.where} may turn back, and its torque is that of laws that do not: take moves between rests"
         )
-    return drive.formula(stroke, span.duration, span.origin, unit)
+    return drive.formula(stroke, span.times, span.origin, unit)
 
 
 def branches_of(span: LawSpan, drive: PositionDrive, stroke: float) -> tuple[str, str, float]:
@@ -152,7 +152,7 @@ def branches_of(span: LawSpan, drive: PositionDrive, stroke: float) -> tuple[str
 
 def _branches(span: LawSpan, drive: PositionDrive, stroke: float) -> tuple[str, ...]:
     """The torques at the motor of power that flows to the load and back, in the unit of the span's force."""
-    moved = drive.moved(stroke, span.duration, span.origin)
+    moved = drive.moved(stroke, span.times, span.origin)
     share = moved.unit / _unit(span, drive, stroke)
     return tuple(f"{share!r}*({branch})" for branch in moved.branches)
 

@@ -45,7 +45,7 @@ class SegmentEnd:
             return 0.0
         if (isinstance(drive, PositionDrive) or drive.inertia) and objective.order < _ACCELERATION_KNOWN:
             return 0.0
-        return abs(drive.at_joint(self.position, self.state.velocity, self.state.acceleration, self.direction))
+        return abs(drive.at_joint((self.position, *self.state), self.direction, self.time))
 
 
 def check_limits_at_joints(layout: Layout, objective: CycleObjective, axis: str, period: float) -> None:

@@ -99,7 +99,7 @@ def _of_constants(span: LawSpan, drive: CycleDrive, stroke: float) -> SpanSum:
 
 def _energy(span: LawSpan, drive: PositionDrive, stroke: float) -> SpanSum:
     """The energy of a mechanism, or of a motor that drives it."""
-    moved = drive.moved(stroke, span.duration, span.origin)
+    moved = drive.moved(stroke, span.times, span.origin)
     branches = moved.branches if drive.loses else ()
     beneath = tuple(_without_recovered(f"({branch})*b", drive.regeneration) for branch in branches)
     return SpanSum(moved.energy, moved.energy_unit, beneath=beneath)
@@ -114,7 +114,7 @@ def _without_recovered(power: str, regeneration: float) -> str:
 
 def _heat(span: LawSpan, drive: PositionDrive, stroke: float) -> SpanSum:
     """The copper heat of a motor and the braking energy that is not fed back."""
-    moved, source = drive.moved(stroke, span.duration, span.origin), drive.source
+    moved, source = drive.moved(stroke, span.times, span.origin), drive.source
     if not isinstance(source, Drive) or not isinstance(moved, DimensionlessDrive) or not drive.copper:
         raise InputError(NO_HEAT)
     copper = moved.unit**2 * span.duration * drive.copper / moved.energy_unit
@@ -122,7 +122,7 @@ def _heat(span: LawSpan, drive: PositionDrive, stroke: float) -> SpanSum:
     burnt, beneath = 1.0 - drive.regeneration, tuple(squared[1:]) if drive.brakes_as_it_drives else ()
     if not burnt:
         return SpanSum(squared[0], moved.energy_unit, beneath=beneath, least=0.0)
-    if drive.loses or drive.mechanism.viscous or source.train.viscous:
+    if drive.process is not None or drive.loses or drive.mechanism.viscous or source.train.viscous:
         return SpanSum(moved.heat, moved.energy_unit, beneath=beneath, least=0.0)
     formula = f"{squared[0]} + {burnt!r}*max({moved.power}, 0)"
     return SpanSum(formula, moved.energy_unit, -burnt * _work(span, drive, source, stroke), least=0.0)

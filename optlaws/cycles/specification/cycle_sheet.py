@@ -60,7 +60,7 @@ def cycle_sheet(drive: PositionDrive, effort: Effort, pieces: Sequence[Piece], p
     use = _greatest(along, partial(_use, motor))
     mean_speed = sum(each.parts.integral(partial(_speed, each)) for each in along) / period
     rounding = VALUE_ROUNDING * effort.peak_force
-    rests = [float(each.force(np.array([each.piece.start]))[0]) for each in along if not each.piece.stroke]
+    rests = [_holding(each) for each in along if not each.piece.stroke]
     holding = max(rests, key=abs, default=0.0)
     rated = float(motor.continuous_at(mean_speed))
     inertia = source.train.inertia
@@ -78,6 +78,12 @@ def cycle_sheet(drive: PositionDrive, effort: Effort, pieces: Sequence[Piece], p
 
 def _greatest(along: Sequence[PieceEffort], function: Callable[[PieceEffort, Array], Array]) -> Greatest:
     return max((each.parts.greatest(partial(function, each)) for each in along), key=lambda peak: peak.value)
+
+
+def _holding(along: PieceEffort) -> float:
+    """The torque of the greatest magnitude in a rest."""
+    place = along.peak_force.place
+    return float(along.force(np.array([place]))[0])
 
 
 def _speed(along: PieceEffort, times: Array) -> Array:

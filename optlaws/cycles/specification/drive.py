@@ -66,14 +66,15 @@ class CycleDrive:
         terms = [f"({value!r})*{name}" for value, name in zip(factors, "abc", strict=True) if value]
         return " + ".join([*terms, f"({constant / unit!r})"])
 
-    def at_joint(self, position: float, velocity: float, acceleration: float, direction: float) -> float:
+    def at_joint(self, motion: tuple[float, float, float], direction: float, time: float) -> float:  # noqa: ARG002 - as of other drives
         """The force where a move begins or ends, on its way in a direction."""
+        position, velocity, acceleration = motion
         moved = self.inertia * acceleration + self.viscous * velocity
         return moved + self.stiffness * position + self.constant + self.dry * direction
 
-    def size(self, stroke: float, duration: float, offset: float) -> float:
+    def size(self, stroke: float, span: tuple[float, float], offset: float) -> float:
         """About how great the force is along a motion: a unit in which it is near 1."""
-        spring, damper, inertia = (abs(factor) for factor in self._factors(stroke, duration))
+        spring, damper, inertia = (abs(factor) for factor in self._factors(stroke, span[1]))
         return 4.0 * inertia + 2.0 * damper + spring + abs(self.constant + self.stiffness * offset) + self.dry
 
     def _factors(self, stroke: float, duration: float) -> tuple[float, float, float]:
@@ -83,6 +84,11 @@ class CycleDrive:
             self.viscous * factor(stroke, duration, 1),
             self.inertia * factor(stroke, duration, 2),
         )
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """Times at which the force has kinks: none."""
+        return ()
 
     @property
     def copper(self) -> float:

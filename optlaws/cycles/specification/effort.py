@@ -109,7 +109,7 @@ class PieceEffort:
     def parts(self) -> SmoothParts:
         """Parts of the piece on which force and power are smooth and of one sign."""
         piece = self.piece
-        breaks = [piece.start + piece.duration * place for place in piece.law.breaks]
+        breaks = [*(piece.start + piece.duration * place for place in piece.law.breaks), *self.drive.breaks]
         signs: list[Callable[[Array], Array]] = []
         if piece.stroke:
             signs = [lambda times: piece.values(times, 1), *self.drive.kinks(piece), self.force]

@@ -10,6 +10,7 @@ import numpy as np
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.files.reading import JsonText, entries_of
+from optlaws.formulas.tree import Formula
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.drives.motor import Motor
 from optlaws.mechanisms.drives.motor_motion import MotorMotion, Train
@@ -171,27 +172,34 @@ class Drive(JsonText):
         """The drive with another ratio."""
         return replace(self, ratio=ratio)
 
-    def torque(self, position: Any, velocity: Any, acceleration: Any) -> Any:  # noqa: ANN401 - numbers or arrays
+    def torque(self, position: Any, velocity: Any, acceleration: Any, process: Any = 0.0) -> Any:  # noqa: ANN401 - numbers or arrays
         """The torque at the motor, N m, from position, velocity and acceleration of the mechanism's input, SI units.
 
+        A process adds to the load at that input.
         It moves the way of its velocity, and from rest that of its acceleration; without both it holds the load.
         """
         v, w = np.asarray(velocity, dtype=np.float64), np.asarray(acceleration, dtype=np.float64)
         direction, train, i = np.where(v == 0.0, np.sign(w), np.sign(v)), self.train, self.ratio
         load = np.asarray(self.mechanism.torque(position, v, w)) + self.mechanism.coulomb * (direction - np.sign(v))
+        load = load + process
         inertial = i * (train.inertia * w + train.viscous * v) + train.coulomb * direction
         through = np.where(direction == 0.0, load, train.through_gear(load * direction) * direction)
         values = inertial + through / i
         return values if np.ndim(values) else float(values)
 
     def dimensionless(
-        self, start: NumberOrQuantity, stroke: NumberOrQuantity, duration: NumberOrQuantity
+        self,
+        start: NumberOrQuantity,
+        stroke: NumberOrQuantity,
+        duration: NumberOrQuantity,
+        *,
+        process: Formula | None = None,
     ) -> DimensionlessDrive:
         """The drive over a stroke of the mechanism's input: formulas of a law for `peak`, `rms` and `integral`.
 
         Parameters
         ----------
-        start, stroke, duration
+        start, stroke, duration, process
             As `Mechanism.dimensionless` takes them.
 
         Raises
@@ -207,7 +215,7 @@ class Drive(JsonText):
         >>> round(rms(moved.torque).value(smoothstep(3)) * moved.unit, 6)
         2.444632
         """
-        moved = self.mechanism.dimensionless(start, stroke, duration)
+        moved = self.mechanism.dimensionless(start, stroke, duration, process=process)
         unit, i = moved.unit / self.ratio, self.ratio
         speed = abs(moved.stroke) / moved.duration
         train = self.train

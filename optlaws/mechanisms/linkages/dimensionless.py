@@ -90,7 +90,8 @@ def dimensionless(
     x = start + way * np.linspace(0.0, 1.0, _LOOKS)
     accelerating, direction = abs(way) / time**2, float(np.sign(way))
     moved = friction.viscous * abs(way) / time
-    greatest = (float(np.max(np.abs(evaluate(formula, {"x": x}, NUMPY)))) for formula in (inertia, load))
+    places = {"x": x, "k": np.linspace(0.0, 1.0, _LOOKS)}
+    greatest = (float(np.max(np.abs(evaluate(formula, places, NUMPY)))) for formula in (inertia, load))
     unit = max(next(greatest) * accelerating, next(greatest), moved, friction.coulomb)
     if unit == 0.0:
         raise InputError("the mechanism has neither inertia nor load nor friction on this stroke: nothing drives it")
