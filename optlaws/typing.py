@@ -19,6 +19,7 @@ __getattr__, __dir__, __all__ = face(
         "optlaws.cams.followers.follower": "CamFollower Place",
         "optlaws.cams.followers.rollers_and_faces": "FaceContact RollerContact",
         "optlaws.cams.least_sizes": "GreatestRoller LeastBaseCircle",
+        "optlaws.cycles.interchange": "PlotOver",
         "optlaws.cycles.machine_follower": "MachineAnswer",
         "optlaws.cycles.specification.cycle_sheet": "CycleSheet",
         "optlaws.cycles.specification.effort": "Effort SegmentEffort",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import MISSING, fields
-from typing import Any, Self, Unpack
+from typing import Any, Literal, Self, Unpack, get_args
 
 from optlaws.cycles.specification.segments import ConstantVelocity, CycleSegment, Dwell, Free, Move, Return, Rise
 from optlaws.echo import shortened
@@ -24,6 +24,8 @@ from optlaws.numbers import Quantity
 from optlaws.shown.summary import Summary
 from optlaws.suggest import keywords_of, unknown_key
 
+#: what a picture of a cycle is over
+PlotOver = Literal["time", "speed"]
 KINDS: dict[str, type[Any]] = {
     "dwell": Dwell,
     "constant velocity": ConstantVelocity,
@@ -216,12 +218,18 @@ class CycleInterchange(JsonText):
 
         return pieces_of_motion(self.motion(master, unit), tolerance)
 
-    def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
+    def plot(self, ax: Any = None, *, over: PlotOver = "time", **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
         """Draw position, velocity, acceleration and jerk over time, with segments and limits; return the artists.
 
         `ax` are four axes of matplotlib, six of a cycle with a drive, which have torque and power as well, or one for
-        all, where every curve is divided by its peak; a new figure unless given. `style` is what `Axes.plot` takes, for
-        the curves.
+        all, where every curve is divided by its peak; a new figure unless given. Over the "speed" it is torque over
+        speed at the motor, with the motor's curves, into one pair of axes. `style` is what `Axes.plot` takes, for the
+        curves.
+
+        Raises
+        ------
+        InputError
+            If the cycle has no motor, or is drawn over something else.
 
         Examples
         --------
@@ -231,22 +239,13 @@ class CycleInterchange(JsonText):
         'acceleration, m/s²'
         """
         from optlaws.plots.cycle import draw_cycle
-
-        return draw_cycle(self._cycle, ax, **style)
-
-    def plot_motor(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
-        """Draw torque over speed at the motor, with the motor's curves; return the artists of matplotlib.
-
-        `ax` are axes of matplotlib, new ones unless given; `style` is what `Axes.plot` takes, for the cycle.
-
-        Raises
-        ------
-        InputError
-            If the drive of the cycle is no `Drive` with a motor.
-        """
         from optlaws.plots.motors import draw_motor_of_cycle
 
         cycle = self._cycle
+        if over not in get_args(PlotOver):
+            raise InputError(unknown_key(over, get_args(PlotOver), "over"))
+        if over == "time":
+            return draw_cycle(cycle, ax, **style)
         if not isinstance(cycle.drive, Drive):
             raise InputError("the cycle has no motor: give one, as drive=Drive(mechanism, Motor(...), ratio=20)")
         return draw_motor_of_cycle(cycle, cycle.drive, ax, **style)

@@ -144,10 +144,12 @@ def test_pictures_of_a_cycle_with_a_motor() -> None:
     cycle = Cycle([Rise("45 deg", "0.25 s", law="modified sine"), Dwell()], **EACH, drive=drive)
     labels = list(dict.fromkeys(artist.axes.get_ylabel() for artist in cycle.plot()))
     assert labels[-2:] == ["torque, N m", "power, W"]
-    curve, *_, course = cycle.plot_motor()
+    curve, *_, course = cycle.plot(over="speed")
     assert max(course.get_ydata()) == pytest.approx(cycle.sheet.peak_torque, rel=1e-4)
     assert max(course.get_xdata()) == pytest.approx(cycle.sheet.peak_speed * 30 / np.pi, rel=1e-4)
     assert max(curve.get_ydata()) == 3.0
     assert len(Cycle(cycle.segments, **EACH).plot()) == 4
     with pytest.raises(InputError, match="no motor"):
-        Cycle(cycle.segments, **EACH, drive=TABLE).plot_motor()
+        Cycle(cycle.segments, **EACH, drive=TABLE).plot(over="speed")
+    with pytest.raises(InputError, match="over"):
+        cycle.plot(over="tme")  # type: ignore[arg-type]

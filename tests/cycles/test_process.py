@@ -47,6 +47,7 @@ def test_the_torque_moves_the_crank_as_the_cycle_says(load: dict[str, Any]) -> N
 
     answer = solve_ivp(moved, (0.0, 0.3), [0.0, 0.0], rtol=1e-9, atol=1e-11, max_step=5e-3, dense_output=True)
     times = np.linspace(0.0, 0.3, 13)
+    assert answer.sol is not None
     assert answer.sol(times)[0] == pytest.approx(cycle(times), abs=2e-6)
     assert Cycle.from_json(cycle.to_json()).effort == cycle.effort
 
