@@ -12,6 +12,7 @@ import numpy as np
 
 from optlaws.cycles.interchange import CycleInterchange
 from optlaws.cycles.kinematics import SegmentPeaks, TimedCycle
+from optlaws.cycles.optimisation.bounds import is_exact
 from optlaws.cycles.optimisation.drive_formulas import known_drive
 from optlaws.cycles.optimisation.durations import durations
 from optlaws.cycles.optimisation.joint_limits import check_limits_at_joints
@@ -56,6 +57,11 @@ from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.status import Status
 from optlaws.tolerances import CYCLE_OPTIMALITY
+
+_STRICTER = (
+    "the gear loses power and a load acts: where the motor brakes, its torque is counted as that of power that flows "
+    "back, which may be more than it is, so that nothing is proven of it"
+)
 
 
 @dataclass(frozen=True, repr=False)
@@ -235,7 +241,9 @@ class Cycle(CycleInterchange):
         >>> Cycle([ConstantVelocity("1.5 m/s", "80 ms"), Return()], period="400 ms").remarks
         ('segment 2 (Return): Z has the degree 15, not 9, for the velocities at its ends',)
         """
-        return (*remark_on_degrees(self._problems, self.degree), *self._best.remarks)
+        stricter = not all(is_exact(span, self._cycle_objective) for span in self._layout.spans)
+        of_gear = (_STRICTER,) if stricter else ()
+        return (*remark_on_degrees(self._problems, self.degree), *self._best.remarks, *of_gear)
 
     @kept_property
     def peaks(self) -> tuple[SegmentPeaks, ...]:

@@ -47,6 +47,11 @@ def force_unit(cycle: Cycle) -> str:
     return "N" if cycle.axis == "length" else "N m"
 
 
+def force_name(cycle: Cycle) -> str:
+    """The name of what a cycle's drive takes: a force, or a torque."""
+    return "force" if cycle.axis == "length" else "torque"
+
+
 def proof_rows(cycle: Cycle) -> list[Row]:
     """The value of the objective and its proof; nothing where no law was looked for."""
     if not cycle.solutions:
@@ -76,7 +81,7 @@ def drive_rows(cycle: Cycle) -> list[Row]:
     elif cycle.drive is not None:
         effort, force = cycle.effort, force_unit(cycle)
         rows = [
-            Row("peak of force" if cycle.axis == "length" else "peak of torque", effort.peak_force, force),
+            Row(f"peak of {force_name(cycle)}", effort.peak_force, force),
             Row("RMS of it", effort.rms_force, force),
             Row("peak of power", effort.peak_power, "W"),
             Row("mean of power", effort.mean_power, "W"),

@@ -11,13 +11,15 @@ import numpy as np
 
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.specification.process import is_process
-from optlaws.cycles.summary import drive_rows, joint_rows, proof_rows
+from optlaws.cycles.summary import drive_rows, force_name, force_unit, joint_rows, proof_rows
 from optlaws.errors import InputError, located
 from optlaws.exports.export import Export, export_cycle
 from optlaws.exports.format import FORMATS, format_of
 from optlaws.exports.text import variable_names
 from optlaws.files import tables, writing
 from optlaws.jobs.cycle_entries import CycleProblemFile, ExportEntries, read
+from optlaws.mechanisms.drives.drive_train import Drive
+from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.motion.quantities import QUANTITIES
 from optlaws.plots.cycle import UNITS, axes_figure, cycle_figure
 from optlaws.results import Page, Results
@@ -159,7 +161,13 @@ def _columns(cycle: Cycle) -> list[str]:
         "master, deg",
         "time, s",
         *(f"{name}, {unit}" for name, (unit, _) in zip(QUANTITIES, UNITS[cycle.axis], strict=True)),
+        *((f"{force_name(cycle)}, {force_unit(cycle)}", "power, W") if _driven(cycle) else ()),
     ]
+
+
+def _driven(cycle: Cycle) -> bool:
+    """Whether torque and power are in its table: of a mechanism, or of a motor."""
+    return isinstance(cycle.drive, Mechanism | Drive)
 
 
 def _rows(cycle: Cycle, count: int) -> list[list[tables.Cell]]:
@@ -169,6 +177,9 @@ def _rows(cycle: Cycle, count: int) -> list[list[tables.Cell]]:
         [_plain(value * factor, cycle.peak(nu) * factor) for value in cycle(times, nu).tolist()]
         for nu, (_, factor) in enumerate(UNITS[cycle.axis])
     ]
+    if _driven(cycle):
+        taken = (np.asarray(cycle.force(times)), np.asarray(cycle.power(times)))
+        columns += [[_plain(value, float(np.abs(values).max())) for value in values.tolist()] for values in taken]
     return [list(row) for row in zip(degrees.tolist(), times.tolist(), *columns, strict=True)]
 
 
@@ -188,6 +199,8 @@ def _stored(cycle: Cycle) -> dict[str, Any]:
 
 def _facts(cycle: Cycle) -> dict[str, Any]:
     drive: dict[str, Any] = {} if cycle.drive is None else {"effort": cycle.effort.to_dict()}
+    if isinstance(cycle.drive, Drive):
+        drive["sheet"] = cycle.sheet.to_dict()
     if cycle.load is not None and not is_process(cycle.load):
         drive["load"] = {name: cycle.load_motion.peak(name).value for name in cycle.load_motion.machine.outputs}
     return {

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from optlaws import Cycle, Drive, Dwell, InputError, Mechanism, Motor, Return, Rise
+from tests.internals.jobs import table_of_motion
 
 TABLE, LOADED = Mechanism("0.8 kg m^2"), Mechanism("0.8 kg m^2", load="3*sin(x)", coulomb=0.3)
 MOTOR = Motor("3e-4 kg m^2", constant=0.3, friction={"coulomb": 0.02})
@@ -119,3 +120,14 @@ def test_an_energy_of_a_cycle_is_kept() -> None:
 def test_what_has_no_energy_is_refused(entries: dict[str, Any], error: type[Exception], says: str) -> None:
     with pytest.raises(error, match=says):
         indexed(**entries).effort  # noqa: B018 - laws are looked for when they are needed
+
+
+def test_tables_of_results_have_the_torque_of_a_motor() -> None:
+    """A table at the steps of a file: its last columns are those of the drive at these times."""
+    cycle = indexed("modified sine", drive=Drive(LOADED, MOTOR, ratio=20))
+    heading, *rows = [line for line in table_of_motion(cycle, 13, "").splitlines() if line and line[0] != "#"]
+    assert heading.endswith('"torque, N m","power, W"')
+    values = np.array([[float(cell) for cell in row.split(",")] for row in rows])
+    times = np.linspace(0.0, 0.6, 13)
+    assert values[:, -2] == pytest.approx(np.asarray(cycle.force(times)), rel=1e-6)
+    assert values[:, -1] == pytest.approx(np.asarray(cycle.power(times)), rel=1e-6, abs=1e-6)

@@ -145,7 +145,7 @@ def span_bound(span: LawSpan, piece: Piece, solution: Solution, objective: Cycle
     """The lower bound of a span in SI units."""
     nu, mean = kind_of(objective.minimise)
     if nu in SUMS:
-        return span_sum(span, nu, objective.drive, piece.stroke).bound(solution)
+        return span_sum(span, nu, objective.drive, piece.stroke).bound(solution, exact=is_exact(span, objective))
     least = bound_by_energy(span, objective, piece.stroke, solution) if is_exact(span, objective) else 0.0
     if nu not in {FORCE, POWER}:
         return least * abs(factor(piece.stroke, piece.duration, nu))

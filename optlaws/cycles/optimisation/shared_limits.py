@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import exp, inf, log, sqrt
 
-from optlaws.cycles.optimisation.bounds import bound_of, span_bound
+from optlaws.cycles.optimisation.bounds import bound_of, is_exact, span_bound
 from optlaws.cycles.optimisation.joint_limits import ties_broken
 from optlaws.cycles.optimisation.objectives import ENERGY, FORCE, SUMS, CycleObjective, kind_of
 from optlaws.cycles.optimisation.optimal import (
@@ -134,6 +134,11 @@ class _SharedLimit:
             "give the cycle more time"
         )
 
+    @property
+    def _exact(self) -> bool:
+        """Whether what the laws are found by is what they are judged by."""
+        return all(is_exact(span, self.objective) for span in self.layout.spans)
+
     def _shown(self, taken: float) -> float:
         """A sum as its limit is given: a root mean square, or an energy."""
         return taken if self._nu == ENERGY else sqrt(taken / self.period)
@@ -212,6 +217,8 @@ class _SharedLimit:
 
     def _impossible(self, peak: float, bound: float) -> float:
         """A peak, as near below one as can be, that no laws keep with the limit."""
+        if not self._exact:
+            return bound
         for share in _BELOW:
             lower = peak * (1.0 - share)
             if lower <= bound:
@@ -275,6 +282,8 @@ class _SharedLimit:
     def _with_worth_at_least(self, laws: Sequence[tuple[Piece, Solution]], worth: float) -> float:
         """The lower bound of laws that keep the limit: that with its multiplier, less what the limit is worth."""
         nu, _ = kind_of(self.objective.minimise)
+        if not self._exact:
+            return 0.0 if nu not in SUMS else -inf
         least = -worth * self.left + total(self.layout.pieces, nu, self.drive)
         for span, (piece, solution) in zip(self.layout.spans, laws, strict=True):
             minimised, limited = self._sums(span, piece.stroke)

@@ -48,9 +48,12 @@ class SpanSum:
     beneath: tuple[str, ...] = ()
     least: float = -inf
 
-    def bound(self, solution: Solution) -> float:
-        """The lower bound of the laws of a problem, in SI units, from its solution and from phase planes."""
-        proven = max(solution.lower_bound, self._of_planes(solution.problem))
+    def bound(self, solution: Solution, *, exact: bool = True) -> float:
+        """The lower bound of the laws of a problem, in SI units, from its solution and from phase planes.
+
+        Where the problem is not exact, its solution proves nothing.
+        """
+        proven = max(solution.lower_bound if exact else -inf, self._of_planes(solution.problem))
         return max(self.unit * proven + self.constant, self.least)
 
     def _of_planes(self, problem: Problem) -> float:
