@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from optlaws import Cycle, Drive, Dwell, InputError, Mechanism, Motor, Return, Rise
+from optlaws import Cycle, Drive, Dwell, InputError, Mechanism, Motor, Return, Rise, slider_crank
 from tests.internals.jobs import table_of_motion
 
 TABLE, LOADED = Mechanism("0.8 kg m^2"), Mechanism("0.8 kg m^2", load="3*sin(x)", coulomb=0.3)
@@ -131,3 +131,30 @@ def test_tables_of_results_have_the_torque_of_a_motor() -> None:
     times = np.linspace(0.0, 0.6, 13)
     assert values[:, -2] == pytest.approx(np.asarray(cycle.force(times)), rel=1e-6)
     assert values[:, -1] == pytest.approx(np.asarray(cycle.power(times)), rel=1e-6, abs=1e-6)
+
+
+@pytest.mark.long
+def test_a_crank_takes_a_quarter_of_the_energy_of_the_quintic() -> None:
+    """Crank 0.1 m, rod 0.4 m, slider 5 kg: 4.416 by the quintic; at most 1.196 where C is at most 12, elsewhere."""
+    press = slider_crank("0.1 m", "0.4 m", bodies={"crank": "0.02 kg m^2", "slider": "5 kg"})
+    given: dict[str, Any] = {"period": "0.5 s", "advance": "180 deg", "drive": press}
+    known = Cycle([Rise("180 deg", "0.3 s", law="345"), Dwell()], **given)
+    assert known.effort.motoring_energy / np.pi == pytest.approx(4.416, abs=5e-4)
+    limits = {"acceleration": f"{12 * np.pi / 0.09!r} rad/s^2"}
+    best = Cycle([Rise("180 deg", "0.3 s"), Dwell()], **given, minimise="energy", limits=limits)
+    assert best.lower_bound is not None
+    assert best.lower_bound < best.objective < 1.196 * np.pi
+
+
+@pytest.mark.long
+def test_a_limit_of_the_energy_is_shared() -> None:
+    """Two moves that together keep less energy than the laws of least acceleration, whose peak is then greater."""
+    moves = [Rise("45 deg", "0.25 s"), Dwell("0.05 s"), Return(duration="0.25 s"), Dwell()]
+    given: dict[str, Any] = {"period": "0.6 s", "drive": {"inertia": "0.8 kg m^2"}}
+    free = Cycle(moves, **given)
+    most = 0.93 * free.effort.energy
+    kept = Cycle(moves, **given, limits={"energy": f"{most!r} J"})
+    assert kept.effort.energy <= most * (1 + 1e-8)
+    assert kept.lower_bound is not None
+    assert free.objective < kept.objective
+    assert free.objective * (1 - 1e-9) <= kept.lower_bound <= kept.objective

@@ -97,12 +97,12 @@ class _SharedLimit:
         summed = mean or nu in SUMS
         if summed and self._nu == ENERGY:
             # the least energy has no bound without one of the acceleration
-            return self._by_multiplier(laws)
+            return self._by_multiplier(laws, bound or 0.0)
         ceiling = inf if self._nu == FORCE else _HIGHEST * self._greatest(laws)
         least = tuple(self._least(span, ceiling) for span in self.layout.spans)
         if self._least_taken(least) > self.left:
             raise self._too_much(self._given + self._least_taken(least), "no law takes less than")
-        return self._by_multiplier(laws) if summed else self._by_peak(laws, least, bound or 0.0)
+        return self._by_multiplier(laws, bound or 0.0) if summed else self._by_peak(laws, least, bound or 0.0)
 
     @property
     def _nu(self) -> int:
@@ -239,8 +239,8 @@ class _SharedLimit:
         pieces = [*(piece for piece, _ in laws), *self.layout.pieces]
         return max(size_of(piece, nu, self.drive) for piece in pieces)
 
-    def _by_multiplier(self, laws: Sequence[tuple[Piece, Solution]]) -> Best:
-        """The least root mean square, by what the limit is worth."""
+    def _by_multiplier(self, laws: Sequence[tuple[Piece, Solution]], bound: float) -> Best:
+        """The least root mean square or sum, by what the limit is worth; `bound` is that without the limit."""
         from scipy.optimize import brentq
 
         tried: dict[float, tuple[tuple[Piece, Solution], ...]] = {}
@@ -265,7 +265,8 @@ class _SharedLimit:
         pieces = [*self.layout.pieces, *(piece for piece, _ in tried[least])]
         attained = self._of_total(total(pieces, nu, self.drive))
         # the laws may miss the limit by a rounding, the bound is of those that keep it: it is no better than they are
-        return Best(tried[least], (), min(self._with_worth_at_least(tried[least], exp(least)), attained))
+        proven = max(self._with_worth_at_least(tried[least], exp(least)), bound)
+        return Best(tried[least], (), min(proven, attained))
 
     def _with_worth(self, span: LawSpan, worth: float) -> tuple[Piece, Solution]:
         """The law of a span of the least of what is minimised and, so many times, of what is limited."""

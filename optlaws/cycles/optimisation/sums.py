@@ -67,7 +67,9 @@ def span_sum(span: LawSpan, nu: int, drive: CycleDrive | PositionDrive | None, s
         return SpanSum(f"{'abcj'[nu]}^2", factor(stroke, span.duration, nu) ** 2 * span.duration)
     if nu == FORCE:
         driven = driven_mean(span, drive, stroke)
-        return SpanSum(f"({driven.formula})^2", driven.unit**2 * span.duration, driven.friction * span.duration)
+        # in the direction of the stroke, as phase planes have it
+        force = f"-({driven.formula})" if isinstance(drive, CycleDrive) and stroke < 0.0 else driven.formula
+        return SpanSum(f"({force})^2", driven.unit**2 * span.duration, driven.friction * span.duration)
     known = known_drive(drive)
     if isinstance(known, CycleDrive):
         if nu == HEAT:
