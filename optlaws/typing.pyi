@@ -21,8 +21,11 @@ from optlaws.cams.followers.rollers_and_faces import FaceContact as FaceContact
 from optlaws.cams.followers.rollers_and_faces import RollerContact as RollerContact
 from optlaws.cams.least_sizes import GreatestRoller as GreatestRoller
 from optlaws.cams.least_sizes import LeastBaseCircle as LeastBaseCircle
+from optlaws.cycles.interchange import PlotOver as PlotOver
 from optlaws.cycles.machine_follower import MachineAnswer as MachineAnswer
-from optlaws.cycles.old_tables import Stretch as Stretch
+from optlaws.cycles.specification.cycle_sheet import CycleSheet as CycleSheet
+from optlaws.cycles.specification.effort import Effort as Effort
+from optlaws.cycles.specification.effort import SegmentEffort as SegmentEffort
 from optlaws.cycles.specification.segments import CycleSegment as CycleSegment
 from optlaws.exports.best_breaks import BestBreaks as BestBreaks
 from optlaws.formulas.tree import Formula as Formula
@@ -33,6 +36,7 @@ from optlaws.laws.making.input_shaping import Shaper as Shaper
 from optlaws.laws.making.multiplier import Multiplier as Multiplier
 from optlaws.laws.segments.segment import Segment as Segment
 from optlaws.mechanisms.drives.drive_train import DimensionlessDrive as DimensionlessDrive
+from optlaws.mechanisms.drives.motor import MotorLosses as MotorLosses
 from optlaws.mechanisms.drives.motor_motion import Train as Train
 from optlaws.mechanisms.drives.sheet import BestRatio as BestRatio
 from optlaws.mechanisms.drives.sheet import DriveSheet as DriveSheet
@@ -106,6 +110,7 @@ __all__ = [
     "CutCurve",
     "CutFormat",
     "CycleSegment",
+    "CycleSheet",
     "Derivatives",
     "DimensionlessDrive",
     "DimensionlessMechanism",
@@ -116,6 +121,7 @@ __all__ = [
     "DwellComparison",
     "DwellMechanism",
     "DwellType",
+    "Effort",
     "Entry",
     "Errors",
     "Extreme",
@@ -144,6 +150,7 @@ __all__ = [
     "Maximum",
     "ModeResidual",
     "Motion",
+    "MotorLosses",
     "Multiplier",
     "Node",
     "NumberOrQuantity",
@@ -155,6 +162,7 @@ __all__ = [
     "PiecewiseBasis",
     "Place",
     "PlaneCurve",
+    "PlotOver",
     "Polynomial",
     "PolynomialBasis",
     "Quantity",
@@ -163,13 +171,13 @@ __all__ = [
     "RollerContact",
     "Rows",
     "Segment",
+    "SegmentEffort",
     "Shaper",
     "Side",
     "SolvedPart",
     "SpaceCurve",
     "Span",
     "StateSpace",
-    "Stretch",
     "Study",
     "Summary",
     "SweptParameter",

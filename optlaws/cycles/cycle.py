@@ -2,33 +2,47 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from math import sqrt
 from typing import Any
 
+import numpy as np
+
 from optlaws.cycles.interchange import CycleInterchange
 from optlaws.cycles.kinematics import SegmentPeaks, TimedCycle
+from optlaws.cycles.optimisation.bounds import is_exact
+from optlaws.cycles.optimisation.drive_formulas import known_drive
 from optlaws.cycles.optimisation.durations import durations
 from optlaws.cycles.optimisation.joint_limits import check_limits_at_joints
-from optlaws.cycles.optimisation.mean_force import Best, best_of
+from optlaws.cycles.optimisation.motor_limits import motor_limits
 from optlaws.cycles.optimisation.objectives import (
     FORCE,
     LOADED,
     POWER,
+    SUMS,
     CycleObjective,
     check_objective,
     kind_of,
+    least_of,
     limits_of_stretch,
+    read_energy,
     read_limits,
     read_load_limits,
     read_mean_force,
+    tightest,
 )
 from optlaws.cycles.optimisation.search_spaces import remark_on_degrees, search_space
-from optlaws.cycles.specification.drive import CycleDrive, Effort, effort, read_drive
+from optlaws.cycles.optimisation.shared_limits import Best, best_of
+from optlaws.cycles.optimisation.sums import total
+from optlaws.cycles.specification.cycle_sheet import CycleSheet, cycle_sheet
+from optlaws.cycles.specification.drive import CycleDrive, read_drive
+from optlaws.cycles.specification.effort import Effort, PieceEffort, SegmentEffort, effort
 from optlaws.cycles.specification.joints import LawSpan, Layout, layout
 from optlaws.cycles.specification.load import LOAD, Load, read_load
-from optlaws.cycles.specification.position_drive import PositionDrive
+from optlaws.cycles.specification.position_drive import PositionDrive, position_drive
+from optlaws.cycles.specification.process import is_process, read_process
 from optlaws.cycles.specification.programme import Programme, is_optimal, period_of, programme
 from optlaws.cycles.specification.segments import CycleSegment
 from optlaws.errors import InputError
@@ -36,13 +50,18 @@ from optlaws.kept import kept_property
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.mechanisms.machine.over_time import RepeatedMotion
-from optlaws.motion.piece import Piece
+from optlaws.motion.piece import Piece, by_pieces
 from optlaws.motion.quantities import TURN, quantity, written
-from optlaws.numbers import MOST_DEGREE, Quantity, derivative, number_or_array, real_times, whole
+from optlaws.numbers import MOST_DEGREE, Array, Quantity, derivative, number_or_array, real_times, whole
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.status import Status
 from optlaws.tolerances import CYCLE_OPTIMALITY
+
+_STRICTER = (
+    "the gear loses power and a load acts: where the motor brakes, its torque is counted as that of power that flows "
+    "back, which may be more than it is, so that nothing is proven of it"
+)
 
 
 @dataclass(frozen=True, repr=False)
@@ -60,10 +79,11 @@ class Cycle(CycleInterchange):
         Of the master, "200 rpm", or the duration of the cycle, "0.3 s": one of them.
     minimise
         "acceleration", "velocity", "jerk", "rms acceleration", "rms jerk", "rms snap" of optimal segments, or of the
-        drive "force", "rms force" (of a table "torque", "rms torque") and "power".
+        drive "force", "rms force" (of a table "torque", "rms torque"), "power", "energy" and, of a `Drive` whose motor
+        has a motor constant, "heat": what its winding and its brake resistor burn.
     limits
-        Of all optimal segments: `{"velocity": "616 mm/s", "power": "400 W"}`; "rms force" and "rms torque" are of the
-        whole cycle, as motors are rated.
+        Of all optimal segments: `{"velocity": "616 mm/s", "power": "400 W"}`; "rms force", "rms torque" and "energy"
+        are of the whole cycle, as motors are rated; `{"motor": True}` are all those of the motor of a `Drive`.
     start
         Position at the start, 0 unless given.
     advance
@@ -76,7 +96,10 @@ class Cycle(CycleInterchange):
         What the motion drives elastically, over the whole cycle: `{"period": "20 ms", "damping": 0.05, "mass": "2 kg"}`
         for a follower's mass on its spring, the damping as its ratio to the critical one, between mass and ground; or a
         `Machine` in seconds and SI units. Its outputs may be minimised and
-        bounded: "load acceleration", "rms load deflection", "load force"; the cycle is then one problem.
+        bounded: "load acceleration", "rms load deflection", "load force"; the cycle is then one problem. Or a process
+        force on the mechanism of the drive, `{"force": {"0 deg": "0 N", "360 deg": "-400 N"}, "over": "master", "on":
+        "slider"}`: a table or formula over the "time", the "master" or the position of the "driven" link or of the
+        "input", above 0 where it pushes to greater positions.
     order, degree
         Number of end conditions of optimal laws, and the degree of their Z, at least 15 where a velocity is given at an
         end. They make the laws that are compared: `search_space` says which.
@@ -173,6 +196,8 @@ class Cycle(CycleInterchange):
             return self.effort.peak_power
         if nu == FORCE:
             return self.effort.rms_force if mean else self.effort.peak_force
+        if nu in SUMS:
+            return total(self.pieces, nu, self._drive)
         if not mean:
             return max(peak.peak(nu) for peak in self.peaks)
         return sqrt(sum(piece.duration * piece.mean_square(nu) for piece in self.pieces) / self.duration)
@@ -216,7 +241,9 @@ class Cycle(CycleInterchange):
         >>> Cycle([ConstantVelocity("1.5 m/s", "80 ms"), Return()], period="400 ms").remarks
         ('segment 2 (Return): Z has the degree 15, not 9, for the velocities at its ends',)
         """
-        return (*remark_on_degrees(self._problems, self.degree), *self._best.remarks)
+        stricter = not all(is_exact(span, self._cycle_objective) for span in self._layout.spans)
+        of_gear = (_STRICTER,) if stricter else ()
+        return (*remark_on_degrees(self._problems, self.degree), *self._best.remarks, *of_gear)
 
     @kept_property
     def peaks(self) -> tuple[SegmentPeaks, ...]:
@@ -262,6 +289,43 @@ class Cycle(CycleInterchange):
         if self._drive is None:
             raise InputError("the cycle has no drive: give one, such as drive={'mass': '2 kg', 'gravity': '20 N'}")
         return effort(self._drive, self.pieces, self.duration)
+
+    @kept_property
+    def sheet(self) -> CycleSheet:
+        """What the cycle asks of its motor: torques, speed, powers, energies, and margins to the motor's limits.
+
+        Raises
+        ------
+        InputError
+            If the drive is no `Drive` with a motor.
+        """
+        if not isinstance(self._drive, PositionDrive):
+            raise InputError("the cycle has no motor: give one, as drive=Drive(mechanism, Motor(...), ratio=20)")
+        return cycle_sheet(self._drive, self.effort, self.pieces, self.duration)
+
+    @kept_property
+    def efforts(self) -> tuple[SegmentEffort, ...]:
+        """Peaks of force and power, the RMS force and the energies of every segment, in SI units."""
+        drive, pieces = known_drive(self._drive), self.pieces
+        spans = [(next(p for p in reversed(pieces) if p.start <= each.start), each) for each in self.peaks]
+        return tuple(
+            PieceEffort(drive, piece, (each.start, each.start + each.duration)).of_segment(each.name)
+            for piece, each in spans
+        )
+
+    def force(self, time: Any) -> Any:  # noqa: ANN401 - a number for a number, an array for arrays
+        """Force or torque of the drive at a time in seconds: at the follower or table, the input or the motor."""
+        return self._of_drive(time, PieceEffort.force)
+
+    def power(self, time: Any) -> Any:  # noqa: ANN401 - as the force
+        """Power of the drive at a time in seconds, W: above 0 where it drives, below where it brakes."""
+        return self._of_drive(time, PieceEffort.power)
+
+    def _of_drive(self, time: Any, function: Callable[[PieceEffort, Array], Array]) -> Any:  # noqa: ANN401
+        drive = known_drive(self._drive)
+        places = np.mod(real_times(time), self.duration)
+        along = [partial(function, PieceEffort(drive, piece)) for piece in self.pieces]
+        return number_or_array(by_pieces(self.pieces, along, places))
 
     def __call__(self, time: Any, nu: int = 0) -> Any:  # noqa: ANN401 - a number for a number, an array for arrays
         """Position (nu 0), velocity, acceleration, jerk at a time in seconds, in SI units; the cycle repeats."""
@@ -341,24 +405,34 @@ class Cycle(CycleInterchange):
 
     @kept_property
     def _drive(self) -> CycleDrive | PositionDrive | None:
-        return None if self.drive is None else read_drive(self.drive, self.axis)
+        if not is_process(self.load):
+            return None if self.drive is None else read_drive(self.drive, self.axis)
+        if not isinstance(self.drive, Mechanism | Drive):
+            raise InputError(
+                "load: a process force is of a mechanism: give drive=Mechanism(...) or Drive(...); a mass alone is "
+                "Mechanism('2 kg', axis='length')"
+            )
+        known = position_drive(self.drive, self.axis)
+        return replace(known, process=read_process(self.load, known.mechanism, self.duration))
 
     @kept_property
     def _cycle_objective(self) -> CycleObjective:
+        motor = motor_limits(self.limits, self._drive, self.programme)
         return CycleObjective(
             self.minimise,
-            read_limits(self.limits, self.axis, "limits"),
+            tightest(read_limits(self.limits, self.axis, "limits"), motor.of_motions),
             whole(self.order, "order", least=2, most=10),
             whole(self.degree, "degree", most=MOST_DEGREE),
             self._drive,
             self._load,
             read_load_limits(self.limits, self._load),
-            read_mean_force(self.limits, self.axis),
+            least_of(read_mean_force(self.limits, self.axis), motor.mean_torque),
+            read_energy(self.limits),
         )
 
     @kept_property
     def _load(self) -> Load | None:
-        return None if self.load is None else read_load(self.load, self.axis)
+        return None if self.load is None or is_process(self.load) else read_load(self.load, self.axis)
 
     @kept_property
     def _layout(self) -> Layout:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import MISSING, fields
-from typing import Any, Self, Unpack
+from typing import Any, Literal, Self, Unpack, get_args
 
 from optlaws.cycles.specification.segments import ConstantVelocity, CycleSegment, Dwell, Free, Move, Return, Rise
 from optlaws.echo import shortened
@@ -24,6 +24,8 @@ from optlaws.numbers import Quantity
 from optlaws.shown.summary import Summary
 from optlaws.suggest import keywords_of, unknown_key
 
+#: what a picture of a cycle is over
+PlotOver = Literal["time", "speed"]
 KINDS: dict[str, type[Any]] = {
     "dwell": Dwell,
     "constant velocity": ConstantVelocity,
@@ -117,6 +119,10 @@ class CycleInterchange(JsonText):
             row = {"segment": peaks.name, "start, s": peaks.start, "duration, s": peaks.duration}
             row |= {f"peak {name}, {units[name]}": peaks.peak(nu) for nu, name in enumerate(QUANTITIES)}
             rows.append(row | {f"leap of {name}, {units[name]}": joint[name] for name in QUANTITIES[1:3]})
+        for row, taken in zip(rows, cycle.efforts if cycle.drive is not None else (), strict=False):
+            name, unit = ("force", "N") if cycle.axis == "length" else ("torque", "N m")
+            row |= {f"peak {name}, {unit}": taken.peak_force, f"RMS {name}, {unit}": taken.rms_force}
+            row |= {"motoring power, W": taken.motoring_power, "braking power, W": taken.braking_power}
         return pd.DataFrame(rows)
 
     def __repr__(self) -> str:
@@ -212,11 +218,18 @@ class CycleInterchange(JsonText):
 
         return pieces_of_motion(self.motion(master, unit), tolerance)
 
-    def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
+    def plot(self, ax: Any = None, *, over: PlotOver = "time", **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
         """Draw position, velocity, acceleration and jerk over time, with segments and limits; return the artists.
 
-        `ax` are four axes of matplotlib, or one for all, where every curve is divided by its peak; a new figure unless
-        given. `style` is what `Axes.plot` takes, for the curves.
+        `ax` are four axes of matplotlib, six of a cycle with a drive, which have torque and power as well, or one for
+        all, where every curve is divided by its peak; a new figure unless given. Over the "speed" it is torque over
+        speed at the motor, with the motor's curves, into one pair of axes. `style` is what `Axes.plot` takes, for the
+        curves.
+
+        Raises
+        ------
+        InputError
+            If the cycle has no motor, or is drawn over something else.
 
         Examples
         --------
@@ -226,8 +239,16 @@ class CycleInterchange(JsonText):
         'acceleration, m/s²'
         """
         from optlaws.plots.cycle import draw_cycle
+        from optlaws.plots.motors import draw_motor_of_cycle
 
-        return draw_cycle(self._cycle, ax, **style)
+        cycle = self._cycle
+        if over not in get_args(PlotOver):
+            raise InputError(unknown_key(over, get_args(PlotOver), "over"))
+        if over == "time":
+            return draw_cycle(cycle, ax, **style)
+        if not isinstance(cycle.drive, Drive):
+            raise InputError("the cycle has no motor: give one, as drive=Drive(mechanism, Motor(...), ratio=20)")
+        return draw_motor_of_cycle(cycle, cycle.drive, ax, **style)
 
     def summary(self) -> Summary:
         """The proof of the cycle, its peaks, its drive and its joints, as rows in SI units.

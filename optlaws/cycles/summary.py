@@ -7,9 +7,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from optlaws.cycles.optimisation.objectives import FORCE, LOADED, POWER, kind_of
+from optlaws.cycles.optimisation.objectives import FORCE, LOADED, POWER, SUMS, kind_of
 from optlaws.cycles.specification.load import LOAD, read_load
+from optlaws.cycles.specification.process import is_process
 from optlaws.errors import OptlawsError
+from optlaws.mechanisms.drives.drive_train import Drive
+from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.motion.piece import unit_of
 from optlaws.motion.quantities import QUANTITIES
 from optlaws.shown.showing import drawing, facts, page, table
@@ -34,14 +37,19 @@ def objective_unit(cycle: Cycle) -> str:
     nu, _ = kind_of(cycle.minimise)
     if nu == LOADED:
         return _load_unit(cycle, cycle.minimise.removeprefix("rms ").removeprefix(LOAD))
-    if nu == POWER:
-        return "W"
+    if nu == POWER or nu in SUMS:
+        return "W" if nu == POWER else "J"
     return force_unit(cycle) if nu == FORCE else unit_of(cycle.axis, nu)
 
 
 def force_unit(cycle: Cycle) -> str:
     """The unit of the force, or of the torque, of a cycle's drive."""
     return "N" if cycle.axis == "length" else "N m"
+
+
+def force_name(cycle: Cycle) -> str:
+    """The name of what a cycle's drive takes: a force, or a torque."""
+    return "force" if cycle.axis == "length" else "torque"
 
 
 def proof_rows(cycle: Cycle) -> list[Row]:
@@ -68,16 +76,25 @@ def peak_rows(cycle: Cycle) -> list[Row]:
 def drive_rows(cycle: Cycle) -> list[Row]:
     """The effort of the drive and the peaks of its load; nothing where there is no drive."""
     rows = []
-    if cycle.drive is not None:
+    if isinstance(cycle.drive, Drive):
+        rows = list(cycle.sheet.summary())
+    elif cycle.drive is not None:
         effort, force = cycle.effort, force_unit(cycle)
         rows = [
-            Row("peak of force" if cycle.axis == "length" else "peak of torque", effort.peak_force, force),
+            Row(f"peak of {force_name(cycle)}", effort.peak_force, force),
             Row("RMS of it", effort.rms_force, force),
             Row("peak of power", effort.peak_power, "W"),
             Row("mean of power", effort.mean_power, "W"),
             Row("peak torque at the master's shaft", effort.shaft_torque(2.0 * pi / cycle.duration), "N m"),
         ]
-    if cycle.load is not None:
+        if isinstance(cycle.drive, Mechanism):
+            rows += [
+                Row("greatest power, motoring", effort.motoring_power, "W"),
+                Row("greatest power, braking", effort.braking_power, "W"),
+                Row("energy of a cycle, motoring", effort.motoring_energy, "J"),
+                Row("energy of a cycle, braking", effort.braking_energy, "J"),
+            ]
+    if cycle.load is not None and not is_process(cycle.load):
         for name in cycle.load_motion.machine.outputs:
             peak = cycle.load_motion.peak(name).value
             rows.append(Row(f"peak of the load's {name}", peak, _load_unit(cycle, name)))

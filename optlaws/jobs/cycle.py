@@ -11,21 +11,21 @@ import msgspec
 import numpy as np
 
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.summary import drive_rows, joint_rows, proof_rows
+from optlaws.cycles.specification.process import is_process
+from optlaws.cycles.summary import drive_rows, force_name, force_unit, joint_rows, proof_rows
 from optlaws.errors import InputError, located
 from optlaws.exports.export import Export, export_cycle
 from optlaws.exports.format import FORMATS, format_of
 from optlaws.exports.text import variable_names
 from optlaws.files import tables, writing
 from optlaws.jobs.axes.entry_sweep import SweptCycle, sweep_table
-from optlaws.jobs.axes.motor_sheet import motor_sheet
 from optlaws.jobs.cycle_entries import CycleProblemFile, ExportEntries, read, sweeps_of
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.motion.quantities import QUANTITIES
 from optlaws.plots.cycle import UNITS, axes_figure, cycle_figure
-from optlaws.plots.cycle_effort import effort_along, effort_columns, effort_figure
 from optlaws.plots.mechanism import mechanism_figure
+from optlaws.plots.motors import motor_figure
 from optlaws.plots.sweep import sweep_figure
 from optlaws.results import Page, Results
 from optlaws.tolerances import CYCLE_ROUNDING
@@ -97,6 +97,7 @@ def _export_row(name: str, export: Export) -> list[tables.Cell]:
 
 
 _SHARE = 360.0
+_RPM = 30.0 / np.pi
 
 
 def run(results: Results) -> None:
@@ -131,15 +132,16 @@ class _DrivePicture(NamedTuple):
 
 
 def _drive_pictures(cycles: Mapping[str, Cycle]) -> dict[str, list[_DrivePicture]]:
-    """The pictures of each axis with a mechanism: the mechanism where it is the first of its kind and varies."""
+    """The pictures of each axis with a mechanism: its motor's, and its own where it is the first of its kind and varies."""
     pictures: dict[str, list[_DrivePicture]] = {}
     drawn: list[Mechanism] = []
     for name, cycle in cycles.items():
         pictures[name] = []
         if not isinstance(cycle.drive, Mechanism | Drive):
             continue
-        effort = f"{effort_columns(cycle)[0].partition(',')[0]} and power over the cycle"
-        pictures[name].append(_DrivePicture(f"{plain_name(name)}_effort", effort, partial(effort_figure, cycle)))
+        if isinstance(cycle.drive, Drive):
+            draw = partial(motor_figure, cycle, cycle.drive)
+            pictures[name].append(_DrivePicture(f"{plain_name(name)}_motor", "torque over speed at the motor", draw))
         mechanism = cycle.drive.mechanism if isinstance(cycle.drive, Drive) else cycle.drive
         varies = mechanism.inertia_formula.names() | mechanism.load_formula.names()
         if varies and mechanism not in drawn:
@@ -177,14 +179,6 @@ def page(
         result.table(("what", "value", "unit"), [[row.name, row.value, row.unit or None] for row in rows], digits=9)
         for picture in pictures[name]:
             result.figure(picture.name, f"{spec.title}: {name}, {picture.caption}")
-        if isinstance(cycle.drive, Drive):
-            result.text("What the cycle asks of the motor, with the share of each of its limits that is used.")
-            rows = list(motor_sheet(cycle, cycle.drive).summary())
-            result.table(
-                ("motor", "value", "unit", "note"),
-                [[row.name, row.value, row.unit, row.note] for row in rows],
-                digits=7,
-            )
         if exports[name]:
             result.text("What controllers will run: peaks of the exported files as interpolated, over the law's.")
             result.table(_EXPORT_HEADINGS, [_export_row(*item) for item in exports[name].items()], digits=7)
@@ -227,8 +221,14 @@ def _columns(cycle: Cycle) -> list[str]:
         "master, deg",
         "time, s",
         *(f"{name}, {unit}" for name, (unit, _) in zip(QUANTITIES, UNITS[cycle.axis], strict=True)),
-        *(effort_columns(cycle) if isinstance(cycle.drive, Mechanism | Drive) else []),
+        *((f"{force_name(cycle)}, {force_unit(cycle)}", "power, W") if _driven(cycle) else ()),
+        *(("motor speed, rpm",) if isinstance(cycle.drive, Drive) else ()),
     ]
+
+
+def _driven(cycle: Cycle) -> bool:
+    """Whether torque and power are in its table: of a mechanism, or of a motor."""
+    return isinstance(cycle.drive, Mechanism | Drive)
 
 
 def _rows(cycle: Cycle, count: int) -> list[list[tables.Cell]]:
@@ -239,10 +239,11 @@ def _rows(cycle: Cycle, count: int) -> list[list[tables.Cell]]:
         [_plain(value * factor, cycle.peak(nu) * factor) for value in motion[nu].tolist()]
         for nu, (_, factor) in enumerate(UNITS[cycle.axis])
     ]
-    if isinstance(cycle.drive, Mechanism | Drive):
-        for curve in effort_along(cycle, *motion[:3]):
-            size = float(np.abs(curve).max())
-            columns.append([_plain(value, size) for value in curve.tolist()])
+    if _driven(cycle):
+        taken = [np.asarray(cycle.force(times)), np.asarray(cycle.power(times))]
+        if isinstance(cycle.drive, Drive):
+            taken.append(_RPM * cycle.drive.ratio * motion[1])
+        columns += [[_plain(value, float(np.abs(values).max())) for value in values.tolist()] for values in taken]
     return [list(row) for row in zip(degrees.tolist(), times.tolist(), *columns, strict=True)]
 
 
@@ -263,8 +264,8 @@ def _stored(cycle: Cycle) -> dict[str, Any]:
 def _facts(cycle: Cycle) -> dict[str, Any]:
     drive: dict[str, Any] = {} if cycle.drive is None else {"effort": cycle.effort.to_dict()}
     if isinstance(cycle.drive, Drive):
-        drive["motor"] = motor_sheet(cycle, cycle.drive).to_dict()
-    if cycle.load is not None:
+        drive["sheet"] = cycle.sheet.to_dict()
+    if cycle.load is not None and not is_process(cycle.load):
         drive["load"] = {name: cycle.load_motion.peak(name).value for name in cycle.load_motion.machine.outputs}
     return {
         "period": cycle.duration,

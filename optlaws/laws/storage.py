@@ -78,9 +78,10 @@ class StoredLaw(JsonText, ABC):
 class PlainNumbers(JsonText):
     """Frozen dataclasses of numbers and texts as plain data, where what is infinite is None.
 
-    >>> from optlaws.cycles.specification.drive import Effort
-    >>> Effort.from_json(Effort(1.0, 0.5, 2.0, 0.0).to_json())
-    Effort(peak_force=1.0, rms_force=0.5, peak_power=2.0, mean_power=0.0)
+    >>> from optlaws.cycles.specification.effort import Effort
+    >>> effort = Effort(1.0, 0.2, 0.5, 2.0, 0.0, 2.0, 2.0, 0.3, 0.3, 0.3)
+    >>> Effort.from_json(effort.to_json()) == effort
+    True
     """
 
     def to_dict(self) -> dict[str, Any]:

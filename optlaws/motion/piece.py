@@ -15,9 +15,9 @@ and every limit in machine units, divided by the same factor, is one of the law.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import Any
 
 import numpy as np
@@ -135,10 +135,15 @@ class Piece:
 
 def values_of_pieces(pieces: Sequence[Piece], times: Array, nu: int) -> Array:
     """The derivative of order nu of pieces one after the other; where they meet that of the later one."""
+    return by_pieces(pieces, [partial(piece.values, nu=nu) for piece in pieces], times)
+
+
+def by_pieces(pieces: Sequence[Piece], functions: Sequence[Callable[[Array], Array]], times: Array) -> Array:
+    """The values of functions of the time, one for each piece; where pieces meet that of the later one."""
     which = np.searchsorted([piece.start for piece in pieces[1:]], times, side="right")
-    values = np.empty(times.shape)
-    for i, piece in enumerate(pieces):
+    values = np.empty(np.shape(times))
+    for i, function in enumerate(functions):
         here = which == i
         if here.any():
-            values[here] = piece.values(times[here], nu)
+            values[here] = function(times[here])
     return values

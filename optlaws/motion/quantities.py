@@ -61,6 +61,7 @@ DIMENSIONS = {
     "force": ("newton", "120 N"),
     "torque": ("newton * meter", "0.4 N m"),
     "power": ("watt", "500 W"),
+    "energy": ("joule", "12 J"),
     "pressure": ("newton / meter ** 2", "210 GPa"),
     "stiffness": ("newton / meter", "3 N/mm"),
     "torsional stiffness": ("newton * meter / radian", "0.4 N m/deg"),

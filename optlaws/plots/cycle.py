@@ -9,13 +9,17 @@ import numpy as np
 
 from optlaws.cycles.cycle import Cycle
 from optlaws.errors import InputError
+from optlaws.mechanisms.drives.drive_train import Drive
+from optlaws.mechanisms.linkages.mechanism import Mechanism
+from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import QUANTITIES, TURN
 from optlaws.numbers import Array, derivative
 from optlaws.plots.law import four
 from optlaws.plots.style import BLUES, GREEN, GREY, WARM, new_figure, plot_style, titled
+from optlaws.tolerances import INSIDE_PIECE
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
@@ -34,27 +38,46 @@ _ABOVE: Any = {"loc": "lower left", "bbox_to_anchor": (0.0, 1.0), "ncols": 2, "f
 def cycle_figure(cycle: Cycle, title: str) -> Figure:
     """The motion of one cycle, as a figure."""
     with plot_style():
-        figure = new_figure(8.6, 8.2)
-        draw_cycle(cycle, list(figure.subplots(4, 1, sharex=True)))
+        panels = _panels(cycle)
+        draw_cycle(cycle, panels)
+        figure: Figure = panels[0].figure
         figure.align_ylabels()
         return titled(figure, title)
 
 
+def _panels(cycle: Cycle) -> list[Any]:
+    """New axes: four, and two more where the torque of a mechanism or a motor is to be shown."""
+    if isinstance(cycle.drive, Mechanism | Drive):
+        return list(new_figure(8.6, 11.6).subplots(6, 1, sharex=True))
+    return list(new_figure(8.6, 8.2).subplots(4, 1, sharex=True))
+
+
 def draw_cycle(cycle: Cycle, axes: Any = None, **style: Any) -> list[Artist]:  # noqa: ANN401 - matplotlib's
-    """Draw position, velocity, acceleration and jerk into four axes, new ones unless given, and return the artists."""
+    """Draw position, velocity, acceleration and jerk into four axes, and return the artists.
+
+    Into six axes torque and power as well. New axes unless given: six where a mechanism or a motor is driven.
+    """
     if hasattr(axes, "plot"):
         return _draw_together(cycle, axes, style)
     if axes is None:
         with plot_style():
-            axes = list(new_figure(8.6, 8.2).subplots(4, 1, sharex=True))
-    panels = four(axes)
+            axes = _panels(cycle)
+    several = list(np.ravel(np.asarray(axes, dtype=object)))
+    with_drive = several[4:] if len(several) == 6 and cycle.drive is not None else []
+    panels = four(several[:4] if with_drive else several)
     artists: list[Artist] = []
     for nu, panel in enumerate(panels):
         artists += draw_curve(cycle, panel, nu, {"color": BLUES[3]} | style)
         mark_segments(cycle, panel)
         artists += _mark_limits(cycle, panel, nu)
+    for panel, function, name in zip(with_drive, (cycle.force, cycle.power), _names_of_drive(cycle), strict=False):
+        times, values = samples_of_drive(cycle, function, _EACH)
+        artists += panel.plot(1e3 * times, values, **{"color": BLUES[3]} | style)
+        panel.axhline(0.0, color=GREY, linewidth=0.7)
+        panel.set_ylabel(name)
+        mark_segments(cycle, panel)
     name_segments(cycle, panels[0])
-    panels[-1].set(xlabel="time, ms", xlim=(0.0, 1e3 * cycle.duration))
+    (with_drive or panels)[-1].set(xlabel="time, ms", xlim=(0.0, 1e3 * cycle.duration))
     return artists
 
 
@@ -95,13 +118,27 @@ def draw_curve(cycle: Cycle, axes: Axes, nu: int, style: dict[str, Any], share: 
 
 def samples(cycle: Cycle, nu: int, count: int) -> tuple[Array, Array]:
     """Times and values of a derivative, so many in a piece with its breaks: a jump is upright between two pieces."""
-    times, values = [], []
-    for piece in cycle.pieces:
-        breaks = piece.start + piece.duration * np.array(piece.law.breaks)
-        inside = np.unique(np.concatenate([np.linspace(piece.start, piece.stop, count), breaks]))
-        times.append(inside)
-        values.append(piece.values(inside, nu))
+    times = [_times(piece, count) for piece in cycle.pieces]
+    values = [piece.values(inside, nu) for piece, inside in zip(cycle.pieces, times, strict=True)]
     return np.concatenate(times), np.concatenate(values)
+
+
+def samples_of_drive(cycle: Cycle, function: Callable[[Array], Array], count: int) -> tuple[Array, Array]:
+    """Times and values of the drive's force or power, as those of a derivative."""
+    times = [_times(piece, count) for piece in cycle.pieces]
+    # the end of a piece has its values, not those of the next
+    ends = [piece.stop - INSIDE_PIECE * cycle.duration for piece in cycle.pieces]
+    values = [function(np.minimum(inside, end)) for inside, end in zip(times, ends, strict=True)]
+    return np.concatenate(times), np.concatenate(values)
+
+
+def _times(piece: Piece, count: int) -> Array:
+    breaks = piece.start + piece.duration * np.array(piece.law.breaks)
+    return np.unique(np.concatenate([np.linspace(piece.start, piece.stop, count), breaks]))
+
+
+def _names_of_drive(cycle: Cycle) -> tuple[str, str]:
+    return "force, N" if cycle.axis == "length" else "torque, N m", "power, W"
 
 
 def mark_segments(cycle: Cycle, axes: Axes) -> None:

@@ -119,6 +119,18 @@ def values(jumping: Solution) -> dict[str, Any]:
         "PhasePlane": optlaws.drive_limit("c + 0.5*a", B=1.8).plane,
         "MoveLimit": optlaws.Mechanism("0.8 kg m^2").limit("rms torque", "0 deg", "45 deg", "0.25 s"),
         "DriveSheet": optlaws.Drive(optlaws.rack("20 mm", "5 kg"), optlaws.Motor(0.0)).sheet("0050", 0.0, 1.0, 1.0),
+        "Effort": optlaws.Cycle(
+            [optlaws.Rise("1 rad", "1 s", law="0050")],
+            period="1 s",
+            advance="1 rad",
+            drive={"inertia": "1 kg m^2"},
+        ).effort,
+        "CycleSheet": optlaws.Cycle(
+            [optlaws.Rise("1 rad", "1 s", law="0050")],
+            period="1 s",
+            advance="1 rad",
+            drive=optlaws.Drive(optlaws.rack("20 mm", "5 kg"), optlaws.Motor(0.0)),
+        ).sheet,
         "Cycle": slide,
         "Cycle with a mechanism": crank,
         "Axes": optlaws.Axes({"slide": slide}),

@@ -59,7 +59,7 @@ TESTS: dict[str, tuple[str, ...]] = {
     "optlaws.cli.laws.dwell": ("tests/cli/laws/test_loader_and_dwell.py",),
     "optlaws.cycles.optimisation.optimal": (
         "tests/cycles/optimisation/test_optimal.py",
-        "tests/cycles/optimisation/test_mean_force.py",
+        "tests/cycles/optimisation/test_shared_limits.py",
     ),
-    "optlaws.cycles.optimisation.mean_force": ("tests/cycles/optimisation/test_mean_force.py",),
+    "optlaws.cycles.optimisation.shared_limits": ("tests/cycles/optimisation/test_shared_limits.py",),
 }

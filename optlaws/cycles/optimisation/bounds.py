@@ -10,17 +10,30 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import partial, reduce
+from functools import reduce
 from math import hypot, inf, sqrt
 from typing import Any
 
-from optlaws.cycles.optimisation.drive_formulas import driven_mean, driven_peak, may_turn
-from optlaws.cycles.optimisation.objectives import FORCE, LOADED, POWER, CycleObjective, kind_of
-from optlaws.cycles.specification.drive import CycleDrive, read_drive, size_of
+from optlaws.cycles.optimisation.drive_formulas import Driven, driven_mean, driven_peak, may_turn
+from optlaws.cycles.optimisation.objectives import (
+    CURVE,
+    FORCE,
+    LOADED,
+    POWER,
+    SUMS,
+    CycleObjective,
+    kind_of,
+    limits_of_stretch,
+)
+from optlaws.cycles.optimisation.sums import span_sum, total
+from optlaws.cycles.specification.drive import CycleDrive, read_drive
+from optlaws.cycles.specification.effort import size_of
 from optlaws.cycles.specification.joints import LawSpan, Layout
+from optlaws.cycles.specification.position_drive import PositionDrive
 from optlaws.errors import InfeasibleProblem, SolverFailure
 from optlaws.motion.piece import Piece, factor
-from optlaws.synthesis.functionals.makers import peak
+from optlaws.synthesis.functionals.makers import peak, rms
+from optlaws.synthesis.limits.drive_limits import limit_beside
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.expression import maximum
 from optlaws.synthesis.problem.problem import Problem
@@ -119,6 +132,8 @@ def bound_of(layout: Layout, solved: Solved, objective: CycleObjective, period: 
     sizes = [
         (piece.duration, span_bound(layout.spans[i], *solved[i], objective)) for i, (piece, _) in enumerate(solved)
     ]
+    if nu in SUMS:
+        return sum(bound for _, bound in sizes) + total(layout.pieces, nu, objective.drive)
     drive = objective.drive or read_drive({}, "length")
     sizes += [(piece.duration, size_of(piece, nu, drive, mean=mean)) for piece in layout.pieces]
     if not mean:
@@ -129,10 +144,33 @@ def bound_of(layout: Layout, solved: Solved, objective: CycleObjective, period: 
 def span_bound(span: LawSpan, piece: Piece, solution: Solution, objective: CycleObjective) -> float:
     """The lower bound of a span in SI units."""
     nu, mean = kind_of(objective.minimise)
-    least = bound_by_energy(span, objective, piece.stroke, solution)
+    if nu in SUMS:
+        return span_sum(span, nu, objective.drive, piece.stroke).bound(solution, exact=is_exact(span, objective))
+    least = bound_by_energy(span, objective, piece.stroke, solution) if is_exact(span, objective) else 0.0
     if nu not in {FORCE, POWER}:
         return least * abs(factor(piece.stroke, piece.duration, nu))
-    driven = driven_mean if mean else partial(driven_peak, nu=nu)
-    effort = driven(span, objective.drive, piece.stroke)
+    effort = _driven(span, objective, piece.stroke)
+    makers = rms if mean else peak
+    limits = (limit_beside(replace(solution.problem, minimise=makers(formula))) for formula in effort.beneath)
+    proven = [limit.value for limit in limits if limit is not None]
     # neither a peak nor a mean is below 0, whether or not anything is proven
-    return hypot(max(least, 0.0) * effort.unit, sqrt(max(effort.friction, 0.0)))
+    return hypot(max(least, 0.0, *proven) * effort.unit, sqrt(max(effort.friction, 0.0)))
+
+
+def _driven(span: LawSpan, objective: CycleObjective, stroke: float) -> Driven:
+    nu, mean = kind_of(objective.minimise)
+    if mean:
+        return driven_mean(span, objective.drive, stroke)
+    return driven_peak(span, objective.drive, stroke, nu)
+
+
+def is_exact(span: LawSpan, objective: CycleObjective) -> bool:
+    """Whether what is minimised and limited is what it says, not more of it: then bounds of it hold.
+
+    Peaks behind a gear with losses are counted as if power flowed back wherever the motor brakes.
+    """
+    drive, (nu, mean) = objective.drive, kind_of(objective.minimise)
+    if not isinstance(drive, PositionDrive) or not drive.loses or drive.brakes_as_it_drives:
+        return True
+    limited = {order for stretch in span.stretches for order in limits_of_stretch(stretch, objective, "angle")}
+    return not limited & {CURVE, FORCE, POWER} and (mean or nu not in {FORCE, POWER})

@@ -9,10 +9,10 @@ v, and F = u + d sgn v with u = m v' + c v. The mean of F² is then that of u² 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
-from optlaws.cycles.optimisation.objectives import POWER
+from optlaws.cycles.optimisation.objectives import FORCE, POWER
 from optlaws.cycles.specification.drive import CycleDrive
 from optlaws.cycles.specification.joints import LawSpan
 from optlaws.cycles.specification.position_drive import PositionDrive
@@ -21,19 +21,29 @@ from optlaws.errors import InputError
 from optlaws.motion.piece import factor
 from optlaws.synthesis.functionals.makers import peak, rms
 from optlaws.synthesis.problem.constants import FUNCTIONALS, Functional
+from optlaws.synthesis.problem.expression import Maximum, maximum
 
 
 @dataclass(frozen=True)
 class Driven:
-    """A dimensionless constant of a span's law that measures what its drive takes, with its unit in SI.
+    """Dimensionless constants of a span's law of which the greatest is what its drive takes, with their unit in SI.
 
     Of a mean square, `friction` is what dry friction adds at least, in SI units, and `formula` the force in its unit.
+    `beneath` are forces in the unit whose magnitude is never greater, in whose phase plane bounds are proven. Where it
+    is not `exact`, the constants are of more than the force: bounds of them are not of it.
     """
 
-    constant: Functional
+    constants: tuple[Functional, ...]
     unit: float
     friction: float = 0.0
     formula: str = ""
+    beneath: tuple[str, ...] = ()
+    exact: bool = True
+
+    @property
+    def objective(self) -> Functional | Maximum:
+        """The greatest of the constants, to be minimised."""
+        return self.constants[0] if len(self.constants) == 1 else maximum(*self.constants)
 
 
 def may_turn(span: LawSpan) -> bool:
@@ -45,28 +55,30 @@ def may_turn(span: LawSpan) -> bool:
 
 def driven_peak(span: LawSpan, drive: CycleDrive | PositionDrive | None, stroke: float, nu: int) -> Driven:
     """Peak of the force (nu -1) or the power (nu -3) along a span's law."""
-    known = _known(drive)
+    known = known_drive(drive)
     if (
         nu == POWER
         and isinstance(known, CycleDrive)
         and known.inertia > 0.0
-        and known == CycleDrive(known.inertia, 0.0, 0.0, 0.0, 0.0)
+        and replace(known, regeneration=0.0) == CycleDrive(known.inertia, 0.0, 0.0, 0.0, 0.0)
     ):
-        return Driven(FUNCTIONALS["D"], known.inertia * stroke**2 / span.duration**3)
-    if isinstance(known, PositionDrive) and known.loses:
-        raise InputError(
-            "drive: peaks at a motor behind a gear with losses are neither minimised nor limited: take the rms torque, "
-            "or efficiency=1 and the peak that the losses leave"
-        )
+        return Driven((FUNCTIONALS["D"],), known.inertia * stroke**2 / span.duration**3)
     formula, unit = driven_formula(span, drive, stroke, nu)
-    return Driven(peak(formula), unit)
+    if not isinstance(known, PositionDrive) or not known.loses:
+        return Driven((peak(formula),), unit)
+    to_load, back = _branches(span, known, stroke)
+    braked = f"({back})*b" if nu == POWER else back
+    formula = f"max(({to_load})*b, {braked})" if nu == POWER else formula
+    exact = known.brakes_as_it_drives
+    beneath = (back,) if exact and nu == FORCE else ()
+    return Driven((peak(formula, side="high"), peak(braked, side="low")), unit, beneath=beneath, exact=exact)
 
 
 def driven_formula(
     span: LawSpan, drive: CycleDrive | PositionDrive | None, stroke: float, nu: int
 ) -> tuple[str, float]:
     """Force or power along a span's law as a formula, and its unit."""
-    known = _known(drive)
+    known = known_drive(drive)
     if known.dry > 0.0 and may_turn(span):
         raise InputError(
             f"drive: dry: {span.where} may turn back, where dry friction leaps and a peak of force or power is not "
@@ -76,17 +88,19 @@ def driven_formula(
     unit = _unit(span, known, stroke)
     formula = _formula(span, known, stroke, unit)
     if nu == POWER:
-        return f"({formula})*b", unit * abs(factor(stroke, span.duration, 1))
+        return f"({formula})*b", unit * known.speed_ratio * abs(factor(stroke, span.duration, 1))
     return formula, unit
 
 
 def driven_mean(span: LawSpan, drive: CycleDrive | PositionDrive | None, stroke: float) -> Driven:
     """Root mean square of the force along a span's law."""
-    known = _known(drive)
+    known = known_drive(drive)
     unit = _unit(span, known, stroke)
     if known.dry == 0.0 or not may_turn(span):
         formula = _formula(span, known, stroke, unit)
-        return Driven(rms(formula), unit, formula=formula)
+        below = isinstance(known, PositionDrive) and known.loses and known.brakes_as_it_drives
+        beneath = _branches(span, known, stroke)[1:] if isinstance(known, PositionDrive) and below else ()
+        return Driven((rms(formula),), unit, formula=formula, beneath=beneath)
     if isinstance(known, PositionDrive):
         raise InputError(
             f"drive: {span.where} may turn back, where friction of a mechanism jumps: take moves between rests"
@@ -97,12 +111,12 @@ def driven_mean(span: LawSpan, drive: CycleDrive | PositionDrive | None, stroke:
             "without stiffness, preload and gravity: leave these out, or take moves between rests"
         )
     formula = known.formula(stroke, span.duration, span.origin, 0.0, unit)
-    return Driven(rms(formula), unit, _friction(span, known), formula)
+    return Driven((rms(formula),), unit, _friction(span, known), formula)
 
 
 def force_unit(span: LawSpan, drive: CycleDrive | PositionDrive, stroke: float) -> float:
     """About how great the force along a span is: a unit in which it is near 1."""
-    return drive.size(stroke, span.duration, span.origin)
+    return drive.size(stroke, span.times, span.origin)
 
 
 def _unit(span: LawSpan, drive: CycleDrive | PositionDrive, stroke: float) -> float:
@@ -112,7 +126,8 @@ def _unit(span: LawSpan, drive: CycleDrive | PositionDrive, stroke: float) -> fl
     return unit
 
 
-def _known(drive: CycleDrive | PositionDrive | None) -> CycleDrive | PositionDrive:
+def known_drive(drive: CycleDrive | PositionDrive | None) -> CycleDrive | PositionDrive:
+    """The drive, if there is one; else the error says how one is given."""
     if drive is None:
         raise InputError("force, torque and power are of a drive: give one, such as drive={'mass': '2 kg'}")
     return drive
@@ -126,7 +141,20 @@ def _formula(span: LawSpan, drive: CycleDrive | PositionDrive, stroke: float, un
         raise InputError(
             f"drive: {span.where} may turn back, and its torque is that of laws that do not: take moves between rests"
         )
-    return drive.formula(stroke, span.duration, span.origin, unit)
+    return drive.formula(stroke, span.times, span.origin, unit)
+
+
+def branches_of(span: LawSpan, drive: PositionDrive, stroke: float) -> tuple[str, str, float]:
+    """The torque at the motor, that of power that flows back through the gear, and their unit."""
+    formula, unit = driven_formula(span, drive, stroke, FORCE)
+    return formula, _branches(span, drive, stroke)[-1], unit
+
+
+def _branches(span: LawSpan, drive: PositionDrive, stroke: float) -> tuple[str, ...]:
+    """The torques at the motor of power that flows to the load and back, in the unit of the span's force."""
+    moved = drive.moved(stroke, span.times, span.origin)
+    share = moved.unit / _unit(span, drive, stroke)
+    return tuple(f"{share!r}*({branch})" for branch in moved.branches)
 
 
 def _friction(span: LawSpan, drive: CycleDrive) -> float:

@@ -54,7 +54,7 @@ def durations(programme: Programme, objective: CycleObjective) -> tuple[float, .
     for i in free:
         _check_rest(programme, i)
     nu, mean = kind_of(objective.minimise)
-    if nu < 0 or min(objective.limits, default=0) < 0 or objective.mean_force is not None or objective.loaded:
+    if nu < 0 or min(objective.limits, default=0) < 0 or objective.shares or objective.loaded:
         raise InputError(
             "free durations are shared by velocity, acceleration or jerk, not by a force, power or a load: "
             "give durations"

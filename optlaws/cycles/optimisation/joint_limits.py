@@ -10,7 +10,7 @@ from operator import itemgetter
 from optlaws.cycles.optimisation.drive_formulas import may_turn
 from optlaws.cycles.optimisation.objectives import FORCE, CycleObjective, in_units, kind_of, limits_of_stretch
 from optlaws.cycles.optimisation.optimal import solve
-from optlaws.cycles.specification.drive import size_of
+from optlaws.cycles.specification.effort import size_of
 from optlaws.cycles.specification.joints import LawSpan, Layout, State
 from optlaws.cycles.specification.position_drive import PositionDrive
 from optlaws.cycles.specification.programme import TimedSegment, is_optimal
@@ -45,7 +45,7 @@ class SegmentEnd:
             return 0.0
         if (isinstance(drive, PositionDrive) or drive.inertia) and objective.order < _ACCELERATION_KNOWN:
             return 0.0
-        return abs(drive.at_joint(self.position, self.state.velocity, self.state.acceleration, self.direction))
+        return abs(drive.at_joint((self.position, *self.state), self.direction, self.time))
 
 
 def check_limits_at_joints(layout: Layout, objective: CycleObjective, axis: str, period: float) -> None:

@@ -13,11 +13,15 @@ from math import inf, sqrt
 from operator import itemgetter
 from typing import Any
 
-from optlaws.cycles.optimisation.drive_formulas import driven_formula, driven_mean, driven_peak, may_turn
+from optlaws.cycles.optimisation.drive_formulas import Driven, driven_formula, driven_mean, driven_peak, may_turn
+from optlaws.cycles.optimisation.motor_limits import driven_curve
 from optlaws.cycles.optimisation.objectives import (
+    CURVE,
+    ENERGY,
     FORCE,
     LOADED,
     POWER,
+    SUMS,
     CycleObjective,
     in_units,
     kind_of,
@@ -32,6 +36,7 @@ from optlaws.cycles.optimisation.search_spaces import (
     search_space,
     splines_of_least_rms,
 )
+from optlaws.cycles.optimisation.sums import span_sum
 from optlaws.cycles.specification.joints import LawSpan, State
 from optlaws.cycles.specification.load import load_output
 from optlaws.cycles.specification.position_drive import PositionDrive
@@ -39,7 +44,10 @@ from optlaws.cycles.specification.programme import is_optimal
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.motion.piece import Piece, factor
 from optlaws.motion.quantities import in_small_units
+from optlaws.synthesis.functionals.makers import integral, peak
+from optlaws.synthesis.limits.drive_limits import limit_beside
 from optlaws.synthesis.problem.constants import FUNCTIONALS, Functional
+from optlaws.synthesis.problem.expression import maximum
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
 from optlaws.synthesis.problem.windows import Window
@@ -50,17 +58,18 @@ from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 from optlaws.synthesis.status import Status
 from optlaws.tolerances import AGREEMENT
 
-_DRIVEN = (FORCE, POWER)
+_DRIVEN = (FORCE, POWER, CURVE)
+_BY_DRIVE = (*_DRIVEN, *SUMS)
 _PEAKS = {1: "B", 2: "C", 3: "J"}
 _ROUGH = 15  # degree of Z where points on the way or velocities bend the law
 
 
-def solve(span: LawSpan, objective: CycleObjective, axis: str, mean_square: float = inf) -> tuple[Piece, Solution]:
-    """The best law of a span, in its place, with its proof; the mean square of its force is at most what is said."""
+def solve(span: LawSpan, objective: CycleObjective, axis: str, share: float = inf) -> tuple[Piece, Solution]:
+    """The best law of a span, in its place, with its proof; it takes no more than its share of a limit of the cycle."""
     stroke = scale(span)
     problem = span_problem(span, objective, axis, stroke)
-    if mean_square < inf:
-        problem = with_mean_square(problem, span, objective, stroke, mean_square)
+    if share < inf:
+        problem = with_share(problem, span, objective, stroke, share)
     solution = _unhindered(problem, span, objective, stroke)
     if solution is None:
         solution = solved(problem, span)
@@ -126,10 +135,12 @@ def with_least_limit(
     stroke = scale(span)
     problem = span_problem(span, objective, axis, stroke)
     for nu, most in limits_of_stretch(span.stretches[0], objective, axis).items():
-        constant = driven_peak(span, objective.drive, stroke, nu).constant if nu in _DRIVEN else FUNCTIONALS[_PEAKS[nu]]
-        limit = problem.range(constant.name)
-        others = {other: best for other, best in problem.bounded if other != constant}
-        free = replace(problem, minimise=constant, bounds={}, B=None, C=None, D=None, J=None)
+        driven = _limited(span, objective, stroke, nu) if nu in _DRIVEN else None
+        constants = (FUNCTIONALS[_PEAKS[nu]],) if driven is None else driven.constants
+        limit = problem.range(constants[0].name)
+        others = {other: best for other, best in problem.bounded if other not in constants}
+        least_of = constants[0] if len(constants) == 1 else maximum(*constants)
+        free = replace(problem, minimise=least_of, bounds={}, B=None, C=None, D=None, J=None)
         try:
             least = synthesize(replace(free, bounds=others)).lower_bound
         except (InfeasibleProblem, SolverFailure):
@@ -137,9 +148,14 @@ def with_least_limit(
         if limit is not None and least > limit.high:
             allowed, needed = (in_units(nu, value, axis) for value in (most, least / limit.high * most))
             space = search_space(problem, span, objective.order)
+            proven = _whatever_degree(replace(problem, minimise=least_of), driven)
+            beyond = ""
+            if proven is not None and driven is not None and proven > limit.high:
+                beyond = "; no law that never turns back, of whatever degree, takes less than "
+                beyond += in_units(nu, proven / limit.high * most, axis)
             return InfeasibleProblem(
                 f"{span.where}: no law keeps its limits in {span.duration:.9g} s: among {space} the least is {needed}, "
-                f"but its limit is {allowed}: give it more time, a wider limit or a higher degree",
+                f"but its limit is {allowed}{beyond}: give it more time, a wider limit or a higher degree",
                 problem=problem,
                 tried=error.tried,
                 proof=error.proof,
@@ -147,22 +163,40 @@ def with_least_limit(
     return error
 
 
-def with_mean_square(problem: Problem, span: LawSpan, objective: CycleObjective, stroke: float, most: float) -> Problem:
-    """The problem of a span whose force has no greater mean square than is said, in SI units."""
-    driven = driven_mean(span, objective.drive, stroke)
+def _whatever_degree(problem: Problem, driven: Driven | None) -> float | None:
+    """What no law that never turns back can beat of a peak of a drive; None where it is not known."""
+    if driven is None:
+        return None
+    free = replace(problem, bounds={}, B=None, C=None, D=None, J=None)
+    peaks: list[Any] = [peak(formula) for formula in driven.beneath] or [problem.minimise]
+    limits = (limit_beside(replace(free, minimise=each, symmetric=False, monotone=True)) for each in peaks)
+    return max((limit.value for limit in limits if limit is not None), default=None)
+
+
+def with_share(problem: Problem, span: LawSpan, objective: CycleObjective, stroke: float, share: float) -> Problem:
+    """The problem of a span of which the squared force, or the energy, is at most a share, in SI units."""
+    monotone = problem.monotone or never_back(span, objective)
+    if objective.mean_force is None:
+        energy = span_sum(span, ENERGY, objective.drive, stroke)
+        bounds = {**problem.bounds, integral(energy.formula): Range(0.0, (share - energy.constant) / energy.unit)}
+        return replace(problem, bounds=bounds, monotone=monotone, symmetric=False)
+    driven, most = driven_mean(span, objective.drive, stroke), share / span.duration
     if most <= driven.friction:
         raise InfeasibleProblem(
             f"{span.where}: dry friction alone takes an rms force of {sqrt(driven.friction):.9g}, more than what is "
             f"left for it, {sqrt(max(most, 0.0)):.9g}: allow more, or give the cycle more time"
         )
-    bounds = {**problem.bounds, driven.constant: Range(0.0, sqrt(most - driven.friction) / driven.unit)}
-    return replace(problem, bounds=bounds, monotone=problem.monotone or never_back(span, objective), symmetric=False)
+    bounds = {**problem.bounds, driven.constants[0]: Range(0.0, sqrt(most - driven.friction) / driven.unit)}
+    return replace(problem, bounds=bounds, monotone=monotone, symmetric=False)
 
 
 def never_back(span: LawSpan, objective: CycleObjective) -> bool:
     """Whether a span's law is never to go back, so that dry friction is a constant force and limits of drives hold."""
     drive = objective.drive
-    return drive is not None and (isinstance(drive, PositionDrive) or drive.dry > 0.0) and not may_turn(span)
+    if drive is None or may_turn(span):
+        return False
+    summed = kind_of(objective.minimise)[0] in SUMS or objective.energy is not None
+    return isinstance(drive, PositionDrive) or drive.dry > 0.0 or summed
 
 
 def scale(span: LawSpan) -> float:
@@ -184,7 +218,8 @@ def span_problem(span: LawSpan, objective: CycleObjective, axis: str, stroke: fl
     ends = _ends(span, stroke, objective.order)
     plain = not any(any(end[1:]) for end in (ends.start, ends.end))
     bounds, parts = _limits(span, objective, axis, stroke)
-    forced = kind_of(objective.minimise)[0] in _DRIVEN or any(constant not in _PEAKS.values() for constant in bounds)
+    _check_energy(span, objective, bounds)
+    forced = kind_of(objective.minimise)[0] in _BY_DRIVE or any(constant not in _PEAKS.values() for constant in bounds)
     return Problem(
         order=objective.order,
         basis=Chebyshev(objective.degree if plain else max(objective.degree, _ROUGH)),
@@ -197,11 +232,20 @@ def span_problem(span: LawSpan, objective: CycleObjective, axis: str, stroke: fl
     )
 
 
+def _check_energy(span: LawSpan, objective: CycleObjective, bounds: dict[Any, Range]) -> None:
+    """Refuse a least energy where nothing keeps the acceleration finite: it falls with ever greater ones."""
+    if kind_of(objective.minimise)[0] == ENERGY and all(constant == _PEAKS[1] for constant in bounds):
+        raise InputError(
+            f"{span.where}: its energy falls with ever greater accelerations, so that none is least: give a limit of "
+            "the acceleration, or of the force or torque"
+        )
+
+
 def _problem_of_several(span: LawSpan, objective: CycleObjective, axis: str, stroke: float) -> Problem:
     """One law for several stretches, or through points on the way."""
     bounds, parts = _limits(span, objective, axis, stroke)
     minimised = max(kind_of(objective.minimise)[0], 3 if 3 in objective.limits else 0)
-    minimised = POWER if POWER in objective.limits else minimised
+    minimised = POWER if POWER in objective.limits or kind_of(objective.minimise)[0] in SUMS else minimised
     minimised = LOADED if objective.of_load else minimised
     bounds |= {
         _of_load(objective, *output, span): Range(0.0, most / abs(stroke)) for output, most in objective.loaded.items()
@@ -239,7 +283,8 @@ def _limits(
     ]
     sought = [limits for limits in of_each if limits is not None]
     if all(limits == sought[0] for limits in sought) and _straight_within(span, sought[0].get(1, inf)):
-        return dict(_bound(span, objective, stroke, nu, most) for nu, most in sought[0].items()), ()
+        bounds = [_bound(span, objective, stroke, nu, most) for nu, most in sought[0].items()]
+        return dict(bound for of_limit in bounds for bound in of_limit), ()
     windows = []
     for limits, start, stop in _alike(of_each, (*span.starts, span.stop)):
         for nu, most in limits.items():
@@ -248,12 +293,19 @@ def _limits(
     return {}, tuple(windows)
 
 
-def _bound(span: LawSpan, objective: CycleObjective, stroke: float, nu: int, most: float) -> tuple[Any, Range]:
-    """A limit of a whole span as a bound of one of its constants."""
+def _bound(span: LawSpan, objective: CycleObjective, stroke: float, nu: int, most: float) -> list[tuple[Any, Range]]:
+    """A limit of a whole span as bounds of its constants."""
     if nu in _DRIVEN:
-        driven = driven_peak(span, objective.drive, stroke, nu)
-        return driven.constant, Range(0.0, most / driven.unit)
-    return _PEAKS[nu], Range(0.0, _law_limit(span, stroke, nu, most))
+        driven = _limited(span, objective, stroke, nu)
+        return [(constant, Range(0.0, most / driven.unit)) for constant in driven.constants]
+    return [(_PEAKS[nu], Range(0.0, _law_limit(span, stroke, nu, most)))]
+
+
+def _limited(span: LawSpan, objective: CycleObjective, stroke: float, nu: int) -> Driven:
+    """What a limit of the drive is of."""
+    if nu == CURVE:
+        return driven_curve(span, objective.drive, stroke)
+    return driven_peak(span, objective.drive, stroke, nu)
 
 
 def _quantity(span: LawSpan, objective: CycleObjective, stroke: float, nu: int, most: float) -> tuple[str, float]:
@@ -313,5 +365,7 @@ def _objective(span: LawSpan, objective: CycleObjective, stroke: float) -> Any: 
     if output is not None:
         return _of_load(objective, *output, span)
     if mean:
-        return driven_mean(span, objective.drive, stroke).constant
-    return driven_peak(span, objective.drive, stroke, nu).constant
+        return driven_mean(span, objective.drive, stroke).objective
+    if nu in SUMS:
+        return integral(span_sum(span, nu, objective.drive, stroke).formula)
+    return driven_peak(span, objective.drive, stroke, nu).objective

@@ -56,6 +56,11 @@ class LawSpan:
         return bool(self.states)
 
     @property
+    def times(self) -> tuple[float, float]:
+        """When it begins, and how long it takes."""
+        return self.start, self.duration
+
+    @property
     def start(self) -> float:
         """The time at which it begins."""
         return self.starts[0]

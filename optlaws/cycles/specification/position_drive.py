@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
+from optlaws.cycles.specification.process import ProcessForce
 from optlaws.errors import InputError
-from optlaws.mechanisms.drives.drive_train import Drive
+from optlaws.formulas.tree import Number
+from optlaws.mechanisms.drives.drive_train import DimensionlessDrive, Drive
+from optlaws.mechanisms.linkages.dimensionless import DimensionlessMechanism
 from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.motion.piece import Piece
 from optlaws.numbers import Array
@@ -22,6 +26,7 @@ class PositionDrive:
     """
 
     source: Mechanism | Drive
+    process: ProcessForce | None = None
 
     @property
     def mechanism(self) -> Mechanism:
@@ -39,26 +44,90 @@ class PositionDrive:
         """Whether a gear loses power, so that the torque at the motor is the greater of two."""
         return isinstance(self.source, Drive) and self.source.efficiencies != (1.0, 1.0)
 
-    def force(self, y: Array, velocity: Array, acceleration: Array) -> Array:
-        """The torque or force along a motion."""
-        return np.asarray(self.source.torque(y, velocity, acceleration), dtype=np.float64)
+    @property
+    def regeneration(self) -> float:
+        """The share of the braking energy that is fed back; none without a motor."""
+        return self.source.regeneration if isinstance(self.source, Drive) else 0.0
+
+    @property
+    def copper(self) -> float:
+        """The copper heat of the motor by its squared torque, W/(N m)²; 0 without a motor constant."""
+        return self.source.motor.constant**-2 if isinstance(self.source, Drive) else 0.0
+
+    @property
+    def speed_ratio(self) -> float:
+        """The speed of the motor by that of the mechanism's input; 1 without a motor."""
+        return self.source.ratio if isinstance(self.source, Drive) else 1.0
+
+    def kinks(self, piece: Piece) -> list[Callable[[Array], Array]]:
+        """Functions of the time at whose zeros the torque has kinks: where the power through a gear turns."""
+        return [lambda times: self._before_gear(piece, times)] if self.loses else []
+
+    def _before_gear(self, piece: Piece, times: Array) -> Array:
+        """The torque at the mechanism's input."""
+        x, v, w = (piece.values(times, nu) for nu in range(3))
+        return np.asarray(self.mechanism.torque(x, v, w), dtype=np.float64) + self._process(x, times)
+
+    def _process(self, x: Array, times: Array) -> Array | float:
+        """The load of the process at positions and times."""
+        return 0.0 if self.process is None else self.process.values(x, times)
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """Times at which the load has kinks."""
+        return () if self.process is None else self.process.breaks
+
+    def _torque(self, y: Array, velocity: Array, acceleration: Array, times: Array) -> Array:
+        process = self._process(y, times)
+        if isinstance(self.source, Drive):
+            return np.asarray(self.source.torque(y, velocity, acceleration, process), dtype=np.float64)
+        return np.asarray(self.source.torque(y, velocity, acceleration), dtype=np.float64) + process
 
     def along(self, piece: Piece, times: Array) -> Array:
         """The torque or force at times in a piece."""
-        return self.force(*(piece.values(times, nu) for nu in range(3)))
+        y, velocity, acceleration = (piece.values(times, nu) for nu in range(3))
+        return self._torque(y, velocity, acceleration, times)
 
-    def at_joint(self, position: float, velocity: float, acceleration: float, direction: float) -> float:
+    def at_joint(self, motion: tuple[float, float, float], direction: float, time: float) -> float:
         """The torque or force where a move begins or ends, on its way in a direction."""
-        return float(self.source.torque(position, velocity or TINY * direction, acceleration))
+        y, velocity, acceleration = (np.array([value]) for value in motion)
+        moving = np.where(velocity == 0.0, TINY * direction, velocity)
+        return float(self._torque(y, moving, acceleration, np.array([time]))[0])
 
-    def formula(self, stroke: float, duration: float, offset: float, unit: float) -> str:
+    def moved(
+        self, stroke: float, span: tuple[float, float], offset: float
+    ) -> DimensionlessMechanism | DimensionlessDrive:
+        """Torque, power and energy over a stroke as formulas of a law that never turns back.
+
+        A span is its start and its duration.
+        """
+        process = None if self.process is None else self.process.over_span(*span)
+        return self.source.dimensionless(offset, stroke, span[1], process=process)
+
+    def formula(self, stroke: float, span: tuple[float, float], offset: float, unit: float) -> str:
         """The torque in a unit, counted in the direction of the stroke, of a law that never turns back."""
-        moved = self.source.dimensionless(offset, stroke, duration)
+        moved = self.moved(stroke, span, offset)
         return f"{moved.unit / unit!r}*({moved.torque})"
 
-    def size(self, stroke: float, duration: float, offset: float) -> float:
+    @property
+    def brakes_as_it_drives(self) -> bool:
+        """Whether motor and load are braked together: the torque of power back is then never greater than the torque.
+
+        So it is where nothing but constant inertia is moved, and where motor and gear take no torque themselves.
+        """
+        if not isinstance(self.source, Drive):
+            return True
+        mechanism, train = self.mechanism, self.source.train
+        if self.process is not None and (train.inertia or train.viscous or train.coulomb):
+            return False
+        if not (train.inertia or train.viscous or train.coulomb):
+            return True
+        rubs = mechanism.viscous or mechanism.coulomb or train.viscous or train.coulomb
+        return not rubs and isinstance(mechanism.inertia_formula, Number) and mechanism.load_formula == Number(0.0)
+
+    def size(self, stroke: float, span: tuple[float, float], offset: float) -> float:
         """About how great the torque is along a motion: a unit in which it is near 1."""
-        return 4.0 * self.source.dimensionless(offset, stroke, duration).unit
+        return 4.0 * self.moved(stroke, span, offset).unit
 
 
 def position_drive(source: Mechanism | Drive, axis: str) -> PositionDrive:

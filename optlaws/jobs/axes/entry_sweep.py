@@ -15,7 +15,6 @@ from optlaws.cycles.summary import force_unit, objective_unit
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.files.problem_file import Text
 from optlaws.files.tables import Cell
-from optlaws.jobs.axes.motor_sheet import motor_sheet
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.status import Status
@@ -136,13 +135,13 @@ def _columns(cycle: Cycle) -> dict[str, Callable[[Cycle], Cell]]:
 
 
 def _peak_speed(cycle: Cycle) -> Cell:
-    return _RPM * motor_sheet(cycle, cycle.drive).peak_speed if isinstance(cycle.drive, Drive) else None
+    return _RPM * cycle.sheet.peak_speed if isinstance(cycle.drive, Drive) else None
 
 
 def _use(cycle: Cycle) -> Cell:
     """The greatest share of a limit of the motor; None where it has none, a word beyond its greatest speed."""
     if not isinstance(cycle.drive, Drive):
         return None
-    margins = motor_sheet(cycle, cycle.drive).margins
+    margins = cycle.sheet.margins
     use = max((margin.use for margin in margins), default=None)
     return "too fast" if use == inf else None if use is None else _PERCENT * use

@@ -11,6 +11,7 @@ import numpy as np
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.files.reading import JsonText, entries_of
+from optlaws.formulas.tree import Formula
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.drives.motor import Motor
 from optlaws.mechanisms.drives.motor_motion import MotorMotion, Train
@@ -35,10 +36,16 @@ class DimensionlessDrive:
     ----------
     torque
         At the motor, above 0 in the direction of the stroke.
+    branches
+        The torques of which it is the greatest: where a gear loses power, that of power to the load and that of power
+        back.
     power
         Of the motor, above 0 where it drives: torque times b.
     energy
         Of which the integral is the energy of the move: braking counts by the share that is fed back.
+    heat
+        Of which the integral is the copper heat and the braking energy that is not fed back; empty of a motor without
+        a motor constant.
     unit
         Of the torque, N m.
     power_unit, energy_unit
@@ -46,8 +53,10 @@ class DimensionlessDrive:
     """
 
     torque: str
+    branches: tuple[str, ...]
     power: str
     energy: str
+    heat: str
     unit: float
     power_unit: float
     energy_unit: float
@@ -166,28 +175,34 @@ class Drive(JsonText):
         """The drive with another ratio."""
         return replace(self, ratio=ratio)
 
-    def torque(self, position: Any, velocity: Any, acceleration: Any) -> Any:  # noqa: ANN401 - numbers or arrays
+    def torque(self, position: Any, velocity: Any, acceleration: Any, process: Any = 0.0) -> Any:  # noqa: ANN401 - numbers or arrays
         """The torque at the motor, N m, from position, velocity and acceleration of the mechanism's input, SI units.
 
-        It moves the way of its velocity, and from rest that of its acceleration; at rest the motor holds the load
-        without help of the gear's losses.
+        A process adds to the load at that input. It moves the way of its velocity, and from rest that of its
+        acceleration; at rest the motor holds the load without help of the gear's losses.
         """
         v, w = np.asarray(velocity, dtype=np.float64), np.asarray(acceleration, dtype=np.float64)
         direction, train, i = np.where(v == 0.0, np.sign(w), np.sign(v)), self.train, self.ratio
         load = np.asarray(self.mechanism.torque(position, v, w)) + self.mechanism.coulomb * (direction - np.sign(v))
+        load = load + process
         inertial = i * (train.inertia * w + train.viscous * v) + train.coulomb * direction
         through = np.where(direction == 0.0, load, train.through_gear(load * direction) * direction)
         values = inertial + through / i
         return values if np.ndim(values) else float(values)
 
     def dimensionless(
-        self, start: NumberOrQuantity, stroke: NumberOrQuantity, duration: NumberOrQuantity
+        self,
+        start: NumberOrQuantity,
+        stroke: NumberOrQuantity,
+        duration: NumberOrQuantity,
+        *,
+        process: Formula | None = None,
     ) -> DimensionlessDrive:
         """The drive over a stroke of the mechanism's input: formulas of a law for `peak`, `rms` and `integral`.
 
         Parameters
         ----------
-        start, stroke, duration
+        start, stroke, duration, process
             As `Mechanism.dimensionless` takes them.
 
         Raises
@@ -203,7 +218,7 @@ class Drive(JsonText):
         >>> round(rms(moved.torque).value(smoothstep(3)) * moved.unit, 6)
         2.444632
         """
-        moved = self.mechanism.dimensionless(start, stroke, duration)
+        moved = self.mechanism.dimensionless(start, stroke, duration, process=process)
         unit, i = moved.unit / self.ratio, self.ratio
         speed = abs(moved.stroke) / moved.duration
         train = self.train
@@ -215,11 +230,22 @@ class Drive(JsonText):
         shares = (1.0,) if to_load == back == 1.0 else (1.0 / to_load, back)
         through = [f"{share!r}*({moved.torque})" if share != 1.0 else moved.torque for share in shares]
         torque = " + ".join([*motor, through[0] if len(through) == 1 else f"max({', '.join(through)})"])
-        powers = [f"({' + '.join([*motor, load])})*b" for load in through]
+        branches = tuple(" + ".join([*motor, load]) for load in through)
+        powers = [f"({branch})*b" for branch in branches]
         fed_back = [f"{self.regeneration!r}*{power}" for power in powers] if self.regeneration else ["0"]
         several = powers if self.regeneration == 1.0 else [*powers, *fed_back]
         power, energy = (some[0] if len(some) == 1 else f"max({', '.join(some)})" for some in (powers, several))
-        return DimensionlessDrive(torque, power, energy, unit, unit * i * speed, unit * i * abs(moved.stroke))
+        units = (unit, unit * i * speed, unit * i * abs(moved.stroke))
+        copper = unit * moved.duration / (self.motor.constant**2 * i * abs(moved.stroke))
+        heat = f"{copper!r}*({torque})^2 + {self._burnt(powers)}" if copper else ""
+        return DimensionlessDrive(torque, branches, power, energy, heat, *units)
+
+    def _burnt(self, powers: list[str]) -> str:
+        """The braking power that is not fed back, from the powers of which the greatest is the motor's."""
+        share = 1.0 - self.regeneration
+        if len(powers) == 1:
+            return f"{share!r}*(max({powers[0]}, 0) - {powers[0]})"
+        return f"{share!r}*(max({', '.join(powers)}, 0) - max({', '.join(powers)}))"
 
     def limit(
         self,
@@ -372,10 +398,10 @@ class Drive(JsonText):
         style
             What `Axes.plot` takes, for the move.
         """
-        from optlaws.plots.motors import draw_torque_over_speed
+        from optlaws.plots.motors import draw_move
 
         motion, _ = self._move(law, start, stroke, duration, None)
-        return draw_torque_over_speed(motion, self.motor, ax, **style)
+        return draw_move(motion, self.motor, ax, **style)
 
     def _move(
         self,

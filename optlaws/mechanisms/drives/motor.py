@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 from math import inf
 from pathlib import Path
-from typing import Any
+from typing import Any, TypedDict, Unpack
 
 import numpy as np
 
@@ -15,8 +15,8 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.files.reading import JsonText, toml
 from optlaws.motion.quantities import si_number
-from optlaws.numbers import Array, NumberOrQuantity, bounded, finite, not_negative
-from optlaws.suggest import unknown_key
+from optlaws.numbers import Array, NumberOrQuantity, bounded, finite, not_negative, positive
+from optlaws.suggest import keywords_of, unknown_key
 
 #: entries of a motor with their dimensions; curves are lists of speeds and torques
 ENTRIES = {
@@ -29,6 +29,13 @@ ENTRIES = {
 }
 CURVES = ("curve", "continuous")
 Curve = tuple[tuple[float, float], ...]
+
+
+class MotorLosses(TypedDict, total=False):
+    """The losses of a motor: its friction, "coulomb" and "viscous", and the motor constant, N m/√W."""
+
+    friction: Mapping[str, NumberOrQuantity] | None
+    constant: float | None
 
 
 @dataclass(frozen=True, init=False)
@@ -50,6 +57,9 @@ class Motor(JsonText):
         straight lines between them; beyond the last one there is none.
     friction
         Of the motor itself: "coulomb" and "viscous".
+    constant
+        The motor constant, N m/√W: torque by the root of the copper heat, which is (torque/constant)². It is the torque
+        constant by the root of the winding's resistance.
     name
         What texts call it.
 
@@ -75,8 +85,10 @@ class Motor(JsonText):
     continuous: Curve
     coulomb: float
     viscous: float
+    constant: float
     name: str
 
+    @keywords_of(MotorLosses)
     def __init__(
         self,
         inertia: NumberOrQuantity,
@@ -86,17 +98,19 @@ class Motor(JsonText):
         greatest_speed: NumberOrQuantity | None = None,
         curve: Sequence[Any] = (),
         continuous: Sequence[Any] = (),
-        friction: Mapping[str, NumberOrQuantity] | None = None,
         name: str = "motor",
+        **losses: Unpack[MotorLosses],
     ) -> None:
         limits = {"rated_torque": rated_torque, "peak_torque": peak_torque, "greatest_speed": greatest_speed}
         fields: dict[str, Any] = {"inertia": _entry(inertia, "inertia"), "name": str(name)}
         fields |= {key: inf if value is None else _limit(value, key) for key, value in limits.items()}
-        for key in friction or {}:
+        friction, constant = losses.get("friction") or {}, losses.get("constant")
+        for key in friction:
             if key not in ("coulomb", "viscous"):
                 raise InputError(unknown_key(key, ("coulomb", "viscous"), "friction of a motor"))
-        fields |= {key: _entry((friction or {}).get(key, 0.0), key) for key in ("coulomb", "viscous")}
+        fields |= {key: _entry(friction.get(key, 0.0), key) for key in ("coulomb", "viscous")}
         fields |= {key: _curve(pairs, key) for key, pairs in zip(CURVES, (curve, continuous), strict=True)}
+        fields["constant"] = inf if constant is None else positive(constant, "constant")
         ends = [fields[key][-1][0] for key in CURVES[:1] if fields[key]]
         fields["greatest_speed"] = min([fields["greatest_speed"], *ends])
         for key, value in fields.items():
@@ -151,6 +165,7 @@ class Motor(JsonText):
             **{name: [list(pair) for pair in getattr(self, name)] for name in CURVES},
             "coulomb": self.coulomb,
             "viscous": self.viscous,
+            "constant": bounded(self.constant),
         }
 
     @classmethod
@@ -167,7 +182,7 @@ class Motor(JsonText):
         >>> Motor.from_dict({"inertia": "3e-4 kg m^2", "greatest_speed": "3000 rpm"}).inertia
         0.0003
         """
-        known = (*ENTRIES, *CURVES, "name")
+        known = (*ENTRIES, *CURVES, "constant", "name")
         if not isinstance(data, Mapping) or data.get("inertia") is None:
             raise InputError(f"a motor is a table with an inertia, got {shortened(data)}")
         for key in data:
@@ -185,7 +200,7 @@ def read_motors(file: str | Path) -> dict[str, Motor]:
     ----------
     file
         Whose tables have the entries of a `Motor`: inertia, rated_torque, peak_torque, greatest_speed, curve,
-        continuous, coulomb, viscous.
+        continuous, coulomb, viscous, constant.
 
     Raises
     ------

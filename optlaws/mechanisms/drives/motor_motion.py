@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -11,13 +10,9 @@ import numpy as np
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.linkages.mechanism import Mechanism
+from optlaws.motion.smooth_parts import SmoothParts
 from optlaws.numbers import Array
-from optlaws.numerics.chebyshev import gauss
-from optlaws.tolerances import BEFORE_BREAK, VALUE_ROUNDING
-
-_PANELS = 200
-_GAUSS = 10
-_POLISHED = 3
+from optlaws.tolerances import VALUE_ROUNDING
 
 
 class Train(NamedTuple):
@@ -40,13 +35,6 @@ class Train(NamedTuple):
     def through_gear(self, torque: Array) -> Array:
         """The torque at the mechanism's input, in the direction of motion, as the gear's other side feels it."""
         return np.maximum(torque / self.to_load, torque * self.back)
-
-
-class Greatest(NamedTuple):
-    """A greatest value and the k at which it is."""
-
-    value: float
-    k: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,51 +104,6 @@ class MotorMotion:
         return float(np.sign(self.stroke) * self.mechanism.load(at_end)) / self.ratio
 
     @kept_property
-    def _smooth(self) -> Array:
-        """Places between which speed, load and torque are smooth: breaks, reversals, and where the power turns."""
-        even = np.unique([*np.linspace(0.0, 1.0, _PANELS + 1), *self.law.breaks])
-        crossings = [_crossings(function, even) for function in (self.speed, self.load, self.torque)]
-        return np.unique(np.concatenate([even, *crossings]))
-
-    @kept_property
-    def places(self) -> tuple[Array, Array]:
-        """Places and weights of an integral over k."""
-        u, weights = gauss(_GAUSS)
-        edges = self._smooth
-        middles, halves = 0.5 * (edges[:-1] + edges[1:]), 0.5 * np.diff(edges)
-        return (middles[:, None] + halves[:, None] * u).ravel(), (halves[:, None] * weights).ravel()
-
-    def mean(self, function: Callable[[Array], Array]) -> float:
-        """The mean of a function of k over the move."""
-        k, weights = self.places
-        return float(weights @ function(k))
-
-    def greatest(self, function: Callable[[Array], Array]) -> Greatest:
-        """The greatest value of a function of k, on both sides of the law's breaks."""
-        from scipy.optimize import minimize_scalar
-
-        edges = self._smooth
-        lengths = np.diff(edges)
-        k = np.concatenate([edges[:-1] + BEFORE_BREAK * lengths, edges[1:] - BEFORE_BREAK * lengths, self.places[0]])
-        values = np.asarray(function(k))
-        best = int(np.argmax(values))
-        greatest = Greatest(float(values[best]), float(k[best]))
-        inner = np.searchsorted(edges, k[np.argsort(values)[-_POLISHED:]], side="right") - 1
-        for i in np.unique(np.clip(inner, 0, len(lengths) - 1)):
-            place = minimize_scalar(
-                lambda at: -float(function(np.array([at]))[0]), bounds=(edges[i], edges[i + 1]), method="bounded",
-                options={"xatol": BEFORE_BREAK * lengths[i]},
-            )  # fmt: skip
-            if -place.fun > greatest.value:
-                greatest = Greatest(float(-place.fun), float(place.x))
-        return greatest
-
-
-def _crossings(function: Callable[[Array], Array], places: Array) -> Array:
-    """Where a function changes its sign between places."""
-    from scipy.optimize import brentq
-
-    lengths = np.diff(places)
-    low, high = places[:-1] + BEFORE_BREAK * lengths, places[1:] - BEFORE_BREAK * lengths
-    changed = np.flatnonzero(function(low) * function(high) < 0.0)
-    return np.array([brentq(lambda at: float(function(np.array([at]))[0]), low[i], high[i]) for i in changed])
+    def parts(self) -> SmoothParts:
+        """Parts of the move on which speed, load and torque are smooth: from breaks and signs to the next ones."""
+        return SmoothParts.between(0.0, 1.0, breaks=self.law.breaks, signs=(self.speed, self.load, self.torque))

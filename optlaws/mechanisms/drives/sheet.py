@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import inf, isfinite, pi, sqrt
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -61,8 +61,9 @@ class DriveSheet(PlainNumbers):
         Of a move, J, both at least 0.
     energy
         Of a cycle: what is fed back is subtracted.
-    braking_heat
-        The mean power of the brake resistor over the period, W.
+    braking_heat, copper_heat
+        The mean powers of the brake resistor and of the winding over the period, W; the one of the winding is 0 of a
+        motor without a motor constant.
     inertia_match
         The greatest inertia of the load at the motor's shaft by that of motor and gear.
     curve_use, curve_use_at
@@ -72,6 +73,9 @@ class DriveSheet(PlainNumbers):
     peak_limit, rated_limit, speed_limit
         Of the motor; None where it has none.
     """
+
+    _of: ClassVar[str] = "move"
+    _at: ClassVar[str] = "k"
 
     peak_torque: float
     peak_torque_at: float
@@ -85,6 +89,7 @@ class DriveSheet(PlainNumbers):
     braking_energy: float
     energy: float
     braking_heat: float
+    copper_heat: float
     inertia_match: float
     curve_use: float
     curve_use_at: float
@@ -118,17 +123,18 @@ class DriveSheet(PlainNumbers):
             Row("peak speed", self.peak_speed * _RPM, "rpm"),
             Row("greatest power, motoring", self.motoring_power, "W"),
             Row("greatest power, braking", self.braking_power, "W"),
-            Row("energy of a move, motoring", self.motoring_energy, "J"),
-            Row("energy of a move, braking", self.braking_energy, "J"),
+            Row(f"energy of a {self._of}, motoring", self.motoring_energy, "J"),
+            Row(f"energy of a {self._of}, braking", self.braking_energy, "J"),
             Row("energy of a cycle", self.energy, "J"),
             Row("mean power of the brake resistor", self.braking_heat, "W"),
+            *([Row("mean power of the copper heat", self.copper_heat, "W")] if self.copper_heat else []),
             Row("inertia of load by motor", self.inertia_match),
         ]
         rows += [
             Row(f"{margin.name}, used", 100.0 * margin.use, "%", note="" if margin.use <= 1.0 else "too weak")
             for margin in self.margins
         ]
-        return Summary(rows, at="k")
+        return Summary(rows, at=self._at)
 
     def __str__(self) -> str:
         return str(self.summary())
@@ -170,29 +176,29 @@ class BestRatio:
 
 def drive_sheet(motion: MotorMotion, motor: Motor, period: float, regeneration: float) -> DriveSheet:
     """The sheet of a move that is made once in a period, with the share of the braking energy that is fed back."""
-    peak = motion.greatest(lambda k: np.abs(motion.torque(k)))
-    speed = motion.greatest(lambda k: np.abs(motion.speed(k)))
-    given, taken = motion.greatest(motion.power).value, motion.greatest(lambda k: -motion.power(k)).value
-    driving = motion.duration * motion.mean(lambda k: np.maximum(motion.power(k), 0.0))
-    braking = motion.duration * motion.mean(lambda k: np.maximum(-motion.power(k), 0.0))
+    peak = motion.parts.greatest(lambda k: np.abs(motion.torque(k)))
+    speed = motion.parts.greatest(lambda k: np.abs(motion.speed(k)))
+    given, taken = motion.parts.greatest(motion.power).value, motion.parts.greatest(lambda k: -motion.power(k)).value
+    driving = motion.duration * motion.parts.integral(lambda k: np.maximum(motion.power(k), 0.0))
+    braking = motion.duration * motion.parts.integral(lambda k: np.maximum(-motion.power(k), 0.0))
     rms = _rms(motion, period)
-    mean_speed = motion.duration / period * motion.mean(lambda k: np.abs(motion.speed(k)))
-    use = motion.greatest(lambda k: _use(np.abs(motion.torque(k)), motor.peak_at(motion.speed(k))))
+    mean_speed = motion.duration / period * motion.parts.integral(lambda k: np.abs(motion.speed(k)))
+    use = motion.parts.greatest(lambda k: share_used(np.abs(motion.torque(k)), motor.peak_at(motion.speed(k))))
     rated = float(motor.continuous_at(mean_speed))
     load = float(np.max(motion.mechanism.inertia(motion.start + motion.stroke * np.linspace(0.0, 1.0, 721))))
     inertia = motion.train.inertia
     return DriveSheet(
-        *(peak.value, peak.k, rms, motion.holding_torque, speed.value, mean_speed),
+        *(peak.value, peak.place, rms, motion.holding_torque, speed.value, mean_speed),
         *(max(given, 0.0), max(taken, 0.0), driving, braking, driving - regeneration * braking),
-        (1.0 - regeneration) * braking / period,
+        *((1.0 - regeneration) * braking / period, (rms / motor.constant) ** 2),
         load / motion.ratio**2 / inertia if inertia else inf,
-        *((use.value, use.k) if motor.curve else (0.0, 0.0)),
-        float(_use(np.array(rms), np.array(rated))),
+        *((use.value, use.place) if motor.curve else (0.0, 0.0)),
+        float(share_used(np.array(rms), np.array(rated))),
         *(motor.peak_torque, rated, motor.greatest_speed),
     )
 
 
-def _use(torque: Array, limit: Array) -> Array:
+def share_used(torque: Array, limit: Array) -> Array:
     """The share of a limit that a torque uses; no end of it where there is none left."""
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.where(torque == 0.0, 0.0, torque / limit)
@@ -200,7 +206,7 @@ def _use(torque: Array, limit: Array) -> Array:
 
 def _rms(motion: MotorMotion, period: float) -> float:
     """The root mean square of the torque over a period."""
-    square = motion.duration * motion.mean(lambda k: motion.torque(k) ** 2)
+    square = motion.duration * motion.parts.integral(lambda k: motion.torque(k) ** 2)
     return sqrt((square + (period - motion.duration) * motion.holding_torque**2) / period)
 
 
@@ -209,7 +215,7 @@ class _ByRatio:
 
     def __init__(self, motion: MotorMotion, period: float) -> None:
         direct = motion.with_ratio(1.0)
-        self.k, self.weights = direct.places
+        self.k, self.weights = direct.parts.places
         self.weights = self.weights * (motion.duration / period)
         self.speed = np.asarray(direct.speed(self.k))
         self.dry = motion.train.coulomb * np.where(self.speed < 0.0, -1.0, 1.0)
@@ -235,7 +241,7 @@ class _ByRatio:
     def use(self, ratio: Any, motor: Motor) -> Array:  # noqa: ANN401
         """The greatest share of the motor's peak torque, at its speed."""
         speeds = np.asarray(ratio, dtype=np.float64)[..., None] * self.speed
-        return np.asarray(_use(np.abs(self.torques(ratio)), motor.peak_at(speeds)).max(axis=-1))
+        return np.asarray(share_used(np.abs(self.torques(ratio)), motor.peak_at(speeds)).max(axis=-1))
 
     @property
     def unlimited(self) -> float:

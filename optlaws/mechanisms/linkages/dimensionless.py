@@ -50,6 +50,21 @@ class DimensionlessMechanism:
         return drive_torque(inertia=self.inertia, friction=self.friction, load=self.load)
 
     @property
+    def branches(self) -> tuple[str, ...]:
+        """The torques of which `torque` is the greatest: one, where no gear loses power."""
+        return (self.torque,)
+
+    @property
+    def power(self) -> str:
+        """The power, above 0 where the input is driven: torque times b."""
+        return f"({self.torque})*b"
+
+    @property
+    def energy(self) -> str:
+        """A formula of which the integral is the energy of the move, of which nothing is fed back."""
+        return f"max({self.power}, 0)"
+
+    @property
     def power_unit(self) -> float:
         """The unit of torque times b, W."""
         return self.unit * abs(self.stroke) / self.duration
@@ -75,7 +90,8 @@ def dimensionless(
     x = start + way * np.linspace(0.0, 1.0, _LOOKS)
     accelerating, direction = abs(way) / time**2, float(np.sign(way))
     moved = friction.viscous * abs(way) / time
-    greatest = (float(np.max(np.abs(evaluate(formula, {"x": x}, NUMPY)))) for formula in (inertia, load))
+    places = {"x": x, "k": np.linspace(0.0, 1.0, _LOOKS)}
+    greatest = (float(np.max(np.abs(evaluate(formula, places, NUMPY)))) for formula in (inertia, load))
     unit = max(next(greatest) * accelerating, next(greatest), moved, friction.coulomb)
     if unit == 0.0:
         raise InputError("the mechanism has neither inertia nor load nor friction on this stroke: nothing drives it")

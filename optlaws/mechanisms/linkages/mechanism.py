@@ -273,7 +273,12 @@ class Mechanism(JsonText):
         return values if np.ndim(values) else float(values)
 
     def dimensionless(
-        self, start: NumberOrQuantity, stroke: NumberOrQuantity, duration: NumberOrQuantity
+        self,
+        start: NumberOrQuantity,
+        stroke: NumberOrQuantity,
+        duration: NumberOrQuantity,
+        *,
+        process: Formula | None = None,
     ) -> DimensionlessMechanism:
         """The mechanism over a stroke x = start + stroke a in a duration: texts in a, and the units of their numbers.
 
@@ -285,6 +290,8 @@ class Mechanism(JsonText):
             How far the input moves; below 0 for motion to smaller x.
         duration
             In seconds, or a quantity.
+        process
+            A formula of x and k that is added to the load.
 
         Raises
         ------
@@ -307,7 +314,8 @@ class Mechanism(JsonText):
             raise InputError("stroke must not be 0: a mechanism at rest has no dimensionless form")
         self.position(np.array([first, first + way]))
         friction = InputFriction(self.coulomb, self.viscous)
-        return dimensionless(self.inertia_formula, self.load_formula, friction, (first, way, time))
+        load = self.load_formula if process is None else added([self.load_formula, process])
+        return dimensionless(self.inertia_formula, load, friction, (first, way, time))
 
     def limit(
         self,

@@ -347,11 +347,9 @@ def limit_beside(problem: Problem) -> DriveLimit | None:
     >>> round(limit_beside(problem).value, 5)
     3.40484
     """
-    known = plane_of(problem)
-    if known is None:
-        return None
     try:
-        return _cached(*known)
+        known = plane_of(problem)
+        return None if known is None else _cached(*known)
     except (InputError, InfeasibleProblem, SolverFailure):
         return None  # nothing is known then
 

@@ -1,8 +1,8 @@
-"""A limit of the root mean square of the force over a whole cycle, as motors are rated by it: its motions share it.
+"""A limit of the root mean square of the force, or of the energy, over a whole cycle: its motions share it.
 
-Each motion by itself is a convex problem; the limit joins them. Where a peak is least, the least sum of squares of laws
-that keep a peak falls with the peak and is convex in it: the least peak is where that sum meets the limit, and no less
-is possible where even the lower bounds of the squares sum to more. Where a root mean square is least, a multiplier of
+Motors are rated by the one. Each motion by itself is a problem; the limit of a sum joins them. Where a peak is least,
+the least sum of laws that keep a peak falls with the peak: the least peak is where that sum meets the limit, and no
+less is possible where even the lower bounds sum to more. Where a root mean square or a sum is least, a multiplier of
 the limit parts the motions: what the laws have at least with it, less what the limit is worth, no law can beat.
 """
 
@@ -12,30 +12,33 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import exp, inf, log, sqrt
 
-from optlaws.cycles.optimisation.bounds import bound_of, span_bound
-from optlaws.cycles.optimisation.drive_formulas import driven_mean
+from optlaws.cycles.optimisation.bounds import bound_of, is_exact, span_bound
 from optlaws.cycles.optimisation.joint_limits import ties_broken
-from optlaws.cycles.optimisation.objectives import CycleObjective, kind_of
+from optlaws.cycles.optimisation.objectives import ENERGY, FORCE, SUMS, CycleObjective, kind_of
 from optlaws.cycles.optimisation.optimal import (
     scale,
     solve,
     solved,
     span_problem,
     with_least_limit,
-    with_mean_square,
+    with_share,
 )
-from optlaws.cycles.specification.drive import CycleDrive, size_of, square_of_force
+from optlaws.cycles.optimisation.sums import SpanSum, span_sum, total
+from optlaws.cycles.specification.drive import CycleDrive
+from optlaws.cycles.specification.effort import size_of
 from optlaws.cycles.specification.joints import LawSpan, Layout
 from optlaws.cycles.specification.position_drive import PositionDrive
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.kept import kept_property
-from optlaws.motion.piece import Piece, factor
+from optlaws.motion.piece import Piece
 from optlaws.synthesis.functionals.makers import integral
 from optlaws.synthesis.solution import Solution
 from optlaws.tolerances import FEASIBILITY, LEAST_PEAK_SLACK, PEAK_BRACKET
 
 _ROUNDS = 8
 _FARTHEST = 30.0  # logarithm of what a limit may be worth
+#: times the greatest of what is minimised without the limit: up to there the least energy is looked for
+_HIGHEST = 8.0
 _NONE = 1.0  # by how much a limit counts as missed where there is no law
 #: shares of a peak below which it is tried whether none is possible
 _BELOW = (2e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2)
@@ -52,13 +55,15 @@ class Best:
 
 def best_of(layout: Layout, objective: CycleObjective, axis: str, period: float) -> Best:
     """The best laws of all spans."""
-    if objective.mean_force is None or not layout.spans:
+    if not objective.shares or not layout.spans:
         laws = tuple(_solved(span, objective, axis) for span in layout.spans)
         bound = bound_of(layout, laws, objective, period)
         return Best(*ties_broken(layout, objective, axis, laws, period), bound)
     if objective.drive is None:
-        raise InputError("limits: an rms force or torque is of a drive: give one, such as drive={'mass': '2 kg'}")
-    return _SharedForceLimit(layout, objective, objective.drive, objective.mean_force, axis, period).best()
+        raise InputError(
+            "limits: the rms force and the energy of a cycle are of a drive: give one, such as drive={'mass': '2 kg'}"
+        )
+    return _SharedLimit(layout, objective, objective.drive, axis, period).best()
 
 
 def _solved(span: LawSpan, objective: CycleObjective, axis: str) -> tuple[Piece, Solution]:
@@ -69,13 +74,12 @@ def _solved(span: LawSpan, objective: CycleObjective, axis: str) -> tuple[Piece,
 
 
 @dataclass(frozen=True)
-class _SharedForceLimit:
-    """Spans that share a limit."""
+class _SharedLimit:
+    """Spans that share a limit of what their motions sum to: the squared force, or the energy."""
 
     layout: Layout
     objective: CycleObjective
     drive: CycleDrive | PositionDrive
-    most: float
     axis: str
     period: float
 
@@ -87,39 +91,67 @@ class _SharedForceLimit:
             return self._alone()
         laws = tuple(solve(span, self.objective, self.axis) for span in self.layout.spans)
         bound = bound_of(self.layout, laws, self.objective, self.period)
-        if self._squares(laws) <= self.left * (1.0 + FEASIBILITY):
+        if self._taken(laws) <= self.left * (1.0 + FEASIBILITY):
             return Best(laws, (), bound)
-        least = tuple(self._least(span, inf) for span in self.layout.spans)
-        if self._least_squares(least) > self.left:
-            raise self._too_much(self._given + self._least_squares(least), "no law takes less than")
-        _, mean = kind_of(self.objective.minimise)
-        return self._by_multiplier(laws) if mean else self._by_peak(laws, least, bound or 0.0)
+        nu, mean = kind_of(self.objective.minimise)
+        summed = mean or nu in SUMS
+        if summed and self._nu == ENERGY:
+            # the least energy has no bound without one of the acceleration
+            return self._by_multiplier(laws, bound or 0.0)
+        ceiling = inf if self._nu == FORCE else _HIGHEST * self._greatest(laws)
+        least = tuple(self._least(span, ceiling) for span in self.layout.spans)
+        if self._least_taken(least) > self.left:
+            raise self._too_much(self._given + self._least_taken(least), "no law takes less than")
+        return self._by_multiplier(laws, bound or 0.0) if summed else self._by_peak(laws, least, bound or 0.0)
+
+    @property
+    def _nu(self) -> int:
+        """What is summed and limited, as objectives count it."""
+        return FORCE if self.objective.mean_force is not None else ENERGY
+
+    @property
+    def most(self) -> float:
+        """The limit of the sum: of the squared force, or of the energy in J."""
+        if self.objective.mean_force is not None:
+            return self.objective.mean_force**2 * self.period
+        return self.objective.energy or 0.0
 
     @property
     def left(self) -> float:
-        """The integral of the squared force that the limit leaves for the laws looked for."""
-        return self.most**2 * self.period - self._given
+        """What the limit leaves for the laws looked for."""
+        return self.most - self._given
 
     @kept_property
     def _given(self) -> float:
-        """The integral of the squared force that dwells and given laws take."""
-        return sum(square_of_force(self.drive, piece) for piece in self.layout.pieces)
+        """What dwells and given laws take of the sum."""
+        return total(self.layout.pieces, self._nu, self.drive)
 
-    def _too_much(self, square: float, why: str) -> InfeasibleProblem:
+    def _too_much(self, taken: float, why: str) -> InfeasibleProblem:
+        what = "energy" if self._nu == ENERGY else f"rms {'force' if self.axis == 'length' else 'torque'}"
+        most, least = (self._shown(value) for value in (self.most, taken))
         return InfeasibleProblem(
-            f"limits: the rms {'force' if self.axis == 'length' else 'torque'} over the cycle is to be at most "
-            f"{self.most:.9g}, but {why} {sqrt(square / self.period):.9g}: allow more, or give the cycle more time"
+            f"limits: the {what} over the cycle is to be at most {most:.9g}, but {why} {least:.9g}: allow more, or "
+            "give the cycle more time"
         )
+
+    @property
+    def _exact(self) -> bool:
+        """Whether what the laws are found by is what they are judged by."""
+        return all(is_exact(span, self.objective) for span in self.layout.spans)
+
+    def _shown(self, taken: float) -> float:
+        """A sum as its limit is given: a root mean square, or an energy."""
+        return taken if self._nu == ENERGY else sqrt(taken / self.period)
 
     def _alone(self) -> Best:
         """The only span takes all that is left; where friction takes more than is known of it, it is told so."""
         (span,) = self.layout.spans
-        allowed, bound = self.left / span.duration, inf
+        allowed, bound = self.left, inf
         for _ in range(_ROUNDS):
             piece, solution = self._within(span, allowed)
             bound = min(bound, bound_of(self.layout, ((piece, solution),), self.objective, self.period) or 0.0)
-            over = (self._squares(((piece, solution),)) - self.left) / span.duration
-            if over <= FEASIBILITY * self.left / span.duration:
+            over = self._taken(((piece, solution),)) - self.left
+            if over <= FEASIBILITY * self.left:
                 return Best(((piece, solution),), (), bound)
             allowed -= over
         raise SolverFailure(f"{span.where}: no law was found whose rms force with dry friction keeps its limit")
@@ -128,30 +160,35 @@ class _SharedForceLimit:
         try:
             return solve(span, self.objective, self.axis, allowed)
         except InfeasibleProblem:
+            if self._nu == ENERGY:
+                raise
             least = (self._least(span, inf),)
-            if self._least_squares(least) > self.left:
-                raise self._too_much(self._given + self._least_squares(least), "no law takes less than") from None
+            if self._least_taken(least) > self.left:
+                raise self._too_much(self._given + self._least_taken(least), "no law takes less than") from None
             raise
 
-    def _squares(self, laws: Sequence[tuple[Piece, Solution]]) -> float:
-        return sum(square_of_force(self.drive, piece) for piece, _ in laws)
+    def _taken(self, laws: Sequence[tuple[Piece, Solution]]) -> float:
+        """What laws take of the sum."""
+        return total([piece for piece, _ in laws], self._nu, self.drive)
 
-    def _least_squares(self, laws: Sequence[tuple[Piece, Solution]]) -> float:
-        """The lower bound of the integral of the squared force, from laws of least root mean squares."""
-        of_force = self._of_force()
-        bounds = (span_bound(span, *law, of_force) for span, law in zip(self.layout.spans, laws, strict=True))
+    def _least_taken(self, laws: Sequence[tuple[Piece, Solution]]) -> float:
+        """The lower bound of the sum, from laws that take the least of it."""
+        of_sum = self._of_sum()
+        bounds = [span_bound(span, *law, of_sum) for span, law in zip(self.layout.spans, laws, strict=True)]
+        if self._nu == ENERGY:
+            return sum(bounds)
         return sum(stretch.duration * bound**2 for stretch, bound in zip(self.layout.spans, bounds, strict=True))
 
-    def _of_force(self, peak: float = inf) -> CycleObjective:
-        """The least root mean square of the force, where what is minimised is at most a peak."""
+    def _of_sum(self, peak: float = inf) -> CycleObjective:
+        """The objective of the least sum, where what is minimised is at most a peak."""
         nu, mean = kind_of(self.objective.minimise)
         limits = dict(self.objective.limits)
-        if not mean and peak < inf:
+        if not mean and nu not in SUMS and peak < inf:
             limits[nu] = min(peak, limits.get(nu, inf))
-        return replace(self.objective, minimise="rms force", limits=limits)
+        return replace(self.objective, minimise="energy" if self._nu == ENERGY else "rms force", limits=limits)
 
     def _least(self, span: LawSpan, peak: float) -> tuple[Piece, Solution]:
-        return solve(span, self._of_force(peak), self.axis)
+        return solve(span, self._of_sum(peak), self.axis)
 
     def _by_peak(
         self, laws: Sequence[tuple[Piece, Solution]], least: Sequence[tuple[Piece, Solution]], bound: float
@@ -167,7 +204,7 @@ class _SharedForceLimit:
             except (InfeasibleProblem, SolverFailure):
                 # so near the least peak that no law is found any more
                 return _NONE
-            return log(self._squares(tried[peak]) / self.left)
+            return log(self._taken(tried[peak]) / self.left)
 
         convex = all(solution.problem.convex for _, solution in laws)
         low = self._greatest(laws) * (1.0 + (_BELOW[0] if convex else LEAST_PEAK_SLACK))
@@ -175,11 +212,13 @@ class _SharedForceLimit:
         if over(low) > 0.0:
             brentq(over, low, high, xtol=PEAK_BRACKET * high, rtol=PEAK_BRACKET)
             tried.setdefault(high, tuple(least))
-        least_peak = min(peak for peak, laws in tried.items() if self._squares(laws) <= self.left * (1.0 + FEASIBILITY))
+        least_peak = min(peak for peak, laws in tried.items() if self._taken(laws) <= self.left * (1.0 + FEASIBILITY))
         return Best(tried[least_peak], (), max(bound, self._impossible(least_peak, bound)))
 
     def _impossible(self, peak: float, bound: float) -> float:
         """A peak, as near below one as can be, that no laws keep with the limit."""
+        if not self._exact:
+            return bound
         for share in _BELOW:
             lower = peak * (1.0 - share)
             if lower <= bound:
@@ -190,7 +229,7 @@ class _SharedForceLimit:
                 return lower
             except SolverFailure:
                 continue
-            if self._least_squares(laws) > self.left:
+            if self._least_taken(laws) > self.left:
                 return lower
         return bound
 
@@ -200,53 +239,64 @@ class _SharedForceLimit:
         pieces = [*(piece for piece, _ in laws), *self.layout.pieces]
         return max(size_of(piece, nu, self.drive) for piece in pieces)
 
-    def _by_multiplier(self, laws: Sequence[tuple[Piece, Solution]]) -> Best:
-        """The least root mean square, by what the limit is worth."""
+    def _by_multiplier(self, laws: Sequence[tuple[Piece, Solution]], bound: float) -> Best:
+        """The least root mean square or sum, by what the limit is worth; `bound` is that without the limit."""
         from scipy.optimize import brentq
 
         tried: dict[float, tuple[tuple[Piece, Solution], ...]] = {}
 
         def over(worth: float) -> float:
             tried[worth] = tuple(self._with_worth(span, exp(worth)) for span in self.layout.spans)
-            return log(self._squares(tried[worth]) / self.left)
+            return log(self._taken(tried[worth]) / self.left)
 
         nu, _ = kind_of(self.objective.minimise)
-        first = log(sum(piece.duration * piece.mean_square(nu) for piece, _ in laws) / self._squares(laws))
+        first = log(abs(total([piece for piece, _ in laws], nu, self.drive)) / self._taken(laws))
         low, high = first - 2.0, first + 2.0
         while over(low) < 0.0:
             low -= 4.0
         while over(high) > 0.0:
             if high > first + _FARTHEST:
                 raise SolverFailure(
-                    "limits: the rms force cannot be met as near as it is possible: allow a little more"
+                    "limits: the limit over the whole cycle cannot be met as near as it is possible: allow more"
                 )
             high += 4.0
         brentq(over, low, high, xtol=PEAK_BRACKET, rtol=PEAK_BRACKET)
-        least = min(worth for worth, laws in tried.items() if self._squares(laws) <= self.left * (1.0 + FEASIBILITY))
+        least = min(worth for worth, laws in tried.items() if self._taken(laws) <= self.left * (1.0 + FEASIBILITY))
         pieces = [*self.layout.pieces, *(piece for piece, _ in tried[least])]
-        attained = sqrt(sum(piece.duration * piece.mean_square(nu) for piece in pieces) / self.period)
+        attained = self._of_total(total(pieces, nu, self.drive))
         # the laws may miss the limit by a rounding, the bound is of those that keep it: it is no better than they are
-        return Best(tried[least], (), min(self._with_worth_at_least(tried[least], exp(least)), attained))
+        proven = max(self._with_worth_at_least(tried[least], exp(least)), bound)
+        return Best(tried[least], (), min(proven, attained))
 
     def _with_worth(self, span: LawSpan, worth: float) -> tuple[Piece, Solution]:
-        """The law of a span of least square and, so many times, least square of its force."""
+        """The law of a span of the least of what is minimised and, so many times, of what is limited."""
         stroke = scale(span)
-        driven = driven_mean(span, self.drive, stroke)
-        nu, _ = kind_of(self.objective.minimise)
-        weight = worth * (driven.unit / factor(stroke, span.duration, nu)) ** 2
-        formula = f"{'abcj'[nu]}^2 + ({weight!r})*({driven.formula})^2"
+        minimised, limited = self._sums(span, stroke)
+        weight = worth * limited.unit / minimised.unit
+        formula = f"{minimised.formula} + ({weight!r})*({limited.formula})"
         plain = replace(span_problem(span, self.objective, self.axis, stroke), minimise=integral(formula))
         # the limit as if the others took nothing: it only says how great laws may be
-        problem = with_mean_square(plain, span, self.objective, stroke, self.left / span.duration)
+        problem = with_share(plain, span, self.objective, stroke, self.left)
         solution = solved(problem, span)
         return Piece(span.start, span.duration, span.offset, stroke, solution.law), solution
 
     def _with_worth_at_least(self, laws: Sequence[tuple[Piece, Solution]], worth: float) -> float:
         """The lower bound of laws that keep the limit: that with its multiplier, less what the limit is worth."""
         nu, _ = kind_of(self.objective.minimise)
-        total = -worth * self.left + sum(piece.duration * piece.mean_square(nu) for piece in self.layout.pieces)
+        if not self._exact:
+            return 0.0 if nu not in SUMS else -inf
+        least = -worth * self.left + total(self.layout.pieces, nu, self.drive)
         for span, (piece, solution) in zip(self.layout.spans, laws, strict=True):
-            unit = factor(piece.stroke, piece.duration, nu)
-            friction = driven_mean(span, self.drive, piece.stroke).friction
-            total += span.duration * (unit**2 * solution.lower_bound + worth * friction)
-        return sqrt(max(total, 0.0) / self.period)
+            minimised, limited = self._sums(span, piece.stroke)
+            least += minimised.unit * solution.lower_bound + minimised.constant + worth * limited.constant
+        return self._of_total(least)
+
+    def _sums(self, span: LawSpan, stroke: float) -> tuple[SpanSum, SpanSum]:
+        """What is minimised and what is limited over a span."""
+        nu, _ = kind_of(self.objective.minimise)
+        return span_sum(span, nu, self.drive, stroke), span_sum(span, self._nu, self.drive, stroke)
+
+    def _of_total(self, taken: float) -> float:
+        """A sum of what is minimised as it is said: a root mean square, or an energy."""
+        nu, _ = kind_of(self.objective.minimise)
+        return taken if nu in SUMS else sqrt(max(taken, 0.0) / self.period)

@@ -128,7 +128,7 @@ def test_the_bound_of_the_power_by_energy_is_below_what_any_law_takes(drive: dic
         ({"limits": {"power": "1 N m/rad"}}, InputError, "limits, power must be a power such as '500 W'"),
         ({"limits": {"rms torque": "1 N m", "rms force": "1 N m"}}, InputError, "are the same: give one"),
         ({"segments": [Rise("9 deg", limits={"rms torque": "1 N m"}), Return()]}, InputError, "is of the whole cycle"),
-        ({"drive": None, "limits": {"rms torque": "1 N m"}}, InputError, "is of a drive: give one"),
+        ({"drive": None, "limits": {"rms torque": "1 N m"}}, InputError, "are of a drive: give one"),
         ({"drive": None, "minimise": "power"}, InputError, "are of a drive: give one"),
         ({"segments": WAYS, "minimise": "power"}, InputError, "may turn back, where dry friction leaps"),
         ({"segments": WAYS, "minimise": "rms torque", "drive": MOTOR | {"gravity": "1 N m"}}, InputError,

@@ -1,0 +1,101 @@
+"""The limits of a motor as limits of a cycle: its torques, its speed, and its curve of torque over speed."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from itertools import pairwise
+from math import isfinite
+from typing import Any
+
+from optlaws.cycles.optimisation.drive_formulas import Driven, branches_of, known_drive
+from optlaws.cycles.optimisation.objectives import CURVE, FORCE
+from optlaws.cycles.specification.drive import CycleDrive
+from optlaws.cycles.specification.joints import LawSpan
+from optlaws.cycles.specification.position_drive import PositionDrive
+from optlaws.cycles.specification.programme import Programme
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.mechanisms.drives.drive_train import Drive
+from optlaws.mechanisms.drives.motor import Motor
+from optlaws.motion.piece import factor
+from optlaws.synthesis.functionals.makers import peak
+from optlaws.synthesis.problem.constants import Functional
+from optlaws.tolerances import AGREEMENT
+
+MOTOR = "motor"
+_VELOCITY = 1
+
+
+@dataclass(frozen=True)
+class MotorLimits:
+    """Limits of all motions by what they limit, and that of the RMS torque, None if there is none."""
+
+    of_motions: Mapping[int, float] = field(default_factory=dict)
+    mean_torque: float | None = None
+
+
+def motor_limits(
+    entries: Mapping[str, Any], drive: CycleDrive | PositionDrive | None, programme: Programme
+) -> MotorLimits:
+    """The limits of the motor, if limits say that it is to keep them.
+
+    The continuous torque is that at the mean speed, which no law that never turns back changes.
+
+    Raises
+    ------
+    InputError
+        If there is no motor, or its curve of torque over speed is not concave.
+    """
+    if MOTOR not in entries or entries[MOTOR] is False:
+        return MotorLimits()
+    if entries[MOTOR] is not True:
+        raise InputError(f"limits, motor must be True or False, got {shortened(entries[MOTOR])}")
+    source = drive.source if isinstance(drive, PositionDrive) else None
+    if not isinstance(source, Drive):
+        raise InputError("limits, motor: there is no motor: give one, as drive=Drive(mechanism, Motor(...), ratio=20)")
+    motor, ratio = source.motor, source.ratio
+    way = sum(abs(stretch.displacement) for stretch in programme.stretches)
+    known = {
+        FORCE: motor.peak_torque,
+        _VELOCITY: motor.greatest_speed / ratio,
+        CURVE: 1.0 if _lines(motor) else float("inf"),
+    }
+    rated = float(motor.continuous_at(ratio * way / programme.period))
+    return MotorLimits({nu: most for nu, most in known.items() if isfinite(most)}, rated if isfinite(rated) else None)
+
+
+def _lines(motor: Motor) -> list[tuple[float, float]]:
+    """The lines below which the curve of peak torque is: the torque at rest, and its slope over the speed."""
+    curve = motor.curve
+    if not curve:
+        return []
+    slopes = [(after[1] - before[1]) / (after[0] - before[0]) for before, after in pairwise(curve)]
+    if curve[0][0] > 0.0:
+        slopes.insert(0, 0.0)
+        curve = ((0.0, curve[0][1]), *curve)
+    steepest = max(map(abs, slopes))
+    if any(before < after - AGREEMENT * steepest for before, after in pairwise(slopes)):
+        raise InputError(
+            "limits, motor: its curve of torque over speed bends upwards, and what is below it is not convex: give a "
+            "curve below it that does not, or limits of torque and velocity"
+        )
+    return [(torque - slope * speed, slope) for (speed, torque), slope in zip(curve, slopes, strict=False)]
+
+
+def driven_curve(span: LawSpan, drive: CycleDrive | PositionDrive | None, stroke: float) -> Driven:
+    """The share of the motor's curve that a span's law uses: at most 1 where the motor can."""
+    known = known_drive(drive)
+    if not isinstance(known, PositionDrive) or not isinstance(known.source, Drive):
+        raise AssertionError  # noqa: TRY004 - limits of a motor are read with it
+    speed = known.speed_ratio * abs(factor(stroke, span.duration, 1))
+    torque, back, unit = branches_of(span, known, stroke)
+    constants: list[Functional] = []
+    for at_rest, slope in _lines(known.source.motor):
+        share, falls = unit / at_rest, slope * speed / at_rest
+        if not falls and not known.loses:
+            constants.append(peak(f"{share!r}*({torque})"))
+            continue
+        constants.append(peak(f"{share!r}*({torque}) + {-falls!r}*b", side="high"))
+        constants.append(peak(f"{share!r}*({back}) + {falls!r}*b", side="low"))
+    return Driven(tuple(constants), 1.0, exact=known.brakes_as_it_drives)

@@ -1,0 +1,145 @@
+"""Sums over the motions of a cycle: integrals over their laws of squares, of energy and of heat, and their bounds.
+
+What a cycle takes in all is the sum of what its motions take. Energy is the integral of the power that is above 0, less
+the share of the braking power that is fed back; heat is what the winding of a motor and its brake resistor burn.
+Without losses in the gear and without viscous friction motoring and braking energy differ by what is known of the ends:
+the work against the load and the gain of kinetic energy. Then the heat is made of the motoring energy, which is convex
+in the phase plane.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from math import inf
+
+from optlaws.cycles.optimisation.drive_formulas import driven_formula, driven_mean, known_drive
+from optlaws.cycles.optimisation.objectives import ENERGY, FORCE, HEAT
+from optlaws.cycles.specification.drive import CycleDrive
+from optlaws.cycles.specification.effort import PieceEffort
+from optlaws.cycles.specification.joints import LawSpan
+from optlaws.cycles.specification.position_drive import PositionDrive
+from optlaws.errors import InputError
+from optlaws.mechanisms.drives.drive_train import DimensionlessDrive, Drive
+from optlaws.motion.piece import Piece, factor
+from optlaws.motion.smooth_parts import SmoothParts
+from optlaws.synthesis.functionals.makers import integral
+from optlaws.synthesis.limits.drive_limits import limit_beside
+from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.solution import Solution
+
+NO_HEAT = (
+    "minimise: heat is that of a motor's winding and of its brake resistor: give drive=Drive(...) with a motor that "
+    "has a motor constant, such as Motor('3e-4 kg m^2', constant=0.3), in N m/√W"
+)
+
+
+@dataclass(frozen=True)
+class SpanSum:
+    """An integral over a span's law in SI units: `unit` times that of a formula, and a constant that is added.
+
+    `beneath` are formulas whose integrals are never greater, in whose phase plane bounds are proven; `least` is what
+    the sum is at least, whatever the law.
+    """
+
+    formula: str
+    unit: float
+    constant: float = 0.0
+    beneath: tuple[str, ...] = ()
+    least: float = -inf
+
+    def bound(self, solution: Solution, *, exact: bool = True) -> float:
+        """The lower bound of the laws of a problem, in SI units, from its solution and from phase planes.
+
+        Where the problem is not exact, its solution proves nothing.
+        """
+        proven = max(solution.lower_bound if exact else -inf, self._of_planes(solution.problem))
+        return max(self.unit * proven + self.constant, self.least)
+
+    def _of_planes(self, problem: Problem) -> float:
+        limits = (limit_beside(replace(problem, minimise=integral(formula))) for formula in self.beneath)
+        return max((limit.value for limit in limits if limit is not None), default=-inf)
+
+
+def span_sum(span: LawSpan, nu: int, drive: CycleDrive | PositionDrive | None, stroke: float) -> SpanSum:
+    """What is integrated over a span: the square of a derivative or of the force (nu -1), energy (-4) or heat (-5)."""
+    if nu > 0:
+        return SpanSum(f"{'abcj'[nu]}^2", factor(stroke, span.duration, nu) ** 2 * span.duration)
+    if nu == FORCE:
+        driven = driven_mean(span, drive, stroke)
+        # in the direction of the stroke, as phase planes have it
+        force = f"-({driven.formula})" if isinstance(drive, CycleDrive) and stroke < 0.0 else driven.formula
+        return SpanSum(f"({force})^2", driven.unit**2 * span.duration, driven.friction * span.duration)
+    known = known_drive(drive)
+    if isinstance(known, CycleDrive):
+        if nu == HEAT:
+            raise InputError(NO_HEAT)
+        return _of_constants(span, known, stroke)
+    # a span that may turn back is refused as it is for forces
+    driven_formula(span, known, stroke, FORCE)
+    return _heat(span, known, stroke) if nu == HEAT else _energy(span, known, stroke)
+
+
+def sum_of_piece(piece: Piece, nu: int, drive: CycleDrive | PositionDrive | None) -> float:
+    """What a piece takes of a sum, in SI units."""
+    if nu > 0:
+        return piece.duration * piece.mean_square(nu)
+    along = PieceEffort(known_drive(drive), piece)
+    if nu == FORCE:
+        return along.square
+    return along.energy if nu == ENERGY else along.heat
+
+
+def total(pieces: Sequence[Piece], nu: int, drive: CycleDrive | PositionDrive | None) -> float:
+    """A sum over pieces, in SI units."""
+    return sum(sum_of_piece(piece, nu, drive) for piece in pieces)
+
+
+def _of_constants(span: LawSpan, drive: CycleDrive, stroke: float) -> SpanSum:
+    """The energy of a drive of constants."""
+    force, unit = driven_formula(span, drive, stroke, FORCE)
+    power = f"({force})*b" if stroke > 0.0 else f"(-({force}))*b"
+    return SpanSum(_without_recovered(power, drive.regeneration), unit * abs(stroke))
+
+
+def _energy(span: LawSpan, drive: PositionDrive, stroke: float) -> SpanSum:
+    """The energy of a mechanism, or of a motor that drives it."""
+    moved = drive.moved(stroke, span.times, span.origin)
+    branches = moved.branches if drive.loses else ()
+    beneath = tuple(_without_recovered(f"({branch})*b", drive.regeneration) for branch in branches)
+    return SpanSum(moved.energy, moved.energy_unit, beneath=beneath)
+
+
+def _without_recovered(power: str, regeneration: float) -> str:
+    """A power above 0, and the share that is fed back of one below."""
+    if regeneration == 1.0:
+        return power
+    return f"max({power}, {f'{regeneration!r}*{power}' if regeneration else '0'})"
+
+
+def _heat(span: LawSpan, drive: PositionDrive, stroke: float) -> SpanSum:
+    """The copper heat of a motor and the braking energy that is not fed back."""
+    moved, source = drive.moved(stroke, span.times, span.origin), drive.source
+    if not isinstance(source, Drive) or not isinstance(moved, DimensionlessDrive) or not drive.copper:
+        raise InputError(NO_HEAT)
+    copper = moved.unit**2 * span.duration * drive.copper / moved.energy_unit
+    squared = [f"{copper!r}*({torque})^2" for torque in (moved.torque, moved.branches[-1])]
+    burnt, beneath = 1.0 - drive.regeneration, tuple(squared[1:]) if drive.brakes_as_it_drives else ()
+    if not burnt:
+        return SpanSum(squared[0], moved.energy_unit, beneath=beneath, least=0.0)
+    if drive.process is not None or drive.loses or drive.mechanism.viscous or source.train.viscous:
+        return SpanSum(moved.heat, moved.energy_unit, beneath=beneath, least=0.0)
+    formula = f"{squared[0]} + {burnt!r}*max({moved.power}, 0)"
+    return SpanSum(formula, moved.energy_unit, -burnt * _work(span, drive, source, stroke), least=0.0)
+
+
+def _work(span: LawSpan, drive: PositionDrive, source: Drive, stroke: float) -> float:
+    """The work of a motor along a span's stroke without viscous friction, J: whatever the law."""
+    mechanism, ends = drive.mechanism, (span.origin, span.origin + stroke)
+    load = SmoothParts.between(*sorted(ends)).integral(mechanism.load) * (1.0 if stroke > 0.0 else -1.0)
+    kinetic = [
+        0.5 * (mechanism.inertia(x) + source.ratio**2 * source.train.inertia) * state.velocity**2
+        for x, state in zip(ends, (span.first, span.last), strict=True)
+    ]
+    rubbed = (mechanism.coulomb + source.ratio * source.train.coulomb) * abs(stroke)
+    return float(load + rubbed + kinetic[1] - kinetic[0])

@@ -1,0 +1,192 @@
+"""The force or torque of a drive along a cycle, its power, and the energies of motoring and braking."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from math import sqrt
+
+import numpy as np
+
+from optlaws.cycles.specification.drive import CycleDrive
+from optlaws.cycles.specification.position_drive import PositionDrive
+from optlaws.kept import kept_property
+from optlaws.laws.storage import PlainNumbers
+from optlaws.motion.piece import Piece, factor
+from optlaws.motion.smooth_parts import Greatest, SmoothParts
+from optlaws.numbers import Array
+from optlaws.tolerances import VALUE_ROUNDING
+
+FORCE, POWER = -1, -3
+
+
+@dataclass(frozen=True)
+class Effort(PlainNumbers):
+    """The force and power of a drive over a cycle, in SI units.
+
+    Attributes
+    ----------
+    peak_force, peak_force_at
+        The greatest magnitude of the force, or of the torque of a table, at the follower, or at the motor; and its
+        time.
+    rms_force
+        Its root mean square over the cycle.
+    peak_power
+        The greatest magnitude of the power; divided by the master's angular velocity it is the greatest torque that
+        the motion asks of the master's shaft.
+    mean_power
+        What friction takes.
+    motoring_power, braking_power
+        The greatest power that the drive gives, and that it takes back, both at least 0.
+    motoring_energy, braking_energy
+        Of a cycle, J, both at least 0.
+    energy
+        Of a cycle: what is fed back is subtracted.
+    """
+
+    peak_force: float
+    peak_force_at: float
+    rms_force: float
+    peak_power: float
+    mean_power: float
+    motoring_power: float
+    braking_power: float
+    motoring_energy: float
+    braking_energy: float
+    energy: float
+
+    def shaft_torque(self, angular_velocity: float) -> float:
+        """The greatest torque at a shaft of constant angular velocity, rad/s."""
+        return self.peak_power / angular_velocity
+
+
+@dataclass(frozen=True)
+class SegmentEffort:
+    """What a drive takes in a segment of a cycle, in SI units.
+
+    Attributes
+    ----------
+    name
+        Of the segment.
+    peak_force, rms_force
+        Greatest magnitude and root mean square of the force, or of the torque.
+    motoring_power, braking_power
+        Greatest, both at least 0.
+    motoring_energy, braking_energy
+        J, both at least 0.
+    """
+
+    name: str
+    peak_force: float
+    rms_force: float
+    motoring_power: float
+    braking_power: float
+    motoring_energy: float
+    braking_energy: float
+
+
+@dataclass(frozen=True, eq=False)
+class PieceEffort:
+    """What a drive does along a piece, or between two times in it, in SI units."""
+
+    drive: CycleDrive | PositionDrive
+    piece: Piece
+    ends: tuple[float, float] | None = None
+
+    def force(self, times: Array) -> Array:
+        """The force or torque."""
+        return self.drive.along(self.piece, times)
+
+    def power(self, times: Array) -> Array:
+        """Force times velocity: at the motor, torque times its speed."""
+        return self.force(times) * self.speed(times)
+
+    def speed(self, times: Array) -> Array:
+        """The velocity at which the force acts: at the motor, its speed."""
+        return self.drive.speed_ratio * self.piece.values(times, 1)
+
+    @kept_property
+    def parts(self) -> SmoothParts:
+        """Parts of the piece on which force and power are smooth and of one sign."""
+        piece = self.piece
+        breaks = [*(piece.start + piece.duration * place for place in piece.law.breaks), *self.drive.breaks]
+        signs: list[Callable[[Array], Array]] = []
+        if piece.stroke:
+            signs = [lambda times: piece.values(times, 1), *self.drive.kinks(piece), self.force]
+        start, stop = self.ends or (piece.start, piece.stop)
+        inside = [time for time in breaks if start < time < stop]
+        return SmoothParts.between(start, stop, breaks=inside, signs=signs)
+
+    def of_segment(self, name: str) -> SegmentEffort:
+        """Peaks, the root mean square and the energies, of a segment of this name."""
+        start, stop = self.ends or (self.piece.start, self.piece.stop)
+        rms = sqrt(self.square / (stop - start))
+        return SegmentEffort(name, self.peak_force.value, rms, *self.powers, *self.energies)
+
+    @property
+    def peak_force(self) -> Greatest:
+        """The greatest magnitude of the force, and its time."""
+        return self.parts.greatest(lambda times: np.abs(self.force(times)))
+
+    @property
+    def powers(self) -> tuple[float, float]:
+        """The greatest power that is given, and that is taken back, both at least 0."""
+        given, taken = self.parts.greatest(self.power), self.parts.greatest(lambda times: -self.power(times))
+        return max(0.0, given.value), max(0.0, taken.value)
+
+    @kept_property
+    def energies(self) -> tuple[float, float]:
+        """The energy that is given, and that is taken back, both at least 0, J."""
+        times, weights = self.parts.places
+        powers = self.power(times)
+        return float(weights @ np.maximum(powers, 0.0)), float(weights @ np.maximum(-powers, 0.0))
+
+    @property
+    def energy(self) -> float:
+        """The energy that is given less the share of it that is fed back, J."""
+        given, taken = self.energies
+        return given - self.drive.regeneration * taken
+
+    @property
+    def heat(self) -> float:
+        """The copper heat and the energy that is taken back and not fed back, J."""
+        return self.drive.copper * self.square + (1.0 - self.drive.regeneration) * self.energies[1]
+
+    @property
+    def square(self) -> float:
+        """The integral of the square of the force."""
+        return self.parts.integral(lambda times: self.force(times) ** 2)
+
+
+def effort(drive: CycleDrive | PositionDrive, pieces: Sequence[Piece], period: float) -> Effort:
+    """The force and power of a drive over pieces that make a cycle.
+
+    >>> from optlaws.laws import smoothstep
+    >>> drive = CycleDrive(inertia=2.0, viscous=0.0, stiffness=0.0, constant=0.0, dry=0.0)
+    >>> rise = Piece(0.0, 1.0, 0.0, 1.0, smoothstep(2))
+    >>> round(effort(drive, [rise], 1.0).peak_force, 9), round(effort(drive, [rise], 1.0).motoring_energy, 9)
+    (12.0, 2.25)
+    """
+    along = [PieceEffort(drive, piece) for piece in pieces]
+    peak = max((each.peak_force for each in along), key=lambda greatest: greatest.value)
+    given, taken = (max(powers) for powers in zip(*(each.powers for each in along), strict=True))
+    driving, braking = (sum(energies) for energies in zip(*(each.energies for each in along), strict=True))
+    power, mean = max(given, taken), (driving - braking) / period
+    return Effort(
+        *(peak.value, peak.place, sqrt(sum(each.square for each in along) / period)),
+        *(power, mean if abs(mean) > VALUE_ROUNDING * power else 0.0),
+        *(given, taken, driving, braking, driving - drive.regeneration * braking),
+    )
+
+
+def size_of(piece: Piece, nu: int, drive: CycleDrive | PositionDrive | None, *, mean: bool = False) -> float:
+    """The peak or RMS of a derivative, or of the force (-1) or power (-3) of a drive, in a piece, in SI units."""
+    if nu > 0 or drive is None:
+        if not piece.stroke:
+            return 0.0
+        constant = piece.law.rms(nu) if mean else piece.law.peak(nu).value
+        return constant * abs(factor(piece.stroke, piece.duration, nu))
+    along = PieceEffort(drive, piece)
+    if nu == POWER:
+        return max(along.powers)
+    return sqrt(along.square / piece.duration) if mean else along.peak_force.value

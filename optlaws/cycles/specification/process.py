@@ -1,0 +1,144 @@
+"""A process force on a mechanism over the time, the master or a position: its load at the mechanism's input."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from optlaws.errors import InputError
+from optlaws.formulas.arithmetic import NUMPY, evaluate
+from optlaws.formulas.slopes import added, derivative, multiplied
+from optlaws.formulas.tree import Formula, Name, Table, number, rebuilt, substituted
+from optlaws.mechanisms.linkages.entries import formula_of
+from optlaws.mechanisms.linkages.mechanism import DIMENSIONS, Mechanism
+from optlaws.motion.quantities import TURN
+from optlaws.numbers import Array
+from optlaws.suggest import unknown_key
+from optlaws.tolerances import CLOSURE
+
+FORCES = {"force": "length", "torque": "angle"}
+OVER = ("time", "master", "driven", "input")
+ENTRIES = (*FORCES, "over", "on", "interpolation")
+
+
+@dataclass(frozen=True)
+class ProcessForce:
+    """What a process adds to the load at a mechanism's input, as a formula of its position x and of the time t."""
+
+    load: Formula
+
+    def values(self, x: Array, times: Array) -> Array:
+        """The load at positions of the input and times in the cycle, N m or N."""
+        values = evaluate(self.load, {"x": x, "t": times}, NUMPY)
+        return np.broadcast_to(np.asarray(values, dtype=np.float64), np.shape(x))
+
+    def over_span(self, start: float, duration: float) -> Formula:
+        """The load over x and k of a law that begins at a time."""
+        return _in_k(self.load, start, duration)
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """Times at which it has kinks."""
+        tables = (part for part in self.load.walk() if isinstance(part, Table) and part.of == Name("t"))
+        return tuple(place for table in tables for place in table.places)
+
+
+def is_process(given: Any) -> bool:  # noqa: ANN401 - whatever a person gave
+    """Whether a load of a cycle is a process force, and nothing elastic."""
+    return isinstance(given, Mapping) and bool(FORCES.keys() & given.keys()) and "period" not in given
+
+
+def read_process(given: Mapping[str, Any], mechanism: Mechanism, period: float) -> ProcessForce:
+    """A process force from its entries.
+
+    `force`, or `torque` on a link that turns, is a table, a formula or a quantity, above 0 where it pushes to greater
+    positions; `over` the "time", the "master", the position of the "driven" link or of the "input"; `on` names the
+    driven link on which it acts, the input itself unless given.
+
+    Raises
+    ------
+    InputError
+        If an entry is unknown or wrong, no link has the name, or a table over time ends within the cycle.
+    """
+    for key in given:
+        if key not in ENTRIES:
+            raise InputError(f"load: {unknown_key(key, ENTRIES)}")
+    kinds = [key for key in FORCES if key in given]
+    if len(kinds) > 1:
+        raise InputError("load: give a force or a torque, not both")
+    kind, on, over = kinds[0], given.get("on"), given.get("over", "time")
+    if over not in OVER:
+        raise InputError(f"load: over: {unknown_key(over, OVER, 'variable')}")
+    position = _position(mechanism, on, kind)
+    places, variable = {
+        "time": ("time", "t"),
+        "master": ("angle", "m"),
+        "driven": (FORCES[kind], "s"),
+        "input": (mechanism.axis, "x"),
+    }[over]
+    force = formula_of(
+        given[kind],
+        (places, kind),
+        f"load: {kind}",
+        variable=variable,
+        interpolation=given.get("interpolation", "lines"),
+    )
+    end = {"t": period, "m": TURN}.get(variable)
+    if end is not None:
+        _check_ends(force, variable, end, kind)
+    force = _over_time(force, period) if variable == "m" else substituted(force, {"s": position})
+    return ProcessForce(multiplied([number(-1.0), force, derivative(position, "x")]))
+
+
+def _position(mechanism: Mechanism, on: Any, kind: str) -> Formula:  # noqa: ANN401 - it is checked here
+    """The position on which a force acts, as a formula of the input's."""
+    if on is None:
+        if DIMENSIONS[mechanism.axis]["load"] != kind:
+            raise InputError(
+                f"load: the input of the {mechanism.name} takes a {DIMENSIONS[mechanism.axis]['load']}: give one, or "
+                "the link on which the force acts, as on='slider'"
+            )
+        return Name("x")
+    driven = dict(mechanism.linkage.driven)
+    if on not in driven:
+        raise InputError(f"load: on: {unknown_key(on, driven, 'driven link')}")
+    return driven[on]
+
+
+def _check_ends(force: Formula, variable: str, end: float, kind: str) -> None:
+    for part in force.walk():
+        if isinstance(part, Table) and part.of == Name(variable):
+            first, last = part.places[0], part.places[-1]
+            if first > CLOSURE * end or last < end * (1.0 - CLOSURE):
+                unit = "s" if variable == "t" else "rad"
+                raise InputError(
+                    f"load: {kind}: its table goes from {first:.6g} to {last:.6g} {unit}, and the cycle from 0 to "
+                    f"{end:.6g} {unit}: give a table over the whole cycle"
+                )
+
+
+def _over_time(formula: Formula, period: float) -> Formula:
+    """A formula of the master's angle m as one of the time."""
+    return _rescaled(formula, "m", "t", (0.0, TURN / period))
+
+
+def _in_k(formula: Formula, start: float, duration: float) -> Formula:
+    """A formula of the time as one of k."""
+    return _rescaled(formula, "t", "k", (start, duration))
+
+
+def _rescaled(formula: Formula, name: str, other: str, line: tuple[float, float]) -> Formula:
+    """The formula with first + slope times another name for one; tables over it become tables over the other."""
+    first, slope = line
+    if formula == Name(name):
+        way = multiplied([number(slope), Name(other)])
+        return added([number(first), way]) if first else way
+    if isinstance(formula, Table) and formula.of == Name(name):
+        places = tuple((place - first) / slope for place in formula.places)
+        return Table(Name(other), places, formula.values, formula.smooth, formula.order)
+    if name not in formula.names():
+        return formula
+    return rebuilt(formula, [_rescaled(part, name, other, line) for part in formula.parts])

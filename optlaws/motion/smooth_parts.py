@@ -1,0 +1,106 @@
+"""Parts of an interval on which functions are smooth: their integrals and greatest values, to rounding."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from optlaws.kept import kept_property
+from optlaws.numbers import Array
+from optlaws.numerics.chebyshev import gauss
+from optlaws.tolerances import BEFORE_BREAK, VALUE_ROUNDING
+
+_PANELS = 200
+_GAUSS = 10
+_POLISHED = 3
+_GOLDEN = 0.5 * (5.0**0.5 - 1.0)
+_SECTIONS = 44  # of a part: it is then as short as its share next to a break
+_HALVES = 52
+
+RealFunction = Callable[[Array], Array]
+
+
+class Greatest(NamedTuple):
+    """A greatest value and the place at which it is."""
+
+    value: float
+    place: float
+
+
+@dataclass(frozen=True, eq=False)
+class SmoothParts:
+    """Parts between ascending edges; a function may have kinks and jumps at the edges, and nowhere else.
+
+    Examples
+    --------
+    >>> parts = SmoothParts.between(0.0, 1.0, breaks=[0.25], signs=[lambda t: t - 0.6])
+    >>> round(parts.integral(lambda t: np.abs(t - 0.6)), 12)
+    0.26
+    >>> parts.greatest(lambda t: np.sin(3.0 * t)).value
+    1.0
+    """
+
+    edges: Array
+
+    @classmethod
+    def between(
+        cls, start: float, stop: float, *, breaks: Iterable[float] = (), signs: Iterable[RealFunction] = ()
+    ) -> SmoothParts:
+        """The parts of an interval: even ones, cut at breaks and where functions change their signs."""
+        even = np.unique([*np.linspace(start, stop, _PANELS + 1), *breaks])
+        return cls(np.unique(np.concatenate([even, *(_crossings(function, even) for function in signs)])))
+
+    @kept_property
+    def places(self) -> tuple[Array, Array]:
+        """Places and weights of an integral."""
+        u, weights = gauss(_GAUSS)
+        middles, halves = 0.5 * (self.edges[:-1] + self.edges[1:]), 0.5 * np.diff(self.edges)
+        return (middles[:, None] + halves[:, None] * u).ravel(), (halves[:, None] * weights).ravel()
+
+    def integral(self, function: RealFunction) -> float:
+        """The integral of a function."""
+        places, weights = self.places
+        return float(weights @ function(places))
+
+    def greatest(self, function: RealFunction) -> Greatest:
+        """The greatest value of a function: at the edges, beside them, and polished inside of the best parts."""
+        edges, lengths = self.edges, np.diff(self.edges)
+        sides = (edges[:-1] + BEFORE_BREAK * lengths, edges[1:] - BEFORE_BREAK * lengths)
+        places = np.concatenate([*sides, self.places[0], edges])
+        values = np.asarray(function(places))
+        best = int(np.argmax(values))
+        greatest = Greatest(float(values[best]), float(places[best]))
+        inner = np.searchsorted(edges, places[np.argsort(values)[-_POLISHED:]], side="right") - 1
+        best_parts = np.unique(np.clip(inner, 0, len(lengths) - 1))
+        polished = _polished(function, edges[best_parts], edges[best_parts + 1])
+        return max(greatest, polished, key=lambda each: each.value)
+
+
+def _polished(function: RealFunction, low: Array, high: Array) -> Greatest:
+    """The greatest value between places, by golden sections of all parts at once."""
+    for _ in range(_SECTIONS):
+        first, last = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
+        left = np.asarray(function(first)) >= np.asarray(function(last))
+        low, high = np.where(left, low, first), np.where(left, last, high)
+    places = 0.5 * (low + high)
+    values = np.asarray(function(places))
+    best = int(np.argmax(values))
+    return Greatest(float(values[best]), float(places[best]))
+
+
+def _crossings(function: RealFunction, places: Array) -> Array:
+    """Where a function changes its sign between places, by more than its rounding."""
+    lengths = np.diff(places)
+    low, high = places[:-1] + BEFORE_BREAK * lengths, places[1:] - BEFORE_BREAK * lengths
+    first, last = np.asarray(function(low)), np.asarray(function(high))
+    rounding = VALUE_ROUNDING * float(np.max(np.abs([first, last]), initial=0.0))
+    changed = (first * last < 0.0) & (np.maximum(np.abs(first), np.abs(last)) > rounding)
+    low, high, rising = low[changed], high[changed], last[changed] > 0.0
+    for _ in range(_HALVES if len(low) else 0):
+        middle = 0.5 * (low + high)
+        beyond = (np.asarray(function(middle)) > 0.0) == rising
+        low, high = np.where(beyond, low, middle), np.where(beyond, middle, high)
+    return 0.5 * (low + high)
