@@ -12,15 +12,13 @@ from optlaws.cycles.kinematics import SegmentPeaks, TimedCycle
 from optlaws.cycles.optimisation.durations import durations
 from optlaws.cycles.optimisation.joint_limits import check_limits_at_joints
 from optlaws.cycles.optimisation.mean_force import Best, best_of
+from optlaws.cycles.optimisation.motion_limits import FORCE, POWER, both_sides, read_limits
 from optlaws.cycles.optimisation.objectives import (
-    FORCE,
     LOADED,
-    POWER,
     CycleObjective,
     check_objective,
     kind_of,
     limits_of_stretch,
-    read_limits,
     read_load_limits,
     read_mean_force,
 )
@@ -62,8 +60,9 @@ class Cycle(CycleInterchange):
         "acceleration", "velocity", "jerk", "rms acceleration", "rms jerk", "rms snap" of optimal segments, or of the
         drive "force", "rms force" (of a table "torque", "rms torque") and "power".
     limits
-        Of all optimal segments: `{"velocity": "616 mm/s", "power": "400 W"}`; "rms force" and "rms torque" are of the
-        whole cycle, as motors are rated.
+        Of all optimal segments: `{"velocity": "616 mm/s", "power": "400 W"}`, of derivatives up to the "snap". Of two
+        quantities, as ("-8 m/s^2", "12 m/s^2"), the first is the least value; a "deceleration" is of moves that slow
+        down. "rms force" and "rms torque" are of the whole cycle, as motors are rated.
     start
         Position at the start, 0 unless given.
     advance
@@ -322,10 +321,22 @@ class Cycle(CycleInterchange):
         return replace(self, segments=segments, speed=None, period=f"{self.duration!r} s")
 
     @property
-    def limits_of_segments(self) -> tuple[dict[int, float], ...]:
-        """The limits that each segment was asked to keep, in SI units, by the order of the derivative."""
+    def limits_of_segments(self) -> tuple[dict[int, tuple[float, float]], ...]:
+        """The least and greatest value that each segment was asked to keep, by the order of the derivative; SI units.
+
+        Of the force or torque by -1 and of the power by -3; nothing of a segment whose law is given.
+
+        Examples
+        --------
+        >>> from optlaws.cycles.specification.segments import Return, Rise
+        >>> rise = Rise("35 mm", "120 deg", limits={"acceleration": ("-9 m/s^2", "12 m/s^2")})
+        >>> Cycle([rise, Return()], speed="100 rpm", limits={"velocity": "1 m/s"}).limits_of_segments
+        ({1: (-1.0, 1.0), 2: (-9.0, 12.0)}, {1: (-1.0, 1.0)})
+        """
         return tuple(
-            limits_of_stretch(stretch, self._cycle_objective, self.axis) if is_optimal(stretch.given) else {}
+            both_sides(limits_of_stretch(stretch, self._cycle_objective, self.axis))
+            if is_optimal(stretch.given)
+            else {}
             for stretch in self.programme.stretches
         )
 

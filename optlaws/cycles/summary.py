@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from optlaws.cycles.optimisation.objectives import FORCE, LOADED, POWER, kind_of
+from optlaws.cycles.optimisation.motion_limits import FORCE, POWER
+from optlaws.cycles.optimisation.objectives import LOADED, kind_of
 from optlaws.cycles.specification.load import LOAD, read_load
 from optlaws.errors import OptlawsError
 from optlaws.motion.piece import unit_of

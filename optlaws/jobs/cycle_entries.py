@@ -27,7 +27,7 @@ class SegmentEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     by: str | None = None
     to: str | None = None
     law: Text | None = None
-    limits: dict[str, str] | None = None
+    limits: dict[str, str | list[str]] | None = None
     velocity: str | None = None
     start_velocity: str | None = None
     end_velocity: str | None = None
@@ -72,7 +72,7 @@ class AxisEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     name: Text
     segment: Annotated[list[SegmentEntries], msgspec.Meta(min_length=1, max_length=100)]
     minimise: str = "acceleration"
-    limits: dict[str, str] = {}
+    limits: dict[str, str | list[str]] = {}
     start: str | None = None
     advance: str | None = None
     drive: dict[str, str] | None = None

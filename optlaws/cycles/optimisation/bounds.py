@@ -15,7 +15,8 @@ from math import hypot, inf, sqrt
 from typing import Any
 
 from optlaws.cycles.optimisation.drive_formulas import driven_mean, driven_peak, may_turn
-from optlaws.cycles.optimisation.objectives import FORCE, LOADED, POWER, CycleObjective, kind_of
+from optlaws.cycles.optimisation.motion_limits import FORCE, POWER
+from optlaws.cycles.optimisation.objectives import LOADED, CycleObjective, kind_of
 from optlaws.cycles.specification.drive import CycleDrive, read_drive, size_of
 from optlaws.cycles.specification.joints import LawSpan, Layout
 from optlaws.errors import InfeasibleProblem, SolverFailure
