@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from math import sqrt
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from optlaws.cycles.interchange import CycleInterchange
 from optlaws.cycles.kinematics import SegmentPeaks, TimedCycle
@@ -41,6 +41,9 @@ from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.status import Status
 from optlaws.tolerances import CYCLE_OPTIMALITY
+
+if TYPE_CHECKING:
+    from optlaws.cycles.fastest.fastest_cycle import FastestCycle
 
 
 @dataclass(frozen=True, repr=False)
@@ -288,6 +291,31 @@ class Cycle(CycleInterchange):
         minimise = "acceleration" if kind_of(self.minimise)[0] == LOADED else self.minimise
         return replace(self, segments=segments, speed=None, period=f"{period!r} s", minimise=minimise, limits={})
 
+    def fastest(self) -> FastestCycle:
+        """The greatest speed at which the cycle keeps all its limits, with the proof that none is greater.
+
+        Angles turn with the master and durations in seconds stay; free motions take their least times. Limits are of
+        all segments, of laws that are given and of constant velocities too, which turn with the master.
+
+        Raises
+        ------
+        InputError
+            If nothing bounds the speed: no limit, durations that leave nothing free, or a free dwell that may vanish.
+        InfeasibleProblem
+            If no speed keeps a limit.
+
+        Examples
+        --------
+        >>> from optlaws.cycles.specification.segments import Dwell, Return, Rise
+        >>> segments = [Rise("35 mm"), Dwell("50 ms"), Return(), Dwell("90 deg")]
+        >>> slide = Cycle(segments, speed="60 rpm", limits={"acceleration": "20 m/s^2", "jerk": "2000 m/s^3"})
+        >>> slide.fastest()
+        FastestCycle(186.397 rpm, period=0.321894 s, status='optimal', binding=('segment 1 (Rise): acceleration 20 ...
+        """
+        from optlaws.cycles.fastest.fastest_cycle import fastest_cycle
+
+        return fastest_cycle(self, self._cycle_objective)
+
     def per_angle(self, degrees: Any, nu: int = 0) -> Any:  # noqa: ANN401 - as for times
         """Derivatives by the master's angle in radians, as cams and controllers take them."""
         return self.at_angle(degrees, nu) * (self.duration / TURN) ** nu
@@ -333,11 +361,10 @@ class Cycle(CycleInterchange):
         >>> Cycle([rise, Return()], speed="100 rpm", limits={"velocity": "1 m/s"}).limits_of_segments
         ({1: (-1.0, 1.0), 2: (-9.0, 12.0)}, {1: (-1.0, 1.0)})
         """
+        limits = (limits_of_stretch(stretch, self._cycle_objective, self.axis) for stretch in self.programme.stretches)
         return tuple(
-            both_sides(limits_of_stretch(stretch, self._cycle_objective, self.axis))
-            if is_optimal(stretch.given)
-            else {}
-            for stretch in self.programme.stretches
+            both_sides(limited) if is_optimal(stretch.given) else {}
+            for limited, stretch in zip(limits, self.programme.stretches, strict=True)
         )
 
     @property

@@ -112,7 +112,22 @@ def limits_of_segment(stretch: TimedSegment, of_cycle: Mapping[LimitKey, float],
         here = key if isinstance(key, int) else key.in_direction(_direction(stretch, key))
         place = (here, 0.0) if isinstance(here, int) else (here.nu, here.sign)
         limits[place] = min(limits.get(place, (inf, here)), (most, here), key=lambda limit: limit[0])
-    return {limits[place][1]: limits[place][0] for place in sorted(limits)}
+    least = {limits[place][1]: limits[place][0] for place in sorted(limits)}
+    for nu in _TWO_SIDED:
+        _part(least, nu)
+    return least
+
+
+def _part(limits: Limits, nu: int) -> None:
+    """Put the magnitude of a derivative into the limits of its sides, where one of them has a limit of its own."""
+    sides = {key.sign: key for key in limits if isinstance(key, OneSided) and key.nu == nu}
+    most = limits.get(nu, inf)
+    if not sides or most == inf:
+        return
+    del limits[nu]
+    for sign in (-1.0, 1.0):
+        key = sides.get(sign, OneSided(nu, sign, name_of(nu, "length")))
+        limits[key] = min(limits.get(key, inf), most)
 
 
 def _direction(stretch: TimedSegment, key: OneSided) -> float:
@@ -163,6 +178,17 @@ def name_of(key: LimitKey, axis: str) -> str:
     if key == FORCE:
         return FORCES[axis]
     return next(name for name, order in LIMITS.items() if order == key)
+
+
+def word_of(key: LimitKey, axis: str) -> str:
+    """The key under which a limit was given.
+
+    >>> word_of(OneSided(2, 1.0, SPEEDING_UP), "length"), word_of(FORCE, "angle")
+    ('acceleration', 'torque')
+    """
+    if isinstance(key, OneSided):
+        return "acceleration" if key.name == SPEEDING_UP else key.name
+    return name_of(key, axis)
 
 
 def in_units(key: LimitKey, value: float, axis: str) -> str:

@@ -1,0 +1,247 @@
+"""The fastest cycle: the greatest speed under its limits, what binds there, and the proof that none is greater."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any
+
+from optlaws.cycles.fastest.fastest_search import FastestSearch, TimedSpan
+from optlaws.cycles.optimisation.motion_limits import amount, word_of
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.files.reading import JsonText
+from optlaws.kept import kept_property
+from optlaws.motion.quantities import TURN
+from optlaws.shown.summary import Row, Summary
+from optlaws.synthesis.proof.certificate import Certificate
+from optlaws.synthesis.status import Status
+from optlaws.tolerances import FASTER
+
+if TYPE_CHECKING:
+    from optlaws.cycles.cycle import Cycle
+    from optlaws.cycles.optimisation.objectives import CycleObjective
+
+FORMAT = "optlaws fastest cycle 1"
+_MORE = 0.1  # of a limit, by which it is raised to see what that gives
+
+
+@dataclass(frozen=True)
+class LeastDuration:
+    """The time that a motion needs at least, and the one that it has at the greatest speed, in seconds.
+
+    `limits` are those that the fastest law takes to the full, each with its value; `binding` says whether the motion
+    has no more than it needs, so that the speed is greatest by it.
+    """
+
+    name: str
+    least: float
+    duration: float
+    limits: tuple[str, ...]
+    binding: bool
+
+
+@dataclass(frozen=True)
+class LimitGain:
+    """What a tenth more of a limit would give: the limit, the speed in rad/s, and how many times it is greater."""
+
+    limit: str
+    speed: float
+    ratio: float
+
+    def __str__(self) -> str:
+        return f"10 % more {self.limit}: {60.0 * self.speed / TURN:.6g} rpm, {100.0 * (self.ratio - 1.0):.3g} % faster"
+
+
+@dataclass(frozen=True, repr=False)
+class FastestCycle(JsonText):
+    """The greatest speed of the master at which a cycle keeps its limits, as `Cycle.fastest` finds it.
+
+    Attributes
+    ----------
+    specification
+        The cycle whose greatest speed was sought.
+    cycle
+        The cycle at that speed, its laws given: the fastest where a motion has no time left, else those that are best
+        within the limits.
+    segments
+        The least time of every motion that a limit bounds.
+    status
+        Optimal where no law of the search space keeps the limits in a period that is shorter by a millionth, proven by
+        `proofs` or, of laws that are given, by their closed form; else local.
+    proofs
+        By the name and time of a motion: no law keeps its limits in that time.
+
+    Examples
+    --------
+    >>> from optlaws import Cycle, Dwell, Return, Rise
+    >>> limits = {"velocity": "1 m/s", "acceleration": "20 m/s^2", "jerk": "2000 m/s^3"}
+    >>> slide = Cycle([Rise("35 mm", "120 deg"), Dwell("60 deg"), Return()], speed="60 rpm", limits=limits)
+    >>> fastest = slide.fastest()
+    >>> fastest.status.value, round(fastest.rpm, 4), fastest.binding
+    ('optimal', 208.9637, ('segment 1 (Rise): acceleration 20 m/s^2, jerk 2000 m/s^3',))
+    """
+
+    _json_name = "a fastest cycle"
+
+    specification: Cycle
+    cycle: Cycle
+    segments: tuple[LeastDuration, ...]
+    status: Status
+    proofs: Mapping[str, Certificate] = field(compare=False)
+    _search: FastestSearch = field(compare=False)
+
+    @property
+    def period(self) -> float:
+        """The least period in seconds."""
+        return self._search.period
+
+    @property
+    def speed(self) -> float:
+        """The greatest speed of the master in rad/s."""
+        return TURN / self.period
+
+    @property
+    def rpm(self) -> float:
+        """The greatest speed of the master in revolutions per minute."""
+        return 60.0 / self.period
+
+    @property
+    def lower_bound(self) -> float | None:
+        """The period in seconds in which no laws of the search space keep the limits; None where that is not proven."""
+        return self.period * (1.0 - FASTER) if self.status == Status.OPTIMAL else None
+
+    @property
+    def binding(self) -> tuple[str, ...]:
+        """The motions that have no time left, each with the limits that it takes to the full."""
+        return tuple(f"{each.name}: {', '.join(each.limits)}" for each in self.segments if each.binding)
+
+    @kept_property
+    def gains(self) -> tuple[LimitGain, ...]:
+        """What a tenth more of each binding limit would give, in all segments that have it; sought again.
+
+        Examples
+        --------
+        >>> from optlaws import Cycle, Dwell, Return, Rise
+        >>> limits = {"acceleration": "20 m/s^2", "velocity": "2 m/s"}
+        >>> slide = Cycle([Rise("35 mm", "120 deg"), Dwell("60 deg"), Return()], speed="60 rpm", limits=limits)
+        >>> print(slide.fastest().gains[0])
+        10 % more acceleration: 240.636 rpm, 4.88 % faster
+        """
+        names = dict.fromkeys(
+            word_of(row.key, self._search.programme.axis) for span in self._search.binding for row in span.least.binding
+        )
+        return tuple(self._gain(name) for name in names)
+
+    def _gain(self, name: str) -> LimitGain:
+        period = replace(self._search, more={name: 1.0 + _MORE}).period
+        return LimitGain(name, TURN / period, self.period / period)
+
+    def summary(self) -> Summary:
+        """The speed and the period, what binds, what a tenth more of it would give, and the time of each motion.
+
+        Examples
+        --------
+        >>> from optlaws import Cycle, Return, Rise
+        >>> slide = Cycle([Rise("35 mm", "180 deg"), Return()], speed="60 rpm", limits={"acceleration": "20 m/s^2"})
+        >>> [row.name for row in slide.fastest().summary()][:4]
+        ['status', 'greatest speed', 'least period', 'proven: none below']
+        """
+        rows = [
+            Row("status", self.status.value),
+            Row("greatest speed", self.rpm, "rpm"),
+            Row("least period", self.period, "s"),
+        ]
+        if self.lower_bound is not None:
+            rows.append(Row("proven: none below", self.lower_bound, "s"))
+        rows += [Row("binds", text) for text in self.binding]
+        rows += [Row("would give", str(gain)) for gain in self.gains]
+        rows += [
+            Row(f"{each.name} needs", each.least, "s", note=f"has {each.duration:.9g} s: {_margin(each)}")
+            for each in self.segments
+        ]
+        return Summary(rows)
+
+    def claims(self) -> dict[str, Any]:
+        """The proofs as `optlaws verify` takes them: each problem with the certificate that it has no law."""
+        entries: dict[str, Any] = {
+            name: {"asked": proof.problem.to_dict(), "status": "infeasible", "proof": proof.to_dict()}
+            for name, proof in self.proofs.items()
+        }
+        about = (
+            f"greatest speed {self.rpm:.9g} rpm, least period {self.period:.9g} s; in a millionth less of their time "
+            "these motions have no law within the limits"
+        )
+        return {"about": about, **entries}
+
+    def to_dict(self) -> dict[str, Any]:
+        """The cycle whose greatest speed was sought, plain and JSON-able; it is sought again when it is read.
+
+        Examples
+        --------
+        >>> from optlaws import Cycle, FastestCycle, Return, Rise
+        >>> slide = Cycle([Rise("35 mm", "180 deg"), Return()], speed="60 rpm", limits={"acceleration": "20 m/s^2"})
+        >>> FastestCycle.from_json(slide.fastest().to_json()) == slide.fastest()
+        True
+        """
+        return {"format": FORMAT, "cycle": self.specification.to_dict()}
+
+    @classmethod
+    def from_dict(cls, data: Any) -> FastestCycle:  # noqa: ANN401 - it is checked here
+        """Read what `to_dict` gave."""
+        from optlaws.cycles.cycle import Cycle
+
+        if not isinstance(data, Mapping) or data.keys() != {"format", "cycle"} or data["format"] != FORMAT:
+            raise InputError(f"a fastest cycle has format {FORMAT!r} and a cycle, got {shortened(data)}")
+        return Cycle.from_dict(data["cycle"]).fastest()
+
+    def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
+        """Draw the motion at the greatest speed over time, with the limits of each segment; return the artists.
+
+        `ax` and `style` are as of `Cycle.plot`.
+        """
+        return self.cycle.plot(ax, **style)
+
+    def __repr__(self) -> str:
+        return (
+            f"FastestCycle({self.rpm:.6g} rpm, period={self.period:.6g} s, status={self.status.value!r}, "
+            f"binding={self.binding!r})"
+        )
+
+    def _repr_html_(self) -> str:
+        from optlaws.shown.showing import page
+
+        return page("Fastest cycle", self.summary()._repr_html_())
+
+
+def _margin(each: LeastDuration) -> str:
+    limits = ", ".join(each.limits)
+    if each.binding:
+        return f"no time left, by {limits}"
+    return f"{100.0 * (each.duration / each.least - 1.0):.3g} % to spare, then {limits}"
+
+
+def fastest_cycle(cycle: Cycle, objective: CycleObjective) -> FastestCycle:
+    """The greatest speed of a cycle with such an objective and limits."""
+    search = FastestSearch(cycle.programme, objective, {})
+    laws = search.laws()
+    binding = search.binding
+    limited = replace(cycle, segments=laws.segments(), speed=None, period=f"{laws.period!r} s")
+    segments = tuple(_least_duration(search, span) for span in search.spans)
+    return FastestCycle(cycle, limited, segments, search.status, _proofs(binding), search)
+
+
+def _least_duration(search: FastestSearch, span: TimedSpan) -> LeastDuration:
+    axis = search.programme.axis
+    limits = (f"{word_of(row.key, axis)} {amount(row.key, row.most, axis)}" for row in span.least.binding)
+    return LeastDuration(
+        span.where, span.needed, search.time_of(span), tuple(dict.fromkeys(limits)), binding=span in search.binding
+    )
+
+
+def _proofs(binding: tuple[TimedSpan, ...]) -> dict[str, Certificate]:
+    return {
+        f"{span.where} in {span.needed * (1.0 - FASTER):.9g} s": span.least.proof
+        for span in binding
+        if span.least.proof is not None
+    }

@@ -1,0 +1,145 @@
+"""The limits of a span as shares: by how many times its law, run slower by a scale, takes what is allowed.
+
+A motion that is run `scale` times slower has its velocity divided by the scale, its acceleration by the square of it.
+A share of a derivative of order nu so falls with the power nu of the scale, whatever the law: a law that keeps such a
+limit keeps it at every lower speed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+from optlaws.cycles.optimisation.motion_limits import LimitKey, Limits
+from optlaws.cycles.optimisation.objectives import CycleObjective
+from optlaws.cycles.optimisation.optimal import limited_constant
+from optlaws.cycles.optimisation.search_spaces import place
+from optlaws.cycles.specification.joints import LawSpan
+from optlaws.laws import MotionLaw
+from optlaws.synthesis.functionals.makers import peak
+from optlaws.synthesis.problem.constants import Functional
+
+
+class SpanLimit(Protocol):
+    """A limit of a span as a share of what is allowed, which is at most 1 where it is kept."""
+
+    @property
+    def key(self) -> LimitKey:
+        """What is limited."""
+
+    @property
+    def most(self) -> float:
+        """The limit in SI units."""
+
+    @property
+    def scales(self) -> bool:
+        """Whether a law that keeps it keeps it at every lower speed."""
+
+    def term(self, scale: float) -> tuple[Functional, float]:
+        """The limited constant of the law, and the share that one of it is, at a scale of the time."""
+
+    def slope(self, law: MotionLaw, scale: float) -> float:
+        """By which power of the scale the share of a law falls."""
+
+    def least_scale(self, law: MotionLaw) -> float:
+        """The least scale of the time at which a law keeps it."""
+
+
+@dataclass(frozen=True)
+class DerivativeLimit:
+    """A limit of a derivative, or of one side of it, in a span or in a part of it; `unit` is that of the law in SI."""
+
+    key: LimitKey
+    most: float
+    constant: Functional
+    unit: float
+
+    @property
+    def nu(self) -> int:
+        """The order of the derivative."""
+        return self.key if isinstance(self.key, int) else self.key.nu
+
+    @property
+    def scales(self) -> bool:
+        """True: both sides have room for a motion that is slower."""
+        return True
+
+    def term(self, scale: float) -> tuple[Functional, float]:
+        """The limited constant of the law, and the share that one of it is."""
+        return self.constant, self.unit / (self.most * scale**self.nu)
+
+    def slope(self, law: MotionLaw, scale: float) -> float:  # noqa: ARG002 - that of every law
+        """The order of the derivative."""
+        return float(self.nu)
+
+    def least_scale(self, law: MotionLaw) -> float:
+        """The least scale of the time, in closed form: the root of the share at scale 1."""
+        share = self.constant.value(law) * self.unit / self.most
+        return float(max(share, 0.0) ** (1.0 / self.nu))
+
+
+def slower(span: LawSpan, scale: float) -> LawSpan:
+    """The span run so many times slower: its times longer, its velocities and accelerations less.
+
+    >>> from optlaws.cycles.specification.joints import State
+    >>> span = LawSpan((), (0.5,), 1.0, 0.0, 0.1, State(1.0, 8.0), State(0.0, 0.0), ((0.75, 0.05),))
+    >>> slower(span, 2.0).stop, slower(span, 2.0).first, slower(span, 2.0).via
+    (2.0, State(velocity=0.5, acceleration=2.0), ((1.5, 0.05),))
+    """
+    first, last, *states = (
+        None
+        if state is None
+        else state._replace(velocity=state.velocity / scale, acceleration=state.acceleration / scale**2)
+        for state in (span.first, span.last, *span.states)
+    )
+    if first is None or last is None:
+        raise AssertionError  # they are known
+    return replace(
+        span,
+        starts=tuple(start * scale for start in span.starts),
+        stop=span.stop * scale,
+        first=first,
+        last=last,
+        via=tuple((time * scale, position) for time, position in span.via),
+        states=tuple(states),
+    )
+
+
+def limits_of_span(
+    span: LawSpan, limits: Sequence[Limits], objective: CycleObjective, stroke: float
+) -> list[SpanLimit]:
+    """The limits of a span, whose stretches have these each."""
+    rows: list[SpanLimit] = []
+    for (low, high), of_part in _parts(span, limits):
+        whole = (low, high) == (span.start, span.stop)
+        for key, most in of_part.items():
+            constant, unit = limited_constant(span, objective, stroke, key)
+            if not whole:
+                constant = _of_part(key, stroke, (place(span, low), place(span, high)))
+            rows.append(DerivativeLimit(key, most, constant, unit))
+    return rows
+
+
+def _parts(span: LawSpan, limits: Sequence[Limits]) -> Iterator[tuple[tuple[float, float], Limits]]:
+    """Each part of a span that has limits of its own, from where to where."""
+    times = (*span.starts, span.stop)
+    begun = 0
+    for i in range(1, len(limits) + 1):
+        if i == len(limits) or limits[i] != limits[begun]:
+            yield (times[begun], times[i]), limits[begun]
+            begun = i
+
+
+def _of_part(key: LimitKey, stroke: float, ends: tuple[float, float]) -> Functional:
+    nu = key if isinstance(key, int) else key.nu
+    if not 1 <= nu <= 3:
+        raise AssertionError  # those of the snap and of forces are of whole spans
+    if isinstance(key, int):
+        return peak("abcj"[nu], start=ends[0], stop=ends[1])
+    return peak("abcj"[nu], side="high" if key.sign * stroke > 0.0 else "low", start=ends[0], stop=ends[1])
+
+
+def least_scale(rows: Sequence[SpanLimit], law: MotionLaw) -> float:
+    """The least scale of the time at which a law keeps all limits; 0 where there are none."""
+    return max((row.least_scale(law) for row in rows), default=0.0)
