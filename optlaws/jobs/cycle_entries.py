@@ -90,6 +90,7 @@ class CycleProblemFile(JobFile, kw_only=True, forbid_unknown_fields=True):
     speed: str | None = None
     period: str | None = None
     rows: Annotated[int, msgspec.Meta(ge=2, le=100_000)] = 361
+    fastest: bool = False
 
 
 def read(data: Mapping[str, Any], file: Path) -> tuple[CycleProblemFile, dict[str, Cycle]]:
