@@ -13,7 +13,8 @@ from dataclasses import dataclass, replace
 from math import isfinite
 
 from optlaws.cycles.fastest.periods import DurationRange, duration_ranges, durations_at, least_period
-from optlaws.cycles.fastest.span_limits import SpanLimit, limits_of_span, slower
+from optlaws.cycles.fastest.scaling import slower
+from optlaws.cycles.fastest.span_limits import SpanLimit, limits_of_span
 from optlaws.cycles.fastest.span_time import SpanTime, least_time, least_time_of_law
 from optlaws.cycles.kinematics import TimedCycle
 from optlaws.cycles.optimisation.motion_limits import Limits, in_units, limits_of_segment, word_of
@@ -235,7 +236,9 @@ class FastestSearch:
 
     def _rows(self, span: LawSpan, stroke: float) -> list[SpanLimit]:
         limits = [limits_of_segment(stretch, self.objective.limits, self.programme.axis) for stretch in span.stretches]
-        return limits_of_span(span, [self._raised(each) for each in limits], self.objective, stroke)
+        return limits_of_span(
+            span, [self._raised(each) for each in limits], self.objective, stroke, self.programme.axis
+        )
 
     def _raised(self, limits: Limits) -> Limits:
         return {key: most * self.more.get(word_of(key, self.programme.axis), 1.0) for key, most in limits.items()}

@@ -8,14 +8,16 @@ limit keeps it at every lower speed.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Protocol
 
-from optlaws.cycles.optimisation.motion_limits import LimitKey, Limits
+from optlaws.cycles.fastest.drive_limits_of_span import driven_limit
+from optlaws.cycles.optimisation.motion_limits import FORCE, POWER, LimitKey, Limits
 from optlaws.cycles.optimisation.objectives import CycleObjective
 from optlaws.cycles.optimisation.optimal import limited_constant
 from optlaws.cycles.optimisation.search_spaces import place
 from optlaws.cycles.specification.joints import LawSpan
+from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
 from optlaws.synthesis.functionals.makers import peak
 from optlaws.synthesis.problem.constants import Functional
@@ -79,46 +81,32 @@ class DerivativeLimit:
         return float(max(share, 0.0) ** (1.0 / self.nu))
 
 
-def slower(span: LawSpan, scale: float) -> LawSpan:
-    """The span run so many times slower: its times longer, its velocities and accelerations less.
-
-    >>> from optlaws.cycles.specification.joints import State
-    >>> span = LawSpan((), (0.5,), 1.0, 0.0, 0.1, State(1.0, 8.0), State(0.0, 0.0), ((0.75, 0.05),))
-    >>> slower(span, 2.0).stop, slower(span, 2.0).first, slower(span, 2.0).via
-    (2.0, State(velocity=0.5, acceleration=2.0), ((1.5, 0.05),))
-    """
-    first, last, *states = (
-        None
-        if state is None
-        else state._replace(velocity=state.velocity / scale, acceleration=state.acceleration / scale**2)
-        for state in (span.first, span.last, *span.states)
-    )
-    if first is None or last is None:
-        raise AssertionError  # they are known
-    return replace(
-        span,
-        starts=tuple(start * scale for start in span.starts),
-        stop=span.stop * scale,
-        first=first,
-        last=last,
-        via=tuple((time * scale, position) for time, position in span.via),
-        states=tuple(states),
-    )
-
-
 def limits_of_span(
-    span: LawSpan, limits: Sequence[Limits], objective: CycleObjective, stroke: float
+    span: LawSpan, limits: Sequence[Limits], objective: CycleObjective, stroke: float, axis: str
 ) -> list[SpanLimit]:
     """The limits of a span, whose stretches have these each."""
     rows: list[SpanLimit] = []
     for (low, high), of_part in _parts(span, limits):
         whole = (low, high) == (span.start, span.stop)
         for key, most in of_part.items():
+            if key in (FORCE, POWER):
+                rows.append(_of_drive(key, most, span, objective, stroke, axis, whole=whole))
+                continue
             constant, unit = limited_constant(span, objective, stroke, key)
             if not whole:
                 constant = _of_part(key, stroke, (place(span, low), place(span, high)))
             rows.append(DerivativeLimit(key, most, constant, unit))
     return rows
+
+
+def _of_drive(
+    key: LimitKey, most: float, span: LawSpan, objective: CycleObjective, stroke: float, axis: str, *, whole: bool
+) -> SpanLimit:
+    if not isinstance(key, int) or not whole:
+        raise InputError(f"{span.where} are one law: give the force or power of all of them the same limit")
+    if objective.drive is None:
+        raise InputError("force, torque and power are of a drive: give one, such as drive={'mass': '2 kg'}")
+    return driven_limit(key, most, span, objective.drive, stroke, axis)
 
 
 def _parts(span: LawSpan, limits: Sequence[Limits]) -> Iterator[tuple[tuple[float, float], Limits]]:

@@ -11,7 +11,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from math import inf
+from math import inf, sqrt
 
 from optlaws.cycles.fastest.span_limits import SpanLimit, least_scale
 from optlaws.errors import SolverFailure
@@ -29,6 +29,7 @@ _ROUNDS = 20
 _LEAST_STEP = 1e-3  # of a share: what is kept so easily says little of where it is not
 #: about what constants of laws from rest to rest are, from which a first scale is taken
 _USUAL = {1: 1.6, 2: 5.0, 3: 40.0, 4: 600.0}
+_LEVEL = 0.2  # a slope below it is that of a force that is mostly static
 _PART = re.compile(r"part (\d+) of ")
 
 
@@ -70,7 +71,7 @@ def least_time(base: Problem, rows: Sequence[SpanLimit], where: str) -> SpanTime
         If the scale is not met.
     """
     scale = max(_first_scale(row) for row in rows)
-    best = inf
+    best, short = inf, 0.0
     previous: Solution | None = None
     fastest: Solution | None = None
     for _ in range(_ROUNDS):
@@ -80,7 +81,9 @@ def least_time(base: Problem, rows: Sequence[SpanLimit], where: str) -> SpanTime
             best, fastest = reached, solution
         if best < inf and _proof(base, rows, best * (1.0 - LEAST_SCALE_MET), solution) is not None:
             break
-        following = scale * max(solution.objective, _LEAST_STEP) ** (1.0 / _mean_slope(rows, solution, scale))
+        if solution.lower_bound > 1.0:
+            short = max(short, scale)
+        following = _following(scale, solution.objective, _mean_slope(rows, solution, scale), (short, best))
         if abs(following - scale) <= LEAST_SCALE_MET * scale:
             break
         scale, previous = following, solution
@@ -91,6 +94,16 @@ def least_time(base: Problem, rows: Sequence[SpanLimit], where: str) -> SpanTime
     if proof is None:
         proof = _proof(base, rows, faster, _least_share(base, rows, faster, solution))
     return SpanTime(best, fastest.law, tuple(rows), _shares(rows, solution, scale), fastest, proof)
+
+
+def _following(scale: float, share: float, slope: float, ends: tuple[float, float]) -> float:
+    """The scale at which the share is 1 by its slope; between the ends, in ratio, where it is level or leads out."""
+    short, best = ends
+    if slope > _LEVEL:
+        following = float(scale * max(share, _LEAST_STEP) ** (1.0 / slope))
+        if short <= following <= best * (1.0 + LEAST_SCALE_MET):
+            return following
+    return sqrt(short * best) if short and best < inf else 2.0 * scale if best == inf else 0.6 * best
 
 
 def _first_scale(row: SpanLimit) -> float:

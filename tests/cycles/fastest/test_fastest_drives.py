@@ -1,0 +1,98 @@
+"""The fastest cycle within what its drive gives: closed forms, a bisection over cycles, limits that no speed keeps."""
+
+from typing import Any
+
+import pytest
+
+from optlaws import Cycle, Dwell, InfeasibleProblem, Return, Rise, slider_crank
+from optlaws.verification import verify_all
+from tests.cycles.fastest.test_fastest_cycle import NEAR, bisected
+
+TURNING = [Rise("35 mm", "120 deg"), Dwell("60 deg"), Return("35 mm", "100 deg"), Dwell()]
+GIVEN = [
+    Rise("35 mm", "120 deg", law="cycloidal"),
+    Dwell("60 deg"),
+    Return("35 mm", "100 deg", law="cycloidal"),
+    Dwell(),
+]
+
+
+def cycle(**given: Any) -> Cycle:
+    return Cycle(given.pop("segments", TURNING), **({"speed": "60 rpm"} | given))
+
+
+def test_the_force_of_a_mass_is_a_limit_of_its_acceleration() -> None:
+    force = cycle(drive={"mass": "2 kg"}, limits={"force": "60 N"}).fastest()
+    acceleration = cycle(limits={"acceleration": "30 m/s^2"}).fastest()
+    assert force.period == pytest.approx(acceleration.period, rel=1e-8)
+    assert force.status == acceleration.status == "optimal"
+    assert force.binding == ("segment 3 (Return): force 60 N",)
+
+
+def test_weight_friction_and_spring_are_kept_and_proven() -> None:
+    weighed = cycle(drive={"mass": "2 kg", "gravity": "19.6 N", "dry": "5 N"}, limits={"force": "60 N"}).fastest()
+    assert weighed.status == "optimal"
+    assert weighed.cycle.effort.peak_force == pytest.approx(60.0, rel=1e-9)
+    (verified,) = verify_all(weighed.claims()).values()
+    assert verified.infeasible
+    # down, weight and friction leave so much for speeding up and for braking
+    down = {"acceleration": ("-37.3 m/s^2", "22.7 m/s^2")}
+    back = cycle(segments=[*TURNING[:2], Return("35 mm", "100 deg", limits=down), Dwell()]).fastest()
+    assert back.period == pytest.approx(weighed.period, rel=1e-8)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    ("drive", "ends"),
+    [
+        ({"mass": "2 kg", "gravity": "19.6 N", "dry": "5 N"}, (0.2, 0.35)),
+        ({"mass": "2 kg", "stiffness": "1 N/mm", "preload": "10 N"}, (0.2, 0.35)),
+    ],
+)
+def test_a_bisection_finds_the_same(drive: dict[str, str], ends: tuple[float, float]) -> None:
+    given = cycle(drive=drive, limits={"force": "60 N"})
+    fastest = given.fastest()
+    low, high = bisected(given, *ends)
+    assert low * (1.0 - NEAR) <= fastest.period <= high * (1.0 + NEAR)
+    assert fastest.status == "optimal"
+
+
+def test_given_laws_meet_the_force_where_it_is_greatest() -> None:
+    """With a weight alone the force is m c h/T² + w, greatest where c is 2 pi."""
+    fastest = cycle(segments=GIVEN, drive={"mass": "2 kg", "gravity": "19.6 N"}, limits={"force": "60 N"}).fastest()
+    needed = (2.0 * 0.035 * 6.283185307179586 / (60.0 - 19.6)) ** 0.5
+    assert fastest.period == pytest.approx(needed * 3.6, rel=1e-9)
+    assert fastest.status == "optimal"
+
+
+def test_what_is_not_convex_or_does_not_scale_is_local() -> None:
+    for drive, limits in (
+        ({"mass": "2 kg", "viscous": "10 N s/m"}, {"force": "60 N"}),
+        ({"mass": "2 kg"}, {"power": "20 W"}),
+    ):
+        fastest = cycle(drive=drive, limits=limits).fastest()
+        assert (fastest.status.value, fastest.lower_bound) == ("local", None)
+        effort = fastest.cycle.effort
+        taken = {"force": effort.peak_force, "power": effort.peak_power}
+        assert all(taken[name] <= float(text.split()[0]) * (1.0 + 1e-8) for name, text in limits.items())
+
+
+@pytest.mark.long
+def test_the_torque_of_a_mechanism_is_kept() -> None:
+    press = slider_crank("0.1 m", "0.4 m", bodies={"crank": "0.02 kg m^2", "slider": "5 kg"})
+    strokes = [Rise("180 deg", "108 deg"), Dwell("36 deg"), Return(duration="108 deg"), Dwell()]
+    fastest = cycle(segments=strokes, drive=press, limits={"torque": "10 N m"}).fastest()
+    assert fastest.status == "local"
+    assert fastest.cycle.effort.peak_force == pytest.approx(10.0, rel=1e-6)
+    # without a static torque it falls with the square of the speed
+    double = cycle(segments=strokes, drive=press, limits={"torque": "40 N m"}).fastest()
+    assert fastest.period / double.period == pytest.approx(2.0, rel=1e-4)
+
+
+def test_a_static_force_beyond_its_limit_is_named() -> None:
+    says = (
+        r"segment 1 \(Rise\): at 35 mm what is static takes the force 149\.6 N, so that no speed keeps the force 140 N"
+    )
+    sprung = {"mass": "2 kg", "stiffness": "3 N/mm", "preload": "44.6 N"}
+    with pytest.raises(InfeasibleProblem, match=says):
+        cycle(segments=GIVEN, drive=sprung, limits={"force": "140 N"}).fastest()
