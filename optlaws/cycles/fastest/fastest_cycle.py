@@ -14,7 +14,7 @@ from optlaws.files.reading import JsonText
 from optlaws.kept import kept_property
 from optlaws.motion.quantities import TURN
 from optlaws.shown.summary import Row, Summary
-from optlaws.synthesis.proof.certificate import Certificate
+from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
 from optlaws.synthesis.status import Status
 from optlaws.tolerances import FASTER
 
@@ -114,6 +114,10 @@ class FastestCycle(JsonText):
     @property
     def binding(self) -> tuple[str, ...]:
         """The motions that have no time left, each with the limits that it takes to the full."""
+        rating = self._search.rating
+        if rating is not None and rating.binds:
+            unit = "N" if self._search.programme.axis == "length" else "N m"
+            return (f"the whole cycle: {rating.name} {rating.most:.6g} {unit}",)
         return tuple(f"{each.name}: {', '.join(each.limits)}" for each in self.segments if each.binding)
 
     @kept_property
@@ -128,6 +132,9 @@ class FastestCycle(JsonText):
         >>> print(slide.fastest().gains[0])
         10 % more acceleration: 240.636 rpm, 4.88 % faster
         """
+        rating = self._search.rating
+        if rating is not None and rating.binds:
+            return (self._gain(rating.name),)
         names = dict.fromkeys(
             word_of(row.key, self._search.programme.axis) for span in self._search.binding for row in span.least.binding
         )
@@ -166,11 +173,13 @@ class FastestCycle(JsonText):
         """The proofs as `optlaws verify` takes them: each problem with the certificate that it has no law."""
         entries: dict[str, Any] = {
             name: {"asked": proof.problem.to_dict(), "status": "infeasible", "proof": proof.to_dict()}
+            if proof.program == VIOLATION
+            else proof.to_dict()
             for name, proof in self.proofs.items()
         }
         about = (
             f"greatest speed {self.rpm:.9g} rpm, least period {self.period:.9g} s; in a millionth less of their time "
-            "these motions have no law within the limits"
+            "these motions have no law within the limits, or their least mean squares sum to more than the rating"
         )
         return {"about": about, **entries}
 
@@ -225,10 +234,9 @@ def fastest_cycle(cycle: Cycle, objective: CycleObjective) -> FastestCycle:
     """The greatest speed of a cycle with such an objective and limits."""
     search = FastestSearch(cycle.programme, objective, {})
     laws = search.laws()
-    binding = search.binding
     limited = replace(cycle, segments=laws.segments(), speed=None, period=f"{laws.period!r} s")
     segments = tuple(_least_duration(search, span) for span in search.spans)
-    return FastestCycle(cycle, limited, segments, search.status, _proofs(binding), search)
+    return FastestCycle(cycle, limited, segments, search.status, _proofs(search), search)
 
 
 def _least_duration(search: FastestSearch, span: TimedSpan) -> LeastDuration:
@@ -239,9 +247,11 @@ def _least_duration(search: FastestSearch, span: TimedSpan) -> LeastDuration:
     )
 
 
-def _proofs(binding: tuple[TimedSpan, ...]) -> dict[str, Certificate]:
+def _proofs(search: FastestSearch) -> dict[str, Certificate]:
+    if search.rating is not None and search.rating.binds:
+        return search.rating.proofs or {}
     return {
         f"{span.where} in {span.needed * (1.0 - FASTER):.9g} s": span.least.proof
-        for span in binding
+        for span in search.binding
         if span.least.proof is not None
     }

@@ -12,12 +12,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from math import isfinite
 
+from optlaws.cycles.fastest.force_rating import ForceRating, PlacedLaw
 from optlaws.cycles.fastest.periods import DurationRange, duration_ranges, durations_at, least_period
 from optlaws.cycles.fastest.scaling import slower
 from optlaws.cycles.fastest.span_limits import SpanLimit, limits_of_span
 from optlaws.cycles.fastest.span_time import SpanTime, least_time, least_time_of_law
 from optlaws.cycles.kinematics import TimedCycle
-from optlaws.cycles.optimisation.motion_limits import Limits, in_units, limits_of_segment, word_of
+from optlaws.cycles.optimisation.motion_limits import FORCES, Limits, in_units, limits_of_segment, word_of
 from optlaws.cycles.optimisation.objectives import CycleObjective
 from optlaws.cycles.optimisation.optimal import scale, solve, span_problem
 from optlaws.cycles.optimisation.search_spaces import joint_windows
@@ -93,7 +94,7 @@ class FastestSearch:
         for span in spans:
             self._check(span)
         limited = [span for span in spans if span.least.rows]
-        if not limited:
+        if not limited and self.objective.mean_force is None:
             raise InputError(
                 "no limit bounds the motions, so that every speed is possible: give limits of the cycle or of its "
                 "segments, such as limits={'acceleration': '12 m/s^2'}"
@@ -103,6 +104,33 @@ class FastestSearch:
     @kept_property
     def period(self) -> float:
         """The least period in seconds."""
+        return self.unrated if self.rating is None else self.rating.period
+
+    @kept_property
+    def rating(self) -> ForceRating | None:
+        """The limit of the root mean square of the force over the cycle; None where there is none."""
+        most = self.objective.mean_force
+        if most is None:
+            return None
+        if not self.turning:
+            raise InputError(
+                "limits: an rms force or torque of a cycle that is to be fastest is of one that turns as a whole: give "
+                "all durations as angles"
+            )
+        name = f"rms {FORCES[self.programme.axis]}"
+        return ForceRating(
+            replace(self.objective, limits=self._raised(dict(self.objective.limits))),
+            self.programme.axis,
+            most * self.more.get(name, 1.0),
+            self.unrated,
+            self.programme.period,
+            self._placed,
+            self._fastest,
+        )
+
+    @kept_property
+    def unrated(self) -> float:
+        """The least period by the limits of the segments, in seconds."""
         turned = (
             max((span.least.scale for span in self.spans if self._turns(span)), default=0.0) * self.programme.period
         )
@@ -138,11 +166,13 @@ class FastestSearch:
         Of motions that turn with the master one that has no time left is enough. Where free motions sum to the period,
         one of them would have less than its least time, and any of them may be it.
         """
+        if not all(row.scales for span in self.spans for row in span.least.rows):
+            return Status.LOCAL
+        if self.rating is not None and self.rating.binds:
+            return Status.OPTIMAL if self.rating.scales and self.rating.proofs is not None else Status.LOCAL
         binding = self.binding
         proven = [span.given or span.least.proof is not None for span in binding]
         turning = any(self._turns(span) and known for span, known in zip(binding, proven, strict=True))
-        if not all(row.scales for span in self.spans for row in span.least.rows):
-            return Status.LOCAL
         return Status.OPTIMAL if turning or all(proven) else Status.LOCAL
 
     def time_of(self, span: TimedSpan) -> float:
@@ -151,39 +181,51 @@ class FastestSearch:
 
     def laws(self) -> FastestLaws:
         """The laws at the least period: the fastest where there is no time left, else the best within the limits."""
-        placed = self._placed()
-        solutions: list[Solution] = []
-        pieces = list(placed.pieces)
-        known = {span.places: span for span in self.spans}
-        for span in placed.spans:
-            places = tuple(stretch.number - 1 for stretch in span.stretches)
-            piece, solution = self._law(span, known.get(places))
-            pieces.append(piece)
-            solutions += [] if solution is None else [solution]
+        placed = self._placed(self.period)
+        rated = self.rating is not None and self.rating.binds
+        laws = [] if rated else [self._law(span) for span in placed.spans]
+        pieces = [*placed.pieces, *(piece for piece, _ in laws)]
+        if self.rating is not None and (rated or not self.rating.keeps(pieces, self.period)):
+            # the best laws share the limit as the fastest cycle does: each takes least of it
+            laws = self.rating.laws(self.period)
+            pieces = [*placed.pieces, *(piece for piece, _ in laws)]
         return FastestLaws(
             self.period,
             placed.starts,
             tuple(sorted(pieces, key=lambda piece: piece.start)),
-            tuple(solutions),
+            tuple(solution for _, solution in laws if solution is not None),
             replace(self.programme, period=self.period),
         )
 
-    def _law(self, span: LawSpan, known: TimedSpan | None) -> tuple[Piece, Solution | None]:
-        law = None if known is None else known.least.law
+    def _law(self, span: LawSpan) -> PlacedLaw:
+        known = self._known(span)
+        fastest = self._fastest(span)
         spare = known is None or known.needed < span.duration * (1.0 - BINDING_LIMIT)
-        if law is None or spare:
+        if fastest is None or spare:
             try:
                 return solve(span, self.objective, self.programme.axis)
             except (InfeasibleProblem, SolverFailure):
-                if law is None:
+                if fastest is None:
                     raise
-        return Piece(span.start, span.duration, span.offset, scale(span), law), None
+        return fastest, None
 
-    def _placed(self) -> Layout:
-        """The pieces and spans at the least period."""
+    def _known(self, span: LawSpan) -> TimedSpan | None:
+        """The span with its least time, if limits bound it."""
+        places = tuple(stretch.number - 1 for stretch in span.stretches)
+        return next((known for known in self.spans if known.places == places), None)
+
+    def _fastest(self, span: LawSpan) -> Piece | None:
+        """The fastest law of a span in its place; None where no limit bounds it."""
+        known = self._known(span)
+        if known is None or known.least.law is None:
+            return None
+        return Piece(span.start, span.duration, span.offset, scale(span), known.least.law)
+
+    def _placed(self, period: float) -> Layout:
+        """The pieces and spans at a period."""
         if not self.turning:
-            return layout(self.programme, self.durations)
-        share = self.period / self.programme.period
+            return layout(self.programme, durations_at(self.ranges, self.needed, period))
+        share = period / self.programme.period
         return Layout(
             tuple(start * share for start in self._layout.starts),
             tuple(

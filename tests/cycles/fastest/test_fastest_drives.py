@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from optlaws import Cycle, Dwell, InfeasibleProblem, Return, Rise, slider_crank
+from optlaws import Cycle, Dwell, InfeasibleProblem, InputError, Return, Rise, slider_crank
 from optlaws.verification import verify_all
 from tests.cycles.fastest.test_fastest_cycle import NEAR, bisected
 
@@ -96,3 +96,67 @@ def test_a_static_force_beyond_its_limit_is_named() -> None:
     sprung = {"mass": "2 kg", "stiffness": "3 N/mm", "preload": "44.6 N"}
     with pytest.raises(InfeasibleProblem, match=says):
         cycle(segments=GIVEN, drive=sprung, limits={"force": "140 N"}).fastest()
+
+
+MOTOR = {"inertia": "0.02 kg m^2", "dry": "0.3 N m"}
+TABLE = [
+    Rise("90 deg", "72 deg"),
+    Dwell("36 deg"),
+    Rise("30 deg", "54 deg"),
+    Dwell("36 deg"),
+    Return(duration="108 deg"),
+    Dwell(),
+]
+
+
+def test_the_rms_torque_of_an_inertia_falls_with_the_square_of_the_period() -> None:
+    inertia = {"inertia": "0.02 kg m^2"}
+    fastest = cycle(segments=TABLE, drive=inertia, limits={"rms torque": "1.75 N m"}).fastest()
+    least = cycle(segments=TABLE, drive=inertia, minimise="rms torque")
+    assert fastest.period == pytest.approx((least.lower_bound / 1.75) ** 0.5, rel=1e-7)
+    assert fastest.cycle.effort.rms_force == pytest.approx(1.75, rel=1e-7)
+    assert fastest.binding == ("the whole cycle: rms torque 1.75 N m",)
+    assert [str(gain) for gain in fastest.gains] == ["10 % more rms torque: 64.774 rpm, 4.88 % faster"]
+
+
+def test_a_rating_with_friction_is_met_and_proven() -> None:
+    fastest = cycle(segments=TABLE, drive=MOTOR, limits={"rms torque": "1.75 N m", "torque": "9 N m"}).fastest()
+    assert fastest.status == "optimal"
+    assert fastest.cycle.effort.rms_force == pytest.approx(1.75, rel=1e-7)
+    # the bounds that the certificates prove sum to more than the rating, a little faster
+    assert len(fastest.proofs) == 3
+    for entry in verify_all(fastest.claims()).values():
+        assert entry.bound is not None
+        assert entry.bound > 0.0
+    for share, says in ((1.0 - 1e-5, InfeasibleProblem), (1.0 + 1e-5, None)):
+        near = cycle(segments=TABLE, drive=MOTOR, limits={"rms torque": "1.75 N m", "torque": "9 N m"}, speed=None,
+                     period=f"{fastest.period * share!r} s", minimise="rms torque")  # fmt: skip
+        if says is None:
+            assert near.status == "optimal"
+        else:
+            with pytest.raises(says, match=r"rms torque over the cycle is to be at most 1\.75"):
+                near.status  # noqa: B018 - laws are looked for when they are asked for
+
+
+def test_a_rating_beside_another_limit_that_binds_is_kept() -> None:
+    fastest = cycle(segments=TABLE, drive=MOTOR, limits={"rms torque": "1.75 N m", "torque": "3 N m"}).fastest()
+    assert fastest.binding == ("segment 1 (Rise): torque 3 N m",)
+    assert fastest.cycle.effort.rms_force < 1.75
+    assert fastest.cycle.effort.peak_force == pytest.approx(3.0, rel=1e-9)
+
+
+def test_a_rating_of_given_laws_and_one_below_the_weight() -> None:
+    given = [
+        Rise("90 deg", "72 deg", law="modified sine"),
+        Dwell("36 deg"),
+        Return(duration="108 deg", law="cycloidal"),
+        Dwell(),
+    ]
+    fastest = cycle(segments=given, drive=MOTOR, limits={"rms torque": "1.75 N m"}).fastest()
+    assert fastest.status == "optimal"
+    assert fastest.cycle.effort.rms_force == pytest.approx(1.75, rel=1e-7)
+    with pytest.raises(InfeasibleProblem, match=r"no speed keeps the rms torque of 1\.75: what is static takes more"):
+        cycle(segments=given, drive=MOTOR | {"gravity": "2 N m"}, limits={"rms torque": "1.75 N m"}).fastest()
+    free = [Rise("90 deg"), Dwell("40 ms"), Return(), Dwell("90 deg")]
+    with pytest.raises(InputError, match="give all durations as angles"):
+        cycle(segments=free, drive=MOTOR, limits={"rms torque": "1.75 N m", "torque": "9 N m"}).fastest()
