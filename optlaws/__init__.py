@@ -26,7 +26,7 @@ _load, __dir__, __all__ = face(
         "optlaws.cams.followers.translating_flat": "TranslatingFlat",
         "optlaws.cams.followers.translating_roller": "TranslatingRoller",
         "optlaws.cams.least_sizes": "greatest_roller least_base_circle",
-        "optlaws.cycles.fastest.fastest_cycle": "FastestCycle LeastDuration LimitGain",
+        "optlaws.cycles.fastest_cycle": "FastestCycle LeastDuration LimitGain",
         "optlaws.cycles.machine_axes": "Axes",
         "optlaws.cycles.cycle": "Cycle",
         "optlaws.cycles.specification.segments": "ConstantVelocity Dwell Free Move Return Rise",

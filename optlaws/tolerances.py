@@ -126,6 +126,7 @@ PLANE_SLACK = 1e-9  # of a bound: by so much a formula lies within its planes
 CYCLE_OPTIMALITY = 1e-7  # share within which an objective meets the bound of the whole cycle
 FASTER = 1e-6  # of a least time: in so much less no law is proven to keep the limits
 LEAST_SCALE_MET = 1e-9  # of a least time: Newton's method goes no further
+LEAST_SHARE = 1e-3  # of a limit: what is so easily met says little of where it is not
 BINDING_LIMIT = 1e-7  # of a time: limits that need so nearly as much bind as well
 DURATION_STEP = 1e-4  # of a duration, for the slope of a mean square whose shape changes with it
 SHORTEST_MOVE = 1e-6  # of a period: no shorter move is tried

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from math import sqrt
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from optlaws.cycles.fastest_cycle import FastestCycle, fastest_cycle
 from optlaws.cycles.interchange import CycleInterchange
 from optlaws.cycles.kinematics import SegmentPeaks, TimedCycle
 from optlaws.cycles.optimisation.durations import durations
@@ -41,9 +42,6 @@ from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.status import Status
 from optlaws.tolerances import CYCLE_OPTIMALITY
-
-if TYPE_CHECKING:
-    from optlaws.cycles.fastest.fastest_cycle import FastestCycle
 
 
 @dataclass(frozen=True, repr=False)
@@ -312,8 +310,6 @@ class Cycle(CycleInterchange):
         >>> slide.fastest()
         FastestCycle(186.397 rpm, period=0.321894 s, status='optimal', binding=('segment 1 (Rise): acceleration 20 ...
         """
-        from optlaws.cycles.fastest.fastest_cycle import fastest_cycle
-
         return fastest_cycle(self, self._cycle_objective)
 
     def per_angle(self, degrees: Any, nu: int = 0) -> Any:  # noqa: ANN401 - as for times

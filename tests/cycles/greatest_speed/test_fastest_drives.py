@@ -6,7 +6,7 @@ import pytest
 
 from optlaws import Cycle, Dwell, InfeasibleProblem, InputError, Return, Rise, slider_crank
 from optlaws.verification import verify_all
-from tests.cycles.fastest.test_fastest_cycle import NEAR, bisected
+from tests.cycles.greatest_speed.test_fastest_cycle import NEAR, bisected
 
 TURNING = [Rise("35 mm", "120 deg"), Dwell("60 deg"), Return("35 mm", "100 deg"), Dwell()]
 GIVEN = [

@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import exp, inf, log
 
-from optlaws.cycles.fastest.scaling import slower
+from optlaws.cycles.greatest_speed.scaling import slower
 from optlaws.cycles.optimisation.drive_formulas import driven_peak
 from optlaws.cycles.optimisation.motion_limits import FORCE, in_units
 from optlaws.cycles.specification.drive import CycleDrive

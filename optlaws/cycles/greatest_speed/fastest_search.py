@@ -12,26 +12,26 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from math import isfinite
 
-from optlaws.cycles.fastest.force_rating import ForceRating, PlacedLaw
-from optlaws.cycles.fastest.periods import DurationRange, duration_ranges, durations_at, least_period
-from optlaws.cycles.fastest.scaling import slower
-from optlaws.cycles.fastest.span_limits import SpanLimit, limits_of_span
-from optlaws.cycles.fastest.span_time import SpanTime, least_time, least_time_of_law
-from optlaws.cycles.kinematics import TimedCycle
+from optlaws.cycles.greatest_speed.force_rating import ForceRating, PlacedLaw
+from optlaws.cycles.greatest_speed.periods import DurationRange, duration_ranges, durations_at, least_period
+from optlaws.cycles.greatest_speed.scaling import slower
+from optlaws.cycles.greatest_speed.span_limits import SpanLimit, limits_of_span
+from optlaws.cycles.greatest_speed.span_time import SpanTime, least_time, least_time_of_law
 from optlaws.cycles.optimisation.motion_limits import FORCES, Limits, in_units, limits_of_segment, word_of
 from optlaws.cycles.optimisation.objectives import CycleObjective
 from optlaws.cycles.optimisation.optimal import scale, solve, span_problem
 from optlaws.cycles.optimisation.search_spaces import joint_windows
 from optlaws.cycles.specification.joints import LawSpan, Layout, State, layout
 from optlaws.cycles.specification.programme import Programme
-from optlaws.cycles.specification.segments import CycleSegment, Dwell
+from optlaws.cycles.specification.segments import Dwell
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.kept import kept_property
 from optlaws.motion.piece import Piece, factor
 from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.status import Status
-from optlaws.tolerances import BINDING_LIMIT, CLOSURE, SAME_TIME
+from optlaws.tolerances import BINDING_LIMIT, CLOSURE, FASTER, SAME_TIME
 
 #: so many times slower every limit of a derivative is kept
 _SLOW = 1e4
@@ -63,10 +63,6 @@ class FastestLaws:
     pieces: tuple[Piece, ...]
     solutions: tuple[Solution, ...]
     programme: Programme
-
-    def segments(self) -> list[CycleSegment]:
-        """The segments with the laws as they are."""
-        return TimedCycle(self.programme, self.starts, self.pieces).at_speed(1.0)
 
 
 @dataclass(frozen=True)
@@ -174,6 +170,25 @@ class FastestSearch:
         proven = [span.given or span.least.proof is not None for span in binding]
         turning = any(self._turns(span) and known for span, known in zip(binding, proven, strict=True))
         return Status.OPTIMAL if turning or all(proven) else Status.LOCAL
+
+    @property
+    def binding_limits(self) -> tuple[str, ...]:
+        """The keys of the limits by which the speed is greatest."""
+        if self.rating is not None and self.rating.binds:
+            return (self.rating.name,)
+        rows = (row for span in self.binding for row in span.least.binding)
+        return tuple(dict.fromkeys(word_of(row.key, self.programme.axis) for row in rows))
+
+    @property
+    def proofs(self) -> dict[str, Certificate]:
+        """The certificates that the motions have no laws a little faster, by their names and times."""
+        if self.rating is not None and self.rating.binds:
+            return self.rating.proofs or {}
+        return {
+            f"{span.where} in {span.needed * (1.0 - FASTER):.9g} s": span.least.proof
+            for span in self.binding
+            if span.least.proof is not None
+        }
 
     def time_of(self, span: TimedSpan) -> float:
         """The time that a motion has at the least period."""

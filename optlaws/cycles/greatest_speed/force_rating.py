@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from math import exp, log, sqrt
 
-from optlaws.cycles.fastest.drive_limits_of_span import static_force
+from optlaws.cycles.greatest_speed.drive_limits_of_span import static_force
 from optlaws.cycles.optimisation.bounds import span_bound
 from optlaws.cycles.optimisation.motion_limits import FORCES
 from optlaws.cycles.optimisation.objectives import CycleObjective

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import inf, sqrt
 
-from optlaws.cycles.fastest.span_limits import SpanLimit, least_scale
+from optlaws.cycles.greatest_speed.span_limits import SpanLimit, least_scale
 from optlaws.errors import SolverFailure
 from optlaws.laws import MotionLaw
 from optlaws.synthesis.problem.constants import meant
@@ -23,10 +23,9 @@ from optlaws.synthesis.problem.ranges import Range
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.solve import synthesize
-from optlaws.tolerances import BINDING_LIMIT, FASTER, LEAST_SCALE_MET
+from optlaws.tolerances import BINDING_LIMIT, FASTER, LEAST_SCALE_MET, LEAST_SHARE
 
 _ROUNDS = 20
-_LEAST_STEP = 1e-3  # of a share: what is kept so easily says little of where it is not
 #: about what constants of laws from rest to rest are, from which a first scale is taken
 _USUAL = {1: 1.6, 2: 5.0, 3: 40.0, 4: 600.0}
 _LEVEL = 0.2  # a slope below it is that of a force that is mostly static
@@ -100,7 +99,7 @@ def _following(scale: float, share: float, slope: float, ends: tuple[float, floa
     """The scale at which the share is 1 by its slope; between the ends, in ratio, where it is level or leads out."""
     short, best = ends
     if slope > _LEVEL:
-        following = float(scale * max(share, _LEAST_STEP) ** (1.0 / slope))
+        following = float(scale * max(share, LEAST_SHARE) ** (1.0 / slope))
         if short <= following <= best * (1.0 + LEAST_SCALE_MET):
             return following
     return sqrt(short * best) if short and best < inf else 2.0 * scale if best == inf else 0.6 * best

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any
+from functools import partial
+from typing import Any
 
-from optlaws.cycles.fastest.fastest_search import FastestSearch, TimedSpan
+from optlaws.cycles.greatest_speed.fastest_search import FastestSearch, TimedSpan
+from optlaws.cycles.kinematics import TimedCycle
 from optlaws.cycles.optimisation.motion_limits import amount, word_of
-from optlaws.echo import shortened
-from optlaws.errors import InputError
-from optlaws.files.reading import JsonText
+from optlaws.cycles.optimisation.objectives import CycleObjective
 from optlaws.kept import kept_property
 from optlaws.motion.quantities import TURN
 from optlaws.shown.summary import Row, Summary
@@ -18,20 +18,31 @@ from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
 from optlaws.synthesis.status import Status
 from optlaws.tolerances import FASTER
 
-if TYPE_CHECKING:
-    from optlaws.cycles.cycle import Cycle
-    from optlaws.cycles.optimisation.objectives import CycleObjective
-
-FORMAT = "optlaws fastest cycle 1"
 _MORE = 0.1  # of a limit, by which it is raised to see what that gives
 
 
 @dataclass(frozen=True)
 class LeastDuration:
-    """The time that a motion needs at least, and the one that it has at the greatest speed, in seconds.
+    """The time that a motion needs at least, and the one that it has at the greatest speed.
 
-    `limits` are those that the fastest law takes to the full, each with its value; `binding` says whether the motion
-    has no more than it needs, so that the speed is greatest by it.
+    Attributes
+    ----------
+    name
+        The segment, or the segments that are one law.
+    least, duration
+        The least time and the one that it has, in seconds.
+    limits
+        The limits that the fastest law takes to the full, each with its value.
+    binding
+        Whether the motion has no more than it needs, so that the speed is greatest by it.
+
+    Examples
+    --------
+    >>> from optlaws import Cycle, Return, Rise
+    >>> slide = Cycle([Rise("35 mm", "120 deg"), Return()], speed="60 rpm", limits={"velocity": "1 m/s"})
+    >>> rise, back = slide.fastest().segments
+    >>> rise.binding, back.binding, round(back.duration / back.least, 6), rise.limits
+    (True, False, 2.0, ('velocity 1000 mm/s',))
     """
 
     name: str
@@ -43,7 +54,22 @@ class LeastDuration:
 
 @dataclass(frozen=True)
 class LimitGain:
-    """What a tenth more of a limit would give: the limit, the speed in rad/s, and how many times it is greater."""
+    """What a tenth more of a limit would give.
+
+    Attributes
+    ----------
+    limit
+        The key of the limit.
+    speed
+        The greatest speed of the master with it, in rad/s.
+    ratio
+        How many times it is greater than without.
+
+    Examples
+    --------
+    >>> print(LimitGain("acceleration", 20.0, 1.05))
+    10 % more acceleration: 190.986 rpm, 5 % faster
+    """
 
     limit: str
     speed: float
@@ -54,7 +80,7 @@ class LimitGain:
 
 
 @dataclass(frozen=True, repr=False)
-class FastestCycle(JsonText):
+class FastestCycle:
     """The greatest speed of the master at which a cycle keeps its limits, as `Cycle.fastest` finds it.
 
     Attributes
@@ -66,6 +92,10 @@ class FastestCycle(JsonText):
         within the limits.
     segments
         The least time of every motion that a limit bounds.
+    period
+        The least period in seconds.
+    binding
+        What has no time left, each with the limits that it takes to the full.
     status
         Optimal where no law of the search space keeps the limits in a period that is shorter by a millionth, proven by
         `proofs` or, of laws that are given, by their closed form; else local.
@@ -82,19 +112,14 @@ class FastestCycle(JsonText):
     ('optimal', 208.9637, ('segment 1 (Rise): acceleration 20 m/s^2, jerk 2000 m/s^3',))
     """
 
-    _json_name = "a fastest cycle"
-
-    specification: Cycle
-    cycle: Cycle
+    specification: Any  # a Cycle, which knows this module
+    cycle: Any
     segments: tuple[LeastDuration, ...]
     status: Status
+    period: float
+    binding: tuple[str, ...]
     proofs: Mapping[str, Certificate] = field(compare=False)
-    _search: FastestSearch = field(compare=False)
-
-    @property
-    def period(self) -> float:
-        """The least period in seconds."""
-        return self._search.period
+    _raised: Mapping[str, Callable[[], float]] = field(compare=False)
 
     @property
     def speed(self) -> float:
@@ -111,15 +136,6 @@ class FastestCycle(JsonText):
         """The period in seconds in which no laws of the search space keep the limits; None where that is not proven."""
         return self.period * (1.0 - FASTER) if self.status == Status.OPTIMAL else None
 
-    @property
-    def binding(self) -> tuple[str, ...]:
-        """The motions that have no time left, each with the limits that it takes to the full."""
-        rating = self._search.rating
-        if rating is not None and rating.binds:
-            unit = "N" if self._search.programme.axis == "length" else "N m"
-            return (f"the whole cycle: {rating.name} {rating.most:.6g} {unit}",)
-        return tuple(f"{each.name}: {', '.join(each.limits)}" for each in self.segments if each.binding)
-
     @kept_property
     def gains(self) -> tuple[LimitGain, ...]:
         """What a tenth more of each binding limit would give, in all segments that have it; sought again.
@@ -132,17 +148,8 @@ class FastestCycle(JsonText):
         >>> print(slide.fastest().gains[0])
         10 % more acceleration: 240.636 rpm, 4.88 % faster
         """
-        rating = self._search.rating
-        if rating is not None and rating.binds:
-            return (self._gain(rating.name),)
-        names = dict.fromkeys(
-            word_of(row.key, self._search.programme.axis) for span in self._search.binding for row in span.least.binding
-        )
-        return tuple(self._gain(name) for name in names)
-
-    def _gain(self, name: str) -> LimitGain:
-        period = replace(self._search, more={name: 1.0 + _MORE}).period
-        return LimitGain(name, TURN / period, self.period / period)
+        periods = {name: period() for name, period in self._raised.items()}
+        return tuple(LimitGain(name, TURN / period, self.period / period) for name, period in periods.items())
 
     def summary(self) -> Summary:
         """The speed and the period, what binds, what a tenth more of it would give, and the time of each motion.
@@ -183,33 +190,12 @@ class FastestCycle(JsonText):
         )
         return {"about": about, **entries}
 
-    def to_dict(self) -> dict[str, Any]:
-        """The cycle whose greatest speed was sought, plain and JSON-able; it is sought again when it is read.
-
-        Examples
-        --------
-        >>> from optlaws import Cycle, FastestCycle, Return, Rise
-        >>> slide = Cycle([Rise("35 mm", "180 deg"), Return()], speed="60 rpm", limits={"acceleration": "20 m/s^2"})
-        >>> FastestCycle.from_json(slide.fastest().to_json()) == slide.fastest()
-        True
-        """
-        return {"format": FORMAT, "cycle": self.specification.to_dict()}
-
-    @classmethod
-    def from_dict(cls, data: Any) -> FastestCycle:  # noqa: ANN401 - it is checked here
-        """Read what `to_dict` gave."""
-        from optlaws.cycles.cycle import Cycle
-
-        if not isinstance(data, Mapping) or data.keys() != {"format", "cycle"} or data["format"] != FORMAT:
-            raise InputError(f"a fastest cycle has format {FORMAT!r} and a cycle, got {shortened(data)}")
-        return Cycle.from_dict(data["cycle"]).fastest()
-
     def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
         """Draw the motion at the greatest speed over time, with the limits of each segment; return the artists.
 
         `ax` and `style` are as of `Cycle.plot`.
         """
-        return self.cycle.plot(ax, **style)
+        return list(self.cycle.plot(ax, **style))
 
     def __repr__(self) -> str:
         return (
@@ -230,13 +216,21 @@ def _margin(each: LeastDuration) -> str:
     return f"{100.0 * (each.duration / each.least - 1.0):.3g} % to spare, then {limits}"
 
 
-def fastest_cycle(cycle: Cycle, objective: CycleObjective) -> FastestCycle:
+def fastest_cycle(cycle: Any, objective: CycleObjective) -> FastestCycle:  # noqa: ANN401 - a Cycle
     """The greatest speed of a cycle with such an objective and limits."""
     search = FastestSearch(cycle.programme, objective, {})
     laws = search.laws()
-    limited = replace(cycle, segments=laws.segments(), speed=None, period=f"{laws.period!r} s")
+    timed = TimedCycle(laws.programme, laws.starts, laws.pieces)
+    limited = replace(cycle, segments=timed.at_speed(1.0), speed=None, period=f"{laws.period!r} s")
     segments = tuple(_least_duration(search, span) for span in search.spans)
-    return FastestCycle(cycle, limited, segments, search.status, _proofs(search), search)
+    raised = {name: partial(_raised_period, search, name) for name in search.binding_limits}
+    return FastestCycle(
+        cycle, limited, segments, search.status, laws.period, _binding(search, segments), search.proofs, raised
+    )
+
+
+def _raised_period(search: FastestSearch, name: str) -> float:
+    return replace(search, more={name: 1.0 + _MORE}).period
 
 
 def _least_duration(search: FastestSearch, span: TimedSpan) -> LeastDuration:
@@ -247,11 +241,9 @@ def _least_duration(search: FastestSearch, span: TimedSpan) -> LeastDuration:
     )
 
 
-def _proofs(search: FastestSearch) -> dict[str, Certificate]:
-    if search.rating is not None and search.rating.binds:
-        return search.rating.proofs or {}
-    return {
-        f"{span.where} in {span.needed * (1.0 - FASTER):.9g} s": span.least.proof
-        for span in search.binding
-        if span.least.proof is not None
-    }
+def _binding(search: FastestSearch, segments: Sequence[LeastDuration]) -> tuple[str, ...]:
+    rating = search.rating
+    if rating is not None and rating.binds:
+        unit = "N" if search.programme.axis == "length" else "N m"
+        return (f"the whole cycle: {rating.name} {rating.most:.6g} {unit}",)
+    return tuple(f"{each.name}: {', '.join(each.limits)}" for each in segments if each.binding)

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
-from optlaws.cycles.fastest.drive_limits_of_span import driven_limit
+from optlaws.cycles.greatest_speed.drive_limits_of_span import driven_limit
 from optlaws.cycles.optimisation.motion_limits import FORCE, POWER, LimitKey, Limits
 from optlaws.cycles.optimisation.objectives import CycleObjective
 from optlaws.cycles.optimisation.optimal import limited_constant
@@ -28,7 +28,7 @@ class SpanLimit(Protocol):
 
     @property
     def key(self) -> LimitKey:
-        """What is limited."""
+        """The quantity that is limited, or one side of it."""
 
     @property
     def most(self) -> float:
