@@ -11,7 +11,7 @@ import msgspec
 import numpy as np
 
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.fastest.fastest_cycle import FastestCycle
+from optlaws.cycles.fastest_cycle import FastestCycle
 from optlaws.cycles.summary import drive_rows, joint_rows, proof_rows
 from optlaws.errors import InfeasibleProblem, InputError, located
 from optlaws.exports.export import Export, export_cycle
