@@ -12,6 +12,7 @@ import numpy as np
 
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.fastest_cycle import FastestCycle
+from optlaws.cycles.limit_rows import limit_rows
 from optlaws.cycles.summary import drive_rows, joint_rows, proof_rows
 from optlaws.errors import InfeasibleProblem, InputError, located
 from optlaws.exports.export import Export, export_cycle
@@ -191,7 +192,7 @@ def page(
         if name in fastest:
             result.table(_FASTEST_HEADINGS, _fastest_rows(fastest[name]), digits=9)
         result.table(_headings(cycle), [*_segment_rows(cycle), _whole_row(cycle)], digits=7)
-        rows = [*proof_rows(cycle), *drive_rows(cycle), *joint_rows(cycle)]
+        rows = [*proof_rows(cycle), *limit_rows(cycle), *drive_rows(cycle), *joint_rows(cycle)]
         result.table(("what", "value", "unit"), [[row.name, row.value, row.unit or None] for row in rows], digits=9)
         if exports[name]:
             result.text("What controllers will run: peaks of the exported files as interpolated, over the law's.")

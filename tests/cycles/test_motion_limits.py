@@ -62,6 +62,7 @@ def test_snap_is_kept_and_named_where_no_law_keeps_it() -> None:
         cycle(limits={"snap": "60000 m/s^4"}, order=4).status  # noqa: B018
 
 
+@pytest.mark.long
 def test_joined_motions_have_limits_of_their_segments() -> None:
     """Of two free motions one may slow down less than the other."""
     limits = {"acceleration": ("-4 m/s^2", "12 m/s^2")}
@@ -120,3 +121,19 @@ def test_files_of_cycles_and_axes_keep_both_sides() -> None:
     machine = Axes({"slide": {"segments": given.segments, "limits": PAIR}}, speed="200 rpm")
     assert 'acceleration = ["-14 m/s^2", "20 m/s^2"]' in machine.to_toml()
     assert Axes.from_json(machine.to_json())["slide"].limits_of_segments == given.limits_of_segments
+
+
+def test_the_summary_says_how_much_of_such_limits_is_taken() -> None:
+    slowed = cycle(limits={"deceleration": "14 m/s^2", "acceleration": "25 m/s^2"}, minimise="jerk")
+    rows = {row.name: row for row in slowed.summary()}
+    assert rows["deceleration"].value == pytest.approx(14.0, rel=1e-9)
+    assert rows["deceleration"].note == "limit 14 m/s^2 of segment 1 (Rise)"
+    assert slowed(rows["deceleration"].place, 2) == pytest.approx(-14.0, rel=1e-6)
+    assert rows["acceleration along the motion"].note.startswith("limit 25 m/s^2 of segment")
+    assert "snap" not in rows
+    snapped = cycle(limits={"snap": "200000 m/s^4"}, order=4)
+    (row,) = (row for row in snapped.summary() if row.name == "snap")
+    assert 0.9 * 200000.0 < row.value <= 200000.0 * KEPT
+    assert row.unit == "m/s⁴"
+    (pair,) = (row for row in cycle(limits=PAIR, minimise="jerk").summary() if row.name == "lowest acceleration")
+    assert pair.note == "limit -14 m/s^2 of segment 1 (Rise)"

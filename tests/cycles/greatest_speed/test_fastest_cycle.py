@@ -58,7 +58,7 @@ def keeps(fastest: FastestCycle, **limits: float) -> bool:
 
 def test_a_turning_cycle_is_as_fast_as_a_bisection_finds() -> None:
     fastest = cycle().fastest()
-    low, high = bisected(cycle(), 0.30, 0.40)
+    low, high = bisected(cycle(), 0.34, 0.35, rounds=4)
     assert low <= fastest.period * (1.0 + NEAR)
     assert fastest.period <= high * (1.0 + NEAR)
     assert fastest.status == "optimal"

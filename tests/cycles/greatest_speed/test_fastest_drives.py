@@ -70,7 +70,9 @@ def test_what_is_not_convex_or_does_not_scale_is_local() -> None:
         ({"mass": "2 kg", "viscous": "10 N s/m"}, {"force": "60 N"}),
         ({"mass": "2 kg"}, {"power": "20 W"}),
     ):
-        fastest = cycle(drive=drive, limits=limits).fastest()
+        fastest = cycle(
+            drive=drive, limits=limits, segments=[Rise("35 mm", "120 deg"), Return(law="cycloidal")]
+        ).fastest()
         assert (fastest.status.value, fastest.lower_bound) == ("local", None)
         effort = fastest.cycle.effort
         taken = {"force": effort.peak_force, "power": effort.peak_power}
@@ -119,6 +121,7 @@ def test_the_rms_torque_of_an_inertia_falls_with_the_square_of_the_period() -> N
     assert [str(gain) for gain in fastest.gains] == ["10 % more rms torque: 64.774 rpm, 4.88 % faster"]
 
 
+@pytest.mark.long
 def test_a_rating_with_friction_is_met_and_proven() -> None:
     fastest = cycle(segments=TABLE, drive=MOTOR, limits={"rms torque": "1.75 N m", "torque": "9 N m"}).fastest()
     assert fastest.status == "optimal"
@@ -138,6 +141,7 @@ def test_a_rating_with_friction_is_met_and_proven() -> None:
                 near.status  # noqa: B018 - laws are looked for when they are asked for
 
 
+@pytest.mark.long
 def test_a_rating_beside_another_limit_that_binds_is_kept() -> None:
     fastest = cycle(segments=TABLE, drive=MOTOR, limits={"rms torque": "1.75 N m", "torque": "3 N m"}).fastest()
     assert fastest.binding == ("segment 1 (Rise): torque 3 N m",)
