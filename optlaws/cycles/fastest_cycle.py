@@ -11,6 +11,7 @@ from optlaws.cycles.greatest_speed.fastest_search import FastestSearch, TimedSpa
 from optlaws.cycles.kinematics import TimedCycle
 from optlaws.cycles.optimisation.motion_limits import amount, word_of
 from optlaws.cycles.optimisation.objectives import CycleObjective
+from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.motion.quantities import TURN
 from optlaws.shown.summary import Row, Summary
@@ -218,6 +219,11 @@ def _margin(each: LeastDuration) -> str:
 
 def fastest_cycle(cycle: Any, objective: CycleObjective) -> FastestCycle:  # noqa: ANN401 - a Cycle
     """The greatest speed of a cycle with such an objective and limits."""
+    if objective.of_load:
+        raise InputError(
+            "the greatest speed is not sought with a load that is minimised or limited, as what it does follows its "
+            "own period: limit the cycle's own quantities, and look at load_motion of the cycle at that speed"
+        )
     search = FastestSearch(cycle.programme, objective, {})
     laws = search.laws()
     timed = TimedCycle(laws.programme, laws.starts, laws.pieces)
