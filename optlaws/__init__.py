@@ -26,6 +26,7 @@ _load, __dir__, __all__ = face(
         "optlaws.cams.followers.translating_flat": "TranslatingFlat",
         "optlaws.cams.followers.translating_roller": "TranslatingRoller",
         "optlaws.cams.least_sizes": "greatest_roller least_base_circle",
+        "optlaws.cycles.fastest_cycle": "FastestCycle LeastDuration LimitGain",
         "optlaws.cycles.machine_axes": "Axes",
         "optlaws.cycles.cycle": "Cycle",
         "optlaws.cycles.old_tables": "OldTable read_cycle_table split_table",

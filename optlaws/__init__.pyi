@@ -38,6 +38,9 @@ from optlaws.cams.least_sizes import least_base_circle as least_base_circle
 from optlaws.cams.springs import Spring as Spring
 from optlaws.cams.springs import least_spring as least_spring
 from optlaws.cycles.cycle import Cycle as Cycle
+from optlaws.cycles.fastest_cycle import FastestCycle as FastestCycle
+from optlaws.cycles.fastest_cycle import LeastDuration as LeastDuration
+from optlaws.cycles.fastest_cycle import LimitGain as LimitGain
 from optlaws.cycles.law_comparison import Comparison as Comparison
 from optlaws.cycles.law_comparison import compare_laws as compare_laws
 from optlaws.cycles.machine_axes import Axes as Axes
@@ -214,6 +217,7 @@ __all__ = [
     "Dwell",
     "DwellMachine",
     "Expression",
+    "FastestCycle",
     "Follower",
     "Free",
     "Front",
@@ -224,7 +228,9 @@ __all__ = [
     "InputError",
     "J",
     "Leaf",
+    "LeastDuration",
     "LeverCam",
+    "LimitGain",
     "Link",
     "Loader",
     "Loads",

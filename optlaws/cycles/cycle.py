@@ -10,17 +10,17 @@ from typing import Any
 
 import numpy as np
 
+from optlaws.cycles.fastest_cycle import FastestCycle, fastest_cycle
 from optlaws.cycles.interchange import CycleInterchange
 from optlaws.cycles.kinematics import SegmentPeaks, TimedCycle
 from optlaws.cycles.optimisation.bounds import is_exact
 from optlaws.cycles.optimisation.drive_formulas import known_drive
 from optlaws.cycles.optimisation.durations import durations
 from optlaws.cycles.optimisation.joint_limits import check_limits_at_joints
+from optlaws.cycles.optimisation.motion_limits import FORCE, POWER, both_sides, read_limits, tightest
 from optlaws.cycles.optimisation.motor_limits import motor_limits
 from optlaws.cycles.optimisation.objectives import (
-    FORCE,
     LOADED,
-    POWER,
     SUMS,
     CycleObjective,
     check_objective,
@@ -28,10 +28,8 @@ from optlaws.cycles.optimisation.objectives import (
     least_of,
     limits_of_stretch,
     read_energy,
-    read_limits,
     read_load_limits,
     read_mean_force,
-    tightest,
 )
 from optlaws.cycles.optimisation.search_spaces import remark_on_degrees, search_space
 from optlaws.cycles.optimisation.shared_limits import Best, best_of
@@ -82,8 +80,10 @@ class Cycle(CycleInterchange):
         drive "force", "rms force" (of a table "torque", "rms torque"), "power", "energy" and, of a `Drive` whose motor
         has a motor constant, "heat": what its winding and its brake resistor burn.
     limits
-        Of all optimal segments: `{"velocity": "616 mm/s", "power": "400 W"}`; "rms force", "rms torque" and "energy"
-        are of the whole cycle, as motors are rated; `{"motor": True}` are all those of the motor of a `Drive`.
+        Of all optimal segments: `{"velocity": "616 mm/s", "power": "400 W"}`, of derivatives up to the "snap". Of two
+        quantities, as ("-8 m/s^2", "12 m/s^2"), the first is the least value; a "deceleration" is of moves that slow
+        down. "rms force", "rms torque" and "energy" are of the whole cycle, as motors are rated; `{"motor": True}` are
+        all those of the motor of a `Drive`.
     start
         Position at the start, 0 unless given.
     advance
@@ -353,6 +353,29 @@ class Cycle(CycleInterchange):
         minimise = "acceleration" if kind_of(self.minimise)[0] == LOADED else self.minimise
         return replace(self, segments=segments, speed=None, period=f"{period!r} s", minimise=minimise, limits={})
 
+    def fastest(self) -> FastestCycle:
+        """The greatest speed at which the cycle keeps all its limits, with the proof that none is greater.
+
+        Angles turn with the master and durations in seconds stay; free motions take their least times. Limits are of
+        all segments, of laws that are given and of constant velocities too, which turn with the master.
+
+        Raises
+        ------
+        InputError
+            If nothing bounds the speed: no limit, durations that leave nothing free, or a free dwell that may vanish.
+        InfeasibleProblem
+            If no speed keeps a limit.
+
+        Examples
+        --------
+        >>> from optlaws.cycles.specification.segments import Dwell, Return, Rise
+        >>> segments = [Rise("35 mm"), Dwell("50 ms"), Return(), Dwell("90 deg")]
+        >>> slide = Cycle(segments, speed="60 rpm", limits={"acceleration": "20 m/s^2", "jerk": "2000 m/s^3"})
+        >>> slide.fastest()
+        FastestCycle(186.397 rpm, period=0.321894 s, status='optimal', binding=('segment 1 (Rise): acceleration 20 ...
+        """
+        return fastest_cycle(self, self._cycle_objective)
+
     def per_angle(self, degrees: Any, nu: int = 0) -> Any:  # noqa: ANN401 - as for times
         """Derivatives by the master's angle in radians, as cams and controllers take them."""
         return self.at_angle(degrees, nu) * (self.duration / TURN) ** nu
@@ -386,11 +409,22 @@ class Cycle(CycleInterchange):
         return replace(self, segments=segments, speed=None, period=f"{self.duration!r} s")
 
     @property
-    def limits_of_segments(self) -> tuple[dict[int, float], ...]:
-        """The limits that each segment was asked to keep, in SI units, by the order of the derivative."""
+    def limits_of_segments(self) -> tuple[dict[int, tuple[float, float]], ...]:
+        """The least and greatest value that each segment was asked to keep, by the order of the derivative; SI units.
+
+        Of the force or torque by -1 and of the power by -3; nothing of a segment whose law is given.
+
+        Examples
+        --------
+        >>> from optlaws.cycles.specification.segments import Return, Rise
+        >>> rise = Rise("35 mm", "120 deg", limits={"acceleration": ("-9 m/s^2", "12 m/s^2")})
+        >>> Cycle([rise, Return()], speed="100 rpm", limits={"velocity": "1 m/s"}).limits_of_segments
+        ({1: (-1.0, 1.0), 2: (-9.0, 12.0)}, {1: (-1.0, 1.0)})
+        """
+        limits = (limits_of_stretch(stretch, self._cycle_objective, self.axis) for stretch in self.programme.stretches)
         return tuple(
-            limits_of_stretch(stretch, self._cycle_objective, self.axis) if is_optimal(stretch.given) else {}
-            for stretch in self.programme.stretches
+            both_sides(limited) if is_optimal(stretch.given) else {}
+            for limited, stretch in zip(limits, self.programme.stretches, strict=True)
         )
 
     @property

@@ -18,7 +18,7 @@ from optlaws.mechanisms.polydyne_cam import polydyne
 from optlaws.motion.piece import Piece, unit_of, values_of_pieces
 from optlaws.motion.quantities import TURN, positive_quantity
 from optlaws.numbers import Array, Quantity
-from optlaws.tolerances import CLOSURE, JUMP
+from optlaws.tolerances import CLOSURE, JUMP, SAME_TIME
 
 Place = tuple[float, float]
 
@@ -112,7 +112,9 @@ class TimedCycle:
     def _moves(self, stretch: TimedSegment, times: tuple[float, float], share: float) -> list[Move]:
         """The moves of a law in a stretch: one, or two where it ends where it begins."""
         (start, stop), moved, piece = times, stretch.displacement, self._piece_at(times[0])
-        if piece.stroke == moved and (piece.start, piece.stop) == (start, stop):
+        same_time = SAME_TIME * self.programme.period
+        alone = abs(piece.start - start) <= same_time and abs(piece.stop - stop) <= same_time
+        if alone and abs(piece.stroke - moved) <= CLOSURE * abs(moved):
             return [Move(self._shown(moved), f"{(stop - start) * share!r} s", law=piece.law)]
         law = piece.law
         if not isinstance(law, PiecewiseLaw):

@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from optlaws.cycles.optimisation.objectives import FORCE, LOADED, POWER, SUMS, kind_of
+from optlaws.cycles.limit_rows import limit_rows
+from optlaws.cycles.optimisation.motion_limits import FORCE, POWER
+from optlaws.cycles.optimisation.objectives import LOADED, SUMS, kind_of
 from optlaws.cycles.specification.load import LOAD, read_load
 from optlaws.cycles.specification.process import is_process
 from optlaws.errors import OptlawsError
@@ -115,7 +117,9 @@ def joint_rows(cycle: Cycle) -> list[Row]:
 
 def summary(cycle: Cycle) -> Summary:
     """All of these rows; places are times in seconds."""
-    return Summary([*proof_rows(cycle), *peak_rows(cycle), *drive_rows(cycle), *joint_rows(cycle)], at="s")
+    return Summary(
+        [*proof_rows(cycle), *peak_rows(cycle), *limit_rows(cycle), *drive_rows(cycle), *joint_rows(cycle)], at="s"
+    )
 
 
 def cycle_page(cycle: Cycle) -> str:

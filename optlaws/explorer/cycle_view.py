@@ -11,7 +11,9 @@ from typing import Annotated, Any
 import msgspec
 
 from optlaws import Cycle, Status
-from optlaws.cycles.optimisation.objectives import LIMITS, read_limits
+from optlaws.cycles.kinematics import SegmentPeaks
+from optlaws.cycles.optimisation.motion_limits import LIMITS, both_sides, limits_of_segment, read_limits
+from optlaws.cycles.optimisation.objectives import OBJECTIVES
 from optlaws.cycles.summary import drive_rows, joint_rows, objective_unit
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
 from optlaws.explorer.law_view import TITLES, digits, drawn, gap_text, refusal
@@ -20,6 +22,7 @@ from optlaws.files.problem_file import convert
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile, cycle_of
 from optlaws.laws.catalogue import reading
 from optlaws.motion.quantities import QUANTITIES
+from optlaws.numbers import bounded
 from optlaws.plots.cycle import UNITS, samples
 from optlaws.tolerances import AGREEMENT, BOUND_SLACK, CYCLE_ROUNDING
 
@@ -105,13 +108,10 @@ def _degrees(shown: Cycle, time: float) -> float:
     return round(_TURN * time / shown.duration, 4)
 
 
-def _limits(shown: Cycle) -> list[dict[int, float]]:
-    """What each segment must keep: its own limits and those of the axis, in SI units by order."""
+def _limits(shown: Cycle) -> list[dict[int, tuple[float, float]]]:
+    """The least and greatest values that each segment must keep: its own limits and those of the axis, by order."""
     whole = read_limits(shown.limits, shown.axis, "limits")
-    return [
-        {nu: min(whole.get(nu, inf), limits.get(nu, inf)) for nu in sorted({*whole, *limits})}
-        for limits in shown.limits_of_segments
-    ]
+    return [both_sides(limits_of_segment(stretch, whole, shown.axis)) for stretch in shown.programme.stretches]
 
 
 def _panel(shown: Cycle, nu: int) -> dict[str, Any]:
@@ -123,7 +123,8 @@ def _panel(shown: Cycle, nu: int) -> dict[str, Any]:
         {
             "from": _degrees(shown, peak.start),
             "to": _degrees(shown, peak.start + peak.duration),
-            "value": limit[nu] * factor,
+            "value": bounded(limit[nu][1] * factor),
+            "least": bounded(limit[nu][0] * factor),
         }
         for peak, limit in zip(shown.peaks, _limits(shown), strict=True)
         if nu in limit
@@ -150,7 +151,7 @@ def _segments(shown: Cycle) -> Iterator[dict[str, Any]]:
         peaks = [
             {
                 "text": _plain(peak.peak(nu) * units[nu][1], shown.peak(nu) * units[nu][1]),
-                "beyond": peak.peak(nu) > limits.get(nu, inf) * (1.0 + AGREEMENT),
+                "beyond": _beyond(peak, nu, limits.get(nu, (-inf, inf))),
             }
             for nu in (1, 2, 3)
         ]
@@ -163,6 +164,11 @@ def _segments(shown: Cycle) -> Iterator[dict[str, Any]]:
             "by": _plain(stretch.displacement * units[0][1], shown.peak(0) * units[0][1]),
             "peaks": peaks,
         }
+
+
+def _beyond(peaks: SegmentPeaks, nu: int, limits: tuple[float, float]) -> bool:
+    (least, _), (most, _) = peaks.extremes[nu]
+    return least < limits[0] * (1.0 + AGREEMENT) or most > limits[1] * (1.0 + AGREEMENT)
 
 
 def _plain(value: float, size: float) -> str:
@@ -198,7 +204,7 @@ def _facts(shown: Cycle) -> list[str]:
 
 def _ways(spec: CycleProblemFile, axis: AxisEntries) -> Iterator[dict[str, Any]]:
     for name, given in axis.limits.items():
-        if name not in LIMITS:
+        if name not in LIMITS or name not in OBJECTIVES or not isinstance(given, str):
             continue
         others = {other: value for other, value in axis.limits.items() if other != name}
         freed = msgspec.structs.replace(axis, limits=others, minimise=name, follower=None)

@@ -57,7 +57,7 @@ class AxisEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     name: Text
     segment: Annotated[list[SegmentEntries], msgspec.Meta(min_length=1, max_length=100)]
     minimise: str = "acceleration"
-    limits: dict[str, str] = {}
+    limits: dict[str, str | list[str]] = {}
     start: str | None = None
     advance: str | None = None
     mechanism: dict[str, Any] | None = None
@@ -77,6 +77,7 @@ class CycleProblemFile(JobFile, kw_only=True, forbid_unknown_fields=True):
     period: str | None = None
     rows: Annotated[int, msgspec.Meta(ge=2, le=100_000)] = 361
     sweep: Annotated[list[SweepEntries], msgspec.Meta(max_length=4)] = msgspec.field(default_factory=list)
+    fastest: bool = False
 
 
 def read(data: Mapping[str, Any], file: Path) -> tuple[CycleProblemFile, dict[str, Cycle]]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from math import inf
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -153,11 +152,10 @@ def _mark_limits(cycle: Cycle, axes: Axes, nu: int, share: float = 1.0) -> list[
     look: dict[str, Any] = {"color": WARM, "linewidth": 1.1, "linestyle": "--"}
     artists: list[Artist] = []
     for peaks, limits in zip(cycle.peaks, cycle.limits_of_segments, strict=True):
-        most = limits.get(nu, inf)
-        if most < 4.0 * max(cycle.peak(nu), 1e-300):
-            span = [1e3 * peaks.start, 1e3 * (peaks.start + peaks.duration)]
-            for side in (1.0, -1.0):
-                artists += axes.plot(span, [side * most * factor] * 2, **look)
+        span = [1e3 * peaks.start, 1e3 * (peaks.start + peaks.duration)]
+        for limit in limits.get(nu, ()):
+            if abs(limit) < 4.0 * max(cycle.peak(nu), 1e-300):
+                artists += axes.plot(span, [limit * factor] * 2, **look)
     return artists
 
 

@@ -16,8 +16,8 @@ class Claim:
     Attributes
     ----------
     checked
-        Whether it was checked with every rounding enclosed; if not, it was computed again in doubles and agrees, so that
-        nothing of it is proven or refuted.
+        Whether it was checked with every rounding enclosed; if not, it was computed again in doubles and agrees, so
+        that nothing of it is proven or refuted.
 
     Examples
     --------

@@ -15,16 +15,8 @@ from math import hypot, inf, sqrt
 from typing import Any
 
 from optlaws.cycles.optimisation.drive_formulas import Driven, driven_mean, driven_peak, may_turn
-from optlaws.cycles.optimisation.objectives import (
-    CURVE,
-    FORCE,
-    LOADED,
-    POWER,
-    SUMS,
-    CycleObjective,
-    kind_of,
-    limits_of_stretch,
-)
+from optlaws.cycles.optimisation.motion_limits import CURVE, FORCE, POWER
+from optlaws.cycles.optimisation.objectives import LOADED, SUMS, CycleObjective, kind_of, limits_of_stretch
 from optlaws.cycles.optimisation.sums import span_sum, total
 from optlaws.cycles.specification.drive import CycleDrive, read_drive
 from optlaws.cycles.specification.effort import size_of

@@ -12,7 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
-from optlaws.cycles.optimisation.objectives import FORCE, POWER
+from optlaws.cycles.optimisation.motion_limits import FORCE, POWER
 from optlaws.cycles.specification.drive import CycleDrive
 from optlaws.cycles.specification.joints import LawSpan
 from optlaws.cycles.specification.position_drive import PositionDrive

@@ -16,6 +16,7 @@ from math import inf, log2
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.cycles.optimisation.motion_limits import greatest
 from optlaws.cycles.optimisation.objectives import CycleObjective, kind_of, limits_of_stretch
 from optlaws.cycles.optimisation.optimal import span_problem
 from optlaws.cycles.specification.joints import LawSpan, State
@@ -25,6 +26,9 @@ from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.laws import MotionLaw
 from optlaws.motion.piece import factor, named_law
 from optlaws.numerics.roots import bisect
+from optlaws.synthesis.problem.constants import FUNCTIONALS
+from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.solve import synthesize
 from optlaws.tolerances import AGREEMENT, DURATION_STEP, SAME_TIME, SHORTEST_MOVE
 
@@ -54,7 +58,8 @@ def durations(programme: Programme, objective: CycleObjective) -> tuple[float, .
     for i in free:
         _check_rest(programme, i)
     nu, mean = kind_of(objective.minimise)
-    if nu < 0 or min(objective.limits, default=0) < 0 or objective.shares or objective.loaded:
+    driven = any(isinstance(key, int) and key < 0 for key in objective.limits)
+    if nu < 0 or driven or objective.shares or objective.loaded:
         raise InputError(
             "free durations are shared by velocity, acceleration or jerk, not by a force, power or a load: "
             "give durations"
@@ -96,8 +101,8 @@ def _cost(programme: Programme, i: int, objective: CycleObjective, nu: int, *, m
 
 def _quickest(programme: Programme, i: int, objective: CycleObjective) -> float:
     stretch = programme.stretches[i]
-    most = limits_of_stretch(stretch, objective, programme.axis).get(1) if is_optimal(stretch.given) else None
-    return 0.0 if most is None else abs(stretch.displacement) / most
+    limits = limits_of_stretch(stretch, objective, programme.axis) if is_optimal(stretch.given) else {}
+    return abs(stretch.displacement) / greatest(limits, 1, -1.0 if stretch.displacement < 0.0 else 1.0)
 
 
 def _shape(programme: Programme, i: int, objective: CycleObjective, nu: int, *, mean: bool) -> Callable[[float], float]:
@@ -109,21 +114,27 @@ def _shape(programme: Programme, i: int, objective: CycleObjective, nu: int, *, 
         return lambda _: value
     offset = programme.start + sum(other.displacement for other in programme.stretches[:i])
     unlimited: list[MotionLaw] = []
+    nearest: list[Solution] = []
 
     def shape(duration: float) -> float:
         span = LawSpan((stretch,), (0.0,), duration, offset, stretch.displacement, _REST, _REST, ())
         try:
             problem = span_problem(span, objective, programme.axis, stretch.displacement)
             if not unlimited:
-                unlimited.append(synthesize(replace(problem, B=None, C=None, J=None)).law)
-            limits = {order: problem.range(name) for order, name in ((1, "B"), (2, "C"), (3, "J"))}
-            if all(limit is None or unlimited[0].peak(order).value <= limit.high for order, limit in limits.items()):
+                unlimited.append(synthesize(replace(problem, bounds={}, B=None, C=None, J=None)).law)
+            if _keeps_limits(unlimited[0], problem):
                 return _constant(unlimited[0], nu, mean=mean)
-            return _constant(synthesize(problem).law, nu, mean=mean)
+            nearest[:] = [synthesize(problem, start=nearest[0] if nearest else None)]
+            return _constant(nearest[0].law, nu, mean=mean)
         except InfeasibleProblem:
             return inf
 
     return shape
+
+
+def _keeps_limits(law: MotionLaw, problem: Problem) -> bool:
+    limits = [*problem.bounded, (FUNCTIONALS["B"], problem.range("B"))]
+    return all(limit is None or constant.value(law) <= limit.high for constant, limit in limits)
 
 
 def _constant(law: MotionLaw, nu: int, *, mean: bool) -> float:

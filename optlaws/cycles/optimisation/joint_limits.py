@@ -8,13 +8,14 @@ from itertools import accumulate
 from operator import itemgetter
 
 from optlaws.cycles.optimisation.drive_formulas import may_turn
-from optlaws.cycles.optimisation.objectives import FORCE, CycleObjective, in_units, kind_of, limits_of_stretch
+from optlaws.cycles.optimisation.motion_limits import FORCE, along_motion, in_units
+from optlaws.cycles.optimisation.objectives import CycleObjective, kind_of, limits_of_stretch
 from optlaws.cycles.optimisation.optimal import solve
 from optlaws.cycles.specification.effort import size_of
 from optlaws.cycles.specification.joints import LawSpan, Layout, State
 from optlaws.cycles.specification.position_drive import PositionDrive
 from optlaws.cycles.specification.programme import TimedSegment, is_optimal
-from optlaws.errors import InfeasibleProblem, SolverFailure
+from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import in_small_units
 from optlaws.synthesis.solution import Solution
@@ -49,8 +50,9 @@ class SegmentEnd:
 
 
 def check_limits_at_joints(layout: Layout, objective: CycleObjective, axis: str, period: float) -> None:
-    """Refuse a limit of the force that is less than what the drive takes at a joint, whatever the law."""
+    """Refuse a limit that no law keeps: of slowing down where it turns, of force less than a joint takes."""
     for span in layout.spans:
+        _check_direction(span, objective, axis)
         for edge in _edges(span):
             limits = limits_of_stretch(edge.stretch, objective, axis)
             needed = edge.demand(objective, FORCE)
@@ -62,6 +64,16 @@ def check_limits_at_joints(layout: Layout, objective: CycleObjective, axis: str,
                     f"{360.0 * edge.time / period:.6g} deg of the master, every law takes {taken}, but its limit is "
                     f"{allowed}: allow more, or change the drive's spring, preload, gravity or friction"
                 )
+
+
+def _check_direction(span: LawSpan, objective: CycleObjective, axis: str) -> None:
+    """Refuse a limit of slowing down where the velocities at the ends turn the motion back."""
+    limited = (along_motion(limits_of_stretch(stretch, objective, axis)) for stretch in span.stretches)
+    if may_turn(span) and any(limited):
+        raise InputError(
+            f"{span.where} begins or ends against its way, so that slowing down is of no one direction: give its "
+            "acceleration as the least and the greatest, such as ('-8 m/s^2', '12 m/s^2'), in place of a deceleration"
+        )
 
 
 def _edges(span: LawSpan) -> Iterator[SegmentEnd]:

@@ -9,7 +9,7 @@ from math import isfinite
 from typing import Any
 
 from optlaws.cycles.optimisation.drive_formulas import Driven, branches_of, known_drive
-from optlaws.cycles.optimisation.objectives import CURVE, FORCE
+from optlaws.cycles.optimisation.motion_limits import CURVE, FORCE
 from optlaws.cycles.specification.drive import CycleDrive
 from optlaws.cycles.specification.joints import LawSpan
 from optlaws.cycles.specification.position_drive import PositionDrive

@@ -4,19 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from math import inf
 from typing import Any
 
+from optlaws.cycles.optimisation.motion_limits import FORCE, FORCES, MEANS, POWER, LimitKey, Limits, limits_of_segment
 from optlaws.cycles.specification.drive import CycleDrive
-from optlaws.cycles.specification.load import LOAD, Load, load_output
+from optlaws.cycles.specification.load import Load, load_output
 from optlaws.cycles.specification.position_drive import PositionDrive
-from optlaws.cycles.specification.programme import AXES, TimedSegment
-from optlaws.cycles.specification.segments import Free, Move
+from optlaws.cycles.specification.programme import TimedSegment
 from optlaws.errors import InputError
-from optlaws.motion.quantities import in_small_units, positive_quantity, table
+from optlaws.motion.quantities import positive_quantity
 from optlaws.suggest import unknown_key
 
-FORCE, LOADED, POWER, ENERGY, HEAT, CURVE = -1, -2, -3, -4, -5, -6
+LOADED, ENERGY, HEAT = -2, -4, -5
 #: what is summed over the motions of a cycle as it is
 SUMS = (ENERGY, HEAT)
 #: what may be least over a cycle: the order of the derivative, and whether it is its root mean square
@@ -35,24 +34,19 @@ OBJECTIVES = {
     "energy": (ENERGY, False),
     "heat": (HEAT, False),
 }
-LIMITS = {"velocity": 1, "acceleration": 2, "jerk": 3, "force": FORCE, "torque": FORCE, "power": POWER}
-#: limits of the whole cycle alone
-MEANS = ("rms force", "rms torque")
-TOTALS = (*MEANS, "energy", "motor")
-_FORCES = {"length": "force", "angle": "torque"}
 
 
 @dataclass(frozen=True)
 class CycleObjective:
     """The objective of a cycle, one of `OBJECTIVES`, the limits of the whole in SI units, and the degree of its laws.
 
-    `limits` are by the order of the derivative, of force or torque by -1, of power by -3; `loaded` by the load's output
-    and whether of its root mean square; `mean_force` is that of the root mean square of the force over the whole cycle,
-    `energy` that of its energy.
+    `limits` are by the order of the derivative or one side of it, of force or torque by -1, of power by -3, of a
+    motor's curve by -6; `loaded` by the load's output and whether of its root mean square; `mean_force` is that of the
+    root mean square of the force over the whole cycle, `energy` that of its energy.
     """
 
     minimise: str
-    limits: Mapping[int, float]
+    limits: Mapping[LimitKey, float]
     order: int
     degree: int
     drive: CycleDrive | PositionDrive | None
@@ -99,20 +93,6 @@ def read_load_limits(entries: Mapping[str, Any], load: Load | None) -> dict[tupl
     return limits
 
 
-def read_limits(entries: Mapping[str, Any], axis: str, where: str) -> dict[int, float]:
-    """Limits in SI units by the order of the derivative."""
-    limits = {}
-    for name, value in table(entries, where, "{'velocity': '2 m/s'}").items():
-        if name in LIMITS:
-            limits[LIMITS[name]] = positive_quantity(value, _dimension(LIMITS[name], axis), f"{where}, {name}")
-            continue
-        if where != "limits" and name in TOTALS:
-            raise InputError(f"{where}, {name} is of the whole cycle: give it among the limits of the Cycle")
-        if name not in TOTALS and (where != "limits" or not name.removeprefix("rms ").startswith(LOAD)):
-            raise InputError(f"{where}: {unknown_key(name, (*LIMITS, *TOTALS), 'limit')}")
-    return limits
-
-
 def read_mean_force(entries: Mapping[str, Any], axis: str) -> float | None:
     """The limit of the root mean square of the force or torque over the cycle, in SI units; None if there is none."""
     given = [name for name in MEANS if name in entries]
@@ -120,7 +100,7 @@ def read_mean_force(entries: Mapping[str, Any], axis: str) -> float | None:
         raise InputError(f"limits: {' and '.join(given)} are the same: give one of them")
     if not given:
         return None
-    return positive_quantity(entries[given[0]], _FORCES[axis], f"limits, {given[0]}")
+    return positive_quantity(entries[given[0]], FORCES[axis], f"limits, {given[0]}")
 
 
 def read_energy(entries: Mapping[str, Any]) -> float | None:
@@ -135,37 +115,9 @@ def read_energy(entries: Mapping[str, Any]) -> float | None:
     return positive_quantity(entries["energy"], "energy", "limits, energy")
 
 
-def in_units(nu: int, value: float, axis: str) -> str:
-    """A limit as text, in the unit that machines have it in.
-
-    >>> in_units(1, 0.616, "length"), in_units(FORCE, 120.0, "length"), in_units(3, 900.0, "angle")
-    ('the velocity 616 mm/s', 'the force 120 N', 'the jerk 900 rad/s^3')
-    """
-    if nu == CURVE:
-        return f"the share {value:.6g} of the motor's curve"
-    if nu in {FORCE, POWER}:
-        name, unit = ("power", "W") if nu == POWER else (_FORCES[axis], "N" if axis == "length" else "N m")
-        return f"the {name} {value:.6g} {unit}"
-    name = next(name for name, order in LIMITS.items() if order == nu)
-    if nu == 1:
-        return f"the {name} {in_small_units(value, axis)}/s"
-    return f"the {name} {value:.6g} {'m' if axis == 'length' else 'rad'}/s^{nu}"
-
-
-def _dimension(nu: int, axis: str) -> str:
-    return AXES[axis][nu] if nu > 0 else {FORCE: _FORCES[axis], POWER: "power"}[nu]
-
-
-def limits_of_stretch(stretch: TimedSegment, objective: CycleObjective, axis: str) -> dict[int, float]:
-    """Limits of a segment by order: its own and those of the whole cycle, whichever is less."""
-    entries = stretch.given.limits if isinstance(stretch.given, Move | Free) else {}
-    given = read_limits(entries, axis, f"{stretch.where}: limits")
-    return tightest(objective.limits, given)
-
-
-def tightest(limits: Mapping[int, float], others: Mapping[int, float]) -> dict[int, float]:
-    """Limits of both, whichever is less."""
-    return {nu: min(limits.get(nu, inf), others.get(nu, inf)) for nu in sorted({*limits, *others})}
+def limits_of_stretch(stretch: TimedSegment, objective: CycleObjective, axis: str) -> Limits:
+    """Limits of a segment: its own and those of the whole cycle, whichever is less."""
+    return limits_of_segment(stretch, objective.limits, axis)
 
 
 def least_of(limit: float | None, other: float | None) -> float | None:

@@ -14,19 +14,19 @@ from operator import itemgetter
 from typing import Any
 
 from optlaws.cycles.optimisation.drive_formulas import Driven, driven_formula, driven_mean, driven_peak, may_turn
-from optlaws.cycles.optimisation.motor_limits import driven_curve
-from optlaws.cycles.optimisation.objectives import (
+from optlaws.cycles.optimisation.motion_limits import (
     CURVE,
-    ENERGY,
     FORCE,
-    LOADED,
     POWER,
-    SUMS,
-    CycleObjective,
+    LimitKey,
+    Limits,
+    OneSided,
+    along_motion,
+    greatest,
     in_units,
-    kind_of,
-    limits_of_stretch,
 )
+from optlaws.cycles.optimisation.motor_limits import driven_curve
+from optlaws.cycles.optimisation.objectives import ENERGY, LOADED, SUMS, CycleObjective, kind_of, limits_of_stretch
 from optlaws.cycles.optimisation.search_spaces import (
     halved,
     joined_basis,
@@ -47,7 +47,6 @@ from optlaws.motion.quantities import in_small_units
 from optlaws.synthesis.functionals.makers import integral, peak
 from optlaws.synthesis.limits.drive_limits import limit_beside
 from optlaws.synthesis.problem.constants import FUNCTIONALS, Functional
-from optlaws.synthesis.problem.expression import maximum
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
 from optlaws.synthesis.problem.windows import Window
@@ -60,7 +59,8 @@ from optlaws.tolerances import AGREEMENT
 
 _DRIVEN = (FORCE, POWER, CURVE)
 _BY_DRIVE = (*_DRIVEN, *SUMS)
-_PEAKS = {1: "B", 2: "C", 3: "J"}
+_PEAKS = {1: "B", 2: "C", 3: "J", 4: "jounce"}
+_SNAP = 4
 _ROUGH = 15  # degree of Z where points on the way or velocities bend the law
 
 
@@ -134,25 +134,23 @@ def with_least_limit(
     """The error of a span without a law, saying in units of the machine what one limit would have to allow at least."""
     stroke = scale(span)
     problem = span_problem(span, objective, axis, stroke)
-    for nu, most in limits_of_stretch(span.stretches[0], objective, axis).items():
-        driven = _limited(span, objective, stroke, nu) if nu in _DRIVEN else None
-        constants = (FUNCTIONALS[_PEAKS[nu]],) if driven is None else driven.constants
-        limit = problem.range(constants[0].name)
-        others = {other: best for other, best in problem.bounded if other not in constants}
-        least_of = constants[0] if len(constants) == 1 else maximum(*constants)
-        free = replace(problem, minimise=least_of, bounds={}, B=None, C=None, D=None, J=None)
+    for key, most in limits_of_stretch(span.stretches[0], objective, axis).items():
+        limited = limited_by(span, objective, stroke, key)
+        limit = problem.range(limited.constants[0].name)
+        others = {other: best for other, best in problem.bounded if other not in limited.constants}
+        free = replace(problem, minimise=limited.objective, bounds={}, B=None, C=None, D=None, J=None)
         try:
             least = synthesize(replace(free, bounds=others)).lower_bound
         except (InfeasibleProblem, SolverFailure):
             continue
         if limit is not None and least > limit.high:
-            allowed, needed = (in_units(nu, value, axis) for value in (most, least / limit.high * most))
+            allowed, needed = (in_units(key, value, axis) for value in (most, least / limit.high * most))
             space = search_space(problem, span, objective.order)
-            proven = _whatever_degree(replace(problem, minimise=least_of), driven)
+            proven = _whatever_degree(replace(problem, minimise=limited.objective), limited) if key in _DRIVEN else None
             beyond = ""
-            if proven is not None and driven is not None and proven > limit.high:
+            if proven is not None and proven > limit.high:
                 beyond = "; no law that never turns back, of whatever degree, takes less than "
-                beyond += in_units(nu, proven / limit.high * most, axis)
+                beyond += in_units(key, proven / limit.high * most, axis)
             return InfeasibleProblem(
                 f"{span.where}: no law keeps its limits in {span.duration:.9g} s: among {space} the least is {needed}, "
                 f"but its limit is {allowed}{beyond}: give it more time, a wider limit or a higher degree",
@@ -163,10 +161,8 @@ def with_least_limit(
     return error
 
 
-def _whatever_degree(problem: Problem, driven: Driven | None) -> float | None:
+def _whatever_degree(problem: Problem, driven: Driven) -> float | None:
     """What no law that never turns back can beat of a peak of a drive; None where it is not known."""
-    if driven is None:
-        return None
     free = replace(problem, bounds={}, B=None, C=None, D=None, J=None)
     peaks: list[Any] = [peak(formula) for formula in driven.beneath] or [problem.minimise]
     limits = (limit_beside(replace(free, minimise=each, symmetric=False, monotone=True)) for each in peaks)
@@ -218,33 +214,40 @@ def span_problem(span: LawSpan, objective: CycleObjective, axis: str, stroke: fl
     ends = _ends(span, stroke, objective.order)
     plain = not any(any(end[1:]) for end in (ends.start, ends.end))
     bounds, parts = _limits(span, objective, axis, stroke)
-    _check_energy(span, objective, bounds)
-    forced = kind_of(objective.minimise)[0] in _BY_DRIVE or any(constant not in _PEAKS.values() for constant in bounds)
+    limits = limits_of_stretch(span.stretches[0], objective, axis)
+    _check_energy(span, objective, limits)
+    forced = kind_of(objective.minimise)[0] in _BY_DRIVE or any(key in _DRIVEN for key in limits)
+    sided = any(isinstance(key, OneSided) for key in limits)
     return Problem(
         order=objective.order,
         basis=Chebyshev(objective.degree if plain else max(objective.degree, _ROUGH)),
         minimise=_objective(span, objective, stroke),
-        monotone=forced and never_back(span, objective),
-        symmetric=plain and not forced and not parts,
+        monotone=(forced and never_back(span, objective)) or along_motion(limits),
+        symmetric=plain and not forced and not sided and not parts,
         boundary=ends,
         windows=parts,
         bounds=bounds,
     )
 
 
-def _check_energy(span: LawSpan, objective: CycleObjective, bounds: dict[Any, Range]) -> None:
+def _check_energy(span: LawSpan, objective: CycleObjective, limits: Limits) -> None:
     """Refuse a least energy where nothing keeps the acceleration finite: it falls with ever greater ones."""
-    if kind_of(objective.minimise)[0] == ENERGY and all(constant == _PEAKS[1] for constant in bounds):
+    if kind_of(objective.minimise)[0] == ENERGY and not any(_holds_acceleration(key) for key in limits):
         raise InputError(
             f"{span.where}: its energy falls with ever greater accelerations, so that none is least: give a limit of "
             "the acceleration, or of the force or torque"
         )
 
 
+def _holds_acceleration(key: LimitKey) -> bool:
+    """Whether a limit keeps the acceleration finite: any but one of the velocity or of one side alone."""
+    return isinstance(key, int) and key != 1
+
+
 def _problem_of_several(span: LawSpan, objective: CycleObjective, axis: str, stroke: float) -> Problem:
     """One law for several stretches, or through points on the way."""
     bounds, parts = _limits(span, objective, axis, stroke)
-    minimised = max(kind_of(objective.minimise)[0], 3 if 3 in objective.limits else 0)
+    minimised = max(kind_of(objective.minimise)[0], _highest_limited(span, objective, axis))
     minimised = POWER if POWER in objective.limits or kind_of(objective.minimise)[0] in SUMS else minimised
     minimised = LOADED if objective.of_load else minimised
     bounds |= {
@@ -261,6 +264,12 @@ def _problem_of_several(span: LawSpan, objective: CycleObjective, axis: str, str
         windows=(*joint_windows(span, objective.order, stroke), *parts),
         bounds=bounds,
     )
+
+
+def _highest_limited(span: LawSpan, objective: CycleObjective, axis: str) -> int:
+    """The order of the highest limited derivative from the jerk on, whose peaks are to be at breaks; else 0."""
+    keys = (key for stretch in span.stretches for key in limits_of_stretch(stretch, objective, axis))
+    return max((nu for nu in (key if isinstance(key, int) else key.nu for key in keys) if nu > 2), default=0)
 
 
 def _ends(span: LawSpan, stroke: float, order: int) -> BoundaryConditions:
@@ -282,38 +291,55 @@ def _limits(
         limits_of_stretch(stretch, objective, axis) if is_optimal(stretch.given) else None for stretch in span.stretches
     ]
     sought = [limits for limits in of_each if limits is not None]
-    if all(limits == sought[0] for limits in sought) and _straight_within(span, sought[0].get(1, inf)):
-        bounds = [_bound(span, objective, stroke, nu, most) for nu, most in sought[0].items()]
-        return dict(bound for of_limit in bounds for bound in of_limit), ()
-    windows = []
+    if all(limits == sought[0] for limits in sought) and _straight_within(span, sought[0]):
+        of_limits = ((limited_by(span, objective, stroke, key), most) for key, most in sought[0].items())
+        ranges = ((known.constants, Range(0.0, most / known.unit)) for known, most in of_limits)
+        return {constant: allowed for constants, allowed in ranges for constant in constants}, ()
+    bounds, windows = dict[Any, Range](), list[Window]()
     for limits, start, stop in _alike(of_each, (*span.starts, span.stop)):
-        for nu, most in limits.items():
-            name, high = _quantity(span, objective, stroke, nu, most)
-            windows.append(Window(name, -high, high, place(span, start), place(span, stop)))
-    return {}, tuple(windows)
+        for key, most in limits.items():
+            if key == _SNAP:
+                bounds[FUNCTIONALS[_PEAKS[_SNAP]]] = Range(0.0, _snap_of_all(span, sought) / _unit(span, stroke, _SNAP))
+            else:
+                windows.append(_window(span, objective, stroke, key, most, (place(span, start), place(span, stop))))
+    return bounds, tuple(windows)
 
 
-def _bound(span: LawSpan, objective: CycleObjective, stroke: float, nu: int, most: float) -> list[tuple[Any, Range]]:
-    """A limit of a whole span as bounds of its constants."""
-    if nu in _DRIVEN:
-        driven = _limited(span, objective, stroke, nu)
-        return [(constant, Range(0.0, most / driven.unit)) for constant in driven.constants]
-    return [(_PEAKS[nu], Range(0.0, _law_limit(span, stroke, nu, most)))]
-
-
-def _limited(span: LawSpan, objective: CycleObjective, stroke: float, nu: int) -> Driven:
-    """What a limit of the drive is of."""
-    if nu == CURVE:
+def limited_by(span: LawSpan, objective: CycleObjective, stroke: float, key: LimitKey) -> Driven:
+    """The constants of a whole span's law that a limit bounds, with their unit in SI."""
+    if isinstance(key, OneSided):
+        sign = key.sign * (1.0 if stroke > 0.0 else -1.0)
+        one_sided = FUNCTIONALS["C_plus" if sign > 0.0 else "C_minus"] if key.nu == 2 else None
+        constant = one_sided or peak("abcj"[key.nu], side="high" if sign > 0.0 else "low")
+        return Driven((constant,), _unit(span, stroke, key.nu))
+    if key == CURVE:
         return driven_curve(span, objective.drive, stroke)
-    return driven_peak(span, objective.drive, stroke, nu)
+    if key in _DRIVEN:
+        return driven_peak(span, objective.drive, stroke, key)
+    return Driven((FUNCTIONALS[_PEAKS[key]],), _unit(span, stroke, key))
 
 
-def _quantity(span: LawSpan, objective: CycleObjective, stroke: float, nu: int, most: float) -> tuple[str, float]:
-    """The limited quantity of the law in a part of a span, and its limit."""
-    if nu in _DRIVEN:
-        formula, unit = driven_formula(span, objective.drive, stroke, nu)
-        return formula, most / unit
-    return "abcj"[nu], _law_limit(span, stroke, nu, most)
+def _window(
+    span: LawSpan, objective: CycleObjective, stroke: float, key: LimitKey, most: float, ends: tuple[float, float]
+) -> Window:
+    """A limit of a part of a span as a window of its law."""
+    if isinstance(key, OneSided):
+        most /= _unit(span, stroke, key.nu)
+        high = key.sign * stroke > 0.0
+        return Window("abcj"[key.nu], -inf if high else -most, most if high else inf, *ends)
+    if key in _DRIVEN:
+        name, unit = driven_formula(span, objective.drive, stroke, key)
+    else:
+        name, unit = "abcj"[key], _unit(span, stroke, key)
+    return Window(name, -most / unit, most / unit, *ends)
+
+
+def _snap_of_all(span: LawSpan, sought: Sequence[Limits]) -> float:
+    """The limit of the snap of a law of several stretches, which must be that of each."""
+    given = {limits.get(_SNAP, inf) for limits in sought}
+    if len(given) > 1:
+        raise InputError(f"{span.where} are one law: give the snap of all of them the same limit")
+    return given.pop()
 
 
 def _of_load(objective: CycleObjective, output: str, mean: bool, span: LawSpan) -> Functional:  # noqa: FBT001 - the second of a pair
@@ -322,17 +348,20 @@ def _of_load(objective: CycleObjective, output: str, mean: bool, span: LawSpan) 
     return objective.load.constant(output, span.duration, mean=mean)
 
 
-def _straight_within(span: LawSpan, most: float) -> bool:
-    """Whether uniform motions keep a limit of the velocity."""
+def _straight_within(span: LawSpan, limits: Limits) -> bool:
+    """Whether uniform motions keep the limits of the velocity."""
     return all(
-        is_optimal(stretch.given) or abs(stretch.displacement) <= most * (stop - start)
+        is_optimal(stretch.given)
+        or abs(stretch.displacement) <= greatest(limits, 1, _sign(stretch.displacement)) * (stop - start)
         for stretch, start, stop in span.timed
     )
 
 
-def _alike(
-    of_each: Sequence[dict[int, float] | None], times: Sequence[float]
-) -> Iterator[tuple[dict[int, float], float, float]]:
+def _sign(displacement: float) -> float:
+    return -1.0 if displacement < 0.0 else 1.0
+
+
+def _alike(of_each: Sequence[Limits | None], times: Sequence[float]) -> Iterator[tuple[Limits, float, float]]:
     """Limits of stretches from where to where they are the same."""
     for limits, several in groupby(zip(of_each, times, times[1:], strict=False), key=itemgetter(0)):
         parts = list(several)
@@ -343,9 +372,9 @@ def _alike(
 def _check_mean(span: LawSpan, objective: CycleObjective, axis: str) -> None:
     """Refuse a limit of the velocity that is no more than the mean velocity: such a law cannot even start from rest."""
     for stretch, start, stop in span.timed:
-        most = limits_of_stretch(stretch, objective, axis).get(1) if is_optimal(stretch.given) else None
-        mean = abs(stretch.displacement) / (stop - start)
-        if most is not None and mean >= most:
+        limits = limits_of_stretch(stretch, objective, axis) if is_optimal(stretch.given) else {}
+        most, mean = greatest(limits, 1, _sign(stretch.displacement)), abs(stretch.displacement) / (stop - start)
+        if mean >= most:
             raise InfeasibleProblem(
                 f"{stretch.where}: {in_small_units(abs(stretch.displacement), axis)} in {stop - start:.9g} s are "
                 f"{in_small_units(mean, axis)}/s on average, but its velocity is to be at most "
@@ -353,8 +382,9 @@ def _check_mean(span: LawSpan, objective: CycleObjective, axis: str) -> None:
             )
 
 
-def _law_limit(span: LawSpan, stroke: float, nu: int, most: float) -> float:
-    return most / abs(factor(stroke, span.duration, nu))
+def _unit(span: LawSpan, stroke: float, nu: int) -> float:
+    """The unit of a derivative of a span's law."""
+    return abs(factor(stroke, span.duration, nu))
 
 
 def _objective(span: LawSpan, objective: CycleObjective, stroke: float) -> Any:  # noqa: ANN401 - a name or a constant

@@ -24,8 +24,8 @@ from optlaws.tolerances import CLOSURE
 
 #: dimensions of the derivatives of a position, for slides and for tables
 AXES = {
-    "length": ("length", "velocity", "acceleration", "jerk"),
-    "angle": ("angle", "angular velocity", "angular acceleration", "angular jerk"),
+    "length": ("length", "velocity", "acceleration", "jerk", "snap"),
+    "angle": ("angle", "angular velocity", "angular acceleration", "angular jerk", "angular snap"),
 }
 
 

@@ -77,7 +77,8 @@ class Move(CycleSegment):
     law
         A law, the name of one in the catalogue, a JSON or CSV file that holds one, or "optimal".
     limits
-        Of an optimal law, in machine units: `{"velocity": "616 mm/s", "acceleration": "90 m/s^2", "jerk": ...}`.
+        Of an optimal law, in machine units: `{"velocity": "616 mm/s", "acceleration": "90 m/s^2", "jerk": ...}`; two
+        quantities are the least and the greatest value, a "deceleration" is of slowing down.
     start_velocity, end_velocity
         Of an optimal law; those of its neighbours, or rest, unless given.
 

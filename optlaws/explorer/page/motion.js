@@ -6,6 +6,8 @@ import { html, path, svg } from "./svg.js";
 const BOX = { left: 64, right: 14, top: 20, bottom: 6 };
 const FOOT = 34;
 const LETTER = 17;
+/** The least and the greatest value of a limit; null is none, and a value alone is that of both sides. */
+const edges = ({ value, least = -value }) => [least ?? -Infinity, value ?? Infinity];
 const NEAR = 1.6; // limits farther out than this many peaks are out of sight
 
 export class Motion {
@@ -39,7 +41,7 @@ export class Motion {
     const box = { left: BOX.left, right: width - BOX.right, top: BOX.top, bottom: height - BOX.bottom };
     const known = panel.values.filter((value) => value !== null);
     const most = Math.max(0, ...known.map(Math.abs));
-    const limits = panel.limits.filter(({ value }) => value <= NEAR * most).map(({ value }) => value);
+    const limits = panel.limits.flatMap((limit) => edges(limit).map(Math.abs)).filter((value) => value <= NEAR * most);
     const reach = limits.length ? Math.max(...limits) : 0;
     const [low, high] = [Math.min(0, ...known, -reach), Math.max(0, ...known, reach)];
     const room = ((high - low || 1) * LETTER) / (box.bottom - box.top - 2 * LETTER);
@@ -64,7 +66,8 @@ export class Motion {
   #zones(panel, x, y, box) {
     const zone = ({ from, to }, top, bottom) => svg("rect", { class: "zone", x: x(from), width: x(to) - x(from), y: top, height: Math.max(0, bottom - top) });
     return panel.limits.flatMap((limit) => {
-      const [above, below] = [Math.max(box.top, y(limit.value)), Math.min(box.bottom, y(-limit.value))];
+      const [least, value] = edges(limit);
+      const [above, below] = [Math.max(box.top, y(value)), Math.min(box.bottom, y(least))];
       const found = above > box.top ? [zone(limit, box.top, above)] : [];
       return below < box.bottom ? [...found, zone(limit, below, box.bottom)] : found;
     });

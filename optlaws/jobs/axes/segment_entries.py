@@ -23,7 +23,7 @@ class SegmentEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     by: str | None = None
     to: str | None = None
     law: Text | None = None
-    limits: dict[str, str] | None = None
+    limits: dict[str, str | list[str]] | None = None
     velocity: str | None = None
     start_velocity: str | None = None
     end_velocity: str | None = None

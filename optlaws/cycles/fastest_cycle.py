@@ -1,0 +1,255 @@
+"""The fastest cycle: the greatest speed under its limits, what binds there, and the proof that none is greater."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import partial
+from typing import Any
+
+from optlaws.cycles.greatest_speed.fastest_search import FastestSearch, TimedSpan
+from optlaws.cycles.kinematics import TimedCycle
+from optlaws.cycles.optimisation.motion_limits import amount, word_of
+from optlaws.cycles.optimisation.objectives import CycleObjective
+from optlaws.errors import InputError
+from optlaws.kept import kept_property
+from optlaws.motion.quantities import TURN
+from optlaws.shown.summary import Row, Summary
+from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
+from optlaws.synthesis.status import Status
+from optlaws.tolerances import FASTER
+
+_MORE = 0.1  # of a limit, by which it is raised to see what that gives
+
+
+@dataclass(frozen=True)
+class LeastDuration:
+    """The time that a motion needs at least, and the one that it has at the greatest speed.
+
+    Attributes
+    ----------
+    name
+        The segment, or the segments that are one law.
+    least, duration
+        The least time and the one that it has, in seconds.
+    limits
+        The limits that the fastest law takes to the full, each with its value.
+    binding
+        Whether the motion has no more than it needs, so that the speed is greatest by it.
+
+    Examples
+    --------
+    >>> from optlaws import Cycle, Return, Rise
+    >>> slide = Cycle([Rise("35 mm", "120 deg"), Return()], speed="60 rpm", limits={"velocity": "1 m/s"})
+    >>> rise, back = slide.fastest().segments
+    >>> rise.binding, back.binding, round(back.duration / back.least, 6), rise.limits
+    (True, False, 2.0, ('velocity 1000 mm/s',))
+    """
+
+    name: str
+    least: float
+    duration: float
+    limits: tuple[str, ...]
+    binding: bool
+
+
+@dataclass(frozen=True)
+class LimitGain:
+    """What a tenth more of a limit would give.
+
+    Attributes
+    ----------
+    limit
+        The key of the limit.
+    speed
+        The greatest speed of the master with it, in rad/s.
+    ratio
+        How many times it is greater than without.
+
+    Examples
+    --------
+    >>> print(LimitGain("acceleration", 20.0, 1.05))
+    10 % more acceleration: 190.986 rpm, 5 % faster
+    """
+
+    limit: str
+    speed: float
+    ratio: float
+
+    def __str__(self) -> str:
+        return f"10 % more {self.limit}: {60.0 * self.speed / TURN:.6g} rpm, {100.0 * (self.ratio - 1.0):.3g} % faster"
+
+
+@dataclass(frozen=True, repr=False)
+class FastestCycle:
+    """The greatest speed of the master at which a cycle keeps its limits, as `Cycle.fastest` finds it.
+
+    Attributes
+    ----------
+    specification
+        The cycle whose greatest speed was sought.
+    cycle
+        The cycle at that speed, its laws given: the fastest where a motion has no time left, else those that are best
+        within the limits.
+    segments
+        The least time of every motion that a limit bounds.
+    period
+        The least period in seconds.
+    binding
+        What has no time left, each with the limits that it takes to the full.
+    status
+        Optimal where no law of the search space keeps the limits in a period that is shorter by a millionth, proven by
+        `proofs` or, of laws that are given, by their closed form; else local.
+    proofs
+        By the name and time of a motion: no law keeps its limits in that time.
+
+    Examples
+    --------
+    >>> from optlaws import Cycle, Dwell, Return, Rise
+    >>> limits = {"velocity": "1 m/s", "acceleration": "20 m/s^2", "jerk": "2000 m/s^3"}
+    >>> slide = Cycle([Rise("35 mm", "120 deg"), Dwell("60 deg"), Return()], speed="60 rpm", limits=limits)
+    >>> fastest = slide.fastest()
+    >>> fastest.status.value, round(fastest.rpm, 4), fastest.binding
+    ('optimal', 208.9637, ('segment 1 (Rise): acceleration 20 m/s^2, jerk 2000 m/s^3',))
+    """
+
+    specification: Any  # a Cycle, which knows this module
+    cycle: Any
+    segments: tuple[LeastDuration, ...]
+    status: Status
+    period: float
+    binding: tuple[str, ...]
+    proofs: Mapping[str, Certificate] = field(compare=False)
+    _raised: Mapping[str, Callable[[], float]] = field(compare=False)
+
+    @property
+    def speed(self) -> float:
+        """The greatest speed of the master in rad/s."""
+        return TURN / self.period
+
+    @property
+    def rpm(self) -> float:
+        """The greatest speed of the master in revolutions per minute."""
+        return 60.0 / self.period
+
+    @property
+    def lower_bound(self) -> float | None:
+        """The period in seconds in which no laws of the search space keep the limits; None where that is not proven."""
+        return self.period * (1.0 - FASTER) if self.status == Status.OPTIMAL else None
+
+    @kept_property
+    def gains(self) -> tuple[LimitGain, ...]:
+        """What a tenth more of each binding limit would give, in all segments that have it; sought again.
+
+        Examples
+        --------
+        >>> from optlaws import Cycle, Dwell, Return, Rise
+        >>> limits = {"acceleration": "20 m/s^2", "velocity": "2 m/s"}
+        >>> slide = Cycle([Rise("35 mm", "120 deg"), Dwell("60 deg"), Return()], speed="60 rpm", limits=limits)
+        >>> print(slide.fastest().gains[0])
+        10 % more acceleration: 240.636 rpm, 4.88 % faster
+        """
+        periods = {name: period() for name, period in self._raised.items()}
+        return tuple(LimitGain(name, TURN / period, self.period / period) for name, period in periods.items())
+
+    def summary(self) -> Summary:
+        """The speed and the period, what binds, what a tenth more of it would give, and the time of each motion.
+
+        Examples
+        --------
+        >>> from optlaws import Cycle, Return, Rise
+        >>> slide = Cycle([Rise("35 mm", "180 deg"), Return()], speed="60 rpm", limits={"acceleration": "20 m/s^2"})
+        >>> [row.name for row in slide.fastest().summary()][:4]
+        ['status', 'greatest speed', 'least period', 'proven: none below']
+        """
+        rows = [
+            Row("status", self.status.value),
+            Row("greatest speed", self.rpm, "rpm"),
+            Row("least period", self.period, "s"),
+        ]
+        if self.lower_bound is not None:
+            rows.append(Row("proven: none below", self.lower_bound, "s"))
+        rows += [Row("binds", text) for text in self.binding]
+        rows += [Row("would give", str(gain)) for gain in self.gains]
+        rows += [
+            Row(f"{each.name} needs", each.least, "s", note=f"has {each.duration:.9g} s: {_margin(each)}")
+            for each in self.segments
+        ]
+        return Summary(rows)
+
+    def claims(self) -> dict[str, Any]:
+        """The proofs as `optlaws verify` takes them: each problem with the certificate that it has no law."""
+        entries: dict[str, Any] = {
+            name: {"asked": proof.problem.to_dict(), "status": "infeasible", "proof": proof.to_dict()}
+            if proof.program == VIOLATION
+            else proof.to_dict()
+            for name, proof in self.proofs.items()
+        }
+        about = (
+            f"greatest speed {self.rpm:.9g} rpm, least period {self.period:.9g} s; in a millionth less of their time "
+            "these motions have no law within the limits, or their least mean squares sum to more than the rating"
+        )
+        return {"about": about, **entries}
+
+    def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
+        """Draw the motion at the greatest speed over time, with the limits of each segment; return the artists.
+
+        `ax` and `style` are as of `Cycle.plot`.
+        """
+        return list(self.cycle.plot(ax, **style))
+
+    def __repr__(self) -> str:
+        return (
+            f"FastestCycle({self.rpm:.6g} rpm, period={self.period:.6g} s, status={self.status.value!r}, "
+            f"binding={self.binding!r})"
+        )
+
+    def _repr_html_(self) -> str:
+        from optlaws.shown.showing import page
+
+        return page("Fastest cycle", self.summary()._repr_html_())
+
+
+def _margin(each: LeastDuration) -> str:
+    limits = ", ".join(each.limits)
+    if each.binding:
+        return f"no time left, by {limits}"
+    return f"{100.0 * (each.duration / each.least - 1.0):.3g} % to spare, then {limits}"
+
+
+def fastest_cycle(cycle: Any, objective: CycleObjective) -> FastestCycle:  # noqa: ANN401 - a Cycle
+    """The greatest speed of a cycle with such an objective and limits."""
+    if objective.of_load:
+        raise InputError(
+            "the greatest speed is not sought with a load that is minimised or limited, as what it does follows its "
+            "own period: limit the cycle's own quantities, and look at load_motion of the cycle at that speed"
+        )
+    search = FastestSearch(cycle.programme, objective, {})
+    laws = search.laws()
+    timed = TimedCycle(laws.programme, laws.starts, laws.pieces)
+    limited = replace(cycle, segments=timed.at_speed(1.0), speed=None, period=f"{laws.period!r} s")
+    segments = tuple(_least_duration(search, span) for span in search.spans)
+    raised = {name: partial(_raised_period, search, name) for name in search.binding_limits}
+    return FastestCycle(
+        cycle, limited, segments, search.status, laws.period, _binding(search, segments), search.proofs, raised
+    )
+
+
+def _raised_period(search: FastestSearch, name: str) -> float:
+    return replace(search, more={name: 1.0 + _MORE}).period
+
+
+def _least_duration(search: FastestSearch, span: TimedSpan) -> LeastDuration:
+    axis = search.programme.axis
+    limits = (f"{word_of(row.key, axis)} {amount(row.key, row.most, axis)}" for row in span.least.binding)
+    return LeastDuration(
+        span.where, span.needed, search.time_of(span), tuple(dict.fromkeys(limits)), binding=span in search.binding
+    )
+
+
+def _binding(search: FastestSearch, segments: Sequence[LeastDuration]) -> tuple[str, ...]:
+    rating = search.rating
+    if rating is not None and rating.binds:
+        unit = "N" if search.programme.axis == "length" else "N m"
+        return (f"the whole cycle: {rating.name} {rating.most:.6g} {unit}",)
+    return tuple(f"{each.name}: {', '.join(each.limits)}" for each in segments if each.binding)

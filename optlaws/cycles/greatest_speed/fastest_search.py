@@ -1,0 +1,341 @@
+"""The search for the least period: the least time of every motion, the period that they need, and the laws in it.
+
+A motion between rests that keeps its limits in a time keeps them in every longer one: run slower, each derivative is
+less. So does a whole cycle whose durations all turn with the master. The least period is then that of the motion that
+needs most, or what free motions, dwells in seconds and angles sum to; a period that is shorter by a little leaves one
+motion less than its least time, in which no law keeps its limits.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from math import isfinite
+
+from optlaws.cycles.greatest_speed.force_rating import ForceRating, PlacedLaw
+from optlaws.cycles.greatest_speed.periods import DurationRange, duration_ranges, durations_at, least_period
+from optlaws.cycles.greatest_speed.scaling import slower
+from optlaws.cycles.greatest_speed.span_limits import SpanLimit, limits_of_span
+from optlaws.cycles.greatest_speed.span_time import SpanTime, least_time, least_time_of_law
+from optlaws.cycles.optimisation.motion_limits import FORCES, Limits, in_units, limits_of_segment, word_of
+from optlaws.cycles.optimisation.objectives import CycleObjective
+from optlaws.cycles.optimisation.optimal import scale, solve, span_problem
+from optlaws.cycles.optimisation.search_spaces import joint_windows
+from optlaws.cycles.specification.joints import LawSpan, Layout, State, layout
+from optlaws.cycles.specification.programme import Programme
+from optlaws.cycles.specification.segments import Dwell
+from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
+from optlaws.kept import kept_property
+from optlaws.motion.piece import Piece, factor
+from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.proof.certificate import Certificate
+from optlaws.synthesis.solution import Solution
+from optlaws.synthesis.status import Status
+from optlaws.tolerances import BINDING_LIMIT, CLOSURE, FASTER, SAME_TIME
+
+#: so many times slower every limit of a derivative is kept
+_SLOW = 1e4
+
+
+@dataclass(frozen=True)
+class TimedSpan:
+    """A motion of the cycle: its segments by their places, its duration where it was looked at, and its least time."""
+
+    places: tuple[int, ...]
+    where: str
+    duration: float
+    least: SpanTime
+    span: LawSpan
+    given: bool
+
+    @property
+    def needed(self) -> float:
+        """The least duration in seconds."""
+        return self.duration * self.least.scale
+
+
+@dataclass(frozen=True)
+class FastestLaws:
+    """The laws of a cycle at its least period, with the solutions of those that were looked for there."""
+
+    period: float
+    starts: tuple[float, ...]
+    pieces: tuple[Piece, ...]
+    solutions: tuple[Solution, ...]
+    programme: Programme
+
+
+@dataclass(frozen=True)
+class FastestSearch:
+    """A cycle whose least period is sought; `more` says by how much limits are raised, by their names."""
+
+    programme: Programme
+    objective: CycleObjective
+    more: Mapping[str, float]
+
+    @kept_property
+    def ranges(self) -> tuple[DurationRange, ...]:
+        """What is said of the durations of the segments."""
+        return duration_ranges([stretch.given for stretch in self.programme.stretches])
+
+    @property
+    def turning(self) -> bool:
+        """Whether every duration turns with the master."""
+        return all(given.turns for given in self.ranges)
+
+    @kept_property
+    def spans(self) -> tuple[TimedSpan, ...]:
+        """The motions that limits bound, each with its least time."""
+        spans = [*(self._of_piece(piece) for piece in self._layout.pieces), *map(self._of_span, self._layout.spans)]
+        for span in spans:
+            self._check(span)
+        limited = [span for span in spans if span.least.rows]
+        if not limited and self.objective.mean_force is None:
+            raise InputError(
+                "no limit bounds the motions, so that every speed is possible: give limits of the cycle or of its "
+                "segments, such as limits={'acceleration': '12 m/s^2'}"
+            )
+        return tuple(sorted(limited, key=lambda span: span.places))
+
+    @kept_property
+    def period(self) -> float:
+        """The least period in seconds."""
+        return self.unrated if self.rating is None else self.rating.period
+
+    @kept_property
+    def rating(self) -> ForceRating | None:
+        """The limit of the root mean square of the force over the cycle; None where there is none."""
+        most = self.objective.mean_force
+        if most is None:
+            return None
+        if not self.turning:
+            raise InputError(
+                "limits: an rms force or torque of a cycle that is to be fastest is of one that turns as a whole: give "
+                "all durations as angles"
+            )
+        name = f"rms {FORCES[self.programme.axis]}"
+        return ForceRating(
+            replace(self.objective, limits=self._raised(dict(self.objective.limits))),
+            self.programme.axis,
+            most * self.more.get(name, 1.0),
+            self.unrated,
+            self.programme.period,
+            self._placed,
+            self._fastest,
+        )
+
+    @kept_property
+    def unrated(self) -> float:
+        """The least period by the limits of the segments, in seconds."""
+        turned = (
+            max((span.least.scale for span in self.spans if self._turns(span)), default=0.0) * self.programme.period
+        )
+        free = least_period(self.ranges, self.needed)
+        if free >= turned and not self.turning:
+            self._check_vanishing(free)
+        return max(turned, free)
+
+    @property
+    def needed(self) -> tuple[float, ...]:
+        """The least duration of each segment in seconds, by its own limits; 0 without any."""
+        alone = {span.places[0]: span.needed for span in self.spans if len(span.places) == 1}
+        return tuple(alone.get(i, 0.0) for i in range(len(self.ranges)))
+
+    @kept_property
+    def durations(self) -> tuple[float, ...]:
+        """The durations of the segments at the least period."""
+        return durations_at(self.ranges, self.needed, self.period)
+
+    @property
+    def binding(self) -> tuple[TimedSpan, ...]:
+        """The motions that have no more than their least time."""
+        return tuple(
+            span
+            for span in self.spans
+            if span.needed >= self.time_of(span) * (1.0 - BINDING_LIMIT) and not self._stays(span)
+        )
+
+    @property
+    def status(self) -> Status:
+        """Optimal where it is proven that no shorter period will do.
+
+        Of motions that turn with the master one that has no time left is enough. Where free motions sum to the period,
+        one of them would have less than its least time, and any of them may be it.
+        """
+        if not all(row.scales for span in self.spans for row in span.least.rows):
+            return Status.LOCAL
+        if self.rating is not None and self.rating.binds:
+            return Status.OPTIMAL if self.rating.scales and self.rating.proofs is not None else Status.LOCAL
+        binding = self.binding
+        proven = [span.given or span.least.proof is not None for span in binding]
+        turning = any(self._turns(span) and known for span, known in zip(binding, proven, strict=True))
+        return Status.OPTIMAL if turning or all(proven) else Status.LOCAL
+
+    @property
+    def binding_limits(self) -> tuple[str, ...]:
+        """The keys of the limits by which the speed is greatest."""
+        if self.rating is not None and self.rating.binds:
+            return (self.rating.name,)
+        rows = (row for span in self.binding for row in span.least.binding)
+        return tuple(dict.fromkeys(word_of(row.key, self.programme.axis) for row in rows))
+
+    @property
+    def proofs(self) -> dict[str, Certificate]:
+        """The certificates that the motions have no laws a little faster, by their names and times."""
+        if self.rating is not None and self.rating.binds:
+            return self.rating.proofs or {}
+        return {
+            f"{span.where} in {span.needed * (1.0 - FASTER):.9g} s": span.least.proof
+            for span in self.binding
+            if span.least.proof is not None
+        }
+
+    def time_of(self, span: TimedSpan) -> float:
+        """The time that a motion has at the least period."""
+        return sum(self.durations[i] for i in span.places)
+
+    def laws(self) -> FastestLaws:
+        """The laws at the least period: the fastest where there is no time left, else the best within the limits."""
+        placed = self._placed(self.period)
+        rated = self.rating is not None and self.rating.binds
+        laws = [] if rated else [self._law(span) for span in placed.spans]
+        pieces = [*placed.pieces, *(piece for piece, _ in laws)]
+        if self.rating is not None and (rated or not self.rating.keeps(pieces, self.period)):
+            # the best laws share the limit as the fastest cycle does: each takes least of it
+            laws = self.rating.laws(self.period)
+            pieces = [*placed.pieces, *(piece for piece, _ in laws)]
+        return FastestLaws(
+            self.period,
+            placed.starts,
+            tuple(sorted(pieces, key=lambda piece: piece.start)),
+            tuple(solution for _, solution in laws if solution is not None),
+            replace(self.programme, period=self.period),
+        )
+
+    def _law(self, span: LawSpan) -> PlacedLaw:
+        known = self._known(span)
+        fastest = self._fastest(span)
+        spare = known is None or known.needed < span.duration * (1.0 - BINDING_LIMIT)
+        if fastest is None or spare:
+            try:
+                return solve(span, self.objective, self.programme.axis)
+            except (InfeasibleProblem, SolverFailure):
+                if fastest is None:
+                    raise
+        return fastest, None
+
+    def _known(self, span: LawSpan) -> TimedSpan | None:
+        """The span with its least time, if limits bound it."""
+        places = tuple(stretch.number - 1 for stretch in span.stretches)
+        return next((known for known in self.spans if known.places == places), None)
+
+    def _fastest(self, span: LawSpan) -> Piece | None:
+        """The fastest law of a span in its place; None where no limit bounds it."""
+        known = self._known(span)
+        if known is None or known.least.law is None:
+            return None
+        return Piece(span.start, span.duration, span.offset, scale(span), known.least.law)
+
+    def _placed(self, period: float) -> Layout:
+        """The pieces and spans at a period."""
+        if not self.turning:
+            return layout(self.programme, durations_at(self.ranges, self.needed, period))
+        share = period / self.programme.period
+        return Layout(
+            tuple(start * share for start in self._layout.starts),
+            tuple(
+                replace(piece, start=piece.start * share, duration=piece.duration * share)
+                for piece in self._layout.pieces
+            ),
+            tuple(slower(span, share) for span in self._layout.spans),
+        )
+
+    @kept_property
+    def _layout(self) -> Layout:
+        """The pieces and spans at the period that was given, where free segments share what is left equally."""
+        given = self.programme.stretches
+        left = self.programme.period - sum(stretch.least for stretch in given if stretch.fixed)
+        free = sum(not stretch.fixed for stretch in given)
+        return layout(self.programme, [stretch.least if stretch.fixed else left / free for stretch in given])
+
+    def _of_piece(self, piece: Piece) -> TimedSpan:
+        """A motion by a law that is given, or of constant velocity."""
+        i = next(
+            i
+            for i, start in enumerate(self._layout.starts)
+            if abs(start - piece.start) <= SAME_TIME * self.programme.period
+        )
+        stretch = self.programme.stretches[i]
+        moving = abs(factor(piece.stroke, piece.duration, 1)) * CLOSURE
+        first, last = (State(v if abs(v) > moving else 0.0, 0.0) for v in (piece.end(1, 0), piece.end(1, 1)))
+        span = LawSpan((stretch,), (piece.start,), piece.stop, piece.offset, piece.stroke, first, last, ())
+        still = isinstance(stretch.given, Dwell) or piece.stroke == 0.0
+        rows = [] if still else self._rows(span, piece.stroke)
+        least = least_time_of_law(piece.law, rows)
+        if not isfinite(least.scale):
+            row = next(row for row in rows if not isfinite(row.least_scale(piece.law)))
+            limit = in_units(row.key, row.most, self.programme.axis)
+            raise InfeasibleProblem(
+                f"{stretch.where}: its law jumps, so that no speed keeps {limit}: take a smoother law, or leave that "
+                "limit out"
+            )
+        return TimedSpan((i,), stretch.where, piece.duration, least, span, given=True)
+
+    def _of_span(self, span: LawSpan) -> TimedSpan:
+        """A motion whose law is looked for."""
+        places = tuple(stretch.number - 1 for stretch in span.stretches)
+        stroke = scale(span)
+        rows = self._rows(span, stroke)
+        if not rows:
+            return TimedSpan(places, span.where, span.duration, SpanTime(0.0, None, ()), span, given=False)
+        least = least_time(self._base(span, stroke), rows, span.where)
+        return TimedSpan(places, span.where, span.duration, least, span, given=False)
+
+    def _rows(self, span: LawSpan, stroke: float) -> list[SpanLimit]:
+        limits = [limits_of_segment(stretch, self.objective.limits, self.programme.axis) for stretch in span.stretches]
+        return limits_of_span(
+            span, [self._raised(each) for each in limits], self.objective, stroke, self.programme.axis
+        )
+
+    def _raised(self, limits: Limits) -> Limits:
+        return {key: most * self.more.get(word_of(key, self.programme.axis), 1.0) for key, most in limits.items()}
+
+    def _base(self, span: LawSpan, stroke: float) -> Problem:
+        """The problem of a span without its limits."""
+        limited = span_problem(slower(span, _SLOW), self.objective, self.programme.axis, stroke)
+        several = span.turns or len(span.stretches) > 1 or span.via
+        windows = tuple(joint_windows(span, self.objective.order, stroke)) if several else ()
+        return replace(limited, windows=windows, bounds={}, B=None, C=None, D=None, J=None, minimise="C")
+
+    def _turns(self, span: TimedSpan) -> bool:
+        return all(self.ranges[i].turns for i in span.places)
+
+    def _stays(self, span: TimedSpan) -> bool:
+        return all(self.ranges[i].fixed and not self.ranges[i].turns for i in span.places)
+
+    def _check(self, span: TimedSpan) -> None:
+        """Refuse motions that move at their ends in cycles that do not turn as one, and those that have no time."""
+        if self.turning:
+            return
+        if len(span.places) > 1 and not self._turns(span):
+            raise InputError(f"{span.where} are one law: give all their durations as angles, so that it turns as one")
+        if any((*span.span.first, *span.span.last)):
+            raise InputError(
+                f"{span.where} moves where it begins or ends, which fits its neighbours at one speed alone: give all "
+                "durations as angles, so that velocities turn with the master"
+            )
+        if self._stays(span) and span.least.scale > 1.0 + CLOSURE:
+            raise InfeasibleProblem(
+                f"{span.where} takes {span.duration:.9g} s at any speed, but within its limits no law takes less than "
+                f"{span.needed:.9g} s: give it more time, wider limits, or an angle of the master"
+            )
+
+    def _check_vanishing(self, period: float) -> None:
+        """Refuse a free dwell that nothing stops from vanishing."""
+        durations = durations_at(self.ranges, self.needed, period)
+        for stretch, time in zip(self.programme.stretches, durations, strict=True):
+            if time <= SAME_TIME * self.programme.period:
+                raise InputError(
+                    f"{stretch.where} takes what is left, and nothing stops it from vanishing at the greatest speed: "
+                    "give it a least duration, such as duration=('20 ms', '10 s')"
+                )

@@ -1,0 +1,132 @@
+"""The least period of a cycle from the least times of its motions: what turns with the master, stays, or is free."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import inf
+from typing import Any, NamedTuple
+
+from optlaws.cycles.specification.segments import CycleSegment
+from optlaws.errors import InfeasibleProblem, InputError
+from optlaws.motion.quantities import TURN, either
+from optlaws.numerics.roots import bisect
+from optlaws.tolerances import SAME_TIME
+
+
+class Extent(NamedTuple):
+    """A duration, or a bound of one: a share of the period and a time in seconds, one of which is 0."""
+
+    share: float
+    time: float
+
+    def at(self, period: float) -> float:
+        """The duration in seconds."""
+        return self.share * period + self.time
+
+
+class DurationRange(NamedTuple):
+    """The least and the greatest duration of a segment, which are the same where it is given."""
+
+    least: Extent
+    most: Extent
+
+    @property
+    def fixed(self) -> bool:
+        """Whether the duration is given."""
+        return self.least == self.most
+
+    @property
+    def turns(self) -> bool:
+        """Whether it is an angle, which takes its share of every period."""
+        return self.fixed and self.least.time == 0.0
+
+
+def duration_ranges(segments: Sequence[CycleSegment]) -> tuple[DurationRange, ...]:
+    """What is said of the durations; the only free one turns with the master where all others do.
+
+    >>> from optlaws import Dwell, Return, Rise
+    >>> [given.least.share for given in duration_ranges([Rise("35 mm", "90 deg"), Dwell("180 deg"), Return()])]
+    [0.25, 0.5, 0.25]
+    """
+    ranges = [_range(segment.duration) for segment in segments]
+    free = [i for i, given in enumerate(ranges) if not given.fixed]
+    if len(free) == 1 and all(given.turns for i, given in enumerate(ranges) if i != free[0]):
+        left = Extent(1.0 - sum(given.least.share for i, given in enumerate(ranges) if i != free[0]), 0.0)
+        ranges[free[0]] = DurationRange(left, left)
+    return tuple(ranges)
+
+
+def _range(duration: Any) -> DurationRange:  # noqa: ANN401 - the cycle has checked it
+    if duration is None:
+        return DurationRange(Extent(0.0, 0.0), Extent(inf, 0.0))
+    ends = duration if isinstance(duration, list | tuple) else (duration, duration)
+    least, most = (_extent(end) for end in ends)
+    return DurationRange(least, most)
+
+
+def _extent(value: Any) -> Extent:  # noqa: ANN401
+    kind, number = either(value, ("angle", "time"), "duration")
+    return Extent(number / TURN, 0.0) if kind == "angle" else Extent(0.0, number)
+
+
+def least_period(ranges: Sequence[DurationRange], needed: Sequence[float]) -> float:
+    """The least period in which the free segments, each with the least time that it needs, have room; 0 if all turn.
+
+    Raises
+    ------
+    InputError
+        If the durations leave nothing free, or nothing stops a free dwell from vanishing.
+    """
+    if all(given.turns for given in ranges):
+        return 0.0
+    if all(given.fixed for given in ranges):
+        raise InputError(
+            "the durations are given and one of them is a time, so that the period is what they sum to: leave the "
+            "duration of a segment out, or give angles, which turn with the master"
+        )
+    period = 0.0
+    for _ in range(len(ranges) + 1):
+        parts = [_binding(given, time, period) for given, time in zip(ranges, needed, strict=True)]
+        turning, staying = sum(part.share for part in parts), sum(part.time for part in parts)
+        if turning >= 1.0:
+            raise InfeasibleProblem(
+                "the angles of the segments leave the others no time at any speed: shorten an angle or a least duration"
+            )
+        following = staying / (1.0 - turning)
+        if following <= period * (1.0 + SAME_TIME):
+            break
+        period = following
+    return period
+
+
+def _binding(given: DurationRange, needed: float, period: float) -> Extent:
+    """What a segment takes of a period at least."""
+    if given.fixed or given.least.at(period) > needed:
+        return given.least
+    return Extent(0.0, needed)
+
+
+def durations_at(ranges: Sequence[DurationRange], needed: Sequence[float], period: float) -> tuple[float, ...]:
+    """The durations at a period: free motions share what is left in proportion to the least times that they need.
+
+    >>> free = DurationRange(Extent(0.0, 0.0), Extent(inf, 0.0))
+    >>> durations_at([free, DurationRange(Extent(0.25, 0.0), Extent(0.25, 0.0)), free], [0.1, 0.0, 0.2], 1.0)
+    (0.25, 0.25, 0.5)
+    """
+    free = [i for i, given in enumerate(ranges) if not given.fixed]
+    left = period - sum(given.least.at(period) for given in ranges if given.fixed)
+    sizes = {i: needed[i] or (1.0 if len(free) == 1 else 0.0) for i in free}
+
+    def at(factor: float) -> dict[int, float]:
+        return {i: min(max(factor * sizes[i], ranges[i].least.at(period)), _most(ranges[i], period)) for i in free}
+
+    total = sum(sizes.values())
+    shared = at(left / total) if total else {}
+    if abs(sum(shared.values()) - left) > SAME_TIME * period:
+        high = 2.0 * left / min(size for size in sizes.values() if size)
+        shared = at(0.5 * sum(bisect(lambda factor: sum(at(factor).values()) < left, 0.0, high)))
+    return tuple(shared.get(i, given.least.at(period)) for i, given in enumerate(ranges))
+
+
+def _most(given: DurationRange, period: float) -> float:
+    return inf if given.most.share == inf else given.most.at(period)

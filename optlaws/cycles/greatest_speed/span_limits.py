@@ -1,0 +1,138 @@
+"""The limits of a span as shares: by how many times its law, run slower by a scale, takes what is allowed.
+
+A motion that is run `scale` times slower has its velocity divided by the scale, its acceleration by the square of it.
+A share of a derivative of order nu so falls with the power nu of the scale, whatever the law: a law that keeps such a
+limit keeps it at every lower speed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+from optlaws.cycles.greatest_speed.drive_limits_of_span import driven_limit
+from optlaws.cycles.optimisation.motion_limits import CURVE, FORCE, POWER, LimitKey, Limits
+from optlaws.cycles.optimisation.objectives import CycleObjective
+from optlaws.cycles.optimisation.optimal import limited_by
+from optlaws.cycles.optimisation.search_spaces import place
+from optlaws.cycles.specification.joints import LawSpan
+from optlaws.errors import InputError
+from optlaws.laws import MotionLaw
+from optlaws.synthesis.functionals.makers import peak
+from optlaws.synthesis.problem.constants import Functional
+
+
+class SpanLimit(Protocol):
+    """A limit of a span as a share of what is allowed, which is at most 1 where it is kept."""
+
+    @property
+    def key(self) -> LimitKey:
+        """The quantity that is limited, or one side of it."""
+
+    @property
+    def most(self) -> float:
+        """The limit in SI units."""
+
+    @property
+    def scales(self) -> bool:
+        """Whether a law that keeps it keeps it at every lower speed."""
+
+    def term(self, scale: float) -> tuple[Functional, float]:
+        """The limited constant of the law, and the share that one of it is, at a scale of the time."""
+
+    def slope(self, law: MotionLaw, scale: float) -> float:
+        """By which power of the scale the share of a law falls."""
+
+    def least_scale(self, law: MotionLaw) -> float:
+        """The least scale of the time at which a law keeps it."""
+
+
+@dataclass(frozen=True)
+class DerivativeLimit:
+    """A limit of a derivative, or of one side of it, in a span or in a part of it; `unit` is that of the law in SI."""
+
+    key: LimitKey
+    most: float
+    constant: Functional
+    unit: float
+
+    @property
+    def nu(self) -> int:
+        """The order of the derivative."""
+        return self.key if isinstance(self.key, int) else self.key.nu
+
+    @property
+    def scales(self) -> bool:
+        """True: both sides have room for a motion that is slower."""
+        return True
+
+    def term(self, scale: float) -> tuple[Functional, float]:
+        """The limited constant of the law, and the share that one of it is."""
+        return self.constant, self.unit / (self.most * scale**self.nu)
+
+    def slope(self, law: MotionLaw, scale: float) -> float:  # noqa: ARG002 - that of every law
+        """The order of the derivative."""
+        return float(self.nu)
+
+    def least_scale(self, law: MotionLaw) -> float:
+        """The least scale of the time, in closed form: the root of the share at scale 1."""
+        share = self.constant.value(law) * self.unit / self.most
+        return float(max(share, 0.0) ** (1.0 / self.nu))
+
+
+def limits_of_span(
+    span: LawSpan, limits: Sequence[Limits], objective: CycleObjective, stroke: float, axis: str
+) -> list[SpanLimit]:
+    """The limits of a span, whose stretches have these each."""
+    rows: list[SpanLimit] = []
+    for (low, high), of_part in _parts(span, limits):
+        whole = (low, high) == (span.start, span.stop)
+        for key, most in of_part.items():
+            if key == CURVE:
+                raise InputError(
+                    f"{span.where}: the greatest speed within a motor's curve is not sought: give limits of the torque "
+                    "and the velocity in its place"
+                )
+            if key in (FORCE, POWER):
+                rows.append(_of_drive(key, most, span, objective, stroke, axis, whole=whole))
+                continue
+            known = limited_by(span, objective, stroke, key)
+            within = (place(span, low), place(span, high))
+            constant = known.constants[0] if whole else _of_part(key, stroke, within)
+            rows.append(DerivativeLimit(key, most, constant, known.unit))
+    return rows
+
+
+def _of_drive(
+    key: LimitKey, most: float, span: LawSpan, objective: CycleObjective, stroke: float, axis: str, *, whole: bool
+) -> SpanLimit:
+    if not isinstance(key, int) or not whole:
+        raise InputError(f"{span.where} are one law: give the force or power of all of them the same limit")
+    if objective.drive is None:
+        raise InputError("force, torque and power are of a drive: give one, such as drive={'mass': '2 kg'}")
+    return driven_limit(key, most, span, objective.drive, stroke, axis)
+
+
+def _parts(span: LawSpan, limits: Sequence[Limits]) -> Iterator[tuple[tuple[float, float], Limits]]:
+    """Each part of a span that has limits of its own, from where to where."""
+    times = (*span.starts, span.stop)
+    begun = 0
+    for i in range(1, len(limits) + 1):
+        if i == len(limits) or limits[i] != limits[begun]:
+            yield (times[begun], times[i]), limits[begun]
+            begun = i
+
+
+def _of_part(key: LimitKey, stroke: float, ends: tuple[float, float]) -> Functional:
+    nu = key if isinstance(key, int) else key.nu
+    if not 1 <= nu <= 3:
+        raise AssertionError  # those of the snap and of forces are of whole spans
+    if isinstance(key, int):
+        return peak("abcj"[nu], start=ends[0], stop=ends[1])
+    return peak("abcj"[nu], side="high" if key.sign * stroke > 0.0 else "low", start=ends[0], stop=ends[1])
+
+
+def least_scale(rows: Sequence[SpanLimit], law: MotionLaw) -> float:
+    """The least scale of the time at which a law keeps all limits; 0 where there are none."""
+    return max((row.least_scale(law) for row in rows), default=0.0)

@@ -1,0 +1,74 @@
+"""`optlaws cycle FILE --fastest`: a table, exit codes, results whose proofs are verified, errors that name the axis."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from optlaws.verification import verify_all
+from tests.documents import ROOT
+from tests.internals.cli import exit_code
+
+FASTEST = ROOT / "problems" / "cycle_fastest.toml"
+PRESS = ROOT / "problems" / "cycle_press.toml"
+
+Capture = pytest.CaptureFixture[str]
+
+
+def test_the_greatest_speed_is_printed(capsys: Capture) -> None:
+    assert exit_code(["cycle", str(PRESS), "--fastest"]) == 0
+    out = capsys.readouterr().out
+    assert "| greatest speed           | 271.4497" in out
+    assert "10 % more velocity: 298.595 rpm, 10 % faster" in out
+
+
+@pytest.mark.long
+def test_the_proofs_of_the_results_are_verified(tmp_path: Path) -> None:
+    assert exit_code(["cycle", str(FASTEST), "--fastest", "--out", str(tmp_path)]) == 0
+    proofs = json.loads((tmp_path / "fastest.json").read_text("utf-8"))
+    assert [entry.infeasible for entry in verify_all(proofs).values()] == [True, True]
+    page = (tmp_path / "cycle.md").read_text("utf-8")
+    assert "no time left, by deceleration 15 m/s^2" in page
+    assert "| whole cycle | 0        | 384.3548  | 360" in page
+
+
+def test_it_is_one_json_object(capsys: Capture) -> None:
+    assert exit_code(["cycle", str(PRESS), "--fastest", "--json"]) == 0
+    slide = json.loads(capsys.readouterr().out)["slide"]
+    assert slide["status"] == "optimal"
+    assert slide["rpm"] == pytest.approx(60.0 / slide["period"])
+    assert slide["lower_bound"] < slide["period"]
+    assert [each["binding"] for each in slide["segments"]] == [False, True]
+
+
+@pytest.mark.parametrize(
+    ("limits", "code", "says"),
+    [
+        ('{ velocity = "616 mm/s" }', 0, ""),
+        ('{ power = "30 W" }', 1, "axis slide: that no law is faster is not proven"),
+        ("{ }", 2, "axis slide: no limit bounds the motions"),
+        ('{ force = "10 N" }', 3, "axis slide: segment 1 (Rise): at its start"),
+    ],
+)
+def test_exit_codes(limits: str, code: int, says: str, capsys: Capture, tmp_path: Path) -> None:
+    text = PRESS.read_text("utf-8").replace('{ velocity = "616 mm/s" }', limits)
+    file = tmp_path / "press.toml"
+    weight = ', gravity = "19.6 N", dry = "5 N"'
+    file.write_text(text.replace(weight, "") if "power" in limits else text, "utf-8")
+    assert exit_code(["cycle", str(file), "--fastest"]) == code
+    assert says in capsys.readouterr().err
+
+
+@pytest.mark.long
+def test_a_machine_is_as_fast_as_its_slowest_axis(capsys: Capture, tmp_path: Path) -> None:
+    text = PRESS.read_text("utf-8")
+    start = text.index("[[axis]]")
+    slow = text[start:].replace('"slide"', '"slow"').replace("616 mm/s", "308 mm/s")
+    file = tmp_path / "two.toml"
+    file.write_text("fastest = true\n" + text + "\n" + slow, "utf-8")
+    assert exit_code(["cycle", str(file), "--out", str(tmp_path / "out")]) == 0
+    capsys.readouterr()
+    page = (tmp_path / "out" / "cycle.md").read_text("utf-8")
+    assert "The machine is as fast as its slowest axis, slow: 135.72" in page
+    facts = json.loads((tmp_path / "out" / "cycle.json").read_text("utf-8"))["axes"]
+    assert facts["slide"]["period"] == pytest.approx(facts["slow"]["period"], rel=1e-12)

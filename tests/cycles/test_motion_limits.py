@@ -1,0 +1,139 @@
+"""Limits of both sides apart, of slowing down, and of the snap: against closed forms, and kept over the whole cycle."""
+
+from math import sqrt
+from typing import Any
+
+import pytest
+
+from optlaws import Axes, ConstantVelocity, Cycle, Dwell, Free, InfeasibleProblem, InputError, Move, Return, Rise
+
+MOVES = [Rise("35 mm", "120 deg"), Dwell("60 deg"), Return("35 mm", "120 deg"), Dwell()]
+PAIR = {"acceleration": ("-14 m/s^2", "20 m/s^2")}
+KEPT = 1.0 + 1e-9
+
+
+def cycle(**given: Any) -> Cycle:
+    return Cycle(given.pop("segments", MOVES), **({"speed": "200 rpm"} | given))
+
+
+def test_sides_of_the_acceleration_are_kept_apart_in_both_directions() -> None:
+    """The jerk is least where both sides are used up; without limits the law would be symmetric."""
+    limited = cycle(limits=PAIR, minimise="jerk")
+    assert limited.status == "optimal"
+    rise, _, back, _ = limited.peaks
+    for peaks in (rise, back):
+        (low, _), (high, _) = peaks.extremes[2]
+        assert low == pytest.approx(-14.0, rel=1e-9)
+        assert high == pytest.approx(20.0, rel=1e-9)
+    # the return is the rise run backwards in time
+    assert rise.peak(3) == pytest.approx(back.peak(3), rel=1e-8)
+
+
+def test_deceleration_follows_the_motion() -> None:
+    slowed = cycle(limits={"deceleration": "14 m/s^2", "acceleration": "25 m/s^2"}, minimise="jerk")
+    assert slowed.limits_of_segments == ({2: (-14.0, 25.0)}, {}, {2: (-25.0, 14.0)}, {})
+    rise, _, back, _ = slowed.peaks
+    assert rise.extremes[2][0][0] == pytest.approx(-14.0, rel=1e-9)
+    assert back.extremes[2][1][0] == pytest.approx(14.0, rel=1e-9)
+    assert min(slowed(time, 1) for time in (0.02, 0.05, 0.08)) > 0.0
+    alone = cycle(limits={"deceleration": "14 m/s^2"})
+    assert alone.limits_of_segments[0] == {2: (-14.0, float("inf"))}
+
+
+def test_with_free_breaks_a_move_under_two_accelerations_needs_the_velocity_of_a_triangle() -> None:
+    """Speeding up with a and slowing down with d a motion of h in T has at least v = T a d/(a + d) (1 - sqrt(...))."""
+    h, T, a, d = 0.035, 0.1, 40.0, 25.0
+    m = a * d / (a + d)
+    least = m * T * (1.0 - sqrt(1.0 - 2.0 * h / (m * T * T)))
+    limits = {"acceleration": "40 m/s^2", "deceleration": "25 m/s^2"}
+    near = cycle(limits=limits, minimise="velocity", order=2, degree=19)
+    assert near.status == "optimal"
+    assert least < near.objective < 1.03 * least
+
+
+def test_snap_is_kept_and_named_where_no_law_keeps_it() -> None:
+    smooth = cycle(limits={"snap": "160000 m/s^4"}, order=4)
+    assert smooth.status == "optimal"
+    for piece in smooth.pieces[::2]:
+        assert piece.law.peak(4).value * abs(piece.stroke) / piece.duration**4 <= 160000.0 * KEPT
+    with pytest.raises(
+        InfeasibleProblem, match=r"the least is the snap 145273 m/s\^4, but its limit is the snap 60000"
+    ):
+        cycle(limits={"snap": "60000 m/s^4"}, order=4).status  # noqa: B018
+
+
+@pytest.mark.long
+def test_joined_motions_have_limits_of_their_segments() -> None:
+    """Of two free motions one may slow down less than the other."""
+    limits = {"acceleration": ("-4 m/s^2", "12 m/s^2")}
+    first = [Dwell("0.1 s"), Free("30 mm", "0.2 s", limits=limits), Free("-30 mm")]
+    joined = Cycle(first, period="0.5 s", minimise="jerk")
+    assert joined.status == "optimal"
+    assert joined.peaks[1].extremes[2][0][0] >= -4.0 * KEPT
+    assert joined.peaks[2].extremes[2][0][0] < -5.0
+    snapped = Cycle([first[0], Free("30 mm", "0.2 s"), first[2]], period="0.5 s", limits={"snap": "89000 m/s^4"})
+    (_, law) = snapped.pieces
+    assert law.law.peak(4).value * law.stroke / law.duration**4 <= 89000.0 * KEPT
+    with pytest.raises(InputError, match="give the snap of all of them the same limit"):
+        Cycle([first[0], Free("30 mm", "0.2 s", limits={"snap": "89000 m/s^4"}), first[2]], period="0.5 s").status  # noqa: B018
+
+
+@pytest.mark.long
+def test_free_durations_share_what_both_sides_leave() -> None:
+    segments = [Rise("35 mm"), Dwell("90 deg"), Rise("10 mm"), Dwell("20 deg"), Return()]
+    shared = cycle(segments=segments, limits={"acceleration": ("-22 m/s^2", "30 m/s^2")})
+    levels = [shared.peaks[i].extremes[2] for i in (0, 2, 4)]
+    assert all(low >= -22.0 * KEPT for (low, _), _ in levels)
+    assert levels[0][1][0] == pytest.approx(levels[1][1][0], rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("limits", "says"),
+    [
+        ({"deceleraton": "4 m/s^2"}, "did you mean 'deceleration'"),
+        ({"acceleration": ("3 m/s^2", "20 m/s^2")}, "the least must be below 0 and the greatest above 0"),
+        ({"acceleration": ("-3 m/s^2",)}, "the least and the greatest, not 1"),
+        ({"snap": ("-3 m/s^4", "9 m/s^4")}, "limits, snap: give one value"),
+        ({"snap": "9 m/s^3"}, r"limits, snap must be a snap such as '50000 m/s\^4', but '9 m/s\^3' is a jerk"),
+        ({"deceleration": ("-3 m/s^2", "9 m/s^2")}, "limits, deceleration must be an acceleration"),
+    ],
+)
+def test_limits_that_are_wrong_are_named_with_the_remedy(limits: dict[str, Any], says: str) -> None:
+    with pytest.raises(InputError, match=says):
+        cycle(limits=limits)
+
+
+def test_slowing_down_is_refused_where_a_motion_turns() -> None:
+    limits = {"deceleration": "40 m/s^2"}
+    remedy = "give its acceleration as the least and the greatest"
+    with pytest.raises(InputError, match=rf"segment 2 \(Free\) may turn back.*{remedy}"):
+        Cycle([Dwell("0.1 s"), Free("30 mm", "0.2 s"), Free("-30 mm")], period="0.5 s", limits=limits)
+    with pytest.raises(InputError, match=rf"segment 2 \(Return\) begins or ends against its way.*{remedy}"):
+        Cycle([ConstantVelocity("1.5 m/s", "80 ms"), Return()], period="0.4 s", limits=limits)
+
+
+def test_files_of_cycles_and_axes_keep_both_sides() -> None:
+    rise = Move("35 mm", "120 deg", limits={"jerk": ("-9000 m/s^3", "8000 m/s^3")})
+    given = cycle(segments=[rise, *MOVES[1:]], limits=PAIR)
+    again = Cycle.from_json(given.to_json())
+    assert again.limits_of_segments == given.limits_of_segments
+    assert again.limits_of_segments[0] == {2: (-14.0, 20.0), 3: (-9000.0, 8000.0)}
+    machine = Axes({"slide": {"segments": given.segments, "limits": PAIR}}, speed="200 rpm")
+    assert 'acceleration = ["-14 m/s^2", "20 m/s^2"]' in machine.to_toml()
+    assert Axes.from_json(machine.to_json())["slide"].limits_of_segments == given.limits_of_segments
+
+
+def test_the_summary_says_how_much_of_such_limits_is_taken() -> None:
+    slowed = cycle(limits={"deceleration": "14 m/s^2", "acceleration": "25 m/s^2"}, minimise="jerk")
+    rows = {row.name: row for row in slowed.summary()}
+    assert rows["deceleration"].value == pytest.approx(14.0, rel=1e-9)
+    assert rows["deceleration"].note == "limit 14 m/s^2 of segment 1 (Rise)"
+    assert slowed(rows["deceleration"].place, 2) == pytest.approx(-14.0, rel=1e-6)
+    assert rows["acceleration along the motion"].note.startswith("limit 25 m/s^2 of segment")
+    assert "snap" not in rows
+    snapped = cycle(limits={"snap": "200000 m/s^4"}, order=4)
+    (row,) = (row for row in snapped.summary() if row.name == "snap")
+    assert 0.9 * 200000.0 < row.value <= 200000.0 * KEPT
+    assert row.unit == "m/s⁴"
+    (pair,) = (row for row in cycle(limits=PAIR, minimise="jerk").summary() if row.name == "lowest acceleration")
+    assert pair.note == "limit -14 m/s^2 of segment 1 (Rise)"
