@@ -91,7 +91,8 @@ class ForceRating:
 
     def keeps(self, pieces: Sequence[Piece], period: float) -> bool:
         """Whether laws keep the limit."""
-        return sum(PieceEffort(self.drive, piece).square for piece in pieces) <= self.most**2 * period * (1.0 + AGREEMENT)
+        taken = sum(PieceEffort(self.drive, piece).square for piece in pieces)
+        return taken <= self.most**2 * period * (1.0 + AGREEMENT)
 
     def laws(self, period: float) -> list[PlacedLaw]:
         """The laws of least mean square of the force at a period, within the other limits."""
