@@ -142,34 +142,39 @@ def _proven(first: ProofCells, other: ProofCells | None) -> CellBounds:
         return known
     other.reach = first.reach
     other.take(first.piece[open_ones], first.low[open_ones], first.high[open_ones])
-    one, two = known.only(open_ones), other.bounds()
-    mean, weak = _lower_of(one, two, other)
-    for each in (one, two):
+    driving, braking = known.only(open_ones), other.bounds()
+    mean, weak = _lower_of(driving, braking, other)
+    for each in (driving, braking):
         better = each.shared & (each.least > mean)
         mean, weak = np.where(better, each.least, mean), np.where(better, each.weak, weak)
-    changed = {"mean": mean, "weak": weak, "floor": np.full_like(mean, -inf), "free": np.minimum(one.free, two.free)}
+    changed = {
+        "mean": mean,
+        "weak": weak,
+        "floor": np.full_like(mean, -inf),
+        "free": np.minimum(driving.free, braking.free),
+    }
     arrays = {name: getattr(known, name).copy() for name in changed}
     for name, values in changed.items():
         arrays[name][open_ones] = values
     return known._replace(**arrays)
 
 
-def _lower_of(one: CellBounds, two: CellBounds, cells: ProofCells) -> tuple[Array, Array]:
+def _lower_of(driving: CellBounds, braking: CellBounds, cells: ProofCells) -> tuple[Array, Array]:
     """What the mean of the lower of two inner minima is at least, and by how much more may be lost than is little."""
-    at, over = (first - second for first, second in zip(one.below, two.below, strict=True))
+    at, over = (first - second for first, second in zip(driving.below, braking.below, strict=True))
     with np.errstate(invalid="ignore"):
-        more = exact(two.loss) - one.loss
+        more = exact(braking.loss) - driving.loss
         above = cells.range(at, over) + more  # by how much the first is above the second, and its mean
         mean = cells.mean(at, over) + more
         low, high = above.low, above.high
-        tops = [(cells.range(*known.below) - known.loss).high for known in (one, two)]
+        tops = [(cells.range(*known.below) - known.loss).high for known in (driving, braking)]
         # a part above 0 is below the line through its ends
         part = high * (mean.high - low) / (high - low) + 8.0 * ROUNDOFF * (np.abs(low) + np.abs(high))
-        crossing = np.where(np.isfinite(part), (exact(one.mean) - part).low, -inf)
-        first = (high <= 0.0) | (two.floor >= tops[0])
-        second = (low >= 0.0) | (one.floor >= tops[1])
-        likely = np.where(first, one.mean, np.where(second, two.mean, crossing))
-        best = np.fmax(np.minimum(one.floor, two.floor), likely)
-        lost = cells.weakness((np.minimum(one.mean, two.mean) - best) * cells.half, one.size)
-        either = np.maximum(np.maximum(one.weak, two.weak), lost)
-    return best, np.where(first, one.weak, np.where(second, two.weak, either))
+        crossing = np.where(np.isfinite(part), (exact(driving.mean) - part).low, -inf)
+        first = (high <= 0.0) | (braking.floor >= tops[0])
+        second = (low >= 0.0) | (driving.floor >= tops[1])
+        likely = np.where(first, driving.mean, np.where(second, braking.mean, crossing))
+        best = np.fmax(np.minimum(driving.floor, braking.floor), likely)
+        lost = cells.weakness((np.minimum(driving.mean, braking.mean) - best) * cells.half, driving.size)
+        either = np.maximum(np.maximum(driving.weak, braking.weak), lost)
+    return best, np.where(first, driving.weak, np.where(second, braking.weak, either))

@@ -140,7 +140,7 @@ class CellBounds(NamedTuple):
     def where(self, cells: NDArray[np.bool_], other: CellBounds) -> CellBounds:
         """What is proven in some cells, and what is proven otherwise in all others."""
         jets = [
-            Jet(tuple(chosen(cells, one, two) for one, two in zip(first.terms, second.terms, strict=True)))
+            Jet(tuple(chosen(cells, left, right) for left, right in zip(first.terms, second.terms, strict=True)))
             for first, second in zip(self.below, other.below, strict=True)
         ]
         arrays = {

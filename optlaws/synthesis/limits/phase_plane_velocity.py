@@ -148,10 +148,10 @@ class InnerMinimum:
     def _shares(self, b: Array, c: Array, follows: Array, rest: Array) -> tuple[list[Array], Array, Array]:
         """The shares of first torques in maxima, what follows from q, and what the prices still to come add up to."""
         shares = []
-        for i, (one, other) in enumerate(self.maxima, len(self.entries)):
-            more = self._torque(one, b, c) - self._torque(other, b, c)
-            tie = np.abs(more) <= PHASE_TIE * (1.0 + np.abs(self._torque(one, b, c)))
-            inertia, second = self.factors[one][0], self.factors[other][0]
+        for i, (torque, other) in enumerate(self.maxima, len(self.entries)):
+            more = self._torque(torque, b, c) - self._torque(other, b, c)
+            tie = np.abs(more) <= PHASE_TIE * (1.0 + np.abs(self._torque(torque, b, c)))
+            inertia, second = self.factors[torque][0], self.factors[other][0]
             with np.errstate(all="ignore"):
                 share = np.clip((rest - second) / (inertia - second), 0.0, 1.0)
             share = np.where(tie & np.isfinite(share), share, more > 0.0)

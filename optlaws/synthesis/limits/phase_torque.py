@@ -71,6 +71,7 @@ class PhaseTorque:
 
     @classmethod
     def of_terms(cls, terms: Mapping[tuple[str, ...], Formula]) -> PhaseTorque | None:
+        """The torque of factors by the names that they multiply; None where these are others or depend on k."""
         if not terms.keys() <= set(_KEYS) or any(factor.names() - {"a", "pi"} for factor in terms.values()):
             return None
         return cls(*(terms.get(key, _ZERO) for key in _KEYS))
@@ -185,12 +186,12 @@ class GearTorque:
 
     @classmethod
     def _of_two(cls, motor: PhaseTorque, first: Formula, second: Formula) -> GearTorque | None:
-        (one, load), (other, same) = _share(first), _share(second)
+        (share, load), (other, same) = _share(first), _share(second)
         if load != same:  # the greater of any two torques is the second and, where the first is above it, the rest
             base, more = PhaseTorque.of(second), _of_all([first, opposite(second)])
             return None if base is None or more is None else cls(motor.plus(base), more, 1.0, 0.0)
         torque = PhaseTorque.of(load)
-        return None if torque is None else cls(motor, torque, max(one, other), min(one, other))
+        return None if torque is None else cls(motor, torque, max(share, other), min(share, other))
 
     @kept_property
     def branches(self) -> tuple[PhaseTorque, PhaseTorque]:
