@@ -1,6 +1,6 @@
 """Integrals and greatest values of functions with kinks and jumps, against closed forms and mpmath."""
 
-import mpmath
+import mpmath  # type: ignore[import-untyped]
 import numpy as np
 import pytest
 
