@@ -1,6 +1,6 @@
 """Integrals and greatest values of functions with kinks and jumps, against closed forms and mpmath."""
 
-import mpmath
+import mpmath  # type: ignore[import-untyped]
 import numpy as np
 import pytest
 
@@ -21,7 +21,10 @@ def test_kinks_where_a_function_changes_its_sign(unit: float) -> None:
 
 def test_jumps_at_breaks_have_both_their_sides() -> None:
     parts = SmoothParts.between(-1.0, 1.0, breaks=[0.123])
-    saw = lambda t: np.where(t < 0.123, t, t - 5.0)  # noqa: E731
+
+    def saw(t: np.ndarray) -> np.ndarray:
+        return np.where(t < 0.123, t, t - 5.0)
+
     assert parts.greatest(saw).value == pytest.approx(0.123, rel=1e-8)
     assert parts.greatest(lambda t: -saw(t)).value == pytest.approx(5.0 - 0.123, rel=1e-12)
     assert parts.integral(saw) == pytest.approx(-5.0 * (1.0 - 0.123), rel=1e-13)
