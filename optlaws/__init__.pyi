@@ -38,6 +38,10 @@ from optlaws.cams.least_sizes import least_base_circle as least_base_circle
 from optlaws.cams.springs import Spring as Spring
 from optlaws.cams.springs import least_spring as least_spring
 from optlaws.cycles.cycle import Cycle as Cycle
+from optlaws.cycles.interlocks.after import After as After
+from optlaws.cycles.interlocks.clearance import Clearance as Clearance
+from optlaws.cycles.interlocks.forbidden_region import Forbidden as Forbidden
+from optlaws.cycles.interlocks.synchronous import Synchronous as Synchronous
 from optlaws.cycles.law_comparison import Comparison as Comparison
 from optlaws.cycles.law_comparison import compare_laws as compare_laws
 from optlaws.cycles.machine_axes import Axes as Axes
@@ -177,6 +181,7 @@ __version__: str
 
 __all__ = [
     "FUNCTIONALS",
+    "After",
     "AsMade",
     "Axes",
     "B",
@@ -195,6 +200,7 @@ __all__ = [
     "CamMotion",
     "Certificate",
     "Chebyshev",
+    "Clearance",
     "Clutch",
     "Comparison",
     "ConstantVelocity",
@@ -211,6 +217,7 @@ __all__ = [
     "DwellMachine",
     "Expression",
     "Follower",
+    "Forbidden",
     "Free",
     "Front",
     "FrontPoint",
@@ -258,6 +265,7 @@ __all__ = [
     "Split",
     "Spring",
     "Status",
+    "Synchronous",
     "Tightening",
     "TorsionLever",
     "TranslatingFlat",

@@ -322,3 +322,9 @@ SMALL_PHASE_GAP = 1e-6  # of a limit: more is looked for on finer elements
 WEAK_CELL = 5e-7  # of what a cell adds to a bound: a cell that may lose more is divided
 SHORT_CELL = 1e-3  # of the move: of shorter cells what is lost is measured by this length
 INNER_SHARE = 1e-3  # shares of two equal torques that are so far from 0 and 1 follow from the potential
+
+# --- interlocks of axes ----------------------------------------------------------------------------------------------
+PASS_WIDTH = 1e-14  # of a cycle: times of a pass that are nearer to each other are one
+INTERLOCK = 1e-9  # of a stroke: positions that are nearer touch, and what touches is clear
+CLEARANCE_SHARE = 1e-9  # of the greatest clearance: how near its bound comes to the least one
+SQUARED_CLEARANCE = 1e-12  # the same of the square of a distance

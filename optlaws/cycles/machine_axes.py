@@ -8,6 +8,8 @@ from typing import Any, Unpack
 
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.interchange import problem_file
+from optlaws.cycles.interlocks.interlock import Interlock, LeastClearance
+from optlaws.cycles.interlocks.kinds import checked, least_clearances
 from optlaws.cycles.specification.programme import period_of
 from optlaws.cycles.specification.segments import CycleSegment
 from optlaws.echo import shortened
@@ -36,11 +38,15 @@ class Axes(JsonText, Mapping[str, Cycle]):
     speed, period
         Of the master, "200 rpm", or the duration of the cycle, "0.3 s": one of them; where all axes are cycles neither
         is needed.
+    interlocks
+        Conditions between two axes each: `After`, `Clearance`, `Forbidden`, `Synchronous`, or the plain data of such.
+        `clearances` says which are clear and where they are nearest.
 
     Raises
     ------
     InputError
-        If an axis is wrong, or its cycle has another duration; the error names the axis.
+        If an axis is wrong, or its cycle has another duration; the error names the axis. If an interlock names an axis
+        that is not there or a position that it does not pass.
 
     Examples
     --------
@@ -59,6 +65,7 @@ class Axes(JsonText, Mapping[str, Cycle]):
     axes: Mapping[str, Sequence[CycleSegment] | Mapping[str, Any] | Cycle]
     speed: Quantity | None = field(default=None, kw_only=True)
     period: Quantity | None = field(default=None, kw_only=True)
+    interlocks: Sequence[Interlock | Mapping[str, Any]] = field(default=(), kw_only=True)
 
     def __post_init__(self) -> None:
         given: Any = self.axes
@@ -67,7 +74,8 @@ class Axes(JsonText, Mapping[str, Cycle]):
                 "axes are a table of segments by name, such as {'table': [Rise('45 deg', '0.4 s'), Dwell()]}"
             )
         object.__setattr__(self, "axes", dict(given))
-        self._cycles  # noqa: B018 - what is wrong of an axis is said at once
+        # what is wrong of an axis is said at once
+        object.__setattr__(self, "interlocks", checked(self.interlocks, self._cycles))
 
     def __getitem__(self, name: str) -> Cycle:
         if name not in self._cycles:
@@ -104,7 +112,28 @@ class Axes(JsonText, Mapping[str, Cycle]):
 
     def at(self, speed: Quantity) -> Axes:
         """The same motions at another speed of the master, as `Cycle.at` has them."""
-        return Axes({name: cycle.at(speed) for name, cycle in self.items()})
+        return Axes({name: cycle.at(speed) for name, cycle in self.items()}, interlocks=self.interlocks)
+
+    @kept_property
+    def clearances(self) -> tuple[LeastClearance, ...]:
+        """The least clearance of every interlock, its place and its margin, proven over the whole cycle.
+
+        Examples
+        --------
+        >>> from optlaws import After, Dwell, Return, Rise
+        >>> table = {"segments": [Rise("45 deg", "0.4 s", law="cycloidal"), Dwell()], "advance": "45 deg"}
+        >>> head = [Dwell("0.3 s"), Rise("250 mm", "0.2 s", law="cycloidal"), Dwell("1.2 s"), Return(law="cycloidal")]
+        >>> rule = After("head", "50 mm", of="table", above="44.9 deg", way="up")
+        >>> machine = Axes({"table": table, "head": head}, period="2 s", interlocks=[rule])
+        >>> [(least.status, least.text) for least in machine.clearances]
+        [('broken', '-0.0601776 deg at 66.1074 deg, -4.79101 ms early')]
+        """
+        return least_clearances(self._interlocks, self._cycles)
+
+    @property
+    def broken(self) -> tuple[LeastClearance, ...]:
+        """The interlocks that are not proven clear."""
+        return tuple(least for least in self.clearances if least.status != "clear")
 
     @keywords_of(AxesExportOptions)
     def export(
@@ -146,7 +175,9 @@ class Axes(JsonText, Mapping[str, Cycle]):
 
     def to_dict(self) -> dict[str, Any]:
         """The entries of the axes as they were given, plain and JSON-able."""
-        return {"format": FORMAT, "axes": {name: cycle.to_dict() for name, cycle in self.items()}}
+        axes = {name: cycle.to_dict() for name, cycle in self.items()}
+        interlocks = [interlock.to_dict() for interlock in self._interlocks]
+        return {"format": FORMAT, "axes": axes} | ({"interlocks": interlocks} if interlocks else {})
 
     @classmethod
     def from_dict(cls, data: Any) -> Axes:  # noqa: ANN401 - it is checked here
@@ -154,7 +185,11 @@ class Axes(JsonText, Mapping[str, Cycle]):
         stored = data.get("axes") if isinstance(data, Mapping) else None
         if not isinstance(stored, Mapping) or data.get("format", FORMAT) != FORMAT:
             raise InputError(f"stored axes have format {FORMAT!r} and a table of axes, got {shortened(data)}")
-        return cls({str(name): Cycle.from_dict(cycle) for name, cycle in stored.items()})
+        for name in data:
+            if name not in {"format", "axes", "interlocks"}:
+                raise InputError(f"stored axes: {unknown_key(name, ('format', 'axes', 'interlocks'))}")
+        cycles = {str(name): Cycle.from_dict(cycle) for name, cycle in stored.items()}
+        return cls(cycles, interlocks=data.get("interlocks", ()))
 
     def to_toml(self, title: str = "Machine") -> str:
         """A problem file for `optlaws cycle` with all axes.
@@ -173,7 +208,8 @@ class Axes(JsonText, Mapping[str, Cycle]):
         period = "0.30000000000000004 s"
         ...
         """
-        return problem_file(title, {"period": f"{self.duration!r} s"}, self)
+        interlocks = [interlock.to_dict() for interlock in self._interlocks]
+        return problem_file(title, {"period": f"{self.duration!r} s"}, self, {"interlocks": interlocks})
 
     def to_pandas(self) -> Any:  # noqa: ANN401 - pandas is imported where it is asked for
         """A data frame with a row for each segment of each axis: start, duration, peaks, leaps; SI units.
@@ -204,6 +240,10 @@ class Axes(JsonText, Mapping[str, Cycle]):
         from optlaws.shown.showing import Html, page
 
         return page("Axes", *(Html(f"<h4>{name}</h4>{cycle._repr_html_()}") for name, cycle in self.items()))
+
+    @property
+    def _interlocks(self) -> tuple[Interlock, ...]:
+        return self.interlocks  # type: ignore[return-value] # values since the axes were checked
 
     @kept_property
     def _cycles(self) -> dict[str, Cycle]:
