@@ -19,6 +19,8 @@ __getattr__, __dir__, __all__ = face(
         "optlaws.cams.followers.follower": "CamFollower Place",
         "optlaws.cams.followers.rollers_and_faces": "FaceContact RollerContact",
         "optlaws.cams.least_sizes": "GreatestRoller LeastBaseCircle",
+        "optlaws.cycles.interlocks.enclosed_axis": "Way",
+        "optlaws.cycles.interlocks.interlock": "Interlock LeastClearance",
         "optlaws.cycles.machine_follower": "MachineAnswer",
         "optlaws.cycles.specification.segments": "CycleSegment",
         "optlaws.exports.best_breaks": "BestBreaks",

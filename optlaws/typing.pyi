@@ -21,6 +21,9 @@ from optlaws.cams.followers.rollers_and_faces import FaceContact as FaceContact
 from optlaws.cams.followers.rollers_and_faces import RollerContact as RollerContact
 from optlaws.cams.least_sizes import GreatestRoller as GreatestRoller
 from optlaws.cams.least_sizes import LeastBaseCircle as LeastBaseCircle
+from optlaws.cycles.interlocks.enclosed_axis import Way as Way
+from optlaws.cycles.interlocks.interlock import Interlock as Interlock
+from optlaws.cycles.interlocks.interlock import LeastClearance as LeastClearance
 from optlaws.cycles.machine_follower import MachineAnswer as MachineAnswer
 from optlaws.cycles.specification.segments import CycleSegment as CycleSegment
 from optlaws.exports.best_breaks import BestBreaks as BestBreaks
@@ -125,6 +128,7 @@ __all__ = [
     "FourBarBranch",
     "GreatestRoller",
     "InputAxis",
+    "Interlock",
     "Interpolation",
     "Interval",
     "Jet",
@@ -132,6 +136,7 @@ __all__ = [
     "LawSpace",
     "LazySequence",
     "LeastBaseCircle",
+    "LeastClearance",
     "LinkGeometry",
     "LoadPlace",
     "MachineAnswer",
@@ -177,4 +182,5 @@ __all__ = [
     "Train",
     "Turning",
     "Watch",
+    "Way",
 ]

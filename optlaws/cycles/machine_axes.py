@@ -9,7 +9,7 @@ from typing import Any, Unpack
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.interchange import problem_file
 from optlaws.cycles.interlocks.interlock import Interlock, LeastClearance
-from optlaws.cycles.interlocks.kinds import checked, least_clearances
+from optlaws.cycles.interlocks.interlock_kinds import checked
 from optlaws.cycles.specification.programme import period_of
 from optlaws.cycles.specification.segments import CycleSegment
 from optlaws.echo import shortened
@@ -128,7 +128,7 @@ class Axes(JsonText, Mapping[str, Cycle]):
         >>> [(least.status, least.text) for least in machine.clearances]
         [('broken', '-0.0601776 deg at 66.1074 deg, -4.79101 ms early')]
         """
-        return least_clearances(self._interlocks, self._cycles)
+        return tuple(interlock.least_clearance(self._cycles) for interlock in self._interlocks)
 
     @property
     def broken(self) -> tuple[LeastClearance, ...]:

@@ -21,11 +21,11 @@ from optlaws.numerics.interval import Interval, exact
 from optlaws.numerics.taylor import Jet
 from optlaws.tolerances import ROUNDOFF
 
-StretchT = TypeVar("StretchT", bound="SmoothStretch")
+StretchT = TypeVar("StretchT", bound="EnclosedStretch")
 
 
 @dataclass(frozen=True)
-class SmoothStretch:
+class EnclosedStretch:
     """A smooth part of a motion over a range of its master: offset + stroke times a segment of a law.
 
     `duration` is that of the whole law, of which the segment is a part `length` long in k.
@@ -95,7 +95,7 @@ def smooth_parts(piece: Piece, kind: type[StretchT]) -> tuple[StretchT, ...]:
     """The smooth parts of a law in its place, one after the other.
 
     >>> from optlaws import catalogue
-    >>> parts = smooth_parts(Piece(0.0, 2.0, 0.0, 1.0, catalogue["modified sine"].law), SmoothStretch)
+    >>> parts = smooth_parts(Piece(0.0, 2.0, 0.0, 1.0, catalogue["modified sine"].law), EnclosedStretch)
     >>> [part.stop for part in parts]
     [0.25, 1.0, 1.75, 2.0]
     """
@@ -118,7 +118,7 @@ def jet_of_parts(
     """A jet of each stretch at the places that lie in it, or in intervals by their middles; at a break just after it.
 
     >>> from optlaws import smoothstep
-    >>> parts = smooth_parts(Piece(0.0, 2.0, 0.0, 1.0, smoothstep(2)), SmoothStretch)
+    >>> parts = smooth_parts(Piece(0.0, 2.0, 0.0, 1.0, smoothstep(2)), EnclosedStretch)
     >>> [float(term[0]) for term in jet_of_parts(parts, lambda part, at: part.jet(at, 1), np.array([1.0])).terms]
     [0.5, 0.75]
     """

@@ -15,7 +15,7 @@ from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.motion.piece import Piece, named_law
 from optlaws.motion.quantities import TURN, either, in_small_units, quantity
-from optlaws.motion.smooth_stretches import SmoothStretch, jet_of_parts, smooth_parts
+from optlaws.motion.smooth_stretches import EnclosedStretch, jet_of_parts, smooth_parts
 from optlaws.numbers import Array, Quantity, derivative, number_or_array, real_times
 from optlaws.numerics.interval import Interval, hull
 from optlaws.numerics.taylor import Jet
@@ -26,7 +26,7 @@ Direction = Literal["rise", "return"]
 DIRECTIONS: dict[Direction, float] = {"rise": 1.0, "return": -1.0}
 
 
-class CamStretch(SmoothStretch):
+class CamStretch(EnclosedStretch):
     """A smooth part of a motion over a range of the cam's angle, rad: `start`, `stop` and `duration` are angles."""
 
 

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import ClassVar
+from typing import Any, ClassVar
 
-from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.interlocks.enclosed_axis import EnclosedAxis, Way
 from optlaws.cycles.interlocks.interlock import Interlock, LeastClearance
 from optlaws.echo import shortened
@@ -84,17 +83,17 @@ class After(Interlock):
         """1 where the other axis is to be above, -1 where below."""
         return 1.0 if self.below is None else -1.0
 
-    def positions(self, cycles: Mapping[str, Cycle]) -> tuple[float, float]:
+    def positions(self, cycles: Mapping[str, Any]) -> tuple[float, float]:
         """Both positions in SI units."""
         first, second = self._checked_axes(cycles)
         level = self.above if self.below is None else self.below
         return self._position(self.position, first, self.axis), self._position(level, second, self.of, rest=True)
 
-    def check(self, cycles: Mapping[str, Cycle]) -> None:
+    def check(self, cycles: Mapping[str, Any]) -> None:
         """Refuse axes that are not there and positions that they do not pass."""
         self.positions(cycles)
 
-    def least_clearance(self, first: EnclosedAxis, second: EnclosedAxis) -> LeastClearance:
+    def _least_clearance(self, first: EnclosedAxis, second: EnclosedAxis) -> LeastClearance:
         """How far the other axis is beyond its position when this one passes, at the worst pass."""
         position = quantity(self.position, first.cycle.axis, "position")
         level = quantity(self.above if self.below is None else self.below, second.cycle.axis, "level")

@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeAlias
 
 import numpy as np
 
-from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.interlocks.enclosed_axis import EnclosedAxis, least
 from optlaws.cycles.interlocks.interlock import Interlock, LeastClearance
 from optlaws.echo import shortened
@@ -72,7 +71,7 @@ class Clearance(Interlock):
                 "clearance: give the least position, least=[('0 deg', '20 mm'), ...], or the most, not both"
             )
         if isinstance(self.given, str):
-            self._formula()
+            self.formula()
             if not isinstance(self.units, tuple) or len(self.units) != 2:
                 raise InputError("clearance: a formula needs the units of x and of its value, such as ('deg', 'mm')")
         elif not isinstance(self.given, tuple) or len(self.given) < 2 or not all(map(_is_pair, self.given)):
@@ -107,29 +106,14 @@ class Clearance(Interlock):
         (first, low), (last, high) = self.given[0], self.given[-1]
         return f"{self.axis} is {side} {low} at {first} to {high} at {last} of {self.over}"
 
-    def check(self, cycles: Mapping[str, Cycle]) -> None:
+    def check(self, cycles: Mapping[str, Any]) -> None:
         """Refuse axes that are not there and bounds of another kind."""
         first, second = self._checked_axes(cycles)
-        self.bound(first.axis, second.axis)
+        bound_of(self, first.axis, second.axis)
 
-    def bound(self, kind: str, over: str) -> Bound:
-        """The bound in SI units, where the axis is a "length" or an "angle" and the other one is of the kind `over`."""
-        where = f"interlock {self.label}"
-        if isinstance(self.given, str):
-            sizes = [
-                quantity(f"1 {unit}", axis, f"{where}: unit")
-                for unit, axis in zip(self.units or (), (over, kind), strict=True)
-            ]
-            return FormulaBound(self._formula(), sizes[0], sizes[1])
-        places = [quantity(place, over, f"{where}: position of {self.over}") for place, _ in self.given]
-        values = [quantity(value, kind, f"{where}: position of {self.axis}") for _, value in self.given]
-        if any(low >= high for low, high in pairwise(places)):
-            raise InputError(f"{where}: positions of {self.over} must increase, got {shortened(self.given)}")
-        return TableBound(tuple(places), tuple(values))
-
-    def least_clearance(self, first: EnclosedAxis, second: EnclosedAxis) -> LeastClearance:
+    def _least_clearance(self, first: EnclosedAxis, second: EnclosedAxis) -> LeastClearance:
         """How far the axis is from its bound where it is nearest."""
-        bound = self.bound(first.cycle.axis, second.cycle.axis)
+        bound = bound_of(self, first.cycle.axis, second.cycle.axis)
 
         def room(at: Interval, order: int) -> Jet:
             difference = first.jet(at, order) - bound.jet(second.jet(at, order))
@@ -139,7 +123,8 @@ class Clearance(Interlock):
         unit = unit_of(first.cycle.axis)
         return self._least(known.least, known.low, unit, known.least_at, first.duration, size=first.stroke)
 
-    def _formula(self) -> Formula:
+    def formula(self) -> Formula:
+        """The bound as a formula of x."""
         formula = read(self.given, names="x")
         if _has_table(formula):
             raise InputError("clearance: give a table as pairs, least=[('0 deg', '20 mm'), ...], not in a formula")
@@ -154,7 +139,7 @@ class TableBound:
     values: tuple[float, ...]
 
     def __call__(self, x: Array) -> Array:
-        """Values at places."""
+        """Values of the bound at places."""
         return np.interp(x, self.places, self.values)
 
     def jet(self, x: Jet) -> Jet:
@@ -176,7 +161,7 @@ class FormulaBound:
     scale: float
 
     def __call__(self, x: Array) -> Array:
-        """Values at places."""
+        """Values of the bound at places."""
         return np.asarray(evaluate(self.formula, {"x": np.asarray(x) / self.size}, NUMPY)) * self.scale + 0.0 * x
 
     def jet(self, x: Jet) -> Jet:
@@ -186,7 +171,23 @@ class FormulaBound:
         return value * Interval(np.array(self.scale), np.array(ROUNDOFF * self.scale))
 
 
-Bound = TableBound | FormulaBound
+PositionBound: TypeAlias = TableBound | FormulaBound
+
+
+def bound_of(rule: Clearance, kind: str, over: str) -> PositionBound:
+    """The bound in SI units, where the axis is a "length" or an "angle" and the other one is of the kind `over`."""
+    where = f"interlock {rule.label}"
+    if isinstance(rule.given, str):
+        sizes = [
+            quantity(f"1 {unit}", axis, f"{where}: unit")
+            for unit, axis in zip(rule.units or (), (over, kind), strict=True)
+        ]
+        return FormulaBound(rule.formula(), sizes[0], sizes[1])
+    places = [quantity(place, over, f"{where}: position of {rule.over}") for place, _ in rule.given]
+    values = [quantity(value, kind, f"{where}: position of {rule.axis}") for _, value in rule.given]
+    if any(low >= high for low, high in pairwise(places)):
+        raise InputError(f"{where}: positions of {rule.over} must increase, got {shortened(rule.given)}")
+    return TableBound(tuple(places), tuple(values))
 
 
 def _is_pair(value: Any) -> bool:  # noqa: ANN401 - whatever is given

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Literal, TypeAlias
+from typing import Any, Literal, Protocol, TypeAlias
 
 import numpy as np
 
-from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.specification.programme import Programme
 from optlaws.kept import kept_property
-from optlaws.motion.smooth_stretches import SmoothStretch, jet_of_parts, smooth_parts
+from optlaws.motion.piece import Piece
+from optlaws.motion.smooth_stretches import EnclosedStretch, jet_of_parts, smooth_parts
 from optlaws.numbers import Array
 from optlaws.numerics.branch_and_bound import Extremes, extremes
 from optlaws.numerics.interval import Interval, exact
@@ -22,17 +23,40 @@ Way: TypeAlias = Literal["up", "down"]
 _ROUNDS = 60
 
 
+class ClockedMotion(Protocol):
+    """What is to be known of a cycle: laws in their places over its duration, in SI units."""
+
+    @property
+    def axis(self) -> str:
+        """Whether positions are a "length" or an "angle"."""
+
+    @property
+    def duration(self) -> float:
+        """Of the cycle, in seconds."""
+
+    @property
+    def programme(self) -> Programme:
+        """The cycle as numbers."""
+
+    @property
+    def pieces(self) -> tuple[Piece, ...]:
+        """The laws in their places."""
+
+    def __call__(self, time: Any, nu: int = 0) -> Any:  # noqa: ANN401 - numbers or arrays
+        """The position at a time, or a derivative."""
+
+
 @dataclass(frozen=True, eq=False)
 class EnclosedAxis:
     """The position of an axis over the time of a cycle, in SI units, with enclosures of it and its derivatives.
 
-    >>> from optlaws import Return, Rise
+    >>> from optlaws import Cycle, Return, Rise
     >>> axis = EnclosedAxis(Cycle([Rise("40 mm", "0.1 s", law="cycloidal"), Return(law="cycloidal")], period="0.3 s"))
     >>> [round(0.5 * (low + high), 9) for low, high in axis.passes(0.02)]
     [0.05, 0.2]
     """
 
-    cycle: Cycle
+    cycle: ClockedMotion
 
     @property
     def duration(self) -> float:
@@ -40,9 +64,9 @@ class EnclosedAxis:
         return self.cycle.duration
 
     @kept_property
-    def stretches(self) -> tuple[SmoothStretch, ...]:
+    def stretches(self) -> tuple[EnclosedStretch, ...]:
         """Smooth parts, one after the other."""
-        return tuple(part for piece in self.cycle.pieces for part in smooth_parts(piece, SmoothStretch))
+        return tuple(part for piece in self.cycle.pieces for part in smooth_parts(piece, EnclosedStretch))
 
     @kept_property
     def breaks(self) -> tuple[float, ...]:

@@ -7,10 +7,9 @@ from dataclasses import dataclass, field
 from math import hypot, sqrt
 from typing import Any, ClassVar
 
-from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.interlocks.enclosed_axis import EnclosedAxis, least
 from optlaws.cycles.interlocks.interlock import Interlock, LeastClearance
-from optlaws.cycles.interlocks.polygon import Polygon
+from optlaws.cycles.interlocks.polygon import SimplePolygon
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.motion.piece import unit_of
@@ -77,28 +76,16 @@ class Forbidden(Interlock):
         """The condition in words."""
         return f"{self.axis} and {self.across} stay out of a polygon of {len(self.corners)} corners"
 
-    def check(self, cycles: Mapping[str, Cycle]) -> None:
+    def check(self, cycles: Mapping[str, Any]) -> None:
         """Refuse axes that are not there, corners of another kind, and sides that cross."""
         first, second = self._checked_axes(cycles)
-        self.polygon(first.axis, second.axis)
+        polygon_of(self, first.axis, second.axis)
 
-    def polygon(self, kind: str, across: str) -> Polygon:
-        """The polygon in SI units, where its axes are lengths or angles."""
-        where = f"interlock {self.label}"
-        corners = [
-            (quantity(x, kind, f"{where}: {self.axis}"), quantity(y, across, f"{where}: {self.across}"))
-            for x, y in self.corners
-        ]
-        try:
-            return Polygon.through(corners)
-        except InputError as error:
-            raise InputError(f"{where}: {error}") from None
-
-    def least_clearance(self, first: EnclosedAxis, second: EnclosedAxis) -> LeastClearance:
+    def _least_clearance(self, first: EnclosedAxis, second: EnclosedAxis) -> LeastClearance:
         """The distance of the path from the polygon where it is nearest; below 0 how deep the path enters it."""
         same = first.cycle.axis == second.cycle.axis
         sizes = (1.0, 1.0) if same else (first.stroke, second.stroke)
-        polygon = self.polygon(first.cycle.axis, second.cycle.axis).scaled(*sizes)
+        polygon = polygon_of(self, first.cycle.axis, second.cycle.axis).scaled(*sizes)
 
         def path(at: Interval, order: int) -> Pair:
             return first.jet(at, order) / sizes[0], second.jet(at, order) / sizes[1]
@@ -113,3 +100,16 @@ class Forbidden(Interlock):
             clearance, bound, time = sqrt(max(far.least, 0.0)), max(bound, sqrt(max(far.low, 0.0))), far.least_at
         unit = unit_of(first.cycle.axis) if same else "strokes"
         return self._least(clearance, bound, unit, time, first.duration, size=size)
+
+
+def polygon_of(rule: Forbidden, kind: str, across: str) -> SimplePolygon:
+    """The polygon in SI units, where its axes are lengths or angles."""
+    where = f"interlock {rule.label}"
+    corners = [
+        (quantity(x, kind, f"{where}: {rule.axis}"), quantity(y, across, f"{where}: {rule.across}"))
+        for x, y in rule.corners
+    ]
+    try:
+        return SimplePolygon.through(corners)
+    except InputError as error:
+        raise InputError(f"{where}: {error}") from None

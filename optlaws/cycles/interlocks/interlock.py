@@ -7,8 +7,7 @@ from collections.abc import Mapping
 from dataclasses import MISSING, dataclass, fields
 from typing import Any, ClassVar, Self
 
-from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.interlocks.enclosed_axis import EnclosedAxis
+from optlaws.cycles.interlocks.enclosed_axis import ClockedMotion, EnclosedAxis
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.files.reading import JsonText
@@ -86,7 +85,7 @@ class Interlock(JsonText):
     @property
     @abstractmethod
     def axes(self) -> tuple[str, str]:
-        """The names of its two axes."""
+        """The names of the two axes that it is of."""
 
     @property
     @abstractmethod
@@ -99,11 +98,16 @@ class Interlock(JsonText):
         return self.name or self.words
 
     @abstractmethod
-    def check(self, cycles: Mapping[str, Cycle]) -> None:
+    def check(self, cycles: Mapping[str, Any]) -> None:
         """Refuse what is wrong before any law is looked for."""
 
+    def least_clearance(self, cycles: Mapping[str, Any]) -> LeastClearance:
+        """The least clearance over the whole cycle that cycles by the names of their axes leave it."""
+        first, second = (EnclosedAxis(cycles[name]) for name in self.axes)
+        return self._least_clearance(first, second)
+
     @abstractmethod
-    def least_clearance(self, first: EnclosedAxis, second: EnclosedAxis) -> LeastClearance:
+    def _least_clearance(self, first: EnclosedAxis, second: EnclosedAxis) -> LeastClearance:
         """The least clearance over the whole cycle."""
 
     def to_dict(self) -> dict[str, Any]:
@@ -128,7 +132,7 @@ class Interlock(JsonText):
                 raise InputError(f"{cls.kind}: {name} is missing")
         return cls(**given)
 
-    def _checked_axes(self, cycles: Mapping[str, Cycle]) -> tuple[Cycle, Cycle]:
+    def _checked_axes(self, cycles: Mapping[str, Any]) -> tuple[ClockedMotion, ClockedMotion]:
         for name in self.axes:
             if name not in cycles:
                 raise InputError(f"interlock {self.label}: {unknown_key(name, tuple(cycles), 'axis')}")
@@ -136,7 +140,7 @@ class Interlock(JsonText):
             raise InputError(f"interlock {self.label}: it is of two axes, and both are {self.axes[0]}")
         return cycles[self.axes[0]], cycles[self.axes[1]]
 
-    def _position(self, value: Any, cycle: Cycle, axis: str, *, rest: bool = False) -> float:  # noqa: ANN401
+    def _position(self, value: Any, cycle: ClockedMotion, axis: str, *, rest: bool = False) -> float:  # noqa: ANN401
         """A position within the stroke of an axis, in SI units; one at which it rests only where that is allowed."""
         position = quantity(value, cycle.axis, f"interlock {self.label}: position of {axis}")
         joints = joint_positions(cycle)
@@ -144,7 +148,7 @@ class Interlock(JsonText):
         slack = INTERLOCK * (high - low)
         shown = in_small_units(position, cycle.axis)
         far = not low - slack <= position <= high + slack
-        if far and not any(getattr(segment, "via", None) for segment in cycle.segments):
+        if far and not any(getattr(stretch.given, "via", None) for stretch in cycle.programme.stretches):
             ends = f"{in_small_units(low, cycle.axis)} to {in_small_units(high, cycle.axis)}"
             raise InputError(f"interlock {self.label}: {axis} goes from {ends} and never passes {shown}")
         if not rest and any(abs(position - joint) <= slack for joint in joints):
@@ -165,7 +169,7 @@ def either_position(value: Any, name: str) -> tuple[str, float]:  # noqa: ANN401
     return either(value, ("length", "angle"), name)
 
 
-def joint_positions(cycle: Cycle) -> list[float]:
+def joint_positions(cycle: ClockedMotion) -> list[float]:
     """Positions at which segments meet, both ends included, in SI units."""
     positions = [cycle.programme.start]
     for stretch in cycle.programme.stretches:

@@ -22,10 +22,10 @@ Depth: TypeAlias = Callable[[Any, Any], Any]
 
 
 @dataclass(frozen=True)
-class Polygon:
+class SimplePolygon:
     """A simple polygon by its corners, counterclockwise; closed by the side from the last to the first.
 
-    >>> notched = Polygon.through([(0, 0), (4, 0), (4, 4), (2, 1), (0, 4)])
+    >>> notched = SimplePolygon.through([(0, 0), (4, 0), (4, 4), (2, 1), (0, 4)])
     >>> [bool(notched.outside(*point) > 0.0) for point in [(2.0, 2.0), (3.5, 2.0), (2.0, 0.5), (5.0, 2.0)]]
     [True, False, False, True]
     """
@@ -33,7 +33,7 @@ class Polygon:
     corners: tuple[Corner, ...]
 
     @classmethod
-    def through(cls, corners: Sequence[Corner]) -> Polygon:
+    def through(cls, corners: Sequence[Corner]) -> SimplePolygon:
         """The polygon through corners in either order; what has no area or crosses itself is refused."""
         points = _bends(corners)
         sides = _sides(points)
@@ -52,9 +52,9 @@ class Polygon:
         """Its sides, each from corner to corner."""
         return _sides(self.corners)
 
-    def scaled(self, x: float, y: float) -> Polygon:
+    def scaled(self, x: float, y: float) -> SimplePolygon:
         """The polygon with positions divided."""
-        return Polygon(tuple((across / x, up / y) for across, up in self.corners))
+        return SimplePolygon(tuple((across / x, up / y) for across, up in self.corners))
 
     @property
     def outside(self) -> Depth:

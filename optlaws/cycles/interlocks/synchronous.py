@@ -6,8 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
-from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.interlocks.enclosed_axis import EnclosedAxis, least
+from optlaws.cycles.interlocks.enclosed_axis import ClockedMotion, EnclosedAxis, least
 from optlaws.cycles.interlocks.interlock import Interlock, LeastClearance
 from optlaws.cycles.specification.programme import AXES, time_of
 from optlaws.echo import shortened
@@ -69,7 +68,7 @@ class Synchronous(Interlock):
 
     @property
     def axes(self) -> tuple[str, str]:
-        """The two axes."""
+        """The two axes whose velocities are compared."""
         return self.axis, self.to
 
     @property
@@ -85,7 +84,7 @@ class Synchronous(Interlock):
             raise InputError(f"interlock {self.label}: during is two places of one cycle, the earlier one first")
         return start, stop
 
-    def check(self, cycles: Mapping[str, Cycle]) -> None:
+    def check(self, cycles: Mapping[str, Any]) -> None:
         """Refuse axes that are not there or of two kinds, and a window that is none."""
         first, second = self._checked_axes(cycles)
         if first.axis != second.axis:
@@ -93,7 +92,7 @@ class Synchronous(Interlock):
         self.window(first.duration)
         self._tolerance(first)
 
-    def least_clearance(self, first: EnclosedAxis, second: EnclosedAxis) -> LeastClearance:
+    def _least_clearance(self, first: EnclosedAxis, second: EnclosedAxis) -> LeastClearance:
         """The tolerance less the greatest difference of the velocities."""
         window, tolerance = self.window(first.duration), self._tolerance(first.cycle)
 
@@ -106,7 +105,7 @@ class Synchronous(Interlock):
         unit = unit_of(first.cycle.axis, 1)
         return self._least(tolerance - high, tolerance - known.bound, unit, time, first.duration, size=tolerance)
 
-    def _tolerance(self, cycle: Cycle) -> float:
+    def _tolerance(self, cycle: ClockedMotion) -> float:
         value = quantity(self.within, AXES[cycle.axis][1], f"interlock {self.label}: within")
         if value <= 0.0:
             raise InputError(f"interlock {self.label}: within must be above 0, got {shortened(self.within)}")

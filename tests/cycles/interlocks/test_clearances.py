@@ -21,7 +21,7 @@ from optlaws import (
     Rise,
     Synchronous,
 )
-from tests.internals.cycles import Polygon
+from tests.internals.cycles import SimplePolygon
 
 X = [Dwell("0.1 s"), Rise("300 mm", "0.3 s", law="cycloidal"), Dwell("0.2 s"), Return(duration="0.3 s"), Dwell()]
 Z = [
@@ -75,7 +75,7 @@ def test_random_polygons_are_outside_where_their_function_is_positive() -> None:
             continue
         corners = random.uniform(0.2, 1.0, (len(angles), 1)) * np.column_stack([np.cos(angles), np.sin(angles)])
         points = random.uniform(-1.0, 1.0, (400, 2))
-        polygon = Polygon.through([(float(x), float(y)) for x, y in corners])
+        polygon = SimplePolygon.through([(float(x), float(y)) for x, y in corners])
         depth, far = polygon.outside(*points.T), np.sqrt(polygon.square(*points.T))
         assert np.array_equal(depth < 0.0, Path(corners).contains_points(points))
         assert (np.abs(depth) <= 2.0 * far.max()).all()
@@ -171,7 +171,8 @@ AFTER = {"axis": "x", "position": "100 mm", "of": "z", "above": "30 mm"}
     [
         (lambda: After("x", "1 mm", of="z"), "above='31 mm', or below="),
         (lambda: After("x", "1 mm", of="z", above="1 mm", below="2 mm"), "one of them"),
-        (lambda: After("x", "1 mm", of="z", above="1 mm", way="left"), "way must be 'up' or 'down'"),
+        (lambda: After("x", "1 mm", of="z", above="1 mm", way="left"),  # type: ignore[arg-type]
+         "way must be 'up' or 'down'"),
         (lambda: After("", "1 mm", of="z", above="1 mm"), "an axis is a name"),
         (lambda: least(After("y", "1 mm", of="z", above="1 mm")), "unknown axis 'y'"),
         (lambda: least(After("x", "1 mm", of="x", above="1 mm")), "both are x"),

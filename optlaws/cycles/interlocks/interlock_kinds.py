@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
-from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.interlocks.after import After
 from optlaws.cycles.interlocks.clearance import Clearance
-from optlaws.cycles.interlocks.enclosed_axis import EnclosedAxis
 from optlaws.cycles.interlocks.forbidden_region import Forbidden
-from optlaws.cycles.interlocks.interlock import Interlock, LeastClearance
+from optlaws.cycles.interlocks.interlock import Interlock
 from optlaws.cycles.interlocks.synchronous import Synchronous
 from optlaws.echo import shortened
 from optlaws.errors import InputError
@@ -31,7 +29,7 @@ def read_interlock(data: Any) -> Interlock:  # noqa: ANN401 - it is checked here
     return KINDS[kind].from_dict(data)
 
 
-def checked(given: Any, cycles: Mapping[str, Cycle]) -> tuple[Interlock, ...]:  # noqa: ANN401 - it is checked here
+def checked(given: Any, cycles: Mapping[str, Any]) -> tuple[Interlock, ...]:  # noqa: ANN401 - it is checked here
     """Interlocks of a machine, as values or plain data, each fit for its axes."""
     if not isinstance(given, list | tuple):
         raise InputError(f"interlocks are a list such as [After('table', '5 deg', of='die', above='31 mm')], got "
@@ -40,9 +38,3 @@ def checked(given: Any, cycles: Mapping[str, Cycle]) -> tuple[Interlock, ...]:  
     for interlock in interlocks:
         interlock.check(cycles)
     return interlocks
-
-
-def least_clearances(interlocks: Sequence[Interlock], cycles: Mapping[str, Cycle]) -> tuple[LeastClearance, ...]:
-    """The least clearance that cycles leave each interlock."""
-    enclosed = {name: EnclosedAxis(cycles[name]) for each in interlocks for name in each.axes}
-    return tuple(each.least_clearance(*(enclosed[name] for name in each.axes)) for each in interlocks)
