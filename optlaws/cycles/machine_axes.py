@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Unpack
+from typing import Any, Literal, TypeAlias, Unpack
 
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.interchange import problem_file
@@ -22,6 +22,9 @@ from optlaws.numbers import Quantity
 from optlaws.suggest import keywords_of, unknown_key
 from optlaws.synthesis.status import Status
 from optlaws.tolerances import CLOSURE
+
+#: what pictures of axes show
+AxesPicture: TypeAlias = Literal["motion", "timing", "plane", "clearance"]
 
 FORMAT = "optlaws axes 1"
 
@@ -128,7 +131,7 @@ class Axes(JsonText, Mapping[str, Cycle]):
         >>> [(least.status, least.text) for least in machine.clearances]
         [('broken', '-0.0601776 deg at 66.1074 deg, -4.79101 ms early')]
         """
-        return tuple(interlock.least_clearance(self._cycles) for interlock in self._interlocks)
+        return tuple(interlock.least_clearance(self._cycles) for interlock in self.rules)
 
     @property
     def broken(self) -> tuple[LeastClearance, ...]:
@@ -176,7 +179,7 @@ class Axes(JsonText, Mapping[str, Cycle]):
     def to_dict(self) -> dict[str, Any]:
         """The entries of the axes as they were given, plain and JSON-able."""
         axes = {name: cycle.to_dict() for name, cycle in self.items()}
-        interlocks = [interlock.to_dict() for interlock in self._interlocks]
+        interlocks = [interlock.to_dict() for interlock in self.rules]
         return {"format": FORMAT, "axes": axes} | ({"interlocks": interlocks} if interlocks else {})
 
     @classmethod
@@ -208,7 +211,7 @@ class Axes(JsonText, Mapping[str, Cycle]):
         period = "0.30000000000000004 s"
         ...
         """
-        interlocks = [interlock.to_dict() for interlock in self._interlocks]
+        interlocks = [interlock.to_dict() for interlock in self.rules]
         return problem_file(title, {"period": f"{self.duration!r} s"}, self, {"interlocks": interlocks})
 
     def to_pandas(self) -> Any:  # noqa: ANN401 - pandas is imported where it is asked for
@@ -220,16 +223,55 @@ class Axes(JsonText, Mapping[str, Cycle]):
         frames = {name: cycle.to_pandas() for name, cycle in self.items()}
         return pd.concat(frames, names=["axis", "segment number"])
 
-    def plot(self, ax: Any = None, *, nu: int = 0, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
-        """Draw all axes over one time, one below the other, with their segments, by matplotlib; return the artists.
+    def plot(
+        self,
+        ax: Any = None,  # noqa: ANN401 - matplotlib's
+        *,
+        what: AxesPicture = "motion",
+        nu: int = 0,
+        interlock: int | str = 0,
+        **style: Any,
+    ) -> list[Any]:
+        """Draw all axes by matplotlib, and return the artists.
 
-        `nu` is what is drawn: position (0), velocity, acceleration or jerk (3). `ax` are as many axes of matplotlib, or
-        one for all, where every curve is divided by its peak, else an `InputError`; a new figure unless given. `style`
-        is what `Axes.plot` of matplotlib takes.
+        Parameters
+        ----------
+        ax
+            Axes of matplotlib, else of a new figure. Motions are drawn into as many as there are axes, or into one,
+            where every curve is divided by its peak; clearances into as many as there are interlocks.
+        what
+            "motion": all axes over one time, one below the other. "timing": the timing diagram, a bar for each move,
+            with an arrow for each `After`. "plane": the path in the plane of two positions, with what is forbidden.
+            "clearance": the clearance of every interlock over time.
+        nu
+            Of motions: position (0), velocity, acceleration or jerk (3).
+        interlock
+            Of a plane: the number of an interlock or its name; its axes are drawn, with all that is forbidden to them.
+        style
+            What `Axes.plot` of matplotlib takes.
+
+        Raises
+        ------
+        InputError
+            If `ax` are not as many as are drawn, or an interlock is not there.
+
+        Examples
+        --------
+        >>> from optlaws import After, Dwell, Return, Rise
+        >>> table = {"segments": [Rise("45 deg", "0.4 s", law="cycloidal"), Dwell()], "advance": "45 deg"}
+        >>> head = [Dwell("0.3 s"), Rise("250 mm", "0.2 s", law="cycloidal"), Dwell("1.2 s"), Return(law="cycloidal")]
+        >>> rule = After("head", "50 mm", of="table", above="44 deg", way="up")
+        >>> machine = Axes({"table": table, "head": head}, period="2 s", interlocks=[rule])
+        >>> [label.get_text() for label in machine.plot(what="timing")[0].axes.get_yticklabels()]
+        ['table', 'head']
         """
-        from optlaws.plots.cycle import draw_axes
+        if what == "motion":
+            from optlaws.plots.cycle import draw_axes
 
-        return draw_axes(self, ax, nu=nu, **style)
+            return draw_axes(self, ax, nu=nu, **style)
+        from optlaws.plots.interlocks import draw_interlocked
+
+        return draw_interlocked(self, self.rules, ax, what, interlock, style)
 
     def __repr__(self) -> str:
         shown = {name: ", ".join(segment.label for segment in cycle.segments) for name, cycle in self.items()}
@@ -242,7 +284,8 @@ class Axes(JsonText, Mapping[str, Cycle]):
         return page("Axes", *(Html(f"<h4>{name}</h4>{cycle._repr_html_()}") for name, cycle in self.items()))
 
     @property
-    def _interlocks(self) -> tuple[Interlock, ...]:
+    def rules(self) -> tuple[Interlock, ...]:
+        """The interlocks as values."""
         return self.interlocks  # type: ignore[return-value] # values since the axes were checked
 
     @kept_property

@@ -10,6 +10,8 @@ import msgspec
 import numpy as np
 
 from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.interlocks.interlock import SMALL_UNITS, LeastClearance
+from optlaws.cycles.machine_axes import Axes
 from optlaws.cycles.summary import drive_rows, joint_rows, proof_rows
 from optlaws.errors import InputError, located
 from optlaws.exports.export import Export, export_cycle
@@ -19,6 +21,7 @@ from optlaws.files import tables, writing
 from optlaws.jobs.cycle_entries import CycleProblemFile, ExportEntries, read
 from optlaws.motion.quantities import QUANTITIES
 from optlaws.plots.cycle import UNITS, axes_figure, cycle_figure
+from optlaws.plots.interlocks import clearance_figure, timing_figure
 from optlaws.results import Page, Results
 from optlaws.tolerances import CYCLE_ROUNDING
 
@@ -27,6 +30,8 @@ Exports = dict[str, dict[str, Export]]
 
 #: what the picture of all axes is called
 TOGETHER = "axes"
+#: the pictures of interlocked axes
+TIMING, CLEARANCES = "timing", "clearances"
 _PEAKS = ("peak velocity", "peak acceleration", "peak jerk")
 _EXPORT_HEADINGS = ("file", "format", "points", *_PEAKS, "greatest deviation, unit")
 
@@ -34,9 +39,10 @@ _EXPORT_HEADINGS = ("file", "format", "points", *_PEAKS, "greatest deviation, un
 def exports_of(spec: CycleProblemFile, cycles: Mapping[str, Cycle], file: Path) -> Exports:
     """The exports that the axes name, made but not yet written."""
     exports: Exports = {}
-    if len(spec.axis) > 1 and TOGETHER in {plain_name(axis.name) for axis in spec.axis}:
-        raise InputError(f"{file}: an axis is called {TOGETHER}, as the picture of all is: give it another name")
-    taken = {"cycle.md", "cycle.json", f"{TOGETHER}.svg", f"{TOGETHER}.png"}
+    pictures = {TOGETHER, TIMING, CLEARANCES}
+    for name in sorted(pictures & {plain_name(axis.name) for axis in spec.axis}) if len(spec.axis) > 1 else ():
+        raise InputError(f"{file}: an axis is called {name}, as the picture of all is: give it another name")
+    taken = {"cycle.md", "cycle.json"} | {f"{name}.{ending}" for name in pictures for ending in ("svg", "png")}
     taken |= {f"{plain_name(axis.name)}{ending}" for axis in spec.axis for ending in (".csv", ".svg", ".png")}
     names = variable_names(axis.name for axis in spec.axis)
     for axis in spec.axis:
@@ -80,6 +86,8 @@ def _export_row(name: str, export: Export) -> list[tables.Cell]:
     return [name, export.format.name, export.points, *shown, deviation]
 
 
+_CLEARANCE_HEADINGS = ("interlock", "status", "least clearance", "proven", "unit", "at, deg", "early by, ms")
+_INTERLOCKS = "What is clear is proven over the whole cycle: nowhere is the clearance below the proven one."
 _SHARE = 360.0
 
 
@@ -89,7 +97,8 @@ def run(results: Results) -> None:
     exports = exports_of(spec, cycles, results.file)
     results.title = spec.title
     results.text("cycle.md", str(page(spec, cycles, exports)))
-    results.data("cycle.json", {"unit": "SI", "axes": {name: _stored(cycle) for name, cycle in cycles.items()}})
+    facts = {"unit": "SI", "axes": {name: _stored(cycle) for name, cycle in cycles.items()}}
+    results.data("cycle.json", facts | _of_interlocks(cycles))
     for name, cycle in cycles.items():
         results.text(f"{plain_name(name)}.csv", table_of_motion(cycle, spec.rows, results.about))
         results.picture(plain_name(name), cycle_figure(cycle, f"{spec.title}: {name}"))
@@ -97,6 +106,9 @@ def run(results: Results) -> None:
             results.add(file, export.write)
     if len(cycles) > 1:
         results.picture(TOGETHER, axes_figure(cycles, spec.title))
+    if cycles.rules:
+        results.picture(TIMING, timing_figure(cycles, cycles.rules, spec.title))
+        results.picture(CLEARANCES, clearance_figure(cycles, cycles.rules, spec.title))
 
 
 def table_of_motion(cycle: Cycle, rows: int, about: str) -> str:
@@ -106,15 +118,20 @@ def table_of_motion(cycle: Cycle, rows: int, about: str) -> str:
 
 def answer(entries: Mapping[str, Any], file: Path) -> dict[str, Any]:
     """The data of the cycles of a file for programs, in SI units, by the names of the axes."""
-    return {name: _facts(cycle) for name, cycle in read(entries, file)[1].items()}
+    _, axes = read(entries, file)
+    return {name: _facts(cycle) for name, cycle in axes.items()} | _of_interlocks(axes)
 
 
-def page(spec: CycleProblemFile, cycles: Mapping[str, Cycle], exports: Exports) -> Page:
+def page(spec: CycleProblemFile, axes: Axes, exports: Exports) -> Page:
     """The page of results."""
     result = Page(spec.title).text(spec.text)
-    if len(cycles) > 1:
+    if len(axes) > 1:
         result.figure(TOGETHER, f"{spec.title}: all axes over one time")
-    for name, cycle in cycles.items():
+    if axes.rules:
+        result.figure(TIMING, f"{spec.title}: timing diagram")
+        result.heading("Interlocks").figure(CLEARANCES, f"{spec.title}: clearance of the interlocks")
+        result.text(_INTERLOCKS).table(_CLEARANCE_HEADINGS, [_clearance_row(least) for least in axes.clearances])
+    for name, cycle in axes.items():
         result.heading(name).figure(plain_name(name), f"{spec.title}: {name}")
         result.table(_headings(cycle), [*_segment_rows(cycle), _whole_row(cycle)], digits=7)
         rows = [*proof_rows(cycle), *drive_rows(cycle), *joint_rows(cycle)]
@@ -123,6 +140,17 @@ def page(spec: CycleProblemFile, cycles: Mapping[str, Cycle], exports: Exports) 
             result.text("What controllers will run: peaks of the exported files as interpolated, over the law's.")
             result.table(_EXPORT_HEADINGS, [_export_row(*item) for item in exports[name].items()], digits=7)
     return result
+
+
+def _of_interlocks(axes: Axes) -> dict[str, Any]:
+    """The least clearances of interlocks, where there are any."""
+    return {"interlocks": [least.to_row() for least in axes.clearances]} if axes.rules else {}
+
+
+def _clearance_row(least: LeastClearance) -> list[tables.Cell]:
+    unit, size = SMALL_UNITS.get(least.unit, (least.unit, 1.0))
+    margin = None if least.margin is None else 1e3 * least.margin
+    return [least.interlock.label, least.status, size * least.clearance, size * least.bound, unit, least.angle, margin]
 
 
 def _headings(cycle: Cycle) -> list[str]:

@@ -10,8 +10,9 @@ import msgspec
 
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.interchange import CLOCK, ENTRIES, KINDS
+from optlaws.cycles.machine_axes import Axes
 from optlaws.cycles.specification.segments import CycleSegment
-from optlaws.errors import InfeasibleProblem, InputError
+from optlaws.errors import InfeasibleProblem, InputError, located
 from optlaws.files.problem_file import Text, convert
 from optlaws.jobs.job import JobFile
 
@@ -83,22 +84,46 @@ class AxisEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     degree: int = 9
 
 
+class InterlockEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """A condition on two axes; which entries it has beside the axis depends on its kind."""
+
+    kind: Literal["after", "clearance", "forbidden", "synchronous"]
+    axis: Text
+    name: Text | None = None
+    position: str | None = None
+    of: str | None = None
+    above: str | None = None
+    below: str | None = None
+    way: str | None = None
+    over: str | None = None
+    least: str | list[list[str]] | None = None
+    most: str | list[list[str]] | None = None
+    units: list[str] | None = None
+    across: str | None = None
+    corners: list[list[str]] | None = None
+    to: str | None = None
+    during: list[str] | None = None
+    within: str | None = None
+    ratio: float | None = None
+
+
 class CycleProblemFile(JobFile, kw_only=True, forbid_unknown_fields=True):
     """The problem file of a cycle with its axes."""
 
     axis: Annotated[list[AxisEntries], msgspec.Meta(min_length=1, max_length=8)]
+    interlocks: Annotated[list[InterlockEntries], msgspec.Meta(max_length=50)] = []
     speed: str | None = None
     period: str | None = None
     rows: Annotated[int, msgspec.Meta(ge=2, le=100_000)] = 361
 
 
-def read(data: Mapping[str, Any], file: Path) -> tuple[CycleProblemFile, dict[str, Cycle]]:
-    """The entries of a file, and the cycles of its axes by their names.
+def read(data: Mapping[str, Any], file: Path) -> tuple[CycleProblemFile, Axes]:
+    """The entries of a file, and its axes, which are cycles by their names.
 
     Raises
     ------
     InputError
-        If an entry is unknown or wrong; the error names the file, the axis and the segment.
+        If an entry is unknown or wrong; the error names the file, the axis and the segment, or the interlock.
     """
     spec = convert(data, CycleProblemFile, file)
     cycles: dict[str, Cycle] = {}
@@ -109,7 +134,10 @@ def read(data: Mapping[str, Any], file: Path) -> tuple[CycleProblemFile, dict[st
             cycles[axis.name] = cycle_of(axis, spec.speed, spec.period)
         except (InputError, InfeasibleProblem) as error:
             raise type(error)(f"{file}: axis {axis.name}: {error}") from None
-    return spec, cycles
+    if len(cycles) > 1 and spec.interlocks and "interlocks" in cycles:
+        raise InputError(f"{file}: an axis is called interlocks, as what is known of them is: give it another name")
+    with located(str(file)):
+        return spec, Axes(cycles, interlocks=[_given(entries) for entries in spec.interlocks])
 
 
 def cycle_of(axis: AxisEntries, speed: str | None, period: str | None) -> Cycle:

@@ -6,13 +6,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
+import numpy as np
+
 from optlaws.cycles.interlocks.enclosed_axis import EnclosedAxis, Way
 from optlaws.cycles.interlocks.interlock import Interlock, LeastClearance
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.motion.piece import unit_of
 from optlaws.motion.quantities import quantity
-from optlaws.numbers import Quantity
+from optlaws.numbers import Array, Quantity
 
 
 @dataclass(frozen=True)
@@ -92,6 +94,25 @@ class After(Interlock):
     def check(self, cycles: Mapping[str, Any]) -> None:
         """Refuse axes that are not there and positions that they do not pass."""
         self.positions(cycles)
+
+    def room(self, cycles: Mapping[str, Any], times: Array) -> Array:
+        """How far the other axis is beyond its position."""
+        _, level = self.positions(cycles)
+        return np.asarray(self.sign * (cycles[self.of](times) - level))
+
+    def events(self, cycles: Mapping[str, Any]) -> list[tuple[float, float | None]]:
+        """When the axis passes its position, each time with when the other one came beyond its own, in seconds."""
+        position, level = self.positions(cycles)
+        first, second = (EnclosedAxis(cycles[name]) for name in self.axes)
+        entering: Way = "up" if self.sign > 0.0 else "down"
+        entries, pairs = second.entries(level, entering), []
+        for start, stop in first.passes(position, self.way):
+            time = 0.5 * (start + stop)
+            before = [entry for entry in entries if entry <= time] or entries
+            broken = self.sign * (float(second.cycle(time)) - level) < 0.0
+            after = [entry for entry in entries if entry > time]
+            pairs.append((time, after[0] if broken and after else max(before, default=None)))
+        return pairs
 
     def _least_clearance(self, first: EnclosedAxis, second: EnclosedAxis) -> LeastClearance:
         """How far the other axis is beyond its position when this one passes, at the worst pass."""

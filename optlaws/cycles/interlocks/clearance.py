@@ -111,6 +111,12 @@ class Clearance(Interlock):
         first, second = self._checked_axes(cycles)
         bound_of(self, first.axis, second.axis)
 
+    def room(self, cycles: Mapping[str, Any], times: Array) -> Array:
+        """How far the axis is from its bound."""
+        first, second = (cycles[name] for name in self.axes)
+        bound = bound_of(self, first.axis, second.axis)
+        return np.asarray(self.sign * (first(times) - bound(second(times))))
+
     def _least_clearance(self, first: EnclosedAxis, second: EnclosedAxis) -> LeastClearance:
         """How far the axis is from its bound where it is nearest."""
         bound = bound_of(self, first.cycle.axis, second.cycle.axis)

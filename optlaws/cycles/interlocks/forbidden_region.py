@@ -7,6 +7,8 @@ from dataclasses import dataclass, field
 from math import hypot, sqrt
 from typing import Any, ClassVar
 
+import numpy as np
+
 from optlaws.cycles.interlocks.enclosed_axis import EnclosedAxis, least
 from optlaws.cycles.interlocks.interlock import Interlock, LeastClearance
 from optlaws.cycles.interlocks.polygon import SimplePolygon
@@ -14,6 +16,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.motion.piece import unit_of
 from optlaws.motion.quantities import quantity
+from optlaws.numbers import Array
 from optlaws.numerics.interval import Interval
 from optlaws.numerics.taylor import Pair
 from optlaws.tolerances import CLEARANCE_SHARE, INTERLOCK, SQUARED_CLEARANCE
@@ -81,10 +84,19 @@ class Forbidden(Interlock):
         first, second = self._checked_axes(cycles)
         polygon_of(self, first.axis, second.axis)
 
+    def room(self, cycles: Mapping[str, Any], times: Array) -> Array:
+        """The distance of the path from the polygon, below 0 within it."""
+        enclosed = [EnclosedAxis(cycles[name]) for name in self.axes]
+        sizes = _sizes(*enclosed)
+        polygon = polygon_of(self, *(axis.cycle.axis for axis in enclosed)).scaled(*sizes)
+        x, y = (axis.cycle(times) / size for axis, size in zip(enclosed, sizes, strict=True))
+        depth = polygon.outside(x, y)
+        return np.asarray(np.where(depth > 0.0, np.sqrt(polygon.square(x, y)), depth))
+
     def _least_clearance(self, first: EnclosedAxis, second: EnclosedAxis) -> LeastClearance:
         """The distance of the path from the polygon where it is nearest; below 0 how deep the path enters it."""
         same = first.cycle.axis == second.cycle.axis
-        sizes = (1.0, 1.0) if same else (first.stroke, second.stroke)
+        sizes = _sizes(first, second)
         polygon = polygon_of(self, first.cycle.axis, second.cycle.axis).scaled(*sizes)
 
         def path(at: Interval, order: int) -> Pair:
@@ -100,6 +112,11 @@ class Forbidden(Interlock):
             clearance, bound, time = sqrt(max(far.least, 0.0)), max(bound, sqrt(max(far.low, 0.0))), far.least_at
         unit = unit_of(first.cycle.axis) if same else "strokes"
         return self._least(clearance, bound, unit, time, first.duration, size=size)
+
+
+def _sizes(first: EnclosedAxis, second: EnclosedAxis) -> tuple[float, float]:
+    """By what positions are divided: by their strokes where one is a length and the other an angle."""
+    return (1.0, 1.0) if first.cycle.axis == second.cycle.axis else (first.stroke, second.stroke)
 
 
 def polygon_of(rule: Forbidden, kind: str, across: str) -> SimplePolygon:

@@ -11,9 +11,18 @@ from optlaws.cycles.interlocks.enclosed_axis import ClockedMotion, EnclosedAxis
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.files.reading import JsonText
-from optlaws.motion.quantities import either, in_small_units, quantity, written
+from optlaws.motion.quantities import TURN, either, in_small_units, quantity, written
+from optlaws.numbers import Array
 from optlaws.suggest import unknown_key
-from optlaws.tolerances import INTERLOCK
+from optlaws.tolerances import CYCLE_ROUNDING, INTERLOCK
+
+#: small units by those of SI, and how many of them make one
+SMALL_UNITS = {
+    "m": ("mm", 1e3),
+    "rad": ("deg", 360.0 / TURN),
+    "m/s": ("mm/s", 1e3),
+    "rad/s": ("deg/s", 360.0 / TURN),
+}
 
 
 @dataclass(frozen=True)
@@ -59,11 +68,15 @@ class LeastClearance:
     margin: float | None
     status: str
 
+    def to_row(self) -> dict[str, Any]:
+        """Its values by their names, plain and JSON-able, for tables and programs."""
+        names = ("status", "clearance", "bound", "unit", "time", "angle", "margin")
+        return {"interlock": self.interlock.label} | {name: getattr(self, name) for name in names}
+
     @property
     def text(self) -> str:
         """It in words, in millimetres or degrees."""
-        small = {"m": 1e3, "rad": 57.29577951308232, "m/s": 1e3, "rad/s": 57.29577951308232}.get(self.unit, 1.0)
-        unit = {"m": "mm", "rad": "deg", "m/s": "mm/s", "rad/s": "deg/s"}.get(self.unit, self.unit)
+        unit, small = SMALL_UNITS.get(self.unit, (self.unit, 1.0))
         early = "" if self.margin is None else f", {1e3 * self.margin:.6g} ms early"
         return f"{small * self.clearance:.6g} {unit} at {self.angle:.6g} deg{early}"
 
@@ -105,6 +118,10 @@ class Interlock(JsonText):
         """The least clearance over the whole cycle that cycles by the names of their axes leave it."""
         first, second = (EnclosedAxis(cycles[name]) for name in self.axes)
         return self._least_clearance(first, second)
+
+    @abstractmethod
+    def room(self, cycles: Mapping[str, Any], times: Array) -> Array:
+        """The clearance at times in seconds, in SI units, to draw; not a number where the interlock says nothing."""
 
     @abstractmethod
     def _least_clearance(self, first: EnclosedAxis, second: EnclosedAxis) -> LeastClearance:
@@ -160,6 +177,7 @@ class Interlock(JsonText):
         margin: float | None = None,
     ) -> LeastClearance:  # fmt: skip
         slack = INTERLOCK * size
+        clearance = 0.0 if abs(clearance) <= CYCLE_ROUNDING * size else clearance
         status = "clear" if bound >= -slack else "broken" if clearance < -slack else "open"
         return LeastClearance(self, clearance, bound, unit, time, 360.0 * time / period, margin, status)
 

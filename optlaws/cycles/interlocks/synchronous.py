@@ -6,6 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
+import numpy as np
+
 from optlaws.cycles.interlocks.enclosed_axis import ClockedMotion, EnclosedAxis, least
 from optlaws.cycles.interlocks.interlock import Interlock, LeastClearance
 from optlaws.cycles.specification.programme import AXES, time_of
@@ -13,7 +15,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.motion.piece import unit_of
 from optlaws.motion.quantities import quantity
-from optlaws.numbers import Quantity, finite
+from optlaws.numbers import Array, Quantity, finite
 from optlaws.numerics.interval import Interval
 from optlaws.numerics.taylor import Jet
 from optlaws.tolerances import CLEARANCE_SHARE
@@ -91,6 +93,13 @@ class Synchronous(Interlock):
             raise InputError(f"interlock {self.label}: one axis moves by lengths, the other by angles")
         self.window(first.duration)
         self._tolerance(first)
+
+    def room(self, cycles: Mapping[str, Any], times: Array) -> Array:
+        """The tolerance less the difference of the velocities, in the window."""
+        first, second = (cycles[name] for name in self.axes)
+        start, stop = self.window(first.duration)
+        difference = np.abs(first(times, 1) - self.ratio * second(times, 1))
+        return np.where((times >= start) & (times <= stop), self._tolerance(first) - difference, np.nan)
 
     def _least_clearance(self, first: EnclosedAxis, second: EnclosedAxis) -> LeastClearance:
         """The tolerance less the greatest difference of the velocities."""
