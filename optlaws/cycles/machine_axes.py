@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Literal, TypeAlias, Unpack
 
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.interchange import problem_file
 from optlaws.cycles.interlocks.interlock import Interlock, LeastClearance
 from optlaws.cycles.interlocks.interlock_kinds import checked
-from optlaws.cycles.specification.programme import period_of
-from optlaws.cycles.specification.segments import CycleSegment
+from optlaws.cycles.interlocks.overlapping import best_instants
+from optlaws.cycles.specification.programme import is_optimal, period_of
+from optlaws.cycles.specification.segments import CycleSegment, Dwell
 from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.extras import needed
@@ -21,7 +22,7 @@ from optlaws.laws.exporting import AxesExportOptions
 from optlaws.numbers import Quantity
 from optlaws.suggest import keywords_of, unknown_key
 from optlaws.synthesis.status import Status
-from optlaws.tolerances import CLOSURE
+from optlaws.tolerances import CLOSURE, CYCLE_OPTIMALITY
 
 #: what pictures of axes show
 AxesPicture: TypeAlias = Literal["motion", "timing", "plane", "clearance"]
@@ -116,6 +117,90 @@ class Axes(JsonText, Mapping[str, Cycle]):
     def at(self, speed: Quantity) -> Axes:
         """The same motions at another speed of the master, as `Cycle.at` has them."""
         return Axes({name: cycle.at(speed) for name, cycle in self.items()}, interlocks=self.interlocks)
+
+    def fastest(self) -> Overlap:
+        """The least period that the interlocks allow: moves overlap as far as they can, each in its least time.
+
+        Laws keep their shapes. A move whose axis has limits of velocity, acceleration or jerk takes the least time
+        under these; another one keeps its time, or its angle of the master. Dwells last at least as long as they were
+        given, or their `least`. The order of the segments of each axis stays, and all axes rest when the cycle begins.
+
+        Returns
+        -------
+        An `Overlap`: its axes, its period, and the bound that no other instants of these moves pass.
+
+        Raises
+        ------
+        InputError
+            If a segment is no move from rest to rest and no dwell.
+        InfeasibleProblem
+            If no instants keep all interlocks; the error names those that contradict each other.
+
+        Examples
+        --------
+        >>> from optlaws import Clearance, Dwell, Return, Rise
+        >>> law = {"law": "cycloidal"}
+        >>> move = [
+        ...     Rise("0.1 m", "0.2 s", **law),
+        ...     Dwell("0.4 s", least="0 s"),
+        ...     Return("0.1 m", "0.2 s", **law),
+        ...     Dwell(),
+        ... ]
+        >>> slide = {"segments": move, "limits": {"acceleration": "20 m/s^2"}}
+        >>> waits, acts = Dwell("0.2 s", least="0 s"), Dwell("0.1 s")
+        >>> tool = [waits, Rise("50 mm", "0.1 s", **law), acts, Return("50 mm", "0.1 s", **law), Dwell()]
+        >>> rule = Clearance("tool", over="slide", most=[("90 mm", "5 mm"), ("95 mm", "50 mm")])
+        >>> best = Axes({"slide": slide, "tool": tool}, period="1 s", interlocks=[rule]).fastest()
+        >>> best.status.value, round(best.objective, 6), best.axes.clearances[0].status
+        ('optimal', 0.51093, 'clear')
+        """
+        return self._overlap("period", tuple(self))
+
+    def gentlest(self, *of: str) -> Overlap:
+        """The least greatest acceleration in the same period: moves grow into the time that the interlocks leave.
+
+        Parameters
+        ----------
+        of
+            The axes whose moves may take longer, all unless given; moves of the others keep their times. Of several the
+            greatest share of what each has now is least.
+
+        Returns
+        -------
+        An `Overlap`: its axes, its acceleration as a share of what it was, and the bound that no other instants pass.
+
+        Raises
+        ------
+        InputError
+            If an axis is unknown, or a segment is no move from rest to rest and no dwell.
+        InfeasibleProblem
+            If no instants keep all interlocks; the error names those that contradict each other.
+
+        Examples
+        --------
+        >>> from optlaws import After, Dwell, Return, Rise
+        >>> law, on = {"law": "cycloidal"}, Dwell("0.1 s")
+        >>> index = [Dwell("0.25 s"), Rise("15 deg", "0.5 s", **law), Dwell()]
+        >>> die = [on, Rise("50 mm", "0.15 s", **law), Dwell(), Return("50 mm", "0.15 s", **law), on]
+        >>> rules = [
+        ...     After("table", "0.1 deg", of="die", above="31 mm"),
+        ...     After("die", "31 mm", of="table", above="14.9 deg", way="down"),
+        ... ]
+        >>> axes = {"table": {"segments": index, "advance": "15 deg"}, "die": die}
+        >>> best = Axes(axes, period="1 s", interlocks=rules).gentlest("die")
+        >>> best.status.value, round(best.objective, 6)
+        ('optimal', 0.175878)
+        """
+        for name in of:
+            self[name]
+        return self._overlap("acceleration", of or tuple(self))
+
+    def _overlap(self, goal: str, longer: Sequence[str]) -> Overlap:
+        instants = best_instants(self, self.rules, goal, longer)
+        cycles = {name: _retimed(cycle, instants.durations[name], instants.period) for name, cycle in self.items()}
+        axes = Axes(cycles, interlocks=self.rules)
+        value = instants.period if goal == "period" else 1.0 / instants.pace**2
+        return Overlap(axes, goal, value, instants.bound, instants.binding, self)
 
     @kept_property
     def clearances(self) -> tuple[LeastClearance, ...]:
@@ -310,6 +395,62 @@ class Axes(JsonText, Mapping[str, Cycle]):
             return {}
         period_of(self.speed, self.period)
         return {"speed": self.speed, "period": self.period}
+
+
+@dataclass(frozen=True, eq=False)
+class Overlap:
+    """Axes whose moves overlap best, with the proof that no other instants of these moves are better.
+
+    Attributes
+    ----------
+    axes
+        The machine with its new durations; laws and strokes are those it had.
+    goal
+        "period" or "acceleration".
+    objective
+        The period in seconds, or the greatest acceleration as a share of what it was.
+    lower_bound
+        No instants of moves by these laws that keep the interlocks have less.
+    binding
+        What the objective is bound by, the dearest first: limits of moves, dwells and interlocks, by their names.
+    given
+        The machine as it was.
+    """
+
+    axes: Axes
+    goal: str
+    objective: float
+    lower_bound: float
+    binding: tuple[str, ...]
+    given: Axes
+
+    @property
+    def status(self) -> Status:
+        """Optimal where all interlocks are proven clear and the bound is reached; else inaccurate."""
+        near = self.objective <= self.lower_bound * (1.0 + CYCLE_OPTIMALITY)
+        return Status.OPTIMAL if near and not self.axes.broken else Status.INACCURATE
+
+    @property
+    def gain(self) -> float:
+        """The objective as it was, divided by what it is: how many times faster, or lower the acceleration."""
+        return (self.given.duration if self.goal == "period" else 1.0) / self.objective
+
+    def __repr__(self) -> str:
+        what = f"period={self.objective:.6g} s" if self.goal == "period" else f"acceleration={self.objective:.6g}"
+        return f"Overlap({what}, {self.gain:.4g} times better, status={self.status.value!r}, bound by {self.binding})"
+
+
+def _retimed(cycle: Cycle, durations: Sequence[float], period: float) -> Cycle:
+    """The cycle with its laws in other times; dwells of no time are left out."""
+    segments, pieces = list[CycleSegment](), {piece.start: piece for piece in cycle.pieces}
+    for stretch, peaks, duration in zip(cycle.programme.stretches, cycle.peaks, durations, strict=True):
+        segment = stretch.given
+        if isinstance(segment, Dwell) and duration <= CLOSURE * period:
+            continue
+        law = {} if isinstance(segment, Dwell) or not is_optimal(segment) else {"law": pieces[peaks.start].law}
+        segments.append(replace(segment, duration=f"{duration!r} s", **law))  # type: ignore[type-var]
+    minimise = "acceleration" if cycle.load is not None else cycle.minimise
+    return replace(cycle, segments=segments, speed=None, period=f"{period!r} s", minimise=minimise)
 
 
 def _entries(given: Any) -> dict[str, Any]:  # noqa: ANN401 - it is checked here

@@ -111,7 +111,7 @@ class CycleProblemFile(JobFile, kw_only=True, forbid_unknown_fields=True):
     """The problem file of a cycle with its axes."""
 
     axis: Annotated[list[AxisEntries], msgspec.Meta(min_length=1, max_length=8)]
-    interlocks: Annotated[list[InterlockEntries], msgspec.Meta(max_length=50)] = []
+    interlocks: Annotated[list[InterlockEntries], msgspec.Meta(max_length=50)] = msgspec.field(default_factory=list)
     speed: str | None = None
     period: str | None = None
     rows: Annotated[int, msgspec.Meta(ge=2, le=100_000)] = 361

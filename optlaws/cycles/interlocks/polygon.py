@@ -56,6 +56,17 @@ class SimplePolygon:
         """The polygon with positions divided."""
         return SimplePolygon(tuple((across / x, up / y) for across, up in self.corners))
 
+    def section(self, x: float) -> tuple[float, float]:
+        """The least and the greatest y of the polygon at an x within it, or at the nearest that is."""
+        across = [corner[0] for corner in self.corners]
+        x = min(max(x, min(across)), max(across))
+        met: list[float] = []
+        for (start, first), (stop, last) in self.sides:
+            if min(start, stop) <= x <= max(start, stop):
+                share = (x - start) / (stop - start) if start != stop else 0.0
+                met += [first + share * (last - first)] if start != stop else [first, last]
+        return min(met), max(met)
+
     @property
     def outside(self) -> Depth:
         """A function of a point: above 0 outside, 0 on the edge, below 0 within; no more than the distance if convex.
