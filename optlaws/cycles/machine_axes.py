@@ -412,7 +412,7 @@ class Overlap:
     lower_bound
         No instants of moves by these laws that keep the interlocks have less.
     binding
-        What the objective is bound by, the dearest first: limits of moves, dwells and interlocks, by their names.
+        What leaves no room where the objective is least: limits of moves, dwells and interlocks, by their names.
     given
         The machine as it was.
     """

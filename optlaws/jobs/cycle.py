@@ -11,14 +11,14 @@ import numpy as np
 
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.interlocks.interlock import SMALL_UNITS, LeastClearance
-from optlaws.cycles.machine_axes import Axes
+from optlaws.cycles.machine_axes import Axes, Overlap
 from optlaws.cycles.summary import drive_rows, joint_rows, proof_rows
 from optlaws.errors import InputError, located
 from optlaws.exports.export import Export, export_cycle
 from optlaws.exports.format import FORMATS, format_of
 from optlaws.exports.text import variable_names
 from optlaws.files import tables, writing
-from optlaws.jobs.cycle_entries import CycleProblemFile, ExportEntries, read
+from optlaws.jobs.cycle_entries import CycleProblemFile, ExportEntries, overlap_of, read_given
 from optlaws.motion.quantities import QUANTITIES
 from optlaws.plots.cycle import UNITS, axes_figure, cycle_figure
 from optlaws.plots.interlocks import clearance_figure, timing_figure
@@ -31,7 +31,7 @@ Exports = dict[str, dict[str, Export]]
 #: what the picture of all axes is called
 TOGETHER = "axes"
 #: the pictures of interlocked axes
-TIMING, CLEARANCES = "timing", "clearances"
+TIMING, CLEARANCES, GIVEN = "timing", "clearances", "timing_given"
 _PEAKS = ("peak velocity", "peak acceleration", "peak jerk")
 _EXPORT_HEADINGS = ("file", "format", "points", *_PEAKS, "greatest deviation, unit")
 
@@ -39,7 +39,7 @@ _EXPORT_HEADINGS = ("file", "format", "points", *_PEAKS, "greatest deviation, un
 def exports_of(spec: CycleProblemFile, cycles: Mapping[str, Cycle], file: Path) -> Exports:
     """The exports that the axes name, made but not yet written."""
     exports: Exports = {}
-    pictures = {TOGETHER, TIMING, CLEARANCES}
+    pictures = {TOGETHER, TIMING, CLEARANCES, GIVEN}
     for name in sorted(pictures & {plain_name(axis.name) for axis in spec.axis}) if len(spec.axis) > 1 else ():
         raise InputError(f"{file}: an axis is called {name}, as the picture of all is: give it another name")
     taken = {"cycle.md", "cycle.json"} | {f"{name}.{ending}" for name in pictures for ending in ("svg", "png")}
@@ -93,12 +93,14 @@ _SHARE = 360.0
 
 def run(results: Results) -> None:
     """Put the page, the motions, the pictures, the laws and the exports of all axes into results."""
-    spec, cycles = read(results.entries, results.file)
+    spec, given = read_given(results.entries, results.file)
+    overlap = overlap_of(spec, given, results.file)
+    cycles = given if overlap is None else overlap.axes
     exports = exports_of(spec, cycles, results.file)
     results.title = spec.title
-    results.text("cycle.md", str(page(spec, cycles, exports)))
+    results.text("cycle.md", str(page(spec, cycles, exports, overlap)))
     facts = {"unit": "SI", "axes": {name: _stored(cycle) for name, cycle in cycles.items()}}
-    results.data("cycle.json", facts | _of_interlocks(cycles))
+    results.data("cycle.json", facts | _of_interlocks(cycles, overlap))
     for name, cycle in cycles.items():
         results.text(f"{plain_name(name)}.csv", table_of_motion(cycle, spec.rows, results.about))
         results.picture(plain_name(name), cycle_figure(cycle, f"{spec.title}: {name}"))
@@ -108,6 +110,8 @@ def run(results: Results) -> None:
         results.picture(TOGETHER, axes_figure(cycles, spec.title))
     if cycles.rules:
         results.picture(TIMING, timing_figure(cycles, cycles.rules, spec.title))
+    if overlap is not None:
+        results.picture(GIVEN, timing_figure(given, given.rules, f"{spec.title}, as it was given"))
         results.picture(CLEARANCES, clearance_figure(cycles, cycles.rules, spec.title))
 
 
@@ -118,15 +122,20 @@ def table_of_motion(cycle: Cycle, rows: int, about: str) -> str:
 
 def answer(entries: Mapping[str, Any], file: Path) -> dict[str, Any]:
     """The data of the cycles of a file for programs, in SI units, by the names of the axes."""
-    _, axes = read(entries, file)
-    return {name: _facts(cycle) for name, cycle in axes.items()} | _of_interlocks(axes)
+    spec, given = read_given(entries, file)
+    overlap = overlap_of(spec, given, file)
+    axes = given if overlap is None else overlap.axes
+    return {name: _facts(cycle) for name, cycle in axes.items()} | _of_interlocks(axes, overlap)
 
 
-def page(spec: CycleProblemFile, axes: Axes, exports: Exports) -> Page:
+def page(spec: CycleProblemFile, axes: Axes, exports: Exports, overlap: Overlap | None = None) -> Page:
     """The page of results."""
     result = Page(spec.title).text(spec.text)
     if len(axes) > 1:
         result.figure(TOGETHER, f"{spec.title}: all axes over one time")
+    if overlap is not None:
+        result.heading("Overlap").table(("what", "value", "unit"), _overlap_rows(overlap), digits=9)
+        result.figure(GIVEN, f"{spec.title}: timing diagram as it was given")
     if axes.rules:
         result.figure(TIMING, f"{spec.title}: timing diagram")
         result.heading("Interlocks").figure(CLEARANCES, f"{spec.title}: clearance of the interlocks")
@@ -142,9 +151,29 @@ def page(spec: CycleProblemFile, axes: Axes, exports: Exports) -> Page:
     return result
 
 
-def _of_interlocks(axes: Axes) -> dict[str, Any]:
-    """The least clearances of interlocks, where there are any."""
-    return {"interlocks": [least.to_row() for least in axes.clearances]} if axes.rules else {}
+def _of_interlocks(axes: Axes, overlap: Overlap | None) -> dict[str, Any]:
+    """The least clearances of interlocks, where there are any, and what the overlap gains, where it is sought."""
+    known: dict[str, Any] = {"interlocks": [least.to_row() for least in axes.clearances]} if axes.rules else {}
+    if overlap is not None:
+        names = ("goal", "objective", "lower_bound", "gain")
+        facts = {name: getattr(overlap, name) for name in names}
+        known["overlap"] = {"status": overlap.status.value, **facts, "binding": list(overlap.binding)}
+    return known
+
+
+def _overlap_rows(overlap: Overlap) -> list[list[tables.Cell]]:
+    period = overlap.goal == "period"
+    what = "least period" if period else "greatest acceleration, as a share of the given one"
+    unit = "s" if period else None
+    gain = "times as fast" if period else "times lower"
+    rows: list[list[tables.Cell]] = [
+        ["status", overlap.status.value, None],
+        [what, overlap.objective, unit],
+        ["proven lower bound", overlap.lower_bound, unit],
+        ["gain", overlap.gain, gain],
+    ]
+    rows += [["bound by", name, None] for name in overlap.binding]
+    return rows
 
 
 def _clearance_row(least: LeastClearance) -> list[tables.Cell]:

@@ -10,7 +10,7 @@ import msgspec
 
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.interchange import CLOCK, ENTRIES, KINDS
-from optlaws.cycles.machine_axes import Axes
+from optlaws.cycles.machine_axes import Axes, Overlap
 from optlaws.cycles.specification.segments import CycleSegment
 from optlaws.errors import InfeasibleProblem, InputError, located
 from optlaws.files.problem_file import Text, convert
@@ -24,6 +24,7 @@ class SegmentEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 
     kind: Kind
     duration: str | list[str] | None = None
+    least: str | None = None
     name: str | None = None
     by: str | None = None
     to: str | None = None
@@ -107,18 +108,47 @@ class InterlockEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True)
     ratio: float | None = None
 
 
+class OverlapEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """How moves are to overlap: the goal, and of an acceleration the axes whose moves may take longer."""
+
+    goal: Literal["period", "acceleration"]
+    of: Annotated[list[Text], msgspec.Meta(max_length=8)] = []
+
+
 class CycleProblemFile(JobFile, kw_only=True, forbid_unknown_fields=True):
     """The problem file of a cycle with its axes."""
 
     axis: Annotated[list[AxisEntries], msgspec.Meta(min_length=1, max_length=8)]
     interlocks: Annotated[list[InterlockEntries], msgspec.Meta(max_length=50)] = msgspec.field(default_factory=list)
+    overlap: OverlapEntries | None = None
     speed: str | None = None
     period: str | None = None
     rows: Annotated[int, msgspec.Meta(ge=2, le=100_000)] = 361
 
 
 def read(data: Mapping[str, Any], file: Path) -> tuple[CycleProblemFile, Axes]:
-    """The entries of a file, and its axes, which are cycles by their names.
+    """The entries of a file, and its axes, which are cycles by their names; overlapped where the file says so.
+
+    Raises
+    ------
+    InputError, InfeasibleProblem
+        As `read_given`, or if the axes cannot overlap; the error names the file.
+    """
+    spec, axes = read_given(data, file)
+    overlap = overlap_of(spec, axes, file)
+    return spec, axes if overlap is None else overlap.axes
+
+
+def overlap_of(spec: CycleProblemFile, axes: Axes, file: Path) -> Overlap | None:
+    """How the axes of a file overlap; None where it says nothing of that."""
+    if spec.overlap is None:
+        return None
+    with located(str(file)):
+        return axes.fastest() if spec.overlap.goal == "period" else axes.gentlest(*spec.overlap.of)
+
+
+def read_given(data: Mapping[str, Any], file: Path) -> tuple[CycleProblemFile, Axes]:
+    """The entries of a file, and its axes as they are given.
 
     Raises
     ------

@@ -14,7 +14,7 @@ from optlaws.files.reading import JsonText
 from optlaws.motion.quantities import TURN, either, in_small_units, quantity, written
 from optlaws.numbers import Array
 from optlaws.suggest import unknown_key
-from optlaws.tolerances import CYCLE_ROUNDING, INTERLOCK
+from optlaws.tolerances import CYCLE_ROUNDING, INTERLOCK, SAME_TIME
 
 #: small units by those of SI, and how many of them make one
 SMALL_UNITS = {
@@ -36,7 +36,8 @@ class LeastClearance:
     clearance
         The least, at `time`: above 0 where it is clear, below 0 where it is broken; in SI units.
     bound
-        Nowhere in the cycle there is less: proven by enclosures over the whole of it.
+        Nowhere in the cycle there is less: proven by enclosures over the whole of it. Of this and the clearance what is
+        rounding beside the strokes is 0.
     unit
         Of both: "m", "rad", "m/s", or "strokes" where positions of two kinds are divided by their strokes.
     time
@@ -177,7 +178,8 @@ class Interlock(JsonText):
         margin: float | None = None,
     ) -> LeastClearance:  # fmt: skip
         slack = INTERLOCK * size
-        clearance = 0.0 if abs(clearance) <= CYCLE_ROUNDING * size else clearance
+        clearance, bound = (0.0 if abs(value) <= CYCLE_ROUNDING * size else value for value in (clearance, bound))
+        margin = 0.0 if margin is not None and abs(margin) <= SAME_TIME * period else margin
         status = "clear" if bound >= -slack else "broken" if clearance < -slack else "open"
         return LeastClearance(self, clearance, bound, unit, time, 360.0 * time / period, margin, status)
 

@@ -24,7 +24,15 @@ from optlaws.cycles.interlocks.interlock import Interlock
 from optlaws.cycles.interlocks.requirements import Option, Requirement, requirements
 from optlaws.errors import InfeasibleProblem, SolverFailure
 from optlaws.numbers import Array
-from optlaws.tolerances import BROKEN_INSTANT, BROKEN_PLACE, INSTANT_MARGIN, LP_FEASIBILITY, OVERLAP_GAP, PLACE_WIDTH
+from optlaws.tolerances import (
+    BROKEN_INSTANT,
+    BROKEN_PLACE,
+    INSTANT_MARGIN,
+    LP_FEASIBILITY,
+    OVERLAP_GAP,
+    PLACE_WIDTH,
+    TIGHT,
+)
 
 _NODES = 4000
 _CUTS = 40
@@ -35,12 +43,11 @@ Choices = Mapping[int, Option]
 
 @dataclass(frozen=True)
 class Optimum:
-    """A solution of a program: unknowns, its value, a bound below it, and what of the rows binds, with prices."""
+    """A solution of a program: unknowns, its value, and a bound below it."""
 
     unknowns: Array
     value: float
     bound: float
-    prices: Array
 
 
 @dataclass(frozen=True)
@@ -106,7 +113,9 @@ class Overlapping:
             for i, segment in enumerate(plan.segments):
                 here = plan.first + i
                 (least, share), kind = segment.least, "move" if segment.moves else "dwell"
-                name = segment.limit or f"{kind} {segment.name} of {plan.name}"
+                free = segment.most is None and least + share > 0.0
+                # of a time that cannot change there is nothing to say
+                name = segment.limit or (f"{kind} {segment.name} of {plan.name}" if free else "")
                 add(
                     self._row({here: 1.0, -2: -share, -1: -float(self.efforts[here]) / self.unit}),
                     least / self.unit,
@@ -116,7 +125,7 @@ class Overlapping:
                     add(self._row({here: -1.0, -2: segment.most[1]}), -segment.most[0] / self.unit, name)
             whole = plan.instant(len(plan.segments))
             for sign in (1.0, -1.0):
-                add(sign * (self._row({-2: 1.0}) - whole), 0.0, f"cycle of {plan.name}")
+                add(sign * (self._row({-2: 1.0}) - whole), 0.0, "")
         return rows, sides, names
 
     def best(self) -> BestInstants:
@@ -188,7 +197,7 @@ class Overlapping:
         rest = goal - prices @ matrix
         # weak duality, whatever the prices are worth
         bound = float(prices @ right + np.minimum(rest * low, rest * most).sum())
-        return Optimum(np.asarray(answer.x), float(goal @ answer.x), bound, prices)
+        return Optimum(np.asarray(answer.x), float(goal @ answer.x), bound)
 
     def _rows_of(self, i: int, option: Option, share: float) -> list[Array]:
         if (i, option, share) not in self.met:
@@ -278,21 +287,18 @@ class Overlapping:
 
     def _result(self, optimum: Optimum, choices: Choices, nodes: int, bound: float) -> BestInstants:
         solved = self._solved(choices, margin=INSTANT_MARGIN) or optimum
-        x, (_, _, names) = solved.unknowns, self._rows(choices)
-        order = np.argsort(-solved.prices, kind="stable")
-        binding = dict.fromkeys(names[i] for i in order if solved.prices[i] > OVERLAP_GAP)
+        x, (rows, sides, names) = solved.unknowns, self._rows(choices)
+        tight = [name for row, side, name in zip(rows, sides, names, strict=True) if row @ x - side <= TIGHT and name]
         durations = {
             plan.name: [self.unit * float(value) for value in x[plan.first : plan.first + len(plan.segments)]]
             for plan in self.plans
         }
-        names_of_cycles = {f"cycle of {plan.name}" for plan in self.plans}
-        binders = tuple(name for name in binding if name not in names_of_cycles)
         return BestInstants(
             durations,
             self.unit * float(x[-2]),
             float(x[-1]),
             bound * (self.unit if self.period is None else 1.0),
-            binders,
+            tuple(dict.fromkeys(tight)),
             nodes,
         )
 
