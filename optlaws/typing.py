@@ -21,6 +21,7 @@ __getattr__, __dir__, __all__ = face(
         "optlaws.cams.least_sizes": "GreatestRoller LeastBaseCircle",
         "optlaws.cycles.interlocks.enclosed_axis": "Way",
         "optlaws.cycles.interlocks.interlock": "Interlock LeastClearance",
+        "optlaws.cycles.machine_axes": "AxesPicture Overlap",
         "optlaws.cycles.machine_follower": "MachineAnswer",
         "optlaws.cycles.specification.segments": "CycleSegment",
         "optlaws.exports.best_breaks": "BestBreaks",

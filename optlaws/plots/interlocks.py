@@ -113,7 +113,9 @@ def _bars(axes: Axes, cycle: Cycle, row: float, style: dict[str, Any]) -> list[A
         label = f"{segment.name} {width:.4g}°" if segment.name else f"{width:.4g}°"
         if width > 4.0 * len(label) or not isinstance(segment, Dwell):
             words: Any = {"ha": "center", "va": "bottom", "fontsize": 7.5, "color": GREY}
-            artists.append(axes.text(place + 0.5 * width, row + _HALF, label, **words))
+            still = isinstance(segment, Dwell)
+            words |= {} if still else {"ha": "left"}
+            artists.append(axes.text(place + (0.5 * width if still else 1.0), row + _HALF, label, **words))
     return artists
 
 
@@ -122,9 +124,8 @@ def _arrows(axes: Axes, cycles: Mapping[str, Cycle], rule: After, rows: Mapping[
     scale = _TURN / next(iter(cycles.values())).duration
     artists: list[Artist] = []
     position, level = rule.positions(cycles)
-    for time, entry in rule.events(cycles):
-        broken = rule.sign * (float(cycles[rule.of](time)) - level) < 0.0
-        colour = WARM if broken else GREEN
+    for time, entry, clear in rule.events(cycles):
+        colour = GREEN if clear else WARM
         end = scale * time, _height(cycles[rule.axis], position, rows[rule.axis])
         if entry is not None:
             start = scale * entry, _height(cycles[rule.of], level, rows[rule.of])
@@ -169,7 +170,8 @@ def _plane(
             )
             colour = GREEN if least.status == "clear" else WARM
             artists += axes.plot(*point, "o", color=colour, markersize=4.5)
-            artists.append(name_point(axes, least.text, point))  # type: ignore[arg-type] # two numbers
+            beside = (6.0, 4.0) if point[0] < 0.5 * sum(limits[0]) else (-6.0, 4.0)
+            artists.append(name_point(axes, least.text, (point[0], point[1]), beside))
     axes.set(xlabel=f"{across}, {sizes[0][0]}", ylabel=f"{up}, {sizes[1][0]}", xlim=limits[0], ylim=limits[1])
     return artists
 
@@ -254,7 +256,7 @@ def _clearance(
     panel.axhline(0.0, color=GREY, linewidth=0.8)
     artists.append(panel.fill_between(degrees, np.minimum(room, 0.0), 0.0, color=WARM, alpha=0.25, linewidth=0.0))
     if isinstance(rule, After):
-        passes = np.array([time for time, _ in rule.events(cycles)])
+        passes = np.array([event[0] for event in rule.events(cycles)])
         look: Any = {"color": GREY, "markersize": 4.5}
         artists += panel.plot(_TURN * passes / times[-1], size * rule.room(cycles, passes), "o", **look)
     point = least.angle, size * least.clearance

@@ -15,6 +15,7 @@ from optlaws.errors import InputError
 from optlaws.motion.piece import unit_of
 from optlaws.motion.quantities import quantity
 from optlaws.numbers import Array, Quantity
+from optlaws.tolerances import INTERLOCK, SAME_TIME
 
 
 @dataclass(frozen=True)
@@ -100,18 +101,23 @@ class After(Interlock):
         _, level = self.positions(cycles)
         return np.asarray(self.sign * (cycles[self.of](times) - level))
 
-    def events(self, cycles: Mapping[str, Any]) -> list[tuple[float, float | None]]:
-        """When the axis passes its position, each time with when the other one came beyond its own, in seconds."""
+    def events(self, cycles: Mapping[str, Any]) -> list[tuple[float, float | None, bool]]:
+        """Each pass: its time, when the other axis comes beyond its position, and whether that is by then."""
         position, level = self.positions(cycles)
         first, second = (EnclosedAxis(cycles[name]) for name in self.axes)
         entering: Way = "up" if self.sign > 0.0 else "down"
-        entries, pairs = second.entries(level, entering), []
+        entries = sorted(second.entries(level, entering))
+        pairs: list[tuple[float, float | None, bool]] = []
         for start, stop in first.passes(position, self.way):
             time = 0.5 * (start + stop)
-            before = [entry for entry in entries if entry <= time] or entries
-            broken = self.sign * (float(second.cycle(time)) - level) < 0.0
-            after = [entry for entry in entries if entry > time]
-            pairs.append((time, after[0] if broken and after else max(before, default=None)))
+            clear = self.sign * (float(second.cycle(time)) - level) >= -INTERLOCK * second.stroke
+            later = time + SAME_TIME * second.duration if clear else time
+            before, after = (
+                [entry for entry in entries if entry <= later],
+                [entry for entry in entries if entry > later],
+            )
+            nearest = (before or entries)[-1:] if clear else (after or entries)[:1]
+            pairs.append((time, nearest[0] if nearest else None, clear))
         return pairs
 
     def _least_clearance(self, first: EnclosedAxis, second: EnclosedAxis) -> LeastClearance:

@@ -79,7 +79,7 @@ class LeastClearance:
         """It in words, in millimetres or degrees."""
         unit, small = SMALL_UNITS.get(self.unit, (self.unit, 1.0))
         early = "" if self.margin is None else f", {1e3 * self.margin:.6g} ms early"
-        return f"{small * self.clearance:.6g} {unit} at {self.angle:.6g} deg{early}"
+        return f"{round(small * self.clearance, 6) + 0.0:.6g} {unit} at {self.angle:.6g} deg{early}"
 
 
 class Interlock(JsonText):
