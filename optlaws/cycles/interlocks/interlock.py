@@ -85,7 +85,7 @@ class LeastClearance:
 class Interlock(JsonText):
     """A condition on the positions of two axes of one clock; which, its heirs say."""
 
-    kind: ClassVar[str]
+    kind: ClassVar[str] = ""
 
     name: str
 
@@ -139,7 +139,7 @@ class Interlock(JsonText):
     def from_dict(cls, data: Any) -> Self:  # noqa: ANN401 - it is checked here
         """Read what `to_dict` gave."""
         given = dict(data) if isinstance(data, Mapping) else {}
-        if given.pop("kind", None) != cls.kind:
+        if given.pop("kind", None) != cls.kind or not cls.kind:
             raise InputError(f"an interlock of the kind {cls.kind!r} is a table with this kind, got {shortened(data)}")
         known = {each.name: each for each in fields(cls)}  # type: ignore[arg-type]
         for name in given:

@@ -21,7 +21,7 @@ import numpy as np
 
 from optlaws.cycles.interlocks.axis_plan import AxisPlan, plan_of
 from optlaws.cycles.interlocks.interlock import Interlock
-from optlaws.cycles.interlocks.requirements import Option, Requirement, requirements
+from optlaws.cycles.interlocks.requirements import WaitOption, Requirement, requirements
 from optlaws.errors import InfeasibleProblem, SolverFailure
 from optlaws.numbers import Array
 from optlaws.tolerances import (
@@ -38,7 +38,7 @@ _NODES = 4000
 _CUTS = 40
 _LONGEST = 10.0
 
-Choices = Mapping[int, Option]
+Choices = Mapping[int, WaitOption]
 
 
 @dataclass(frozen=True)
@@ -85,7 +85,7 @@ class Overlapping:
     longest: float
     unit: float
     cuts: dict[int, list[float]] = field(default_factory=dict)
-    met: dict[tuple[int, Option, float], list[Array]] = field(default_factory=dict)
+    met: dict[tuple[int, WaitOption, float], list[Array]] = field(default_factory=dict)
 
     @property
     def size(self) -> int:
@@ -93,7 +93,7 @@ class Overlapping:
         return len(self.efforts) + 2
 
     @cached_property
-    def options(self) -> list[list[Option]]:
+    def options(self) -> list[list[WaitOption]]:
         """The choices that each requirement leaves."""
         return [requirement.options() for requirement in self.requirements]
 
@@ -139,7 +139,7 @@ class Overlapping:
             )
         for i, requirement in enumerate(self.requirements):
             self.cuts[i] = requirement.bends()
-        forced: dict[int, Option] = {i: options[0] for i, options in enumerate(self.options) if len(options) == 1}
+        forced: dict[int, WaitOption] = {i: options[0] for i, options in enumerate(self.options) if len(options) == 1}
         for _ in range(_CUTS):
             optimum, choices, nodes, bound = self._searched(forced)
             if not self._added(optimum.unknowns, choices):
@@ -151,7 +151,7 @@ class Overlapping:
         number, root = count(), self._solved(forced)
         if root is None:
             raise InfeasibleProblem(self._contradiction(forced))
-        heap: list[tuple[float, int, Optimum, dict[int, Option]]] = [(root.bound, next(number), root, dict(forced))]
+        heap: list[tuple[float, int, Optimum, dict[int, WaitOption]]] = [(root.bound, next(number), root, dict(forced))]
         nodes = 1
         while heap:
             bound, _, optimum, choices = heapq.heappop(heap)
@@ -199,7 +199,7 @@ class Overlapping:
         bound = float(prices @ right + np.minimum(rest * low, rest * most).sum())
         return Optimum(np.asarray(answer.x), float(goal @ answer.x), bound)
 
-    def _rows_of(self, i: int, option: Option, share: float) -> list[Array]:
+    def _rows_of(self, i: int, option: WaitOption, share: float) -> list[Array]:
         if (i, option, share) not in self.met:
             self.met[i, option, share] = self.requirements[i].rows(option, share)
         return self.met[i, option, share]
@@ -225,7 +225,7 @@ class Overlapping:
         most[-1] = self.longest / float(active.min()) if self.period is not None and active.size else 1.0
         return most
 
-    def _broken_by(self, i: int, option: Option, unknowns: Array) -> float:
+    def _broken_by(self, i: int, option: WaitOption, unknowns: Array) -> float:
         """By how long an option is broken at the places that are looked at."""
         rows = [row for share in self.cuts[i] for row in self._rows_of(i, option, share)]
         return max((-float(row @ unknowns) for row in rows), default=0.0)
@@ -240,7 +240,7 @@ class Overlapping:
                     worst, which = off, i
         return which
 
-    def _completed(self, unknowns: Array, choices: Choices) -> dict[int, Option]:
+    def _completed(self, unknowns: Array, choices: Choices) -> dict[int, WaitOption]:
         """The choices with those that the solution itself makes."""
         others = {
             i: min(options, key=lambda option: self._broken_by(i, option, unknowns))
@@ -259,7 +259,7 @@ class Overlapping:
                     added = True
         return added
 
-    def _worst(self, i: int, option: Option, unknowns: Array) -> list[float]:
+    def _worst(self, i: int, option: WaitOption, unknowns: Array) -> list[float]:
         """The shares of a segment at which a choice is broken more than nearby."""
         from scipy.optimize import minimize_scalar
 

@@ -21,7 +21,7 @@ _PLACES = 65
 
 
 @dataclass(frozen=True, eq=False)
-class Side:
+class LevelSide:
     """On which side of a level, a function of the position of the axis that passes, the other axis is to be.
 
     `bends` are positions at which the function is not smooth.
@@ -33,10 +33,10 @@ class Side:
 
 
 @dataclass(frozen=True, eq=False)
-class Option:
+class WaitOption:
     """A side, and a joint of the other axis around which it stays there."""
 
-    side: Side
+    side: LevelSide
     joint: int
 
 
@@ -48,7 +48,7 @@ class Requirement:
     axis: AxisPlan
     segment: int
     other: AxisPlan
-    sides: tuple[Side, ...]
+    sides: tuple[LevelSide, ...]
     places: tuple[float, float]
 
     @property
@@ -72,7 +72,7 @@ class Requirement:
         bends = self.bends()
         return np.union1d(np.linspace(bends[0], bends[-1], _PLACES), bends) if self.extended else np.array(bends[:1])
 
-    def options(self) -> list[Option]:
+    def options(self) -> list[WaitOption]:
         """Joints of the other axis that are on a side wherever the segment passes."""
         segment = self.axis.segments[self.segment]
         positions = [segment.position(share) for share in self.shares()]
@@ -82,10 +82,10 @@ class Requirement:
             for joint in range(len(self.other.positions)):
                 repeated = joint > 0 and not self.other.segments[joint - 1].moves
                 if not repeated and all(self.other.beyond(joint, level, side.sign) for level in levels):
-                    options.append(Option(side, joint))
+                    options.append(WaitOption(side, joint))
         return options
 
-    def rows(self, option: Option, share: float) -> list[Array]:
+    def rows(self, option: WaitOption, share: float) -> list[Array]:
         """Rows over the unknowns that are not negative where the requirement holds after a share of the segment."""
         segment = self.axis.segments[self.segment]
         level = option.side.level(segment.position(share))
@@ -109,7 +109,7 @@ def requirements(
             known += _of_passes(rule, first, second, cycles)
         elif isinstance(rule, Clearance):
             bound = bound_of(rule, *kinds)
-            side = Side(rule.sign, _plain(bound), getattr(bound, "places", ()))
+            side = LevelSide(rule.sign, _plain(bound), getattr(bound, "places", ()))
             known += [
                 Requirement(rule, second, i, first, (side,), (segment.start, segment.stop))
                 for i, segment in enumerate(second.segments)
@@ -123,7 +123,7 @@ def requirements(
 
 def _of_passes(rule: After, first: AxisPlan, second: AxisPlan, cycles: Mapping[str, Any]) -> list[Requirement]:
     position, level = rule.positions(cycles)
-    side = Side(rule.sign, lambda _: level)
+    side = LevelSide(rule.sign, lambda _: level)
     return [
         Requirement(rule, first, i, second, (side,), (position, position))
         for i, segment in enumerate(first.segments)
@@ -136,8 +136,8 @@ def _of_region(rule: Forbidden, first: AxisPlan, second: AxisPlan, polygon: Simp
     low, high = min(x for x, _ in polygon.corners), max(x for x, _ in polygon.corners)
     bends = tuple(x for x, _ in polygon.corners)
     sides = (
-        Side(1.0, lambda x: polygon.section(x)[1], bends),
-        Side(-1.0, lambda x: polygon.section(x)[0], bends),
+        LevelSide(1.0, lambda x: polygon.section(x)[1], bends),
+        LevelSide(-1.0, lambda x: polygon.section(x)[0], bends),
     )
     known = []
     for i, segment in enumerate(first.segments):
