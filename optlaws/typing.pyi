@@ -24,6 +24,8 @@ from optlaws.cams.least_sizes import LeastBaseCircle as LeastBaseCircle
 from optlaws.cycles.interlocks.enclosed_axis import Way as Way
 from optlaws.cycles.interlocks.interlock import Interlock as Interlock
 from optlaws.cycles.interlocks.interlock import LeastClearance as LeastClearance
+from optlaws.cycles.machine_axes import AxesPicture as AxesPicture
+from optlaws.cycles.machine_axes import Overlap as Overlap
 from optlaws.cycles.machine_follower import MachineAnswer as MachineAnswer
 from optlaws.cycles.specification.segments import CycleSegment as CycleSegment
 from optlaws.exports.best_breaks import BestBreaks as BestBreaks
@@ -95,6 +97,7 @@ __all__ = [
     "ActiveSet",
     "Array",
     "Asked",
+    "AxesPicture",
     "BestBaseCircle",
     "BestBreaks",
     "BestCam",
@@ -153,6 +156,7 @@ __all__ = [
     "NumberOrQuantity",
     "OutputPeak",
     "OutputRms",
+    "Overlap",
     "PeakSide",
     "PhasePlane",
     "Piece",
