@@ -335,3 +335,4 @@ BROKEN_PLACE = 3e-10  # of a period: the same between the places that programs k
 INSTANT_MARGIN = 1e-9  # of a period: instants are chosen so much apart from where they touch, which pays for the others
 PLACE_WIDTH = 1e-9  # of a segment: how near a place comes to where instants are broken most
 TIGHT = 1e-7  # of a period: what leaves no more binds
+SECTION_WIDTH = 1e-12  # of a polygon: sides that are narrower are upright

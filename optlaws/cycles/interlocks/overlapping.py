@@ -12,7 +12,6 @@ from __future__ import annotations
 import heapq
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
 from itertools import count
 from math import sqrt
 from typing import Any
@@ -21,8 +20,9 @@ import numpy as np
 
 from optlaws.cycles.interlocks.axis_plan import AxisPlan, plan_of
 from optlaws.cycles.interlocks.interlock import Interlock
-from optlaws.cycles.interlocks.requirements import WaitOption, Requirement, requirements
+from optlaws.cycles.interlocks.requirements import Requirement, WaitOption, requirements
 from optlaws.errors import InfeasibleProblem, SolverFailure
+from optlaws.kept import kept_property
 from optlaws.numbers import Array
 from optlaws.tolerances import (
     BROKEN_INSTANT,
@@ -92,12 +92,12 @@ class Overlapping:
         """How many unknowns there are: durations, the period and the pace."""
         return len(self.efforts) + 2
 
-    @cached_property
+    @kept_property
     def options(self) -> list[list[WaitOption]]:
         """The choices that each requirement leaves."""
         return [requirement.options() for requirement in self.requirements]
 
-    @cached_property
+    @kept_property
     def base(self) -> tuple[list[Array], list[float], list[str]]:
         """Rows, right sides and names of what holds whatever is chosen: row @ unknowns >= right side."""
         rows: list[Array] = []

@@ -13,7 +13,7 @@ import numpy as np
 
 from optlaws.errors import InputError
 from optlaws.numerics.taylor import Jet
-from optlaws.tolerances import INTERLOCK
+from optlaws.tolerances import INTERLOCK, SECTION_WIDTH
 
 Corner: TypeAlias = tuple[float, float]
 
@@ -57,14 +57,19 @@ class SimplePolygon:
         return SimplePolygon(tuple((across / x, up / y) for across, up in self.corners))
 
     def section(self, x: float) -> tuple[float, float]:
-        """The least and the greatest y of the polygon at an x within it, or at the nearest that is."""
+        """The least and the greatest y of the polygon at an x within it, or at the nearest that is.
+
+        A side that is upright but for rounding counts whole.
+        """
         across = [corner[0] for corner in self.corners]
+        near = SECTION_WIDTH * (max(across) - min(across))
         x = min(max(x, min(across)), max(across))
         met: list[float] = []
         for (start, first), (stop, last) in self.sides:
-            if min(start, stop) <= x <= max(start, stop):
-                share = (x - start) / (stop - start) if start != stop else 0.0
-                met += [first + share * (last - first)] if start != stop else [first, last]
+            low, high = max(min(start, stop), x - near), min(max(start, stop), x + near)
+            if low <= high:
+                shares = [(place - start) / (stop - start) for place in (low, high)] if start != stop else [0.0, 1.0]
+                met += [first + share * (last - first) for share in shares]
         return min(met), max(met)
 
     @property

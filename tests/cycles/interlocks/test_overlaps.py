@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from matplotlib.path import Path
 
 from optlaws import (
     After,
@@ -147,6 +148,39 @@ def test_a_bound_that_is_a_function_holds_at_every_position() -> None:
     assert best.status == "optimal"
     assert 0.0 <= room.min() + 1e-9 <= 1e-6
     assert "door" in best.binding
+
+
+@pytest.mark.parametrize("corners", [3, 4, 7])
+def test_no_random_instants_are_better_than_the_bound(corners: int) -> None:
+    """A polygon whose sides are upright but for rounding, and paths at random that keep clear of it."""
+    random = np.random.default_rng(corners)
+    angles = np.linspace(0.0, 2.0 * pi, corners, endpoint=False)
+    points = np.column_stack([9.0 + 5.0 * np.cos(angles), 11.0 + 5.0 * np.sin(angles)])
+    rule = Forbidden("a", "b", [(f"{x!r} mm", f"{y!r} mm") for x, y in points.tolist()])
+    strokes = {"a": 40.0, "b": 39.0}
+    axes: Any = {
+        name: {"segments": [Dwell("0.2 s", least="0 s"), Rise(f"{stroke} mm", "0.2 s", **LAW), Dwell("10 ms"),
+                            Return(None, "0.2 s", **LAW), Dwell()], "limits": LIMIT}
+        for name, stroke in strokes.items()
+    }  # fmt: skip
+    best = Axes(axes, period="1 s", interlocks=[rule]).fastest()
+    assert best.status == "optimal"
+    longest = 2.0 * sqrt(2.0 * pi * 0.04 / 20.0) + 0.01
+    assert best.objective > 1.02 * longest
+    shares, paths = np.linspace(0.0, 1.0, 801), 0
+    for _ in range(200):
+        period = random.uniform(longest, 1.1 * best.lower_bound)
+        path = []
+        for stroke in strokes.values():
+            move = sqrt(2.0 * pi * 1e-3 * stroke / 20.0)
+            early, wait, _ = random.dirichlet([0.5, 0.5, 0.5]) * (period - 2.0 * move - 0.01)
+            up, down = ((shares * period - start) / move for start in (early, early + move + wait + 0.01))
+            path.append(stroke * (CYCLOID(np.clip(up, 0.0, 1.0)) - CYCLOID(np.clip(down, 0.0, 1.0))))
+        if not Path(points).contains_points(np.column_stack(path)).any():
+            paths += 1
+            # a corner may lie between samples
+            assert period >= best.lower_bound * (1.0 - 1e-3)
+    assert paths > 10
 
 
 def test_with_no_interlock_the_longest_axis_rules() -> None:
