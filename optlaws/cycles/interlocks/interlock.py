@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from abc import abstractmethod
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import MISSING, dataclass, fields
 from typing import Any, ClassVar, Self
@@ -82,7 +82,7 @@ class LeastClearance:
         return f"{round(small * self.clearance, 6) + 0.0:.6g} {unit} at {self.angle:.6g} deg{early}"
 
 
-class Interlock(JsonText):
+class Interlock(JsonText, ABC):
     """A condition on the positions of two axes of one clock; which, its heirs say."""
 
     kind: ClassVar[str] = ""
