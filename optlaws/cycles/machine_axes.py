@@ -214,7 +214,7 @@ class Axes(JsonText, Mapping[str, Cycle]):
         >>> rule = After("head", "50 mm", of="table", above="44.9 deg", way="up")
         >>> machine = Axes({"table": table, "head": head}, period="2 s", interlocks=[rule])
         >>> [(least.status, least.text) for least in machine.clearances]
-        [('broken', '-0.0601776 deg at 66.1074 deg, -4.79101 ms early')]
+        [('broken', '-0.060178 deg at 66.1074 deg, -4.79101 ms early')]
         """
         return tuple(interlock.least_clearance(self._cycles) for interlock in self.rules)
 
@@ -229,6 +229,7 @@ class Axes(JsonText, Mapping[str, Cycle]):
         to: str | Mapping[str, str],
         *,
         master: Quantity | None = "360 deg",
+        together: bool = False,
         **options: Unpack[AxesExportOptions],
     ) -> dict[str, Any]:
         """Every axis in the format of a controller, or each named axis in its own: an `Export` by the name of the axis.
@@ -239,6 +240,9 @@ class Axes(JsonText, Mapping[str, Cycle]):
         ----------
         to
             A format for all, or formats by the names of axes.
+        together
+            One file for all axes, where the format holds several, as "ros2" does: one trajectory of several joints.
+            The `text` of every export is then that of all, and each joint has the points of all.
         master, points, counts, digits, decimal, interpolation, task
             As in `Cycle.export`, for every axis.
 
@@ -255,9 +259,14 @@ class Axes(JsonText, Mapping[str, Cycle]):
         ... )
         >>> [(name, export.points) for name, export in both.export("codesys-xyva", points=91).items()]
         [('x', 91), ('y', 91)]
+        >>> joints = both.export("ros2", together=True, points=7)
+        >>> joints["x"].text.splitlines()[1:5], joints["x"].text == joints["y"].text
+        (['joint_names:', '- "x"', '- "y"', 'points:'], True)
         """
-        from optlaws.exports.export import export_axes
+        from optlaws.exports.export import export_axes, export_together
 
+        if together:
+            return export_together(self, to, {"master": master}, **options)
         formats = dict(to) if isinstance(to, Mapping) else dict.fromkeys(self, to)
         return export_axes(self, formats, {"master": master}, **options)
 

@@ -1,5 +1,6 @@
 """Several axes on one clock: built from segments, tables or cycles, kept, tabled, drawn and exported together."""
 
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -92,3 +93,25 @@ def test_axes_are_exported_under_their_own_names(form: str) -> None:
 def test_what_is_wrong_names_the_axis(make: Any, says: str) -> None:  # noqa: ANN401 - a function
     with pytest.raises(InputError, match=says):
         make()
+
+
+def test_axes_are_one_trajectory_of_several_joints() -> None:
+    """What a controller makes of the shared points is as near to each axis as its file alone, or nearer."""
+    made = MACHINE.export("ros2", together=True)
+    message = import_module("yaml").safe_load(made["table"].text)
+    assert message["joint_names"] == ["table", "weld_head"]
+    assert made["table"].text == made["weld head"].text
+    seconds = np.array(
+        [point["time_from_start"]["sec"] + 1e-9 * point["time_from_start"]["nanosec"] for point in message["points"]]
+    )
+    assert (np.diff(seconds) > 0.0).all()
+    for place, (name, cycle) in enumerate(MACHINE.items()):
+        for nu, field in enumerate(("positions", "velocities", "accelerations")):
+            values = np.array([point[field][place] for point in message["points"]])
+            inside = (seconds > 0.0) & (seconds < 2.0)
+            assert np.allclose(values[inside], cycle(seconds[inside], nu), atol=1e-6 * cycle.peak(nu))
+        alone = cycle.export("ros2")
+        assert made[name].points >= alone.points
+        assert made[name].report.deviation[0].value <= alone.report.deviation[0].value * 1.01 + 1e-12
+    with pytest.raises(InputError, match="holds one axis"):
+        MACHINE.export("csv", together=True)
