@@ -324,7 +324,7 @@ SHORT_CELL = 1e-3  # of the move: of shorter cells what is lost is measured by t
 INNER_SHARE = 1e-3  # shares of two equal torques that are so far from 0 and 1 follow from the potential
 
 # --- interlocks of axes ----------------------------------------------------------------------------------------------
-PASS_WIDTH = 1e-14  # of a cycle: times of a pass that are nearer to each other are one
+PASS_WIDTH = 1e-13  # of a cycle: times of a pass that are nearer to each other are one
 INTERLOCK = 1e-9  # of a stroke: positions that are nearer touch, and what touches is clear
 CLEARANCE_SHARE = 1e-9  # of the greatest clearance: how near its bound comes to the least one
 SQUARED_CLEARANCE = 1e-12  # the same of the square of a distance

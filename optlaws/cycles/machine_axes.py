@@ -419,7 +419,8 @@ class Overlap:
     objective
         The period in seconds, or the greatest acceleration as a share of what it was.
     lower_bound
-        No instants of moves by these laws that keep the interlocks have less.
+        No instants of moves by these laws have less, in the order of the segments, with all axes at rest when the cycle
+        begins, and with each move of an axis around one rest of the other axis.
     binding
         What leaves no room where the objective is least: limits of moves, dwells and interlocks, by their names.
     given

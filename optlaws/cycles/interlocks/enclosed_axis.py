@@ -116,9 +116,9 @@ class EnclosedAxis:
         """
         low, high = np.array(self.breaks[:-1]), np.array(self.breaks[1:])
         for _ in range(_ROUNDS):
-            low, high, width = *self._narrowed(low, high, position), high - low
-            if len(low) == len(width) and (high - low > 0.5 * width).all():
+            if (high - low <= PASS_WIDTH * self.duration).all():
                 break
+            low, high = self._narrowed(low, high, position)
         joined: list[tuple[float, float]] = []
         for start, stop in sorted(zip(low.tolist(), high.tolist(), strict=True)):
             if joined and start <= joined[-1][1] + PASS_WIDTH * self.duration:

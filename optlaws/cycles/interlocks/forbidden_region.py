@@ -116,7 +116,7 @@ class Forbidden(Interlock):
 
 def _sizes(first: EnclosedAxis, second: EnclosedAxis) -> tuple[float, float]:
     """By what positions are divided: by their strokes where one is a length and the other an angle."""
-    return (1.0, 1.0) if first.cycle.axis == second.cycle.axis else (first.stroke, second.stroke)
+    return (1.0, 1.0) if first.cycle.axis == second.cycle.axis else (first.stroke or 1.0, second.stroke or 1.0)
 
 
 def polygon_of(rule: Forbidden, kind: str, across: str) -> SimplePolygon:

@@ -8,6 +8,7 @@ from dataclasses import MISSING, dataclass, fields
 from typing import Any, ClassVar, Self
 
 from optlaws.cycles.interlocks.enclosed_axis import ClockedMotion, EnclosedAxis
+from optlaws.cycles.specification.segments import Dwell, Move
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.files.reading import JsonText
@@ -166,10 +167,13 @@ class Interlock(JsonText, ABC):
         slack = INTERLOCK * (high - low)
         shown = in_small_units(position, cycle.axis)
         far = not low - slack <= position <= high + slack
-        if far and not any(getattr(stretch.given, "via", None) for stretch in cycle.programme.stretches):
+        free = [not isinstance(stretch.given, Move | Dwell) for stretch in cycle.programme.stretches]
+        if far and not any(free):
             ends = f"{in_small_units(low, cycle.axis)} to {in_small_units(high, cycle.axis)}"
             raise InputError(f"interlock {self.label}: {axis} goes from {ends} and never passes {shown}")
-        if not rest and any(abs(position - joint) <= slack for joint in joints):
+        still = (joint for joint, before, after in zip(joints, [free[-1], *free], [*free, free[0]], strict=True)
+                 if not before and not after)  # fmt: skip
+        if not rest and any(abs(position - joint) <= slack for joint in still):
             raise InputError(f"interlock {self.label}: {axis} rests at {shown}: name a position that it passes")
         return position
 

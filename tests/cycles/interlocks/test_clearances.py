@@ -222,3 +222,16 @@ def test_interlocks_are_stored_with_their_axes(rule: Any) -> None:  # noqa: ANN4
     assert again.interlocks == (rule,)
     assert again.clearances == machine.clearances
     assert machine.at("25 rpm").interlocks == (rule,)
+
+
+def test_a_joint_that_an_axis_passes_at_speed_is_no_rest() -> None:
+    """Free motions meet at speed: the position of their joint is passed, and the motion may go beyond its joints."""
+    swing = [Free("10 mm", "0.5 s", via=[("0.2 s", "-4 mm")]), Free("20 mm", "0.5 s"), Return(None, "1 s", law="345")]
+    ramp = [Rise("50 mm", "1 s", law="345"), Return(law="345")]
+    axes = Axes({"swing": swing, "ramp": ramp}, period="2 s")
+    known = least(After("swing", "10 mm", of="ramp", below="40 mm", way="up"), axes)
+    assert known.time == pytest.approx(0.5, abs=1e-9)
+    assert known.clearance == pytest.approx(0.04 - float(axes["ramp"](0.5)), abs=1e-9)
+    assert least(After("swing", "-2 mm", of="ramp", below="40 mm"), axes).status == "clear"
+    with pytest.raises(InputError, match="never passes 80 mm"):
+        _ = least(After("swing", "80 mm", of="ramp", below="40 mm"), axes)
