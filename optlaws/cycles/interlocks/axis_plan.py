@@ -16,7 +16,7 @@ from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.laws import MotionLaw
 from optlaws.motion.quantities import either
 from optlaws.numbers import Array
-from optlaws.tolerances import INTERLOCK
+from optlaws.tolerances import INTERLOCK, PASS_WIDTH
 
 #: a time as seconds and a share of the period
 Spell = tuple[float, float]
@@ -46,21 +46,20 @@ class PlannedSegment:
         return 0.0 if self.law is None else float(self.law.peak(2).value) * abs(self.stop - self.start)
 
     def share(self, position: float) -> float:
-        """After which share of its duration the segment is at a position between its ends."""
+        """After which share of its duration the segment is at a position; 0 or 1 where that is beyond its ends."""
+        from scipy.optimize import brentq
+
         assert self.law is not None  # noqa: S101 - of moves alone
-        height = (position - self.start) / (self.stop - self.start)
-        places = self.law.where(min(max(height, 0.0), 1.0))
-        return float(places[0] if self._late(height) else places[-1]) if len(places) else min(max(height, 0.0), 1.0)
+        law, height = self.law, (position - self.start) / (self.stop - self.start)
+        if not 0.0 < height < 1.0:
+            return 0.0 if height <= 0.0 else 1.0
+        return float(brentq(lambda k: float(law.a(k)) - height, 0.0, 1.0, xtol=PASS_WIDTH))
 
     def position(self, share: float) -> float:
         """The position after a share of its duration."""
         if self.law is None:
             return self.start
         return self.start + (self.stop - self.start) * float(self.law.a(share))
-
-    def _late(self, height: float) -> bool:
-        """Whether it is the end of the move at which it rests: the first place that is there counts."""
-        return height > 0.5
 
 
 @dataclass(frozen=True)

@@ -37,7 +37,7 @@ PAIR = Axes({"x": X, "z": Z}, period="1.2 s")
 BOX = [("100 mm", "0 mm"), ("200 mm", "0 mm"), ("200 mm", "40 mm"), ("100 mm", "40 mm")]
 DEEP = [("20 mm", "0 mm"), ("280 mm", "0 mm"), ("280 mm", "70 mm"), ("20 mm", "70 mm")]
 CUP = [("80 mm", "-5 mm"), ("220 mm", "-5 mm"), ("220 mm", "60 mm"), ("150 mm", "10 mm"), ("80 mm", "60 mm")]
-TIMES = np.linspace(0.0, 1.2, 60_001)
+TIMES = np.linspace(0.0, 1.2, 24_001)
 
 
 def least(rule: Any, axes: Axes = PAIR) -> Any:  # noqa: ANN401 - an interlock, a least clearance
@@ -55,6 +55,7 @@ def distances(corners: Any) -> tuple[Any, Any]:  # noqa: ANN401 - rows of number
     return far, Path(points).contains_points(path)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("corners", [BOX, BOX[::-1], CUP, DEEP])
 def test_a_path_keeps_away_from_a_polygon_as_far_as_samples_say(corners: Any) -> None:  # noqa: ANN401 - rows of texts
     known, (far, within) = least(Forbidden("x", "z", corners)), distances(corners)

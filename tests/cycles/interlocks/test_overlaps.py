@@ -104,7 +104,7 @@ def pick_and_place() -> Axes:
 def path_is_clear(start: float, wait: float, times: tuple[float, float]) -> bool:
     """Whether x, that starts at a time after z, is clear of the hill where z waits on top for so long; by samples."""
     for_x, for_z = times
-    t = np.linspace(0.0, 2.0 * for_z + wait, 701)
+    t = np.linspace(0.0, 2.0 * for_z + wait, 501)
     x = 300.0 * CYCLOID(np.clip((t - start) / for_x, 0.0, 1.0))
     z = 80.0 * (CYCLOID(np.clip(t / for_z, 0.0, 1.0)) - CYCLOID(np.clip((t - for_z - wait) / for_z, 0.0, 1.0)))
     across, up = [1.0, 50.0, 250.0, 299.0], [5.0, 40.0, 60.0, 5.0]
@@ -116,7 +116,7 @@ def test_a_pick_and_place_beside_a_grid_of_instants() -> None:
     """Both ways are one another backwards: of one the least wait of z is looked for over the instants of x."""
     times = sqrt(2.0 * pi * 0.3 / 20.0), sqrt(2.0 * pi * 0.08 / 20.0)
     waits = []
-    for start in np.linspace(0.0, 0.12, 61):
+    for start in [*np.linspace(0.0, 0.03, 61), *np.linspace(0.035, 0.12, 18)]:
         low, high = 0.0, 0.5
         while high - low > 1e-4:
             middle = 0.5 * (low + high)
@@ -150,6 +150,7 @@ def test_a_bound_that_is_a_function_holds_at_every_position() -> None:
     assert "door" in best.binding
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("corners", [3, 4, 7])
 def test_no_random_instants_are_better_than_the_bound(corners: int) -> None:
     """A polygon whose sides are upright but for rounding, and paths at random that keep clear of it."""
@@ -168,7 +169,7 @@ def test_no_random_instants_are_better_than_the_bound(corners: int) -> None:
     longest = 2.0 * sqrt(2.0 * pi * 0.04 / 20.0) + 0.01
     assert best.objective > 1.02 * longest
     shares, paths = np.linspace(0.0, 1.0, 801), 0
-    for _ in range(200):
+    for _ in range(100):
         period = random.uniform(longest, 1.1 * best.lower_bound)
         path = []
         for stroke in strokes.values():
@@ -180,7 +181,7 @@ def test_no_random_instants_are_better_than_the_bound(corners: int) -> None:
             paths += 1
             # a corner may lie between samples
             assert period >= best.lower_bound * (1.0 - 1e-3)
-    assert paths > 10
+    assert paths > 5
 
 
 def test_with_no_interlock_the_longest_axis_rules() -> None:
