@@ -38,17 +38,15 @@ from optlaws.cams.least_sizes import least_base_circle as least_base_circle
 from optlaws.cams.springs import Spring as Spring
 from optlaws.cams.springs import least_spring as least_spring
 from optlaws.cycles.cycle import Cycle as Cycle
-from optlaws.cycles.fastest_cycle import FastestCycle as FastestCycle
-from optlaws.cycles.fastest_cycle import LeastDuration as LeastDuration
-from optlaws.cycles.fastest_cycle import LimitGain as LimitGain
+from optlaws.cycles.interlocks.after import After as After
+from optlaws.cycles.interlocks.clearance import Clearance as Clearance
+from optlaws.cycles.interlocks.forbidden_region import Forbidden as Forbidden
+from optlaws.cycles.interlocks.synchronous import Synchronous as Synchronous
 from optlaws.cycles.law_comparison import Comparison as Comparison
 from optlaws.cycles.law_comparison import compare_laws as compare_laws
 from optlaws.cycles.machine_axes import Axes as Axes
 from optlaws.cycles.machine_follower import MachineFollower as MachineFollower
 from optlaws.cycles.machine_follower import machine_follower as machine_follower
-from optlaws.cycles.old_tables import OldTable as OldTable
-from optlaws.cycles.old_tables import read_cycle_table as read_cycle_table
-from optlaws.cycles.old_tables import split_table as split_table
 from optlaws.cycles.specification.segments import ConstantVelocity as ConstantVelocity
 from optlaws.cycles.specification.segments import Dwell as Dwell
 from optlaws.cycles.specification.segments import Free as Free
@@ -95,7 +93,6 @@ from optlaws.mechanisms.linkages.motions import belt as belt
 from optlaws.mechanisms.linkages.motions import mechanism_of_motion as mechanism_of_motion
 from optlaws.mechanisms.linkages.motions import rack as rack
 from optlaws.mechanisms.linkages.motions import screw as screw
-from optlaws.mechanisms.linkages.move_limits import MoveLimit as MoveLimit
 from optlaws.mechanisms.linkages.slider_crank import slider_crank as slider_crank
 from optlaws.mechanisms.linkages.toggle import toggle as toggle
 from optlaws.mechanisms.machine.flat_output import driving_law as driving_law
@@ -184,6 +181,7 @@ __version__: str
 
 __all__ = [
     "FUNCTIONALS",
+    "After",
     "AsMade",
     "Axes",
     "B",
@@ -202,6 +200,7 @@ __all__ = [
     "CamMotion",
     "Certificate",
     "Chebyshev",
+    "Clearance",
     "Clutch",
     "Comparison",
     "ConstantVelocity",
@@ -217,8 +216,8 @@ __all__ = [
     "Dwell",
     "DwellMachine",
     "Expression",
-    "FastestCycle",
     "Follower",
+    "Forbidden",
     "Free",
     "Front",
     "FrontPoint",
@@ -228,9 +227,7 @@ __all__ = [
     "InputError",
     "J",
     "Leaf",
-    "LeastDuration",
     "LeverCam",
-    "LimitGain",
     "Link",
     "Loader",
     "Loads",
@@ -241,10 +238,8 @@ __all__ = [
     "MotionLaw",
     "Motor",
     "Move",
-    "MoveLimit",
     "NoisyTable",
     "NotNormalised",
-    "OldTable",
     "OptlawsError",
     "OscillatingFlat",
     "OscillatingRoller",
@@ -270,6 +265,7 @@ __all__ = [
     "Split",
     "Spring",
     "Status",
+    "Synchronous",
     "Tightening",
     "TorsionLever",
     "TranslatingFlat",
@@ -328,7 +324,6 @@ __all__ = [
     "polydyne",
     "proven_front",
     "rack",
-    "read_cycle_table",
     "read_law",
     "read_motors",
     "residual_functional",
@@ -348,7 +343,6 @@ __all__ = [
     "shaped_law",
     "slider_crank",
     "smoothstep",
-    "split_table",
     "sweep",
     "synthesize",
     "synthesize_array",

@@ -338,3 +338,17 @@ SMALL_PHASE_GAP = 1e-6  # of a limit: more is looked for on finer elements
 WEAK_CELL = 5e-7  # of what a cell adds to a bound: a cell that may lose more is divided
 SHORT_CELL = 1e-3  # of the move: of shorter cells what is lost is measured by this length
 INNER_SHARE = 1e-3  # shares of two equal torques that are so far from 0 and 1 follow from the potential
+
+# --- interlocks of axes ----------------------------------------------------------------------------------------------
+PASS_WIDTH = 1e-13  # of a cycle: times of a pass that are nearer to each other are one
+INTERLOCK = 1e-9  # of a stroke: positions that are nearer touch, and what touches is clear
+CLEARANCE_SHARE = 1e-9  # of the greatest clearance: how near its bound comes to the least one
+SQUARED_CLEARANCE = 1e-12  # the same of the square of a distance
+BROKEN_INSTANT = 1e-11  # of a period: by so much an instant may come too early, as programs are solved
+OVERLAP_GAP = 1e-9  # of the objective: by so much a least period is longer than the one of its program
+LP_FEASIBILITY = 1e-10  # of a period: by so much the solver of programs of instants may break a row
+BROKEN_PLACE = 3e-10  # of a period: the same between the places that programs know
+INSTANT_MARGIN = 1e-9  # of a period: instants are chosen so much apart from where they touch, which pays for the others
+PLACE_WIDTH = 1e-9  # of a segment: how near a place comes to where instants are broken most
+TIGHT = 1e-7  # of a period: what leaves no more binds
+SECTION_WIDTH = 1e-12  # of a polygon: sides that are narrower are upright

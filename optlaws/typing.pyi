@@ -21,11 +21,12 @@ from optlaws.cams.followers.rollers_and_faces import FaceContact as FaceContact
 from optlaws.cams.followers.rollers_and_faces import RollerContact as RollerContact
 from optlaws.cams.least_sizes import GreatestRoller as GreatestRoller
 from optlaws.cams.least_sizes import LeastBaseCircle as LeastBaseCircle
-from optlaws.cycles.interchange import PlotOver as PlotOver
+from optlaws.cycles.interlocks.enclosed_axis import Way as Way
+from optlaws.cycles.interlocks.interlock import Interlock as Interlock
+from optlaws.cycles.interlocks.interlock import LeastClearance as LeastClearance
+from optlaws.cycles.machine_axes import AxesPicture as AxesPicture
+from optlaws.cycles.machine_axes import Overlap as Overlap
 from optlaws.cycles.machine_follower import MachineAnswer as MachineAnswer
-from optlaws.cycles.specification.cycle_sheet import CycleSheet as CycleSheet
-from optlaws.cycles.specification.effort import Effort as Effort
-from optlaws.cycles.specification.effort import SegmentEffort as SegmentEffort
 from optlaws.cycles.specification.segments import CycleSegment as CycleSegment
 from optlaws.exports.best_breaks import BestBreaks as BestBreaks
 from optlaws.formulas.tree import Formula as Formula
@@ -36,7 +37,6 @@ from optlaws.laws.making.input_shaping import Shaper as Shaper
 from optlaws.laws.making.multiplier import Multiplier as Multiplier
 from optlaws.laws.segments.segment import Segment as Segment
 from optlaws.mechanisms.drives.drive_train import DimensionlessDrive as DimensionlessDrive
-from optlaws.mechanisms.drives.motor import MotorLosses as MotorLosses
 from optlaws.mechanisms.drives.motor_motion import Train as Train
 from optlaws.mechanisms.drives.sheet import BestRatio as BestRatio
 from optlaws.mechanisms.drives.sheet import DriveSheet as DriveSheet
@@ -97,6 +97,7 @@ __all__ = [
     "ActiveSet",
     "Array",
     "Asked",
+    "AxesPicture",
     "BestBaseCircle",
     "BestBreaks",
     "BestCam",
@@ -110,7 +111,6 @@ __all__ = [
     "CutCurve",
     "CutFormat",
     "CycleSegment",
-    "CycleSheet",
     "Derivatives",
     "DimensionlessDrive",
     "DimensionlessMechanism",
@@ -121,7 +121,6 @@ __all__ = [
     "DwellComparison",
     "DwellMechanism",
     "DwellType",
-    "Effort",
     "Entry",
     "Errors",
     "Extreme",
@@ -132,6 +131,7 @@ __all__ = [
     "FourBarBranch",
     "GreatestRoller",
     "InputAxis",
+    "Interlock",
     "Interpolation",
     "Interval",
     "Jet",
@@ -139,6 +139,7 @@ __all__ = [
     "LawSpace",
     "LazySequence",
     "LeastBaseCircle",
+    "LeastClearance",
     "LinkGeometry",
     "LoadPlace",
     "MachineAnswer",
@@ -150,19 +151,18 @@ __all__ = [
     "Maximum",
     "ModeResidual",
     "Motion",
-    "MotorLosses",
     "Multiplier",
     "Node",
     "NumberOrQuantity",
     "OutputPeak",
     "OutputRms",
+    "Overlap",
     "PeakSide",
     "PhasePlane",
     "Piece",
     "PiecewiseBasis",
     "Place",
     "PlaneCurve",
-    "PlotOver",
     "Polynomial",
     "PolynomialBasis",
     "Quantity",
@@ -171,7 +171,6 @@ __all__ = [
     "RollerContact",
     "Rows",
     "Segment",
-    "SegmentEffort",
     "Shaper",
     "Side",
     "SolvedPart",
@@ -187,4 +186,5 @@ __all__ = [
     "Train",
     "Turning",
     "Watch",
+    "Way",
 ]

@@ -270,10 +270,20 @@ class CycleInterchange(JsonText):
         return cycle_page(self._cycle)
 
 
-def problem_file(title: str, clock: Mapping[str, Any], cycles: Mapping[str, CycleInterchange]) -> str:
-    """A problem file of the job "cycle" with a clock, its speed or period, and an axis for each cycle."""
+def problem_file(
+    title: str, clock: Mapping[str, Any], cycles: Mapping[str, CycleInterchange], more: Mapping[str, Any] | None = None
+) -> str:
+    """A problem file of the job "cycle" with a clock, its speed or period, an axis for each cycle, and more entries."""
     axes = [_axis_entries(name, cycle) for name, cycle in cycles.items()]
-    return to_toml({"job": "cycle", "title": title, **clock, "axis": axes})
+    return to_toml(
+        {
+            "job": "cycle",
+            "title": title,
+            **clock,
+            "axis": axes,
+            **{name: value for name, value in (more or {}).items() if value},
+        }
+    )
 
 
 def _axis_entries(axis: str, cycle: CycleInterchange) -> dict[str, Any]:

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
-from typing import Any, Unpack
+from dataclasses import dataclass, field, replace
+from typing import Any, Literal, TypeAlias, Unpack
 
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.interchange import problem_file
-from optlaws.cycles.specification.programme import period_of
-from optlaws.cycles.specification.segments import CycleSegment
+from optlaws.cycles.interlocks.interlock import Interlock, LeastClearance
+from optlaws.cycles.interlocks.interlock_kinds import checked
+from optlaws.cycles.interlocks.overlapping import best_instants
+from optlaws.cycles.specification.programme import is_optimal, period_of
+from optlaws.cycles.specification.segments import CycleSegment, Dwell
 from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.extras import needed
@@ -19,7 +22,10 @@ from optlaws.laws.exporting import AxesExportOptions
 from optlaws.numbers import Quantity
 from optlaws.suggest import keywords_of, unknown_key
 from optlaws.synthesis.status import Status
-from optlaws.tolerances import CLOSURE
+from optlaws.tolerances import CLOSURE, CYCLE_OPTIMALITY
+
+#: what pictures of axes show
+AxesPicture: TypeAlias = Literal["motion", "timing", "plane", "clearance"]
 
 FORMAT = "optlaws axes 1"
 
@@ -36,11 +42,15 @@ class Axes(JsonText, Mapping[str, Cycle]):
     speed, period
         Of the master, "200 rpm", or the duration of the cycle, "0.3 s": one of them; where all axes are cycles neither
         is needed.
+    interlocks
+        Conditions between two axes each: `After`, `Clearance`, `Forbidden`, `Synchronous`, or the plain data of such.
+        `clearances` says which are clear and where they are nearest.
 
     Raises
     ------
     InputError
-        If an axis is wrong, or its cycle has another duration; the error names the axis.
+        If an axis is wrong, or its cycle has another duration; the error names the axis. If an interlock names an axis
+        that is not there or a position that it does not pass.
 
     Examples
     --------
@@ -59,6 +69,7 @@ class Axes(JsonText, Mapping[str, Cycle]):
     axes: Mapping[str, Sequence[CycleSegment] | Mapping[str, Any] | Cycle]
     speed: Quantity | None = field(default=None, kw_only=True)
     period: Quantity | None = field(default=None, kw_only=True)
+    interlocks: Sequence[Interlock | Mapping[str, Any]] = field(default=(), kw_only=True)
 
     def __post_init__(self) -> None:
         given: Any = self.axes
@@ -67,7 +78,8 @@ class Axes(JsonText, Mapping[str, Cycle]):
                 "axes are a table of segments by name, such as {'table': [Rise('45 deg', '0.4 s'), Dwell()]}"
             )
         object.__setattr__(self, "axes", dict(given))
-        self._cycles  # noqa: B018 - what is wrong of an axis is said at once
+        # what is wrong of an axis is said at once
+        object.__setattr__(self, "interlocks", checked(self.interlocks, self._cycles))
 
     def __getitem__(self, name: str) -> Cycle:
         if name not in self._cycles:
@@ -104,7 +116,112 @@ class Axes(JsonText, Mapping[str, Cycle]):
 
     def at(self, speed: Quantity) -> Axes:
         """The same motions at another speed of the master, as `Cycle.at` has them."""
-        return Axes({name: cycle.at(speed) for name, cycle in self.items()})
+        return Axes({name: cycle.at(speed) for name, cycle in self.items()}, interlocks=self.interlocks)
+
+    def fastest(self) -> Overlap:
+        """The least period that the interlocks allow: moves overlap as far as they can, each in its least time.
+
+        Laws keep their shapes. A move whose axis has limits of velocity, acceleration or jerk takes the least time
+        under these; another one keeps its time, or its angle of the master. Dwells last at least as long as they were
+        given, or their `least`. The order of the segments of each axis stays, and all axes rest when the cycle begins.
+
+        Returns
+        -------
+        An `Overlap`: its axes, its period, and the bound that no other instants of these moves pass.
+
+        Raises
+        ------
+        InputError
+            If a segment is no move from rest to rest and no dwell.
+        InfeasibleProblem
+            If no instants keep all interlocks; the error names those that contradict each other.
+
+        Examples
+        --------
+        >>> from optlaws import Clearance, Dwell, Return, Rise
+        >>> law = {"law": "cycloidal"}
+        >>> move = [
+        ...     Rise("0.1 m", "0.2 s", **law),
+        ...     Dwell("0.4 s", least="0 s"),
+        ...     Return("0.1 m", "0.2 s", **law),
+        ...     Dwell(),
+        ... ]
+        >>> slide = {"segments": move, "limits": {"acceleration": "20 m/s^2"}}
+        >>> waits, acts = Dwell("0.2 s", least="0 s"), Dwell("0.1 s")
+        >>> tool = [waits, Rise("50 mm", "0.1 s", **law), acts, Return("50 mm", "0.1 s", **law), Dwell()]
+        >>> rule = Clearance("tool", over="slide", most=[("90 mm", "5 mm"), ("95 mm", "50 mm")])
+        >>> best = Axes({"slide": slide, "tool": tool}, period="1 s", interlocks=[rule]).fastest()
+        >>> best.status.value, round(best.objective, 6), best.axes.clearances[0].status
+        ('optimal', 0.51093, 'clear')
+        """
+        return self._overlap("period", tuple(self))
+
+    def gentlest(self, *of: str) -> Overlap:
+        """The least greatest acceleration in the same period: moves grow into the time that the interlocks leave.
+
+        Parameters
+        ----------
+        of
+            The axes whose moves may take longer, all unless given; moves of the others keep their times. Of several the
+            greatest share of what each has now is least.
+
+        Returns
+        -------
+        An `Overlap`: its axes, its acceleration as a share of what it was, and the bound that no other instants pass.
+
+        Raises
+        ------
+        InputError
+            If an axis is unknown, or a segment is no move from rest to rest and no dwell.
+        InfeasibleProblem
+            If no instants keep all interlocks; the error names those that contradict each other.
+
+        Examples
+        --------
+        >>> from optlaws import After, Dwell, Return, Rise
+        >>> law, on = {"law": "cycloidal"}, Dwell("0.1 s")
+        >>> index = [Dwell("0.25 s"), Rise("15 deg", "0.5 s", **law), Dwell()]
+        >>> die = [on, Rise("50 mm", "0.15 s", **law), Dwell(), Return("50 mm", "0.15 s", **law), on]
+        >>> rules = [
+        ...     After("table", "0.1 deg", of="die", above="31 mm"),
+        ...     After("die", "31 mm", of="table", above="14.9 deg", way="down"),
+        ... ]
+        >>> axes = {"table": {"segments": index, "advance": "15 deg"}, "die": die}
+        >>> best = Axes(axes, period="1 s", interlocks=rules).gentlest("die")
+        >>> best.status.value, round(best.objective, 6)
+        ('optimal', 0.175878)
+        """
+        for name in of:
+            self[name]
+        return self._overlap("acceleration", of or tuple(self))
+
+    def _overlap(self, goal: str, longer: Sequence[str]) -> Overlap:
+        instants = best_instants(self, self.rules, goal, longer)
+        cycles = {name: _retimed(cycle, instants.durations[name], instants.period) for name, cycle in self.items()}
+        axes = Axes(cycles, interlocks=self.rules)
+        value = instants.period if goal == "period" else 1.0 / instants.pace**2
+        return Overlap(axes, goal, value, instants.bound, instants.binding, self)
+
+    @kept_property
+    def clearances(self) -> tuple[LeastClearance, ...]:
+        """The least clearance of every interlock, its place and its margin, proven over the whole cycle.
+
+        Examples
+        --------
+        >>> from optlaws import After, Dwell, Return, Rise
+        >>> table = {"segments": [Rise("45 deg", "0.4 s", law="cycloidal"), Dwell()], "advance": "45 deg"}
+        >>> head = [Dwell("0.3 s"), Rise("250 mm", "0.2 s", law="cycloidal"), Dwell("1.2 s"), Return(law="cycloidal")]
+        >>> rule = After("head", "50 mm", of="table", above="44.9 deg", way="up")
+        >>> machine = Axes({"table": table, "head": head}, period="2 s", interlocks=[rule])
+        >>> [(least.status, least.text) for least in machine.clearances]
+        [('broken', '-0.060178 deg at 66.1074 deg, -4.79101 ms early')]
+        """
+        return tuple(interlock.least_clearance(self._cycles) for interlock in self.rules)
+
+    @property
+    def broken(self) -> tuple[LeastClearance, ...]:
+        """The interlocks that are not proven clear."""
+        return tuple(least for least in self.clearances if least.status != "clear")
 
     @keywords_of(AxesExportOptions)
     def export(
@@ -112,6 +229,7 @@ class Axes(JsonText, Mapping[str, Cycle]):
         to: str | Mapping[str, str],
         *,
         master: Quantity | None = "360 deg",
+        together: bool = False,
         **options: Unpack[AxesExportOptions],
     ) -> dict[str, Any]:
         """Every axis in the format of a controller, or each named axis in its own: an `Export` by the name of the axis.
@@ -122,6 +240,9 @@ class Axes(JsonText, Mapping[str, Cycle]):
         ----------
         to
             A format for all, or formats by the names of axes.
+        together
+            One file for all axes, where the format holds several, as "ros2" does: one trajectory of several joints.
+            The `text` of every export is then that of all, and each joint has the points of all.
         master, points, counts, digits, decimal, interpolation, task
             As in `Cycle.export`, for every axis.
 
@@ -138,15 +259,22 @@ class Axes(JsonText, Mapping[str, Cycle]):
         ... )
         >>> [(name, export.points) for name, export in both.export("codesys-xyva", points=91).items()]
         [('x', 91), ('y', 91)]
+        >>> joints = both.export("ros2", together=True, points=7)
+        >>> joints["x"].text.splitlines()[1:5], joints["x"].text == joints["y"].text
+        (['joint_names:', '- "x"', '- "y"', 'points:'], True)
         """
-        from optlaws.exports.export import export_axes
+        from optlaws.exports.export import export_axes, export_together
 
+        if together:
+            return export_together(self, to, {"master": master}, **options)
         formats = dict(to) if isinstance(to, Mapping) else dict.fromkeys(self, to)
         return export_axes(self, formats, {"master": master}, **options)
 
     def to_dict(self) -> dict[str, Any]:
         """The entries of the axes as they were given, plain and JSON-able."""
-        return {"format": FORMAT, "axes": {name: cycle.to_dict() for name, cycle in self.items()}}
+        axes = {name: cycle.to_dict() for name, cycle in self.items()}
+        interlocks = [interlock.to_dict() for interlock in self.rules]
+        return {"format": FORMAT, "axes": axes} | ({"interlocks": interlocks} if interlocks else {})
 
     @classmethod
     def from_dict(cls, data: Any) -> Axes:  # noqa: ANN401 - it is checked here
@@ -154,7 +282,11 @@ class Axes(JsonText, Mapping[str, Cycle]):
         stored = data.get("axes") if isinstance(data, Mapping) else None
         if not isinstance(stored, Mapping) or data.get("format", FORMAT) != FORMAT:
             raise InputError(f"stored axes have format {FORMAT!r} and a table of axes, got {shortened(data)}")
-        return cls({str(name): Cycle.from_dict(cycle) for name, cycle in stored.items()})
+        for name in data:
+            if name not in {"format", "axes", "interlocks"}:
+                raise InputError(f"stored axes: {unknown_key(name, ('format', 'axes', 'interlocks'))}")
+        cycles = {str(name): Cycle.from_dict(cycle) for name, cycle in stored.items()}
+        return cls(cycles, interlocks=data.get("interlocks", ()))
 
     def to_toml(self, title: str = "Machine") -> str:
         """A problem file for `optlaws cycle` with all axes.
@@ -173,7 +305,8 @@ class Axes(JsonText, Mapping[str, Cycle]):
         period = "0.30000000000000004 s"
         ...
         """
-        return problem_file(title, {"period": f"{self.duration!r} s"}, self)
+        interlocks = [interlock.to_dict() for interlock in self.rules]
+        return problem_file(title, {"period": f"{self.duration!r} s"}, self, {"interlocks": interlocks})
 
     def to_pandas(self) -> Any:  # noqa: ANN401 - pandas is imported where it is asked for
         """A data frame with a row for each segment of each axis: start, duration, peaks, leaps; SI units.
@@ -184,16 +317,55 @@ class Axes(JsonText, Mapping[str, Cycle]):
         frames = {name: cycle.to_pandas() for name, cycle in self.items()}
         return pd.concat(frames, names=["axis", "segment number"])
 
-    def plot(self, ax: Any = None, *, nu: int = 0, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
-        """Draw all axes over one time, one below the other, with their segments, by matplotlib; return the artists.
+    def plot(
+        self,
+        ax: Any = None,  # noqa: ANN401 - matplotlib's
+        *,
+        what: AxesPicture = "motion",
+        nu: int = 0,
+        interlock: int | str = 0,
+        **style: Any,
+    ) -> list[Any]:
+        """Draw all axes by matplotlib, and return the artists.
 
-        `nu` is what is drawn: position (0), velocity, acceleration or jerk (3). `ax` are as many axes of matplotlib, or
-        one for all, where every curve is divided by its peak, else an `InputError`; a new figure unless given. `style`
-        is what `Axes.plot` of matplotlib takes.
+        Parameters
+        ----------
+        ax
+            Axes of matplotlib, else of a new figure. Motions are drawn into as many as there are axes, or into one,
+            where every curve is divided by its peak; clearances into as many as there are interlocks.
+        what
+            "motion": all axes over one time, one below the other. "timing": the timing diagram, a bar for each move,
+            with an arrow for each `After`. "plane": the path in the plane of two positions, with what is forbidden.
+            "clearance": the clearance of every interlock over time.
+        nu
+            Of motions: position (0), velocity, acceleration or jerk (3).
+        interlock
+            Of a plane: the number of an interlock or its name; its axes are drawn, with all that is forbidden to them.
+        style
+            What `Axes.plot` of matplotlib takes.
+
+        Raises
+        ------
+        InputError
+            If `ax` are not as many as are drawn, or an interlock is not there.
+
+        Examples
+        --------
+        >>> from optlaws import After, Dwell, Return, Rise
+        >>> table = {"segments": [Rise("45 deg", "0.4 s", law="cycloidal"), Dwell()], "advance": "45 deg"}
+        >>> head = [Dwell("0.3 s"), Rise("250 mm", "0.2 s", law="cycloidal"), Dwell("1.2 s"), Return(law="cycloidal")]
+        >>> rule = After("head", "50 mm", of="table", above="44 deg", way="up")
+        >>> machine = Axes({"table": table, "head": head}, period="2 s", interlocks=[rule])
+        >>> [label.get_text() for label in machine.plot(what="timing")[0].axes.get_yticklabels()]
+        ['table', 'head']
         """
-        from optlaws.plots.cycle import draw_axes
+        if what == "motion":
+            from optlaws.plots.cycle import draw_axes
 
-        return draw_axes(self, ax, nu=nu, **style)
+            return draw_axes(self, ax, nu=nu, **style)
+        from optlaws.plots.interlocks import draw_interlocked
+
+        return draw_interlocked(self, self.rules, ax, what, interlock, style)
 
     def __repr__(self) -> str:
         shown = {name: ", ".join(segment.label for segment in cycle.segments) for name, cycle in self.items()}
@@ -204,6 +376,11 @@ class Axes(JsonText, Mapping[str, Cycle]):
         from optlaws.shown.showing import Html, page
 
         return page("Axes", *(Html(f"<h4>{name}</h4>{cycle._repr_html_()}") for name, cycle in self.items()))
+
+    @property
+    def rules(self) -> tuple[Interlock, ...]:
+        """The interlocks as values."""
+        return self.interlocks  # type: ignore[return-value] # values since the axes were checked
 
     @kept_property
     def _cycles(self) -> dict[str, Cycle]:
@@ -227,6 +404,63 @@ class Axes(JsonText, Mapping[str, Cycle]):
             return {}
         period_of(self.speed, self.period)
         return {"speed": self.speed, "period": self.period}
+
+
+@dataclass(frozen=True, eq=False)
+class Overlap:
+    """Axes whose moves overlap best, with the proof that no other instants of these moves are better.
+
+    Attributes
+    ----------
+    axes
+        The machine with its new durations; laws and strokes are those it had.
+    goal
+        "period" or "acceleration".
+    objective
+        The period in seconds, or the greatest acceleration as a share of what it was.
+    lower_bound
+        No instants of moves by these laws have less, in the order of the segments, with all axes at rest when the cycle
+        begins, and with each move of an axis around one rest of the other axis.
+    binding
+        What leaves no room where the objective is least: limits of moves, dwells and interlocks, by their names.
+    given
+        The machine as it was.
+    """
+
+    axes: Axes
+    goal: str
+    objective: float
+    lower_bound: float
+    binding: tuple[str, ...]
+    given: Axes
+
+    @property
+    def status(self) -> Status:
+        """Optimal where all interlocks are proven clear and the bound is reached; else inaccurate."""
+        near = self.objective <= self.lower_bound * (1.0 + CYCLE_OPTIMALITY)
+        return Status.OPTIMAL if near and not self.axes.broken else Status.INACCURATE
+
+    @property
+    def gain(self) -> float:
+        """The objective as it was, divided by what it is: how many times faster, or lower the acceleration."""
+        return (self.given.duration if self.goal == "period" else 1.0) / self.objective
+
+    def __repr__(self) -> str:
+        what = f"period={self.objective:.6g} s" if self.goal == "period" else f"acceleration={self.objective:.6g}"
+        return f"Overlap({what}, {self.gain:.4g} times better, status={self.status.value!r}, bound by {self.binding})"
+
+
+def _retimed(cycle: Cycle, durations: Sequence[float], period: float) -> Cycle:
+    """The cycle with its laws in other times; dwells of no time are left out."""
+    segments, pieces = list[CycleSegment](), {piece.start: piece for piece in cycle.pieces}
+    for stretch, peaks, duration in zip(cycle.programme.stretches, cycle.peaks, durations, strict=True):
+        segment = stretch.given
+        if isinstance(segment, Dwell) and duration <= CLOSURE * period:
+            continue
+        law = {} if isinstance(segment, Dwell) or not is_optimal(segment) else {"law": pieces[peaks.start].law}
+        segments.append(replace(segment, duration=f"{duration!r} s", **law))  # type: ignore[type-var]
+    minimise = "acceleration" if cycle.load is not None else cycle.minimise
+    return replace(cycle, segments=segments, speed=None, period=f"{period!r} s", minimise=minimise)
 
 
 def _entries(given: Any) -> dict[str, Any]:  # noqa: ANN401 - it is checked here

@@ -213,6 +213,24 @@ def export_axes(
     return by_axis
 
 
+def export_together(
+    axes: Mapping[str, _HasMotion], to: Any, placement: dict[str, Any], *, task: Quantity | None = None, **options: Any  # noqa: ANN401
+) -> dict[str, Export]:  # fmt: skip
+    """Axes in one file of a format that holds several: the text of every export is that of all."""
+    form = format_of(to)
+    if form.write_joints is None:
+        raise InputError(f"a file of the format {form.name} holds one axis: leave `together` out, or take 'ros2'")
+    names = variable_names(axes)
+    motions = {names[axis]: cycle.motion(**placement) for axis, cycle in axes.items()}
+    written = form.write_joints(motions, form.request(**options))
+    exports = {}
+    for axis, name in names.items():
+        run, motion = written[name], motions[name]
+        sampling = None if task is None else task_sampling(run.run, motion, task)
+        exports[axis] = Export(form, motion, run, as_run(run.run, motion, run.bound, run.roundings), sampling)
+    return exports
+
+
 def _finite(value: float | None) -> float | None:
     return value if value is not None and isfinite(value) else None
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field, fields
 from typing import Any
 
@@ -108,6 +108,8 @@ class Written:
 
 #: what makes the file of a motion and a request
 Writer = Callable[[Motion, Request], Written]
+#: what makes one file of several motions by their names
+JointWriter = Callable[[Mapping[str, Motion], Request], dict[str, Written]]
 
 
 @dataclass(frozen=True)
@@ -132,6 +134,8 @@ class Format:
         Makes the file of a motion and a request.
     takes
         The entries of `Request` that mean something to it, beside the name.
+    write_joints
+        Makes one file of several motions by their names; None of formats that hold one.
     """
 
     name: str
@@ -142,6 +146,7 @@ class Format:
     extension: str
     write: Writer = field(repr=False)
     takes: tuple[str, ...] = ("points",)
+    write_joints: JointWriter | None = field(default=None, repr=False)
 
     def request(self, **options: Any) -> Request:
         """The options that are not None, checked against what the format takes.
@@ -180,11 +185,12 @@ def file_format(
     limits: str,
     extension: str,
     takes: tuple[str, ...] = ("points",),
+    joints: JointWriter | None = None,
 ) -> Callable[[Writer], Writer]:
     """A decorator that enters a format under its name, with the function that writes its files."""
 
     def entered(write: Writer) -> Writer:
-        FORMATS[name] = Format(name, target, contents, model, limits, extension, write, takes)
+        FORMATS[name] = Format(name, target, contents, model, limits, extension, write, takes, joints)
         return write
 
     return entered

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -12,21 +12,32 @@ import msgspec
 import numpy as np
 
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.fastest_cycle import FastestCycle
 from optlaws.cycles.limit_rows import limit_rows
+from optlaws.cycles.machine_axes import Axes, Overlap
 from optlaws.cycles.specification.process import is_process
 from optlaws.cycles.summary import drive_rows, force_name, force_unit, joint_rows, proof_rows
-from optlaws.errors import InfeasibleProblem, InputError, located
+from optlaws.errors import InputError, located
 from optlaws.exports.export import Export, export_cycle
 from optlaws.exports.format import FORMATS, format_of
 from optlaws.exports.text import variable_names
 from optlaws.files import tables, writing
 from optlaws.jobs.axes.entry_sweep import SweptCycle, sweep_table
-from optlaws.jobs.cycle_entries import CycleProblemFile, ExportEntries, read, sweeps_of
+from optlaws.jobs.axes.fastest_page import (
+    FASTEST_HEADINGS,
+    FastestCycle,
+    at_greatest_speed,
+    fastest_facts,
+    fastest_of,
+    fastest_rows,
+    slowest,
+)
+from optlaws.jobs.axes.interlock_page import CLEARANCES, GIVEN, TIMING, add_interlocks, interlock_facts
+from optlaws.jobs.cycle_entries import CycleProblemFile, ExportEntries, overlap_of, read_given, sweeps_of
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.motion.quantities import QUANTITIES
 from optlaws.plots.cycle import UNITS, axes_figure, cycle_figure
+from optlaws.plots.interlocks import clearance_figure, timing_figure
 from optlaws.plots.mechanism import mechanism_figure
 from optlaws.plots.motors import motor_figure
 from optlaws.plots.sweep import sweep_figure
@@ -50,9 +61,11 @@ _EXPORT_HEADINGS = ("file", "format", "points", *_PEAKS, "greatest deviation, un
 def exports_of(spec: CycleProblemFile, cycles: Mapping[str, Cycle], file: Path) -> Exports:
     """The exports that the axes name, made but not yet written."""
     exports: Exports = {}
-    if len(spec.axis) > 1 and TOGETHER in {plain_name(axis.name) for axis in spec.axis}:
-        raise InputError(f"{file}: an axis is called {TOGETHER}, as the picture of all is: give it another name")
-    taken = {"cycle.md", "cycle.json", "fastest.json", f"{TOGETHER}.svg", f"{TOGETHER}.png"}
+    together = {TOGETHER, TIMING, CLEARANCES, GIVEN}
+    for name in sorted(together & {plain_name(axis.name) for axis in spec.axis}) if len(spec.axis) > 1 else ():
+        raise InputError(f"{file}: an axis is called {name}, as the picture of all is: give it another name")
+    taken = {"cycle.md", "cycle.json", "fastest.json"}
+    taken |= {f"{name}{ending}" for name in together for ending in (".svg", ".png")}
     taken |= {f"{SWEEP}{i}{end}" for i in range(1, len(spec.sweep) + 1) for end in (".csv", ".svg", ".png")}
     taken |= {f"{plain_name(axis.name)}{ending}" for axis in spec.axis for ending in (".csv", ".svg", ".png")}
     drawn = (picture.name for pictures in _drive_pictures(cycles).values() for picture in pictures)
@@ -101,22 +114,23 @@ def _export_row(name: str, export: Export) -> list[tables.Cell]:
 
 _SHARE = 360.0
 _RPM = 30.0 / np.pi
-_FASTEST_HEADINGS = ("what", "value", "unit", "note")
 
 
 def run(results: Results) -> None:
     """Put the page, the motions, the pictures, the laws and the exports of all axes into results."""
-    spec, cycles = read(results.entries, results.file)
-    fastest = fastest_of(cycles, results.file) if spec.fastest else {}
-    cycles = at_greatest_speed(cycles, fastest)
+    spec, given = read_given(results.entries, results.file)
+    overlap = overlap_of(spec, given, results.file)
+    fastest = fastest_of(given, results.file) if spec.fastest else {}
+    cycles = at_greatest_speed(given if overlap is None else overlap.axes, fastest)
     exports = exports_of(spec, cycles, results.file)
     sweeps = sweeps_of(spec, results.file)
     results.title = spec.title
-    results.text("cycle.md", str(page(spec, cycles, exports, sweeps, fastest)))
+    results.text("cycle.md", str(page(spec, cycles, exports, Sought(sweeps, fastest, overlap))))
     for number, (sweep, rows) in enumerate(zip(spec.sweep, sweeps, strict=True), 1):
         results.table(f"{SWEEP}{number}", *sweep_table(sweep, rows))
         results.picture(f"{SWEEP}{number}", sweep_figure(*sweep_table(sweep, rows), f"{spec.title}: {sweep.axis}"))
-    results.data("cycle.json", {"unit": "SI", "axes": {name: _stored(cycle) for name, cycle in cycles.items()}})
+    facts = {"unit": "SI", "axes": {name: _stored(cycle) for name, cycle in cycles.items()}}
+    results.data("cycle.json", facts | interlock_facts(cycles, overlap))
     if fastest:
         results.data("fastest.json", {name: axis.claims() for name, axis in fastest.items()})
     pictures = _drive_pictures(cycles)
@@ -129,6 +143,11 @@ def run(results: Results) -> None:
             results.add(file, export.write)
     if len(cycles) > 1:
         results.picture(TOGETHER, axes_figure(cycles, spec.title))
+    if cycles.rules:
+        results.picture(TIMING, timing_figure(cycles, cycles.rules, spec.title))
+    if overlap is not None:
+        results.picture(GIVEN, timing_figure(given, given.rules, f"{spec.title}, as it was given"))
+        results.picture(CLEARANCES, clearance_figure(cycles, cycles.rules, spec.title))
 
 
 class _DrivePicture(NamedTuple):
@@ -169,88 +188,34 @@ def table_of_motion(cycle: Cycle, rows: int, about: str) -> str:
 
 def answer(entries: Mapping[str, Any], file: Path) -> dict[str, Any]:
     """The data of the cycles of a file for programs, in SI units, by the names of the axes."""
-    spec, cycles = read(entries, file)
+    spec, given = read_given(entries, file)
     if spec.fastest:
-        return {name: fastest_facts(fastest) for name, fastest in fastest_of(cycles, file).items()}
-    return {name: _facts(cycle) for name, cycle in cycles.items()}
+        return {name: fastest_facts(fastest) for name, fastest in fastest_of(given, file).items()}
+    overlap = overlap_of(spec, given, file)
+    axes = given if overlap is None else overlap.axes
+    return {name: _facts(cycle) for name, cycle in axes.items()} | interlock_facts(axes, overlap)
 
 
-def fastest_of(cycles: Mapping[str, Cycle], file: Path) -> dict[str, FastestCycle]:
-    """Each axis at its greatest speed; errors name the file and the axis."""
-    fastest = {}
-    for name, cycle in cycles.items():
-        try:
-            fastest[name] = cycle.fastest()
-        except (InputError, InfeasibleProblem) as error:
-            raise type(error)(f"{file}: axis {name}: {error}") from None
-    return fastest
+@dataclass(frozen=True)
+class Sought:
+    """What a file seeks beside its cycles: sweeps, the greatest speed of each axis, and how moves overlap."""
+
+    sweeps: Sequence[list[SweptCycle]] = ()
+    fastest: Mapping[str, FastestCycle] = field(default_factory=dict)
+    overlap: Overlap | None = None
 
 
-def at_greatest_speed(cycles: Mapping[str, Cycle], fastest: Mapping[str, FastestCycle]) -> dict[str, Cycle]:
-    """All axes at the greatest speed that every one of them allows; as they are where none was sought."""
-    period = max((axis.period for axis in fastest.values()), default=0.0)
-    return {
-        name: cycle
-        if name not in fastest
-        else fastest[name].cycle
-        if fastest[name].period == period
-        else replace(cycle, speed=None, period=f"{period!r} s")
-        for name, cycle in cycles.items()
-    }
-
-
-def fastest_facts(fastest: FastestCycle) -> dict[str, Any]:
-    """The greatest speed of an axis for programs."""
-    return {
-        "status": fastest.status.value,
-        "speed": fastest.speed,
-        "rpm": fastest.rpm,
-        "period": fastest.period,
-        "lower_bound": fastest.lower_bound,
-        "gains": [{"limit": gain.limit, "speed": gain.speed, "ratio": gain.ratio} for gain in fastest.gains],
-        "segments": [
-            {"name": each.name, "least": each.least, "duration": each.duration, "limits": list(each.limits),
-             "binding": each.binding}
-            for each in fastest.segments
-        ],
-    }  # fmt: skip
-
-
-def fastest_page(title: str, fastest: Mapping[str, FastestCycle]) -> Page:
-    """The greatest speed of each axis, what binds, and what more of it would give."""
-    result = Page(title)
-    for name, axis in fastest.items():
-        result.heading(name).table(_FASTEST_HEADINGS, _fastest_rows(axis), digits=9)
-    return _slowest(result, fastest)
-
-
-def _slowest(result: Page, fastest: Mapping[str, FastestCycle]) -> Page:
-    if len(fastest) > 1:
-        name, axis = max(fastest.items(), key=lambda item: item[1].period)
-        result.text(f"The machine is as fast as its slowest axis, {name}: {axis.rpm:.9g} rpm.")
-    return result
-
-
-def _fastest_rows(fastest: FastestCycle) -> list[list[tables.Cell]]:
-    return [[row.name, row.value, row.unit or None, row.note or None] for row in fastest.summary()]
-
-
-def page(
-    spec: CycleProblemFile,
-    cycles: Mapping[str, Cycle],
-    exports: Exports,
-    sweeps: Sequence[list[SweptCycle]],
-    fastest: Mapping[str, FastestCycle],
-) -> Page:
+def page(spec: CycleProblemFile, axes: Axes, exports: Exports, sought: Sought) -> Page:
     """The page of results."""
-    result = _slowest(Page(spec.title).text(spec.text), fastest)
-    if len(cycles) > 1:
+    result = slowest(Page(spec.title).text(spec.text), sought.fastest)
+    if len(axes) > 1:
         result.figure(TOGETHER, f"{spec.title}: all axes over one time")
-    pictures = _drive_pictures(cycles)
-    for name, cycle in cycles.items():
+    add_interlocks(result, spec.title, axes, sought.overlap)
+    pictures = _drive_pictures(axes)
+    for name, cycle in axes.items():
         result.heading(name).figure(plain_name(name), f"{spec.title}: {name}")
-        if name in fastest:
-            result.table(_FASTEST_HEADINGS, _fastest_rows(fastest[name]), digits=9)
+        if name in sought.fastest:
+            result.table(FASTEST_HEADINGS, fastest_rows(sought.fastest[name]), digits=9)
         result.table(_headings(cycle), [*_segment_rows(cycle), _whole_row(cycle)], digits=7)
         rows = [*proof_rows(cycle), *limit_rows(cycle), *drive_rows(cycle), *joint_rows(cycle)]
         result.table(("what", "value", "unit"), [[row.name, row.value, row.unit or None] for row in rows], digits=9)
@@ -259,7 +224,7 @@ def page(
         if exports[name]:
             result.text("What controllers will run: peaks of the exported files as interpolated, over the law's.")
             result.table(_EXPORT_HEADINGS, [_export_row(*item) for item in exports[name].items()], digits=7)
-    for number, (sweep, swept_cycles) in enumerate(zip(spec.sweep, sweeps, strict=True), 1):
+    for number, (sweep, swept_cycles) in enumerate(zip(spec.sweep, sought.sweeps, strict=True), 1):
         result.heading(f"{sweep.axis} by {sweep.entry}").figure(f"{SWEEP}{number}", f"{sweep.axis} by {sweep.entry}")
         result.table(*sweep_table(sweep, swept_cycles), digits=7)
     return result

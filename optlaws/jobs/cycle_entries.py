@@ -10,10 +10,12 @@ import msgspec
 
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.interchange import CLOCK, ENTRIES
+from optlaws.cycles.machine_axes import Axes, Overlap
 from optlaws.errors import InfeasibleProblem, InputError, located
 from optlaws.files.problem_file import Text, convert
 from optlaws.jobs.axes.drive_entries import drive_of
 from optlaws.jobs.axes.entry_sweep import SweepEntries, SweptCycle, swept
+from optlaws.jobs.axes.interlock_entries import InterlockEntries, OverlapEntries
 from optlaws.jobs.axes.segment_entries import SegmentEntries, given, segment_of
 from optlaws.jobs.job import JobFile
 from optlaws.suggest import unknown_key
@@ -73,6 +75,8 @@ class CycleProblemFile(JobFile, kw_only=True, forbid_unknown_fields=True):
     """The problem file of a cycle with its axes."""
 
     axis: Annotated[list[AxisEntries], msgspec.Meta(min_length=1, max_length=8)]
+    interlocks: Annotated[list[InterlockEntries], msgspec.Meta(max_length=50)] = msgspec.field(default_factory=list)
+    overlap: OverlapEntries | None = None
     speed: str | None = None
     period: str | None = None
     rows: Annotated[int, msgspec.Meta(ge=2, le=100_000)] = 361
@@ -80,13 +84,34 @@ class CycleProblemFile(JobFile, kw_only=True, forbid_unknown_fields=True):
     fastest: bool = False
 
 
-def read(data: Mapping[str, Any], file: Path) -> tuple[CycleProblemFile, dict[str, Cycle]]:
-    """The entries of a file, and the cycles of its axes by their names.
+def read(data: Mapping[str, Any], file: Path) -> tuple[CycleProblemFile, Axes]:
+    """The entries of a file, and its axes, which are cycles by their names; overlapped where the file says so.
+
+    Raises
+    ------
+    InputError, InfeasibleProblem
+        As `read_given`, or if the axes cannot overlap; the error names the file.
+    """
+    spec, axes = read_given(data, file)
+    overlap = overlap_of(spec, axes, file)
+    return spec, axes if overlap is None else overlap.axes
+
+
+def overlap_of(spec: CycleProblemFile, axes: Axes, file: Path) -> Overlap | None:
+    """How the axes of a file overlap; None where it says nothing of that."""
+    if spec.overlap is None:
+        return None
+    with located(str(file)):
+        return axes.fastest() if spec.overlap.goal == "period" else axes.gentlest(*spec.overlap.of)
+
+
+def read_given(data: Mapping[str, Any], file: Path) -> tuple[CycleProblemFile, Axes]:
+    """The entries of a file, and its axes as they are given.
 
     Raises
     ------
     InputError
-        If an entry is unknown or wrong; the error names the file, the axis and the segment.
+        If an entry is unknown or wrong; the error names the file, the axis and the segment, or the interlock.
     """
     spec = convert(data, CycleProblemFile, file)
     cycles: dict[str, Cycle] = {}
@@ -97,7 +122,12 @@ def read(data: Mapping[str, Any], file: Path) -> tuple[CycleProblemFile, dict[st
             cycles[axis.name] = cycle_of(axis, spec.speed, spec.period, file.parent)
         except (InputError, InfeasibleProblem) as error:
             raise type(error)(f"{file}: axis {axis.name}: {error}") from None
-    return spec, cycles
+    if spec.fastest and spec.overlap is not None:
+        raise InputError(f"{file}: fastest and overlap are two ways to a period: give one of them")
+    if len(cycles) > 1 and spec.interlocks and "interlocks" in cycles:
+        raise InputError(f"{file}: an axis is called interlocks, as what is known of them is: give it another name")
+    with located(str(file)):
+        return spec, Axes(cycles, interlocks=[given(entries) for entries in spec.interlocks])
 
 
 def sweeps_of(spec: CycleProblemFile, file: Path) -> list[list[SweptCycle]]:

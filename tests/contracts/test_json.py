@@ -137,6 +137,10 @@ def values(jumping: Solution) -> dict[str, Any]:
         "Axes with a mechanism and a motor": optlaws.Axes(
             {"crank": crank, "motor": {"segments": turns, "drive": motor}}, period="0.2 s"
         ),
+        "After": optlaws.After("x", "9 mm", of="z", above="31 mm", way="up"),
+        "Clearance": optlaws.Clearance("x", over="z", least=[("0 mm", "1 mm"), ("9 mm", "3 mm")]),
+        "Forbidden": optlaws.Forbidden("x", "z", [("0 mm", "1 mm"), ("9 mm", "3 mm"), ("9 mm", "1 mm")]),
+        "Synchronous": optlaws.Synchronous("x", "z", during=("0.1 s", "0.2 s"), within="1 mm/s"),
         "AsMade": AsMade(1e-5, 1.0, float("inf"), 0.1, 1.01, float("inf")),
         "Spring": Spring(3000.0, 20.0, 140.0, "stiffness", 3000.0, 0.0, (92.0, 31.4)),
     }

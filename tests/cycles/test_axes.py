@@ -1,5 +1,6 @@
 """Several axes on one clock: built from segments, tables or cycles, kept, tabled, drawn and exported together."""
 
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -116,3 +117,25 @@ def test_axes_with_mechanisms_and_motors_are_kept_exported_and_made_faster(tmp_p
     for name in ("crank", "table"):
         assert fast[name].effort.peak_force == pytest.approx(4.0 * machine[name].effort.peak_force, rel=1e-9)
         assert fast[name].effort.rms_force == pytest.approx(4.0 * machine[name].effort.rms_force, rel=1e-9)
+
+
+def test_axes_are_one_trajectory_of_several_joints() -> None:
+    """What a controller makes of the shared points is as near to each axis as its file alone, or nearer."""
+    made = MACHINE.export("ros2", together=True)
+    message = import_module("yaml").safe_load(made["table"].text)
+    assert message["joint_names"] == ["table", "weld_head"]
+    assert made["table"].text == made["weld head"].text
+    seconds = np.array(
+        [point["time_from_start"]["sec"] + 1e-9 * point["time_from_start"]["nanosec"] for point in message["points"]]
+    )
+    assert (np.diff(seconds) > 0.0).all()
+    for place, (name, cycle) in enumerate(MACHINE.items()):
+        for nu, field in enumerate(("positions", "velocities", "accelerations")):
+            values = np.array([point[field][place] for point in message["points"]])
+            inside = (seconds > 0.0) & (seconds < 2.0)
+            assert np.allclose(values[inside], cycle(seconds[inside], nu), atol=1e-6 * cycle.peak(nu))
+        alone = cycle.export("ros2")
+        assert made[name].points >= alone.points
+        assert made[name].report.deviation[0].value <= alone.report.deviation[0].value * 1.01 + 1e-12
+    with pytest.raises(InputError, match="holds one axis"):
+        MACHINE.export("csv", together=True)

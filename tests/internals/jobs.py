@@ -1,5 +1,6 @@
 """Internals of `optlaws.jobs` that tests look at by themselves."""
 
+from optlaws.jobs import cycle as cycle_job
 from optlaws.jobs import fronts, job, solutions
 from optlaws.jobs.atlas import COLUMNS, best_law, look_up
 from optlaws.jobs.atlas import read as read_of_atlas

@@ -2,27 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
-from math import factorial
 from typing import Any, Literal, Self
 
 import numpy as np
 
-from optlaws.cams.curves.enclosed_segments import enclosed_derivatives, enclosed_power
 from optlaws.cycles.cycle import Cycle
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
-from optlaws.laws import MotionLaw, PolynomialLaw
-from optlaws.laws.segments.piecewise import PiecewiseLaw
-from optlaws.laws.segments.segment import PolynomialSegment, Segment
-from optlaws.motion.piece import Piece, factor, named_law
+from optlaws.laws import MotionLaw
+from optlaws.motion.piece import Piece, named_law
 from optlaws.motion.quantities import TURN, either, in_small_units, quantity
+from optlaws.motion.smooth_stretches import EnclosedStretch, jet_of_parts, smooth_parts
 from optlaws.numbers import Array, Quantity, derivative, number_or_array, real_times
-from optlaws.numerics import chebyshev
-from optlaws.numerics.interval import Interval, exact, hull
+from optlaws.numerics.interval import Interval, hull
 from optlaws.numerics.taylor import Jet
 from optlaws.suggest import unknown_key
 from optlaws.tolerances import CLOSURE, ROUNDOFF
@@ -31,71 +26,8 @@ Direction = Literal["rise", "return"]
 DIRECTIONS: dict[Direction, float] = {"rise": 1.0, "return": -1.0}
 
 
-@dataclass(frozen=True)
-class CamStretch:
-    """A smooth part of a motion over a range of the cam's angle, rad: offset + stroke times a segment of a law.
-
-    `duration` is the angle of the whole law, of which the segment is a part `length` long in k.
-    """
-
-    start: float
-    stop: float
-    offset: float
-    stroke: float
-    duration: float
-    segment: Segment
-    length: float
-
-    def values(self, angle: Array, nu: int) -> Array:
-        """The derivative of order nu by the angle."""
-        u = np.clip((angle - self.start) / (self.stop - self.start), 0.0, 1.0)
-        if self.stroke == 0.0:
-            return np.full(np.shape(u), self.offset if nu == 0 else 0.0)
-        values = factor(self.stroke, self.duration, nu) * self.segment.derivative(u, self.length, nu)
-        return self.offset + values if nu == 0 else values
-
-    def jet(self, angle: Array | Interval, nu: int) -> Jet:
-        """The displacement with its derivatives up to order nu; in intervals of angles all that they may be."""
-        if not isinstance(angle, Interval):
-            return Jet(tuple(self.values(angle, i) / factorial(i) for i in range(nu + 1)))
-        if self.stroke == 0.0:
-            still = exact(np.zeros(angle.middle.shape))
-            return Jet((still + self.offset, *(still,) * nu))
-        values = enclosed_derivatives(self.segment, self.length, *self._cells(angle), nu)
-        factors = [self.stroke / self.duration**i / factorial(i) for i in range(nu + 1)]
-        terms = [
-            value * Interval(np.array(by), np.array(abs(by) * (i + 3) * ROUNDOFF))
-            for i, (value, by) in enumerate(zip(values, factors, strict=True))
-        ]
-        return Jet((terms[0] + self.offset, *terms[1:]))
-
-    def power(self, angle: Interval, nu: int) -> Jet:
-        """The velocity times the acceleration, by the angle, in intervals of angles: finite where d of the law is."""
-        if self.stroke == 0.0:
-            return Jet((exact(np.zeros(angle.middle.shape)),) * (nu + 1))
-        power = enclosed_power(self.segment, self.length, *self._cells(angle), nu)
-        by = self.stroke**2 / self.duration**3
-        return Jet(
-            tuple(
-                term * Interval(np.array(by / self.duration**i), np.array(by / self.duration**i * (i + 6) * ROUNDOFF))
-                for i, term in enumerate(power.terms)
-            )
-        )
-
-    def _cells(self, angle: Interval) -> tuple[Array, Array]:
-        """Middles and half lengths of intervals as shares of the stretch, and of no more than it."""
-        span = self.stop - self.start
-        middle, half = (angle.middle - self.start) / span, angle.radius / span
-        half = np.where(np.isfinite(half), half * (1.0 + 4.0 * ROUNDOFF), np.inf)
-        low, high = (np.clip(middle + side * half, 0.0, 1.0) for side in (-1.0, 1.0))
-        return 0.5 * (low + high), 0.5 * (high - low) + 8.0 * ROUNDOFF
-
-    def extremes(self, nu: int) -> tuple[float, float]:
-        """Least and greatest derivative of order nu."""
-        inner = self.segment.candidates(self.length, nu) if self.stroke else np.empty(0)
-        u = np.concatenate([[0.0, 1.0], inner])
-        values = self.values(self.start + (self.stop - self.start) * u, nu)
-        return float(values.min()), float(values.max())
+class CamStretch(EnclosedStretch):
+    """A smooth part of a motion over a range of the cam's angle, rad: `start`, `stop` and `duration` are angles."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -153,7 +85,7 @@ class CamMotion:
         """The motion of laws in their places, in time, which together make a turn of the cam in a period."""
         scale = TURN / period
         turns = [replace(piece, start=piece.start * scale, duration=piece.duration * scale) for piece in pieces]
-        return cls(tuple(part for piece in turns for part in _parts(piece)), axis, closed=True)
+        return cls(tuple(part for piece in turns for part in smooth_parts(piece, CamStretch)), axis, closed=True)
 
     @classmethod
     def of_law(cls, law: str | MotionLaw, stroke: Quantity, angle: Quantity, direction: Direction = "rise") -> Self:
@@ -187,7 +119,7 @@ class CamMotion:
             raise InputError(unknown_key(direction, DIRECTIONS, "direction"))
         sign = DIRECTIONS[direction]
         piece = Piece(0.0, turn, 0.0 if sign > 0.0 else height, sign * height, named_law(law, "motion"))
-        return cls(tuple(_parts(piece)), axis, closed=False)
+        return cls(smooth_parts(piece, CamStretch), axis, closed=False)
 
     @property
     def interval(self) -> tuple[float, float]:
@@ -220,19 +152,11 @@ class CamMotion:
         In an interval of angles they are those of the stretch in which its middle lies, which it must not leave.
         """
         at = angle if isinstance(angle, Interval) else self.within(angle)
-        return self._by_stretch(lambda stretch, some: stretch.jet(some, nu), at, before=before)
+        return jet_of_parts(self.stretches, lambda stretch, some: stretch.jet(some, nu), at, before=before)
 
     def power(self, angle: Interval, nu: int) -> Jet:
         """The velocity times the acceleration by the angle, in intervals each within a stretch."""
-        return self._by_stretch(lambda stretch, some: stretch.power(some, nu), angle)
-
-    def _by_stretch(self, jet: Callable[[CamStretch, Any], Jet], at: Array | Interval, *, before: bool = False) -> Jet:
-        middle = at.middle if isinstance(at, Interval) else at
-        which = np.searchsorted(self.breaks[1:-1], middle, side="left" if before else "right")
-        pieces = [(which == i, jet(self.stretches[i], at[which == i]).terms) for i in np.unique(which)]
-        return Jet(
-            tuple(_joined(middle.shape, [(here, terms[i]) for here, terms in pieces]) for i in range(len(pieces[0][1])))
-        )
+        return jet_of_parts(self.stretches, lambda stretch, some: stretch.power(some, nu), angle)
 
     def along(self, angle: Jet) -> Jet:
         """The displacement where the cam's angle is itself a function, up to its second Taylor term.
@@ -314,42 +238,3 @@ def as_motion(given: Any, axis: str) -> CamMotion:  # noqa: ANN401 - it is check
         other = {"length": "an oscillating", "angle": "a translating"}[axis]
         raise InputError(f"motion: the follower {kinds[axis]}: take {other} follower, or displacements of its kind")
     return motion
-
-
-def _parts(piece: Piece) -> Sequence[CamStretch]:
-    """The smooth parts of a law in its place."""
-    first = float(piece.law.a(0.0))
-    stretches = []
-    for (start, stop), segment in zip(pairwise(piece.law.breaks), _segments(piece.law), strict=True):
-        offset = piece.offset + piece.stroke * (float(piece.law.a(start)) - first)
-        low, high = piece.start + start * piece.duration, piece.start + stop * piece.duration
-        stretches.append(CamStretch(low, high, offset, piece.stroke, piece.duration, segment, stop - start))
-    return stretches
-
-
-def _segments(law: MotionLaw) -> Sequence[Segment]:
-    """The law between its breaks: exact where it is made of segments or a polynomial, else interpolated to rounding."""
-    if isinstance(law, PiecewiseLaw):
-        return law.segments
-    if isinstance(law, PolynomialLaw):
-        return (PolynomialSegment(law.acceleration, law.b0),)
-    return [_interpolated(law, start, stop) for start, stop in pairwise(law.breaks)]
-
-
-def _joined(shape: tuple[int, ...], pieces: Sequence[tuple[Any, Any]]) -> Any:  # noqa: ANN401 - an array or intervals
-    """Values that are known place by place."""
-    if isinstance(pieces[0][1], Interval):
-        parts = ([(here, getattr(enclosure, name)) for here, enclosure in pieces] for name in ("middle", "radius"))
-        return Interval(*(_joined(shape, part) for part in parts))
-    values = np.empty(shape)
-    for here, part in pieces:
-        values[here] = part
-    return values
-
-
-def _interpolated(law: MotionLaw, start: float, stop: float) -> Segment:
-    def c(x: Array) -> Array:
-        return law.c(start + 0.5 * (stop - start) * (x + 1.0))
-
-    series = chebyshev.interpolated(c, "acceleration of the law of a cam")
-    return PolynomialSegment(tuple(series.tolist()), float(law.b(start)))

@@ -38,22 +38,23 @@ def _greatest_speed(file: Path, out: Path | None, *, as_json: bool) -> None:
     """The greatest speed of each axis of a problem file."""
     from optlaws.files.packaged import problem_of_job
     from optlaws.jobs import cycle as job
+    from optlaws.jobs.axes.fastest_page import fastest_facts, fastest_of, fastest_page
     from optlaws.jobs.cycle_entries import read
     from optlaws.results import Results
 
     source, _, entries = problem_of_job(file, "cycle")
     with busy(f"{file}"):
         spec, cycles = read(entries, source)
-        speeds = job.fastest_of(cycles, source)
+        speeds = fastest_of(cycles, source)
         if out is not None:
             results = Results(source)
             results.entries["fastest"] = True
             job.run(results)
             results.write(out)
     if as_json:
-        print_json({name: job.fastest_facts(speed) for name, speed in speeds.items()})
+        print_json({name: fastest_facts(speed) for name, speed in speeds.items()})
     else:
-        show(*(line for line in str(job.fastest_page(spec.title, speeds)).splitlines() if not line.startswith("<!--")))
+        show(*(line for line in str(fastest_page(spec.title, speeds)).splitlines() if not line.startswith("<!--")))
     unproven = [name for name, speed in speeds.items() if speed.status != Status.OPTIMAL]
     if unproven:
         raise NotProven(f"axis {', '.join(unproven)}: that no law is faster is not proven")

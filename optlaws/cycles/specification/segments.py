@@ -37,6 +37,14 @@ class CycleSegment:
 class Dwell(CycleSegment):
     """A rest of the follower or the axis.
 
+    Parameters
+    ----------
+    duration
+        As of every segment.
+    least
+        What `Axes.fastest` and `Axes.gentlest` leave of it at least: "0 ms" of one that only waits. All of its duration
+        unless given, and nothing where the duration is left out.
+
     Examples
     --------
     >>> Dwell("90 deg").label
@@ -44,6 +52,7 @@ class Dwell(CycleSegment):
     """
 
     duration: Quantity | Sequence[Quantity] | None = None
+    least: Quantity | None = field(default=None, kw_only=True)
     name: str = field(default="", kw_only=True)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -17,10 +18,32 @@ from optlaws.files.writing import MARK
 from optlaws.motion.motion import Motion, Units
 from optlaws.motion.polynomials import PiecewiseMotion
 from optlaws.motion.quantities import quantity
+from optlaws.numbers import Array
 
 ORDERS = {"quintic": 3, "cubic": 2, "linear": 1}
 FIELDS = ("positions", "velocities", "accelerations")
 _NANO = 1_000_000_000
+
+
+def joints(motions: Mapping[str, Motion], request: Request) -> dict[str, Written]:
+    """One trajectory of several joints, by their names: the text of each is that of all.
+
+    Each joint has the points that it would have alone, and those of the others.
+    """
+    orders = ORDERS[request.interpolation_among(ORDERS, "quintic")]
+    for name in motions:
+        if not name.isprintable() or any(sign in name for sign in "\"'\\#:"):
+            raise InputError(f"ROS takes no joint called {shortened(name)}: letters, digits, _ and / make a name")
+    seconds = {name: _in_si(motion.over_time()) for name, motion in motions.items()}
+    tables = {name: _table(motion, request, orders) for name, motion in seconds.items()}
+    if len(tables) > 1:
+        places = np.unique(np.concatenate([table.x for table in tables.values()]))
+        tables = {name: _at(motion, places, orders) for name, motion in seconds.items()}
+    text = _text(seconds, tables)
+    return {
+        name: Written(text, _back(table.run, motions[name]), DEGREES[orders], len(table.x))
+        for name, table in tables.items()
+    }
 
 
 @file_format(
@@ -31,19 +54,26 @@ _NANO = 1_000_000_000
     limits="the master is time",
     extension=".yaml",
     takes=("points", "interpolation"),
+    joints=joints,
 )
 def _write(motion: Motion, request: Request) -> Written:
-    interpolation = request.interpolation_among(ORDERS, "quintic")
-    name = request.name
-    if not name.isprintable() or any(sign in name for sign in "\"'\\#:"):
-        raise InputError(f"ROS takes no joint called {shortened(name)}: letters, digits, _ and / make a name")
-    seconds = _in_si(motion.over_time())
+    return joints({request.name: motion}, request)[request.name]
 
+
+def _table(motion: Motion, request: Request, orders: int) -> PointTable:
     def make(count: int) -> PointTable:
-        return _timed(hermite_table(seconds, count, NumberFormat(), ORDERS[interpolation]))
+        return _timed(hermite_table(motion, count, NumberFormat(), orders))
 
-    table = chosen(seconds, request, make, least=2, most=MOST_POINTS)
-    return Written(_text(seconds, name, table), _back(table.run, motion), DEGREES[len(table.values)], len(table.x))
+    return chosen(motion, request, make, least=2, most=MOST_POINTS)
+
+
+def _at(motion: Motion, places: Array, orders: int) -> PointTable:
+    """The table at places that are whole nanoseconds; a break that is within one of them has its values."""
+    breaks = np.array(motion.breaks)
+    near = breaks[np.abs(places[:, None] - breaks).argmin(axis=1)]
+    at = np.where(np.abs(near - places) * _NANO <= 1.0, near, np.clip(places, motion.start, motion.stop))
+    values = np.array([motion(at, nu) for nu in range(orders)])
+    return PointTable(places, values, hermite_powers(places, values), 0.0, 0.0)
 
 
 def _in_si(motion: Motion) -> Motion:
@@ -76,12 +106,13 @@ def _back(run: PiecewiseMotion, motion: Motion) -> PiecewiseMotion:
     return run.in_units(motion.units.rate or 1.0, 1.0 / quantity(f"1 {motion.units.slave}", dimension, "slave"))
 
 
-def _text(motion: Motion, joint: str, table: PointTable) -> str:
-    lines = [f"# {table_heading(motion, 'ROS 2, trajectory_msgs/JointTrajectory')[0]}; {MARK}"]
-    lines += ["joint_names:", f'- "{joint}"', "points:"]
-    for x, values in zip(table.x.tolist(), table.values.T.tolist(), strict=True):
-        nanoseconds = round(x * _NANO)
-        number_format = (f"  {field}: [{value!r}]" for field, value in zip(FIELDS, values, strict=False))
+def _text(motions: Mapping[str, Motion], tables: Mapping[str, PointTable]) -> str:
+    heading = table_heading(next(iter(motions.values())), "ROS 2, trajectory_msgs/JointTrajectory")[0]
+    lines = [f"# {heading}; {MARK}", "joint_names:", *(f'- "{joint}"' for joint in motions), "points:"]
+    x, values = next(iter(tables.values())).x, np.array([table.values for table in tables.values()])
+    for time, rows in zip(x.tolist(), values.transpose(2, 1, 0).tolist(), strict=True):
+        nanoseconds = round(time * _NANO)
+        number_format = (f"  {field}: {row!r}" for field, row in zip(FIELDS, rows, strict=False))
         first, *others = (line[2:] for line in number_format)
         lines += [f"- {first}", *(f"  {line}" for line in others)]
         lines.append(f"  time_from_start: {{sec: {nanoseconds // _NANO}, nanosec: {nanoseconds % _NANO}}}")

@@ -19,6 +19,7 @@ class SegmentEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 
     kind: Kind
     duration: str | list[str] | None = None
+    least: str | None = None
     name: str | None = None
     by: str | None = None
     to: str | None = None

@@ -1,0 +1,17 @@
+"""A die that does not wait
+========================
+
+A die opens and closes while its table moves, as far as two interlocks let it: arrows say what comes first.
+"""
+
+from optlaws import After, Axes, Dwell, Return, Rise
+
+index = [Dwell("105 deg"), Rise("100 mm", "150 deg", law="cycloidal", name="index"), Dwell()]
+opens, closes = (kind("50 mm", "55 deg", law="cycloidal") for kind in (Rise, Return))
+die = [Dwell("50 deg"), opens, Dwell(), closes, Dwell("50 deg")]
+rules = [
+    After("table", "0.65 mm", of="die", above="31 mm"),
+    After("die", "31 mm", of="table", above="99.35 mm", way="down"),
+]
+axes = {"table": {"segments": index, "advance": "100 mm"}, "die": die}
+Axes(axes, speed="60 rpm", interlocks=rules).gentlest("die").axes.plot(what="timing")

@@ -1,0 +1,132 @@
+"""A region of the plane of two positions that their path does not enter: a tool and the workpiece around it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from math import hypot, sqrt
+from typing import Any, ClassVar
+
+import numpy as np
+
+from optlaws.cycles.interlocks.enclosed_axis import EnclosedAxis, least
+from optlaws.cycles.interlocks.interlock import Interlock, LeastClearance
+from optlaws.cycles.interlocks.polygon import SimplePolygon
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.motion.piece import unit_of
+from optlaws.motion.quantities import quantity
+from optlaws.numbers import Array
+from optlaws.numerics.interval import Interval
+from optlaws.numerics.taylor import Pair
+from optlaws.tolerances import CLEARANCE_SHARE, INTERLOCK, SQUARED_CLEARANCE
+
+
+@dataclass(frozen=True)
+class Forbidden(Interlock):
+    """A polygon in the plane of the positions of two axes, which their path does not enter.
+
+    The clearance is the distance of the path from the polygon: in metres of two slides, in radians of two tables; of a
+    slide and a table both positions are divided by their strokes.
+
+    Parameters
+    ----------
+    axis, across
+        The axes of the plane, such as "x" and "z".
+    corners
+        At least three, in order, as pairs of positions: `[("100 mm", "0 mm"), ("140 mm", "0 mm"), ...]`. The polygon
+        need not be convex; its sides do not cross each other.
+    name
+        What reports call it; the condition in words unless given.
+
+    Raises
+    ------
+    InputError
+        If there are fewer than three corners, they lie on a line, or sides cross; with axes, if an axis is unknown or a
+        position is of another kind.
+
+    Examples
+    --------
+    >>> corners = [("100 mm", "0 mm"), ("140 mm", "0 mm"), ("140 mm", "60 mm"), ("100 mm", "60 mm")]
+    >>> Forbidden("x", "z", corners).words
+    'x and z stay out of a polygon of 4 corners'
+    """
+
+    kind: ClassVar[str] = "forbidden"
+
+    axis: str
+    across: str
+    corners: Sequence[tuple[Any, Any]]
+    name: str = field(default="", kw_only=True)
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        corners: Any = self.corners
+        pairs = isinstance(corners, tuple) and all(isinstance(part, tuple) and len(part) == 2 for part in corners)
+        if not pairs or len(corners) < 3:
+            raise InputError(
+                "forbidden: corners are three or more pairs of positions such as ('100 mm', '0 mm'), got "
+                f"{shortened(corners)}"
+            )
+
+    @property
+    def axes(self) -> tuple[str, str]:
+        """The axes of the plane."""
+        return self.axis, self.across
+
+    @property
+    def words(self) -> str:
+        """The condition in words."""
+        return f"{self.axis} and {self.across} stay out of a polygon of {len(self.corners)} corners"
+
+    def check(self, cycles: Mapping[str, Any]) -> None:
+        """Refuse axes that are not there, corners of another kind, and sides that cross."""
+        first, second = self._checked_axes(cycles)
+        polygon_of(self, first.axis, second.axis)
+
+    def room(self, cycles: Mapping[str, Any], times: Array) -> Array:
+        """The distance of the path from the polygon, below 0 within it."""
+        enclosed = [EnclosedAxis(cycles[name]) for name in self.axes]
+        sizes = _sizes(*enclosed)
+        polygon = polygon_of(self, *(axis.cycle.axis for axis in enclosed)).scaled(*sizes)
+        x, y = (axis.cycle(times) / size for axis, size in zip(enclosed, sizes, strict=True))
+        depth = polygon.outside(x, y)
+        return np.asarray(np.where(depth > 0.0, np.sqrt(polygon.square(x, y)), depth))
+
+    def _least_clearance(self, first: EnclosedAxis, second: EnclosedAxis) -> LeastClearance:
+        """The distance of the path from the polygon where it is nearest; below 0 how deep the path enters it."""
+        same = first.cycle.axis == second.cycle.axis
+        sizes = _sizes(first, second)
+        polygon = polygon_of(self, first.cycle.axis, second.cycle.axis).scaled(*sizes)
+
+        def path(at: Interval, order: int) -> Pair:
+            return first.jet(at, order) / sizes[0], second.jet(at, order) / sizes[1]
+
+        outside = polygon.outside
+        known = least(lambda at, order: outside(*path(at, order)), (first, second), CLEARANCE_SHARE)
+        size = hypot(first.stroke / sizes[0], second.stroke / sizes[1])
+        clearance, bound, time = known.least, known.low, known.least_at
+        if bound > INTERLOCK * size:
+            # beyond a corner the distance is more than that from the lines that meet there
+            far = least(lambda at, order: polygon.square(*path(at, order)), (first, second), SQUARED_CLEARANCE)
+            clearance, bound, time = sqrt(max(far.least, 0.0)), max(bound, sqrt(max(far.low, 0.0))), far.least_at
+        unit = unit_of(first.cycle.axis) if same else "strokes"
+        return self._least(clearance, bound, unit, time, first.duration, size=size)
+
+
+def _sizes(first: EnclosedAxis, second: EnclosedAxis) -> tuple[float, float]:
+    """By what positions are divided: by their strokes where one is a length and the other an angle."""
+    return (1.0, 1.0) if first.cycle.axis == second.cycle.axis else (first.stroke or 1.0, second.stroke or 1.0)
+
+
+def polygon_of(rule: Forbidden, kind: str, across: str) -> SimplePolygon:
+    """The polygon in SI units, where its axes are lengths or angles."""
+    where = f"interlock {rule.label}"
+    corners = [
+        (quantity(x, kind, f"{where}: {rule.axis}"), quantity(y, across, f"{where}: {rule.across}"))
+        for x, y in rule.corners
+    ]
+    try:
+        return SimplePolygon.through(corners)
+    except InputError as error:
+        raise InputError(f"{where}: {error}") from None

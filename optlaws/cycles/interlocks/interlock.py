@@ -1,0 +1,213 @@
+"""What an interlock is: a condition on the positions of two axes, with the least clearance that a cycle leaves it."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from dataclasses import MISSING, dataclass, fields
+from typing import Any, ClassVar, Self
+
+from optlaws.cycles.interlocks.enclosed_axis import ClockedMotion, EnclosedAxis
+from optlaws.cycles.specification.segments import Dwell, Move
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.files.reading import JsonText
+from optlaws.motion.quantities import TURN, either, in_small_units, quantity, written
+from optlaws.numbers import Array
+from optlaws.suggest import unknown_key
+from optlaws.tolerances import CYCLE_ROUNDING, INTERLOCK, SAME_TIME
+
+#: small units by those of SI, and how many of them make one
+SMALL_UNITS = {
+    "m": ("mm", 1e3),
+    "rad": ("deg", 360.0 / TURN),
+    "m/s": ("mm/s", 1e3),
+    "rad/s": ("deg/s", 360.0 / TURN),
+}
+
+
+@dataclass(frozen=True)
+class LeastClearance:
+    """The least clearance that a cycle leaves an interlock: what it has at a time, and what is proven always.
+
+    Attributes
+    ----------
+    interlock
+        The interlock.
+    clearance
+        The least, at `time`: above 0 where it is clear, below 0 where it is broken; in SI units.
+    bound
+        Nowhere in the cycle there is less: proven by enclosures over the whole of it. Of this and the clearance what is
+        rounding beside the strokes is 0.
+    unit
+        Of both: "m", "rad", "m/s", or "strokes" where positions of two kinds are divided by their strokes.
+    time
+        When, in seconds.
+    angle
+        Where, in degrees of the master.
+    margin
+        By how many seconds the other axis is early, of an `After`; None of others, or where it is always there.
+    status
+        "clear" where the bound proves it, "broken" where the clearance disproves it, "open" where neither does.
+
+    Examples
+    --------
+    >>> from optlaws import After, Axes, Dwell, Return, Rise
+    >>> table = {"segments": [Dwell("0.5 s"), Rise("15 deg", "0.4 s", law="cycloidal"), Dwell()], "advance": "15 deg"}
+    >>> die = [Rise("50 mm", "0.4 s", law="cycloidal"), Dwell("0.7 s"), Return(law="cycloidal")]
+    >>> rule = After("table", "5 deg", of="die", above="31 mm")
+    >>> least = Axes({"table": table, "die": die}, period="2 s", interlocks=[rule]).clearances[0]
+    >>> least.status, round(least.clearance, 6), round(least.margin, 6), round(least.angle, 3)
+    ('clear', 0.019, 0.441568, 119.855)
+    """
+
+    interlock: Interlock
+    clearance: float
+    bound: float
+    unit: str
+    time: float
+    angle: float
+    margin: float | None
+    status: str
+
+    def to_row(self) -> dict[str, Any]:
+        """Its values by their names, plain and JSON-able, for tables and programs."""
+        names = ("status", "clearance", "bound", "unit", "time", "angle", "margin")
+        return {"interlock": self.interlock.label} | {name: getattr(self, name) for name in names}
+
+    @property
+    def text(self) -> str:
+        """It in words, in millimetres or degrees."""
+        unit, small = SMALL_UNITS.get(self.unit, (self.unit, 1.0))
+        early = "" if self.margin is None else f", {1e3 * self.margin:.6g} ms early"
+        return f"{round(small * self.clearance, 6) + 0.0:.6g} {unit} at {self.angle:.6g} deg{early}"
+
+
+class Interlock(JsonText, ABC):
+    """A condition on the positions of two axes of one clock; which, its heirs say."""
+
+    kind: ClassVar[str] = ""
+
+    name: str
+
+    def __post_init__(self) -> None:
+        for entry in fields(self):  # type: ignore[arg-type] # its heirs are dataclasses
+            object.__setattr__(self, entry.name, _plain(getattr(self, entry.name)))
+        for axis in self.axes:
+            if not _is_name(axis):
+                raise InputError(f"{self.kind}: an axis is a name such as 'table', got {shortened(axis)}")
+
+    @property
+    @abstractmethod
+    def axes(self) -> tuple[str, str]:
+        """The names of the two axes that it is of."""
+
+    @property
+    @abstractmethod
+    def words(self) -> str:
+        """The condition in words."""
+
+    @property
+    def label(self) -> str:
+        """Its name, or the condition in words."""
+        return self.name or self.words
+
+    @abstractmethod
+    def check(self, cycles: Mapping[str, Any]) -> None:
+        """Refuse what is wrong before any law is looked for."""
+
+    def least_clearance(self, cycles: Mapping[str, Any]) -> LeastClearance:
+        """The least clearance over the whole cycle that cycles by the names of their axes leave it."""
+        first, second = (EnclosedAxis(cycles[name]) for name in self.axes)
+        return self._least_clearance(first, second)
+
+    @abstractmethod
+    def room(self, cycles: Mapping[str, Any], times: Array) -> Array:
+        """The clearance at times in seconds, in SI units, to draw; not a number where the interlock says nothing."""
+
+    @abstractmethod
+    def _least_clearance(self, first: EnclosedAxis, second: EnclosedAxis) -> LeastClearance:
+        """The least clearance over the whole cycle."""
+
+    def to_dict(self) -> dict[str, Any]:
+        """The kind of the interlock and its entries, plain and JSON-able."""
+        given = {each.name: getattr(self, each.name) for each in fields(self)}  # type: ignore[arg-type]
+        defaults = {each.name: each.default for each in fields(self)}  # type: ignore[arg-type]
+        entries = {name: _lists(value) for name, value in given.items() if value != defaults[name]}
+        return {"kind": self.kind, **entries}
+
+    @classmethod
+    def from_dict(cls, data: Any) -> Self:  # noqa: ANN401 - it is checked here
+        """Read what `to_dict` gave."""
+        given = dict(data) if isinstance(data, Mapping) else {}
+        if given.pop("kind", None) != cls.kind or not cls.kind:
+            raise InputError(f"an interlock of the kind {cls.kind!r} is a table with this kind, got {shortened(data)}")
+        known = {each.name: each for each in fields(cls)}  # type: ignore[arg-type]
+        for name in given:
+            if name not in known:
+                raise InputError(f"{cls.kind}: {unknown_key(name, ('kind', *known))}")
+        for name, each in known.items():
+            if each.default is MISSING and name not in given:
+                raise InputError(f"{cls.kind}: {name} is missing")
+        return cls(**given)
+
+    def _checked_axes(self, cycles: Mapping[str, Any]) -> tuple[ClockedMotion, ClockedMotion]:
+        for name in self.axes:
+            if name not in cycles:
+                raise InputError(f"interlock {self.label}: {unknown_key(name, tuple(cycles), 'axis')}")
+        if self.axes[0] == self.axes[1]:
+            raise InputError(f"interlock {self.label}: it is of two axes, and both are {self.axes[0]}")
+        return cycles[self.axes[0]], cycles[self.axes[1]]
+
+    def _position(self, value: Any, cycle: ClockedMotion, axis: str, *, rest: bool = False) -> float:  # noqa: ANN401
+        """A position within the stroke of an axis, in SI units; one at which it rests only where that is allowed."""
+        position = quantity(value, cycle.axis, f"interlock {self.label}: position of {axis}")
+        joints = joint_positions(cycle)
+        low, high = min(joints), max(joints)
+        slack = INTERLOCK * (high - low)
+        shown = in_small_units(position, cycle.axis)
+        far = not low - slack <= position <= high + slack
+        free = [not isinstance(stretch.given, Move | Dwell) for stretch in cycle.programme.stretches]
+        if far and not any(free):
+            ends = f"{in_small_units(low, cycle.axis)} to {in_small_units(high, cycle.axis)}"
+            raise InputError(f"interlock {self.label}: {axis} goes from {ends} and never passes {shown}")
+        still = (joint for joint, before, after in zip(joints, [free[-1], *free], [*free, free[0]], strict=True)
+                 if not before and not after)  # fmt: skip
+        if not rest and any(abs(position - joint) <= slack for joint in still):
+            raise InputError(f"interlock {self.label}: {axis} rests at {shown}: name a position that it passes")
+        return position
+
+    def _least(
+        self, clearance: float, bound: float, unit: str, time: float, period: float, *, size: float,
+        margin: float | None = None,
+    ) -> LeastClearance:  # fmt: skip
+        slack = INTERLOCK * size
+        clearance, bound = (0.0 if abs(value) <= CYCLE_ROUNDING * size else value for value in (clearance, bound))
+        margin = 0.0 if margin is not None and abs(margin) <= SAME_TIME * period else margin
+        status = "clear" if bound >= -slack else "broken" if clearance < -slack else "open"
+        return LeastClearance(self, clearance, bound, unit, time, 360.0 * time / period, margin, status)
+
+
+def either_position(value: Any, name: str) -> tuple[str, float]:  # noqa: ANN401 - it is checked here
+    """A length or an angle: which, and the value in SI units."""
+    return either(value, ("length", "angle"), name)
+
+
+def joint_positions(cycle: ClockedMotion) -> list[float]:
+    """Positions at which segments meet, both ends included, in SI units."""
+    positions = [cycle.programme.start]
+    for stretch in cycle.programme.stretches:
+        positions.append(positions[-1] + stretch.displacement)
+    return positions
+
+
+def _is_name(value: Any) -> bool:  # noqa: ANN401 - whatever is given
+    return isinstance(value, str) and bool(value)
+
+
+def _plain(value: Any) -> Any:  # noqa: ANN401 - whatever is given
+    return tuple(map(_plain, value)) if isinstance(value, list | tuple) else written(value)
+
+
+def _lists(value: Any) -> Any:  # noqa: ANN401 - whatever is stored
+    return [_lists(part) for part in value] if isinstance(value, tuple) else value

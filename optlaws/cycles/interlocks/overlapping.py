@@ -1,0 +1,354 @@
+"""Instants of moves that overlap as far as interlocks let them: linear programs, branched over who waits for whom.
+
+With laws that keep their shape, the time at which an axis passes a position is the sum of the durations before it and a
+known share of its move's. So an interlock that says around which rest of the other axis a pass lies is linear in the
+durations. What is left open, around which rest and on which side, is branched over: programs without a choice are
+relaxations, and bound all choices. Regions and bounds that are functions hold at every position: rows are added where a
+solution breaks them, until none does.
+"""
+
+from __future__ import annotations
+
+import heapq
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from itertools import count
+from math import sqrt
+from typing import Any
+
+import numpy as np
+
+from optlaws.cycles.interlocks.axis_plan import AxisPlan, plan_of
+from optlaws.cycles.interlocks.interlock import Interlock
+from optlaws.cycles.interlocks.requirements import Requirement, WaitOption, requirements
+from optlaws.errors import InfeasibleProblem, SolverFailure
+from optlaws.kept import kept_property
+from optlaws.numbers import Array
+from optlaws.tolerances import (
+    BROKEN_INSTANT,
+    BROKEN_PLACE,
+    INSTANT_MARGIN,
+    LP_FEASIBILITY,
+    OVERLAP_GAP,
+    PLACE_WIDTH,
+    TIGHT,
+)
+
+_NODES = 4000
+_CUTS = 40
+_LONGEST = 10.0
+
+Choices = Mapping[int, WaitOption]
+
+
+@dataclass(frozen=True)
+class Optimum:
+    """A solution of a program: unknowns, its value, and a bound below it."""
+
+    unknowns: Array
+    value: float
+    bound: float
+
+
+@dataclass(frozen=True)
+class BestInstants:
+    """Durations of all segments, the period, the pace, the proven bound of the objective, and names of what binds."""
+
+    durations: dict[str, list[float]]
+    period: float
+    pace: float
+    bound: float
+    binding: tuple[str, ...]
+    nodes: int
+
+
+@dataclass(frozen=True)
+class Overlapping:
+    """The problem: plans of axes, what interlocks demand, and which of period (least) and pace (greatest) is sought.
+
+    Attributes
+    ----------
+    efforts
+        Of each unknown duration the least at the pace 1; 0 of those that do not change with it.
+    period
+        The period that is given, None where the least is sought.
+    longest
+        A period that is not passed.
+    unit
+        Of the unknown times, in seconds: programs are solved in shares of it.
+    """
+
+    plans: tuple[AxisPlan, ...]
+    requirements: tuple[Requirement, ...]
+    efforts: Array
+    period: float | None
+    longest: float
+    unit: float
+    cuts: dict[int, list[float]] = field(default_factory=dict)
+    met: dict[tuple[int, WaitOption, float], list[Array]] = field(default_factory=dict)
+
+    @property
+    def size(self) -> int:
+        """How many unknowns there are: durations, the period and the pace."""
+        return len(self.efforts) + 2
+
+    @kept_property
+    def options(self) -> list[list[WaitOption]]:
+        """The choices that each requirement leaves."""
+        return [requirement.options() for requirement in self.requirements]
+
+    @kept_property
+    def base(self) -> tuple[list[Array], list[float], list[str]]:
+        """Rows, right sides and names of what holds whatever is chosen: row @ unknowns >= right side."""
+        rows: list[Array] = []
+        sides: list[float] = []
+        names: list[str] = []
+
+        def add(row: Array, side: float, name: str) -> None:
+            rows.append(row)
+            sides.append(side)
+            names.append(name)
+
+        for plan in self.plans:
+            for i, segment in enumerate(plan.segments):
+                here = plan.first + i
+                (least, share), kind = segment.least, "move" if segment.moves else "dwell"
+                free = segment.most is None and least + share > 0.0
+                # of a time that cannot change there is nothing to say
+                name = segment.limit or (f"{kind} {segment.name} of {plan.name}" if free else "")
+                add(
+                    self._row({here: 1.0, -2: -share, -1: -float(self.efforts[here]) / self.unit}),
+                    least / self.unit,
+                    name,
+                )
+                if segment.most is not None:
+                    add(self._row({here: -1.0, -2: segment.most[1]}), -segment.most[0] / self.unit, name)
+            whole = plan.instant(len(plan.segments))
+            for sign in (1.0, -1.0):
+                add(sign * (self._row({-2: 1.0}) - whole), 0.0, "")
+        return rows, sides, names
+
+    def best(self) -> BestInstants:
+        """The best instants over all choices, with a bound that no other instants pass."""
+        missing = [i for i, options in enumerate(self.options) if not options]
+        if missing:
+            needed = self.requirements[missing[0]]
+            raise InfeasibleProblem(
+                f"interlock {needed.rule.label}: while {needed.axis.name} passes, {needed.other.name} would have to be "
+                "where it never rests: change a position, or the strokes"
+            )
+        for i, requirement in enumerate(self.requirements):
+            self.cuts[i] = requirement.bends()
+        forced: dict[int, WaitOption] = {i: options[0] for i, options in enumerate(self.options) if len(options) == 1}
+        for _ in range(_CUTS):
+            optimum, choices, nodes, bound = self._searched(forced)
+            if not self._added(optimum.unknowns, choices):
+                return self._result(optimum, choices, nodes, bound)
+        raise SolverFailure("instants that keep a region clear were not found: give its bound fewer bends")
+
+    def _searched(self, forced: Choices) -> tuple[Optimum, Choices, int, float]:
+        """Branch and bound over the choices: the node of the least bound first."""
+        number, root = count(), self._solved(forced)
+        if root is None:
+            raise InfeasibleProblem(self._contradiction(forced))
+        heap: list[tuple[float, int, Optimum, dict[int, WaitOption]]] = [(root.bound, next(number), root, dict(forced))]
+        nodes = 1
+        while heap:
+            bound, _, optimum, choices = heapq.heappop(heap)
+            broken = self._most_broken(optimum.unknowns, choices)
+            if broken is None:
+                return optimum, self._completed(optimum.unknowns, choices), nodes, bound
+            if nodes > _NODES:
+                break
+            for option in self.options[broken]:
+                nodes += 1
+                further = {**choices, broken: option}
+                solved = self._solved(further)
+                if solved is not None:
+                    heapq.heappush(heap, (max(bound, solved.bound), next(number), solved, further))
+        if nodes > _NODES:
+            raise SolverFailure(f"who waits for whom has more than {_NODES} ways: give fewer moves or interlocks")
+        raise InfeasibleProblem(self._contradiction(forced))
+
+    def _solved(self, choices: Choices, rules: Sequence[Any] | None = None, margin: float = 0.0) -> Optimum | None:
+        """The program with the rows of what is chosen; None where it has no solution."""
+        from scipy.optimize import linprog
+
+        rows, sides, _ = self._rows(choices, rules, margin)
+        goal, most = self._row({-2: 1.0} if self.period is None else {-1: -1.0}), self._most()
+        low = np.zeros(self.size)
+        if self.period is not None:
+            low[-2] = self.period / self.unit
+        else:
+            low[-1] = 1.0
+        matrix, right = np.array(rows), np.array(sides)
+        solve: Any = linprog
+        answer = solve(
+            goal,
+            A_ub=-matrix,
+            b_ub=-right,
+            bounds=np.column_stack([low, most]),
+            method="highs",
+            options={"primal_feasibility_tolerance": LP_FEASIBILITY},
+        )
+        if answer.status != 0:
+            return None
+        prices = np.maximum(-answer.ineqlin.marginals, 0.0)
+        rest = goal - prices @ matrix
+        # weak duality, whatever the prices are worth
+        bound = float(prices @ right + np.minimum(rest * low, rest * most).sum())
+        return Optimum(np.asarray(answer.x), float(goal @ answer.x), bound)
+
+    def _rows_of(self, i: int, option: WaitOption, share: float) -> list[Array]:
+        if (i, option, share) not in self.met:
+            self.met[i, option, share] = self.requirements[i].rows(option, share)
+        return self.met[i, option, share]
+
+    def _rows(
+        self, choices: Choices, rules: Sequence[Any] | None = None, margin: float = 0.0
+    ) -> tuple[list[Array], list[float], list[str]]:
+        rows, sides, names = list(self.base[0]), list(self.base[1]), list(self.base[2])
+        for i, option in choices.items():
+            requirement = self.requirements[i]
+            if rules is None or requirement.rule in rules:
+                for share in self.cuts[i]:
+                    for row in self._rows_of(i, option, share):
+                        rows.append(row)
+                        sides.append(margin if requirement.extended else 0.0)
+                        names.append(requirement.rule.label)
+        return rows, sides, names
+
+    def _most(self) -> Array:
+        """Upper bounds of the unknowns."""
+        most = np.full(self.size, self.longest / self.unit)
+        active = self.efforts[self.efforts > 0.0]
+        most[-1] = self.longest / float(active.min()) if self.period is not None and active.size else 1.0
+        return most
+
+    def _broken_by(self, i: int, option: WaitOption, unknowns: Array) -> float:
+        """By how long an option is broken at the places that are looked at."""
+        rows = [row for share in self.cuts[i] for row in self._rows_of(i, option, share)]
+        return max((-float(row @ unknowns) for row in rows), default=0.0)
+
+    def _most_broken(self, unknowns: Array, choices: Choices) -> int | None:
+        """Of requirements without a choice the one whose best option is broken most; None where none is."""
+        worst, which = BROKEN_INSTANT * float(unknowns[-2]), None
+        for i, options in enumerate(self.options):
+            if i not in choices:
+                off = min(self._broken_by(i, option, unknowns) for option in options)
+                if off > worst:
+                    worst, which = off, i
+        return which
+
+    def _completed(self, unknowns: Array, choices: Choices) -> dict[int, WaitOption]:
+        """The choices with those that the solution itself makes."""
+        others = {
+            i: min(options, key=lambda option: self._broken_by(i, option, unknowns))
+            for i, options in enumerate(self.options)
+            if i not in choices
+        }
+        return {**choices, **others}
+
+    def _added(self, unknowns: Array, choices: Choices) -> bool:
+        """Whether places at which a choice is broken were added to those that are looked at."""
+        added = False
+        for i, option in choices.items():
+            if self.requirements[i].extended:
+                for share in self._worst(i, option, unknowns):
+                    self.cuts[i].append(share)
+                    added = True
+        return added
+
+    def _worst(self, i: int, option: WaitOption, unknowns: Array) -> list[float]:
+        """The shares of a segment at which a choice is broken more than nearby."""
+        from scipy.optimize import minimize_scalar
+
+        requirement, most = self.requirements[i], BROKEN_PLACE * float(unknowns[-2])
+
+        def off(share: float) -> float:
+            return max((-float(row @ unknowns) for row in requirement.rows(option, share)), default=-np.inf)
+
+        shares = requirement.shares()
+        values = [max((-float(row @ unknowns) for row in self._rows_of(i, option, share)), default=-np.inf)
+                  for share in shares]  # fmt: skip
+        solve: Any = minimize_scalar
+        met = []
+        for place, value in enumerate(values):
+            beside = values[max(place - 1, 0) : place + 2]
+            # between two places it may be broken by no more than what it changes from one to the next
+            if value < max(beside) or value <= most - 2.0 * (value - min(beside)):
+                continue
+            ends = shares[max(place - 1, 0)], shares[min(place + 1, len(shares) - 1)]
+            lowest = solve(lambda share: -off(share), bounds=ends, method="bounded", options={"xatol": PLACE_WIDTH})
+            at, by = (float(lowest.x), -float(lowest.fun)) if -lowest.fun > value else (float(shares[place]), value)
+            if by > most:
+                met.append(at)
+        return met
+
+    def _result(self, optimum: Optimum, choices: Choices, nodes: int, bound: float) -> BestInstants:
+        solved = self._solved(choices, margin=INSTANT_MARGIN) or optimum
+        x, (rows, sides, names) = solved.unknowns, self._rows(choices)
+        tight = [name for row, side, name in zip(rows, sides, names, strict=True) if row @ x - side <= TIGHT and name]
+        durations = {
+            plan.name: [self.unit * float(value) for value in x[plan.first : plan.first + len(plan.segments)]]
+            for plan in self.plans
+        }
+        return BestInstants(
+            durations,
+            self.unit * float(x[-2]),
+            float(x[-1]),
+            bound * (self.unit if self.period is None else 1.0),
+            tuple(dict.fromkeys(tight)),
+            nodes,
+        )
+
+    def _contradiction(self, forced: Choices) -> str:
+        """The interlocks without any of which there are instants."""
+        rules = list(dict.fromkeys(requirement.rule for requirement in self.requirements))
+        alone = self._solved(forced, rules=())
+        if alone is None:
+            return "the moves and dwells alone take longer than the period: give a longer one, or less of a dwell"
+        named = [rule.label for rule in rules if self._solved(forced, [each for each in rules if each is not rule])]
+        listed = "; ".join(named or [rule.label for rule in rules])
+        return f"no instants keep all interlocks: {listed}: change a position of one of them, or give a longer period"
+
+    def _row(self, entries: Mapping[int, float]) -> Array:
+        row = np.zeros(self.size)
+        for place, value in entries.items():
+            row[place] += value
+        return row
+
+
+def best_instants(
+    cycles: Mapping[str, Any], rules: Sequence[Interlock], goal: str, longer: Sequence[str]
+) -> BestInstants:
+    """The instants of least period, or of the least acceleration of some axes in the period that they have.
+
+    Where the period is least the answer is longer by what programs are solved to, so that all limits are met.
+    """
+    count_of_unknowns = sum(len(cycle.programme.stretches) for cycle in cycles.values()) + 2
+    first, plans = 0, dict[str, AxisPlan]()
+    efforts = np.zeros(count_of_unknowns - 2)
+    for name, cycle in cycles.items():
+        grows = goal == "acceleration" and name in longer
+        plan = plan_of(cycle, name, first, count_of_unknowns, goal, longer=grows)
+        if grows:
+            for i, segment in enumerate(plan.segments):
+                efforts[first + i] = sqrt(segment.acceleration / cycle.peak(2)) if segment.moves else 0.0
+        plans[name], first = plan, first + len(plan.segments)
+    duration = next(iter(cycles.values())).duration
+    least = sum(segment.least[0] for plan in plans.values() for segment in plan.segments)
+    problem = Overlapping(
+        tuple(plans.values()),
+        tuple(requirements(rules, plans, cycles)),
+        efforts,
+        None if goal == "period" else duration,
+        duration if goal == "acceleration" else _LONGEST * (duration + least),
+        duration,
+    )
+    best = problem.best()
+    if goal == "acceleration":
+        return replace(best, bound=1.0 / best.bound**2)
+    longer_by = 1.0 + OVERLAP_GAP
+    durations = {name: [longer_by * value for value in values] for name, values in best.durations.items()}
+    return replace(best, durations=durations, period=longer_by * best.period)

@@ -1,0 +1,80 @@
+"""Axes at their greatest speed, as the job "cycle" seeks, tables and stores them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.fastest_cycle import FastestCycle
+from optlaws.cycles.machine_axes import Axes
+from optlaws.errors import InfeasibleProblem, InputError
+from optlaws.files.tables import Cell
+from optlaws.results import Page
+
+FASTEST_HEADINGS = ("what", "value", "unit", "note")
+
+
+def fastest_of(cycles: Mapping[str, Cycle], file: Path) -> dict[str, FastestCycle]:
+    """Each axis at its greatest speed; errors name the file and the axis."""
+    fastest = {}
+    for name, cycle in cycles.items():
+        try:
+            fastest[name] = cycle.fastest()
+        except (InputError, InfeasibleProblem) as error:
+            raise type(error)(f"{file}: axis {name}: {error}") from None
+    return fastest
+
+
+def at_greatest_speed(axes: Axes, fastest: Mapping[str, FastestCycle]) -> Axes:
+    """All axes at the greatest speed that every one of them allows; as they are where none was sought."""
+    if not fastest:
+        return axes
+    period = max(axis.period for axis in fastest.values())
+    cycles = {
+        name: fastest[name].cycle
+        if fastest[name].period == period
+        else replace(cycle, speed=None, period=f"{period!r} s")
+        for name, cycle in axes.items()
+    }
+    return Axes(cycles, interlocks=axes.interlocks)
+
+
+def fastest_facts(fastest: FastestCycle) -> dict[str, Any]:
+    """The greatest speed of an axis for programs."""
+    return {
+        "status": fastest.status.value,
+        "speed": fastest.speed,
+        "rpm": fastest.rpm,
+        "period": fastest.period,
+        "lower_bound": fastest.lower_bound,
+        "gains": [{"limit": gain.limit, "speed": gain.speed, "ratio": gain.ratio} for gain in fastest.gains],
+        "segments": [
+            {"name": each.name, "least": each.least, "duration": each.duration, "limits": list(each.limits),
+             "binding": each.binding}
+            for each in fastest.segments
+        ],
+    }  # fmt: skip
+
+
+def fastest_page(title: str, fastest: Mapping[str, FastestCycle]) -> Page:
+    """The greatest speed of each axis, what binds, and what more of it would give."""
+    result = Page(title)
+    for name, axis in fastest.items():
+        result.heading(name).table(FASTEST_HEADINGS, fastest_rows(axis), digits=9)
+    return slowest(result, fastest)
+
+
+def slowest(result: Page, fastest: Mapping[str, FastestCycle]) -> Page:
+    """The page with a sentence on the slowest of several axes."""
+    if len(fastest) > 1:
+        name, axis = max(fastest.items(), key=lambda item: item[1].period)
+        result.text(f"The machine is as fast as its slowest axis, {name}: {axis.rpm:.9g} rpm.")
+    return result
+
+
+def fastest_rows(fastest: FastestCycle) -> list[list[Cell]]:
+    """The greatest speed of an axis, its bound and what binds it, as rows of a table."""
+    return [[row.name, row.value, row.unit or None, row.note or None] for row in fastest.summary()]

@@ -1,0 +1,267 @@
+"""Pictures of interlocked axes: the timing diagram, the plane of two positions, and clearances over time."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, get_args
+
+import numpy as np
+
+from optlaws.cycles.interlocks.after import After
+from optlaws.cycles.interlocks.clearance import Clearance, bound_of
+from optlaws.cycles.interlocks.forbidden_region import Forbidden, polygon_of
+from optlaws.cycles.interlocks.interlock import SMALL_UNITS
+from optlaws.cycles.machine_axes import AxesPicture
+from optlaws.cycles.specification.segments import Dwell
+from optlaws.errors import InputError
+from optlaws.numbers import Array
+from optlaws.plots.cycle import UNITS, samples
+from optlaws.plots.style import BLUES, DISTINCT, GREEN, GREY, WARM, name_point, new_figure, plot_style, titled
+from optlaws.suggest import unknown_key
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from matplotlib.artist import Artist
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from optlaws.cycles.cycle import Cycle
+    from optlaws.cycles.interlocks.interlock import Interlock, LeastClearance
+
+_COUNT = 2401
+_HALF = 0.34  # of a bar's height; rows are 1 apart
+_TURN = 360.0
+
+
+def timing_figure(cycles: Mapping[str, Cycle], interlocks: Sequence[Interlock], title: str) -> Figure:
+    """The timing diagram of all axes, as a figure."""
+    figure: Figure = _timing(cycles, interlocks, None, {})[0].get_figure()  # type: ignore[assignment] # of our own
+    with plot_style():
+        return titled(figure, title)
+
+
+def clearance_figure(cycles: Mapping[str, Cycle], interlocks: Sequence[Interlock], title: str) -> Figure:
+    """The clearance of every interlock over the master, as a figure."""
+    figure: Figure = _clearances(cycles, interlocks, None, {})[0].get_figure()  # type: ignore[assignment] # of our own
+    with plot_style():
+        return titled(figure, title)
+
+
+def draw_interlocked(
+    cycles: Mapping[str, Cycle],
+    interlocks: Sequence[Interlock],
+    axes: Any,  # noqa: ANN401 - matplotlib's
+    what: AxesPicture,
+    interlock: int | str,
+    style: dict[str, Any],
+) -> list[Artist]:
+    """Draw what is asked of axes and their interlocks, and return the artists."""
+    if what not in get_args(AxesPicture):
+        raise InputError(unknown_key(what, get_args(AxesPicture), "picture"))
+    if what == "timing":
+        return _timing(cycles, interlocks, axes, style)
+    if not interlocks:
+        raise InputError(f"axes without interlocks have no picture of the {what}: give them interlocks=[...]")
+    if what == "plane":
+        return _plane(cycles, interlocks, _chosen(interlocks, interlock), axes, style)
+    return _clearances(cycles, interlocks, axes, style)
+
+
+def _chosen(interlocks: Sequence[Interlock], which: int | str) -> Interlock:
+    labels = {each.label: each for each in interlocks}
+    if isinstance(which, str):
+        if which not in labels:
+            raise InputError(unknown_key(which, labels, "interlock"))
+        return labels[which]
+    if not 0 <= which < len(interlocks):
+        raise InputError(f"interlock must be from 0 to {len(interlocks) - 1}, got {which}")
+    return interlocks[which]
+
+
+def _timing(
+    cycles: Mapping[str, Cycle], interlocks: Sequence[Interlock], axes: Axes | None, style: dict[str, Any]
+) -> list[Artist]:
+    """A row for each axis: moves as bars with the position in them, dwells as lines; arrows from what comes first."""
+    if axes is None:
+        with plot_style():
+            axes = new_figure(8.6, 0.9 + 0.8 * len(cycles)).subplots()
+    rows = {name: -i for i, name in enumerate(cycles)}
+    artists: list[Artist] = []
+    for i, (name, cycle) in enumerate(cycles.items()):
+        artists += _bars(axes, cycle, rows[name], {"color": DISTINCT[i % len(DISTINCT)]} | style)
+    for interlock in interlocks:
+        if isinstance(interlock, After):
+            artists += _arrows(axes, cycles, interlock, rows)
+    axes.set_yticks(list(rows.values()), list(rows))
+    axes.set(xlabel="master, deg", xlim=(0.0, _TURN), ylim=(min(rows.values()) - 0.6, 0.6))
+    axes.set_xticks(np.arange(0.0, _TURN + 1.0, 30.0))
+    axes.grid(visible=False, axis="y")
+    return artists
+
+
+def _bars(axes: Axes, cycle: Cycle, row: float, style: dict[str, Any]) -> list[Artist]:
+    scale = _TURN / cycle.duration
+    times, values = samples(cycle, 0, 60)
+    low, high = float(values.min()), float(values.max())
+    heights = row - _HALF + 2.0 * _HALF * (values - low) / ((high - low) or 1.0)
+    artists: list[Artist] = list(axes.plot(scale * times, heights, **{"linewidth": 1.4} | style))
+    for segment, peaks in zip(cycle.segments, cycle.peaks, strict=True):
+        place, width = scale * peaks.start, scale * peaks.duration
+        if not isinstance(segment, Dwell):
+            look: dict[str, Any] = {"alpha": 0.22, "linewidth": 0.0} | style
+            artists += axes.bar(place + 0.5 * width, 2.0 * _HALF, width, row - _HALF, **look)
+        label = f"{segment.name} {width:.4g}°" if segment.name else f"{width:.4g}°"
+        if width > 4.0 * len(label) or not isinstance(segment, Dwell):
+            words: Any = {"ha": "center", "va": "bottom", "fontsize": 7.5, "color": GREY}
+            still = isinstance(segment, Dwell)
+            words |= {} if still else {"ha": "left"}
+            artists.append(axes.text(place + (0.5 * width if still else 1.0), row + _HALF, label, **words))
+    return artists
+
+
+def _arrows(axes: Axes, cycles: Mapping[str, Cycle], rule: After, rows: Mapping[str, float]) -> list[Artist]:
+    """From when the other axis came beyond its position to when this one passes its own."""
+    scale = _TURN / next(iter(cycles.values())).duration
+    artists: list[Artist] = []
+    position, level = rule.positions(cycles)
+    for time, entry, clear in rule.events(cycles):
+        colour = GREEN if clear else WARM
+        end = scale * time, _height(cycles[rule.axis], position, rows[rule.axis])
+        if entry is not None:
+            start = scale * entry, _height(cycles[rule.of], level, rows[rule.of])
+            look: Any = {"arrowstyle": "-|>", "color": colour, "shrinkA": 2.0, "shrinkB": 2.0, "linewidth": 1.2}
+            artists.append(axes.annotate("", end, xytext=start, arrowprops=look))
+            artists += axes.plot(*start, "o", color=colour, markersize=3.5)
+        artists += axes.plot(*end, "o", color=colour, markersize=3.5)
+    return artists
+
+
+def _height(cycle: Cycle, position: float, row: float) -> float:
+    """Where a position is in the bar of a row."""
+    values = samples(cycle, 0, 60)[1]
+    low, high = float(values.min()), float(values.max())
+    return row - _HALF + 2.0 * _HALF * (position - low) / ((high - low) or 1.0)
+
+
+def _plane(
+    cycles: Mapping[str, Cycle],
+    interlocks: Sequence[Interlock],
+    rule: Interlock,
+    axes: Axes | None,
+    style: dict[str, Any],
+) -> list[Artist]:
+    """The path of two positions, what is forbidden to it shaded, and where it is nearest."""
+    if axes is None:
+        with plot_style():
+            axes = new_figure(6.4, 4.6).subplots()
+    across, up = _plane_axes(rule)
+    times = np.linspace(0.0, cycles[across].duration, _COUNT)
+    sizes = [UNITS[cycles[name].axis][0] for name in (across, up)]
+    x, y = (size * cycles[name](times) for name, (_, size) in zip((across, up), sizes, strict=True))
+    artists: list[Artist] = list(axes.plot(x, y, **{"color": BLUES[3]} | style))
+    # before axes are widened by what is forbidden
+    limits = [_wider(float(values.min()), float(values.max())) for values in (x, y)]
+    for each in interlocks:
+        if set(each.axes) == {across, up}:
+            artists += _forbidden(axes, cycles, each, (across, up), limits)
+            least = each.least_clearance(cycles)
+            point = tuple(
+                size * float(cycles[name](least.time)) for name, (_, size) in zip((across, up), sizes, strict=True)
+            )
+            colour = GREEN if least.status == "clear" else WARM
+            artists += axes.plot(*point, "o", color=colour, markersize=4.5)
+            beside = (6.0, 4.0) if point[0] < 0.5 * sum(limits[0]) else (-6.0, 4.0)
+            artists.append(name_point(axes, least.text, (point[0], point[1]), beside))
+    axes.set(xlabel=f"{across}, {sizes[0][0]}", ylabel=f"{up}, {sizes[1][0]}", xlim=limits[0], ylim=limits[1])
+    return artists
+
+
+def _plane_axes(rule: Interlock) -> tuple[str, str]:
+    """Which axis goes to the right, and which up."""
+    if isinstance(rule, Clearance):
+        return rule.over, rule.axis
+    return rule.axes
+
+
+def _forbidden(
+    axes: Axes, cycles: Mapping[str, Cycle], rule: Interlock, plane: tuple[str, str], limits: Sequence[Any]
+) -> list[Artist]:
+    """Regions that an interlock forbids, in the units of the picture."""
+    sizes = [UNITS[cycles[name].axis][0][1] for name in plane]
+    look: Any = {"color": WARM, "alpha": 0.25, "linewidth": 0.0}
+    turned = rule.axes[0] != plane[0]
+    if isinstance(rule, Forbidden):
+        polygon = polygon_of(rule, *(cycles[name].axis for name in rule.axes))
+        corners = np.array([corner[::-1] if turned else corner for corner in polygon.corners]) * sizes
+        return list(axes.fill(*corners.T, **look))
+    if isinstance(rule, Clearance):
+        bound = bound_of(rule, *(cycles[name].axis for name in rule.axes))
+        start, stop = limits[0 if turned else 1]
+        places = np.linspace(start, stop, _COUNT)
+        edge = bound(places / sizes[0 if turned else 1]) * sizes[1 if turned else 0]
+        side = limits[1 if turned else 0][0 if rule.sign > 0.0 else 1]
+        if turned:
+            return [axes.fill_between(places, edge, side, **look)]
+        return [axes.fill_betweenx(places, edge, side, **look)]
+    if isinstance(rule, After):
+        position, level = rule.positions(cycles)
+        pair = (position, level) if not turned else (level, position)
+        marks = [size * place for place, size in zip(pair, sizes, strict=True)]
+        return [axes.axvline(marks[0], color=WARM, linestyle=":"), axes.axhline(marks[1], color=WARM, linestyle=":")]
+    return []
+
+
+def _wider(low: float, high: float) -> tuple[float, float]:
+    room = 0.06 * (high - low)
+    return low - room, high + room
+
+
+def _clearances(
+    cycles: Mapping[str, Cycle],
+    interlocks: Sequence[Interlock],
+    axes: Any,  # noqa: ANN401 - matplotlib's
+    style: dict[str, Any],
+) -> list[Artist]:
+    """The clearance of every interlock over the master, with the least of each."""
+    if axes is None:
+        with plot_style():
+            figure = new_figure(8.6, 0.9 + 1.7 * len(interlocks))
+            axes = figure.subplots(len(interlocks), 1, sharex=True, squeeze=False)[:, 0]
+    panels = [axes] if hasattr(axes, "plot") else list(axes)
+    if len(panels) != len(interlocks):
+        raise InputError(f"{len(interlocks)} interlocks are drawn into as many axes, got {len(panels)}")
+    artists: list[Artist] = []
+    duration = next(iter(cycles.values())).duration
+    times = np.linspace(0.0, duration, _COUNT)
+    for panel, rule in zip(panels, interlocks, strict=True):
+        least = rule.least_clearance(cycles)
+        artists += _clearance(panel, cycles, rule, least, times, style)
+    panels[-1].set(xlabel="master, deg", xlim=(0.0, _TURN))
+    panels[-1].set_xticks(np.arange(0.0, _TURN + 1.0, 30.0))
+    panels[0].figure.align_ylabels()
+    return artists
+
+
+def _clearance(
+    panel: Axes,
+    cycles: Mapping[str, Cycle],
+    rule: Interlock,
+    least: LeastClearance,
+    times: Array,
+    style: dict[str, Any],
+) -> list[Artist]:
+    unit, size = SMALL_UNITS.get(least.unit, (least.unit, 1.0))
+    room, degrees = size * rule.room(cycles, times), _TURN * times / times[-1]
+    artists: list[Artist] = list(panel.plot(degrees, room, **{"color": BLUES[3]} | style))
+    panel.axhline(0.0, color=GREY, linewidth=0.8)
+    artists.append(panel.fill_between(degrees, np.minimum(room, 0.0), 0.0, color=WARM, alpha=0.25, linewidth=0.0))
+    if isinstance(rule, After):
+        passes = np.array([event[0] for event in rule.events(cycles)])
+        look: Any = {"color": GREY, "markersize": 4.5}
+        artists += panel.plot(_TURN * passes / times[-1], size * rule.room(cycles, passes), "o", **look)
+    point = least.angle, size * least.clearance
+    artists += panel.plot(*point, "o", color=GREEN if least.status == "clear" else WARM, markersize=4.5)
+    artists.append(name_point(panel, least.text, point, at=(6.0, 4.0) if least.angle < 0.6 * _TURN else (-6.0, 4.0)))
+    panel.set_title(rule.label, fontsize=8.5, color=GREY)
+    panel.set_ylabel(f"clearance, {unit}")
+    return artists
