@@ -35,7 +35,7 @@ def test_roots_many_at_once() -> None:
     heights = np.array([0.5, 1e3, 0.25])
 
     def apart(x: Array) -> Array:
-        return np.array([x[0] ** 9, np.exp(30.0 * x[1]), abs(x[2])]) - heights
+        return np.asarray(np.array([x[0] ** 9, np.exp(30.0 * x[1]), abs(x[2])]) - heights)
 
     low, high = np.zeros(3), np.ones(3)
     roots = bracketed_roots(apart, (low, high), (apart(low), apart(high)))

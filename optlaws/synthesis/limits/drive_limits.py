@@ -426,7 +426,9 @@ def _of_integral(formula: Formula) -> tuple[float, PhasePlane | None]:
     parts = formula.terms if isinstance(formula, Sum) else (formula,)
     if len(powers) + len(squares) != len(parts) or len(squares) > 1:
         return 1.0, None
-    unit = max(torque.size for torque in [*(form for _, form in squares), *(form for pair in powers for form in pair)])
+    torques = [*(form for _, form in squares), *(form for pair in powers for form in pair)]
+    # what braking gives back may be no torque at all
+    unit = max((torque.size for torque in torques if torque != PhaseTorque(Number(0.0))), default=1.0)
     maxima = tuple((first.scaled(1.0 / unit), second.scaled(1.0 / unit)) for first, second in powers)
     if not squares:
         return unit, PhasePlane(maxima=maxima)

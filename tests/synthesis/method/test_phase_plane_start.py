@@ -12,6 +12,8 @@ from optlaws import (
     Chebyshev,
     Powers,
     Problem,
+    Solution,
+    at_most,
     drive_limit,
     drive_torque,
     integral,
@@ -30,13 +32,13 @@ BOUNDS: dict[str, Any] = {"B": (0, 2.2), "C": (0, 9)}
 PROBLEMS = {
     "polynomial": Problem(order=3, basis=Chebyshev(9), minimise=peak(LOADED), **BOUNDS),
     "symmetric": Problem(order=3, basis=Powers(9), minimise=peak(LOADED), symmetric=True, **BOUNDS),
-    "Bernstein": Problem(order=3, basis=Bernstein(9), minimise=rms(LOADED), B=(0, 2.2)),
+    "Bernstein": Problem(order=3, basis=Bernstein(9), minimise=rms(LOADED), B=at_most(2.2)),
     "order 2": Problem(order=2, basis=Chebyshev(9), minimise=peak(LOADED), **BOUNDS),
     "splines": Problem(order=3, basis=BSplines(6, 5), minimise=rms(LOADED), **BOUNDS),
     "heat and energy": Problem(
         order=3, basis=Chebyshev(7), minimise=integral(f"0.2*({LOADED})^2 + max(({LOADED})*b, 0)"), **BOUNDS
     ),
-    "slider-crank": Problem(order=3, basis=Chebyshev(7), minimise=peak(CRANK), C=(0, 12)),
+    "slider-crank": Problem(order=3, basis=Chebyshev(7), minimise=peak(CRANK), C=at_most(12)),
 }
 
 
@@ -55,6 +57,21 @@ def test_no_other_start_leads_to_a_better_law(name: str) -> None:
     assert other is not None
     assert best.objective <= other.objective * (1.0 + 1e-9)
     assert synthesize(problem).objective == pytest.approx(best.objective, rel=1e-12)
+
+
+@pytest.mark.parametrize("unit", ["1e-12", "1e9"])
+def test_units_of_the_torque_change_nothing(unit: str) -> None:
+    """The least energy and its limit, in units of the torque."""
+
+    def least(factor: str) -> Solution:
+        torque = drive_torque(inertia=f"{factor}*(1 + 0.6*a^2)", load=f"{factor}*3*a")
+        energy = integral(f"max(({torque})*b, 0)")
+        return synthesize(forward(Problem(order=3, basis=Chebyshev(3), minimise=energy, **BOUNDS)))
+
+    plain, scaled = least("1"), least(unit)
+    assert scaled.objective / float(unit) == pytest.approx(plain.objective, rel=1e-11)
+    assert scaled.lower_bound / float(unit) == pytest.approx(plain.lower_bound, rel=1e-6)
+    assert plain.gap > 0.0
 
 
 def test_the_start_is_near_the_motion() -> None:

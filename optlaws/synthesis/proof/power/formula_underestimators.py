@@ -118,7 +118,7 @@ class Plane:
         within["k"] = Endpoints(k, k)
         reach = (high - low) / (2.0 if self.way is None else 1.0)
         for i, j in combinations_with_replacement(range(len(reach)), 2):
-            bend = enclosed(self.family.slopes.second[i][j], within)
+            bend = enclosed(self.family.slopes.second(i, j), within)
             least, most = (bend.low, bend.high) if self.sign > 0.0 else (-bend.high, -bend.low)
             if i == j:
                 worst = 0.5 * np.maximum(-least, 0.0)

@@ -148,7 +148,7 @@ class ConvexUnderestimator:
         count, widths = len(self.family.names), np.maximum(high - low, TINY)
         bend = np.zeros((count, count, len(self.middle)))
         for i, j in combinations_with_replacement(range(count), 2):
-            ends = enclosed(self.family.slopes.second[i][j], within)
+            ends = enclosed(self.family.slopes.second(i, j), within)
             if i == j:
                 bend[i, i] += ends.low
                 continue
@@ -162,7 +162,7 @@ class ConvexUnderestimator:
     def _third_formulas(self) -> dict[tuple[int, int, int], Formula]:
         used, second = self.family.names, self.family.slopes.second
         several = combinations_with_replacement(range(len(used)), 3)
-        return {(i, j, m): derivative(second[i][j], used[m]) for i, j, m in several}
+        return {(i, j, m): derivative(second(i, j), used[m]) for i, j, m in several}
 
     def least_form(self, at: Array, third: Mapping[tuple[int, int, int], Array], off: Array) -> Array:
         """A form over the velocities whose half a plane from a law may be lifted by.
