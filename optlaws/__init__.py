@@ -28,6 +28,7 @@ _load, __dir__, __all__ = face(
         "optlaws.cams.least_sizes": "greatest_roller least_base_circle",
         "optlaws.cycles.machine_axes": "Axes",
         "optlaws.cycles.cycle": "Cycle",
+        "optlaws.cycles.moves.fastest_move": "fastest FastestMove",
         "optlaws.cycles.specification.segments": "ConstantVelocity Dwell Free Move Return Rise",
         "optlaws.cycles.machine_follower": "MachineFollower machine_follower",
         "optlaws.errors": "InfeasibleProblem InputError NoisyTable NotNormalised OptlawsError SolverFailure",

@@ -56,6 +56,8 @@ DIMENSIONS = {
     "angular acceleration": ("radian / second ** 2", "900 rad/s^2"),
     "jerk": ("meter / second ** 3", "900 m/s^3"),
     "angular jerk": ("radian / second ** 3", "9000 rad/s^3"),
+    "snap": ("meter / second ** 4", "90000 m/s^4"),
+    "angular snap": ("radian / second ** 4", "90000 rad/s^4"),
     "mass": ("kilogram", "2.5 kg"),
     "moment of inertia": ("kilogram * meter ** 2", "0.02 kg m^2"),
     "force": ("newton", "120 N"),

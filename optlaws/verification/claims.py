@@ -35,8 +35,10 @@ from optlaws.verification.file_entries import (
     entries,
     is_array,
     is_entry,
+    is_least_time,
     is_proven_front,
 )
+from optlaws.verification.least_times import least_time
 from optlaws.verification.proven_fronts import proven_front
 from optlaws.verification.reading import built, number, read
 from optlaws.verification.result import Claim, Verification
@@ -81,6 +83,8 @@ def _alone(data: Mapping[str, Any]) -> Verification:
         return _arrays(data)
     if is_proven_front(data):
         return proven_front(built(ProvenFront.from_dict, data, "the proven front"), number(data, "gap"))
+    if is_least_time(data):
+        return least_time(data, _solution(data["solution"]))
     if "certificate" in data:
         return _solution(data)
     if "law" in data:

@@ -74,6 +74,7 @@ def values(jumping: Solution) -> dict[str, Any]:
     front = pareto_front(replace(JUMPS, B=None), points=2, between=(1.7, 1.9))
     proven = optlaws.proven_front(Problem(order=2, basis=Chebyshev(3)), "B", between=(1.6, 1.61), gap=1e-4)
     slide = optlaws.Cycle([optlaws.Rise("35 mm", law="cycloidal"), optlaws.Return(law="cycloidal")], period="0.2 s")
+    fastest = optlaws.fastest(Problem(order=3), stroke="100 mm", limits={"jerk": "300 m/s^3"})
     return {
         "Solution": jumping,
         "Solution with a power certificate": power,
@@ -90,6 +91,13 @@ def values(jumping: Solution) -> dict[str, Any]:
         "Peak": jumping.constants.J,
         "Front": front,
         "Front with errors": replace(front, errors={1.1: no_law(), 1.2: optlaws.SolverFailure("lost", problem=JUMPS)}),
+        "FastestMove": fastest,
+        "FastestMove with ends that move": optlaws.fastest(
+            Problem(order=3), stroke="90 deg", limits={"jerk": "900 rad/s^3"}, start_velocity="2 rad/s"
+        ),
+        "LeastTime": fastest.least,
+        "MoveLimits": fastest.least.move.limits,
+        "TimeProof": fastest.least.proofs[0],
         "FrontPoint": proven(1.605),
         "ProvenFront": proven,
         "SolutionArray": optlaws.synthesize_array(optlaws.ProblemArray(B=[1.05, float("nan"), 1.7, 1.8], order=4)),

@@ -1,0 +1,168 @@
+"""The least time of a move as a value: the law that takes it, the proof that none is faster, and what would help."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from optlaws.errors import InputError
+from optlaws.files.reading import JsonText, entries_of
+from optlaws.kept import kept_property
+from optlaws.laws import MotionLaw
+from optlaws.numbers import finite, listed, positive, real
+from optlaws.synthesis.least_time.move_limits import MoveLimits, RateLimit, TimedMove, power
+from optlaws.synthesis.least_time.segment_times import time_of_any_law
+from optlaws.synthesis.least_time.time_proof import Multipliers, TimeProof, covers
+from optlaws.synthesis.problem.constants import meant
+from optlaws.synthesis.proof.data import problem_of
+from optlaws.synthesis.solution import Solution
+from optlaws.tolerances import BOUND_FEASIBILITY, LEAST_TIME_GAP, LIMIT_REACHED, STORED_VALUE
+
+_MOST_PROOFS = 100
+
+
+@dataclass(frozen=True)
+class LeastTime(JsonText):
+    """The least time of a move within its limits, in units of the stroke and seconds.
+
+    Attributes
+    ----------
+    move
+        The space of laws, the stroke, the limits and the velocities at the ends.
+    duration
+        The least time, s.
+    solution
+        The law that takes it: that of the least greatest share of the limits in this time, which is 1.
+    proofs
+        That no law keeps the limits in a time that is shorter by a millionth or more.
+
+    Examples
+    --------
+    >>> from optlaws import Problem
+    >>> from optlaws.synthesis.least_time.time_search import least_time
+    >>> least = least_time(TimedMove(Problem(order=3), 1.0, MoveLimits(jerk=1.0)))
+    >>> round(least.duration, 6), round(least.limit, 6), least.binding
+    (3.249852, 3.174802, ('jerk',))
+    """
+
+    move: TimedMove
+    duration: float
+    solution: Solution
+    proofs: tuple[TimeProof, ...]
+
+    _json_name = "a least time"
+
+    @property
+    def law(self) -> MotionLaw:
+        """The law that takes the least time."""
+        return self.solution.law
+
+    @property
+    def none_below(self) -> float:
+        """The time up to which it is proven that no law of the space keeps the limits, s."""
+        return self.proofs[-1].longest if self.proofs else self.move.least_conceivable()
+
+    @property
+    def gap(self) -> float:
+        """By which share of itself the least time is above the longest that is proven to be too short."""
+        return 1.0 - self.none_below / self.duration
+
+    @kept_property
+    def limit(self) -> float | None:
+        """The time that no law of any degree is faster than, s; None where no closed form is known."""
+        move = self.move
+        return time_of_any_law(move.stroke, move.limits, move.problem.order) if move.at_rest else None
+
+    @property
+    def price(self) -> float | None:
+        """By which share the space of the problem is slower than all laws; None without a limit."""
+        return None if self.limit is None else self.duration / self.limit - 1.0
+
+    def used(self, limit: RateLimit) -> float:
+        """Which share of a limit the law uses, 1 where it reaches it."""
+        return limit.constant.value(self.law) / (limit.rate * power(self.duration, limit.nu))
+
+    @property
+    def binding(self) -> tuple[str, ...]:
+        """The limits that the law reaches and that keep it from being faster."""
+        gains = self.gains(1.0)
+        return tuple(
+            limit.name for limit in self.move.rates if gains[limit.name] > 0.0 and self.used(limit) > 1.0 - LIMIT_REACHED
+        )
+
+    def gains(self, more: float = 0.1) -> dict[str, float]:
+        """The share of the time that a share more of each limit saves, by its multiplier; exact for small shares."""
+        multipliers = Multipliers.of(self.move, self.duration, self.solution)
+        weighed = [(nu, weight * power(self.duration, nu)) for nu, weight in multipliers.weights]
+        steep = sum(nu * share for nu, share in weighed) - multipliers.slope * self.duration
+        names = (limit.name for limit in self.move.rates)
+        return {name: more * share / steep for name, (_, share) in zip(names, weighed, strict=True)}
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain JSON-able dict: law and proofs in one, which `optlaws verify` checks."""
+        move = self.move
+        return {
+            "stroke": move.stroke,
+            "limits": move.limits.to_dict(),
+            "start_velocity": move.start_velocity,
+            "end_velocity": move.end_velocity,
+            "duration": self.duration,
+            "limit": self.limit,
+            "space": move.problem.to_dict(),
+            "solution": self.solution.to_dict(),
+            "proofs": [proof.to_dict() for proof in self.proofs],
+        }
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> LeastTime:
+        """Read what `to_dict` wrote; the law and the proofs are held against the move and its limits.
+
+        Raises
+        ------
+        InputError
+            If an entry is missing or wrong, or states what does not follow from the law and the proofs.
+        """
+        entries = entries_of(data, KEYS, cls._json_name)
+        if len(data) > len(KEYS):
+            raise InputError(f"{cls._json_name} has the entries {', '.join(KEYS)} and no other")
+        move = TimedMove(
+            problem_of(entries["space"]),
+            positive(entries["stroke"], "stroke"),
+            MoveLimits.from_dict(entries["limits"]),
+            finite(entries["start_velocity"], "start_velocity"),
+            finite(entries["end_velocity"], "end_velocity"),
+        )
+        proofs = tuple(map(TimeProof.from_dict, listed(entries["proofs"], "proofs", _MOST_PROOFS)))
+        with meant():
+            solution = Solution.from_dict(entries["solution"])
+        read = cls(move, positive(entries["duration"], "duration"), solution, proofs)
+        read._check(entries["limit"])
+        return read
+
+    def _check(self, limit: Any) -> None:  # noqa: ANN401 - it is checked here
+        """Refuse what does not follow from the move."""
+        wrong = self.contradiction
+        if wrong:
+            raise InputError(wrong)
+        if not all(proof.stands(self.move) for proof in self.proofs):
+            raise InputError("a proof that no law is faster does not show that of its times")
+        known, stated = self.limit, real(limit)
+        same = limit is None if known is None else stated is not None and abs(stated - known) <= STORED_VALUE * known
+        if not same:
+            raise InputError(f"the limit of all laws is {limit!r}, but it is {known!r}")
+
+    @property
+    def contradiction(self) -> str:
+        """What the law and the proofs are not, though the value says so; empty where they are all that."""
+        if self.solution.problem != self.move.shares(self.duration):
+            return f"the law is not of the move in {self.duration!r} s"
+        if not self.solution.objective <= 1.0 + BOUND_FEASIBILITY:
+            return f"the law exceeds a limit {self.solution.objective!r} times"
+        if not covers(self.move, self.proofs, self.duration):
+            return f"the proofs leave out times that are shorter than the least by more than {LEAST_TIME_GAP:g}"
+        return ""
+
+
+#: of a file
+KEYS = ("stroke", "limits", "start_velocity", "end_velocity", "duration", "limit", "space", "solution", "proofs")
