@@ -43,6 +43,8 @@ from optlaws.cycles.law_comparison import compare_laws as compare_laws
 from optlaws.cycles.machine_axes import Axes as Axes
 from optlaws.cycles.machine_follower import MachineFollower as MachineFollower
 from optlaws.cycles.machine_follower import machine_follower as machine_follower
+from optlaws.cycles.moves.fastest_move import FastestMove as FastestMove
+from optlaws.cycles.moves.fastest_move import fastest as fastest
 from optlaws.cycles.specification.segments import ConstantVelocity as ConstantVelocity
 from optlaws.cycles.specification.segments import Dwell as Dwell
 from optlaws.cycles.specification.segments import Free as Free
@@ -210,6 +212,7 @@ __all__ = [
     "Dwell",
     "DwellMachine",
     "Expression",
+    "FastestMove",
     "Follower",
     "Free",
     "Front",
@@ -286,6 +289,7 @@ __all__ = [
     "driving_law",
     "dwell_machine",
     "dwell_mechanism",
+    "fastest",
     "find_torsion_levers",
     "flat_output",
     "four_bar",

@@ -72,6 +72,11 @@ from optlaws.synthesis.families.active_set import ActiveSet as ActiveSet
 from optlaws.synthesis.families.family import ConstraintFamily as ConstraintFamily
 from optlaws.synthesis.functionals.makers import FormulaKind as FormulaKind
 from optlaws.synthesis.functionals.makers import PeakSide as PeakSide
+from optlaws.synthesis.least_time.least_time import LeastTime as LeastTime
+from optlaws.synthesis.least_time.move_limits import MoveLimits as MoveLimits
+from optlaws.synthesis.least_time.move_limits import RateLimit as RateLimit
+from optlaws.synthesis.least_time.move_limits import TimedMove as TimedMove
+from optlaws.synthesis.least_time.time_proof import TimeProof as TimeProof
 from optlaws.synthesis.limits.drive_limits import DriveObjective as DriveObjective
 from optlaws.synthesis.limits.phase_plane import PhasePlane as PhasePlane
 from optlaws.synthesis.problem.constants import Asked as Asked
@@ -132,6 +137,7 @@ __all__ = [
     "LawSpace",
     "LazySequence",
     "LeastBaseCircle",
+    "LeastTime",
     "LinkGeometry",
     "LoadPlace",
     "MachineAnswer",
@@ -143,6 +149,7 @@ __all__ = [
     "Maximum",
     "ModeResidual",
     "Motion",
+    "MoveLimits",
     "Multiplier",
     "Node",
     "NumberOrQuantity",
@@ -157,6 +164,7 @@ __all__ = [
     "Polynomial",
     "PolynomialBasis",
     "Quantity",
+    "RateLimit",
     "Residual",
     "Result",
     "RollerContact",
@@ -174,6 +182,8 @@ __all__ = [
     "TableKind",
     "Teeth",
     "Term",
+    "TimeProof",
+    "TimedMove",
     "Train",
     "Turning",
     "Watch",
