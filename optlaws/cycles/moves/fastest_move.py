@@ -79,6 +79,21 @@ class FastestMove(LawExport, JsonText):
         return self.least.limit
 
     @property
+    def limit_breaks(self) -> tuple[float, ...] | None:
+        """Breaks of `Pieces(breaks, degree=3, continuity=2)` that reach the limit; None where none are known.
+
+        Examples
+        --------
+        >>> import optlaws
+        >>> limits = {"velocity": "1 m/s", "jerk": "300 m/s^3"}
+        >>> move = fastest(optlaws.Problem(order=3), stroke="100 mm", limits=limits)
+        >>> pieces = optlaws.Pieces(move.limit_breaks, degree=3, continuity=2)
+        >>> round(fastest(optlaws.Problem(order=3, basis=pieces), stroke="100 mm", limits=limits).price, 9)
+        0.0
+        """
+        return self.least.limit_breaks
+
+    @property
     def price(self) -> float | None:
         """By which share the laws of the problem's space are slower than all laws; None without a limit."""
         return self.least.price

@@ -12,7 +12,7 @@ from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.numbers import finite, listed, positive, real
 from optlaws.synthesis.least_time.move_limits import MoveLimits, RateLimit, TimedMove, power
-from optlaws.synthesis.least_time.segment_times import time_of_any_law
+from optlaws.synthesis.least_time.segment_times import segment_times, time_of_any_law
 from optlaws.synthesis.least_time.time_proof import Multipliers, TimeProof, covers
 from optlaws.synthesis.problem.constants import meant
 from optlaws.synthesis.proof.data import problem_of
@@ -75,6 +75,13 @@ class LeastTime(JsonText):
         return time_of_any_law(move.stroke, move.limits, move.problem.order) if move.at_rest else None
 
     @property
+    def limit_breaks(self) -> tuple[float, ...] | None:
+        """Breaks of pieces of degree 3 that reach the limit, 1/2 among them; None where no segments are known."""
+        move = self.move
+        segments = segment_times(move.stroke, move.limits, move.problem.order) if move.at_rest else None
+        return None if segments is None else tuple(sorted({*segments.breaks, 0.5}))
+
+    @property
     def price(self) -> float | None:
         """By which share the space of the problem is slower than all laws; None without a limit."""
         return None if self.limit is None else self.duration / self.limit - 1.0
@@ -88,7 +95,9 @@ class LeastTime(JsonText):
         """The limits that the law reaches and that keep it from being faster."""
         gains = self.gains(1.0)
         return tuple(
-            limit.name for limit in self.move.rates if gains[limit.name] > 0.0 and self.used(limit) > 1.0 - LIMIT_REACHED
+            limit.name
+            for limit in self.move.rates
+            if gains[limit.name] > 0.0 and self.used(limit) > 1.0 - LIMIT_REACHED
         )
 
     def gains(self, more: float = 0.1) -> dict[str, float]:
