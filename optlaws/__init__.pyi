@@ -44,7 +44,8 @@ from optlaws.cycles.machine_axes import Axes as Axes
 from optlaws.cycles.machine_follower import MachineFollower as MachineFollower
 from optlaws.cycles.machine_follower import machine_follower as machine_follower
 from optlaws.cycles.moves.fastest_move import FastestMove as FastestMove
-from optlaws.cycles.moves.fastest_move import fastest as fastest
+from optlaws.cycles.moves.timed_moves import fastest as fastest
+from optlaws.cycles.moves.timed_moves import fastest_moves as fastest_moves
 from optlaws.cycles.specification.segments import ConstantVelocity as ConstantVelocity
 from optlaws.cycles.specification.segments import Dwell as Dwell
 from optlaws.cycles.specification.segments import Free as Free
@@ -290,6 +291,7 @@ __all__ = [
     "dwell_machine",
     "dwell_mechanism",
     "fastest",
+    "fastest_moves",
     "find_torsion_levers",
     "flat_output",
     "four_bar",

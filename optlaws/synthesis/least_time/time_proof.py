@@ -112,6 +112,10 @@ class Multipliers:
         slope = (further - bound) / duration
         return cls(proof, weights, bound - slope * duration, slope)
 
+    def of_stroke(self, ratio: float) -> Multipliers:
+        """The same multipliers for a stroke that is so many times as long, from rest to rest: the limits weigh less."""
+        return replace(self, weights=tuple((nu, weight / ratio) for nu, weight in self.weights))
+
     def above(self, duration: float) -> float:
         """The value f at a time: above 0 no law keeps the limits."""
         return self.constant + self.slope * duration - sum(weight * power(duration, nu) for nu, weight in self.weights)

@@ -29,8 +29,11 @@ _UNBOUNDED = (
 )
 
 
-def least_time(move: TimedMove) -> LeastTime:
+def least_time(move: TimedMove, near: LeastTime | None = None) -> LeastTime:
     """The least time in which a law of the move's space keeps its limits, proven to a millionth.
+
+    From rest to rest the search may begin near that of another stroke in the same space: its multipliers say of this
+    stroke too which times are too short.
 
     Raises
     ------
@@ -42,17 +45,16 @@ def least_time(move: TimedMove) -> LeastTime:
         If the steps do not settle.
     """
     with meant():
-        duration, solution, known = _from_either_side(move) if move.at_rest else _from_below(move)
+        duration, solution, known = _from_either_side(move, near) if move.at_rest else _from_below(move)
     return LeastTime(move, duration, solution, covering(move, known, duration * (1.0 - LEAST_TIME_GAP)))
 
 
 _Known = list[tuple[float, Multipliers]]
 
 
-def _from_either_side(move: TimedMove) -> tuple[float, Solution, _Known]:
+def _from_either_side(move: TimedMove, near: LeastTime | None) -> tuple[float, Solution, _Known]:
     """Steps from rest to rest: what the multipliers of any time say holds from no time at all to the next."""
-    known = time_of_any_law(move.stroke, move.limits, move.problem.order)
-    duration, warm = _SLOWER * max(known or 0.0, move.least_conceivable()), None
+    duration, warm = _first(move) if near is None else _beside(move, near)
     for step in range(_STEPS):
         solution = _in_time(move, duration, warm)
         warm, multipliers = solution.active_set, Multipliers.of(move, duration, solution)
@@ -64,6 +66,20 @@ def _from_either_side(move: TimedMove) -> tuple[float, Solution, _Known]:
         # where the multipliers say no more, the law says how long it takes
         duration = too_short if abs(gap) > LEAST_TIME_MET else duration * solution.objective
     raise _unsettled(move, duration)
+
+
+def _first(move: TimedMove) -> tuple[float, ActiveSet | None]:
+    """A time a little above that of all laws."""
+    known = time_of_any_law(move.stroke, move.limits, move.problem.order)
+    return _SLOWER * max(known or 0.0, move.least_conceivable()), None
+
+
+def _beside(move: TimedMove, near: LeastTime) -> tuple[float, ActiveSet | None]:
+    """The time up to which the multipliers of another stroke prove that no law keeps the limits, and its contacts."""
+    if near.move.problem != move.problem or near.move.limits != move.limits:
+        return _first(move)
+    multipliers = Multipliers.of(near.move, near.duration, near.solution).of_stroke(move.stroke / near.move.stroke)
+    return multipliers.longest(near.duration), near.solution.active_set
 
 
 def _from_below(move: TimedMove) -> tuple[float, Solution, _Known]:

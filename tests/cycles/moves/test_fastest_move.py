@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from optlaws import FastestMove, InfeasibleProblem, InputError, Problem, fastest
+from optlaws import FastestMove, InfeasibleProblem, InputError, Problem, fastest, fastest_moves
 
 ORDER_3 = Problem(order=3)
 LIMITS = {"velocity": "1 m/s", "acceleration": ("-8 m/s^2", "12 m/s^2"), "jerk": "300 m/s^3"}
@@ -53,6 +53,24 @@ def test_too_fast_to_stop_without_turning_back() -> None:
     limits = {"velocity": ("0 m/s", "1 m/s"), "jerk": "300 m/s^3"}
     with pytest.raises(InfeasibleProblem, match="velocities at the ends contradict"):
         fastest(ORDER_3, stroke="2 mm", limits=limits, start_velocity="200 mm/s")
+
+
+def test_many_strokes_are_as_fast_as_one_by_one(move: FastestMove) -> None:
+    strokes = ["400 mm", "100 mm", "3 mm", "90 mm"]
+    moves = fastest_moves(ORDER_3, strokes=strokes, limits=LIMITS)
+    assert [each.stroke for each in moves] == pytest.approx([0.4, 0.1, 0.003, 0.09])
+    assert moves[1].duration == pytest.approx(move.duration, rel=1e-9)
+    assert moves[2].duration == pytest.approx(fastest(ORDER_3, stroke="3 mm", limits=LIMITS).duration, rel=1e-9)
+    assert all(proof.stands(each.least.move) for each in moves for proof in each.least.proofs)
+    flying = fastest_moves(ORDER_3, strokes=["100 mm", "90 mm"], limits=LIMITS, end_velocity="0.2 m/s")
+    assert flying[0].duration > flying[1].duration
+
+
+def test_strokes_are_of_one_kind() -> None:
+    with pytest.raises(InputError, match="jerk must be an angular jerk"):
+        fastest_moves(ORDER_3, strokes=["1 mm", "1 deg"], limits={"jerk": "1 m/s^3"})
+    with pytest.raises(InputError, match="strokes"):
+        fastest_moves(ORDER_3, strokes="1 mm", limits={"jerk": "1 m/s^3"})
 
 
 def test_the_summary_says_which_limits_bind(move: FastestMove) -> None:
