@@ -59,6 +59,7 @@ __getattr__, __dir__, __all__ = face(
         "optlaws.synthesis.families.family": "ConstraintFamily",
         "optlaws.synthesis.functionals.makers": "FormulaKind PeakSide",
         "optlaws.synthesis.least_time.least_time": "LeastTime",
+        "optlaws.synthesis.least_time.motor_torque": "MotorTorque TimedLimit",
         "optlaws.synthesis.least_time.move_limits": "MoveLimits RateLimit TimedMove",
         "optlaws.synthesis.least_time.time_proof": "TimeProof",
         "optlaws.synthesis.limits.drive_limits": "DriveObjective",

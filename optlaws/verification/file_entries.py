@@ -71,6 +71,7 @@ class LeastTimeFile(msgspec.Struct, forbid_unknown_fields=True):
     space: dict[str, Any]
     solution: dict[str, Any]
     proofs: list[dict[str, Any]]
+    torque: dict[str, Any] | None = None
     unit: Literal["m", "rad"] | None = None
     about: str = ""
 

@@ -28,9 +28,8 @@ def least_time(data: Mapping[str, Any], of_law: Verification) -> Verification:
 def _limits(least: LeastTime) -> Iterator[Claim]:
     """That the law keeps every limit in the time, in the units of the file."""
     law = ExactLaw(least.law)
-    for limit in least.move.rates:
-        highest = Fraction(enclosed(law.term(limit.constant))[1])
-        used = highest / (Fraction(limit.rate) * Fraction(least.duration) ** limit.nu)
+    for limit in least.move.limits_in(least.duration):
+        used = Fraction(enclosed(law.term(limit.constant))[1]) / Fraction(limit.bound)
         holds = used <= 1 + Fraction(BOUND_FEASIBILITY)
         yield Claim(f"the limit of the {limit.name}", holds, f"the law uses {float(used):.9g} of it")
     broken = [excess for excess in excesses(least.move.within(least.duration), law) if not excess.holds]

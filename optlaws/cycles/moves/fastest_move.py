@@ -16,8 +16,8 @@ from optlaws.numbers import Quantity
 from optlaws.shown.summary import Row, Summary
 from optlaws.suggest import keywords_of
 from optlaws.synthesis.least_time.least_time import LeastTime
-from optlaws.synthesis.least_time.move_limits import RateLimit
 from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.status import Status
 
 #: what the unit of a stroke measures
 AXES = {"m": "length", "rad": "angle"}
@@ -106,12 +106,19 @@ class FastestMove(LawExport, JsonText):
         return self.least.gap
 
     @property
+    def status(self) -> Status:
+        """`optimal` where the least time is proven, `local` where a torque is not convex in the law."""
+        return self.least.status
+
+    @property
     def binding(self) -> tuple[str, ...]:
         """The limits that the law reaches and that keep it from being faster."""
         return self.least.binding
 
     def gains(self, more: float = _MORE) -> dict[str, float]:
         """The share of the time that a share more of each limit saves, by its multiplier; exact for small shares.
+
+        Empty where a torque is limited: its multipliers speak of one time alone.
 
         Examples
         --------
@@ -126,8 +133,12 @@ class FastestMove(LawExport, JsonText):
     def notes(self) -> tuple[str, ...]:
         """Which limits bind, and what a tenth more of each would save, in words."""
         gains = self.gains()
-        binding = [f"{name}: 10 % more saves about {100.0 * gains[name]:.2g} % of the time" for name in self.binding]
-        return tuple(binding)
+        return tuple(
+            f"{name}: 10 % more saves about {100.0 * gains[name]:.2g} % of the time"
+            if name in gains
+            else f"{name} binds"
+            for name in self.binding
+        )
 
     def summary(self) -> Summary:
         """The least time, what no law beats, and each limit with its use, as rows.
@@ -141,22 +152,28 @@ class FastestMove(LawExport, JsonText):
         >>> [(row.name, row.text(5), row.unit) for row in move.summary()][:3]
         [('least time', '0.22533', 's'), ('limit', '0.22013', 's'), ('velocity', '0.88481', 'm/s')]
         """
-        proven = f"proven: none of {_space(self.least.move.problem)} takes {self.none_below:.9g} s or less"
-        rows = [Row("least time", self.duration, "s", note=proven)]
+        rows = [Row("least time", self.duration, "s", note=f"{self._word}: {self._proven}")]
         if self.limit is not None and self.price is not None:
-            note = f"that no law of any degree beats: the space costs {100.0 * max(self.price, 0.0):.2g} %"
+            laws = "of any degree" if self.least.move.torque is None else "that never turns back"
+            note = f"that no law {laws} beats: the space costs {100.0 * max(self.price, 0.0):.2g} %"
             rows.append(Row("limit", self.limit, "s", note=note))
-        gains, axis = self.gains(), AXES[self.unit]
-        for limit in self.least.move.rates:
+        axis, move = AXES[self.unit], self.least.move
+        for limit in move.rates:
             peak = limit.constant.value(self.law) * factor(self.stroke, self.duration, limit.nu)
-            rows.append(Row(limit.name, peak, unit_of(axis, limit.nu), note=self._use(limit, gains[limit.name])))
+            rows.append(Row(limit.name, peak, unit_of(axis, limit.nu), note=self._use(limit.name)))
+        if move.torque is not None:
+            torques = {"torque": move.torque.peak, "rms torque": move.torque.rms}
+            for name, most in torques.items():
+                if most is not None:
+                    rows.append(Row(name, most * self.least.used[name], "N m", note=self._use(name)))
         return Summary(rows)
 
-    def _use(self, limit: RateLimit, gain: float) -> str:
+    def _use(self, name: str) -> str:
         """How much of a limit the law uses, and what more of it would save."""
-        if limit.name in self.binding:
-            return f"binds: 10 % more saves about {100.0 * gain:.2g} % of the time"
-        return f"{100.0 * self.least.used(limit):.3g} % of the limit"
+        if name not in self.binding:
+            return f"{100.0 * self.least.used[name]:.3g} % of the limit"
+        gain = self.gains().get(name)
+        return "binds" if gain is None else f"binds: 10 % more saves about {100.0 * gain:.2g} % of the time"
 
     @keywords_of(ExportOptions)
     def export(
@@ -194,8 +211,16 @@ class FastestMove(LawExport, JsonText):
         )
 
     def _exported(self) -> tuple[MotionLaw, tuple[str, ...]]:
-        proven = f"none of {_space(self.least.move.problem)} takes {self.none_below:.9g} s or less"
-        return self.law, (f"law: least time {self.duration:.9g} s within the limits, {proven}",)
+        return self.law, (f"law: least time {self.duration:.9g} s within the limits, {self._word}: {self._proven}",)
+
+    @property
+    def _word(self) -> str:
+        return "proven" if self.status is Status.OPTIMAL else "the least that was found, and proven"
+
+    @property
+    def _proven(self) -> str:
+        """What is proven of all laws of the space."""
+        return f"none of {_space(self.least.move.problem)} takes {self.none_below:.9g} s or less"
 
     def to_dict(self) -> dict[str, Any]:
         """Plain JSON-able dict in SI units: law and proofs in one, which `optlaws verify` checks."""

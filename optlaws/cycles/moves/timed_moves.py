@@ -7,12 +7,15 @@ from dataclasses import replace
 from typing import Any, NamedTuple
 
 from optlaws.cycles.moves.fastest_move import AXES, FastestMove
+from optlaws.cycles.moves.torque_limits import TORQUES, motor_torque, without_torques
 from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.motion.quantities import either, positive_quantity, quantity, table
-from optlaws.numbers import Quantity, listed
+from optlaws.numbers import NumberOrQuantity, Quantity, listed
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.least_time.least_time import LeastTime
+from optlaws.synthesis.least_time.motor_torque import MotorTorque
 from optlaws.synthesis.least_time.move_limits import MoveLimits, TimedMove
 from optlaws.synthesis.least_time.time_search import least_time
 from optlaws.synthesis.problem.problem import Problem
@@ -29,6 +32,8 @@ def fastest(
     limits: Mapping[str, Any],
     start_velocity: Quantity | None = None,
     end_velocity: Quantity | None = None,
+    drive: Drive | None = None,
+    start: NumberOrQuantity = 0.0,
 ) -> FastestMove:
     """The least time of a single move within limits in machine units, and the proof that no law is faster.
 
@@ -45,6 +50,12 @@ def fastest(
         that never turns back. "deceleration" is the greatest acceleration against the stroke.
     start_velocity, end_velocity
         Velocities at the ends, such as "0.2 m/s"; rest unless given. The acceleration is 0 there from order 3 on.
+    drive
+        A motor that moves the axis through a mechanism, without losses in the gear: the stroke is that of the
+        mechanism's input. Limits may name the "torque" at the motor and its "rms torque" over the move; the torque is
+        at most the motor's peak torque and the speed its greatest speed. Laws never turn back then.
+    start
+        Position of the mechanism's input where the move begins.
 
     Returns
     -------
@@ -68,7 +79,12 @@ def fastest(
     >>> round(move.duration, 6), round(move.limit, 6), move.binding
     (0.243994, 0.240161, ('acceleration', 'deceleration', 'jerk'))
     """
-    move, unit = _move(problem, stroke, limits, (start_velocity, end_velocity))
+    if drive is None:
+        move, unit = _move(problem, stroke, limits, (start_velocity, end_velocity))
+    else:
+        given = table(limits, "limits", _EXAMPLE)
+        torque = motor_torque(drive, start, stroke, given)
+        move, unit = _move(problem, stroke, without_torques(drive, given), (start_velocity, end_velocity), torque)
     return FastestMove(least_time(move), unit)
 
 
@@ -117,7 +133,13 @@ def fastest_moves(
     return tuple(answers[i] for i in range(len(moves)))
 
 
-def _move(problem: Any, stroke: Any, limits: Any, ends: tuple[Any, Any]) -> tuple[TimedMove, str]:  # noqa: ANN401
+def _move(
+    problem: Any,  # noqa: ANN401 - all are checked here
+    stroke: Any,  # noqa: ANN401
+    limits: Any,  # noqa: ANN401
+    ends: tuple[Any, Any],
+    torque: MotorTorque | None = None,
+) -> tuple[TimedMove, str]:
     """The move whose time is sought in SI units, and the unit of its stroke."""
     dimension, far = either(stroke, tuple(AXES.values()), "stroke")
     if not far > 0.0:
@@ -130,9 +152,9 @@ def _move(problem: Any, stroke: Any, limits: Any, ends: tuple[Any, Any]) -> tupl
         0.0 if value is None else quantity(value, f"{angular}velocity", name)
         for name, value in zip(("start_velocity", "end_velocity"), ends, strict=True)
     )
-    space = replace(problem, monotone=True) if read.forward else problem
+    space = replace(problem, monotone=True) if read.forward or torque is not None else problem
     unit = next(unit for unit, axis in AXES.items() if axis == dimension)
-    return TimedMove(space, far, read.limits, start, end), unit
+    return TimedMove(space, far, read.limits, start, end, torque), unit
 
 
 class _Read(NamedTuple):
@@ -143,9 +165,7 @@ class _Read(NamedTuple):
 def _read_limits(given: Any, angular: str) -> _Read:  # noqa: ANN401 - it is checked here
     """Limits in SI units."""
     entries = table(given, "limits", _EXAMPLE)
-    for name in entries:
-        if name not in _NAMES:
-            raise InputError(unknown_key(name, _NAMES, "limit"))
+    _check_names(entries)
     read: dict[str, float] = {}
     forward = False
     for name, value in entries.items():
@@ -167,6 +187,15 @@ def _read_limits(given: Any, angular: str) -> _Read:  # noqa: ANN401 - it is che
     if "acceleration" in read:
         read.setdefault("deceleration", read["acceleration"])
     return _Read(MoveLimits(**read), forward)
+
+
+def _check_names(entries: Mapping[str, Any]) -> None:
+    """Refuse what is no limit of a motion."""
+    for name in entries:
+        if name in TORQUES:
+            raise InputError(f"limits: {name} is at a motor: give its drive")
+        if name not in _NAMES:
+            raise InputError(unknown_key(name, (*_NAMES, *TORQUES), "limit"))
 
 
 def _pair(value: Any, dimension: str, where: str) -> tuple[float, float]:  # noqa: ANN401

@@ -4,19 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from math import inf
 from typing import Any
 
-from optlaws.errors import InputError
+from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.files.reading import JsonText, entries_of
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.numbers import finite, listed, positive, real
-from optlaws.synthesis.least_time.move_limits import MoveLimits, RateLimit, TimedMove, power
+from optlaws.synthesis.least_time.motor_torque import MotorTorque
+from optlaws.synthesis.least_time.move_limits import MoveLimits, TimedMove, power
 from optlaws.synthesis.least_time.segment_times import segment_times, time_of_any_law
 from optlaws.synthesis.least_time.time_proof import Multipliers, TimeProof, covers
+from optlaws.synthesis.limits.drive_limits import drive_limit
 from optlaws.synthesis.problem.constants import meant
 from optlaws.synthesis.proof.data import problem_of
 from optlaws.synthesis.solution import Solution
+from optlaws.synthesis.status import Status
 from optlaws.tolerances import BOUND_FEASIBILITY, LEAST_TIME_GAP, LIMIT_REACHED, STORED_VALUE
 
 _MOST_PROOFS = 100
@@ -61,24 +65,31 @@ class LeastTime(JsonText):
     @property
     def none_below(self) -> float:
         """The time up to which it is proven that no law of the space keeps the limits, s."""
-        return self.proofs[-1].longest if self.proofs else self.move.least_conceivable()
+        if self.proofs:
+            return self.proofs[-1].longest
+        return max(self.move.least_conceivable(), self.limit or 0.0)
 
     @property
     def gap(self) -> float:
         """By which share of itself the least time is above the longest that is proven to be too short."""
         return 1.0 - self.none_below / self.duration
 
+    @property
+    def status(self) -> Status:
+        """Whether the least time is proven, or the least that was found: where a torque is not convex in the law."""
+        return Status.OPTIMAL if self.gap <= 2.0 * LEAST_TIME_GAP else Status.LOCAL
+
     @kept_property
     def limit(self) -> float | None:
         """The time that no law of any degree is faster than, s; None where no closed form is known."""
-        move = self.move
-        return time_of_any_law(move.stroke, move.limits, move.problem.order) if move.at_rest else None
+        return limit_of_all_laws(self.move)
 
     @property
     def limit_breaks(self) -> tuple[float, ...] | None:
         """Breaks of pieces of degree 3 that reach the limit, 1/2 among them; None where no segments are known."""
         move = self.move
-        segments = segment_times(move.stroke, move.limits, move.problem.order) if move.at_rest else None
+        plain = move.at_rest and move.torque is None
+        segments = segment_times(move.stroke, move.limits, move.problem.order) if plain else None
         return None if segments is None else tuple(sorted({*segments.breaks, 0.5}))
 
     @property
@@ -86,22 +97,27 @@ class LeastTime(JsonText):
         """By which share the space of the problem is slower than all laws; None without a limit."""
         return None if self.limit is None else self.duration / self.limit - 1.0
 
-    def used(self, limit: RateLimit) -> float:
-        """Which share of a limit the law uses, 1 where it reaches it."""
-        return limit.constant.value(self.law) / (limit.rate * power(self.duration, limit.nu))
+    @kept_property
+    def used(self) -> dict[str, float]:
+        """Which share of each limit the law uses, 1 where it reaches it."""
+        limits = self.move.limits_in(self.duration)
+        return {limit.name: limit.constant.value(self.law) / limit.bound for limit in limits}
 
     @property
     def binding(self) -> tuple[str, ...]:
         """The limits that the law reaches and that keep it from being faster."""
         gains = self.gains(1.0)
         return tuple(
-            limit.name
-            for limit in self.move.rates
-            if gains[limit.name] > 0.0 and self.used(limit) > 1.0 - LIMIT_REACHED
+            name for name, used in self.used.items() if gains.get(name, 1.0) > 0.0 and used > 1.0 - LIMIT_REACHED
         )
 
     def gains(self, more: float = 0.1) -> dict[str, float]:
-        """The share of the time that a share more of each limit saves, by its multiplier; exact for small shares."""
+        """The share of the time that a share more of each limit saves, by its multiplier; exact for small shares.
+
+        Empty where a torque is limited: its multipliers speak of one time alone.
+        """
+        if self.move.torque is not None:
+            return {}
         multipliers = Multipliers.of(self.move, self.duration, self.solution)
         weighed = [(nu, weight * power(self.duration, nu)) for nu, weight in multipliers.weights]
         steep = sum(nu * share for nu, share in weighed) - multipliers.slope * self.duration
@@ -111,7 +127,8 @@ class LeastTime(JsonText):
     def to_dict(self) -> dict[str, Any]:
         """Plain JSON-able dict: law and proofs in one, which `optlaws verify` checks."""
         move = self.move
-        return {
+        torque = {} if move.torque is None else {"torque": move.torque.to_dict()}
+        return torque | {
             "stroke": move.stroke,
             "limits": move.limits.to_dict(),
             "start_velocity": move.start_velocity,
@@ -133,14 +150,16 @@ class LeastTime(JsonText):
             If an entry is missing or wrong, or states what does not follow from the law and the proofs.
         """
         entries = entries_of(data, KEYS, cls._json_name)
-        if len(data) > len(KEYS):
+        torque = data.get("torque")
+        if len(data) > len(KEYS) + (torque is not None):
             raise InputError(f"{cls._json_name} has the entries {', '.join(KEYS)} and no other")
         move = TimedMove(
             problem_of(entries["space"]),
             positive(entries["stroke"], "stroke"),
-            MoveLimits.from_dict(entries["limits"]),
+            MoveLimits() if torque is not None and entries["limits"] == {} else MoveLimits.from_dict(entries["limits"]),
             finite(entries["start_velocity"], "start_velocity"),
             finite(entries["end_velocity"], "end_velocity"),
+            None if torque is None else MotorTorque.from_dict(torque),
         )
         proofs = tuple(map(TimeProof.from_dict, listed(entries["proofs"], "proofs", _MOST_PROOFS)))
         with meant():
@@ -171,6 +190,27 @@ class LeastTime(JsonText):
         if not covers(self.move, self.proofs, self.duration):
             return f"the proofs leave out times that are shorter than the least by more than {LEAST_TIME_GAP:g}"
         return ""
+
+
+def limit_of_all_laws(move: TimedMove) -> float | None:
+    """The time that no law of any degree is faster than; within a torque, that no law which never turns back is."""
+    if not move.at_rest:
+        return None
+    known = time_of_any_law(move.stroke, move.limits, move.problem.order) if move.rates else None
+    torque = move.torque
+    if torque is None or torque.peak is None:
+        return known
+    limits, stroke = move.limits, move.stroke
+    accelerations = [limit for limit in (limits.acceleration, limits.deceleration) if limit is not None]
+    bounds = {"B": inf if limits.velocity is None else limits.velocity / stroke, "P": torque.peak / torque.unit}
+    # a bound of both ways is the greater one, so that none of the laws is left out
+    if len(accelerations) == 2:
+        bounds["C"] = max(accelerations) / stroke
+    try:
+        of_torque = drive_limit(torque.text(1.0), "time", **bounds).value
+    except (InputError, InfeasibleProblem, SolverFailure):
+        return known  # nothing more is known then
+    return max(known or 0.0, of_torque)
 
 
 #: of a file

@@ -12,6 +12,7 @@ from optlaws.errors import InputError
 from optlaws.files.reading import JsonText
 from optlaws.numbers import finite, positive
 from optlaws.suggest import unknown_key
+from optlaws.synthesis.least_time.motor_torque import MotorTorque, TimedLimit
 from optlaws.synthesis.problem.constants import B, C, C_minus, C_plus, Functional, J, jounce
 from optlaws.synthesis.problem.expression import Expression, maximum
 from optlaws.synthesis.problem.problem import Problem
@@ -44,7 +45,7 @@ class MoveLimits(JsonText):
     Raises
     ------
     InputError
-        If one is not a finite number above 0, or there is none at all.
+        If one is not a finite number above 0.
 
     Examples
     --------
@@ -65,8 +66,6 @@ class MoveLimits(JsonText):
             value = getattr(self, entry.name)
             if value is not None:
                 object.__setattr__(self, entry.name, positive(value, f"the limit of the {entry.name}"))
-        if not self.to_dict():
-            raise InputError(f"limits must name one at least, as in {_EXAMPLE}")
 
     @property
     def symmetric(self) -> bool:
@@ -116,9 +115,9 @@ class MoveLimits(JsonText):
         Raises
         ------
         InputError
-            If the data is no table of limits, or one is not a number above 0.
+            If the data is no table of limits, it is empty, or one is not a number above 0.
         """
-        if not isinstance(data, Mapping):
+        if not isinstance(data, Mapping) or not data:
             raise InputError(f"limits must be a table such as {_EXAMPLE}, got {shortened(data)}")
         known = [entry.name for entry in fields(cls)]
         for name in data:
@@ -141,6 +140,8 @@ class TimedMove:
         What the move must keep.
     start_velocity, end_velocity
         Velocities at the ends, in units of the stroke a second.
+    torque
+        At the motor, with its limits; only for laws from rest to rest that never turn back. None without a motor.
 
     Raises
     ------
@@ -153,15 +154,21 @@ class TimedMove:
     limits: MoveLimits
     start_velocity: float = 0.0
     end_velocity: float = 0.0
+    torque: MotorTorque | None = None
 
     def __post_init__(self) -> None:
+        if not self.limits.to_dict() and self.torque is None:
+            raise InputError(f"limits must name one at least, as in {_EXAMPLE}")
         object.__setattr__(self, "stroke", positive(self.stroke, "stroke"))
         for name in ("start_velocity", "end_velocity"):
             object.__setattr__(self, name, finite(getattr(self, name), name))
             most = self.limits.velocity
             if most is not None and abs(getattr(self, name)) > most:
                 raise InputError(f"{name} is beyond the limit of the velocity: no move keeps it, however long it takes")
-        object.__setattr__(self, "problem", _checked(self.problem, even=self.at_rest and self.limits.symmetric))
+        even = self.at_rest and self.limits.symmetric and self.torque is None
+        object.__setattr__(self, "problem", _checked(self.problem, even=even))
+        if self.torque is not None and not (self.at_rest and self.problem.monotone):
+            raise InputError("a torque at the motor is limited from rest to rest, by laws that never turn back")
         if not self.at_rest and self.problem.order < max(2, self._lowest.nu):
             raise InputError(
                 f"ends that move need order >= {max(2, self._lowest.nu)} where the {self._lowest.name} is the lowest "
@@ -178,6 +185,13 @@ class TimedMove:
         """The limits of the law with stroke 1, in 1/s^nu."""
         return self.limits.rates(self.stroke)
 
+    def limits_in(self, duration: float) -> tuple[TimedLimit, ...]:
+        """Every limit in a time, as a bound of a constant of the law."""
+        of_rates = (
+            TimedLimit(limit.name, limit.constant, limit.rate * power(duration, limit.nu)) for limit in self.rates
+        )
+        return (*of_rates, *(() if self.torque is None else self.torque.limits_in(duration)))
+
     @property
     def _lowest(self) -> RateLimit:
         """The limit of the lowest derivative."""
@@ -192,7 +206,7 @@ class TimedMove:
         >>> move.within(4.0)
         Problem(B=at_most(2.0), order=3, basis=Chebyshev(degree=9), minimise='C', J=at_most(96.0))
         """
-        bounds = {limit.constant: at_most(limit.rate * power(duration, limit.nu)) for limit in self.rates}
+        bounds = {limit.constant: at_most(limit.bound) for limit in self.limits_in(duration)}
         ends = self._ends(duration)
         return replace(self.problem, boundary=ends, bounds={**self.problem.bounds, **bounds})
 
@@ -204,7 +218,7 @@ class TimedMove:
         >>> TimedMove(Problem(order=3), 1.0, MoveLimits(velocity=1.0, jerk=1.0)).shares(2.0).minimise
         'max(0.5*B, 0.125*J)'
         """
-        parts = [limit.constant / (limit.rate * power(duration, limit.nu)) for limit in self.rates]
+        parts = [limit.constant / limit.bound for limit in self.limits_in(duration)]
         objective: Expression = maximum(*parts).expression() if len(parts) > 1 else parts[0]
         return replace(self.problem, boundary=self._ends(duration if ends is None else ends), minimise=objective)
 
@@ -218,6 +232,8 @@ class TimedMove:
 
     def least_conceivable(self) -> float:
         """A time that no motion is faster than, by the lowest derivative that is limited and the velocity at an end."""
+        if not self.rates:
+            return 0.0
         lowest = self._lowest
         # a deceleration alone bounds what is covered before the end, all others what is covered after the start
         velocity = self.end_velocity if lowest.constant == C_minus else self.start_velocity

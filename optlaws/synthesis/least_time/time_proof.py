@@ -149,11 +149,16 @@ class Multipliers:
 
     def proof(self, move: TimedMove, shortest: float, longest: float) -> TimeProof:
         """The proof of an interval, by the multipliers of the limits alone."""
-        of_rows = [contact for contact in self.certificate.contacts if names.part_number(contact.constraint) is None]
-        total = sum(contact.multiplier for contact in of_rows)
-        contacts = [replace(contact, multiplier=contact.multiplier / total) for contact in of_rows]
-        equations = [multiplier / total for multiplier in self.certificate.equations]
-        return TimeProof(shortest, longest, Certificate.of_leaf(move.within(longest), contacts, equations, VIOLATION))
+        return proof_by(self.certificate, move, shortest, longest)
+
+
+def proof_by(certificate: Certificate, move: TimedMove, shortest: float, longest: float) -> TimeProof:
+    """The proof of an interval by the multipliers of an optimum, without those of the parts of the greatest share."""
+    of_rows = [contact for contact in certificate.contacts if names.part_number(contact.constraint) is None]
+    total = sum(contact.multiplier for contact in of_rows)
+    contacts = [replace(contact, multiplier=contact.multiplier / total) for contact in of_rows]
+    equations = [multiplier / total for multiplier in certificate.equations]
+    return TimeProof(shortest, longest, Certificate.of_leaf(move.within(longest), contacts, equations, VIOLATION))
 
 
 def covering(move: TimedMove, known: Sequence[tuple[float, Multipliers]], duration: float) -> tuple[TimeProof, ...]:
@@ -198,6 +203,8 @@ def _weights(move: TimedMove, duration: float, contacts: Sequence[Contact]) -> t
 def covers(move: TimedMove, proofs: Sequence[TimeProof], duration: float) -> bool:
     """Whether proofs speak of every time that is conceivable and shorter than a duration, but for the gap allowed."""
     least = duration * (1.0 - LEAST_TIME_GAP)
+    if not proofs and move.torque is not None:
+        return True  # nothing is claimed but the limit of all laws
     if not proofs:
         return least <= move.least_conceivable()
     first = 0.0 if move.at_rest else move.least_conceivable()

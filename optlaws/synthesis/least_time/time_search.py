@@ -6,27 +6,22 @@ keeps the limits; that time is the next. From below the steps end at the first t
 
 from __future__ import annotations
 
-from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.synthesis.families.active_set import ActiveSet
+from optlaws.synthesis.least_time.fastest_law import law_in_time, unsettled
 from optlaws.synthesis.least_time.least_time import LeastTime
+from optlaws.synthesis.least_time.motor_search import least_time_of_motor
 from optlaws.synthesis.least_time.move_limits import TimedMove
 from optlaws.synthesis.least_time.segment_times import time_of_any_law
 from optlaws.synthesis.least_time.time_proof import Multipliers, covering
 from optlaws.synthesis.problem.constants import meant
-from optlaws.synthesis.program.writer import model_of
-from optlaws.synthesis.search import LawSearch, best_available
 from optlaws.synthesis.solution import Solution
-from optlaws.tolerances import FEASIBILITY, LEAST_TIME_GAP, LEAST_TIME_MET, NO_OBJECTIVE
+from optlaws.tolerances import FEASIBILITY, LEAST_TIME_GAP, LEAST_TIME_MET
 
 #: how much slower than all laws those of a space are that is tried first, so that the right limits bind at once
 _SLOWER = 1.02
 _STEPS = 60
 #: so many steps settle the time but for what rounding leaves
 _SETTLING = 12
-_UNBOUNDED = (
-    "the limits leave the time without a least value: laws of order {order} keep {names} in any time. Limit the "
-    "velocity, or ask for a higher order"
-)
 
 
 def least_time(move: TimedMove, near: LeastTime | None = None) -> LeastTime:
@@ -45,6 +40,8 @@ def least_time(move: TimedMove, near: LeastTime | None = None) -> LeastTime:
         If the steps do not settle.
     """
     with meant():
+        if move.torque is not None:
+            return least_time_of_motor(move, move.torque)
         duration, solution, known = _from_either_side(move, near) if move.at_rest else _from_below(move)
     return LeastTime(move, duration, solution, covering(move, known, duration * (1.0 - LEAST_TIME_GAP)))
 
@@ -56,7 +53,7 @@ def _from_either_side(move: TimedMove, near: LeastTime | None) -> tuple[float, S
     """Steps from rest to rest: what the multipliers of any time say holds from no time at all to the next."""
     duration, warm = _first(move) if near is None else _beside(move, near)
     for step in range(_STEPS):
-        solution = _in_time(move, duration, warm)
+        solution = law_in_time(move, duration, warm)
         warm, multipliers = solution.active_set, Multipliers.of(move, duration, solution)
         too_short = multipliers.longest(duration)
         gap = 1.0 - too_short / duration
@@ -65,7 +62,7 @@ def _from_either_side(move: TimedMove, near: LeastTime | None) -> tuple[float, S
             return duration, solution, [(too_short, multipliers)]
         # where the multipliers say no more, the law says how long it takes
         duration = too_short if abs(gap) > LEAST_TIME_MET else duration * solution.objective
-    raise _unsettled(move, duration)
+    raise unsettled(move, duration)
 
 
 def _first(move: TimedMove) -> tuple[float, ActiveSet | None]:
@@ -87,7 +84,7 @@ def _from_below(move: TimedMove) -> tuple[float, Solution, _Known]:
     duration, warm = move.least_conceivable(), None
     known: _Known = []
     for _ in range(_STEPS):
-        solution = _in_time(move, duration, warm)
+        solution = law_in_time(move, duration, warm)
         if solution.objective <= 1.0 + FEASIBILITY:
             return duration, solution, known
         warm, multipliers = solution.active_set, Multipliers.of(move, duration, solution)
@@ -96,39 +93,4 @@ def _from_below(move: TimedMove) -> tuple[float, Solution, _Known]:
         if not later > duration:
             break
         duration = later
-    raise _unsettled(move, duration)
-
-
-def _in_time(move: TimedMove, duration: float, warm: ActiveSet | None) -> Solution:
-    """The law whose greatest share of the limits in a time is least."""
-    problem = move.shares(duration)
-    search = LawSearch(model_of(problem), warm=warm)
-    solution = best_available(search)
-    if solution is None:
-        raise _no_law(move, duration, search.error())
-    if not solution.objective > NO_OBJECTIVE:
-        names = " and ".join(limit.name for limit in move.rates)
-        raise InputError(_UNBOUNDED.format(order=problem.order, names=names))
-    return solution
-
-
-def _no_law(
-    move: TimedMove, duration: float, error: InfeasibleProblem | SolverFailure
-) -> InfeasibleProblem | SolverFailure:
-    """The error of a space without laws: in any time from rest to rest, else in one that the limits need."""
-    if isinstance(error, SolverFailure):
-        return error
-    message = f"no time is long enough: {error.args[0]}"
-    if not move.at_rest:
-        message = (
-            f"the limits need more than {duration:.6g} s, but in that time the velocities at the ends contradict the "
-            f"problem itself: {error.args[0]}"
-        )
-    return InfeasibleProblem(message, problem=move.problem, tried=error.tried, proof=error.proof)
-
-
-def _unsettled(move: TimedMove, duration: float) -> SolverFailure:
-    return SolverFailure(
-        f"the steps of the time did not settle, the last at {duration:.9g} s; another degree or order helps",
-        problem=move.problem,
-    )
+    raise unsettled(move, duration)
