@@ -73,6 +73,8 @@ from optlaws.synthesis.families.family import ConstraintFamily as ConstraintFami
 from optlaws.synthesis.functionals.makers import FormulaKind as FormulaKind
 from optlaws.synthesis.functionals.makers import PeakSide as PeakSide
 from optlaws.synthesis.least_time.least_time import LeastTime as LeastTime
+from optlaws.synthesis.least_time.motor_torque import MotorTorque as MotorTorque
+from optlaws.synthesis.least_time.motor_torque import TimedLimit as TimedLimit
 from optlaws.synthesis.least_time.move_limits import MoveLimits as MoveLimits
 from optlaws.synthesis.least_time.move_limits import RateLimit as RateLimit
 from optlaws.synthesis.least_time.move_limits import TimedMove as TimedMove
@@ -149,6 +151,7 @@ __all__ = [
     "Maximum",
     "ModeResidual",
     "Motion",
+    "MotorTorque",
     "MoveLimits",
     "Multiplier",
     "Node",
@@ -183,6 +186,7 @@ __all__ = [
     "Teeth",
     "Term",
     "TimeProof",
+    "TimedLimit",
     "TimedMove",
     "Train",
     "Turning",
