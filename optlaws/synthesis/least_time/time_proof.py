@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any
 
-from optlaws.errors import InputError
+from optlaws.errors import InputError, SolverFailure
 from optlaws.files.reading import JsonText, entries_of
 from optlaws.numbers import not_negative, positive
 from optlaws.synthesis.families import names
@@ -166,7 +166,7 @@ def covering(move: TimedMove, known: Sequence[tuple[float, Multipliers]], durati
 
     Raises
     ------
-    InputError
+    SolverFailure
         If they leave times between them.
     """
     least = move.least_conceivable()
@@ -176,7 +176,7 @@ def covering(move: TimedMove, known: Sequence[tuple[float, Multipliers]], durati
     while upper > least:
         reaching = [(low, i) for i, (low, high, _) in enumerate(ranges) if low < upper <= high]
         if not reaching:
-            raise InputError(f"no multipliers speak of the time {upper!r}")
+            raise SolverFailure(f"no multipliers speak of the time {upper!r}", problem=move.problem)
         low, i = min(reaching)
         lower = 0.0 if move.at_rest else least
         if low > lower:
