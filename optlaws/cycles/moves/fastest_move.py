@@ -12,12 +12,14 @@ from optlaws.files.reading import JsonText, entries_of
 from optlaws.laws import MotionLaw
 from optlaws.laws.exporting import ExportOptions, LawExport
 from optlaws.motion.piece import factor, unit_of
+from optlaws.motion.quantities import positive_quantity
 from optlaws.numbers import Quantity
 from optlaws.shown.summary import Row, Summary
 from optlaws.suggest import keywords_of
 from optlaws.synthesis.least_time.least_time import LeastTime
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.status import Status
+from optlaws.tolerances import SAME_TIME
 
 #: what the unit of a stroke measures
 AXES = {"m": "length", "rad": "angle"}
@@ -128,6 +130,30 @@ class FastestMove(LawExport, JsonText):
         0.01
         """
         return self.least.gains(more)
+
+    def within(self, duration: Quantity) -> Problem:
+        """The problem of the laws that keep every limit in a longer time, such as "0.3 s", to minimise something else.
+
+        Raises
+        ------
+        InputError
+            If it is no time, or shorter than the least.
+
+        Examples
+        --------
+        >>> from dataclasses import replace
+        >>> import optlaws
+        >>> move = optlaws.fastest(optlaws.Problem(order=3), stroke="100 mm", limits={"jerk": "300 m/s^3"})
+        >>> slower = optlaws.synthesize(replace(move.within("0.3 s"), minimise="rms_c"))
+        >>> round(slower.objective * move.stroke / 0.3**2, 6)
+        4.202626
+        """
+        time = positive_quantity(duration, "time", "duration")
+        if time < self.duration * (1.0 - SAME_TIME):
+            raise InputError(
+                f"duration must be at least the least time, {self.duration:.9g} s, got {shortened(duration)}"
+            )
+        return self.least.move.within(max(time, self.duration))
 
     @property
     def notes(self) -> tuple[str, ...]:

@@ -2,12 +2,13 @@
 
 import json
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 
-from optlaws import FastestMove, InfeasibleProblem, InputError, Problem, fastest, fastest_moves
+from optlaws import FastestMove, InfeasibleProblem, InputError, Problem, fastest, fastest_moves, synthesize
 
 ORDER_3 = Problem(order=3)
 LIMITS = {"velocity": "1 m/s", "acceleration": ("-8 m/s^2", "12 m/s^2"), "jerk": "300 m/s^3"}
@@ -88,6 +89,16 @@ def test_the_export_has_the_stroke_and_the_time(move: FastestMove) -> None:
     assert float(last[0]) == pytest.approx(move.duration)
     assert float(last[1]) == pytest.approx(100.0)
     assert "least time" in move.export("codesys-cambuilder", master="120 deg").text
+
+
+def test_a_longer_time_leaves_room_for_less_heat(move: FastestMove) -> None:
+    heat = [
+        synthesize(replace(move.within(f"{share * move.duration!r} s"), minimise="rms_c")).objective / share**2
+        for share in (1.01, 1.1)
+    ]
+    assert heat[1] < 0.95 * heat[0]
+    with pytest.raises(InputError, match="duration must be at least the least time"):
+        move.within("0.2 s")
 
 
 def damaged(change: Callable[[dict[str, Any]], None], move: FastestMove) -> dict[str, Any]:
