@@ -78,8 +78,8 @@ class FastestMove(LawExport, JsonText):
         return self.least.limit
 
     @property
-    def limit_breaks(self) -> tuple[float, ...] | None:
-        """Breaks of `Pieces(breaks, degree=3, continuity=2)` that reach the limit; None where none are known.
+    def limit_breaks(self) -> tuple[float, ...]:
+        """Breaks of `Pieces(breaks, degree=3, continuity=2)` that reach the limit; empty where none are known.
 
         Examples
         --------

@@ -85,12 +85,12 @@ class LeastTime(JsonText):
         return limit_of_all_laws(self.move)
 
     @property
-    def limit_breaks(self) -> tuple[float, ...] | None:
-        """Breaks of pieces of degree 3 that reach the limit, 1/2 among them; None where no segments are known."""
+    def limit_breaks(self) -> tuple[float, ...]:
+        """Breaks of pieces of degree 3 that reach the limit, 1/2 among them; empty where no segments are known."""
         move = self.move
         plain = move.at_rest and move.torque is None
         segments = segment_times(move.stroke, move.limits, move.problem.order) if plain else None
-        return None if segments is None else tuple(sorted({*segments.breaks, 0.5}))
+        return () if segments is None else tuple(sorted({*segments.breaks, 0.5}))
 
     @property
     def price(self) -> float | None:
