@@ -58,6 +58,7 @@ __getattr__, __dir__, __all__ = face(
         "optlaws.synthesis.families.active_set": "ActiveSet",
         "optlaws.synthesis.families.family": "ConstraintFamily",
         "optlaws.synthesis.functionals.makers": "FormulaKind PeakSide",
+        "optlaws.synthesis.least_time.follower_residual": "FollowerResidual",
         "optlaws.synthesis.least_time.least_time": "LeastTime",
         "optlaws.synthesis.least_time.motor_torque": "MotorTorque TimedLimit",
         "optlaws.synthesis.least_time.move_limits": "MoveLimits RateLimit TimedMove",

@@ -72,6 +72,7 @@ class LeastTimeFile(msgspec.Struct, forbid_unknown_fields=True):
     solution: dict[str, Any]
     proofs: list[dict[str, Any]]
     torque: dict[str, Any] | None = None
+    residual: dict[str, Any] | None = None
     unit: Literal["m", "rad"] | None = None
     about: str = ""
 

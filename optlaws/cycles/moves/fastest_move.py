@@ -192,6 +192,9 @@ class FastestMove(LawExport, JsonText):
             for name, most in torques.items():
                 if most is not None:
                     rows.append(Row(name, most * self.least.used[name], "N m", note=self._use(name)))
+        if move.residual is not None:
+            left = move.residual.most * self.least.used["residual acceleration"]
+            rows.append(Row("residual acceleration", left, unit_of(axis, 2), note=self._use("residual acceleration")))
         return Summary(rows)
 
     def _use(self, name: str) -> str:

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 from optlaws.cycles.moves.fastest_move import AXES, FastestMove
 from optlaws.cycles.moves.torque_limits import TORQUES, motor_torque, without_torques
+from optlaws.cycles.moves.vibration_limits import RESIDUAL, vibration_limit
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.mechanisms.drives.drive_train import Drive
@@ -34,6 +35,7 @@ def fastest(
     end_velocity: Quantity | None = None,
     drive: Drive | None = None,
     start: NumberOrQuantity = 0.0,
+    follower: Mapping[str, Any] | None = None,
 ) -> FastestMove:
     """The least time of a single move within limits in machine units, and the proof that no law is faster.
 
@@ -56,6 +58,10 @@ def fastest(
         at most the motor's peak torque and the speed its greatest speed. Laws never turn back then.
     start
         Position of the mechanism's input where the move begins.
+    follower
+        What the axis drives elastically, as {"frequency": ("15.9 Hz", "17.5 Hz"), "damping": 0.05}: its natural
+        frequency, or the least and the greatest, and its damping ratio, 0 unless given. Limits then name the "residual
+        acceleration", the amplitude that vibrates on after the move.
 
     Returns
     -------
@@ -79,12 +85,15 @@ def fastest(
     >>> round(move.duration, 6), round(move.limit, 6), move.binding
     (0.243994, 0.240161, ('acceleration', 'deceleration', 'jerk'))
     """
+    rest, left = (limits, None) if follower is None else vibration_limit(follower, table(limits, "limits", _EXAMPLE))
     if drive is None:
-        move, unit = _move(problem, stroke, limits, (start_velocity, end_velocity))
+        move, unit = _move(problem, stroke, rest, (start_velocity, end_velocity))
     else:
-        given = table(limits, "limits", _EXAMPLE)
+        given = table(rest, "limits", _EXAMPLE)
         torque = motor_torque(drive, start, stroke, given)
         move, unit = _move(problem, stroke, without_torques(drive, given), (start_velocity, end_velocity), torque)
+    if left is not None:
+        move = replace(move, residual=left(unit))
     return FastestMove(least_time(move), unit)
 
 
@@ -194,8 +203,10 @@ def _check_names(entries: Mapping[str, Any]) -> None:
     for name in entries:
         if name in TORQUES:
             raise InputError(f"limits: {name} is at a motor: give its drive")
+        if name == RESIDUAL:
+            raise InputError(f"limits: {name} is that of a follower: give the follower")
         if name not in _NAMES:
-            raise InputError(unknown_key(name, (*_NAMES, *TORQUES), "limit"))
+            raise InputError(unknown_key(name, (*_NAMES, *TORQUES, RESIDUAL), "limit"))
 
 
 def _pair(value: Any, dimension: str, where: str) -> tuple[float, float]:  # noqa: ANN401

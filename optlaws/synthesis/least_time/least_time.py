@@ -12,6 +12,7 @@ from optlaws.files.reading import JsonText, entries_of
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.numbers import finite, listed, positive, real
+from optlaws.synthesis.least_time.follower_residual import FollowerResidual
 from optlaws.synthesis.least_time.motor_torque import MotorTorque
 from optlaws.synthesis.least_time.move_limits import MoveLimits, TimedMove, power
 from optlaws.synthesis.least_time.segment_times import segment_times, time_of_any_law
@@ -21,7 +22,7 @@ from optlaws.synthesis.problem.constants import meant
 from optlaws.synthesis.proof.data import problem_of
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.status import Status
-from optlaws.tolerances import BOUND_FEASIBILITY, LEAST_TIME_GAP, LIMIT_REACHED, STORED_VALUE
+from optlaws.tolerances import BOUND_FEASIBILITY, LEAST_TIME_GAP, LIMIT_REACHED, MIRROR, STORED_VALUE
 
 _MOST_PROOFS = 100
 
@@ -76,7 +77,7 @@ class LeastTime(JsonText):
 
     @property
     def status(self) -> Status:
-        """Whether the least time is proven, or the least that was found: where a torque is not convex in the law."""
+        """Whether the least time is proven, or the least that was found: a torque not convex in the law, vibration."""
         return Status.OPTIMAL if self.gap <= 2.0 * LEAST_TIME_GAP else Status.LOCAL
 
     @kept_property
@@ -90,7 +91,9 @@ class LeastTime(JsonText):
         move = self.move
         plain = move.at_rest and move.torque is None
         segments = segment_times(move.stroke, move.limits, move.problem.order) if plain else None
-        return () if segments is None else tuple(sorted({*segments.breaks, 0.5}))
+        if segments is None:
+            return ()
+        return tuple(sorted([0.5, *(k for k in segments.breaks if abs(k - 0.5) > MIRROR)]))
 
     @property
     def price(self) -> float | None:
@@ -114,9 +117,9 @@ class LeastTime(JsonText):
     def gains(self, more: float = 0.1) -> dict[str, float]:
         """The share of the time that a share more of each limit saves, by its multiplier; exact for small shares.
 
-        Empty where a torque is limited: its multipliers speak of one time alone.
+        Empty where a torque or what vibrates is limited: the multipliers speak of one time alone.
         """
-        if self.move.torque is not None:
+        if self.move.torque is not None or self.move.residual is not None:
             return {}
         multipliers = Multipliers.of(self.move, self.duration, self.solution)
         weighed = [(nu, weight * power(self.duration, nu)) for nu, weight in multipliers.weights]
@@ -127,8 +130,8 @@ class LeastTime(JsonText):
     def to_dict(self) -> dict[str, Any]:
         """Plain JSON-able dict: law and proofs in one, which `optlaws verify` checks."""
         move = self.move
-        torque = {} if move.torque is None else {"torque": move.torque.to_dict()}
-        return torque | {
+        timed = {"torque": move.torque, "residual": move.residual}
+        return {name: limit.to_dict() for name, limit in timed.items() if limit is not None} | {
             "stroke": move.stroke,
             "limits": move.limits.to_dict(),
             "start_velocity": move.start_velocity,
@@ -150,8 +153,8 @@ class LeastTime(JsonText):
             If an entry is missing or wrong, or states what does not follow from the law and the proofs.
         """
         entries = entries_of(data, KEYS, cls._json_name)
-        torque = data.get("torque")
-        if len(data) > len(KEYS) + (torque is not None):
+        torque, residual = data.get("torque"), data.get("residual")
+        if len(data) > len(KEYS) + (torque is not None) + (residual is not None):
             raise InputError(f"{cls._json_name} has the entries {', '.join(KEYS)} and no other")
         move = TimedMove(
             problem_of(entries["space"]),
@@ -160,6 +163,7 @@ class LeastTime(JsonText):
             finite(entries["start_velocity"], "start_velocity"),
             finite(entries["end_velocity"], "end_velocity"),
             None if torque is None else MotorTorque.from_dict(torque),
+            None if residual is None else FollowerResidual.from_dict(residual),
         )
         proofs = tuple(map(TimeProof.from_dict, listed(entries["proofs"], "proofs", _MOST_PROOFS)))
         with meant():
@@ -187,7 +191,8 @@ class LeastTime(JsonText):
             return f"the law is not of the move in {self.duration!r} s"
         if not self.solution.objective <= 1.0 + BOUND_FEASIBILITY:
             return f"the law exceeds a limit {self.solution.objective!r} times"
-        if not covers(self.move, self.proofs, self.duration):
+        claimed = self.duration if self.move.residual is None else self.none_below
+        if not covers(self.move, self.proofs, claimed):
             return f"the proofs leave out times that are shorter than the least by more than {LEAST_TIME_GAP:g}"
         return ""
 

@@ -1,4 +1,4 @@
-"""The least time of a move within limits of the torque at a motor, whose formula changes with the time."""
+"""The least time of a move within limits that change with the time: of the torque at a motor, of vibration left."""
 
 from __future__ import annotations
 
@@ -17,6 +17,8 @@ from optlaws.tolerances import FEASIBILITY, LEAST_TIME_GAP, LEAST_TIME_MET
 
 #: of the logarithm of the time: by how much a bracket is widened at once, and how far at most
 _WIDER, _WIDEST = 0.1, 20.0
+#: by how much the logarithm of the time grows where a limit of vibrations is not kept
+_UPWARD = 0.01
 
 
 @dataclass
@@ -55,6 +57,25 @@ def least_time_of_motor(move: TimedMove, torque: MotorTorque) -> LeastTime:
         proof = proof_by(trials.solution(too_short).certificate, move, 0.0, too_short)
         proofs = (proof,) if proof.stands(move) else ()
     return LeastTime(move, duration, trials.solutions[duration], proofs)
+
+
+def least_time_of_follower(move: TimedMove, without: LeastTime) -> LeastTime:
+    """The least time that is found upward from that without a limit of the vibration that is left.
+
+    Laws of a longer time may leave more again. So shorter times are proven to be too short only as far as they are
+    without that limit.
+    """
+    trials = _Trials(move)
+    low = high = log(without.duration)
+    while trials.excess(high) > log(1.0 + FEASIBILITY):
+        low, high = high, high + _UPWARD
+        if high - log(without.duration) > _WIDEST:
+            raise unsettled(move, exp(high))
+    if low < high:
+        brentq(trials.excess, low, high, xtol=0.1 * LEAST_TIME_MET)
+    enough = (time for time, solution in trials.solutions.items() if solution.objective <= 1.0 + FEASIBILITY)
+    duration = min(enough)
+    return LeastTime(move, duration, trials.solutions[duration], without.proofs)
 
 
 def _bracket(trials: _Trials, logarithm: float) -> tuple[float, float]:

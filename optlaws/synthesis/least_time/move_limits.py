@@ -12,6 +12,7 @@ from optlaws.errors import InputError
 from optlaws.files.reading import JsonText
 from optlaws.numbers import finite, positive
 from optlaws.suggest import unknown_key
+from optlaws.synthesis.least_time.follower_residual import FollowerResidual
 from optlaws.synthesis.least_time.motor_torque import MotorTorque, TimedLimit
 from optlaws.synthesis.problem.constants import B, C, C_minus, C_plus, Functional, J, jounce
 from optlaws.synthesis.problem.expression import Expression, maximum
@@ -142,6 +143,8 @@ class TimedMove:
         Velocities at the ends, in units of the stroke a second.
     torque
         At the motor, with its limits; only for laws from rest to rest that never turn back. None without a motor.
+    residual
+        The vibration that is left in a follower, with its limit; only from rest to rest. None without a follower.
 
     Raises
     ------
@@ -155,6 +158,7 @@ class TimedMove:
     start_velocity: float = 0.0
     end_velocity: float = 0.0
     torque: MotorTorque | None = None
+    residual: FollowerResidual | None = None
 
     def __post_init__(self) -> None:
         if not self.limits.to_dict() and self.torque is None:
@@ -169,6 +173,8 @@ class TimedMove:
         object.__setattr__(self, "problem", _checked(self.problem, even=even))
         if self.torque is not None and not (self.at_rest and self.problem.monotone):
             raise InputError("a torque at the motor is limited from rest to rest, by laws that never turn back")
+        if self.residual is not None and not self.at_rest:
+            raise InputError("the vibration that is left is limited from rest to rest")
         if not self.at_rest and self.problem.order < max(2, self._lowest.nu):
             raise InputError(
                 f"ends that move need order >= {max(2, self._lowest.nu)} where the {self._lowest.name} is the lowest "
@@ -190,7 +196,14 @@ class TimedMove:
         of_rates = (
             TimedLimit(limit.name, limit.constant, limit.rate * power(duration, limit.nu)) for limit in self.rates
         )
-        return (*of_rates, *(() if self.torque is None else self.torque.limits_in(duration)))
+        torques = () if self.torque is None else self.torque.limits_in(duration)
+        left = () if self.residual is None else (self.residual.limit_in(duration, self.stroke),)
+        return (*of_rates, *torques, *left)
+
+    @property
+    def without_residual(self) -> TimedMove:
+        """The move without its limit of the vibration that is left: none of its laws is lost."""
+        return replace(self, residual=None)
 
     @property
     def _lowest(self) -> RateLimit:

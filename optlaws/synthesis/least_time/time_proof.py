@@ -52,7 +52,11 @@ class TimeProof(JsonText):
         return bool(certificates) and all(proof.proves_infeasible for proof in certificates)
 
     def certificates(self, move: TimedMove) -> list[Certificate]:
-        """The certificates at the ends of the interval; none where they are not of the move."""
+        """The certificates at the ends of the interval; none where they are not of the move.
+
+        What is proven without the limit of the vibration that is left holds with it.
+        """
+        move = move.without_residual
         if self.certificate.problem != move.within(self.longest) or self.certificate.program != VIOLATION:
             return []
         if move.at_rest or self.shortest == self.longest:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.least_time.fastest_law import law_in_time, unsettled
 from optlaws.synthesis.least_time.least_time import LeastTime
-from optlaws.synthesis.least_time.motor_search import least_time_of_motor
+from optlaws.synthesis.least_time.motor_search import least_time_of_follower, least_time_of_motor
 from optlaws.synthesis.least_time.move_limits import TimedMove
 from optlaws.synthesis.least_time.segment_times import time_of_any_law
 from optlaws.synthesis.least_time.time_proof import Multipliers, covering
@@ -42,6 +42,8 @@ def least_time(move: TimedMove, near: LeastTime | None = None) -> LeastTime:
         If the steps do not settle.
     """
     with meant():
+        if move.residual is not None:
+            return least_time_of_follower(move, least_time(move.without_residual))
         if move.torque is not None:
             return least_time_of_motor(move, move.torque)
         duration, solution, known = _from_either_side(move, near) if move.at_rest else _from_below(move)

@@ -83,6 +83,7 @@ def test_law_and_proof_of_a_drive_are_one_file(sticky: FastestMove) -> None:
         FastestMove.from_dict(data)
 
 
+@pytest.mark.long
 def test_a_crank_is_bounded_by_the_phase_plane() -> None:
     press = slider_crank("0.1 m", "0.4 m", bodies={"crank": "0.02 kg m^2", "slider": "5 kg"})
     drive = Drive(press, Motor("3e-4 kg m^2"), ratio=5)

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from optlaws import FastestMove, InfeasibleProblem, InputError, Problem, fastest, fastest_moves, synthesize
+from optlaws import FastestMove, InfeasibleProblem, InputError, Pieces, Problem, fastest, fastest_moves, synthesize
 
 ORDER_3 = Problem(order=3)
 LIMITS = {"velocity": "1 m/s", "acceleration": ("-8 m/s^2", "12 m/s^2"), "jerk": "300 m/s^3"}
@@ -99,6 +99,14 @@ def test_a_longer_time_leaves_room_for_less_heat(move: FastestMove) -> None:
     assert heat[1] < 0.95 * heat[0]
     with pytest.raises(InputError, match="duration must be at least the least time"):
         move.within("0.2 s")
+
+
+def test_pieces_between_the_segments_reach_the_limit() -> None:
+    """With and without a time at constant velocity, whose ends may be one."""
+    for limits in ({"acceleration": "12 m/s^2", "jerk": "300 m/s^3"}, {"velocity": "0.5 m/s", "jerk": "300 m/s^3"}):
+        smooth = fastest(ORDER_3, stroke="100 mm", limits=limits)
+        pieces = Problem(order=3, basis=Pieces(smooth.limit_breaks, degree=3, continuity=2))
+        assert fastest(pieces, stroke="100 mm", limits=limits).price == pytest.approx(0.0, abs=1e-9)
 
 
 def damaged(change: Callable[[dict[str, Any]], None], move: FastestMove) -> dict[str, Any]:

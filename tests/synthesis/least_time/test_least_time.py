@@ -130,6 +130,7 @@ def test_what_more_of_a_limit_saves_is_what_it_saves() -> None:
         assert 1.0 - further.duration / found.duration == pytest.approx(gains[name], rel=1e-3)
 
 
+@pytest.mark.long
 def test_the_gain_of_ends_that_move() -> None:
     move, more = TimedMove(Problem(order=3), 0.1, UNEVEN, 0.4), 1e-5
     found = least_time(move)
@@ -152,6 +153,7 @@ def test_units_change_nothing(unit: float) -> None:
     )
 
 
+@pytest.mark.long
 def test_a_window_and_motion_forward_alone_take_longer() -> None:
     """0.3 of the stroke at most until half of the time; from a start that is fast, never back."""
     free = least_time(TimedMove(Problem(order=3), 0.1, UNEVEN)).duration
