@@ -72,6 +72,7 @@ from optlaws.synthesis.families.active_set import ActiveSet as ActiveSet
 from optlaws.synthesis.families.family import ConstraintFamily as ConstraintFamily
 from optlaws.synthesis.functionals.makers import FormulaKind as FormulaKind
 from optlaws.synthesis.functionals.makers import PeakSide as PeakSide
+from optlaws.synthesis.least_time.follower_residual import FollowerResidual as FollowerResidual
 from optlaws.synthesis.least_time.least_time import LeastTime as LeastTime
 from optlaws.synthesis.least_time.motor_torque import MotorTorque as MotorTorque
 from optlaws.synthesis.least_time.motor_torque import TimedLimit as TimedLimit
@@ -127,6 +128,7 @@ __all__ = [
     "Extreme",
     "Extremes",
     "FaceContact",
+    "FollowerResidual",
     "Formula",
     "FormulaKind",
     "FourBarBranch",
