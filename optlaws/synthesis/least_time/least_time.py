@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from math import inf
 from typing import Any
 
@@ -22,7 +23,7 @@ from optlaws.synthesis.problem.constants import meant
 from optlaws.synthesis.proof.data import problem_of
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.status import Status
-from optlaws.tolerances import BOUND_FEASIBILITY, LEAST_TIME_GAP, LIMIT_REACHED, MIRROR, STORED_VALUE
+from optlaws.tolerances import BOUND_FEASIBILITY, LEAST_TIME_GAP, LIMIT_REACHED, MIRROR, PHASE_GAP, STORED_VALUE
 
 _MOST_PROOFS = 100
 
@@ -180,7 +181,9 @@ class LeastTime(JsonText):
         if not all(proof.stands(self.move) for proof in self.proofs):
             raise InputError("a proof that no law is faster does not show that of its times")
         known, stated = self.limit, real(limit)
-        same = limit is None if known is None else stated is not None and abs(stated - known) <= STORED_VALUE * known
+        # that in the phase plane is a conic program's
+        share = STORED_VALUE if self.move.torque is None else PHASE_GAP
+        same = limit is None if known is None else stated is not None and abs(stated - known) <= share * known
         if not same:
             raise InputError(f"the limit of all laws is {limit!r}, but it is {known!r}")
 
@@ -207,15 +210,20 @@ def limit_of_all_laws(move: TimedMove) -> float | None:
         return known
     limits, stroke = move.limits, move.stroke
     accelerations = [limit for limit in (limits.acceleration, limits.deceleration) if limit is not None]
-    bounds = {"B": inf if limits.velocity is None else limits.velocity / stroke, "P": torque.peak / torque.unit}
+    velocity = inf if limits.velocity is None else limits.velocity / stroke
     # a bound of both ways is the greater one, so that none of the laws is left out
-    if len(accelerations) == 2:
-        bounds["C"] = max(accelerations) / stroke
+    acceleration = max(accelerations) / stroke if len(accelerations) == 2 else inf
+    in_plane = _in_phase_plane(torque.text(1.0), velocity, acceleration, torque.peak / torque.unit)
+    return known if in_plane is None else max(known or 0.0, in_plane)
+
+
+@lru_cache(maxsize=64)
+def _in_phase_plane(torque: str, velocity: float, acceleration: float, most: float) -> float | None:
+    """The least time in the phase plane; None where nothing is known."""
     try:
-        of_torque = drive_limit(torque.text(1.0), "time", **bounds).value
+        return drive_limit(torque, "time", B=velocity, C=acceleration, P=most).value
     except (InputError, InfeasibleProblem, SolverFailure):
-        return known  # nothing more is known then
-    return max(known or 0.0, of_torque)
+        return None
 
 
 #: of a file

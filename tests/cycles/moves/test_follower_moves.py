@@ -10,6 +10,7 @@ from scipy.integrate import solve_ivp
 from optlaws import (
     Chebyshev,
     FastestMove,
+    Follower,
     InputError,
     Pieces,
     Problem,
@@ -32,7 +33,7 @@ def left(law: Any, circular: float, damping: float) -> float:  # noqa: ANN401 - 
         off, speed = state[0] - float(law(min(k, 1.0))), state[1] - float(law(min(k, 1.0), 1))
         return [state[1], -2.0 * damping * circular * speed - circular**2 * off]
 
-    end = solve_ivp(slope, (0.0, 1.0), [0.0, 0.0], rtol=1e-9, atol=1e-12, max_step=2e-3).y[:, -1]
+    end = solve_ivp(slope, (0.0, 1.0), [0.0, 0.0], rtol=1e-8, atol=1e-11, max_step=1e-2).y[:, -1]
     damped = circular * np.sqrt(1.0 - damping**2)
     off, speed = end[0] - 1.0, end[1]
     return float(circular**2 * np.hypot(off, (speed + damping * circular * off) / damped))
@@ -48,7 +49,7 @@ def test_the_follower_vibrates_no_more(quiet: FastestMove) -> None:
     """At both ends of the spread and between; at its worst as much as is allowed."""
     found = [
         0.1 / quiet.duration**2 * left(quiet.law, tau * hertz * quiet.duration, 0.02)
-        for hertz in (15.865, 16.3, 16.7, 17.1, 17.535)
+        for hertz in (15.865, 16.7, 17.535)
     ]
     assert max(found) == pytest.approx(0.5, rel=1e-4)
     assert "residual acceleration" in quiet.binding
@@ -79,7 +80,8 @@ def test_it_is_faster_than_a_shaped_law_that_leaves_as_much() -> None:
     law = fastest(segments, stroke="100 mm", limits=LIMITS).law
     duration = plain.limit + 0.5 / 16.7
     shaped = shaped_law(law, tau * 16.7 * duration, 0.0, "ZV")
-    worst = max(left(shaped, tau * hertz * duration, 0.0) for hertz in (15.865, 17.535)) * 0.1 / duration**2
+    followers = [Follower(tau * hertz * duration) for hertz in (15.865, 17.535)]
+    worst = max(follower.response(shaped).residual_acceleration for follower in followers) * 0.1 / duration**2
     limits = LIMITS | {"residual acceleration": f"{worst!r} m/s^2"}
     ours = fastest(DEGREE_15, stroke="100 mm", limits=limits, follower={"frequency": ("15.865 Hz", "17.535 Hz")})
     assert ours.duration < 0.97 * duration

@@ -201,6 +201,7 @@ def test_the_time_of_all_laws_is_that_of_ruckig() -> None:
         assert time_of_any_law(move.stroke, move.limits, 3) == pytest.approx(fastest_motion(move)[0], rel=1e-9)
 
 
+@pytest.mark.long
 def test_polynomials_are_slower_than_ruckig() -> None:
     numbers = np.random.default_rng(6)
     for _ in range(2):
