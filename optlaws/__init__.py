@@ -34,6 +34,8 @@ _load, __dir__, __all__ = face(
         "optlaws.cycles.machine_axes": "Axes",
         "optlaws.cycles.cycle": "Cycle",
         "optlaws.cycles.old_tables": "OldTable read_cycle_table split_table",
+        "optlaws.cycles.moves.fastest_move": "FastestMove",
+        "optlaws.cycles.moves.timed_moves": "fastest fastest_moves",
         "optlaws.cycles.specification.segments": "ConstantVelocity Dwell Free Move Return Rise",
         "optlaws.cycles.machine_follower": "MachineFollower machine_follower",
         "optlaws.errors": "InfeasibleProblem InputError NoisyTable NotNormalised OptlawsError SolverFailure",

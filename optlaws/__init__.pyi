@@ -47,6 +47,9 @@ from optlaws.cycles.law_comparison import compare_laws as compare_laws
 from optlaws.cycles.machine_axes import Axes as Axes
 from optlaws.cycles.machine_follower import MachineFollower as MachineFollower
 from optlaws.cycles.machine_follower import machine_follower as machine_follower
+from optlaws.cycles.moves.fastest_move import FastestMove as FastestMove
+from optlaws.cycles.moves.timed_moves import fastest as fastest
+from optlaws.cycles.moves.timed_moves import fastest_moves as fastest_moves
 from optlaws.cycles.specification.segments import ConstantVelocity as ConstantVelocity
 from optlaws.cycles.specification.segments import Dwell as Dwell
 from optlaws.cycles.specification.segments import Free as Free
@@ -216,6 +219,7 @@ __all__ = [
     "Dwell",
     "DwellMachine",
     "Expression",
+    "FastestMove",
     "Follower",
     "Forbidden",
     "Free",
@@ -294,6 +298,8 @@ __all__ = [
     "driving_law",
     "dwell_machine",
     "dwell_mechanism",
+    "fastest",
+    "fastest_moves",
     "find_torsion_levers",
     "flat_output",
     "four_bar",

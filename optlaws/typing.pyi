@@ -21,11 +21,6 @@ from optlaws.cams.followers.rollers_and_faces import FaceContact as FaceContact
 from optlaws.cams.followers.rollers_and_faces import RollerContact as RollerContact
 from optlaws.cams.least_sizes import GreatestRoller as GreatestRoller
 from optlaws.cams.least_sizes import LeastBaseCircle as LeastBaseCircle
-from optlaws.cycles.interlocks.enclosed_axis import Way as Way
-from optlaws.cycles.interlocks.interlock import Interlock as Interlock
-from optlaws.cycles.interlocks.interlock import LeastClearance as LeastClearance
-from optlaws.cycles.machine_axes import AxesPicture as AxesPicture
-from optlaws.cycles.machine_axes import Overlap as Overlap
 from optlaws.cycles.machine_follower import MachineAnswer as MachineAnswer
 from optlaws.cycles.specification.segments import CycleSegment as CycleSegment
 from optlaws.exports.best_breaks import BestBreaks as BestBreaks
@@ -77,6 +72,14 @@ from optlaws.synthesis.families.active_set import ActiveSet as ActiveSet
 from optlaws.synthesis.families.family import ConstraintFamily as ConstraintFamily
 from optlaws.synthesis.functionals.makers import FormulaKind as FormulaKind
 from optlaws.synthesis.functionals.makers import PeakSide as PeakSide
+from optlaws.synthesis.least_time.follower_residual import FollowerResidual as FollowerResidual
+from optlaws.synthesis.least_time.least_time import LeastTime as LeastTime
+from optlaws.synthesis.least_time.motor_torque import MotorTorque as MotorTorque
+from optlaws.synthesis.least_time.motor_torque import TimedLimit as TimedLimit
+from optlaws.synthesis.least_time.move_limits import MoveLimits as MoveLimits
+from optlaws.synthesis.least_time.move_limits import RateLimit as RateLimit
+from optlaws.synthesis.least_time.move_limits import TimedMove as TimedMove
+from optlaws.synthesis.least_time.time_proof import TimeProof as TimeProof
 from optlaws.synthesis.limits.drive_limits import DriveObjective as DriveObjective
 from optlaws.synthesis.limits.phase_plane import PhasePlane as PhasePlane
 from optlaws.synthesis.problem.constants import Asked as Asked
@@ -97,7 +100,6 @@ __all__ = [
     "ActiveSet",
     "Array",
     "Asked",
-    "AxesPicture",
     "BestBaseCircle",
     "BestBreaks",
     "BestCam",
@@ -126,12 +128,12 @@ __all__ = [
     "Extreme",
     "Extremes",
     "FaceContact",
+    "FollowerResidual",
     "Formula",
     "FormulaKind",
     "FourBarBranch",
     "GreatestRoller",
     "InputAxis",
-    "Interlock",
     "Interpolation",
     "Interval",
     "Jet",
@@ -139,7 +141,7 @@ __all__ = [
     "LawSpace",
     "LazySequence",
     "LeastBaseCircle",
-    "LeastClearance",
+    "LeastTime",
     "LinkGeometry",
     "LoadPlace",
     "MachineAnswer",
@@ -151,12 +153,13 @@ __all__ = [
     "Maximum",
     "ModeResidual",
     "Motion",
+    "MotorTorque",
+    "MoveLimits",
     "Multiplier",
     "Node",
     "NumberOrQuantity",
     "OutputPeak",
     "OutputRms",
-    "Overlap",
     "PeakSide",
     "PhasePlane",
     "Piece",
@@ -166,6 +169,7 @@ __all__ = [
     "Polynomial",
     "PolynomialBasis",
     "Quantity",
+    "RateLimit",
     "Residual",
     "Result",
     "RollerContact",
@@ -183,8 +187,10 @@ __all__ = [
     "TableKind",
     "Teeth",
     "Term",
+    "TimeProof",
+    "TimedLimit",
+    "TimedMove",
     "Train",
     "Turning",
     "Watch",
-    "Way",
 ]

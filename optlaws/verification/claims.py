@@ -36,9 +36,11 @@ from optlaws.verification.file_entries import (
     is_array,
     is_drive_limit,
     is_entry,
+    is_least_time,
     is_move_limit,
     is_proven_front,
 )
+from optlaws.verification.least_times import least_time
 from optlaws.verification.proven_fronts import proven_front
 from optlaws.verification.reading import built, number, read
 from optlaws.verification.result import Claim, Verification
@@ -85,6 +87,8 @@ def _alone(data: Mapping[str, Any]) -> Verification:
         return proven_front(built(ProvenFront.from_dict, data, "the proven front"), number(data, "gap"))
     if is_drive_limit(data) or is_move_limit(data):
         return _limit_of_drive(data)
+    if is_least_time(data):
+        return least_time(data, _solution(data["solution"]))
     if "certificate" in data:
         return _solution(data)
     if "law" in data:

@@ -59,6 +59,24 @@ class LawFile(msgspec.Struct, forbid_unknown_fields=True):
     about: str = ""
 
 
+class LeastTimeFile(msgspec.Struct, forbid_unknown_fields=True):
+    """What `FastestMove.to_dict` writes; in units of metres or radians, and seconds."""
+
+    stroke: float
+    limits: dict[str, float]
+    start_velocity: float
+    end_velocity: float
+    duration: float
+    limit: float | None
+    space: dict[str, Any]
+    solution: dict[str, Any]
+    proofs: list[dict[str, Any]]
+    torque: dict[str, Any] | None = None
+    residual: dict[str, Any] | None = None
+    unit: Literal["m", "rad"] | None = None
+    about: str = ""
+
+
 class TableRow(msgspec.Struct, forbid_unknown_fields=True):
     """A row of a table of solutions."""
 
@@ -123,10 +141,11 @@ def entries(data: Data) -> dict[str, FileEntry]:
 
 
 def is_entry(data: Data) -> bool:
-    """Whether this is a solution, a certificate, a law with its constants or a proven front, whatever else it says."""
+    """Whether this is a solution, a certificate, a law, a proven front or a least time, whatever else it says."""
     solution = {"problem", "law", "certificate"} <= data.keys()
     certificate = {"problem", "contacts"} <= data.keys() or {"problem", "steps"} <= data.keys()
-    several = is_proven_front(data) or is_drive_limit(data) or is_move_limit(data)
+    of_drive = is_drive_limit(data) or is_move_limit(data)
+    several = is_proven_front(data) or is_least_time(data) or of_drive
     return solution or certificate or several or {"law", "constants"} <= data.keys()
 
 
@@ -150,9 +169,16 @@ def is_move_limit(data: Data) -> bool:
     return {"drive_limit", "unit", "dimension"} == data.keys()
 
 
+def is_least_time(data: Data) -> bool:
+    """Whether this is the least time of a move, with its law and its proofs."""
+    return {"duration", "solution", "proofs"} <= data.keys()
+
+
 def check_keys(data: Data) -> None:
     """Refuse an entry that says what no entry of its kind says."""
-    if "certificate" in data:
+    if is_least_time(data):
+        _stated(data, LeastTimeFile, "the least time")
+    elif "certificate" in data:
         _stated(data, SolutionFile, "the solution")
     elif "law" in data:
         _stated(data, LawFile, "the law with its constants")

@@ -142,6 +142,34 @@ def test_an_unknown_command_is_refused(capsys: Capture, arguments: list[str]) ->
     refused(capsys, *arguments)
 
 
+MOVE = ["solve", "--order", "3", "--fastest", "--stroke", "100 mm", "--limit", "jerk=300 m/s^3"]
+
+
+def test_the_least_time_is_that_of_the_library(capsys: Capture, tmp_path: Path) -> None:
+    file, pair = tmp_path / "move.json", "acceleration=-8 m/s^2, 12 m/s^2"
+    code, out, err = called(capsys, *MOVE, "--limit", pair, "--end-velocity", "-0.1 m/s", "--json", "--output", file)
+    assert (code, err) == (0, "")
+    limits = {"jerk": "300 m/s^3", "acceleration": ("-8 m/s^2", "12 m/s^2")}
+    move = optlaws.fastest(Problem(order=3), stroke="100 mm", limits=limits, end_velocity="-0.1 m/s")
+    assert json.loads(out)["duration"] == move.duration
+    assert json.loads(out)["limits"] == {"acceleration": 12.0, "deceleration": 8.0, "jerk": 300.0}
+    assert called(capsys, "verify", file)[0] == 0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        ([*SOLVE, "--stroke", "1 mm"], "--stroke goes with --fastest"),
+        ([*SOLVE, "--fastest"], "--fastest needs --stroke"),
+        ([*MOVE, "--limit", "jerk=3 m/s^3"], "is given twice"),
+        ([*MOVE, "--limit", "1 m/s"], "a limit is a name = a quantity"),
+        ([*MOVE, "--peak-velocity", "1.8"], "leaves B free"),
+    ],
+)
+def test_moves_that_are_not_clear_are_refused(capsys: Capture, arguments: list[str], says: str) -> None:
+    assert says in refused(capsys, *arguments)
+
+
 # --- constants ---
 
 

@@ -27,6 +27,7 @@ from optlaws import (
 from tests.contracts.faces import faces
 from tests.contracts.test_faces import package
 from tests.internals.laws import Segment
+from tests.internals.synthesis import FollowerResidual, MotorTorque
 from tests.laws.examples import EXAMPLES
 
 #: an acceleration that jumps: J has no bound
@@ -78,6 +79,7 @@ def values(jumping: Solution) -> dict[str, Any]:
     rack = optlaws.rack("20 mm", "5 kg", loads=optlaws.Loads({"0 mm": "0 N", "20 mm": "-3 N"}))
     crank = optlaws.Cycle(turns, period="0.2 s", drive=rack, minimise="rms torque")
     motor = optlaws.Drive(rack, optlaws.Motor("3e-4 kg m^2"), ratio=3.0, efficiency=0.9)
+    fastest = optlaws.fastest(Problem(order=3), stroke="100 mm", limits={"jerk": "300 m/s^3"})
     return {
         "Solution": jumping,
         "Solution with a power certificate": power,
@@ -94,6 +96,15 @@ def values(jumping: Solution) -> dict[str, Any]:
         "Peak": jumping.constants.J,
         "Front": front,
         "Front with errors": replace(front, errors={1.1: no_law(), 1.2: optlaws.SolverFailure("lost", problem=JUMPS)}),
+        "FastestMove": fastest,
+        "FastestMove with ends that move": optlaws.fastest(
+            Problem(order=3), stroke="90 deg", limits={"jerk": "900 rad/s^3"}, start_velocity="2 rad/s"
+        ),
+        "LeastTime": fastest.least,
+        "FollowerResidual": FollowerResidual(95.0, 105.0, 0.05, most=0.4),
+        "MotorTorque": MotorTorque("1 + 0.3*a", 0.1, "0.2", 2.0, peak=3.0),
+        "MoveLimits": fastest.least.move.limits,
+        "TimeProof": fastest.least.proofs[0],
         "FrontPoint": proven(1.605),
         "ProvenFront": proven,
         "SolutionArray": optlaws.synthesize_array(optlaws.ProblemArray(B=[1.05, float("nan"), 1.7, 1.8], order=4)),

@@ -9,6 +9,7 @@ import optlaws
 from optlaws.cli.options import AsJson, check_files, save
 from optlaws.cli.problem_options import asks_for_a_problem
 from optlaws.cli.show import constants_table, print_json, show, table
+from optlaws.cli.timed_move import WITHOUT_MOVE, MoveOptions, answer
 
 #: the law that most designers would take, and the followers it is compared for: two to five vibrations in the motion
 _USUAL, _FREQUENCIES = "modified sine", (12.0, 32.0)
@@ -19,21 +20,28 @@ def solve(
     entries: dict[str, Any],
     *,
     bound: Literal["quick", "tight"] = "quick",
+    move: MoveOptions = WITHOUT_MOVE,
     as_json: AsJson = False,
     output: Path | None = None,
 ) -> None:
-    """Find the law with the least peak constant or mixture of constants, and prove it.
+    """Find the law with the least peak constant or mixture of constants, or the least time of a move, and prove it.
 
     Parameters
     ----------
     bound
         Where D is in the problem: tight searches all laws, for a bound that usually meets the objective.
+    move
+        What --fastest asks for.
     as_json
         Print one JSON object on stdout and nothing else.
     output
         Write the whole solution, with its problem and certificate, to this JSON file.
     """
     check_files(output)
+    move.check()
+    if move.fastest:
+        answer(optlaws.Problem.from_dict(entries), move, as_json=as_json, output=output)
+        return
     solution = optlaws.synthesize(optlaws.Problem.from_dict(entries), bound=bound)
     if output is not None:
         save(output, solution.to_dict())

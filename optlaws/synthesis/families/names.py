@@ -53,6 +53,17 @@ def maximum_part(number: int, maximum: str) -> str:
     return f"part {number} of {maximum}"
 
 
+def part_number(name: str) -> int | None:
+    """Which part of a maximum a row is of, counted from 1; None of other rows.
+
+    >>> part_number(maximum_part(2, "max(B, C)")), part_number("C")
+    (2, None)
+    """
+    first, _, rest = name.partition(" ")
+    number = rest.partition(" of ")[0]
+    return int(number) if first == "part" and number.isdecimal() else None
+
+
 def branch(number: int, name: str) -> str:
     """One of the smooth formulas, counted from 1, of which a constant's is the greatest."""
     return f"branch {number} of {name}"

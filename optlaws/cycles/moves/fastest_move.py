@@ -1,0 +1,284 @@
+"""The least time of a single move in machine units, as `fastest` returns it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, Unpack
+
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.files.reading import JsonText, entries_of
+from optlaws.laws import MotionLaw
+from optlaws.laws.exporting import ExportOptions, LawExport
+from optlaws.motion.piece import factor, unit_of
+from optlaws.motion.quantities import positive_quantity
+from optlaws.numbers import Quantity
+from optlaws.shown.summary import Row, Summary
+from optlaws.suggest import keywords_of
+from optlaws.synthesis.least_time.least_time import LeastTime
+from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.status import Status
+from optlaws.tolerances import SAME_TIME
+
+#: what the unit of a stroke measures
+AXES = {"m": "length", "rad": "angle"}
+_DEGREES = 57.29577951308232
+_MORE = 0.1
+
+
+@dataclass(frozen=True, repr=False)
+class FastestMove(LawExport, JsonText):
+    """The least time of a single move within limits, with the law that takes it and the proof that none is faster.
+
+    Attributes
+    ----------
+    least
+        The same in SI units, with the move and the proofs.
+    unit
+        That of the stroke, "m" or "rad".
+
+    Examples
+    --------
+    >>> import optlaws
+    >>> move = optlaws.fastest(
+    ...     optlaws.Problem(order=3), stroke="100 mm", limits={"acceleration": "8 m/s^2", "jerk": "300 m/s^3"}
+    ... )
+    >>> round(move.duration, 6), round(move.limit, 6), move.binding
+    (0.255736, 0.251858, ('acceleration', 'jerk'))
+    """
+
+    least: LeastTime
+    unit: str = "m"
+
+    _json_name = "a fastest move"
+
+    @property
+    def duration(self) -> float:
+        """The least time, s."""
+        return self.least.duration
+
+    @property
+    def stroke(self) -> float:
+        """The stroke, in m or rad."""
+        return self.least.move.stroke
+
+    @property
+    def law(self) -> MotionLaw:
+        """The law that takes the least time."""
+        return self.least.law
+
+    @property
+    def limit(self) -> float | None:
+        """The time that no law of any degree is faster than, s; None where no closed form is known.
+
+        From rest to rest, under limits of velocity, acceleration and jerk, it is that of the seven segments. A limit
+        of the snap adds a bound of its own: then laws need not come near.
+        """
+        return self.least.limit
+
+    @property
+    def limit_breaks(self) -> tuple[float, ...]:
+        """Breaks of `Pieces(breaks, degree=3, continuity=2)` that reach the limit; empty where none are known.
+
+        Examples
+        --------
+        >>> import optlaws
+        >>> limits = {"velocity": "1 m/s", "jerk": "300 m/s^3"}
+        >>> move = optlaws.fastest(optlaws.Problem(order=3), stroke="100 mm", limits=limits)
+        >>> pieces = optlaws.Pieces(move.limit_breaks, degree=3, continuity=2)
+        >>> round(optlaws.fastest(optlaws.Problem(order=3, basis=pieces), stroke="100 mm", limits=limits).price, 9)
+        0.0
+        """
+        return self.least.limit_breaks
+
+    @property
+    def price(self) -> float | None:
+        """By which share the laws of the problem's space are slower than all laws; None without a limit."""
+        return self.least.price
+
+    @property
+    def none_below(self) -> float:
+        """The time up to which it is proven that no law of the space keeps the limits, s."""
+        return self.least.none_below
+
+    @property
+    def gap(self) -> float:
+        """By which share of itself the least time is above the longest that is proven to be too short."""
+        return self.least.gap
+
+    @property
+    def status(self) -> Status:
+        """`optimal` where the least time is proven, `local` where a torque is not convex in the law."""
+        return self.least.status
+
+    @property
+    def binding(self) -> tuple[str, ...]:
+        """The limits that the law reaches and that keep it from being faster."""
+        return self.least.binding
+
+    def gains(self, more: float = _MORE) -> dict[str, float]:
+        """The share of the time that a share more of each limit saves, by its multiplier; exact for small shares.
+
+        Empty where a torque is limited: its multipliers speak of one time alone.
+
+        Examples
+        --------
+        >>> import optlaws
+        >>> move = optlaws.fastest(optlaws.Problem(order=3), stroke="100 mm", limits={"jerk": "300 m/s^3"})
+        >>> round(move.gains(0.03)["jerk"], 9)
+        0.01
+        """
+        return self.least.gains(more)
+
+    def within(self, duration: Quantity) -> Problem:
+        """The problem of the laws that keep every limit in a longer time, such as "0.3 s", to minimise something else.
+
+        Raises
+        ------
+        InputError
+            If it is no time, or shorter than the least.
+
+        Examples
+        --------
+        >>> from dataclasses import replace
+        >>> import optlaws
+        >>> move = optlaws.fastest(optlaws.Problem(order=3), stroke="100 mm", limits={"jerk": "300 m/s^3"})
+        >>> slower = optlaws.synthesize(replace(move.within("0.3 s"), minimise="rms_c"))
+        >>> round(slower.objective * move.stroke / 0.3**2, 6)
+        4.202626
+        """
+        time = positive_quantity(duration, "time", "duration")
+        if time < self.duration * (1.0 - SAME_TIME):
+            raise InputError(
+                f"duration must be at least the least time, {self.duration:.9g} s, got {shortened(duration)}"
+            )
+        return self.least.move.within(max(time, self.duration))
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """Which limits bind, and what a tenth more of each would save, in words."""
+        gains = self.gains()
+        return tuple(
+            f"{name}: 10 % more saves about {100.0 * gains[name]:.2g} % of the time"
+            if name in gains
+            else f"{name} binds"
+            for name in self.binding
+        )
+
+    def summary(self) -> Summary:
+        """The least time, what no law beats, and each limit with its use, as rows.
+
+        Examples
+        --------
+        >>> import optlaws
+        >>> move = optlaws.fastest(
+        ...     optlaws.Problem(order=3), stroke="100 mm", limits={"velocity": "1 m/s", "jerk": "300 m/s^3"}
+        ... )
+        >>> [(row.name, row.text(5), row.unit) for row in move.summary()][:3]
+        [('least time', '0.22533', 's'), ('limit', '0.22013', 's'), ('velocity', '0.88481', 'm/s')]
+        """
+        rows = [Row("least time", self.duration, "s", note=f"{self._word}: {self._proven}")]
+        if self.limit is not None and self.price is not None:
+            laws = "of any degree" if self.least.move.torque is None else "that never turns back"
+            note = f"that no law {laws} beats: the space costs {100.0 * max(self.price, 0.0):.2g} %"
+            rows.append(Row("limit", self.limit, "s", note=note))
+        axis, move = AXES[self.unit], self.least.move
+        for limit in move.rates:
+            peak = limit.constant.value(self.law) * factor(self.stroke, self.duration, limit.nu)
+            rows.append(Row(limit.name, peak, unit_of(axis, limit.nu), note=self._use(limit.name)))
+        if move.torque is not None:
+            torques = {"torque": move.torque.peak, "rms torque": move.torque.rms}
+            for name, most in torques.items():
+                if most is not None:
+                    rows.append(Row(name, most * self.least.used[name], "N m", note=self._use(name)))
+        if move.residual is not None:
+            left = move.residual.most * self.least.used["residual acceleration"]
+            rows.append(Row("residual acceleration", left, unit_of(axis, 2), note=self._use("residual acceleration")))
+        return Summary(rows)
+
+    def _use(self, name: str) -> str:
+        """How much of a limit the law uses, and what more of it would save."""
+        if name not in self.binding:
+            return f"{100.0 * self.least.used[name]:.3g} % of the limit"
+        gain = self.gains().get(name)
+        return "binds" if gain is None else f"binds: 10 % more saves about {100.0 * gain:.2g} % of the time"
+
+    @keywords_of(ExportOptions)
+    def export(
+        self,
+        to: str,
+        *,
+        stroke: Quantity | None = None,
+        duration: Quantity | None = None,
+        master: Quantity | None = None,
+        start: Quantity | None = None,
+        **options: Unpack[ExportOptions],
+    ) -> Any:  # noqa: ANN401 - an export
+        """The move in the format of a controller, with its stroke and its least time unless others are given.
+
+        Raises
+        ------
+        InputError
+            As `MotionLaw.export`.
+
+        Examples
+        --------
+        >>> import optlaws
+        >>> move = optlaws.fastest(optlaws.Problem(order=3), stroke="100 mm", limits={"jerk": "300 m/s^3"})
+        >>> move.export("csv", points=3).text.splitlines()[-1].split(",")[1]
+        '100'
+        """
+        whole = f"{self.stroke * 1e3!r} mm" if self.unit == "m" else f"{self.stroke * _DEGREES!r} deg"
+        return super().export(
+            to,
+            stroke=whole if stroke is None else stroke,
+            duration=f"{self.duration!r} s" if duration is None else duration,
+            master=master,
+            start=start,
+            **options,
+        )
+
+    def _exported(self) -> tuple[MotionLaw, tuple[str, ...]]:
+        return self.law, (f"law: least time {self.duration:.9g} s within the limits, {self._word}: {self._proven}",)
+
+    @property
+    def _word(self) -> str:
+        return "proven" if self.status is Status.OPTIMAL else "the least that was found, and proven"
+
+    @property
+    def _proven(self) -> str:
+        """What is proven of all laws of the space."""
+        return f"none of {_space(self.least.move.problem)} takes {self.none_below:.9g} s or less"
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain JSON-able dict in SI units: law and proofs in one, which `optlaws verify` checks."""
+        return {"unit": self.unit, **self.least.to_dict()}
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> FastestMove:
+        """Read what `to_dict` wrote; the law and the proofs are held against the move and its limits.
+
+        Raises
+        ------
+        InputError
+            If an entry is missing or wrong, or states what does not follow from the law and the proofs.
+        """
+        if entries_of(data, ["unit"], cls._json_name)["unit"] not in tuple(AXES):
+            raise InputError(f"{cls._json_name} has a unit, 'm' or 'rad', got {shortened(data)}")
+        return cls(LeastTime.from_dict({key: data[key] for key in data if key != "unit"}), data["unit"])
+
+    def _repr_html_(self) -> str:
+        from optlaws.laws.html import drawings
+        from optlaws.shown.showing import page
+
+        return page("FastestMove", self.summary()._repr_html_(), drawings(self.law))
+
+    def __repr__(self) -> str:
+        limit = "" if self.limit is None else f", limit={self.limit:.9g}"
+        return f"FastestMove(duration={self.duration:.9g}{limit}, binding={self.binding!r})"
+
+
+def _space(problem: Problem) -> str:
+    """The laws of a problem in words."""
+    return f"the laws of order {problem.order} in {problem.basis!r}"

@@ -1,0 +1,219 @@
+"""The doors to least times of single moves: strokes and limits in machine units."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import Any, NamedTuple
+
+from optlaws.cycles.moves.fastest_move import AXES, FastestMove
+from optlaws.cycles.moves.torque_limits import TORQUES, motor_torque, without_torques
+from optlaws.cycles.moves.vibration_limits import RESIDUAL, vibration_limit
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.mechanisms.drives.drive_train import Drive
+from optlaws.motion.quantities import either, positive_quantity, quantity, table
+from optlaws.numbers import NumberOrQuantity, Quantity, listed
+from optlaws.suggest import unknown_key
+from optlaws.synthesis.least_time.least_time import LeastTime
+from optlaws.synthesis.least_time.motor_torque import MotorTorque
+from optlaws.synthesis.least_time.move_limits import MoveLimits, TimedMove
+from optlaws.synthesis.least_time.time_search import least_time
+from optlaws.synthesis.problem.problem import Problem
+
+_EXAMPLE = '{"velocity": "1 m/s", "acceleration": ("-8 m/s^2", "12 m/s^2"), "jerk": "300 m/s^3"}'
+_NAMES = ("velocity", "acceleration", "deceleration", "jerk", "snap")
+_MOST = 100_000
+
+
+def fastest(
+    problem: Problem,
+    *,
+    stroke: Quantity,
+    limits: Mapping[str, Any],
+    start_velocity: Quantity | None = None,
+    end_velocity: Quantity | None = None,
+    drive: Drive | None = None,
+    start: NumberOrQuantity = 0.0,
+    follower: Mapping[str, Any] | None = None,
+) -> FastestMove:
+    """The least time of a single move within limits in machine units, and the proof that no law is faster.
+
+    Parameters
+    ----------
+    problem
+        The space of laws: order, basis, windows, monotone, symmetric. Its B, C, D and J are free, and it minimises
+        nothing. Where limits or ends are not the same both ways its laws need not be symmetric.
+    stroke
+        How far, above 0: "100 mm" or "90 deg".
+    limits
+        By name: "velocity", "acceleration", "deceleration", "jerk", "snap", such as "1 m/s", of both signs. The
+        acceleration may be a pair of the least and the greatest, the velocity a pair that begins with 0 for a move
+        that never turns back. "deceleration" is the greatest acceleration against the stroke.
+    start_velocity, end_velocity
+        Velocities at the ends, such as "0.2 m/s"; rest unless given. The acceleration is 0 there from order 3 on.
+    drive
+        A motor that moves the axis through a mechanism, without losses in the gear: the stroke is that of the
+        mechanism's input. Limits may name the "torque" at the motor and its "rms torque" over the move; the torque is
+        at most the motor's peak torque and the speed its greatest speed. Laws never turn back then.
+    start
+        Position of the mechanism's input where the move begins.
+    follower
+        What the axis drives elastically, as {"frequency": ("15.9 Hz", "17.5 Hz"), "damping": 0.05}: its natural
+        frequency, or the least and the greatest, and its damping ratio, 0 unless given. Limits then name the "residual
+        acceleration", the amplitude that vibrates on after the move.
+
+    Returns
+    -------
+    FastestMove
+        The least time, its law, which limits bind, the proof, and the limit of all laws.
+
+    Raises
+    ------
+    InputError
+        If a quantity is wrong, or the limits are kept in any time.
+    InfeasibleProblem
+        If no law keeps the problem's windows, however long it takes.
+    SolverFailure
+        If the steps of the time do not settle.
+
+    Examples
+    --------
+    >>> import optlaws
+    >>> limits = {"velocity": "1 m/s", "acceleration": ("-8 m/s^2", "12 m/s^2"), "jerk": "300 m/s^3"}
+    >>> move = fastest(optlaws.Problem(order=3), stroke="100 mm", limits=limits)
+    >>> round(move.duration, 6), round(move.limit, 6), move.binding
+    (0.243994, 0.240161, ('acceleration', 'deceleration', 'jerk'))
+    """
+    rest, left = (limits, None) if follower is None else vibration_limit(follower, table(limits, "limits", _EXAMPLE))
+    if drive is None:
+        move, unit = _move(problem, stroke, rest, (start_velocity, end_velocity))
+    else:
+        given = table(rest, "limits", _EXAMPLE)
+        torque = motor_torque(drive, start, stroke, given)
+        move, unit = _move(problem, stroke, without_torques(drive, given), (start_velocity, end_velocity), torque)
+    if left is not None:
+        move = replace(move, residual=left(unit))
+    return FastestMove(least_time(move), unit)
+
+
+def fastest_moves(
+    problem: Problem,
+    *,
+    strokes: Sequence[Quantity],
+    limits: Mapping[str, Any],
+    start_velocity: Quantity | None = None,
+    end_velocity: Quantity | None = None,
+) -> tuple[FastestMove, ...]:
+    """The least times of many strokes within the same limits, each with its law and its proof.
+
+    From rest to rest each begins from the next shorter stroke, whose multipliers say up to which time its own limits
+    are too tight.
+
+    Parameters
+    ----------
+    problem, limits, start_velocity, end_velocity
+        As `fastest` takes them.
+    strokes
+        How far, all lengths or all angles; the answers are in their order.
+
+    Raises
+    ------
+    InputError, InfeasibleProblem, SolverFailure
+        As `fastest`, for the first stroke where it does.
+
+    Examples
+    --------
+    >>> import optlaws
+    >>> limits = {"velocity": "1 m/s", "jerk": "300 m/s^3"}
+    >>> moves = fastest_moves(optlaws.Problem(order=3), strokes=["400 mm", "50 mm"], limits=limits)
+    >>> [(round(move.duration, 6), move.binding) for move in moves]
+    [(0.528054, ('velocity', 'jerk')), (0.178846, ('jerk',))]
+    """
+    moves = [
+        _move(problem, stroke, limits, (start_velocity, end_velocity)) for stroke in listed(strokes, "strokes", _MOST)
+    ]
+    answers: dict[int, FastestMove] = {}
+    last: LeastTime | None = None
+    for i in sorted(range(len(moves)), key=lambda place: moves[place][0].stroke):
+        move, unit = moves[i]
+        last = least_time(move, last)
+        answers[i] = FastestMove(last, unit)
+    return tuple(answers[i] for i in range(len(moves)))
+
+
+def _move(
+    problem: Any,  # noqa: ANN401 - all are checked here
+    stroke: Any,  # noqa: ANN401
+    limits: Any,  # noqa: ANN401
+    ends: tuple[Any, Any],
+    torque: MotorTorque | None = None,
+) -> tuple[TimedMove, str]:
+    """The move whose time is sought in SI units, and the unit of its stroke."""
+    dimension, far = either(stroke, tuple(AXES.values()), "stroke")
+    if not far > 0.0:
+        raise InputError(f"stroke must be above 0, got {shortened(stroke)}: turn the axis and its limits round")
+    angular = "angular " if dimension == "angle" else ""
+    read = _read_limits(limits, angular)
+    if not isinstance(problem, Problem):
+        raise InputError(f"a least time is sought of a Problem, got {type(problem).__name__}")
+    start, end = (
+        0.0 if value is None else quantity(value, f"{angular}velocity", name)
+        for name, value in zip(("start_velocity", "end_velocity"), ends, strict=True)
+    )
+    space = replace(problem, monotone=True) if read.forward or torque is not None else problem
+    unit = next(unit for unit, axis in AXES.items() if axis == dimension)
+    return TimedMove(space, far, read.limits, start, end, torque), unit
+
+
+class _Read(NamedTuple):
+    limits: MoveLimits
+    forward: bool  #: whether the move must never turn back
+
+
+def _read_limits(given: Any, angular: str) -> _Read:  # noqa: ANN401 - it is checked here
+    """Limits in SI units."""
+    entries = table(given, "limits", _EXAMPLE)
+    _check_names(entries)
+    read: dict[str, float] = {}
+    forward = False
+    for name, value in entries.items():
+        dimension, where = f"{angular}{name.replace('deceleration', 'acceleration')}", f"limits: {name}"
+        if not isinstance(value, list | tuple):
+            read[name] = positive_quantity(value, dimension, where)
+            continue
+        low, high = _pair(value, dimension, where)
+        read[name] = high
+        if name == "acceleration":
+            if "deceleration" in entries:
+                raise InputError("limits: the acceleration is a pair, so that deceleration is given twice")
+            read["deceleration"] = -low
+        elif name == "velocity" and low == 0.0:
+            forward = True
+        elif low != -high:
+            remedy = " or begin with 0" if name == "velocity" else ""
+            raise InputError(f"{where}: its two values must be opposite{remedy}, got {shortened(value)}")
+    if "acceleration" in read:
+        read.setdefault("deceleration", read["acceleration"])
+    return _Read(MoveLimits(**read), forward)
+
+
+def _check_names(entries: Mapping[str, Any]) -> None:
+    """Refuse what is no limit of a motion."""
+    for name in entries:
+        if name in TORQUES:
+            raise InputError(f"limits: {name} is at a motor: give its drive")
+        if name == RESIDUAL:
+            raise InputError(f"limits: {name} is that of a follower: give the follower")
+        if name not in _NAMES:
+            raise InputError(unknown_key(name, (*_NAMES, *TORQUES, RESIDUAL), "limit"))
+
+
+def _pair(value: Any, dimension: str, where: str) -> tuple[float, float]:  # noqa: ANN401
+    """The least and the greatest value of a pair."""
+    if len(value) != 2:
+        raise InputError(f"{where} must be one quantity or two, the least and the greatest, got {shortened(value)}")
+    low, high = (quantity(each, dimension, where) for each in value)
+    if not (low < 0.0 < high or (low == 0.0 < high and "velocity" in dimension)):
+        raise InputError(f"{where}: the least value must be below 0 and the greatest above, got {shortened(value)}")
+    return low, high

@@ -1,0 +1,230 @@
+"""The least time of a move as a value: the law that takes it, the proof that none is faster, and what would help."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from math import inf
+from typing import Any
+
+from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
+from optlaws.files.reading import JsonText, entries_of
+from optlaws.kept import kept_property
+from optlaws.laws import MotionLaw
+from optlaws.numbers import finite, listed, positive, real
+from optlaws.synthesis.least_time.follower_residual import FollowerResidual
+from optlaws.synthesis.least_time.motor_torque import MotorTorque
+from optlaws.synthesis.least_time.move_limits import MoveLimits, TimedMove, power
+from optlaws.synthesis.least_time.segment_times import segment_times, time_of_any_law
+from optlaws.synthesis.least_time.time_proof import Multipliers, TimeProof, covers
+from optlaws.synthesis.limits.drive_limits import drive_limit
+from optlaws.synthesis.problem.constants import meant
+from optlaws.synthesis.proof.data import problem_of
+from optlaws.synthesis.solution import Solution
+from optlaws.synthesis.status import Status
+from optlaws.tolerances import BOUND_FEASIBILITY, LEAST_TIME_GAP, LIMIT_REACHED, MIRROR, PHASE_GAP, STORED_VALUE
+
+_MOST_PROOFS = 100
+
+
+@dataclass(frozen=True)
+class LeastTime(JsonText):
+    """The least time of a move within its limits, in units of the stroke and seconds.
+
+    Attributes
+    ----------
+    move
+        The space of laws, the stroke, the limits and the velocities at the ends.
+    duration
+        The least time, s.
+    solution
+        The law that takes it: that of the least greatest share of the limits in this time, which is 1.
+    proofs
+        That no law keeps the limits in a time that is shorter by a millionth or more.
+
+    Examples
+    --------
+    >>> from optlaws import Problem
+    >>> from optlaws.synthesis.least_time.time_search import least_time
+    >>> least = least_time(TimedMove(Problem(order=3), 1.0, MoveLimits(jerk=1.0)))
+    >>> round(least.duration, 6), round(least.limit, 6), least.binding
+    (3.249852, 3.174802, ('jerk',))
+    """
+
+    move: TimedMove
+    duration: float
+    solution: Solution
+    proofs: tuple[TimeProof, ...]
+
+    _json_name = "a least time"
+
+    @property
+    def law(self) -> MotionLaw:
+        """The law that takes the least time."""
+        return self.solution.law
+
+    @property
+    def none_below(self) -> float:
+        """The time up to which it is proven that no law of the space keeps the limits, s."""
+        if self.proofs:
+            return self.proofs[-1].longest
+        return max(self.move.least_conceivable(), self.limit or 0.0)
+
+    @property
+    def gap(self) -> float:
+        """By which share of itself the least time is above the longest that is proven to be too short."""
+        return 1.0 - self.none_below / self.duration
+
+    @property
+    def status(self) -> Status:
+        """Whether the least time is proven, or the least that was found: a torque not convex in the law, vibration."""
+        return Status.OPTIMAL if self.gap <= 2.0 * LEAST_TIME_GAP else Status.LOCAL
+
+    @kept_property
+    def limit(self) -> float | None:
+        """The time that no law of any degree is faster than, s; None where no closed form is known."""
+        return limit_of_all_laws(self.move)
+
+    @property
+    def limit_breaks(self) -> tuple[float, ...]:
+        """Breaks of pieces of degree 3 that reach the limit, 1/2 among them; empty where no segments are known."""
+        move = self.move
+        plain = move.at_rest and move.torque is None
+        segments = segment_times(move.stroke, move.limits, move.problem.order) if plain else None
+        if segments is None:
+            return ()
+        return tuple(sorted([0.5, *(k for k in segments.breaks if abs(k - 0.5) > MIRROR)]))
+
+    @property
+    def price(self) -> float | None:
+        """By which share the space of the problem is slower than all laws; None without a limit."""
+        return None if self.limit is None else self.duration / self.limit - 1.0
+
+    @kept_property
+    def used(self) -> dict[str, float]:
+        """Which share of each limit the law uses, 1 where it reaches it."""
+        limits = self.move.limits_in(self.duration)
+        return {limit.name: limit.constant.value(self.law) / limit.bound for limit in limits}
+
+    @property
+    def binding(self) -> tuple[str, ...]:
+        """The limits that the law reaches and that keep it from being faster."""
+        gains = self.gains(1.0)
+        return tuple(
+            name for name, used in self.used.items() if gains.get(name, 1.0) > 0.0 and used > 1.0 - LIMIT_REACHED
+        )
+
+    def gains(self, more: float = 0.1) -> dict[str, float]:
+        """The share of the time that a share more of each limit saves, by its multiplier; exact for small shares.
+
+        Empty where a torque or what vibrates is limited: the multipliers speak of one time alone.
+        """
+        if self.move.torque is not None or self.move.residual is not None:
+            return {}
+        multipliers = Multipliers.of(self.move, self.duration, self.solution)
+        weighed = [(nu, weight * power(self.duration, nu)) for nu, weight in multipliers.weights]
+        steep = sum(nu * share for nu, share in weighed) - multipliers.slope * self.duration
+        names = (limit.name for limit in self.move.rates)
+        return {name: more * share / steep for name, (_, share) in zip(names, weighed, strict=True)}
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain JSON-able dict: law and proofs in one, which `optlaws verify` checks."""
+        move = self.move
+        timed = {"torque": move.torque, "residual": move.residual}
+        return {name: limit.to_dict() for name, limit in timed.items() if limit is not None} | {
+            "stroke": move.stroke,
+            "limits": move.limits.to_dict(),
+            "start_velocity": move.start_velocity,
+            "end_velocity": move.end_velocity,
+            "duration": self.duration,
+            "limit": self.limit,
+            "space": move.problem.to_dict(),
+            "solution": self.solution.to_dict(),
+            "proofs": [proof.to_dict() for proof in self.proofs],
+        }
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> LeastTime:
+        """Read what `to_dict` wrote; the law and the proofs are held against the move and its limits.
+
+        Raises
+        ------
+        InputError
+            If an entry is missing or wrong, or states what does not follow from the law and the proofs.
+        """
+        entries = entries_of(data, KEYS, cls._json_name)
+        torque, residual = data.get("torque"), data.get("residual")
+        if len(data) > len(KEYS) + (torque is not None) + (residual is not None):
+            raise InputError(f"{cls._json_name} has the entries {', '.join(KEYS)} and no other")
+        move = TimedMove(
+            problem_of(entries["space"]),
+            positive(entries["stroke"], "stroke"),
+            MoveLimits() if torque is not None and entries["limits"] == {} else MoveLimits.from_dict(entries["limits"]),
+            finite(entries["start_velocity"], "start_velocity"),
+            finite(entries["end_velocity"], "end_velocity"),
+            None if torque is None else MotorTorque.from_dict(torque),
+            None if residual is None else FollowerResidual.from_dict(residual),
+        )
+        proofs = tuple(map(TimeProof.from_dict, listed(entries["proofs"], "proofs", _MOST_PROOFS)))
+        with meant():
+            solution = Solution.from_dict(entries["solution"])
+        read = cls(move, positive(entries["duration"], "duration"), solution, proofs)
+        read._check(entries["limit"])
+        return read
+
+    def _check(self, limit: Any) -> None:  # noqa: ANN401 - it is checked here
+        """Refuse what does not follow from the move."""
+        wrong = self.contradiction
+        if wrong:
+            raise InputError(wrong)
+        if not all(proof.stands(self.move) for proof in self.proofs):
+            raise InputError("a proof that no law is faster does not show that of its times")
+        known, stated = self.limit, real(limit)
+        # that in the phase plane is a conic program's
+        share = STORED_VALUE if self.move.torque is None else PHASE_GAP
+        same = limit is None if known is None else stated is not None and abs(stated - known) <= share * known
+        if not same:
+            raise InputError(f"the limit of all laws is {limit!r}, but it is {known!r}")
+
+    @property
+    def contradiction(self) -> str:
+        """What the law and the proofs are not, though the value says so; empty where they are all that."""
+        if self.solution.problem != self.move.shares(self.duration):
+            return f"the law is not of the move in {self.duration!r} s"
+        if not self.solution.objective <= 1.0 + BOUND_FEASIBILITY:
+            return f"the law exceeds a limit {self.solution.objective!r} times"
+        claimed = self.duration if self.move.residual is None else self.none_below
+        if not covers(self.move, self.proofs, claimed):
+            return f"the proofs leave out times that are shorter than the least by more than {LEAST_TIME_GAP:g}"
+        return ""
+
+
+def limit_of_all_laws(move: TimedMove) -> float | None:
+    """The time that no law of any degree is faster than; within a torque, that no law which never turns back is."""
+    if not move.at_rest:
+        return None
+    known = time_of_any_law(move.stroke, move.limits, move.problem.order) if move.rates else None
+    torque = move.torque
+    if torque is None or torque.peak is None:
+        return known
+    limits, stroke = move.limits, move.stroke
+    accelerations = [limit for limit in (limits.acceleration, limits.deceleration) if limit is not None]
+    velocity = inf if limits.velocity is None else limits.velocity / stroke
+    # a bound of both ways is the greater one, so that none of the laws is left out
+    acceleration = max(accelerations) / stroke if len(accelerations) == 2 else inf
+    in_plane = _in_phase_plane(torque.text(1.0), velocity, acceleration, torque.peak / torque.unit)
+    return known if in_plane is None else max(known or 0.0, in_plane)
+
+
+@lru_cache(maxsize=64)
+def _in_phase_plane(torque: str, velocity: float, acceleration: float, most: float) -> float | None:
+    """The least time in the phase plane; None where nothing is known."""
+    try:
+        return drive_limit(torque, "time", B=velocity, C=acceleration, P=most).value
+    except (InputError, InfeasibleProblem, SolverFailure):
+        return None
+
+
+#: of a file
+KEYS = ("stroke", "limits", "start_velocity", "end_velocity", "duration", "limit", "space", "solution", "proofs")

@@ -1,0 +1,297 @@
+"""Limits of velocity, acceleration, jerk and snap of a move, and the problem that they make of its time."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, fields, replace
+from math import factorial, inf, nextafter
+from typing import Any, NamedTuple
+
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.files.reading import JsonText
+from optlaws.numbers import finite, positive
+from optlaws.suggest import unknown_key
+from optlaws.synthesis.least_time.follower_residual import FollowerResidual
+from optlaws.synthesis.least_time.motor_torque import MotorTorque, TimedLimit
+from optlaws.synthesis.problem.constants import B, C, C_minus, C_plus, Functional, J, jounce
+from optlaws.synthesis.problem.expression import Expression, maximum
+from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.problem.ranges import at_most
+from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
+
+_EXAMPLE = "{'velocity': 1.0, 'acceleration': 12.0}"
+
+
+class RateLimit(NamedTuple):
+    """A limit of one derivative: its name, the constant of the law, the order of the derivative and the limit."""
+
+    name: str
+    constant: Functional
+    nu: int
+    rate: float
+
+
+@dataclass(frozen=True)
+class MoveLimits(JsonText):
+    """Limits of a move, in units of the stroke and seconds; None where there is none.
+
+    Attributes
+    ----------
+    velocity, jerk, snap
+        Greatest magnitudes.
+    acceleration, deceleration
+        Greatest acceleration in the direction of the stroke, and greatest against it.
+
+    Raises
+    ------
+    InputError
+        If one is not a finite number above 0.
+
+    Examples
+    --------
+    >>> MoveLimits(velocity=1.0, acceleration=12.0, deceleration=8.0).symmetric
+    False
+    """
+
+    _json_name = "limits of a move"
+
+    velocity: float | None = None
+    acceleration: float | None = None
+    deceleration: float | None = None
+    jerk: float | None = None
+    snap: float | None = None
+
+    def __post_init__(self) -> None:
+        for entry in fields(self):
+            value = getattr(self, entry.name)
+            if value is not None:
+                object.__setattr__(self, entry.name, positive(value, f"the limit of the {entry.name}"))
+
+    @property
+    def symmetric(self) -> bool:
+        """Whether a law and its mirror image keep the limits alike."""
+        return self.acceleration == self.deceleration
+
+    def rates(self, stroke: float) -> tuple[RateLimit, ...]:
+        """The limits of the law with stroke 1, in 1/s^nu, the lowest derivative first.
+
+        Examples
+        --------
+        >>> [
+        ...     (limit.name, limit.constant, limit.rate)
+        ...     for limit in MoveLimits(velocity=1.0, deceleration=8.0).rates(0.5)
+        ... ]
+        [('velocity', B, 2.0), ('deceleration', C_minus, 16.0)]
+        """
+        both = self.symmetric
+        known = (
+            ("velocity", B, 1, self.velocity),
+            ("acceleration", C if both else C_plus, 2, self.acceleration),
+            ("deceleration", C_minus, 2, None if both else self.deceleration),
+            ("jerk", J, 3, self.jerk),
+            ("snap", jounce, 4, self.snap),
+        )
+        return tuple(RateLimit(name, of, nu, limit / stroke) for name, of, nu, limit in known if limit is not None)
+
+    def scaled(self, name: str, factor: float) -> MoveLimits:
+        """The limits with one of them times a factor; the acceleration's both ways where they are one.
+
+        Examples
+        --------
+        >>> MoveLimits(acceleration=8.0, deceleration=8.0).scaled("acceleration", 2.0).deceleration
+        16.0
+        """
+        names = ("acceleration", "deceleration") if name == "acceleration" and self.symmetric else (name,)
+        return replace(self, **{each: factor * getattr(self, each) for each in names})
+
+    def to_dict(self) -> dict[str, float]:
+        """The limits by name, without those that there are not."""
+        return {name: value for name, value in asdict(self).items() if value is not None}
+
+    @classmethod
+    def from_dict(cls, data: Any) -> MoveLimits:  # noqa: ANN401 - it is checked here
+        """The limits that `to_dict` described.
+
+        Raises
+        ------
+        InputError
+            If the data is no table of limits, it is empty, or one is not a number above 0.
+        """
+        if not isinstance(data, Mapping) or not data:
+            raise InputError(f"limits must be a table such as {_EXAMPLE}, got {shortened(data)}")
+        known = [entry.name for entry in fields(cls)]
+        for name in data:
+            if name not in known:
+                raise InputError(unknown_key(name, known, "limit"))
+        return cls(**data)
+
+
+@dataclass(frozen=True)
+class TimedMove:
+    """A move of which the time is sought: the space of its laws, its stroke, its limits and its velocities at the ends.
+
+    Attributes
+    ----------
+    problem
+        Order, basis, windows and shape of the laws; it bounds none of the limited constants.
+    stroke
+        How far, in units of which the limits are.
+    limits
+        What the move must keep.
+    start_velocity, end_velocity
+        Velocities at the ends, in units of the stroke a second.
+    torque
+        At the motor, with its limits; only for laws from rest to rest that never turn back. None without a motor.
+    residual
+        The vibration that is left in a follower, with its limit; only from rest to rest. None without a follower.
+
+    Raises
+    ------
+    InputError
+        If the problem has limits, an objective or ends of its own or is not convex, or a number is out of range.
+    """
+
+    problem: Problem
+    stroke: float
+    limits: MoveLimits
+    start_velocity: float = 0.0
+    end_velocity: float = 0.0
+    torque: MotorTorque | None = None
+    residual: FollowerResidual | None = None
+
+    def __post_init__(self) -> None:
+        if not self.limits.to_dict() and self.torque is None:
+            raise InputError(f"limits must name one at least, as in {_EXAMPLE}")
+        object.__setattr__(self, "stroke", positive(self.stroke, "stroke"))
+        for name in ("start_velocity", "end_velocity"):
+            object.__setattr__(self, name, finite(getattr(self, name), name))
+            most = self.limits.velocity
+            if most is not None and abs(getattr(self, name)) > most:
+                raise InputError(f"{name} is beyond the limit of the velocity: no move keeps it, however long it takes")
+        even = self.at_rest and self.limits.symmetric and self.torque is None
+        object.__setattr__(self, "problem", _checked(self.problem, even=even))
+        if self.torque is not None and not (self.at_rest and self.problem.monotone):
+            raise InputError("a torque at the motor is limited from rest to rest, by laws that never turn back")
+        if self.residual is not None and not self.at_rest:
+            raise InputError("the vibration that is left is limited from rest to rest")
+        if not self.at_rest and self.problem.order < max(2, self._lowest.nu):
+            raise InputError(
+                f"ends that move need order >= {max(2, self._lowest.nu)} where the {self._lowest.name} is the lowest "
+                f"derivative that is limited, got order {self.problem.order}"
+            )
+
+    @property
+    def at_rest(self) -> bool:
+        """Whether both ends are at rest: then limits that are kept in one time are kept in any longer one."""
+        return self.start_velocity == self.end_velocity == 0.0
+
+    @property
+    def rates(self) -> tuple[RateLimit, ...]:
+        """The limits of the law with stroke 1, in 1/s^nu."""
+        return self.limits.rates(self.stroke)
+
+    def limits_in(self, duration: float) -> tuple[TimedLimit, ...]:
+        """Every limit in a time, as a bound of a constant of the law."""
+        of_rates = (
+            TimedLimit(limit.name, limit.constant, limit.rate * power(duration, limit.nu)) for limit in self.rates
+        )
+        torques = () if self.torque is None else self.torque.limits_in(duration)
+        left = () if self.residual is None else (self.residual.limit_in(duration, self.stroke),)
+        return (*of_rates, *torques, *left)
+
+    @property
+    def without_residual(self) -> TimedMove:
+        """The move without its limit of the vibration that is left: none of its laws is lost."""
+        return replace(self, residual=None)
+
+    @property
+    def _lowest(self) -> RateLimit:
+        """The limit of the lowest derivative."""
+        return min(self.rates, key=lambda limit: limit.nu)
+
+    def within(self, duration: float) -> Problem:
+        """The problem of the laws that keep every limit in a time: its ends, and bounds B <= v T/h, C <= a T²/h.
+
+        Examples
+        --------
+        >>> move = TimedMove(Problem(order=3), 2.0, MoveLimits(velocity=1.0, jerk=3.0))
+        >>> move.within(4.0)
+        Problem(B=at_most(2.0), order=3, basis=Chebyshev(degree=9), minimise='C', J=at_most(96.0))
+        """
+        bounds = {limit.constant: at_most(limit.bound) for limit in self.limits_in(duration)}
+        ends = self._ends(duration)
+        return replace(self.problem, boundary=ends, bounds={**self.problem.bounds, **bounds})
+
+    def shares(self, duration: float, ends: float | None = None) -> Problem:
+        """The problem of the least greatest share of the limits in a time; with the ends of another time if given.
+
+        Examples
+        --------
+        >>> TimedMove(Problem(order=3), 1.0, MoveLimits(velocity=1.0, jerk=1.0)).shares(2.0).minimise
+        'max(0.5*B, 0.125*J)'
+        """
+        parts = [limit.constant / limit.bound for limit in self.limits_in(duration)]
+        objective: Expression = maximum(*parts).expression() if len(parts) > 1 else parts[0]
+        return replace(self.problem, boundary=self._ends(duration if ends is None else ends), minimise=objective)
+
+    def _ends(self, duration: float) -> BoundaryConditions | None:
+        """The velocities at the ends as a law of that time has them."""
+        if self.at_rest:
+            return None
+        rest = (0.0,) * (self.problem.order - 2)
+        start, end = (velocity * duration / self.stroke for velocity in (self.start_velocity, self.end_velocity))
+        return BoundaryConditions((0.0, start, *rest), (1.0, end, *rest))
+
+    def least_conceivable(self) -> float:
+        """A time that no motion is faster than, by the lowest derivative that is limited and the velocity at an end."""
+        if not self.rates:
+            return 0.0
+        lowest = self._lowest
+        # a deceleration alone bounds what is covered before the end, all others what is covered after the start
+        velocity = self.end_velocity if lowest.constant == C_minus else self.start_velocity
+        start = 0.0 if lowest.nu == 1 else max(velocity, 0.0) / self.stroke
+
+        def far(duration: float) -> float:
+            return start * duration + lowest.rate * power(duration, lowest.nu) / factorial(lowest.nu)
+
+        high: float = (factorial(lowest.nu) / lowest.rate) ** (1.0 / lowest.nu)
+        while far(high) <= 1.0:
+            high = nextafter(high, inf)
+        low = 0.0 if start else nextafter(high, 0.0)
+        while low < (middle := 0.5 * (low + high)) < high:
+            low, high = (middle, high) if far(middle) <= 1.0 else (low, middle)
+        return high
+
+
+def power(duration: float, nu: int) -> float:
+    """A time to a whole power by products, which every machine rounds alike.
+
+    >>> power(1.5, 3)
+    3.375
+    """
+    product = duration
+    for _ in range(nu - 1):
+        product *= duration
+    return product
+
+
+def _checked(problem: Any, *, even: bool) -> Problem:  # noqa: ANN401 - it is checked here
+    """The problem that gives the space of laws; where limits or ends differ, its laws need not be symmetric."""
+    if not isinstance(problem, Problem):
+        raise InputError(f"the least time is sought of a Problem, got {type(problem).__name__}")
+    given = [name for name in ("B", "C", "D", "J") if getattr(problem, name) is not None]
+    given += [constant.name for constant in problem.bounds if constant in {C_plus, C_minus, jounce}]
+    if given:
+        raise InputError(f"the problem of a least time leaves {', '.join(given)} free: say it in limits, with its unit")
+    if problem.minimise != "C":
+        raise InputError(f"a least time minimises nothing else: leave out minimise={shortened(problem.minimise)}")
+    if problem.boundary is not None:
+        raise InputError("the problem of a least time has no boundary: give start_velocity and end_velocity")
+    if problem.inflexion is not None:
+        raise InputError("the problem of a least time has no inflexion: the velocity is greatest where it is fastest")
+    low = [constant.title for constant, limits in problem.bounded if limits.low > 0.0 or limits.high == inf]
+    if low or not problem.convex:
+        which = f": {', '.join(low)} is bounded from below" if low else ""
+        raise InputError(f"a least time is proven where every bound and window is convex, not so here{which}")
+    return problem if even or not problem.symmetric else replace(problem, symmetric=False)

@@ -1,0 +1,117 @@
+"""Least times within the torque of a motor: known from accelerations, root mean squares and the phase plane."""
+
+from math import pi, sqrt
+from typing import Any
+
+import numpy as np
+import pytest
+
+from optlaws import (
+    Drive,
+    FastestMove,
+    InputError,
+    Mechanism,
+    Motor,
+    Problem,
+    Status,
+    fastest,
+    slider_crank,
+    smoothstep,
+    synthesize,
+)
+from optlaws.verification import verify
+
+ORDER_3 = Problem(order=3)
+#: inertia at the motor: 3e-4 kg m^2 with the ratio squared, seen from the table
+TABLE = Drive(Mechanism("0.8 kg m^2"), Motor("3e-4 kg m^2"), ratio=20)
+SEEN = 0.8 + 3e-4 * 20**2
+
+
+def test_a_torque_of_inertia_alone_is_a_limit_of_the_acceleration() -> None:
+    by_torque = fastest(ORDER_3, stroke="45 deg", limits={"torque": "4 N m"}, drive=TABLE)
+    limits = {"velocity": ("0 rad/s", "1e6 rad/s"), "acceleration": f"{4 * 20 / SEEN!r} rad/s^2"}
+    by_acceleration = fastest(ORDER_3, stroke="45 deg", limits=limits)
+    assert by_torque.duration == pytest.approx(by_acceleration.duration, rel=1e-8)
+    assert by_torque.limit == pytest.approx(by_acceleration.limit, rel=1e-6)
+    assert by_torque.status is Status.OPTIMAL
+    assert by_torque.binding == ("torque",)
+
+
+def test_a_constant_load_makes_the_acceleration_one_sided() -> None:
+    table = Drive(
+        Mechanism("0.8 kg m^2", "20 N m", coulomb="4 N m"), Motor("3e-4 kg m^2", peak_torque="4 N m"), ratio=20
+    )
+    by_torque = fastest(ORDER_3, stroke="45 deg", limits={"jerk": "4000 rad/s^3"}, drive=table)
+    pair = (f"{-(80 + 24) / SEEN!r} rad/s^2", f"{(80 - 24) / SEEN!r} rad/s^2")
+    limits = {"velocity": ("0 rad/s", "1e6 rad/s"), "acceleration": pair, "jerk": "4000 rad/s^3"}
+    by_acceleration = fastest(ORDER_3, stroke="45 deg", limits=limits)
+    assert by_torque.duration == pytest.approx(by_acceleration.duration, rel=1e-8)
+
+
+def test_the_root_mean_square_is_that_of_the_acceleration() -> None:
+    by_torque = fastest(ORDER_3, stroke="45 deg", limits={"rms torque": "2 N m"}, drive=TABLE)
+    least = synthesize(Problem(order=3, monotone=True, minimise="rms_c", symmetric=False))
+    assert by_torque.duration == pytest.approx(sqrt(SEEN / 20 * (pi / 4) * least.objective / 2.0), rel=1e-7)
+    assert by_torque.gap <= 1.1e-6
+
+
+@pytest.fixture(scope="module")
+def sticky() -> FastestMove:
+    """With viscous friction and a greatest speed of the motor that binds."""
+    motor = Motor("3e-4 kg m^2", peak_torque="4 N m", greatest_speed="900 rpm")
+    drive = Drive(Mechanism("0.8 kg m^2", "20 N m", viscous="0.5 N m s/rad"), motor, ratio=20)
+    return fastest(ORDER_3, stroke="45 deg", limits={}, drive=drive)
+
+
+def test_viscous_friction_and_the_greatest_speed(sticky: FastestMove) -> None:
+    k, turn = np.linspace(0.0, 1.0, 4001), pi / 4
+    b, c = (turn * np.asarray(sticky.law(k, nu)) / sticky.duration**nu for nu in (1, 2))
+    torque = (SEEN * c + 0.5 * b + 20.0) / 20.0
+    assert np.abs(torque).max() == pytest.approx(4.0, rel=1e-6)
+    assert b.max() * 20 * 30 / pi == pytest.approx(900.0, rel=1e-6)
+    assert b.min() >= -1e-9
+    assert sticky.binding == ("velocity", "torque")
+    assert sticky.status is Status.OPTIMAL
+
+
+def test_law_and_proof_of_a_drive_are_one_file(sticky: FastestMove) -> None:
+    assert FastestMove.from_json(sticky.to_json()) == sticky
+    assert verify(sticky.to_dict()).proven
+    data: dict[str, Any] = sticky.to_dict()
+    data["torque"] = data["torque"] | {"peak": 3.9}
+    with pytest.raises(InputError):
+        FastestMove.from_dict(data)
+
+
+@pytest.mark.long
+def test_a_crank_is_bounded_by_the_phase_plane() -> None:
+    press = slider_crank("0.1 m", "0.4 m", bodies={"crank": "0.02 kg m^2", "slider": "5 kg"})
+    drive = Drive(press, Motor("3e-4 kg m^2"), ratio=5)
+    space = Problem(order=2)
+    move = fastest(space, stroke="180 deg", limits={"torque": "4 N m"}, drive=drive)
+    assert move.limit is not None
+    assert move.status is Status.LOCAL
+    assert 0.0 < move.duration / move.limit - 1.0 < 0.2
+    assert move.none_below == move.limit
+    assert drive.sheet(move.law, "0 deg", "180 deg", move.duration).peak_torque == pytest.approx(4.0, rel=1e-6)
+    assert drive.sheet(smoothstep(3), "0 deg", "180 deg", move.duration).peak_torque > 4.0
+
+
+@pytest.mark.parametrize(
+    ("drive", "limits", "named"),
+    [
+        (TABLE, {}, "nothing limits the torque"),
+        (TABLE, {"torque": "3 kg"}, "limits: torque must be a torque"),
+        (Drive(Mechanism("0.8 kg m^2"), Motor(0.0), ratio=2, efficiency=0.9), {"torque": "3 N m"}, "loses nothing"),
+        (Drive(Mechanism("1 kg m^2", "90 N m"), Motor(0.0), ratio=20), {"torque": "4 N m"}, "no time keeps it"),
+        (None, {"torque": "3 N m"}, "give its drive"),
+    ],
+)
+def test_limits_that_no_time_keeps_are_named(drive: Drive | None, limits: dict[str, str], named: str) -> None:
+    with pytest.raises(InputError, match=named):
+        fastest(ORDER_3, stroke="45 deg", limits=limits, drive=drive)
+
+
+def test_a_drive_moves_from_rest_to_rest() -> None:
+    with pytest.raises(InputError, match="from rest to rest"):
+        fastest(ORDER_3, stroke="45 deg", limits={"torque": "3 N m"}, drive=TABLE, start_velocity="1 rad/s")

@@ -1,0 +1,255 @@
+"""The least time of a move by methods of its own: closed forms, a bisection with linear programs, ruckig."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.optimize import linprog
+
+from optlaws import Chebyshev, InfeasibleProblem, InputError, Pieces, Problem, Window
+from tests.internals.synthesis import MoveLimits, TimedMove, least_time, segment_times, time_of_any_law
+from tests.synthesis.least_time.otg import fastest_motion
+
+LIMITS = MoveLimits(velocity=5.0, acceleration=10.0, deceleration=10.0, jerk=30.0)
+UNEVEN = MoveLimits(velocity=1.0, acceleration=12.0, deceleration=8.0, jerk=300.0)
+CUBIC = {"degree": 3, "continuity": 2}
+
+
+@pytest.mark.parametrize(
+    ("stroke", "limits", "order", "duration"),
+    [
+        (1.0, MoveLimits(1.0, 1.0, 1.0, 1.0), 3, 32.0 ** (1.0 / 3.0)),
+        (2.0, MoveLimits(1.0, 1.0, 1.0, 1.0), 3, 4.0),
+        (10.0, LIMITS, 3, 17.0 / 6.0),  # h/v + v/a + a/j
+        (3.0, MoveLimits(acceleration=2.0, deceleration=1.0), 2, 3.0),  # sqrt(2 h (1/a + 1/d))
+        (3.0, MoveLimits(acceleration=6.0), 2, 1.0),  # it may stop at once
+        (1.0, MoveLimits(jerk=12.0), 2, 1.0),  # J = 12 with free accelerations at the ends
+        (2.0, MoveLimits(velocity=4.0, jerk=1e-3), 1, 0.5),
+    ],
+)
+def test_the_time_of_all_laws_is_the_closed_form(
+    stroke: float, limits: MoveLimits, order: int, duration: float
+) -> None:
+    segments = segment_times(stroke, limits, order)
+    assert segments is not None
+    assert segments.duration == pytest.approx(duration, rel=1e-14)
+    assert time_of_any_law(stroke, limits, order) == segments.duration
+
+
+def test_the_segments_of_order_2_cover_the_stroke() -> None:
+    """Integrated step by step: accelerations that jump at the ends, a constant part and a ramp."""
+    limits = MoveLimits(velocity=2.0, acceleration=4.0, deceleration=3.0, jerk=9.0)
+    segments = segment_times(5.0, limits, 2)
+    assert segments is not None
+    signs = [(4.0, 0.0), (4.0, 0.0), (4.0, -9.0), (0.0, 0.0), (0.0, -9.0), (-3.0, 0.0), (-3.0, 0.0)]
+    place = velocity = 0.0
+    for time, (acceleration, jerk) in zip(segments.times, signs, strict=True):
+        place += velocity * time + acceleration * time**2 / 2.0 + jerk * time**3 / 6.0
+        velocity += acceleration * time + jerk * time**2 / 2.0
+    assert place == pytest.approx(5.0)
+    assert velocity == pytest.approx(0.0, abs=1e-12)
+
+
+def test_pieces_between_the_segments_reach_the_time_of_all_laws() -> None:
+    segments = segment_times(10.0, LIMITS, 3)
+    assert segments is not None
+    breaks = sorted({*segments.breaks, 0.5})
+    reached = least_time(TimedMove(Problem(order=3, basis=Pieces(breaks, **CUBIC)), 10.0, LIMITS))
+    assert reached.duration == pytest.approx(17.0 / 6.0, rel=1e-10)
+    assert reached.price == pytest.approx(0.0, abs=1e-10)
+
+
+@pytest.mark.long
+def test_many_pieces_come_near_the_time_of_all_laws() -> None:
+    many = least_time(TimedMove(Problem(order=3, basis=Pieces(64, **CUBIC)), 10.0, LIMITS))
+    assert many.price is not None
+    assert 0.0 < many.price < 1e-3
+
+
+def feasible_on_grid(duration: float, degree: int = 12, places: int = 801) -> bool:
+    """Whether a polynomial from rest to rest keeps UNEVEN on a grid, by a linear program in powers of 2k - 1."""
+    x = np.linspace(-1.0, 1.0, places)
+    basis = np.polynomial.chebyshev.Chebyshev
+    of_order = [
+        np.array([basis.basis(i).deriv(nu)(x) if nu else basis.basis(i)(x) for i in range(degree + 1)]).T
+        * (2.0 / duration) ** nu
+        for nu in range(4)
+    ]
+    ends = [rows[place] for rows in of_order[:3] for place in (0, -1)]
+    sides = [
+        (of_order[1], 1.0),
+        (-of_order[1], 1.0),
+        (of_order[2], 12.0),
+        (-of_order[2], 8.0),
+        (of_order[3], 300.0),
+        (-of_order[3], 300.0),
+    ]
+    found = linprog(
+        np.zeros(degree + 1),
+        A_ub=np.vstack([rows / limit for rows, limit in sides]),
+        b_ub=np.ones(places * len(sides)),
+        A_eq=np.array(ends),
+        b_eq=np.array([0.0, 0.1, 0.0, 0.0, 0.0, 0.0]),
+        bounds=(None, None),
+    )
+    return bool(found.status == 0)
+
+
+def test_no_linear_program_on_a_grid_is_clearly_faster() -> None:
+    # order 3 and Z of degree 6 are polynomials of degree 12
+    duration = least_time(TimedMove(Problem(order=3, basis=Chebyshev(6)), 0.1, UNEVEN)).duration
+    assert feasible_on_grid(duration * (1.0 + 1e-6))
+    assert not feasible_on_grid(duration * (1.0 - 1e-4))
+
+
+@pytest.mark.parametrize(("start", "end"), [(0.0, 0.0), (0.4, -0.2)])
+def test_the_law_keeps_the_limits_and_no_law_is_proven_faster(start: float, end: float) -> None:
+    move = TimedMove(Problem(order=3), 0.1, UNEVEN, start, end)
+    found = least_time(move)
+    k = np.linspace(0.0, 1.0, 4001)
+    velocity, acceleration, jerk = (0.1 * np.asarray(found.law(k, nu)) / found.duration**nu for nu in (1, 2, 3))
+    assert np.abs(velocity).max() <= 1.0 + 1e-9
+    assert acceleration.max() <= 12.0 * (1.0 + 1e-9)
+    assert -acceleration.min() <= 8.0 * (1.0 + 1e-9)
+    assert np.abs(jerk).max() <= 300.0 * (1.0 + 1e-9)
+    assert velocity[0] == pytest.approx(start, abs=1e-12)
+    assert velocity[-1] == pytest.approx(end, abs=1e-12)
+    assert found.gap <= 1.001e-6
+    assert all(proof.stands(move) for proof in found.proofs)
+    assert [proof.longest for proof in found.proofs[:-1]] == [proof.shortest for proof in found.proofs[1:]]
+
+
+def test_what_more_of_a_limit_saves_is_what_it_saves() -> None:
+    move, more = TimedMove(Problem(order=3), 0.1, UNEVEN), 1e-5
+    found = least_time(move)
+    gains = found.gains(more)
+    assert found.binding == ("acceleration", "deceleration", "jerk")
+    assert gains["velocity"] == 0.0
+    for name in ("acceleration", "jerk"):
+        further = least_time(replace(move, limits=move.limits.scaled(name, 1.0 + more)))
+        assert 1.0 - further.duration / found.duration == pytest.approx(gains[name], rel=1e-3)
+
+
+@pytest.mark.long
+def test_the_gain_of_ends_that_move() -> None:
+    move, more = TimedMove(Problem(order=3), 0.1, UNEVEN, 0.4), 1e-5
+    found = least_time(move)
+    name = max(found.binding, key=lambda each: found.gains()[each])
+    further = least_time(replace(move, limits=move.limits.scaled(name, 1.0 + more)))
+    assert 1.0 - further.duration / found.duration == pytest.approx(found.gains(more)[name], rel=1e-3)
+
+
+@pytest.mark.parametrize("unit", [1e-12, 1e9])
+def test_units_change_nothing(unit: float) -> None:
+    """Metres and seconds in other units, one at a time."""
+    plain = least_time(TimedMove(Problem(order=3), 0.1, UNEVEN))
+    longer = MoveLimits(**{name: unit * value for name, value in UNEVEN.to_dict().items()})
+    assert least_time(TimedMove(Problem(order=3), unit * 0.1, longer)).duration == pytest.approx(
+        plain.duration, rel=1e-9
+    )
+    slower = MoveLimits(1.0 / unit, 12.0 / unit**2, 8.0 / unit**2, 300.0 / unit**3)
+    assert least_time(TimedMove(Problem(order=3), 0.1, slower)).duration == pytest.approx(
+        plain.duration * unit, rel=1e-9
+    )
+
+
+@pytest.mark.long
+def test_a_window_and_motion_forward_alone_take_longer() -> None:
+    """0.3 of the stroke at most until half of the time; from a start that is fast, never back."""
+    free = least_time(TimedMove(Problem(order=3), 0.1, UNEVEN)).duration
+    window = Window("a", high=0.3, stop=0.5)
+    late = least_time(TimedMove(Problem(order=3, windows=(window,)), 0.1, UNEVEN))
+    assert late.duration > free
+    assert max(float(late.law(k)) for k in np.linspace(0.0, 0.5, 200)) <= 0.3 + 1e-9
+
+
+def random_move(numbers: np.random.Generator, *, moving: bool) -> TimedMove:
+    stroke, velocity, acceleration, deceleration, jerk = (10.0 ** numbers.uniform(-1.0, 1.0, 5)).tolist()
+    limits = MoveLimits(velocity, acceleration, deceleration, jerk)
+    start, end = (velocity * numbers.uniform(-1.0, 1.0, 2)).tolist() if moving else (0.0, 0.0)
+    return TimedMove(Problem(order=3), stroke, limits, start, end)
+
+
+def compare_with_ruckig(count: int, seed: int, *, moving: bool) -> None:
+    numbers = np.random.default_rng(seed)
+    for _ in range(count):
+        move = random_move(numbers, moving=moving)
+        duration, breaks = fastest_motion(move)
+        space = Problem(order=3, basis=Pieces(breaks, **CUBIC), symmetric=False)
+        found = least_time(replace(move, problem=space))
+        # the fastest motion is of these pieces, and none is faster
+        assert found.duration == pytest.approx(duration, rel=1e-8), move
+        if not moving:
+            assert time_of_any_law(move.stroke, move.limits, 3) == pytest.approx(duration, rel=1e-9)
+
+
+@pytest.mark.parametrize("moving", [False, True])
+def test_pieces_are_as_fast_as_ruckig(*, moving: bool) -> None:
+    compare_with_ruckig(6, 4, moving=moving)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("moving", [False, True])
+def test_pieces_are_as_fast_as_ruckig_in_many_cases(*, moving: bool) -> None:
+    compare_with_ruckig(500, 5, moving=moving)
+
+
+def test_the_time_of_all_laws_is_that_of_ruckig() -> None:
+    numbers = np.random.default_rng(3)
+    for _ in range(300):
+        move = random_move(numbers, moving=False)
+        assert time_of_any_law(move.stroke, move.limits, 3) == pytest.approx(fastest_motion(move)[0], rel=1e-9)
+
+
+@pytest.mark.long
+def test_polynomials_are_slower_than_ruckig() -> None:
+    numbers = np.random.default_rng(6)
+    for _ in range(2):
+        move = random_move(numbers, moving=True)
+        assert least_time(move).duration >= fastest_motion(move)[0] * (1.0 - 1e-9)
+
+
+def test_limits_that_any_time_keeps_are_refused() -> None:
+    with pytest.raises(InputError, match="in any time"):
+        least_time(TimedMove(Problem(order=1), 1.0, MoveLimits(jerk=1.0)))
+
+
+def test_windows_that_no_law_keeps_are_named() -> None:
+    windows = (Window("a", low=0.6, start=0.5, stop=0.5), Window("a", high=0.4, start=0.5, stop=0.5))
+    problem = Problem(order=3, windows=windows, symmetric=False)
+    with pytest.raises(InfeasibleProblem, match="no time is long enough") as caught:
+        least_time(TimedMove(problem, 1.0, UNEVEN))
+    assert caught.value.proof is not None
+
+
+@pytest.mark.parametrize(
+    ("problem", "named"),
+    [
+        (Problem(order=3, B=1.8), "leaves B free"),
+        (Problem(order=3, bounds={"jounce": (0.0, 9000.0)}), "leaves jounce free"),
+        (Problem(order=3, minimise="J"), "minimises nothing else"),
+        (Problem(order=3, bounds={"rms_c": (4.0, None)}), "rms_c is bounded from below"),
+        (Problem(order=3, inflexion=0.4, symmetric=False), "no inflexion"),
+    ],
+)
+def test_problems_that_say_more_than_the_space_are_refused(problem: Problem, named: str) -> None:
+    with pytest.raises(InputError, match=named):
+        TimedMove(problem, 1.0, UNEVEN)
+
+
+def test_velocities_beyond_their_limit_are_refused() -> None:
+    with pytest.raises(InputError, match="start_velocity is beyond the limit"):
+        TimedMove(Problem(order=3), 1.0, UNEVEN, 1.5)
+
+
+@pytest.mark.parametrize(("order", "limits"), [(1, UNEVEN), (2, MoveLimits(jerk=1.0))])
+def test_ends_that_move_need_an_order(order: int, limits: MoveLimits) -> None:
+    with pytest.raises(InputError, match=f"order >= {order + 1}"):
+        TimedMove(Problem(order=order), 1.0, limits, 0.5)
+
+
+def test_a_deceleration_alone_is_a_limit_of_the_end() -> None:
+    """The mirror image of an acceleration alone."""
+    forward = least_time(TimedMove(Problem(order=2), 1.0, MoveLimits(acceleration=2.0), 0.3, 0.5))
+    backward = least_time(TimedMove(Problem(order=2), 1.0, MoveLimits(deceleration=2.0), 0.5, 0.3))
+    assert backward.duration == pytest.approx(forward.duration, rel=1e-9)
