@@ -51,7 +51,7 @@ class Block:
         body = text[text.rindex("END_VAR") + len("END_VAR") : text.index("END_FUNCTION_BLOCK")]
         self.code = compile(_python(body, self.kinds), self.name, "exec")
 
-    def __call__(self, x: float | None = None, **inputs: Any) -> dict[str, Any]:  # noqa: ANN401 - of many kinds
+    def __call__(self, x: float | None = None, **inputs: Any) -> dict[str, Any]:
         for name, value in (inputs if x is None else {"x": x}).items():
             self.values[name] = KINDS[self.kinds[name]](value)
         exec(self.code, dict(FUNCTIONS), self.values)  # noqa: S102 - a few lines that were written here
