@@ -17,6 +17,7 @@ KINDS: dict[str, Callable[[Any], Any]] = {
 FUNCTIONS: dict[str, Callable[..., Any]] = {
     "LIMIT": lambda low, value, high: min(max(value, low), high),
     "MIN": min,
+    "MAX": max,
     "ABS": abs,
     "SQRT": np.sqrt,
     "EXPT": np.power,

@@ -23,7 +23,6 @@ from optlaws.synthesis.program.evaluation import worth
 from optlaws.synthesis.proof.certificate import OBJECTIVE, Certificate
 from optlaws.synthesis.proof.data import StatedContact, brief_sum_of, contacts_of, problem_of, stated
 from optlaws.synthesis.proof.nodes import Contact
-from optlaws.synthesis.proven.fewest_laws import ChordSelection, proven_ends
 from optlaws.synthesis.proven.swept_parameter import SweptParameter, gap_bounds, lower_line
 from optlaws.synthesis.status import measure
 
@@ -399,6 +398,7 @@ class ProvenFront(JsonText):
         (32, 3072, True)
         """
         from optlaws.exports.run_time.front_export import export_front, function_format
+        from optlaws.synthesis.proven.fewest_laws import ChordSelection, proven_ends
 
         function_format(to)
         if self.over != ("B", "C"):
