@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from optlaws import InputError, PolynomialLaw, Problem, proven_front, sweep
+from optlaws import InputError, MotionLaw, PolynomialLaw, Problem, proven_front, sweep
 from tests.exports.moves import COMPILER, PROBLEMS, SHARES, Answer, Move, answers, drawn, exported, front, program
 from tests.exports.structured_text import Block, parsed
 from tests.internals.exports import FrontExport, MoveStatus, RunTimeMove, summation_bounds
@@ -35,7 +35,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return tmp_path_factory.mktemp("compiled")
 
 
-def limits_broken(move: Move, answer: Answer, planned: RunTimeMove, law: PolynomialLaw) -> list[str]:
+def limits_broken(move: Move, answer: Answer, planned: RunTimeMove, law: MotionLaw) -> list[str]:
     """Limits that the compiled motion, its bounds or the law itself exceed, rounding included."""
     given = [move.velocity, *([] if move.time else [move.acceleration, move.jerk])]
     constants = [law.constants.B.value, law.constants.C.value, law.constants.J.value]

@@ -1,9 +1,10 @@
 """Jerk-limited moves in closed form: compiled and run, against closed forms, 60 digits, and ruckig."""
 
 import subprocess
+from collections.abc import Sequence
 from pathlib import Path
 
-import mpmath
+import mpmath  # type: ignore[import-untyped] # ships no types
 import numpy as np
 import pytest
 
@@ -59,7 +60,7 @@ def compiled(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder / "main"
 
 
-def run(compiled: Path, moves: list[tuple[float, ...]]) -> list[tuple[list[float], np.ndarray]]:
+def run(compiled: Path, moves: Sequence[tuple[float, ...]]) -> list[tuple[list[float], np.ndarray]]:
     text = "\n".join(" ".join(float(value).hex() for value in move) for move in moves)
     out = subprocess.run([str(compiled)], input=text, capture_output=True, text=True, check=True).stdout
     rows = [list(map(float.fromhex, line.split())) for line in out.splitlines()]
