@@ -24,6 +24,11 @@ from optlaws.cams.least_sizes import LeastBaseCircle as LeastBaseCircle
 from optlaws.cycles.machine_follower import MachineAnswer as MachineAnswer
 from optlaws.cycles.specification.segments import CycleSegment as CycleSegment
 from optlaws.exports.best_breaks import BestBreaks as BestBreaks
+from optlaws.exports.run_time.front_export import FrontExport as FrontExport
+from optlaws.exports.run_time.planning import MoveStatus as MoveStatus
+from optlaws.exports.run_time.planning import RunTimeMove as RunTimeMove
+from optlaws.exports.run_time.seven_segments import SegmentExport as SegmentExport
+from optlaws.exports.run_time.seven_segments import SegmentTimes as SegmentTimes
 from optlaws.formulas.tree import Formula as Formula
 from optlaws.laws.curve import Many as Many
 from optlaws.laws.exporting import Interpolation as Interpolation
@@ -123,6 +128,7 @@ __all__ = [
     "Formula",
     "FormulaKind",
     "FourBarBranch",
+    "FrontExport",
     "GreatestRoller",
     "InputAxis",
     "Interpolation",
@@ -143,6 +149,7 @@ __all__ = [
     "Maximum",
     "ModeResidual",
     "Motion",
+    "MoveStatus",
     "Multiplier",
     "Node",
     "NumberOrQuantity",
@@ -161,7 +168,10 @@ __all__ = [
     "Result",
     "RollerContact",
     "Rows",
+    "RunTimeMove",
     "Segment",
+    "SegmentExport",
+    "SegmentTimes",
     "Shaper",
     "Side",
     "SolvedPart",
