@@ -20,7 +20,8 @@ FUNCTIONS: dict[str, Callable[..., Any]] = {
     "MAX": max,
     "ABS": abs,
     "SQRT": np.sqrt,
-    "EXPT": np.power,
+    "EXP": np.exp,
+    "LN": np.log,
 }
 
 

@@ -159,6 +159,14 @@ def test_the_function_block_moves_as_the_polynomials_do() -> None:
         assert block(elapsed=1.5 * move.duration)["position"] == h
 
 
+@needs_compiler
+@pytest.mark.long
+def test_ten_thousand_keep_their_limits(compiled: Path) -> None:
+    moves = drawn(10_000, 44)
+    for (_, *limits), (_, motion) in zip(moves, run(compiled, moves), strict=True):
+        assert (np.abs(motion).max(axis=0)[1:] <= limits).all()
+
+
 @pytest.mark.long
 def test_the_grammar_of_the_standard_takes_it() -> None:
     [item] = parsed(jerk_limited_move("iec-st", name="FB_Axis").text).items

@@ -111,7 +111,7 @@ IF plan THEN
                         share := 1.0;
                         status := {at_last};
                         z := SQRT(ofC * tableC[{last}]);
-                        byJerk := EXPT(ofJ * tableJ[{last}], 1.0 / 3.0);
+                        byJerk := EXP(LN(ofJ * tableJ[{last}]) / 3.0);
                         IF byJerk > z THEN
                             z := byJerk;
                             status := {jerk};
@@ -124,7 +124,7 @@ IF plan THEN
                         z := 2.0 * right / (m + SQRT(m * m + 4.0 * right));
                         third := ofJ * ((tableJ[law] - tableJ[low]) / (tableB[low] - tableB[law])) / 3.0;
                         right := ofJ * tableJ[law] + 3.0 * third * tableB[law];
-                        u := EXPT(0.5 * right + SQRT(0.25 * right * right + third * third * third), 1.0 / 3.0);
+                        u := EXP(LN(0.5 * right + SQRT(0.25 * right * right + third * third * third)) / 3.0);
                         v := third / u;
                         byJerk := right / (u * u + third + v * v);
                         IF byJerk > z THEN
@@ -134,7 +134,7 @@ IF plan THEN
                         z := LIMIT(tableB[law], z, tableB[low]);
                         share := LIMIT(0.0, (z - tableB[law]) / (tableB[low] - tableB[law]), 1.0);
                     END_IF
-                    moveTime := z / rate * {wide};
+                    moveTime := z / rate * widened;
                 END_IF
             END_IF
         ELSIF givenTime >= {least} AND givenTime <= {most} THEN
@@ -142,7 +142,7 @@ IF plan THEN
                 status := {proven};
                 moveTime := givenTime;
             ELSE
-                z := velocityLimit * givenTime / way / {wide};
+                z := velocityLimit * givenTime / way / widened;
                 IF z < tableB[0] THEN
                     status := {too_short};
                 ELSE
@@ -175,7 +175,7 @@ IF plan THEN
     peakAcceleration := 0.0;
     peakJerk := 0.0;
     IF plannedStroke <> 0.0 THEN
-        way := {wide} * way / moveTime;
+        way := widened * way / moveTime;
         peakVelocity := way * (tableB[law] + share * (tableB[law + 1] - tableB[law]));
         peakAcceleration := way / moveTime * (tableC[law] + share * (tableC[law + 1] - tableC[law]));
         peakJerk := way / moveTime / moveTime * (tableJ[law] + share * (tableJ[law + 1] - tableJ[law]));
@@ -310,7 +310,6 @@ def _texts(table: FrontTable) -> dict[str, object]:
         **{status.name.lower(): status.value for status in MoveStatus},
         "least": real(RUN_TIME_RANGE),
         "most": real(1.0 / RUN_TIME_RANGE),
-        "wide": real(1.0 + table.slack),
         "count": len(table),
         "last": len(table) - 1,
         "before": len(table) - 2,
@@ -329,7 +328,8 @@ def _tables(table: FrontTable) -> str:
         scales = [2.0 / (high - low) for low, high in zip(table.breaks, table.breaks[1:], strict=False)]
         arrays |= {"breaks": table.breaks, "scales": tuple(scales)}
     arrays |= {"series": tuple(table.series.ravel().tolist())}
-    lines = ["VAR CONSTANT"]
+    # literals in expressions may be REAL
+    lines = ["VAR CONSTANT", f"    widened : LREAL := {real(1.0 + table.slack)};"]
     for name, values in arrays.items():
         lines.append(f"    {name} : ARRAY[0..{len(values) - 1}] OF LREAL := [")
         lines += [*wrapped([real(value) for value in values], "        "), "    ];"]

@@ -132,6 +132,9 @@ VAR_OUTPUT
     acceleration : LREAL;
     jerk : LREAL;
 END_VAR
+VAR CONSTANT
+    narrowed : LREAL := {narrow};
+END_VAR
 VAR
     plannedStroke : LREAL;
     plannedJerk : LREAL;
@@ -162,9 +165,9 @@ IF plan THEN
         status := 0;
         IF way > 0.0 THEN
             plannedStroke := stroke;
-            v := velocityLimit * {narrow};
-            a := accelerationLimit * {narrow};
-            j := jerkLimit * {narrow};
+            v := velocityLimit * narrowed;
+            a := accelerationLimit * narrowed;
+            j := jerkLimit * narrowed;
             plannedJerk := j;
             IF stroke < 0.0 THEN
                 plannedJerk := -j;
@@ -183,7 +186,7 @@ IF plan THEN
                 jerkTime := a / j;
                 accelerationTime := 2.0 * (way / a) / (a / j + SQRT(a / j * (a / j) + 4.0 * (way / a))) - a / j;
             ELSE
-                jerkTime := EXPT(0.5 * (way / j), 1.0 / 3.0);
+                jerkTime := EXP(LN(0.5 * (way / j)) / 3.0);
                 accelerationTime := 0.0;
             END_IF
             accelerationTime := MAX(accelerationTime, 0.0);
