@@ -223,6 +223,10 @@ def test_what_is_no_number_is_refused_and_no_stroke_takes_no_time(folder: Path) 
     found = answers(compiled("lift", folder), moves)
     assert {answer.plan[0] for answer in found} == {MoveStatus.REFUSED}
     assert not any(answer.motion.any() for answer in found)
+    great = [Move(1e30, 0.0, 1e30, 1e30, 1e30), Move(1e-30, 0.0, 1e-30, 1e-30, 1e30), Move(1e30, 1e30, 1e30, 1.0, 1.0)]
+    for answer in answers(compiled("lift", folder), great):
+        assert answer.plan[0] <= MoveStatus.JERK
+        assert np.isfinite([*answer.plan, *answer.motion.ravel()]).all()
     still = answers(compiled("lift", folder), [Move(0.0, 0.0, 1.0, 1.0, 1.0), Move(0.0, 2.0, 1.0, 1.0, 1.0)])
     assert [answer.plan[0] for answer in still] == [MoveStatus.PROVEN] * 2
     assert [answer.plan[4] for answer in still] == [0.0, 2.0]
