@@ -40,6 +40,7 @@ _load, __dir__, __all__ = face(
         "optlaws.cycles.machine_follower": "MachineFollower machine_follower",
         "optlaws.errors": "InfeasibleProblem InputError NoisyTable NotNormalised OptlawsError SolverFailure",
         "optlaws.exports.best_breaks": "best_breaks",
+        "optlaws.exports.run_time.seven_segments": "jerk_limited_move",
         "optlaws.motion.polynomials": "PiecewiseMotion",
         "optlaws.laws.catalogue.catalogue": "catalogue",
         "optlaws.laws.catalogue.reading": "read_law",

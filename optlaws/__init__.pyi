@@ -63,6 +63,7 @@ from optlaws.errors import NotNormalised as NotNormalised
 from optlaws.errors import OptlawsError as OptlawsError
 from optlaws.errors import SolverFailure as SolverFailure
 from optlaws.exports.best_breaks import best_breaks as best_breaks
+from optlaws.exports.run_time.seven_segments import jerk_limited_move as jerk_limited_move
 from optlaws.laws.catalogue.catalogue import catalogue as catalogue
 from optlaws.laws.catalogue.reading import read_law as read_law
 from optlaws.laws.constants import Constants as Constants
@@ -307,6 +308,7 @@ __all__ = [
     "greatest_roller",
     "inertial_loader",
     "integral",
+    "jerk_limited_move",
     "jounce",
     "law_from_z",
     "law_through",

@@ -101,6 +101,9 @@ MOTION_RESOLVED = 1e-9  # of the whole motion: what a series misses where roots 
 STRETCH_RESOLVED = 1e-14  # of a stretch: the same where squares are integrated
 LOAD_RESOLVED = 1e-10  # of the load on a follower: what a series may miss
 BEYOND_CUBIC = 1e-6  # of the load: twice integrated it is what lies beyond a quintic
+BOUND_ROUNDING = 2.0**-30  # of a bound of roundings: more than its own sum of positive numbers is rounded by
+LIMIT_ROUNDING = 2.0**-44  # of a limit: what roots and products of a few numbers are rounded by, EXP and LN too
+RUN_TIME_RANGE = 2.0**-100  # of quantities at run time, in any unit: from it to its reciprocal no product overflows
 PIECES_OF_MOTION = 1e-9  # of the greatest value: what polynomial pieces of a motion are off
 POLYNOMIAL_ROUNDING = 1e-9  # of a derivative: where polynomials of a controller meet
 

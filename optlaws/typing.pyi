@@ -24,6 +24,11 @@ from optlaws.cams.least_sizes import LeastBaseCircle as LeastBaseCircle
 from optlaws.cycles.machine_follower import MachineAnswer as MachineAnswer
 from optlaws.cycles.specification.segments import CycleSegment as CycleSegment
 from optlaws.exports.best_breaks import BestBreaks as BestBreaks
+from optlaws.exports.run_time.front_export import FrontExport as FrontExport
+from optlaws.exports.run_time.planning import MoveStatus as MoveStatus
+from optlaws.exports.run_time.planning import RunTimeMove as RunTimeMove
+from optlaws.exports.run_time.seven_segments import SegmentExport as SegmentExport
+from optlaws.exports.run_time.seven_segments import SegmentTimes as SegmentTimes
 from optlaws.formulas.tree import Formula as Formula
 from optlaws.laws.curve import Many as Many
 from optlaws.laws.exporting import Interpolation as Interpolation
@@ -72,14 +77,6 @@ from optlaws.synthesis.families.active_set import ActiveSet as ActiveSet
 from optlaws.synthesis.families.family import ConstraintFamily as ConstraintFamily
 from optlaws.synthesis.functionals.makers import FormulaKind as FormulaKind
 from optlaws.synthesis.functionals.makers import PeakSide as PeakSide
-from optlaws.synthesis.least_time.follower_residual import FollowerResidual as FollowerResidual
-from optlaws.synthesis.least_time.least_time import LeastTime as LeastTime
-from optlaws.synthesis.least_time.motor_torque import MotorTorque as MotorTorque
-from optlaws.synthesis.least_time.motor_torque import TimedLimit as TimedLimit
-from optlaws.synthesis.least_time.move_limits import MoveLimits as MoveLimits
-from optlaws.synthesis.least_time.move_limits import RateLimit as RateLimit
-from optlaws.synthesis.least_time.move_limits import TimedMove as TimedMove
-from optlaws.synthesis.least_time.time_proof import TimeProof as TimeProof
 from optlaws.synthesis.limits.drive_limits import DriveObjective as DriveObjective
 from optlaws.synthesis.limits.phase_plane import PhasePlane as PhasePlane
 from optlaws.synthesis.problem.constants import Asked as Asked
@@ -128,10 +125,10 @@ __all__ = [
     "Extreme",
     "Extremes",
     "FaceContact",
-    "FollowerResidual",
     "Formula",
     "FormulaKind",
     "FourBarBranch",
+    "FrontExport",
     "GreatestRoller",
     "InputAxis",
     "Interpolation",
@@ -141,7 +138,6 @@ __all__ = [
     "LawSpace",
     "LazySequence",
     "LeastBaseCircle",
-    "LeastTime",
     "LinkGeometry",
     "LoadPlace",
     "MachineAnswer",
@@ -153,8 +149,7 @@ __all__ = [
     "Maximum",
     "ModeResidual",
     "Motion",
-    "MotorTorque",
-    "MoveLimits",
+    "MoveStatus",
     "Multiplier",
     "Node",
     "NumberOrQuantity",
@@ -169,12 +164,14 @@ __all__ = [
     "Polynomial",
     "PolynomialBasis",
     "Quantity",
-    "RateLimit",
     "Residual",
     "Result",
     "RollerContact",
     "Rows",
+    "RunTimeMove",
     "Segment",
+    "SegmentExport",
+    "SegmentTimes",
     "Shaper",
     "Side",
     "SolvedPart",
@@ -187,9 +184,6 @@ __all__ = [
     "TableKind",
     "Teeth",
     "Term",
-    "TimeProof",
-    "TimedLimit",
-    "TimedMove",
     "Train",
     "Turning",
     "Watch",

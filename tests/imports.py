@@ -24,7 +24,7 @@ class Import:
 HANDED_UP = {
     "plot": ("optlaws.plots.",),
     "_plot": ("optlaws.plots.",),
-    "export": ("optlaws.exports.", "optlaws.cams.curves.cam_files"),
+    "export": ("optlaws.exports.", "optlaws.cams.curves.cam_files", "optlaws.synthesis.proven.fewest_laws"),
     "summary": ("optlaws.cycles.summary.", "optlaws.cams.summary."),
     "_repr_html_": ("optlaws.cycles.summary.", "optlaws.cams.summary."),
     "pieces": ("optlaws.exports.",),

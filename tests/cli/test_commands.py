@@ -433,3 +433,16 @@ def test_the_points_of_a_front_are_proven_as_asked(capsys: Capture) -> None:
             assert called(capsys, "front", "--order", "2", *given)[0] == 0
     assert [call.kwargs["bound"] for call in solved.mock_calls if "bound" in call.kwargs] == ["quick", "tight"]
     assert "give one of them" in refused(capsys, "front", "--order", "2", "--bound", "tight", "--gap", "1e-6")
+
+
+def test_a_front_is_written_as_functions_of_a_controller(capsys: Capture, tmp_path: Path) -> None:
+    of_front = ["front", "--order", "4", "--between", "1.6", "1.8", "--within", "1e-2", "--name", "lift"]
+    code, out, err = called(capsys, *of_front, "--to", "c99")
+    assert (code, "certified laws of degree 17" in err) == (0, True)
+    assert "static inline int lift_least_time(" in out
+    file = tmp_path / "lift.st"
+    code, out, _ = called(capsys, *of_front, "--to", "iec-st", "--output", str(file), "--json")
+    results = json.loads(out)
+    assert (code, results["format"], results["gap"] <= 1e-2) == (0, "iec-st", True)
+    assert "FUNCTION_BLOCK lift" in file.read_text("utf-8")
+    assert "say --to c99 or --to iec-st" in refused(capsys, *of_front, "--output", str(file))

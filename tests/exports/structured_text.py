@@ -7,7 +7,22 @@ from typing import Any
 
 import numpy as np
 
-KINDS: dict[str, Callable[[Any], Any]] = {"LREAL": np.float64, "REAL": np.float32, "DINT": int, "BOOL": bool}
+KINDS: dict[str, Callable[[Any], Any]] = {
+    "LREAL": np.float64,
+    "REAL": np.float32,
+    "DINT": int,
+    "INT": int,
+    "BOOL": bool,
+}
+FUNCTIONS: dict[str, Callable[..., Any]] = {
+    "LIMIT": lambda low, value, high: min(max(value, low), high),
+    "MIN": min,
+    "MAX": max,
+    "ABS": abs,
+    "SQRT": np.sqrt,
+    "EXP": np.exp,
+    "LN": np.log,
+}
 
 
 def parsed(source: str) -> Any:  # noqa: ANN401 - blark's
@@ -25,7 +40,7 @@ def without_comments(source: str) -> str:
 
 
 class Block:
-    """A function block: call it with x, read its outputs."""
+    """A function block: call it with x, or with inputs by their names, and read its outputs."""
 
     def __init__(self, source: str) -> None:
         text = without_comments(source)
@@ -36,12 +51,12 @@ class Block:
         for name, kind, first in re.findall(r"(\w+) : ([^;:]+?)(?: := ([^;]*))?;", "".join(declarations)):
             self._declare(name, kind, first)
         body = text[text.rindex("END_VAR") + len("END_VAR") : text.index("END_FUNCTION_BLOCK")]
-        self.code = compile(_python(body), self.name, "exec")
+        self.code = compile(_python(body, self.kinds), self.name, "exec")
 
-    def __call__(self, x: float) -> dict[str, Any]:
-        self.values["x"] = KINDS[self.kinds["x"]](x)
-        limit = {"LIMIT": lambda low, value, high: min(max(value, low), high)}
-        exec(self.code, limit, self.values)  # noqa: S102 - a few lines that were written here
+    def __call__(self, x: float | None = None, **inputs: Any) -> dict[str, Any]:
+        for name, value in (inputs if x is None else {"x": x}).items():
+            self.values[name] = KINDS[self.kinds[name]](value)
+        exec(self.code, dict(FUNCTIONS), self.values)  # noqa: S102 - a few lines that were written here
         return self.values
 
     def _declare(self, name: str, kind: str, first: str) -> None:
@@ -62,19 +77,25 @@ def _rules() -> list[tuple[re.Pattern[str], str]]:
         for pattern, made in (
             (r"^FOR (\w+) := (.+) TO (.+) BY -1 DO$", r"for \1 in range(\2, \3 - 1, -1):"),
             (r"^WHILE (.+) DO$", r"while \1:"),
+            (r"^IF (.+) THEN$", r"if \1:"),
+            (r"^ELSIF (.+) THEN$", r"elif \1:"),
+            (r"^ELSE$", r"else:"),
             (r"^(\w+) := (.+);$", r"\1 = \2"),
         )
     ]
 
 
-def _python(body: str) -> str:
+def _python(body: str, kinds: dict[str, str]) -> str:
     """The statements as Python."""
     lines, depth = [], 0
     for line in filter(None, map(str.strip, body.splitlines())):
-        if line in {"END_FOR", "END_WHILE"}:
+        if line in {"END_FOR", "END_WHILE", "END_IF"}:
             depth -= 1
             continue
-        made = line.replace(" AND ", " and ").replace("(place = x)", "(place == x)")
+        depth -= line.startswith(("ELSE", "ELSIF"))
+        made = line.replace(" AND ", " and ").replace(" OR ", " or ").replace(" <> ", " != ").replace(" = ", " == ")
+        if kinds.get(line.split(" := ")[0]) == "DINT":
+            made = made.replace(" / ", " // ")
         for pattern, replacement in _rules():
             made = pattern.sub(replacement, made)
         lines.append("    " * depth + made)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
@@ -13,7 +14,7 @@ from optlaws.cli.options import AsJson, Whole, check_files, save_picture
 from optlaws.cli.problem_options import asks_for_a_problem
 from optlaws.cli.show import busy, print_json, show, table
 from optlaws.errors import InputError
-from optlaws.numbers import whole
+from optlaws.numbers import positive, whole
 from optlaws.synthesis.problem.named_constants import apart
 
 
@@ -40,7 +41,37 @@ class ProofOptions:
             raise InputError("--bound tight proves the points of a front, --gap every value between: give one of them")
 
 
-_AT_POINTS = ProofOptions()
+@Parameter(name="*")
+@dataclass(frozen=True, kw_only=True)
+class FileOptions:
+    """What is written of a front: a table, a picture, or functions of a controller, which choose a law while it runs.
+
+    Parameters
+    ----------
+    csv
+        Write the constants of all laws to this file.
+    plot
+        Draw the front into this file, PNG or SVG.
+    to
+        The language of functions, for a front of B and C. They go to --output or, without it, to stdout, and what is
+        proven of them to stderr.
+    within
+        The greatest gap of C at run time; the front is proven to a tenth of it unless --gap says otherwise.
+    name
+        Before every name of a C header, or of the function block.
+    output
+        The file to write; one that is there and says something else is kept as NAME.orig.
+    """
+
+    csv: Path | None = None
+    plot: Path | None = None
+    to: Literal["c99", "iec-st"] | None = None
+    within: float = 1e-3
+    name: str = "Front"
+    output: Path | None = None
+
+
+_AT_POINTS, _NO_FILES = ProofOptions(), FileOptions()
 
 
 @asks_for_a_problem(
@@ -53,9 +84,8 @@ def front(
     points: Whole = 50,
     between: tuple[float, float] | None = None,
     proof: ProofOptions = _AT_POINTS,
+    files: FileOptions = _NO_FILES,
     as_json: AsJson = False,
-    csv: Path | None = None,
-    plot: Path | None = None,
 ) -> None:
     """Find the laws that exchange constants for one another: each the best of its own problem.
 
@@ -70,29 +100,46 @@ def front(
         Least and greatest value of the first constant; where it pays unless given.
     as_json
         Print one JSON object on stdout and nothing else.
-    csv
-        Write the constants of all laws to this file.
-    plot
-        Draw the front into this file, PNG or SVG.
     """
-    check_files(csv, plot=plot)
+    check_files(files.csv, files.output, plot=files.plot)
     proof.check()
+    if files.output is not None and files.to is None:
+        raise InputError("--output is where functions of a controller go: say --to c99 or --to iec-st")
+    proven_to = positive(files.within, "within") / 10.0 if files.to and proof.gap is None else proof.gap
     problem, names = optlaws.Problem.from_dict(entries), tuple(apart(over))
     front: optlaws.Front | optlaws.ProvenFront
-    if proof.gap is None:  # which shows its steps itself
+    if proven_to is None:  # which shows its steps itself
         front = optlaws.pareto_front(problem, names, points=points, between=between, bound=proof.bound)
     else:
         with busy("solving"):
-            front = optlaws.proven_front(problem, names, between=between, gap=proof.gap)
+            front = optlaws.proven_front(problem, names, between=between, gap=proven_to)
     headings, rows = _table(front, whole(points, "points", least=2))
-    if csv is not None:
-        _save_table(front, csv, headings, rows)
-    if plot is not None:
-        save_picture(plot, front)
-    if as_json:
+    if files.csv is not None:
+        _save_table(front, files.csv, headings, rows)
+    if files.plot is not None:
+        save_picture(files.plot, front)
+    if isinstance(front, optlaws.ProvenFront) and files.to is not None:
+        _export(front, files, as_json=as_json)
+    elif as_json:
         print_json(front.to_dict())
     else:
         _show(front, headings, rows)
+
+
+def _export(front: optlaws.ProvenFront, files: FileOptions, *, as_json: bool) -> None:
+    """Functions to their file or to stdout, and what is proven of them."""
+    assert files.to is not None  # noqa: S101 - that is what it is called for
+    export = front.export(files.to, files.within, name=files.name)
+    if files.output is not None:
+        export.write(files.output)
+    if as_json:
+        file = {"text": export.text} if files.output is None else {"file": str(files.output)}
+        print_json(export.results() | file)
+    elif files.output is None:
+        print(export.text, end="")
+        print(export, file=sys.stderr)
+    else:
+        show(str(export))
 
 
 Rows = list[list[Any]]

@@ -365,6 +365,50 @@ class ProvenFront(JsonText):
 
         return draw_proven_front(self, ax, **style)
 
+    def export(self, to: str, gap: float = 1e-3, *, name: str = "Front", points: int | None = None) -> Any:  # noqa: ANN401
+        """The front as functions of a controller, which chooses a law for stroke, time and limits while it runs.
+
+        Between neighbouring laws of the table the weighted mean keeps every constraint and is within the gap.
+
+        Parameters
+        ----------
+        to
+            "c99" or "iec-st".
+        gap
+            The greatest gap of C at any B, relative to it; the front must be proven to it or better.
+        name
+            Before every name of a header, or of the function block.
+        points
+            The greatest number of laws in the table.
+
+        Returns
+        -------
+        A `FrontExport`: its `text`, its `table`, the moves that it plans; `write(file)` writes it.
+
+        Raises
+        ------
+        InputError
+            If it is no front of B and C from rest to rest, the gap is not reached, or the format has no functions.
+
+        Examples
+        --------
+        >>> from optlaws.synthesis.proven.refine import proven_front
+        >>> export = proven_front(Problem(order=4), gap=1e-4).export("iec-st", name="FB_Lift")
+        >>> export.points, export.size, export.gap <= 1e-3
+        (32, 3072, True)
+        """
+        from optlaws.exports.run_time.front_export import export_front, function_format
+        from optlaws.synthesis.proven.fewest_laws import ChordSelection, proven_ends
+
+        function_format(to)
+        if self.over != ("B", "C"):
+            raise InputError(f"a front at run time exchanges B and C, got {self.over[0]} and {self.over[1]}")
+        chords = ChordSelection(np.array(self.values), self.sides, self.problem.objective.scale)
+        places, reached = chords.fewest(gap, points)
+        values, laws = [self.values[i] for i in places], [self.laws[i] for i in places]
+        proof = (reached, proven_ends(self.problem, laws[0], laws[-1], reached))
+        return export_front(to, name, values, laws, proof, about=f"problem: {self.problem!r}")
+
     def to_dict(self) -> dict[str, Any]:
         """Plain JSON-able dict, which `optlaws verify` proves; numbers that follow from the laws are left out."""
         return {

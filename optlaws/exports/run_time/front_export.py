@@ -1,0 +1,206 @@
+"""A proven front as functions of a controller: what was written, its size and its gap, and its moves in Python."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from optlaws.errors import InputError
+from optlaws.exports.format import FORMATS, format_of
+from optlaws.exports.run_time.front_c99 import front_header
+from optlaws.exports.run_time.front_st import front_block
+from optlaws.exports.run_time.front_table import FrontTable, front_table
+from optlaws.exports.run_time.planning import RunTimeMove, in_time, least_time, motion_at
+from optlaws.exports.text import rounded_up
+from optlaws.files import writing
+from optlaws.laws import MotionLaw
+from optlaws.laws.making.transform import law_between
+from optlaws.numbers import Array, finite
+from optlaws.shown.summary import Row, Summary
+from optlaws.tolerances import RUN_TIME_RANGE
+
+#: a jerk that limits nothing
+NO_LIMIT = 1.0 / RUN_TIME_RANGE
+
+_WRITERS: dict[str, Callable[[FrontTable, str, Sequence[str]], str]] = {"c99": front_header, "iec-st": front_block}
+
+
+@dataclass(frozen=True)
+class FrontExport:
+    """A proven front in the language of a controller, which chooses a law for stroke, time and limits while it runs.
+
+    Attributes
+    ----------
+    format
+        "c99" or "iec-st".
+    text
+        The file.
+    table
+        What it holds.
+    laws
+        The certified laws of the table.
+
+    Examples
+    --------
+    >>> from optlaws import Problem, proven_front
+    >>> export = proven_front(Problem(order=4), gap=1e-4).export("c99", gap=1e-2, name="lift")
+    >>> export.points, export.size, export.gap <= 1e-2
+    (10, 960, True)
+    >>> move = export.least_time(stroke=0.5, velocity=1.2, acceleration=6.0, jerk=400.0)
+    >>> move.status.name, round(move.duration, 3), round(export.law(move).constants.C.value, 3)
+    ('PROVEN', 0.665, 5.304)
+    """
+
+    format: str
+    text: str
+    table: FrontTable
+    laws: tuple[MotionLaw, ...]
+
+    @property
+    def points(self) -> int:
+        """How many laws the table has."""
+        return len(self.table)
+
+    @property
+    def size(self) -> int:
+        """Bytes of the table."""
+        return self.table.size
+
+    @property
+    def gap(self) -> float:
+        """The proven gap: no law of the problem with b(1/2) = B has a C that is less by more than this share."""
+        return self.table.gap
+
+    def least_time(self, *, stroke: float, velocity: float, acceleration: float, jerk: float = NO_LIMIT) -> RunTimeMove:
+        """The move of least time within limits, in one system of units, as the controller plans it.
+
+        Raises
+        ------
+        InputError
+            If an entry is no finite number.
+        """
+        values = {"stroke": stroke, "velocity": velocity, "acceleration": acceleration, "jerk": jerk}
+        return least_time(self.table, *(finite(value, name) for name, value in values.items()))
+
+    def in_time(self, *, stroke: float, duration: float, velocity: float) -> RunTimeMove:
+        """The move of least acceleration in a given time within a velocity, as the controller plans it.
+
+        Raises
+        ------
+        InputError
+            If an entry is no finite number.
+        """
+        values = {"stroke": stroke, "duration": duration, "velocity": velocity}
+        return in_time(self.table, *(finite(value, name) for name, value in values.items()))
+
+    def motion(self, move: RunTimeMove, times: Any) -> Array:  # noqa: ANN401 - a number or an array
+        """Position, velocity, acceleration and jerk of a move at times since it began, shape (4, ...)."""
+        return motion_at(self.table, move, times)
+
+    def law(self, move: RunTimeMove) -> MotionLaw:
+        """The law of a move: the weighted mean of two certified laws.
+
+        Raises
+        ------
+        InputError
+            If the move has no motion.
+        """
+        if not move.status.moves:
+            raise InputError(f"there is no law of a move of status {move.status.name}")
+        return law_between(self.laws[move.law], self.laws[move.law + 1], move.share)
+
+    def write(self, file: str | Path) -> Path:
+        """Write the file, whole or not at all; one that is there and says something else is kept as NAME.orig."""
+        return writing.write_any(Path(file), self.text)
+
+    def results(self) -> dict[str, Any]:
+        """The export as plain data: everything but the text and the table."""
+        table = self.table
+        return {
+            "format": self.format,
+            "laws": self.points,
+            "bytes": self.size,
+            "degree": table.degree,
+            "gap": self.gap,
+            "B": [table.velocities[0], table.velocities[-1]],
+            "C": [table.accelerations[0], table.accelerations[-1]],
+            "proven_ends": list(table.ends),
+            "rounding": list(table.errors),
+            "lengthened_by": table.slack,
+        }
+
+    def summary(self) -> Summary:
+        """The export as rows: size, gap, range and bounds of roundings."""
+        table = self.table
+        rows = [
+            Row("format", self.format, note=FORMATS[self.format].target),
+            Row("certified laws", self.points, note=f"of degree {table.degree}"),
+            Row("table", self.size, "bytes"),
+            Row("gap of C, proven", self.gap),
+            Row("B", table.velocities[0], note=f"to {table.velocities[-1]:.7g}"),
+            Row("C", table.accelerations[0], note=f"to {table.accelerations[-1]:.7g}"),
+            *(Row(f"rounding of {name}, proven", error) for name, error in zip("abcd", table.errors, strict=True)),
+            Row("times lengthened by", table.slack, note="so that limits are kept whatever is rounded"),
+        ]
+        return Summary(rows)
+
+    def __str__(self) -> str:
+        return "\n".join(_heading(self.table, ""))
+
+    def _repr_html_(self) -> str:
+        return self.summary()._repr_html_()
+
+
+def export_front(
+    to: object,
+    name: str,
+    velocities: Sequence[float],
+    laws: Sequence[MotionLaw],
+    proof: tuple[float, tuple[bool, bool]],
+    about: str,
+) -> FrontExport:
+    """The export of certified laws at ascending B, with the gap and the ends that are proven."""
+    form = function_format(to)
+    table = front_table(velocities, laws, *proof)
+    return FrontExport(form, _WRITERS[form](table, name, _heading(table, about)), table, tuple(laws))
+
+
+def function_format(to: object) -> str:
+    """The name of a format that has functions.
+
+    Raises
+    ------
+    InputError
+        If it is unknown, or its target interpolates tables and takes no functions.
+
+    Examples
+    --------
+    >>> function_format("csv")
+    Traceback (most recent call last):
+    optlaws.errors.InputError: to: csv holds one motion and no functions; a front is exported to c99 or iec-st
+    """
+    form = format_of(to).name
+    if form not in _WRITERS:
+        raise InputError(
+            f"to: {form} holds one motion and no functions; a front is exported to {' or '.join(_WRITERS)}"
+        )
+    return form
+
+
+def _heading(table: FrontTable, about: str) -> list[str]:
+    errors = ", ".join(map(rounded_up, table.errors))
+    first, last = table.velocities[0], table.velocities[-1]
+    lines = [
+        *([about] if about else []),
+        f"{len(table)} certified laws of degree {table.degree}, B from {first:.9g} to {last:.9g}, {table.size} bytes",
+        f"proven: no law of the same B, taken at the middle, has a C less by more than {rounded_up(table.gap)} of it",
+        "units: any that fit each other, such as mm, mm/s, mm/s^2, mm/s^3 and s",
+        "rounding in LREAL, proven, at most, times stroke/duration^n for n = 0, 1, 2, 3: " + errors,
+        f"times are lengthened by {rounded_up(table.slack)} of them, so that limits are kept whatever is rounded",
+    ]
+    for end, proven in zip(("first", "last"), table.ends, strict=True):
+        if not proven:
+            lines.append(f"AT_END: beyond the {end} law there may be better ones, which the front does not hold")
+    return lines
