@@ -38,6 +38,9 @@ from optlaws.cams.least_sizes import least_base_circle as least_base_circle
 from optlaws.cams.springs import Spring as Spring
 from optlaws.cams.springs import least_spring as least_spring
 from optlaws.cycles.cycle import Cycle as Cycle
+from optlaws.cycles.fastest_cycle import FastestCycle as FastestCycle
+from optlaws.cycles.fastest_cycle import LeastDuration as LeastDuration
+from optlaws.cycles.fastest_cycle import LimitGain as LimitGain
 from optlaws.cycles.interlocks.after import After as After
 from optlaws.cycles.interlocks.clearance import Clearance as Clearance
 from optlaws.cycles.interlocks.forbidden_region import Forbidden as Forbidden
@@ -50,6 +53,9 @@ from optlaws.cycles.machine_follower import machine_follower as machine_follower
 from optlaws.cycles.moves.fastest_move import FastestMove as FastestMove
 from optlaws.cycles.moves.timed_moves import fastest as fastest
 from optlaws.cycles.moves.timed_moves import fastest_moves as fastest_moves
+from optlaws.cycles.old_tables import OldTable as OldTable
+from optlaws.cycles.old_tables import read_cycle_table as read_cycle_table
+from optlaws.cycles.old_tables import split_table as split_table
 from optlaws.cycles.specification.segments import ConstantVelocity as ConstantVelocity
 from optlaws.cycles.specification.segments import Dwell as Dwell
 from optlaws.cycles.specification.segments import Free as Free
@@ -97,6 +103,7 @@ from optlaws.mechanisms.linkages.motions import belt as belt
 from optlaws.mechanisms.linkages.motions import mechanism_of_motion as mechanism_of_motion
 from optlaws.mechanisms.linkages.motions import rack as rack
 from optlaws.mechanisms.linkages.motions import screw as screw
+from optlaws.mechanisms.linkages.move_limits import MoveLimit as MoveLimit
 from optlaws.mechanisms.linkages.slider_crank import slider_crank as slider_crank
 from optlaws.mechanisms.linkages.toggle import toggle as toggle
 from optlaws.mechanisms.machine.flat_output import driving_law as driving_law
@@ -220,6 +227,7 @@ __all__ = [
     "Dwell",
     "DwellMachine",
     "Expression",
+    "FastestCycle",
     "FastestMove",
     "Follower",
     "Forbidden",
@@ -232,7 +240,9 @@ __all__ = [
     "InputError",
     "J",
     "Leaf",
+    "LeastDuration",
     "LeverCam",
+    "LimitGain",
     "Link",
     "Loader",
     "Loads",
@@ -243,8 +253,10 @@ __all__ = [
     "MotionLaw",
     "Motor",
     "Move",
+    "MoveLimit",
     "NoisyTable",
     "NotNormalised",
+    "OldTable",
     "OptlawsError",
     "OscillatingFlat",
     "OscillatingRoller",
@@ -332,6 +344,7 @@ __all__ = [
     "polydyne",
     "proven_front",
     "rack",
+    "read_cycle_table",
     "read_law",
     "read_motors",
     "residual_functional",
@@ -351,6 +364,7 @@ __all__ = [
     "shaped_law",
     "slider_crank",
     "smoothstep",
+    "split_table",
     "sweep",
     "synthesize",
     "synthesize_array",

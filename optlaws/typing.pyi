@@ -21,7 +21,17 @@ from optlaws.cams.followers.rollers_and_faces import FaceContact as FaceContact
 from optlaws.cams.followers.rollers_and_faces import RollerContact as RollerContact
 from optlaws.cams.least_sizes import GreatestRoller as GreatestRoller
 from optlaws.cams.least_sizes import LeastBaseCircle as LeastBaseCircle
+from optlaws.cycles.interchange import PlotOver as PlotOver
+from optlaws.cycles.interlocks.enclosed_axis import Way as Way
+from optlaws.cycles.interlocks.interlock import Interlock as Interlock
+from optlaws.cycles.interlocks.interlock import LeastClearance as LeastClearance
+from optlaws.cycles.machine_axes import AxesPicture as AxesPicture
+from optlaws.cycles.machine_axes import Overlap as Overlap
 from optlaws.cycles.machine_follower import MachineAnswer as MachineAnswer
+from optlaws.cycles.old_tables import Stretch as Stretch
+from optlaws.cycles.specification.cycle_sheet import CycleSheet as CycleSheet
+from optlaws.cycles.specification.effort import Effort as Effort
+from optlaws.cycles.specification.effort import SegmentEffort as SegmentEffort
 from optlaws.cycles.specification.segments import CycleSegment as CycleSegment
 from optlaws.exports.best_breaks import BestBreaks as BestBreaks
 from optlaws.exports.run_time.front_export import FrontExport as FrontExport
@@ -37,6 +47,7 @@ from optlaws.laws.making.input_shaping import Shaper as Shaper
 from optlaws.laws.making.multiplier import Multiplier as Multiplier
 from optlaws.laws.segments.segment import Segment as Segment
 from optlaws.mechanisms.drives.drive_train import DimensionlessDrive as DimensionlessDrive
+from optlaws.mechanisms.drives.motor import MotorLosses as MotorLosses
 from optlaws.mechanisms.drives.motor_motion import Train as Train
 from optlaws.mechanisms.drives.sheet import BestRatio as BestRatio
 from optlaws.mechanisms.drives.sheet import DriveSheet as DriveSheet
@@ -77,6 +88,14 @@ from optlaws.synthesis.families.active_set import ActiveSet as ActiveSet
 from optlaws.synthesis.families.family import ConstraintFamily as ConstraintFamily
 from optlaws.synthesis.functionals.makers import FormulaKind as FormulaKind
 from optlaws.synthesis.functionals.makers import PeakSide as PeakSide
+from optlaws.synthesis.least_time.follower_residual import FollowerResidual as FollowerResidual
+from optlaws.synthesis.least_time.least_time import LeastTime as LeastTime
+from optlaws.synthesis.least_time.motor_torque import MotorTorque as MotorTorque
+from optlaws.synthesis.least_time.motor_torque import TimedLimit as TimedLimit
+from optlaws.synthesis.least_time.move_limits import MoveLimits as MoveLimits
+from optlaws.synthesis.least_time.move_limits import RateLimit as RateLimit
+from optlaws.synthesis.least_time.move_limits import TimedMove as TimedMove
+from optlaws.synthesis.least_time.time_proof import TimeProof as TimeProof
 from optlaws.synthesis.limits.drive_limits import DriveObjective as DriveObjective
 from optlaws.synthesis.limits.phase_plane import PhasePlane as PhasePlane
 from optlaws.synthesis.problem.constants import Asked as Asked
@@ -97,6 +116,7 @@ __all__ = [
     "ActiveSet",
     "Array",
     "Asked",
+    "AxesPicture",
     "BestBaseCircle",
     "BestBreaks",
     "BestCam",
@@ -110,6 +130,7 @@ __all__ = [
     "CutCurve",
     "CutFormat",
     "CycleSegment",
+    "CycleSheet",
     "Derivatives",
     "DimensionlessDrive",
     "DimensionlessMechanism",
@@ -120,17 +141,20 @@ __all__ = [
     "DwellComparison",
     "DwellMechanism",
     "DwellType",
+    "Effort",
     "Entry",
     "Errors",
     "Extreme",
     "Extremes",
     "FaceContact",
+    "FollowerResidual",
     "Formula",
     "FormulaKind",
     "FourBarBranch",
     "FrontExport",
     "GreatestRoller",
     "InputAxis",
+    "Interlock",
     "Interpolation",
     "Interval",
     "Jet",
@@ -138,6 +162,8 @@ __all__ = [
     "LawSpace",
     "LazySequence",
     "LeastBaseCircle",
+    "LeastClearance",
+    "LeastTime",
     "LinkGeometry",
     "LoadPlace",
     "MachineAnswer",
@@ -149,27 +175,34 @@ __all__ = [
     "Maximum",
     "ModeResidual",
     "Motion",
+    "MotorLosses",
+    "MotorTorque",
+    "MoveLimits",
     "MoveStatus",
     "Multiplier",
     "Node",
     "NumberOrQuantity",
     "OutputPeak",
     "OutputRms",
+    "Overlap",
     "PeakSide",
     "PhasePlane",
     "Piece",
     "PiecewiseBasis",
     "Place",
     "PlaneCurve",
+    "PlotOver",
     "Polynomial",
     "PolynomialBasis",
     "Quantity",
+    "RateLimit",
     "Residual",
     "Result",
     "RollerContact",
     "Rows",
     "RunTimeMove",
     "Segment",
+    "SegmentEffort",
     "SegmentExport",
     "SegmentTimes",
     "Shaper",
@@ -178,13 +211,18 @@ __all__ = [
     "SpaceCurve",
     "Span",
     "StateSpace",
+    "Stretch",
     "Study",
     "Summary",
     "SweptParameter",
     "TableKind",
     "Teeth",
     "Term",
+    "TimeProof",
+    "TimedLimit",
+    "TimedMove",
     "Train",
     "Turning",
     "Watch",
+    "Way",
 ]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from fractions import Fraction
 from math import inf
@@ -81,20 +81,23 @@ def _entry(entry: FileEntry) -> Verification:
 
 
 def _alone(data: Mapping[str, Any]) -> Verification:
-    if is_array(data):
-        return _arrays(data)
-    if is_proven_front(data):
-        return proven_front(built(ProvenFront.from_dict, data, "the proven front"), number(data, "gap"))
-    if is_drive_limit(data) or is_move_limit(data):
-        return _limit_of_drive(data)
-    if is_least_time(data):
-        return least_time(data, _solution(data["solution"]))
-    if "certificate" in data:
-        return _solution(data)
-    if "law" in data:
-        law = _law(data)
-        claims = tuple(stated_constants(data, law))
-        return Verification(problem=None, bound=None, constants=law.enclosures(), claims=claims)
+    return next(verified for known, verified in _KINDS if known(data))(data)
+
+
+def _front(data: Mapping[str, Any]) -> Verification:
+    return proven_front(built(ProvenFront.from_dict, data, "the proven front"), number(data, "gap"))
+
+
+def _least_time(data: Mapping[str, Any]) -> Verification:
+    return least_time(data, _solution(data["solution"]))
+
+
+def _law_alone(data: Mapping[str, Any]) -> Verification:
+    law = _law(data)
+    return Verification(problem=None, bound=None, constants=law.enclosures(), claims=tuple(stated_constants(data, law)))
+
+
+def _certificate(data: Mapping[str, Any]) -> Verification:
     certificate = built(Certificate.from_dict, data, "the certificate")
     proof = prove(certificate)
     return _verification(certificate.problem, certificate, proof, list(_proof_claims(proof, certificate, data)))
@@ -311,3 +314,16 @@ def _constants(entry: FileEntry) -> Iterator[Claim]:
         if name not in FUNCTIONALS:
             raise InputError(unknown_key(name, FUNCTIONALS, "constant"))
         yield near(f"the front's {name}", value, enclosed(law.term(FUNCTIONALS[name])))
+
+
+#: what an entry is, and how it is verified; the first that fits
+_KINDS: tuple[tuple[Callable[[Mapping[str, Any]], bool], Callable[[Mapping[str, Any]], Verification]], ...] = (
+    (is_array, _arrays),
+    (is_proven_front, _front),
+    (is_drive_limit, _limit_of_drive),
+    (is_move_limit, _limit_of_drive),
+    (is_least_time, _least_time),
+    (lambda data: "certificate" in data, _solution),
+    (lambda data: "law" in data, _law_alone),
+    (lambda _: True, _certificate),
+)

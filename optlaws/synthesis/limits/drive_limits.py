@@ -24,7 +24,7 @@ from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaPeak, Fo
 from optlaws.synthesis.limits.phase_plane import PhasePlane, TorqueLimit
 from optlaws.synthesis.limits.phase_plane_bound import Guess, Potential, proven_bound
 from optlaws.synthesis.limits.phase_plane_program import PhaseOptimum, optimum
-from optlaws.synthesis.limits.phase_torque import AnyTorque, greater_power, torque_of
+from optlaws.synthesis.limits.phase_torque import AnyTorque, PhaseTorque, greater_power, torque_of
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.tolerances import MOST_PHASE_GAP, PHASE_GAP, SMALL_PHASE_GAP, STATED_BOUND
 
