@@ -66,7 +66,7 @@ _load, __dir__, __all__ = face(
         "optlaws.mechanisms.linkages.mechanism": "Mechanism",
         "optlaws.mechanisms.linkages.four_bar": "four_bar",
         "optlaws.mechanisms.linkages.motions": "belt mechanism_of_motion rack screw",
-        "optlaws.mechanisms.linkages.move_limits": "MoveLimit",
+        "optlaws.mechanisms.linkages.move_limit": "MoveLimit",
         "optlaws.mechanisms.linkages.slider_crank": "slider_crank",
         "optlaws.mechanisms.linkages.toggle": "toggle",
         "optlaws.mechanisms.machine.machine": "Machine",

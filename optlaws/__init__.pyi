@@ -103,7 +103,7 @@ from optlaws.mechanisms.linkages.motions import belt as belt
 from optlaws.mechanisms.linkages.motions import mechanism_of_motion as mechanism_of_motion
 from optlaws.mechanisms.linkages.motions import rack as rack
 from optlaws.mechanisms.linkages.motions import screw as screw
-from optlaws.mechanisms.linkages.move_limits import MoveLimit as MoveLimit
+from optlaws.mechanisms.linkages.move_limit import MoveLimit as MoveLimit
 from optlaws.mechanisms.linkages.slider_crank import slider_crank as slider_crank
 from optlaws.mechanisms.linkages.toggle import toggle as toggle
 from optlaws.mechanisms.machine.flat_output import driving_law as driving_law

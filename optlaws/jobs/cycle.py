@@ -12,6 +12,7 @@ import msgspec
 import numpy as np
 
 from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.fastest_cycle import FastestCycle
 from optlaws.cycles.limit_rows import limit_rows
 from optlaws.cycles.machine_axes import Axes, Overlap
 from optlaws.cycles.specification.process import is_process
@@ -24,7 +25,6 @@ from optlaws.files import tables, writing
 from optlaws.jobs.axes.entry_sweep import SweptCycle, sweep_table
 from optlaws.jobs.axes.fastest_page import (
     FASTEST_HEADINGS,
-    FastestCycle,
     at_greatest_speed,
     fastest_facts,
     fastest_of,
@@ -125,7 +125,7 @@ def run(results: Results) -> None:
     exports = exports_of(spec, cycles, results.file)
     sweeps = sweeps_of(spec, results.file)
     results.title = spec.title
-    results.text("cycle.md", str(page(spec, cycles, exports, Sought(sweeps, fastest, overlap))))
+    results.text("cycle.md", str(page(spec, cycles, exports, CycleSearches(sweeps, fastest, overlap))))
     for number, (sweep, rows) in enumerate(zip(spec.sweep, sweeps, strict=True), 1):
         results.table(f"{SWEEP}{number}", *sweep_table(sweep, rows))
         results.picture(f"{SWEEP}{number}", sweep_figure(*sweep_table(sweep, rows), f"{spec.title}: {sweep.axis}"))
@@ -197,7 +197,7 @@ def answer(entries: Mapping[str, Any], file: Path) -> dict[str, Any]:
 
 
 @dataclass(frozen=True)
-class Sought:
+class CycleSearches:
     """What a file seeks beside its cycles: sweeps, the greatest speed of each axis, and how moves overlap."""
 
     sweeps: Sequence[list[SweptCycle]] = ()
@@ -205,7 +205,7 @@ class Sought:
     overlap: Overlap | None = None
 
 
-def page(spec: CycleProblemFile, axes: Axes, exports: Exports, sought: Sought) -> Page:
+def page(spec: CycleProblemFile, axes: Axes, exports: Exports, sought: CycleSearches) -> Page:
     """The page of results."""
     result = slowest(Page(spec.title).text(spec.text), sought.fastest)
     if len(axes) > 1:
@@ -218,7 +218,9 @@ def page(spec: CycleProblemFile, axes: Axes, exports: Exports, sought: Sought) -
             result.table(FASTEST_HEADINGS, fastest_rows(sought.fastest[name]), digits=9)
         result.table(_headings(cycle), [*_segment_rows(cycle), _whole_row(cycle)], digits=7)
         rows = [*proof_rows(cycle), *limit_rows(cycle), *drive_rows(cycle), *joint_rows(cycle)]
-        result.table(("what", "value", "unit"), [[row.name, row.value, row.unit or None] for row in rows], digits=9)
+        cells = [[row.name, row.value, row.unit or None, row.note or None] for row in rows]
+        noted = any(row.note for row in rows)
+        result.table(("what", "value", "unit", "note")[: 3 + noted], [row[: 3 + noted] for row in cells], digits=9)
         for picture in pictures[name]:
             result.figure(picture.name, f"{spec.title}: {name}, {picture.caption}")
         if exports[name]:
@@ -306,7 +308,7 @@ def _stored(cycle: Cycle) -> dict[str, Any]:
 def _facts(cycle: Cycle) -> dict[str, Any]:
     drive: dict[str, Any] = {} if cycle.drive is None else {"effort": cycle.effort.to_dict()}
     if isinstance(cycle.drive, Drive):
-        drive["sheet"] = cycle.sheet.to_dict()
+        drive["motor"] = cycle.sheet.to_dict()
     if cycle.load is not None and not is_process(cycle.load):
         drive["load"] = {name: cycle.load_motion.peak(name).value for name in cycle.load_motion.machine.outputs}
     return {

@@ -22,7 +22,7 @@ def least_time(data: Mapping[str, Any], of_law: Verification) -> Verification:
     stated = {key: value for key, value in data.items() if key not in {"unit", "about"}}
     least = built(LeastTime.from_dict, stated, "the least time")
     claims = (*of_law.claims, *_limits(least), *_proofs(least))
-    return replace(of_law, claims=claims, recomputed=(*of_law.recomputed, *_limit(least, data)))
+    return replace(of_law, claims=claims, unchecked=(*of_law.unchecked, *_limit(least, data)))
 
 
 def _limits(least: LeastTime) -> Iterator[Claim]:
@@ -56,4 +56,4 @@ def _limit(least: LeastTime, data: Mapping[str, Any]) -> Iterator[Claim]:
     """The closed form of all laws, computed again in doubles: a file that states another is not read."""
     if least.limit is not None:
         detail = f"{number(data, 'limit')!r} stated, {least.limit!r} by the segments"
-        yield Claim("the limit of all laws", proven=False, detail=detail, recomputed=True)
+        yield Claim("the limit of all laws", proven=False, detail=detail, checked=False)

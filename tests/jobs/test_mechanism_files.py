@@ -332,7 +332,7 @@ def test_pages_and_tables_say_what_the_motor_needs(tmp_path: Path, capsys: pytes
     assert {name: round(motor[name], 3) for name in known} == pytest.approx(known, abs=5e-4)
     assert exit_code(["cycle", str(file), "--out", str(tmp_path / "out")]) == 0
     files = {path.name for path in (tmp_path / "out").iterdir()}
-    assert files == {f"table{end}.{kind}" for end in ("", "_effort") for kind in ("svg", "png")} | {
+    assert files == {f"table{end}.{kind}" for end in ("", "_motor") for kind in ("svg", "png")} | {
         "cycle.md",
         "cycle.json",
         "table.csv",
@@ -344,10 +344,10 @@ def test_pages_and_tables_say_what_the_motor_needs(tmp_path: Path, capsys: pytes
     # torque times speed is power
     assert all(t * n * 3.141592653589793 / 30.0 == pytest.approx(p, rel=1e-6, abs=1e-6) for t, p, n in values)
     page = (tmp_path / "out" / "cycle.md").read_text("utf-8")
-    assert "| peak torque, used                | 122.8601 | %    | too weak |" in page
-    picture = (tmp_path / "out" / "table_effort.svg").read_text("utf-8")
+    assert "| peak torque, used | 122.860106 | % | too weak |" in " ".join(page.split())
+    picture = (tmp_path / "out" / "table_motor.svg").read_text("utf-8")
     assert "<!-- continuous torque -->" in picture
-    assert "<!-- motor speed, rpm -->" in picture
+    assert "<!-- speed of the motor, rpm -->" in picture
 
 
 def test_the_energies_of_a_cycle_differ_by_what_friction_takes(

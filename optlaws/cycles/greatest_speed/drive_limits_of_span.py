@@ -111,6 +111,6 @@ def static_force(span: LawSpan, drive: CycleDrive | PositionDrive) -> tuple[floa
     ends = [span.offset, *(position for _, position in span.via), span.offset + span.displacement]
     if isinstance(drive, PositionDrive):
         ends = [span.offset + span.displacement * i / (_PLACES - 1) for i in range(_PLACES)]
-    forces = [(abs(drive.at_joint(position, 0.0, 0.0, direction)), position) for position in ends]
+    forces = [(abs(drive.at_joint((position, 0.0, 0.0), direction, span.start)), position) for position in ends]
     force, position = max(forces)
     return position, force

@@ -9,7 +9,7 @@ from math import isfinite
 from typing import Any
 
 from optlaws.cycles.optimisation.drive_formulas import Driven, branches_of, known_drive
-from optlaws.cycles.optimisation.motion_limits import CURVE, FORCE
+from optlaws.cycles.optimisation.motion_limits import CURVE, FORCE, Limits
 from optlaws.cycles.specification.drive import CycleDrive
 from optlaws.cycles.specification.joints import LawSpan
 from optlaws.cycles.specification.position_drive import PositionDrive
@@ -31,7 +31,7 @@ _VELOCITY = 1
 class MotorLimits:
     """Limits of all motions by what they limit, and that of the RMS torque, None if there is none."""
 
-    of_motions: Mapping[int, float] = field(default_factory=dict)
+    of_motions: Limits = field(default_factory=dict)
     mean_torque: float | None = None
 
 

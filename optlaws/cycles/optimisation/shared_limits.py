@@ -14,7 +14,8 @@ from math import exp, inf, log, sqrt
 
 from optlaws.cycles.optimisation.bounds import bound_of, is_exact, span_bound
 from optlaws.cycles.optimisation.joint_limits import ties_broken
-from optlaws.cycles.optimisation.objectives import ENERGY, FORCE, SUMS, CycleObjective, kind_of
+from optlaws.cycles.optimisation.motion_limits import FORCE
+from optlaws.cycles.optimisation.objectives import ENERGY, SUMS, CycleObjective, kind_of
 from optlaws.cycles.optimisation.optimal import (
     scale,
     solve,

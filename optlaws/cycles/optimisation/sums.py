@@ -14,7 +14,8 @@ from dataclasses import dataclass, replace
 from math import inf
 
 from optlaws.cycles.optimisation.drive_formulas import driven_formula, driven_mean, known_drive
-from optlaws.cycles.optimisation.objectives import ENERGY, FORCE, HEAT
+from optlaws.cycles.optimisation.motion_limits import FORCE
+from optlaws.cycles.optimisation.objectives import ENERGY, HEAT
 from optlaws.cycles.specification.drive import CycleDrive
 from optlaws.cycles.specification.effort import PieceEffort
 from optlaws.cycles.specification.joints import LawSpan

@@ -17,7 +17,7 @@ from optlaws.mechanisms.drives.motor import Motor
 from optlaws.mechanisms.drives.motor_motion import MotorMotion, Train
 from optlaws.mechanisms.drives.sheet import BestRatio, DriveSheet, best_ratio, drive_sheet
 from optlaws.mechanisms.linkages.mechanism import DIMENSIONS, Mechanism, duration_of
-from optlaws.mechanisms.linkages.move_limits import MoveBounds, MoveCosts, MoveLimit, MoveScales, move_limit
+from optlaws.mechanisms.linkages.move_limit import MoveBounds, MoveCosts, MoveLimit, MoveScales, move_limit
 from optlaws.motion.piece import named_law
 from optlaws.motion.quantities import si_number
 from optlaws.numbers import NumberOrQuantity, finite, not_negative, positive, real

@@ -25,7 +25,7 @@ from optlaws.suggest import unknown_key
 from optlaws.tolerances import CLOSURE, VALUE_ROUNDING
 
 if TYPE_CHECKING:
-    from optlaws.mechanisms.linkages.move_limits import MoveLimit
+    from optlaws.mechanisms.linkages.move_limit import MoveLimit
     from optlaws.synthesis.limits.drive_limits import DriveObjective
 
 InputAxis = Literal["angle", "length"]
@@ -357,7 +357,7 @@ class Mechanism(JsonText):
         >>> print(table.limit("time", "0 deg", "45 deg", limits={"torque": "50 N m", "velocity": "6 rad/s"}))
         time at least 0.2269 s
         """
-        from optlaws.mechanisms.linkages.move_limits import MoveBounds, MoveCosts, MoveScales, move_limit
+        from optlaws.mechanisms.linkages.move_limit import MoveBounds, MoveCosts, MoveScales, move_limit
 
         moved = self.dimensionless(start, stroke, duration_of(minimise, duration))
         velocity, dimension = abs(moved.stroke) / moved.duration, "N m" if self.axis == "angle" else "N"

@@ -37,7 +37,7 @@ class Phase:
 
 
 @dataclass(frozen=True)
-class SegmentTimes:
+class LimitSegments:
     """The fastest motion of all laws from rest to rest: its seven segments.
 
     Attributes
@@ -71,7 +71,7 @@ class SegmentTimes:
         return (*inside, 1.0)
 
 
-def segment_times(stroke: float, limits: MoveLimits, order: int) -> SegmentTimes | None:
+def segment_times(stroke: float, limits: MoveLimits, order: int) -> LimitSegments | None:
     """The segments of the fastest motion of all laws; None where no limit of velocity, acceleration or jerk bounds it.
 
     A limit of the snap is left out: with it, no law is as fast. At order 2 accelerations may jump at the ends.
@@ -93,7 +93,7 @@ def segment_times(stroke: float, limits: MoveLimits, order: int) -> SegmentTimes
         return None
     first, last = (_phase(peak, limit, jerk, order) for limit in (up, down))
     cruise = max(stroke - first.distance - last.distance, 0.0) / peak
-    return SegmentTimes((*first.times, cruise, *reversed(last.times)))
+    return LimitSegments((*first.times, cruise, *reversed(last.times)))
 
 
 def time_of_any_law(stroke: float, limits: MoveLimits, order: int) -> float | None:

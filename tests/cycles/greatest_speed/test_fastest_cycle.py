@@ -131,6 +131,7 @@ def test_no_motion_beats_a_linear_program_over_accelerations() -> None:
             b_eq=np.zeros(3),
             bounds=(-20.0, 20.0),
         )
+        assert result.fun is not None
         return float(-result.fun)
 
     assert reached(least) >= 0.035 * (1.0 - 1e-4)
