@@ -311,11 +311,15 @@ def split_table(
 
 def _of_standard_laws(places: Array, heights: Array, room: float) -> tuple[Stretch, ...] | None:
     """The parts of a table whose moves are all standard laws; None where one is not."""
+    stretches = []
     try:
-        stretches = tuple(_stretches(places, heights, room))
+        for part in _stretches(places, heights, room):
+            if isinstance(part.law, MotionLaw):
+                return None
+            stretches.append(part)
     except InputError:
         return None
-    return None if any(isinstance(part.law, MotionLaw) for part in stretches) else stretches
+    return tuple(stretches)
 
 
 def _seam(heights: Array, room: float) -> float:
@@ -380,7 +384,7 @@ def _stretches(places: Array, heights: Array, room: float) -> Iterator[Stretch]:
         if not passes or rest.last - rest.first + 1 >= _LONG:
             apart.append(rest)
     apart.append(rests[-1])
-    moves = [_move(places, heights, first, last, room) for first, last in pairwise(apart)]
+    moves = (_move(places, heights, first, last, room) for first, last in pairwise(apart))
     turn = float(np.ptp(places))
     at = float(places[0])
     for move, rest in zip(moves, apart, strict=False):

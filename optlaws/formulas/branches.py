@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
 from functools import reduce
-from itertools import combinations
+from itertools import combinations, pairwise
 from itertools import product as every
 
 import numpy as np
@@ -29,6 +29,8 @@ from optlaws.formulas.tree import (
 from optlaws.numbers import Array
 
 _MOST = 16
+#: into how many parts a line of a table is cut for a spline through its points
+_BETWEEN = 8
 _RISING = frozenset(name for name, function in SMOOTH_FUNCTIONS.items() if function.rising)
 
 #: whether a formula is nowhere below 0 (1) or above (-1), or neither is known (0)
@@ -62,7 +64,7 @@ def smooth(formula: Formula, names: Collection[str]) -> bool:
 def smooth_itself(part: Formula) -> bool:
     """Whether a part has no kinks beside those of its own parts."""
     if isinstance(part, Table):
-        return part.smooth
+        return part.smooth or len(part.places) == 2
     return not (isinstance(part, Call) and part.function in {"abs", "max", "min"})
 
 
@@ -177,11 +179,15 @@ def _in_powers(coefficients: Sequence[float], of: Formula) -> Formula:
 def rounded(formula: Formula, radius: float) -> Formula:
     """A smooth formula near it: hyperbolas of this radius in place of the kinks of sizes, maxima and minima.
 
+    Tables of straight lines become splines through as many points between their places as keep them near.
+
     >>> from optlaws.formulas.reading import read
     >>> rounded(read("abs(b)"), 0.5), rounded(read("max(b, c)"), 0.5)
     (sqrt(b^2 + 0.25), 0.5*(b + c + sqrt((b - c)^2 + 0.25)))
     """
     parts = [rounded(part, radius) for part in formula.parts]
+    if isinstance(formula, Table) and not formula.smooth and formula.order == 0:
+        return _through(formula, parts[0])
     if smooth_itself(formula) or not isinstance(formula, Call):
         return rebuilt(formula, parts) if parts else formula
     if len(parts) == 1:
@@ -193,6 +199,15 @@ def rounded(formula: Formula, radius: float) -> Formula:
         return multiplied([Number(0.5), added([first, other, multiplied([number(sign), apart])])])
 
     return reduce(greater, parts)
+
+
+def _through(table: Table, of: Formula) -> Table:
+    """A spline through points on the lines of a table."""
+    pairs = list(pairwise(zip(table.places, table.values, strict=True)))
+    shares = [i / _BETWEEN for i in range(_BETWEEN)]
+    places = [x + share * (after - x) for (x, _), (after, _) in pairs for share in shares]
+    values = [y + share * (after - y) for (_, y), (_, after) in pairs for share in shares]
+    return Table(of, (*places, table.places[-1]), (*values, table.values[-1]), smooth=True)
 
 
 def _hyperbola(of: Formula, radius: float) -> Formula:

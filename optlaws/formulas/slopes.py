@@ -114,7 +114,7 @@ def _of_call(formula: Call, slopes: list[Formula]) -> Formula:
 
 def _of_table(formula: Table) -> Formula:
     """The slope of a spline; of straight lines only where they are over k, whose places are known beforehand."""
-    if not formula.smooth and not formula.of.names() <= {"k"}:
+    if not formula.smooth and len(formula.places) > 2 and not formula.of.names() <= {"k"}:
         raise InputError(f"{formula} has no derivative at its places; spline(...) has one everywhere")
     return replace(formula, order=formula.order + 1)
 

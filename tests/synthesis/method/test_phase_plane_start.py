@@ -121,3 +121,21 @@ def test_an_inertia_below_nothing_is_no_drive(monotone: bool) -> None:  # noqa: 
     solution = synthesize(replace(problem, monotone=monotone))
     assert solution.drive_limit is None
     assert solution.objective > 0.0
+
+
+@pytest.mark.parametrize(
+    ("lines", "ramps"),
+    [
+        ("table(a, 0:1, 1:3)", "1 + 2*a"),
+        ("table(a, 0:0, 0.7:0, 0.8:-6, 1:-6)", "60*max(a - 0.8, 0) - 60*max(a - 0.7, 0)"),
+    ],
+    ids=["a line", "corners"],
+)
+def test_a_load_by_straight_lines_is_that_of_its_ramps(lines: str, ramps: str) -> None:
+    def least(load: str) -> Solution:
+        bounds: dict[str, Any] = {"monotone": True, "C": (0, 12), "symmetric": False}
+        return synthesize(Problem(order=3, basis=Chebyshev(7), minimise=rms(f"c + {load}"), **bounds))
+
+    table, formula = least(lines), least(ramps)
+    assert table.objective == pytest.approx(formula.objective, rel=1e-6)
+    assert 0.0 < table.lower_bound <= table.objective * (1.0 + 1e-9)
