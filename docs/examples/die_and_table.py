@@ -13,5 +13,5 @@ rules = [
     After("table", "0.65 mm", of="die", above="31 mm"),
     After("die", "31 mm", of="table", above="99.35 mm", way="down"),
 ]
-axes = {"table": {"segments": index, "advance": "100 mm"}, "die": die}
-Axes(axes, speed="60 rpm", interlocks=rules).gentlest("die").axes.plot(what="timing")
+machine = Axes({"table": {"segments": index, "advance": "100 mm"}, "die": die}, speed="60 rpm", interlocks=rules)
+machine.gentlest("die").axes.plot(what="timing")
