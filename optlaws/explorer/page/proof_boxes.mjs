@@ -1,6 +1,6 @@
 /* Trees over boxes of velocities and constants, for problems with the power D, with every rounding outward. */
 
-import { HALF, ONE, Rational, TWO, ZERO, exact, greatest, least, quotientRounded, whole } from "./proof_numbers.mjs";
+import { ONE, Rational, TWO, ZERO, exact, greatest, least, quotientRounded, whole } from "./proof_numbers.mjs";
 import { Rows, Unknown, rangeOf } from "./proof_rows.mjs";
 import { endVelocities } from "./proof_laws.mjs";
 
@@ -246,5 +246,3 @@ export function boxesHold(certificate) {
   if (!(certificate.claim > 0) || !Array.isArray(certificate.steps)) throw new TypeError("a claim above 0 and steps are needed");
   return new Boxes(certificate).hold(certificate.steps);
 }
-
-export { HALF };

@@ -149,7 +149,7 @@ export class Laws {
 }
 
 /* The integral of P_m(2t - 1) t^j from 0 to 1: j!² / ((j - m)! (j + m + 1)!). */
-function legendreMoment(m, j) {
+export function legendreMoment(m, j) {
   if (j < m) return ZERO;
   let [n, d] = [1n, BigInt(j + m + 1)];
   for (let i = 0; i < m; i += 1) {

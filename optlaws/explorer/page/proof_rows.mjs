@@ -1,7 +1,7 @@
 /* The rows that every law of a problem obeys, by the names that certificates use, in exact numbers. */
 
 import { HALF, ONE, TWO, ZERO, exact, sum, whole } from "./proof_numbers.mjs";
-import { endVelocities, inPlace, lawsOf, valueAt } from "./proof_laws.mjs";
+import { endVelocities, inPlace, lawsOf, legendreMoment } from "./proof_laws.mjs";
 
 /* What this program does not know, so that nothing is checked. */
 export class Unknown extends Error {}
@@ -279,13 +279,6 @@ export class Rows {
   }
 }
 
-function legendreMoment(m, power) {
-  if (power < m) return ZERO;
-  let value = ONE.over(whole(power + m + 1));
-  for (let i = 0; i < m; i += 1) value = value.times(whole(power - i)).over(whole(power + m - i));
-  return value;
-}
-
 function legendre(degree, x) {
   let [before, value] = [1, x];
   if (degree === 0) return 1;
@@ -312,4 +305,4 @@ function gauss(count) {
   return { nodes, weights };
 }
 
-export { valueAt, ROOT, PEAKS, MEANS };
+export { ROOT, PEAKS, MEANS };
