@@ -22,7 +22,15 @@ from tests.internals.jobs import job
 
 SCRIPTS = sorted((ROOT / "problems").rglob("*.py"))
 #: those that take more than some seconds; make check-results runs them too
-SLOW = {"dwell_types", "ledger", "loader_nomogram", "loader_optimal", "optimal_polydyne", "optimal_table"}
+SLOW = {
+    "dwell_types",
+    "ledger",
+    "lever_parametric",
+    "loader_nomogram",
+    "loader_optimal",
+    "optimal_polydyne",
+    "optimal_table",
+}
 #: where its searches of kinks stop is decided by rounding
 UNSTEADY = {"own_search"}
 #: modules whose names are public without a list of them

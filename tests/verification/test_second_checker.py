@@ -56,8 +56,8 @@ def checked(data: object, folder: Path) -> list[dict[str, Any]]:
 
 @pytest.mark.parametrize(
     ("name", "least"),
-    [("orders", 300), ("j_minimal", 300), *(pytest.param(*case, marks=pytest.mark.long) for case in [
-        ("optimal_table", 500), ("d_minimal", 200), ("mixed", 250)])],
+    [("j_minimal", 300), *(pytest.param(*case, marks=pytest.mark.long) for case in [
+        ("orders", 300), ("optimal_table", 500), ("d_minimal", 200), ("mixed", 250)])],
 )  # fmt: skip
 def test_stored_proofs_hold_there_too(name: str, least: int, tmp_path: Path) -> None:
     results = checked(json.loads((RESULTS / name / "laws.json").read_text(encoding="utf8")), tmp_path)
@@ -119,7 +119,7 @@ def _proofs(problems: Iterator[Problem]) -> Iterator[tuple[Any, float]]:
             yield certificate, float("-inf") if value is None else float(value)
 
 
-@pytest.mark.parametrize(("count", "seed"), [(16, 7), pytest.param(2000, 8, marks=pytest.mark.long)])
+@pytest.mark.parametrize(("count", "seed"), [(10, 7), pytest.param(2000, 8, marks=pytest.mark.long)])
 def test_random_proofs_are_worth_the_same(count: int, seed: int, tmp_path: Path) -> None:
     proofs = list(_proofs(_problems(count, seed)))
     results = checked([certificate.to_dict() for certificate, _ in proofs], tmp_path)

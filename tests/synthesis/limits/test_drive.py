@@ -143,7 +143,7 @@ def monotone_laws() -> list[MotionLaw]:
     st.floats(0.0, 2.0),
     st.sampled_from(["peak torque", "rms torque", "energy"]),
 )
-@examples(18)
+@examples(6)
 def test_no_standard_law_beats_the_limit(bulge: float, load: float, friction: float, minimise: str) -> None:
     torque = drive_torque(inertia=f"1 + {bulge!r}*a^2", friction=repr(friction), load=f"{load!r}*a")
     for law in monotone_laws():
