@@ -11,7 +11,7 @@ import json
 import os
 import stat
 from codecs import BOM_UTF16_BE, BOM_UTF16_LE
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, ClassVar, Self
 
@@ -117,6 +117,25 @@ def entries_of(data: Any, names: Iterable[str], what: str) -> dict[str, Any]:  #
     if missing:
         raise InputError(f"{what} needs {', '.join(missing)}")
     return {name: data[name] for name in names}
+
+
+def all_entries_of(data: Any, names: Sequence[str], what: str) -> dict[str, Any]:  # noqa: ANN401 - it is checked here
+    """The entries of a stored value that has these and no other; `what` is what an error calls it.
+
+    Raises
+    ------
+    InputError
+        If it is no table, one is missing, or there is another.
+
+    Examples
+    --------
+    >>> all_entries_of({"B": 1.5}, ["B"], "a loader")
+    {'B': 1.5}
+    """
+    entries = entries_of(data, names, what)
+    if len(data) > len(names):
+        raise InputError(f"{what} has the entries {', '.join(names)} and no other")
+    return entries
 
 
 class JsonText:

@@ -127,8 +127,9 @@ def run(results: Results) -> None:
     results.title = spec.title
     results.text("cycle.md", str(page(spec, cycles, exports, CycleSearches(sweeps, fastest, overlap))))
     for number, (sweep, rows) in enumerate(zip(spec.sweep, sweeps, strict=True), 1):
-        results.table(f"{SWEEP}{number}", *sweep_table(sweep, rows))
-        results.picture(f"{SWEEP}{number}", sweep_figure(*sweep_table(sweep, rows), f"{spec.title}: {sweep.axis}"))
+        headings, cells = sweep_table(sweep, rows)
+        results.table(f"{SWEEP}{number}", headings, cells)
+        results.picture(f"{SWEEP}{number}", sweep_figure(headings, cells, f"{spec.title}: {sweep.axis}"))
     facts = {"unit": "SI", "axes": {name: _stored(cycle) for name, cycle in cycles.items()}}
     results.data("cycle.json", facts | interlock_facts(cycles, overlap))
     if fastest:

@@ -6,7 +6,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from optlaws.errors import InputError
-from optlaws.files.reading import JsonText, entries_of
+from optlaws.files.reading import JsonText, all_entries_of
 from optlaws.numbers import not_negative, positive
 from optlaws.synthesis.least_time.motor_torque import TimedLimit
 from optlaws.synthesis.problem.named_constants import named
@@ -72,7 +72,4 @@ class FollowerResidual(JsonText):
         InputError
             If an entry is missing or wrong.
         """
-        entries = entries_of(data, _KEYS, cls._json_name)
-        if len(data) > len(_KEYS):
-            raise InputError(f"{cls._json_name} has the entries {', '.join(_KEYS)} and no other")
-        return cls(**entries)
+        return cls(**all_entries_of(data, _KEYS, cls._json_name))

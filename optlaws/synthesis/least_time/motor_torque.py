@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from optlaws.errors import InputError
-from optlaws.files.reading import JsonText, entries_of
+from optlaws.files.reading import JsonText, all_entries_of
 from optlaws.formulas.reading import read
 from optlaws.formulas.slopes import constant
 from optlaws.laws import smoothstep
@@ -122,7 +122,4 @@ class MotorTorque(JsonText):
         InputError
             If an entry is missing or wrong.
         """
-        entries = entries_of(data, _KEYS, cls._json_name)
-        if len(data) > len(_KEYS):
-            raise InputError(f"{cls._json_name} has the entries {', '.join(_KEYS)} and no other")
-        return cls(**entries)
+        return cls(**all_entries_of(data, _KEYS, cls._json_name))

@@ -13,7 +13,7 @@ from itertools import pairwise
 from typing import Any
 
 from optlaws.errors import InputError, SolverFailure
-from optlaws.files.reading import JsonText, entries_of
+from optlaws.files.reading import JsonText, all_entries_of
 from optlaws.numbers import not_negative, positive
 from optlaws.synthesis.families import names
 from optlaws.synthesis.least_time.move_limits import TimedMove, power
@@ -76,9 +76,7 @@ class TimeProof(JsonText):
         InputError
             If an entry is missing or wrong.
         """
-        entries = entries_of(data, _KEYS, cls._json_name)
-        if len(data) > len(_KEYS):
-            raise InputError(f"{cls._json_name} has the entries {', '.join(_KEYS)} and no other")
+        entries = all_entries_of(data, _KEYS, cls._json_name)
         shortest, longest = not_negative(entries["shortest"], "shortest"), positive(entries["longest"], "longest")
         if shortest > longest:
             raise InputError(f"the shortest time, {shortest!r}, is above the longest, {longest!r}")
