@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import asyncio
+from collections.abc import AsyncIterator, Callable
+from contextlib import asynccontextmanager
 from functools import cache
 from importlib.resources import files
 from typing import TYPE_CHECKING, Any
 
 import msgspec
 from starlette.applications import Starlette
-from starlette.concurrency import run_in_threadpool
 from starlette.datastructures import Headers, MutableHeaders
 from starlette.middleware import Middleware
 from starlette.requests import Request
@@ -17,12 +18,9 @@ from starlette.responses import PlainTextResponse, Response
 from starlette.routing import Route
 
 from optlaws import catalogue
-from optlaws.echo import cut
-from optlaws.errors import InputError, OptlawsError
-from optlaws.explorer import cam_view, cycle_view, downloads, front_view, law_view
-from optlaws.explorer.requests import LawRequest, LawsRequest, read, ready
-from optlaws.jobs.cam_entries import CamProblemFile
-from optlaws.jobs.cycle_entries import CycleProblemFile
+from optlaws.explorer import cam_view, cycle_view, downloads
+from optlaws.explorer.answering import QUESTIONS, message
+from optlaws.explorer.workers import MOST, SLICE, USUAL, Workers
 
 if TYPE_CHECKING:
     from starlette.types import ASGIApp, Message, Receive, Scope, Send
@@ -33,26 +31,10 @@ _SCRIPT = "text/javascript"
 _TYPES = {".html": "text/html", ".css": "text/css", ".js": _SCRIPT, ".mjs": _SCRIPT, ".svg": "image/svg+xml"}
 #: members of Savin's families that the page offers by name
 _MEMBERS = ("I(0)", "II(6)", "III(7.2)", "IV(10)")
-_BAD, _TOO_LONG, _WRONG = 400, 413, 422
-
-Answer = Callable[[Any], dict[str, Any]]
-#: by the last part of the path: what a question is read as, and what answers it
-QUESTIONS: dict[str, tuple[type[msgspec.Struct], Answer]] = {
-    "laws": (LawsRequest, law_view.answer),
-    "front": (front_view.FrontRequest, front_view.answer),
-    "nearest": (LawRequest, law_view.nearest),
-    "cam": (cam_view.CamRequest, cam_view.answer),
-    "cam-loads": (cam_view.CamRequest, cam_view.loads),
-    "cam-sizes": (cam_view.CamRequest, cam_view.sizes),
-    "cycle": (cycle_view.CycleRequest, cycle_view.answer),
-    "cycle-nearest": (cycle_view.CycleRequest, cycle_view.nearest),
-    "export": (downloads.ExportRequest, downloads.exported),
-    "save": (downloads.FileRequest, downloads.answer),
-    "residual": (law_view.ResidualRequest, law_view.residuals),
-}
+_BAD, _TOO_LONG, _LEFT = 400, 413, 499
 
 
-def application(start: dict[str, Any]) -> Starlette:
+def application(start: dict[str, Any], workers: Workers | None = None) -> Starlette:
     """The explorer as an application of ASGI; `start` is what the page shows first."""
     known = {
         "names": [*catalogue, *_MEMBERS],
@@ -62,13 +44,20 @@ def application(start: dict[str, Any]) -> Starlette:
         "formats": downloads.formats(),
     }
     first = msgspec.json.encode({"state": start, **known})
-    ready(*(kind for kind, _ in QUESTIONS.values()), CycleProblemFile, CamProblemFile)
+    answering = Workers() if workers is None else workers
+
+    @asynccontextmanager
+    async def ready(_: Starlette) -> AsyncIterator[None]:
+        await answering.prepare()
+        yield
+        answering.close()
+
     routes = [
         Route("/api/start", lambda _: _json(first)),
-        *(Route(f"/api/{name}", _asking(*question), methods=["POST"]) for name, question in QUESTIONS.items()),
+        *(Route(f"/api/{name}", _asking(name, answering), methods=["POST"]) for name in QUESTIONS),
         *(Route("/" if name == "index.html" else f"/{name}", _file(name)) for name in page()),
     ]
-    return Starlette(routes=routes, middleware=[Middleware(Guard)])
+    return Starlette(routes=routes, middleware=[Middleware(Guard)], lifespan=ready)
 
 
 @cache
@@ -84,34 +73,34 @@ def _file(name: str) -> Callable[[Request], Response]:
     return lambda _: Response(page()[name], media_type=kind)
 
 
-def _asking(kind: type[msgspec.Struct], answer: Answer) -> Callable[[Request], Any]:
+def _asking(name: str, workers: Workers) -> Callable[[Request], Any]:
     async def respond(request: Request) -> Response:
         if request.headers.get("content-type", "").partition(";")[0] != "application/json":
-            return _message("ask in application/json", _BAD)
+            return _json(message("ask in application/json"), _BAD)
         body = b""
         async for part in request.stream():
             body += part
             if len(body) > MOST_BYTES:
-                return _message(f"a question is at most {MOST_BYTES} bytes long", _TOO_LONG)
-        return await run_in_threadpool(_answered, body, kind, answer)
+                return _json(message(f"a question is at most {MOST_BYTES} bytes long"), _TOO_LONG)
+        answering = asyncio.ensure_future(workers.answer(name, body, _patience(request)))
+        left = asyncio.ensure_future(request.receive())  # nothing comes after the body but the end of the connection
+        await asyncio.wait({answering, left}, return_when=asyncio.FIRST_COMPLETED)
+        left.cancel()
+        if not answering.done():
+            answering.cancel()
+            return Response(status_code=_LEFT)
+        code, content = answering.result()
+        return _json(content, code)
 
     return respond
 
 
-def _answered(body: bytes, kind: type[msgspec.Struct], answer: Answer) -> Response:
-    """The answer; where what is asked does not exist, that is one too, and only what cannot be read is an error."""
+def _patience(request: Request) -> float:
+    """The seconds that the page gives a question; what it says is not always a number."""
     try:
-        question = read(body, kind)
-    except InputError as error:
-        return _message(str(error), _WRONG)
-    try:
-        return _json(msgspec.json.encode(answer(question)))
-    except OptlawsError as error:
-        return _message(str(error.args[0]))
-
-
-def _message(text: str, code: int = 200) -> Response:
-    return _json(msgspec.json.encode({"error": cut(text)}), code)
+        return min(MOST, max(SLICE, float(request.query_params.get("patience", USUAL))))
+    except ValueError:
+        return USUAL
 
 
 def _json(content: bytes, code: int = 200) -> Response:
@@ -119,6 +108,7 @@ def _json(content: bytes, code: int = 200) -> Response:
 
 
 NAMES = ("127.0.0.1", "localhost")
+_USUAL_PORT = 80  # browsers leave it out
 HEADERS = {
     "Content-Security-Policy": (
         "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self'; connect-src 'self'; "
@@ -141,9 +131,9 @@ class Guard:
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Answer, or say why not."""
         if scope["type"] != "http":
+            await self.app(scope, receive, send)
             return
-        headers = Headers(scope=scope)
-        why = self.refusal(headers.get("host", ""), headers.get("origin", ""), scope["server"][1])
+        why = self.refusal(Headers(scope=scope), scope["server"][1])
 
         async def sent(message: Message) -> None:
             if message["type"] == "http.response.start":
@@ -153,11 +143,13 @@ class Guard:
         await (self.app if not why else PlainTextResponse(f"{why}\n", status_code=403))(scope, receive, sent)
 
     @staticmethod
-    def refusal(host: str, origin: str, port: int) -> str:
+    def refusal(headers: Headers, port: int) -> str:
         """Why a request is refused; nothing where it is not."""
-        hosts = [f"{name}:{port}" for name in NAMES]
+        host, origin = headers.get("host", ""), headers.get("origin", "")
+        hosts = [f"{name}:{port}" for name in NAMES] + (list(NAMES) if port == _USUAL_PORT else [])
         if host not in hosts:
             return f"this server answers to {' and '.join(hosts)} only"
-        if origin and origin != f"http://{host}":
+        foreign = headers.get("sec-fetch-site", "none") not in {"none", "same-origin"}
+        if (origin and origin != f"http://{host}") or (foreign and headers.get("sec-fetch-mode") != "navigate"):
             return "this server answers its own pages only"
         return ""

@@ -17,6 +17,7 @@ ADDRESS = "127.0.0.1"
 #: where the explorer is unless asked, so that a link leads to it another day too
 PORT = 8337
 _MOST_PORT = 65535
+_GRACE = 2  # seconds for answers that are being written
 
 
 def opened(port: int | None) -> socket.socket:
@@ -46,12 +47,25 @@ def server(start: dict[str, Any]) -> uvicorn.Server:
         import uvicorn
 
         from optlaws.explorer.application import application
+        from optlaws.explorer.workers import Workers
     except ModuleNotFoundError as error:
         raise InputError(
             f"the explorer needs {error.name}, which is not installed: pip install 'optlaws[explore]'"
         ) from None
-    quiet: Any = {"log_level": "warning", "access_log": False, "ws": "none", "lifespan": "off", "http": "h11"}
-    return uvicorn.Server(uvicorn.Config(application(start), loop="asyncio", **quiet))
+    workers = Workers()
+
+    class Server(uvicorn.Server):
+        """A server that ends what it computes before it waits for answers."""
+
+        async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
+            """End, at once."""
+            workers.close()
+            await super().shutdown(sockets)
+
+    quiet: Any = {"log_level": "warning", "access_log": False, "ws": "none", "lifespan": "on", "http": "h11"}
+    return Server(
+        uvicorn.Config(application(start, workers), loop="asyncio", timeout_graceful_shutdown=_GRACE, **quiet)
+    )
 
 
 def explore(start: dict[str, Any], port: int | None = None, *, browser: bool = True) -> None:
@@ -60,7 +74,6 @@ def explore(start: dict[str, Any], port: int | None = None, *, browser: bool = T
     with opened(port) as listening:
         address = f"http://{ADDRESS}:{listening.getsockname()[1]}/"
         print(f"optlaws explorer: {address}  (Ctrl-C ends it)", flush=True)  # noqa: T201
-        Thread(target=_warm_up, daemon=True).start()
         if browser:
             # the socket listens already, so that the browser may come before the server does
             Thread(target=webbrowser.open, args=(address,), daemon=True).start()
@@ -68,11 +81,3 @@ def explore(start: dict[str, Any], port: int | None = None, *, browser: bool = T
             serving.run(sockets=[listening])
         except KeyboardInterrupt:
             print()  # noqa: T201 - Ctrl-C is how it ends
-
-
-def _warm_up() -> None:
-    """Load what solves, while the browser loads the page."""
-    from optlaws import Problem
-    from optlaws.explorer.requests import solved
-
-    solved(Problem(B=1.7, order=4))

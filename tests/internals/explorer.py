@@ -1,7 +1,8 @@
 """Internals of `optlaws.explorer` that tests look at by themselves."""
 
 from optlaws.explorer import cam_view, cycle_view, downloads, front_view, law_view
-from optlaws.explorer.application import MOST_BYTES, QUESTIONS, page
+from optlaws.explorer.answering import QUESTIONS
+from optlaws.explorer.application import MOST_BYTES, page
 from optlaws.explorer.cam_view import CamRequest
 from optlaws.explorer.cycle_view import CycleRequest, example
 from optlaws.explorer.downloads import FileRequest

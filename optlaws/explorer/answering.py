@@ -1,0 +1,103 @@
+"""The questions of the page and what answers each; also what a process does that answers them one after another."""
+
+from __future__ import annotations
+
+import os
+import signal
+import traceback
+from collections.abc import Callable
+from multiprocessing import parent_process
+from multiprocessing.connection import Connection, wait
+from threading import Thread
+from typing import Any
+
+import msgspec
+
+from optlaws.echo import cut
+from optlaws.errors import InputError, OptlawsError
+from optlaws.explorer import cam_view, cycle_view, downloads, front_view, law_view
+from optlaws.explorer.requests import LawRequest, LawsRequest, read, ready
+from optlaws.jobs.cam_entries import CamProblemFile
+from optlaws.jobs.cycle_entries import CycleProblemFile
+
+Answer = Callable[[Any], dict[str, Any]]
+#: by the last part of the path: what a question is read as, and what answers it
+QUESTIONS: dict[str, tuple[type[msgspec.Struct], Answer]] = {
+    "laws": (LawsRequest, law_view.answer),
+    "front": (front_view.FrontRequest, front_view.answer),
+    "nearest": (LawRequest, law_view.nearest),
+    "cam": (cam_view.CamRequest, cam_view.answer),
+    "cam-loads": (cam_view.CamRequest, cam_view.loads),
+    "cam-sizes": (cam_view.CamRequest, cam_view.sizes),
+    "cycle": (cycle_view.CycleRequest, cycle_view.answer),
+    "cycle-nearest": (cycle_view.CycleRequest, cycle_view.nearest),
+    "export": (downloads.ExportRequest, downloads.exported),
+    "save": (downloads.FileRequest, downloads.answer),
+    "residual": (law_view.ResidualRequest, law_view.residuals),
+}
+OK, UNREADABLE, FAULT = 200, 422, 500
+#: bytes that a process may take for its data, where the system can limit it
+_MOST_DATA = 1 << 30
+
+
+def answered(name: str, body: bytes) -> tuple[int, bytes]:
+    """The code and the JSON of an answer; only a question that cannot be read is an error.
+
+    Examples
+    --------
+    >>> answered("laws", b'{"laws": []}')
+    (422, b'{"error":"the question cannot be read: Expected `array` of length >= 1 - at `$.laws`"}')
+    """
+    kind, answer = QUESTIONS[name]
+    try:
+        question = read(body, kind)
+    except InputError as error:
+        return UNREADABLE, message(str(error))
+    try:
+        return OK, msgspec.json.encode(answer(question))
+    except OptlawsError as error:
+        return OK, message(str(error.args[0]))
+    except MemoryError:
+        return OK, message("this needs more memory than the explorer takes: ask for less")
+    except Exception:  # noqa: BLE001 - the process lives on, and the page says that the fault is ours
+        traceback.print_exc()
+        return FAULT, message("this is a fault of optlaws: its server printed where")
+
+
+def message(text: str) -> bytes:
+    """A sentence for the page, as JSON.
+
+    Examples
+    --------
+    >>> message("no such law")
+    b'{"error":"no such law"}'
+    """
+    return msgspec.json.encode({"error": cut(text)})
+
+
+def _limit_memory() -> None:
+    try:
+        import resource
+    except ModuleNotFoundError:  # no such limit on this system
+        return
+    resource.setrlimit(resource.RLIMIT_DATA, (_MOST_DATA, _MOST_DATA))
+
+
+def answer_from(connection: Connection) -> None:
+    """Answer the questions that come over a connection, until it ends or the server is gone."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the server's
+    _limit_memory()
+    Thread(target=_end_with_the_server, daemon=True).start()
+    ready(*(kind for kind, _ in QUESTIONS.values()), CycleProblemFile, CamProblemFile)
+    while True:
+        try:
+            connection.send(answered(*connection.recv()))
+        except (EOFError, ConnectionError):
+            return
+
+
+def _end_with_the_server() -> None:
+    server = parent_process()
+    if server is not None:
+        wait([server.sentinel])
+        os._exit(1)

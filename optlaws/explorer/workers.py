@@ -1,0 +1,169 @@
+"""Processes that answer the page's questions: a question that is dropped or takes too long ends with its process.
+
+A question begins at once in a process kept for new ones, the newest question first. Where it takes longer than a slice
+of time it goes on among the long ones: however many heavy questions wait, a light one is answered soon.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import multiprocessing
+import os
+from collections.abc import AsyncIterator
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import asynccontextmanager
+from typing import Any
+
+import msgspec
+
+from optlaws.explorer.answering import FAULT, OK, answer_from, message
+
+#: seconds after which a question is a long one, after which it ends unless it is given more, and the most of these
+SLICE, USUAL, MOST = 0.5, 4.0, 300.0
+_LONG = max(1, min(3, (os.cpu_count() or 2) - 1))
+_IDLE = 2
+_METHODS = multiprocessing.get_all_start_methods()
+#: where it can, a process is a copy of one that has loaded everything already
+_KIND = "forkserver" if "forkserver" in _METHODS else "spawn"
+Reply = tuple[int, bytes]
+
+
+class Worker:
+    """A process that answers one question at a time."""
+
+    def __init__(self) -> None:
+        context: Any = multiprocessing.get_context(_KIND)
+        if _KIND == "forkserver":
+            context.set_forkserver_preload(["optlaws.explorer.answering", "casadi"])
+        self._connection, its_own = context.Pipe()
+        self._process = context.Process(target=answer_from, args=(its_own,), daemon=True)
+        self._process.start()
+        its_own.close()
+        self._thread = ThreadPoolExecutor(1)
+        self._ended = False
+
+    @classmethod
+    async def begun(cls) -> Worker:
+        """A new process."""
+        return await asyncio.get_running_loop().run_in_executor(None, cls)
+
+    @property
+    def alive(self) -> bool:
+        """Whether the process can be given a question."""
+        return not self._ended and self._process.is_alive()
+
+    async def answer(self, name: str, body: bytes) -> Reply:
+        """The answer to a question; where the process ends before it, a sentence that says so."""
+        return await asyncio.get_running_loop().run_in_executor(self._thread, self._exchange, name, body)
+
+    def _exchange(self, name: str, body: bytes) -> Reply:
+        try:
+            self._connection.send((name, body))
+            reply: Reply = self._connection.recv()
+        except (EOFError, OSError):
+            self.end()
+            return FAULT, message("the process that computed this ended before its answer")
+        return reply
+
+    def end(self) -> None:
+        """End the process, whatever it does."""
+        if not self._ended:
+            self._ended = True
+            self._process.kill()
+            self._thread.shutdown(wait=False)
+
+
+class Workers:
+    """The processes of a server."""
+
+    def __init__(self) -> None:
+        self._idle: list[Worker] = []
+        self._all: set[Worker] = set()
+        self._busy = False
+        self._newcomers: list[asyncio.Future[None]] = []
+        self._long = asyncio.Semaphore(_LONG)
+        self._closed = False
+
+    async def prepare(self) -> None:
+        """Begin processes before the first question."""
+        while len(self._idle) < _IDLE and not self._closed:
+            worker = await Worker.begun()
+            self._all.add(worker)
+            self._idle.append(worker)
+
+    def close(self) -> None:
+        """End all processes; questions under way are answered with a sentence."""
+        self._closed = True
+        for worker in self._all:
+            worker.end()
+
+    async def answer(self, name: str, body: bytes, patience: float = USUAL) -> Reply:
+        """The answer to a question, which may take so many seconds; its process ends where the answer is cancelled."""
+        async with self._turn():
+            worker, reply = await self._begun(name, body)
+            await self._wait(worker, reply, min(SLICE, patience), end=patience <= SLICE or self._long.locked())
+        if not reply.done():
+            async with self._long:
+                if not worker.alive:
+                    worker, reply = await self._begun(name, body)
+                await self._wait(worker, reply, patience, end=True)
+        if worker.alive and reply.done() and len(self._idle) < _IDLE:
+            self._idle.append(worker)
+        else:
+            worker.end()
+        return reply.result() if reply.done() else (OK, late(patience))
+
+    async def _begun(self, name: str, body: bytes) -> tuple[Worker, asyncio.Task[Reply]]:
+        self._all = {worker for worker in self._all if worker.alive}
+        self._idle = [worker for worker in self._idle if worker.alive]
+        await self.prepare()
+        worker = self._idle.pop() if self._idle else next(iter(self._all))
+        return worker, asyncio.create_task(worker.answer(name, body))
+
+    @staticmethod
+    async def _wait(worker: Worker, reply: asyncio.Task[Reply], seconds: float, *, end: bool) -> None:
+        """Wait for an answer; where there is none in time, or nobody waits for it any more, its process may end."""
+        try:
+            await asyncio.wait({reply}, timeout=seconds)
+        except asyncio.CancelledError:
+            worker.end()
+            raise
+        if end and not reply.done():
+            worker.end()
+
+    @asynccontextmanager
+    async def _turn(self) -> AsyncIterator[None]:
+        """The right to begin a question: the last to come is the first to have it."""
+        if self._busy:
+            turn = asyncio.get_running_loop().create_future()
+            self._newcomers.append(turn)
+            try:
+                await turn
+            except asyncio.CancelledError:
+                if turn.done() and not turn.cancelled():
+                    self._pass_on()
+                raise
+        self._busy = True
+        try:
+            yield
+        finally:
+            self._pass_on()
+
+    def _pass_on(self) -> None:
+        self._busy = False
+        while self._newcomers and not self._busy:
+            turn = self._newcomers.pop()
+            if not turn.done():
+                self._busy = True
+                turn.set_result(None)
+
+
+def late(patience: float) -> bytes:
+    """A sentence about a question that had no answer in time, with the seconds that it had.
+
+    Examples
+    --------
+    >>> late(4.0)
+    b'{"error":"this takes more than 4 s","late":4.0}'
+    """
+    return msgspec.json.encode({"error": f"this takes more than {patience:g} s", "late": patience})

@@ -1,0 +1,82 @@
+"""Heavy questions end when nobody waits for them, when their time is over, with the server; light ones never wait."""
+
+import json
+import signal
+import subprocess
+import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
+from http.client import HTTPConnection
+from pathlib import Path
+
+import pytest
+
+from tests.explorer.talk import OPTIMAL, Server
+
+#: the branch and bound of a formula that is neither convex nor soon done
+HEAVY = {"laws": [{"problem": {"order": 4, "degree": 9, "minimise": "peak(cos(7*c)*sin(3*b))", "symmetric": False}}]}
+
+
+def processor_time(parent: int) -> float:
+    """Seconds of processor time of all descendants of a process that are alive."""
+    spent = 0.0
+    for stat in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            fields = stat.read_text().rpartition(")")[2].split()
+        except OSError:
+            continue
+        if int(fields[1]) == parent:
+            spent += (int(fields[11]) + int(fields[12])) / 100.0 + processor_time(int(stat.parent.name))
+    return spent
+
+
+def test_a_question_that_takes_long_ends_with_a_sentence(served: Server) -> None:
+    begin = time.monotonic()
+    answer = served.ask("laws?patience=0.5", HEAVY)
+    assert answer == {"error": "this takes more than 0.5 s", "late": 0.5}
+    assert time.monotonic() - begin < 5.0
+
+
+def test_a_light_question_does_not_wait_for_heavy_ones(served: Server) -> None:
+    heavy = [json.loads(json.dumps(HEAVY)) for _ in range(12)]
+    for number, question in enumerate(heavy):
+        question["laws"][0]["problem"]["minimise"] = f"peak(cos({number + 7}*c)*sin(3*b))"
+    connections = [HTTPConnection(served.name, served.port, timeout=60) for _ in heavy]
+    for connection, question in zip(connections, heavy, strict=True):
+        connection.request("POST", "/api/laws", json.dumps(question), {"Content-Type": "application/json"})
+    time.sleep(0.3)
+    begin = time.monotonic()
+    assert "curves" in served.ask("laws", {"laws": [OPTIMAL | {"title": "light"}]})["laws"][0]
+    assert served.send("GET", "/main.js")[0].status == 200
+    passed = time.monotonic() - begin
+    for connection in connections:
+        connection.close()  # nobody waits for them any more
+    assert passed < 5.0  # the slice of the one before it, and a machine that may be busy; one by one they take 48 s
+
+
+@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="reads the processor time of processes from /proc")
+def test_what_nobody_waits_for_costs_nothing_and_ctrl_c_ends_all() -> None:
+    arguments = [sys.executable, "-m", "optlaws", "explore", "cycloidal", "--no-browser", "--port", "0"]
+    with subprocess.Popen(arguments, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as running:
+        assert running.stdout is not None
+        served = Server("127.0.0.1", int(running.stdout.readline().split()[2].rstrip("/").rpartition(":")[2]))
+        served.ask("laws", {"laws": [OPTIMAL]})
+        connection = HTTPConnection(served.name, served.port)
+        body, kind = json.dumps(HEAVY), {"Content-Type": "application/json"}
+        connection.request("POST", "/api/laws?patience=100", body, kind)
+        time.sleep(1.0)
+        connection.close()
+        served.ask("laws", {"laws": [OPTIMAL | {"title": "another"}]})
+        before = processor_time(running.pid)
+        time.sleep(1.0)
+        assert processor_time(running.pid) - before < 0.5
+        with ThreadPoolExecutor(1) as pool:
+            late = pool.submit(
+                served.send, "POST", "/api/laws?patience=100", body.encode(), Content_Type="application/json"
+            )
+            time.sleep(1.0)
+            running.send_signal(signal.SIGINT)
+            complaints = running.communicate(timeout=10)[1]
+            assert b"ended before its answer" in late.result()[1]
+        assert running.returncode == 0
+        assert complaints == ""
