@@ -91,9 +91,19 @@ def answer_from(connection: Connection) -> None:
     ready(*(kind for kind, _ in QUESTIONS.values()), CycleProblemFile, CamProblemFile)
     while True:
         try:
-            connection.send(answered(*connection.recv()))
+            name, body, seconds = connection.recv()
+            _end_after(seconds)
+            reply = answered(name, body)
+            _end_after(0.0)
+            connection.send(reply)
         except (EOFError, ConnectionError):
             return
+
+
+def _end_after(seconds: float) -> None:
+    """Let the system end this process after so much processor time, wherever it is then; 0 is never."""
+    if hasattr(signal, "setitimer"):
+        signal.setitimer(signal.ITIMER_PROF, seconds)
 
 
 def _end_with_the_server() -> None:

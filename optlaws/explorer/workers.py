@@ -9,6 +9,7 @@ from __future__ import annotations
 import asyncio
 import multiprocessing
 import os
+import signal
 from collections.abc import AsyncIterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import asynccontextmanager
@@ -18,13 +19,15 @@ import msgspec
 
 from optlaws.explorer.answering import FAULT, OK, answer_from, message
 
-#: seconds after which a question is a long one, after which it ends unless it is given more, and the most of these
+#: seconds after which a question is a long one; seconds of the processor that it has, and that it can be given
 SLICE, USUAL, MOST = 0.5, 4.0, 300.0
+_WAITED = 5.0  # a busy machine may take so many times as long
 _LONG = max(1, min(3, (os.cpu_count() or 2) - 1))
 _IDLE = 2
 _METHODS = multiprocessing.get_all_start_methods()
 #: where it can, a process is a copy of one that has loaded everything already
 _KIND = "forkserver" if "forkserver" in _METHODS else "spawn"
+_OUT_OF_TIME = -signal.SIGPROF if hasattr(signal, "SIGPROF") else None
 Reply = tuple[int, bytes]
 
 
@@ -52,17 +55,21 @@ class Worker:
         """Whether the process can be given a question."""
         return not self._ended and self._process.is_alive()
 
-    async def answer(self, name: str, body: bytes) -> Reply:
+    async def answer(self, name: str, body: bytes, patience: float) -> Reply:
         """The answer to a question; where the process ends before it, a sentence that says so."""
-        return await asyncio.get_running_loop().run_in_executor(self._thread, self._exchange, name, body)
+        return await asyncio.get_running_loop().run_in_executor(self._thread, self._exchange, name, body, patience)
 
-    def _exchange(self, name: str, body: bytes) -> Reply:
+    def _exchange(self, name: str, body: bytes, patience: float) -> Reply:
         try:
-            self._connection.send((name, body))
+            self._connection.send((name, body, patience))
             reply: Reply = self._connection.recv()
         except (EOFError, OSError):
+            self._process.join()
+            in_time = self._process.exitcode != _OUT_OF_TIME
             self.end()
-            return FAULT, message("the process that computed this ended before its answer")
+            if in_time:
+                return FAULT, message("the process that computed this ended before its answer")
+            return OK, late(patience)
         return reply
 
     def end(self) -> None:
@@ -100,25 +107,25 @@ class Workers:
     async def answer(self, name: str, body: bytes, patience: float = USUAL) -> Reply:
         """The answer to a question, which may take so many seconds; its process ends where the answer is cancelled."""
         async with self._turn():
-            worker, reply = await self._begun(name, body)
-            await self._wait(worker, reply, min(SLICE, patience), end=patience <= SLICE or self._long.locked())
+            worker, reply = await self._begun(name, body, patience)
+            await self._wait(worker, reply, SLICE, end=self._long.locked())
         if not reply.done():
             async with self._long:
                 if not worker.alive:
-                    worker, reply = await self._begun(name, body)
-                await self._wait(worker, reply, patience, end=True)
+                    worker, reply = await self._begun(name, body, patience)
+                await self._wait(worker, reply, _WAITED * patience, end=True)
         if worker.alive and reply.done() and len(self._idle) < _IDLE:
             self._idle.append(worker)
         else:
             worker.end()
         return reply.result() if reply.done() else (OK, late(patience))
 
-    async def _begun(self, name: str, body: bytes) -> tuple[Worker, asyncio.Task[Reply]]:
+    async def _begun(self, name: str, body: bytes, patience: float) -> tuple[Worker, asyncio.Task[Reply]]:
         self._all = {worker for worker in self._all if worker.alive}
         self._idle = [worker for worker in self._idle if worker.alive]
         await self.prepare()
         worker = self._idle.pop() if self._idle else next(iter(self._all))
-        return worker, asyncio.create_task(worker.answer(name, body))
+        return worker, asyncio.create_task(worker.answer(name, body, patience))
 
     @staticmethod
     async def _wait(worker: Worker, reply: asyncio.Task[Reply], seconds: float, *, end: bool) -> None:

@@ -6,7 +6,7 @@ import { Mechanism } from "./mechanism.js";
 import { Motion } from "./motion.js";
 import { Programme } from "./programme.js";
 import { html } from "./svg.js";
-import { showTrust } from "./trust.js";
+import { showTrust, unanswered } from "./trust.js";
 
 const told = (value) => JSON.stringify(value);
 const element = (id) => document.getElementById(id);
@@ -34,7 +34,7 @@ export class CamView {
   #dial;
   #play;
 
-  constructor(study, failed, followers) {
+  constructor(study, followers) {
     this.#study = study;
     this.#followers = followers;
     this.#programme = new Programme(element("cam-programme"), study, (state) => state.cam);
@@ -43,9 +43,9 @@ export class CamView {
       if (answer.refused) return;
       if (question.study.motion?.drive) this.#loads.ask(question);
       this.#sizes.ask(question);
-    }, failed);
-    this.#loads = new Latest("api/cam-loads", (loads, asked) => told(asked.study) === told(this.#study.state.cam) && this.#bear(loads), failed);
-    this.#sizes = new Latest("api/cam-sizes", ({ facts }, asked) => told(asked.study) === told(this.#study.state.cam) && this.#fact(facts), failed);
+    }, (error) => this.#render(unanswered(error)));
+    this.#loads = new Latest("api/cam-loads", (loads, asked) => told(asked.study) === told(this.#study.state.cam) && this.#bear(loads), (error) => this.#bear({ panels: [], facts: [error.message] }));
+    this.#sizes = new Latest("api/cam-sizes", ({ facts }, asked) => told(asked.study) === told(this.#study.state.cam) && this.#fact(facts), (error) => this.#fact([error.message]));
     this.#turning();
   }
 

@@ -58,7 +58,7 @@ export class Controls {
 
   #objective() {
     const rows = CONSTANTS.map((name) => {
-      const row = this.#field(`weight ${name}`, { name: SHOWN[name], title: `Weight of ${WORDS[name]} in the objective`, low: 0, high: 1, step: 0.05 }, (law, value) => minimise(law, { ...law.weights, [name]: Math.max(0, value) }));
+      const row = this.#field(`weight ${name}`, { name: SHOWN[name], title: `Weight of ${WORDS[name]} in the objective`, low: 0, high: 1, step: 0.05, most: 100 }, (law, value) => minimise(law, { ...law.weights, [name]: Math.max(0, value) }));
       const alone = html("button", { type: "button", class: "link", title: `Minimise the ${WORDS[name]} alone`, text: SHOWN[name], onclick: () => this.#change(`alone ${name}`, (law) => minimise(law, { [name]: 1 })) });
       row.firstElementChild.replaceChildren(alone);
       return row;
@@ -75,8 +75,8 @@ export class Controls {
 
   #shape() {
     const B = this.#field("B", { name: "B", title: "Peak velocity B", low: 1.05, high: 2.6, step: 0.001, off: true }, (law, value) => setVelocity(law, value === undefined ? this.#rounded("B") : value));
-    const order = this.#field("order", { name: "order l", title: "Order: end conditions at each end", low: 2, high: 8, step: 1 }, (law, value) => (law.problem.order = Math.round(value)));
-    const degree = this.#field("degree", { name: "degree", title: "Degree of Z", low: 1, high: 25, step: 1 }, (law, value) => (law.problem.degree = Math.round(value)));
+    const order = this.#field("order", { name: "order l", title: "Order: end conditions at each end", low: 2, high: 8, step: 1, most: 12 }, (law, value) => (law.problem.order = Math.round(value)));
+    const degree = this.#field("degree", { name: "degree", title: "Degree of Z", low: 1, high: 25, step: 1, most: 41 }, (law, value) => (law.problem.degree = Math.round(value)));
     return group("Law", B, order, degree, this.#switch("monotone", "no return (b ≥ 0)", false), this.#switch("symmetric", "symmetric", true));
   }
 

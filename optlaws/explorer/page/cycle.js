@@ -4,7 +4,7 @@ import { Latest } from "./latest.js";
 import { Motion } from "./motion.js";
 import { Programme } from "./programme.js";
 import { html } from "./svg.js";
-import { showTrust } from "./trust.js";
+import { showTrust, unanswered } from "./trust.js";
 
 const element = (id) => document.getElementById(id);
 const HEADINGS = ["segment", "from, deg", "to, deg", "takes, ms", "moves", "velocity", "acceleration", "jerk"];
@@ -18,11 +18,11 @@ export class CycleView {
   #cycles;
   #nearest;
 
-  constructor(study, failed) {
+  constructor(study) {
     this.#study = study;
     this.#programme = new Programme(element("programme"), study, (state) => state.cycle);
-    this.#cycles = new Latest("api/cycle", (answer, question) => this.#answered(answer, question), failed);
-    this.#nearest = new Latest("api/cycle-nearest", ({ ways }) => this.#render(this.#answer, ways), failed);
+    this.#cycles = new Latest("api/cycle", (answer, question) => this.#answered(answer, question), (error, question) => this.#answered(unanswered(error), question));
+    this.#nearest = new Latest("api/cycle-nearest", ({ ways }) => this.#render(this.#answer, ways), () => this.#render(this.#answer, []));
   }
 
   show(state) {

@@ -2,12 +2,13 @@
 
 import { html } from "./svg.js";
 
-/** A row with a name, a slider and a number; `off` makes a switch of it. Returns {element, set}. */
-export function slider({ name, title, low, high, step, off = false, changed, rested }) {
+/** A row with a name, a slider and a number; `off` makes a switch of it, `most` is the greatest number. Returns
+    {element, set}. */
+export function slider({ name, title, low, high, step, most = null, off = false, changed, rested }) {
   const range = html("input", { type: "range", min: low, max: high, step, "aria-label": title });
-  const number = html("input", { type: "number", min: 0, step: "any", "aria-label": `${title}, number` });
+  const number = html("input", { type: "number", min: 0, max: most, step: "any", "aria-label": `${title}, number` });
   const toggle = off ? html("input", { type: "checkbox", "aria-label": `${title}: bounded` }) : null;
-  const tell = (field) => () => field.value !== "" && Number.isFinite(Number(field.value)) && changed(Number(field.value));
+  const tell = (field) => () => field.value !== "" && Number.isFinite(Number(field.value)) && changed(Math.min(most ?? Infinity, Number(field.value)));
   range.addEventListener("input", tell(range));
   range.addEventListener("change", rested);
   number.addEventListener("input", tell(number));

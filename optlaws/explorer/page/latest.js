@@ -1,20 +1,38 @@
-// Questions to the server: one in flight a path, and of those that wait the last one wins.
+// Questions to the server: one in flight a path, and of those that wait the last one wins. One that takes long can be
+// stopped or given more time; while the server is away the last one is asked again.
 
-let working = 0;
+const SLOW = 1000; // ms after which a question can be stopped, and gives way to a newer one
+const AGAIN = 1500; // ms between attempts while the server does not answer
+const PATIENCE = 120; // s that a question has where the reader lets it go on
 
-function work(change) {
-  working += change;
-  document.body.dataset.work = working ? "busy" : "settled";
+const all = new Set();
+let observer = () => {};
+
+/** `told({lost, slow, late})` is called when the server is lost or back, when questions become slow, when one is late. */
+export function observe(told) {
+  observer = told;
 }
 
-async function ask(path, question) {
-  const response = await fetch(path, {
+function changed() {
+  const questions = [...all];
+  document.body.dataset.work = questions.some(({ busy }) => busy) ? "busy" : "settled";
+  const those = (name) => questions.filter((one) => one[name]);
+  observer({ lost: those("lost").length > 0, slow: those("slow"), late: those("late") });
+}
+
+class Lost extends Error {}
+
+async function ask(path, question, patience, signal) {
+  const response = await fetch(patience ? `${path}?patience=${patience}` : path, {
     method: "POST",
     headers: { "Content-Type": "application/json" },
     body: JSON.stringify(question),
+    signal,
+  }).catch((error) => {
+    throw error.name === "AbortError" ? error : new Lost(error.message);
   });
   const answer = await response.json();
-  if (answer.error) throw new Error(answer.error);
+  if (answer.error) throw Object.assign(new Error(answer.error), { late: answer.late });
   return answer;
 }
 
@@ -22,13 +40,17 @@ export class Latest {
   #path;
   #answered;
   #failed;
-  #busy = false;
+  #flight = null;
   #waiting = null;
+  #late = null;
+  lost = false;
+  slow = false;
 
   constructor(path, answered, failed) {
     this.#path = path;
     this.#answered = answered;
     this.#failed = failed;
+    all.add(this);
   }
 
   /** Whether an answer under way is older than the last question. */
@@ -36,24 +58,71 @@ export class Latest {
     return this.#waiting !== null;
   }
 
-  ask(question) {
-    if (!this.#busy && this.#waiting === null) work(1);
-    this.#waiting = { question };
-    if (!this.#busy) this.#next();
+  get busy() {
+    return this.#flight !== null || this.#waiting !== null;
+  }
+
+  get late() {
+    return this.#late !== null;
+  }
+
+  ask(question, patience = null) {
+    this.#late = null;
+    this.#waiting = { question, patience };
+    if (this.slow) this.#flight.abort();
+    if (this.#flight === null) this.#next();
+  }
+
+  /** Nobody waits for the answer any more. */
+  stop() {
+    this.#waiting = null;
+    this.#flight?.abort();
+  }
+
+  /** Ask the question that was late once more, with more time. */
+  goOn() {
+    if (this.#late !== null) this.ask(this.#late, PATIENCE);
   }
 
   async #next() {
-    const { question } = this.#waiting;
-    this.#waiting = null;
-    this.#busy = true;
-    try {
-      this.#answered(await ask(this.#path, question), question);
-    } catch (error) {
-      this.#failed(error, question);
-    } finally {
-      this.#busy = false;
-      if (this.#waiting) this.#next();
-      else work(-1);
+    while (this.#waiting !== null) {
+      const { question, patience } = this.#waiting;
+      this.#waiting = null;
+      this.#flight = new AbortController();
+      changed();
+      const timer = setTimeout(() => this.#state({ slow: true }), SLOW);
+      try {
+        const answer = await ask(this.#path, question, patience, this.#flight.signal);
+        this.#state({ lost: false, slow: false });
+        this.#answered(answer, question);
+      } catch (error) {
+        if (error instanceof Lost) await this.#again(question, patience);
+        else this.#fail(error, question);
+      } finally {
+        clearTimeout(timer);
+        this.slow = false;
+        this.#flight = null;
+      }
     }
+    changed();
+  }
+
+  #fail(error, question) {
+    this.lost = false;
+    if (error.late) this.#late = question;
+    if (error.name !== "AbortError") return this.#failed(error, question);
+    if (this.#waiting === null) this.#failed(new Error("stopped"), question);
+  }
+
+  async #again(question, patience) {
+    this.#state({ lost: true, slow: false });
+    await new Promise((resolve) => setTimeout(resolve, AGAIN));
+    this.#waiting ??= { question, patience };
+  }
+
+  #state({ lost = this.lost, slow = this.slow }) {
+    const same = lost === this.lost && slow === this.slow;
+    Object.assign(this, { lost, slow });
+    if (!same) changed();
   }
 }

@@ -9,7 +9,7 @@ import { Plane } from "./plane.js";
 import { Residual } from "./residual.js";
 import { showTable } from "./table.js";
 import { Tray } from "./tray.js";
-import { showTrust } from "./trust.js";
+import { showTrust, unanswered } from "./trust.js";
 import { html } from "./svg.js";
 
 const PICTURES = { "B-C": "C over B", "B-D": "D over B", "B-J": "J over B", "C-D": "D over C", "J-C": "C over J", residual: "residual" };
@@ -39,7 +39,7 @@ export class Laws {
   #residuals;
   #drawn;
 
-  constructor(study, names, failed, drawn) {
+  constructor(study, names, drawn) {
     this.#study = study;
     this.#drawn = drawn;
     this.#controls = new Controls(element("ask"), study, (name) => this.#value(name));
@@ -50,10 +50,10 @@ export class Laws {
     this.#residual = new Residual(residual);
     this.#chooses = tabs(element("pictures"), PICTURES, (key) => study.change("picture", (state) => (state.picture = key)));
     this.#follower = this.#followerFields();
-    this.#laws = new Latest("api/laws", (answer, question) => this.#answered(answer, question), failed);
-    this.#fronts = new Latest("api/front", (front) => this.#showFront(front), failed);
-    this.#nearest = new Latest("api/nearest", (answer, question) => this.#near(answer, question), failed);
-    this.#residuals = new Latest("api/residual", (answer) => this.#showResidual(answer), failed);
+    this.#laws = new Latest("api/laws", (answer, question) => this.#answered(answer, question), (error, question) => this.#answered({ laws: question.laws.map(() => unanswered(error)) }, question));
+    this.#fronts = new Latest("api/front", (front) => this.#showFront(front), (error) => this.#withoutFront(error));
+    this.#nearest = new Latest("api/nearest", (answer, question) => this.#near(answer, question), (_, question) => this.#near({ ways: [] }, question));
+    this.#residuals = new Latest("api/residual", (answer) => this.#showResidual(answer), (error) => this.#withoutResidual(error));
   }
 
   show(state) {
@@ -98,9 +98,20 @@ export class Laws {
     this.#render();
   }
 
+  #withoutFront(error) {
+    this.#front = null;
+    this.#words = `no front: ${error.message}`;
+    this.#render();
+  }
+
   #showResidual(answer) {
     this.#residual.show(answer, this.#state.active);
     this.#left = `residual acceleration at ν = ${answer.at}: ${answer.laws.map((law, i) => `${"ABCD"[i]} ${law?.text ?? "—"}`).join(", ")}`;
+    this.#render();
+  }
+
+  #withoutResidual(error) {
+    this.#left = error.message;
     this.#render();
   }
 
@@ -153,7 +164,7 @@ export class Laws {
 
   #followerFields() {
     const field = (name, title, key, high, step) => slider({
-      name, title, low: key === "frequency" ? 2 : 0, high, step,
+      name, title, low: key === "frequency" ? 2 : 0, high, step, most: key === "frequency" ? 1000 : 0.999,
       changed: (value) => this.#study.change(key, (state) => (state[key] = value)),
       rested: () => this.#study.rest(),
     });

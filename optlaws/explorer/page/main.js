@@ -4,8 +4,10 @@ import { CamView } from "./cam.js";
 import { CycleView } from "./cycle.js";
 import { Exporting } from "./exporting.js";
 import { tabs } from "./fields.js";
+import { observe } from "./latest.js";
 import { Laws } from "./laws.js";
 import { FIRST, Study, read } from "./state.js";
+import { html } from "./svg.js";
 import { restore } from "./theme.js";
 import { Tools } from "./tools.js";
 
@@ -13,15 +15,22 @@ const VIEWS = { laws: "Laws", cycle: "Cycle", cam: "Cam" };
 
 restore();
 
-function notice(text) {
+function notice(text, ...buttons) {
   const root = document.getElementById("notice");
-  root.textContent = text;
+  root.replaceChildren(text, ...buttons);
   root.hidden = !text;
 }
 
-function failed(error) {
-  const gone = error instanceof TypeError;
-  notice(gone ? "The server does not answer: start `optlaws explore` again; the address keeps the study." : error.message);
+let working = false;
+
+/** What the server is at, where the reader should know: it is away, it computes for long, it had too little time. */
+function work({ lost, slow, late }) {
+  const button = (text, act) => html("button", { type: "button", text, onclick: act });
+  if (lost) notice("The server does not answer. This page keeps the study, and goes on as soon as `optlaws explore` runs again.");
+  else if (slow.length) notice("Computing …", button("Stop", () => slow.forEach((one) => one.stop())));
+  else if (late.length) notice("This is not computed within 4 s.", button("Go on for 2 minutes", () => late.forEach((one) => one.goOn())));
+  else if (working) notice("");
+  working = lost || slow.length > 0 || late.length > 0;
 }
 
 /** When something happened last. */
@@ -53,7 +62,6 @@ async function begin() {
   const tools = new Tools(document.getElementById("tools"), study, notice, exporting);
 
   function render(now) {
-    notice("");
     const view = VIEWS[now.view] ? now.view : "laws";
     for (const name of Object.keys(VIEWS)) document.getElementById(`${name}-view`).hidden = name !== view;
     choose(view);
@@ -62,13 +70,14 @@ async function begin() {
     exporting.show(now);
   }
 
-  views.laws = new Laws(study, names, failed, painted);
-  views.cycle = new CycleView(study, failed);
-  views.cam = new CamView(study, failed, followers);
+  observe(work);
+  views.laws = new Laws(study, names, painted);
+  views.cycle = new CycleView(study);
+  views.cam = new CamView(study, followers);
   if (first.view in examples) first[first.view] ??= structuredClone(examples[first.view]);
   addEventListener("hashchange", () => study.replace(read(location.hash)));
   for (const kind of ["input", "pointermove", "keydown"]) addEventListener(kind, () => marked("input"), { capture: true, passive: true });
   render(first);
 }
 
-begin().catch(failed);
+begin().catch((error) => notice(error instanceof TypeError ? "The server does not answer: start `optlaws explore` again; the address keeps the study." : error.message));

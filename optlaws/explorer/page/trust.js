@@ -26,3 +26,8 @@ function refusal({ word, reason, tried }, ways, go) {
   }
   return found;
 }
+
+/** The view of what has no answer: what was shown before is of another question. */
+export function unanswered(error, title = "") {
+  return { title, refused: { word: "no answer", reason: error.message, tried: "" } };
+}
