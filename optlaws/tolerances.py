@@ -118,6 +118,7 @@ FEEDTHROUGH = 1e-9  # of what a coefficient is computed from: less is rounding
 
 # --- cams and cycles ------------------------------------------------------------------------------------------------
 OUTLINE_SHARE = 1e-3  # no part of an outline is left without places, however straight it is
+DRAWN_DEVIATION = 2e-3  # of a curve's range: a line between two of its places is the curve to the eye
 OUTLINE_DRAWN = 1e-5  # m: by so much the outline of an animated cam may be off
 LIFTED = 1e-3  # of the stroke: so far up more stiffness is more force
 SIZE_BRACKET = 1e-8  # of a radius: width of the bracket of a least size

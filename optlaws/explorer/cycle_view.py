@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import msgspec
+import numpy as np
 
 from optlaws import Cycle, Status
 from optlaws.cycles.kinematics import SegmentPeaks
@@ -17,6 +18,7 @@ from optlaws.cycles.optimisation.objectives import OBJECTIVES
 from optlaws.cycles.summary import drive_rows, joint_rows, objective_unit
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
 from optlaws.explorer.law_view import TITLES, digits, drawn, gap_text, refusal
+from optlaws.explorer.picture_points import refined
 from optlaws.explorer.requests import MOST_DEGREE, MOST_ORDER
 from optlaws.files.problem_file import convert
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile, cycle_of
@@ -117,6 +119,8 @@ def _limits(shown: Cycle) -> list[dict[int, tuple[float, float]]]:
 def _panel(shown: Cycle, nu: int) -> dict[str, Any]:
     unit, factor = UNITS[shown.axis][nu]
     times, sampled = samples(shown, nu, _EACH)
+    extremes = [time for peak in shown.peaks for _, time in peak.extremes[nu]]
+    times, (sampled,) = refined(times, [sampled], [lambda places: np.asarray(shown(places, nu))], np.array(extremes))
     places = [_degrees(shown, time) for time in times.tolist()]
     values = drawn(factor * sampled)
     limits = [

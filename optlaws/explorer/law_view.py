@@ -14,6 +14,7 @@ import numpy as np
 
 from optlaws import Chebyshev, MotionLaw, Peak, Problem, Solution, Status, residual_vibration, response_spectrum
 from optlaws.errors import InfeasibleProblem, OptlawsError, SolverFailure
+from optlaws.explorer.picture_points import refined
 from optlaws.explorer.requests import (
     MOST_DEGREE,
     MOST_LAWS,
@@ -142,10 +143,17 @@ def digits(number: float, count: int = 7) -> str:
 
 def curves(law: MotionLaw) -> dict[str, list[float | None]]:
     """Values of a, b, c, d and j over k, as they are drawn; None where there is no finite value."""
-    k = law.samples(_SAMPLES)[0]
     values = {letter: law.samples(_SAMPLES, nu)[1] for letter, nu in _ORDERS.items()}
     values["d"] = values["b"] * values["c"]
-    return {"k": drawn(k)} | {letter: drawn(values[letter]) for letter in LETTERS}
+    functions = {"a": law.a, "b": law.b, "c": law.c, "d": law.d, "j": law.j}
+    extremes = [*(extreme for nu in (1, 2, 3) for extreme in law.extrema(nu)), *law.power_extrema()]
+    k, curves = refined(
+        law.samples(_SAMPLES)[0],
+        [values[letter] for letter in LETTERS],
+        [functions[letter] for letter in LETTERS],
+        np.array([extreme.k for extreme in extremes]),
+    )
+    return {"k": drawn(k)} | {letter: drawn(curve) for letter, curve in zip(LETTERS, curves, strict=True)}
 
 
 def drawn(values: Array, decimals: int = _DRAWN) -> list[float | None]:

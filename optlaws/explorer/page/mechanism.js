@@ -41,7 +41,7 @@ export class Mechanism {
     const top = Math.max(...frames.centre.map(([, y]) => y)) + 0.45 * reach;
     const [low, high] = [-reach, follower.pivot === null ? Math.max(reach, top) : reach];
     const scale = Math.min(width / (2 * reach), height / (high - low));
-    this.#cam = svg("g", {}, ...Object.entries(curves).map(([name, points]) => svg("path", { class: `cam-${name}`, d: `${path(points)}Z` })), svg("circle", { class: "shaft", r: 0.06 * reach }), svg("line", { class: "key", x1: 0, y1: 0, x2: 0.06 * reach, y2: 0 }));
+    this.#cam = svg("g", {}, ...Object.entries(curves).map(([name, points]) => svg("path", { class: `cam-${name}`, d: `${path(points, 4)}Z` })), svg("circle", { class: "shaft", r: 0.06 * reach }), svg("line", { class: "key", x1: 0, y1: 0, x2: 0.06 * reach, y2: 0 }));
     this.#follower = svg("g", { class: "follower" });
     // y upward, as in drawings of machines
     const world = svg("g", { transform: `translate(${width / 2} ${(height + scale * (high + low)) / 2}) scale(${scale} ${-scale})` }, this.#cam, this.#follower);

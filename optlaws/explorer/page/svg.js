@@ -21,8 +21,8 @@ export function svg(tag, attributes = {}, ...children) {
   return fill(document.createElementNS(SVG, tag), attributes, children);
 }
 
-/** A path through [x, y] pairs in pixels; null breaks it. */
-export function path(places) {
+/** A path through [x, y] pairs in pixels, or in units of which a picture takes so many decimals; null breaks it. */
+export function path(places, decimals = 1) {
   let text = "";
   let pen = "M";
   for (const place of places) {
@@ -30,7 +30,7 @@ export function path(places) {
       pen = "M";
       continue;
     }
-    text += `${pen}${place[0].toFixed(1)} ${place[1].toFixed(1)}`;
+    text += `${pen}${place[0].toFixed(decimals)} ${place[1].toFixed(decimals)}`;
     pen = "L";
   }
   return text;
