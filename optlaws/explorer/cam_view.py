@@ -79,7 +79,7 @@ def _view(findings: Findings) -> dict[str, Any]:
         "panels": _panels(spec, cam, angles),
         "across": "angle of the cam, deg",
         "segments": [],
-        "trust": _trust(cam),
+        "trust": _trust(cam) | _broken_limits(spec, cam),
     }
 
 
@@ -164,8 +164,27 @@ def _trust(cam: DiscCam) -> dict[str, Any]:
     return {"status": status, "word": word, "advice": f"{text[0].upper()}{text[1:]}.", "gap": "", "facts": facts}
 
 
+def _broken_limits(spec: CamProblemFile, cam: DiscCam) -> dict[str, str]:
+    """A verdict on limits that the cam does not keep; nothing where it keeps all."""
+    extremes, broken = cam.extremes, []
+    pressure, radius = extremes.greatest_pressure_angle.value, extremes.least_convex_radius.value
+    if spec.pressure_angle is not None and pressure > quantity(spec.pressure_angle, "angle", "pressure_angle"):
+        broken.append(f"the pressure angle, {digits(degrees(pressure), 5)} deg of {spec.pressure_angle}")
+    least = spec.radius_of_curvature
+    if least is not None and radius < quantity(least, "length", "radius_of_curvature"):
+        broken.append(f"the radius of curvature, {digits(_MILLI * radius, 5)} mm of {least}")
+    if not broken or extremes.undercut.status == "undercut":
+        return {}
+    return {"status": "refused", "word": "beyond a limit", "advice": f"Beyond what is allowed: {'; '.join(broken)}."}
+
+
 def _located(extreme: EnclosedExtreme, factor: float, unit: str) -> str:
-    return f"{digits(extreme.value * factor)} {unit} at {digits(degrees(extreme.angle), 5)} deg"
+    return f"{digits(extreme.value * factor)} {unit} at {_at(extreme.angle)} deg"
+
+
+def _at(angle: float) -> str:
+    """An angle in degrees, to a millionth."""
+    return digits(round(degrees(angle), 6) + 0.0, 5)
 
 
 def sizes(request: CamRequest) -> dict[str, Any]:
@@ -262,7 +281,7 @@ def _load_panel(force: Labelled[Extremes], values: Callable[[Array], Any]) -> di
 def _load_facts(forces: CamForces) -> list[str]:
     """What is enclosed over the whole turn, in words."""
     contact, torque = forces.contact, forces.torque
-    lifted = f"the follower lifts off at {digits(degrees(contact.least_at), 5)} deg: " if forces.lifts_off else ""
+    lifted = f"the follower lifts off at {_at(contact.least_at)} deg: " if forces.lifts_off else ""
     turned = f"torque at the shaft {digits(torque.least, 6)} to {digits(torque.most, 6)} N m"
     facts = [
         f"{lifted}contact force {digits(contact.least, 6)} to {digits(contact.most, 6)} N",

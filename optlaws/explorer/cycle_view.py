@@ -181,7 +181,8 @@ def _plain(value: float, size: float) -> str:
 
 def _trust(shown: Cycle) -> dict[str, Any] | None:
     if not shown.solutions:
-        return None
+        broken = _broken_limits(shown)
+        return {"gap": "", "facts": []} | broken if broken else None
     unit = objective_unit(shown)
     facts = [f"least {shown.minimise} = {digits(shown.objective)} {unit}"]
     gap = ""
@@ -191,13 +192,27 @@ def _trust(shown: Cycle) -> dict[str, Any] | None:
     facts += shown.remarks
     advice = {Status.OPTIMAL: f"The lower bound meets the objective: none is better of {shown.search_space}."}
     status = shown.status
-    return {
+    trust = {
         "status": status.value,
         "word": TITLES[status],
         "advice": advice.get(status, status.advice),
         "gap": gap,
         "facts": facts,
     }
+    return trust | _broken_limits(shown)
+
+
+def _broken_limits(shown: Cycle) -> dict[str, str]:
+    """A verdict on limits that segments go beyond, which no optimum makes good; nothing where none does."""
+    broken = [
+        f"{peak.name} ({QUANTITIES[nu]})"
+        for peak, limits in zip(shown.peaks, _limits(shown), strict=True)
+        for nu in (1, 2, 3)
+        if _beyond(peak, nu, limits.get(nu, (-inf, inf)))
+    ]
+    if not broken:
+        return {}
+    return {"status": "refused", "word": "beyond a limit", "advice": f"Beyond what is allowed: {', '.join(broken)}."}
 
 
 def _facts(shown: Cycle) -> list[str]:

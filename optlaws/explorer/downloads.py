@@ -73,8 +73,8 @@ def answer(request: FileRequest) -> File:
     makers: Mapping[str, Callable[[], File]] = {
         "python": lambda: _file("study.py", "text/x-python", python(request.laws)),
         "problem": lambda: _file("problem.toml", "application/toml", problem_file(law)),
-        "law": lambda: _file(f"{_stem(law)}.json", "application/json", stored(law)),
-        "table": lambda: _file(f"{_stem(law)}.csv", "text/csv", table_of_values(law_of(law), _title(law))),
+        "law": lambda: _file(f"{_stem(_title(law))}.json", "application/json", stored(law)),
+        "table": lambda: _file(f"{_stem(_title(law))}.csv", "text/csv", table_of_values(law_of(law), _title(law))),
     }
     if request.kind not in makers:
         raise InputError("a law is cut by no tool: make a cam of it")
@@ -91,8 +91,9 @@ def _title(law: LawRequest) -> str:
     return law.title or title(problem_of(law))
 
 
-def _stem(law: LawRequest) -> str:
-    return "_".join(re.findall(r"[A-Za-z0-9.]+", _title(law)))[:60].strip("._") or "law"
+def _stem(name: str) -> str:
+    """A file's name of a title: no folder, no line break."""
+    return "_".join(re.findall(r"[A-Za-z0-9.]+", name))[:60].strip("._") or "law"
 
 
 def python(laws: list[LawRequest]) -> str:
@@ -206,8 +207,8 @@ def _of_cycle(request: FileRequest) -> File:
     spec, axis = cycle_view.read(request.cycle)
     cycle = cycle_view.cycle(request.cycle)
     if request.kind == "table":
-        about = f"{spec.title}: {axis.name}; SI units but for mm and deg"
-        return _file(f"{axis.name}.csv", "text/csv", table_of_motion(cycle, _ROWS, about))
+        about = " ".join(f"{spec.title}: {axis.name}; SI units but for mm and deg".split())
+        return _file(f"{_stem(axis.name)}.csv", "text/csv", table_of_motion(cycle, _ROWS, about))
     if request.kind == "python":
         free = msgspec.structs.replace(axis, follower=None)
         return _file("cycle.py", "text/x-python", cycle_python(cycle_of(free, spec.speed, spec.period), axis.follower))
@@ -235,7 +236,7 @@ def _of_cam(request: FileRequest) -> File:
 def cycle_python(cycle: Cycle, follower: ElasticFollowerEntries | None = None) -> str:
     """Lines that make the same cycle, or that of the cam whose follower moves so."""
     entries = {name: getattr(cycle, name) for name in ("speed", "period", "minimise", "limits", "start", "advance")}
-    entries |= {"drive": cycle.drive, "order": cycle.order, "degree": cycle.degree}
+    entries |= {"drive": cycle.drive, "load": cycle.load, "order": cycle.order, "degree": cycle.degree}
     given = ", ".join(f"{name}={value!r}" for name, value in entries.items() if value not in (None, {}))
     segments = "\n".join(f"    {segment!r}," for segment in cycle.segments)
     lines = [

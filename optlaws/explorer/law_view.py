@@ -133,11 +133,11 @@ def digits(number: float, count: int = 7) -> str:
 
     Examples
     --------
-    >>> digits(1.7), digits(float("inf")), digits(-0.25)
-    ('1.7', '∞', '−0.25')
+    >>> digits(1.7), digits(float("-inf")), digits(-0.25)
+    ('1.7', '−∞', '−0.25')
     """
     if bounded(number) is None:
-        return "∞"
+        return "−∞" if number < 0.0 else "∞"
     return f"{number:.{count}g}".replace("-", "−")
 
 
@@ -186,8 +186,9 @@ def _mark(peak: Peak) -> dict[str, Any]:
 def trust(solution: Solution) -> dict[str, Any]:
     """The status and the bounds of a solution as words."""
     name = objective_title(solution.problem)
-    below = f"no law of this problem is below {digits(solution.lower_bound)}"
-    facts = [f"{name} = {digits(solution.objective)}", below]
+    facts = [f"{name} = {digits(solution.objective)}"]
+    if bounded(solution.lower_bound) is not None:
+        facts.append(f"no law of this problem is below {digits(solution.lower_bound)}")
     if solution.limit is not None:
         above = 100.0 * (solution.objective / solution.limit - 1.0)
         facts.append(
@@ -289,6 +290,8 @@ def _way(entry: str, value: float, text: str) -> dict[str, Any]:
 
 
 _COUNT = 241
+#: beyond this the envelope of the vibration, which the residual is, says nothing of what little is left to see
+MOST_DAMPING = 0.5
 _LOW = 2.0
 
 
@@ -298,7 +301,7 @@ class ResidualRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     laws: Annotated[list[LawRequest], msgspec.Meta(min_length=1, max_length=MOST_LAWS)]
     frequency: Annotated[float, msgspec.Meta(gt=0.0, le=1000.0)] = 20.0
     most: Annotated[float, msgspec.Meta(ge=10.0, le=1000.0)] = 80.0
-    damping: Annotated[float, msgspec.Meta(ge=0.0, lt=1.0)] = 0.0
+    damping: Annotated[float, msgspec.Meta(ge=0.0, le=MOST_DAMPING)] = 0.0
 
 
 def residuals(request: ResidualRequest) -> dict[str, Any]:

@@ -29,15 +29,20 @@ def refined(
     >>> round(float(drawn.max()), 12), 20 < len(places) < 200
     (1.0, True)
     """
-    inside = np.setdiff1d(extremes[(extremes > places[0]) & (extremes < places[-1])], places)
-    added = [
-        inside,
-        *(_added(*np.broadcast_arrays(places, curve), f) for curve, f in zip(values, functions, strict=True)),
-    ]
-    more = np.setdiff1d(np.concatenate(added), places)
-    order = np.argsort(np.concatenate([places, more]), kind="stable")
-    curves = [np.concatenate([curve, f(more)])[order] for curve, f in zip(values, functions, strict=True)]
-    return np.concatenate([places, more])[order], curves
+    inside = extremes[(extremes > places[0]) & (extremes < places[-1])]
+    places, curves = _with(places, list(values), functions, inside)
+    added = [_added(places, curve, function) for curve, function in zip(curves, functions, strict=True)]
+    return _with(places, curves, functions, np.concatenate(added))
+
+
+def _with(
+    places: Array, values: Sequence[Array], functions: Sequence[Callable[[Array], Array]], more: Array
+) -> tuple[Array, list[Array]]:
+    """Curves with places in between, in their order."""
+    new = np.setdiff1d(more, places)
+    order = np.argsort(np.concatenate([places, new]), kind="stable")
+    curves = [np.concatenate([curve, f(new)])[order] for curve, f in zip(values, functions, strict=True)]
+    return np.concatenate([places, new])[order], curves
 
 
 def _added(places: Array, values: Array, function: Callable[[Array], Array]) -> Array:

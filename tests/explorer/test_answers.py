@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from optlaws import CamForces, InputError, Problem, Range, Solution, at_most, between, synthesize
+from optlaws import CamForces, Chebyshev, InputError, Problem, Range, Solution, at_most, between, synthesize
 from tests.documents import ROOT
 from tests.explorer.talk import OPTIMAL
 from tests.internals.cams import cam_files
@@ -298,6 +298,12 @@ def test_the_loads_of_a_cam_are_those_of_the_library() -> None:
     assert "the follower jams in its guide" in why
 
 
+def test_a_cam_beyond_its_limits_is_not_called_free_of_undercut() -> None:
+    trust = cam_view.answer(CamRequest(study=cam_view.example() | {"base_radius": "45 mm"}))["trust"]
+    assert (trust["status"], trust["word"]) == ("refused", "beyond a limit")
+    assert "deg of 30 deg" in trust["advice"]
+
+
 def test_a_cam_that_is_undercut_says_so_and_one_that_is_none_why() -> None:
     study = cam_view.example()
     (told,) = cam_view.sizes(CamRequest(study=study))["facts"]
@@ -328,6 +334,32 @@ def test_a_cam_is_saved_in_every_format(name: str) -> None:
     assert tomllib.loads(downloads.answer(asked)["text"]) == cam_view.example()
 
 
+# --- pictures ---
+
+
+@pytest.mark.parametrize("degree", [9, 41])
+def test_every_peak_lies_on_its_curve(degree: int) -> None:
+    """The jerk of a law of degree 41 swings 839 at places that samples at equal distances never meet."""
+    shown = law_view.shown(synthesize(Problem(B=1.7, order=4, basis=Chebyshev(degree))).law)
+    for letter, marks in shown["peaks"].items():
+        at = dict(zip(shown["curves"]["k"], shown["curves"][letter], strict=True))
+        for mark in marks:
+            assert at[round(mark["k"], 6)] == pytest.approx(mark["value"], rel=1e-5)
+    assert len(shown["curves"]["k"]) < 500
+
+
+def test_every_peak_of_a_cycle_lies_on_its_curve() -> None:
+    view = cycle_view.answer(cycle_of(order=4, degree=25))
+    for panel in view["panels"]:
+        for mark in panel["peaks"]:
+            near = [
+                value
+                for place, value in zip(panel["at"], panel["values"], strict=True)
+                if abs(place - mark["at"]) < 1e-3
+            ]
+            assert mark["value"] == pytest.approx(max(near, key=abs), rel=1e-5)
+
+
 # --- cycles ---
 
 
@@ -341,7 +373,9 @@ def test_a_cycle_within_its_limits_is_proven() -> None:
 
 def test_a_given_law_beyond_a_limit_is_marked() -> None:
     view = cycle_view.answer(cycle_of(segment=with_law("cycloidal")))
-    assert view["trust"] is None
+    assert (view["trust"]["status"], view["trust"]["word"]) == ("refused", "beyond a limit")
+    assert view["trust"]["advice"] == "Beyond what is allowed: Rise (velocity), Return (velocity)."
+    assert cycle_view.answer(cycle_of(segment=with_law("cycloidal"), limits={}))["trust"] is None
     assert [one["peaks"][0]["beyond"] for one in view["segments"]] == [True, False, True, False]
 
 
@@ -364,6 +398,29 @@ def test_python_and_files_make_the_same_cycle(file: str, tmp_path: Path, monkeyp
     assert made.peak(2) == cycle_view.cycle(asked).peak(2)
     one.kind = "table"
     assert len(downloads.answer(one)["text"].splitlines()) == 363
+
+
+def test_files_of_a_cycle_keep_its_load_and_have_no_folder_in_their_names(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    study = start(str(ROOT / "problems" / "cycle_elastic_load.toml"))["cycle"]
+    asked = CycleRequest(study=study)
+    text = downloads.answer(FileRequest(kind="python", view="cycle", laws=[law(OPTIMAL)], cycle=asked))["text"]
+    made = run(text, tmp_path, monkeypatch)["cycle"]
+    assert made.load is not None
+    assert made.objective == pytest.approx(cycle_view.cycle(asked).objective, rel=1e-9)
+    named = example()
+    named["axis"][0]["name"] = "../../x\ny"
+    table = FileRequest(kind="table", view="cycle", laws=[law(OPTIMAL)], cycle=CycleRequest(study=named))
+    assert downloads.answer(table)["name"] == "x_y.csv"
+    assert "\ny" not in downloads.answer(table)["text"]
+
+
+def test_a_bound_of_minus_infinity_is_no_bound() -> None:
+    view = law_view.answer(LawsRequest(laws=[law({"problem": {"order": 4, "B": 1.7, "minimise": "integral(b*c)"}})]))
+    facts = " ".join(view["laws"][0].get("trust", {}).get("facts", []))
+    assert "below ∞" not in facts
+    assert "below −∞" not in facts
 
 
 def test_how_far_a_law_is_above_the_limit_is_told() -> None:

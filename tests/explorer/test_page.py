@@ -298,3 +298,67 @@ def test_a_cam_turns_and_is_refused_where_there_is_none(page: Page, served: Serv
     page.get_by_label("kind of follower").select_option("oscillating roller")
     settle(page)
     assert page.locator(".arm").count() == 1
+
+
+def test_a_question_that_takes_long_can_be_stopped_and_undone(page: Page, served: Server) -> None:
+    go(page, served.link(laws=[at_velocity(1.7)], picture="residual"))
+    page.get_by_label("Objective as a formula").fill("peak(cos(7*c)*sin(3*b))")
+    page.get_by_label("Objective as a formula").press("Enter")
+    page.get_by_role("button", name="Stop").click(timeout=15_000)
+    settle(page)
+    assert "no answer" in page.locator("#trust").inner_text()
+    assert page.locator("#curves .line").count() == 0
+    page.get_by_role("button", name="Undo").click()
+    settle(page)
+    assert "proven optimal" in page.locator("#trust").inner_text()
+
+
+@pytest.mark.parametrize(
+    "fragment",
+    ["view=%22constructor%22", "laws=5", "cam=%7B%7D&view=%22cam%22", "cycle=%7B%22axis%22%3A3%7D&view=%22cycle%22"],
+)
+def test_an_odd_address_shows_a_page_that_lives(page: Page, served: Server, fragment: str) -> None:
+    go(page, f"http://{served.host}/#{fragment}")
+    page.get_by_role("tab", name="Laws").click()
+    settle(page)
+    assert "proven optimal" in page.locator("#trust").inner_text()
+
+
+def test_a_click_on_the_law_itself_changes_nothing(page: Page, served: Server) -> None:
+    go(page, served.link(laws=[at_velocity(1.6321)], picture="C-D"))
+    page.locator(".handle .dot").click()
+    settle(page)
+    assert page.get_by_role("button", name="Undo").is_disabled()
+
+
+def test_kinds_and_times_keep_what_was_given(page: Page, served: Server) -> None:
+    go(page, f"http://{served.host}/")
+    page.get_by_role("tab", name="Cycle").click()
+    settle(page)
+    page.get_by_label("timing", exact=True).select_option("period")
+    assert page.get_by_label("timing value").input_value() == "0.3 s"
+    page.get_by_label("timing", exact=True).select_option("speed")
+    assert page.get_by_label("timing value").input_value() == "200 rpm"
+    page.get_by_label("segment 0 kind").focus()
+    page.get_by_label("segment 0 kind").select_option("move")
+    assert page.get_by_label("segment 0 by").input_value() == "35 mm"
+    assert page.evaluate("() => document.activeElement.getAttribute('aria-label')") == "segment 0 kind"
+    page.get_by_label("limit velocity").fill("none")
+    settle(page)
+    assert "not understood" not in page.locator("#cycle-trust").inner_text()
+
+
+@pytest.mark.parametrize("width", [390, 800])
+def test_small_screens_show_the_curves_beside_what_is_dragged(page: Page, served: Server, width: int) -> None:
+    page.set_viewport_size({"width": width, "height": 844})
+    go(page, f"http://{served.host}/")
+    assert page.evaluate("() => document.documentElement.scrollWidth") <= width
+    curves, handle = page.locator("#curves").bounding_box(), page.locator(".handle").bounding_box()
+    assert curves is not None
+    assert handle is not None
+    assert handle["y"] < 500
+    assert curves["y"] < 560
+    for view in ("Cycle", "Cam"):
+        page.get_by_role("tab", name=view).click()
+        settle(page)
+        assert page.evaluate("() => document.documentElement.scrollWidth") <= width

@@ -71,6 +71,8 @@ export class Exporting {
     const view = state.view === "cycle" ? "cycle" : "laws";
     const { takes } = this.#formats.find(({ name }) => name === (state.machine?.format ?? MACHINE.format)) ?? { takes: [] };
     const machine = Object.fromEntries(Object.entries({ ...MACHINE, ...state.machine }).filter(([name]) => !(name in NUMBERS) || takes.includes(name)));
+    this.#answer = null;
+    this.#save.disabled = true;
     this.#asked.ask({ ...machine, view, laws, active, cycle: cycle ? { study: cycle, axis } : null });
   }
 

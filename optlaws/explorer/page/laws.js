@@ -76,7 +76,7 @@ export class Laws {
   }
 
   #askFront(state) {
-    const over = (PICTURES[state.picture] ? state.picture : "B-C").split("-");
+    const over = (Object.hasOwn(PICTURES, state.picture) ? state.picture : "B-C").split("-");
     // a law that is given has no front: that of the first problem stands beside it
     const active = state.laws[state.active];
     const law = structuredClone(active.problem ? active : state.laws.find(({ problem }) => problem) ?? active);
@@ -164,7 +164,7 @@ export class Laws {
 
   #followerFields() {
     const field = (name, title, key, high, step) => slider({
-      name, title, low: key === "frequency" ? 2 : 0, high, step, most: key === "frequency" ? 1000 : 0.999,
+      name, title, low: key === "frequency" ? 2 : 0, high, step, most: key === "frequency" ? 1000 : 0.5,
       changed: (value) => this.#study.change(key, (state) => (state[key] = value)),
       rested: () => this.#study.rest(),
     });

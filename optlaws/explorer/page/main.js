@@ -62,7 +62,7 @@ async function begin() {
   const tools = new Tools(document.getElementById("tools"), study, notice, exporting);
 
   function render(now) {
-    const view = VIEWS[now.view] ? now.view : "laws";
+    const view = Object.hasOwn(VIEWS, now.view) ? now.view : "laws";
     for (const name of Object.keys(VIEWS)) document.getElementById(`${name}-view`).hidden = name !== view;
     choose(view);
     tools.show(study);
@@ -75,6 +75,10 @@ async function begin() {
   views.cycle = new CycleView(study);
   views.cam = new CamView(study, followers);
   if (first.view in examples) first[first.view] ??= structuredClone(examples[first.view]);
+  document.querySelector(".skip").addEventListener("click", (event) => {
+    event.preventDefault();
+    document.querySelector(".view:not([hidden]) :is(.handle, .picture, #motion)").focus();
+  });
   addEventListener("hashchange", () => study.replace(read(location.hash)));
   for (const kind of ["input", "pointermove", "keydown"]) addEventListener(kind, () => marked("input"), { capture: true, passive: true });
   render(first);

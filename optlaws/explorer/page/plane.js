@@ -7,7 +7,8 @@ const BOX = { left: 58, right: 16, top: 12, bottom: 44 };
 const HALO = 13;
 const STEPS = { B: 0.001, C: 0.01, D: 0.01, J: 0.1 };
 
-const rounded = (value, step) => Number((Math.round(value / step) * step).toPrecision(8));
+/** A bound is rounded up: the law that has the value keeps it. */
+const rounded = (value, step, up) => Number(((up ? Math.ceil(value / step - 1e-9) : Math.round(value / step)) * step).toPrecision(8));
 
 /** Whether two pieces of writing, or a mark and one, are in each other's way. */
 const overlap = (one, other) => Math.abs(one.y - other.y) < 11 && one.left < other.right && one.right > other.left;
@@ -112,10 +113,10 @@ export class Plane {
       const point = svg(
         "g",
         {
-          class: "known", tabindex: "0", role: "button", "aria-label": `${text}. Compare`,
+          class: "known", tabindex: shown.length ? "-1" : "0", role: "button", "aria-label": `${text}. Compare`,
           onpointerenter: tell, onfocus: tell, onpointerleave: () => this.#tell(""), onblur: () => this.#tell(""),
           onpointerdown: (event) => event.stopPropagation(), onclick: pick,
-          onkeydown: (event) => (event.key === "Enter" || event.key === " ") && (event.preventDefault(), pick(event)),
+          onkeydown: (event) => this.#walk(event, pick),
         },
         svg("circle", { class: "halo", cx: place[0], cy: place[1], r: 9 }),
         svg("circle", { class: "mark", cx: place[0], cy: place[1], r: 3.2 }),
@@ -130,6 +131,16 @@ export class Plane {
       shown.push(point);
     }
     return shown;
+  }
+
+  /** Standard laws are one stop of the tabulator: arrows go from one to the next. */
+  #walk(event, pick) {
+    const all = [...this.#svg.querySelectorAll(".known")];
+    const step = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[event.key];
+    if (event.key === "Enter" || event.key === " ") pick(event);
+    else if (step) all[(all.indexOf(event.currentTarget) + step + all.length) % all.length].focus();
+    else return;
+    event.preventDefault();
   }
 
   #tell(text, place = [0, 0], box = null) {
@@ -181,7 +192,8 @@ export class Plane {
     if (event.button !== 0 || !this.#laws[this.#active]?.movable) return;
     this.#svg.setPointerCapture(event.pointerId);
     this.#dragging = true;
-    this.#move(event);
+    // a click on the law itself moves nothing
+    if (!this.#handle.contains(event.target)) this.#move(event);
     this.#handle.focus({ preventScroll: true });
     event.preventDefault();
   }
@@ -197,7 +209,7 @@ export class Plane {
 
   #to(value) {
     const [low, high] = this.#front.ranges[0];
-    this.#moved(rounded(Math.min(high, Math.max(low, value)), STEPS[this.#front.x]), this.#front.x, this.#front.y);
+    this.#moved(rounded(Math.min(high, Math.max(low, value)), STEPS[this.#front.x], this.#front.x !== "B"), this.#front.x, this.#front.y);
   }
 
   #key(event) {

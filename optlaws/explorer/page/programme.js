@@ -1,12 +1,13 @@
 // The programme of a cycle as a form: speed, what is least, limits, and the segments with their laws.
 
 import { group } from "./fields.js";
-import { html } from "./svg.js";
+import { html, renew } from "./svg.js";
 
 const OBJECTIVES = ["acceleration", "velocity", "jerk", "rms acceleration", "rms jerk", "force", "rms force"];
 const LIMITS = { velocity: "616 mm/s", acceleration: "20 m/s²", jerk: "2000 m/s³" };
 const KINDS = { rise: ["by"], return: ["by"], move: ["by", "to"], dwell: [], "constant velocity": ["velocity"], free: ["by", "to"] };
 const LAWS = ["rise", "return", "move"];
+const NOTHING = ["none", "free"];
 const PLACEHOLDERS = { by: "35 mm", to: "0 mm", velocity: "300 mm/s", duration: "120 deg, or free", law: "optimal" };
 
 export class Programme {
@@ -46,9 +47,10 @@ export class Programme {
     const timing = "period" in cycle ? "period" : "speed";
     const head = [
       this.#select("timing", "given by", { speed: "speed", period: "period" }, () => timing, (_axis, study, kind) => {
+        const value = study.speed ?? study.period;
         delete study.speed;
         delete study.period;
-        study[kind] = kind === "speed" ? "200 rpm" : "0.3 s";
+        study[kind] = turned(value, kind);
       }),
       this.#text("timing value", timing, "200 rpm", (_axis, study) => study[timing], (_axis, study, value) => (study[timing] = value)),
       this.#select("minimise", "least", Object.fromEntries(OBJECTIVES.map((one) => [one, one])), (one) => one.minimise ?? "acceleration", (one, _study, value) => (one.minimise = value)),
@@ -60,7 +62,7 @@ export class Programme {
     }));
     const segments = (axis.segment ?? []).map((segment, i) => this.#segment(segment, i, axis.segment.length));
     const add = html("button", { type: "button", text: "+ segment", onclick: () => this.#change("add segment", (one) => one.segment.push({ kind: "dwell", duration: "30 deg" })) });
-    this.#root.replaceChildren(group("Cycle", ...head), group("At most", ...limits), group("Segments", ...segments, add));
+    renew(this.#root, group("Cycle", ...head), group("At most", ...limits), group("Segments", ...segments, add));
   }
 
   #segment(segment, i, count) {
@@ -70,10 +72,8 @@ export class Programme {
       else delete axis.segment[i][name];
     });
     const kind = this.#select(`segment ${i} kind`, String(i + 1), Object.fromEntries(Object.keys(KINDS).map((one) => [one, one])), (axis) => of(axis).kind, (axis, _study, value) => {
-      const { duration, name } = axis.segment[i];
-      axis.segment[i] = { kind: value, ...(duration && { duration }), ...(name && { name }) };
-      if (value === "rise" || value === "return" || value === "free") axis.segment[i].by = "10 mm";
-      if (value === "move") axis.segment[i].by = "10 mm";
+      const { duration, name, by = "10 mm" } = axis.segment[i];
+      axis.segment[i] = { kind: value, ...(duration && { duration }), ...(name && { name }), ...(KINDS[value].includes("by") && { by }) };
     });
     const remove = count > 1 ? html("button", { type: "button", class: "close", "aria-label": `Take segment ${i + 1} away`, text: "×", onclick: () => this.#change(`remove segment ${i}`, (axis) => axis.segment.splice(i, 1)) }) : null;
     const rows = [...(KINDS[segment.kind] ?? []).map(row), row("duration"), ...(LAWS.includes(segment.kind) ? [row("law")] : [])];
@@ -83,7 +83,7 @@ export class Programme {
 
   #text(what, name, placeholder, get, put) {
     const field = html("input", { type: "text", placeholder, spellcheck: "false", maxlength: 100, "aria-label": what, ...(name === "law" && { list: "names" }) });
-    field.addEventListener("input", () => this.#change(what, (axis, study) => put(axis, study, field.value.trim())));
+    field.addEventListener("input", () => this.#change(what, (axis, study) => put(axis, study, NOTHING.includes(field.value.trim()) ? "" : field.value.trim())));
     field.addEventListener("change", () => this.#study.rest());
     this.#shows.push((cycle, axis) => {
       const value = get(axis, cycle) ?? "";
@@ -98,6 +98,14 @@ export class Programme {
     this.#shows.push((cycle, axis) => (field.value = get(axis, cycle)));
     return html("div", { class: "entry" }, html("span", { class: "field-name", text: name }), field);
   }
+}
+
+/** A speed as a period, or a period as a speed, where its unit is one of the usual; else an example. */
+function turned(value, kind) {
+  const [, number, unit] = /^([\d.eE+-]+)\s*(rpm|1\/min|s|ms)$/.exec(value ?? "") ?? [];
+  const [times, written] = kind === "period" ? [{ rpm: 60, "1/min": 60 }[unit], "s"] : [{ s: 60, ms: 60_000 }[unit], "rpm"];
+  const turns = times / Number(number);
+  return Number.isFinite(turns) ? `${Number(turns.toPrecision(12))} ${written}` : kind === "speed" ? "200 rpm" : "0.3 s";
 }
 
 const listed = (value) => (Array.isArray(value) ? value.join(" to ") : value);

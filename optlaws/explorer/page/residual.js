@@ -30,7 +30,7 @@ export class Residual {
     const x = scale([0, frequencies.at(-1)], [box.left, box.right]);
     const y = scale([0, most], [box.bottom, box.top]);
     const drawing = svg("svg", { class: "plane", width, height, role: "img", "aria-label": this.#told() });
-    drawing.append(frame(box, x, y, { xs: ticks(0, frequencies.at(-1), 8), ys: ticks(0, most, 6), xname: "frequency ν of the follower, radians of its vibration in the motion", yname: "residual acceleration, in units of a″" }));
+    drawing.append(frame(box, x, y, { xs: ticks(0, frequencies.at(-1), 8), ys: ticks(0, most, 6), xname: "frequency ν of the follower, radians of its vibration in the motion", yname: "residual acceleration (envelope), in units of a″" }));
     laws.forEach((law, i) => {
       if (!law) return;
       const places = law.values.map((value, n) => (value === null ? null : [x(frequencies[n]), y(value)]));

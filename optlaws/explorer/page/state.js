@@ -14,6 +14,16 @@ export const FIRST = {
   damping: 0,
 };
 
+const object = (value) => value !== null && typeof value === "object" && !Array.isArray(value);
+const motion = (value) => object(value) && Array.isArray(value.segment) && value.segment.every(object);
+/** What a link may hold, and whether the page can show it; the server says what else is wrong with it. */
+const WHOLE = {
+  cycle: (value) => object(value) && Array.isArray(value.axis) && value.axis.length > 0 && value.axis.every(motion),
+  cam: (value) => object(value) && object(value.follower) && motion(value.motion),
+  machine: object,
+};
+const KNOWN = ["view", "active", "picture", "axis", "frequency", "damping", ...Object.keys(WHOLE)];
+
 const same = (one, other) => JSON.stringify(one) === JSON.stringify(other);
 
 /** What differs from the first state, as an address's fragment. */
@@ -37,16 +47,16 @@ export function read(fragment) {
       return undefined;
     }
   };
-  const laws = parts.getAll("law").map(parsed).filter((law) => law && typeof law === "object").slice(0, 4);
+  const laws = parts.getAll("law").map(parsed).filter(object).slice(0, 4);
   if (laws.length) state.laws = laws;
   for (const [name, text] of parts) {
     const value = parsed(text);
-    if (name !== "law" && value !== undefined && value !== null) state[name] = value;
+    if (KNOWN.includes(name) && value !== undefined && value !== null) state[name] = value;
   }
   if (!Number.isInteger(state.active) || state.active < 0 || state.active >= state.laws.length) state.active = 0;
   for (const name of ["frequency", "damping", "axis"]) if (typeof state[name] !== "number") state[name] = FIRST[name];
   for (const name of ["view", "picture"]) if (typeof state[name] !== "string") state[name] = FIRST[name];
-  for (const name of ["cycle", "cam", "machine"]) if (typeof state[name] !== "object") delete state[name];
+  for (const [name, whole] of Object.entries(WHOLE)) if (name in state && !whole(state[name])) delete state[name];
   return state;
 }
 

@@ -21,6 +21,17 @@ export function svg(tag, attributes = {}, ...children) {
   return fill(document.createElementNS(SVG, tag), attributes, children);
 }
 
+/** New children for an element; what had the focus has it again, or where it is gone the first that can have it. */
+export function renew(root, ...children) {
+  const named = (one) => one.dataset.key ?? one.getAttribute("aria-label") ?? one.textContent;
+  const before = root.contains(document.activeElement) ? document.activeElement : null;
+  const name = before && named(before);
+  root.replaceChildren(...children);
+  if (before === null || root.contains(document.activeElement)) return;
+  const all = [...root.querySelectorAll("button, input, select, [tabindex]")].filter((one) => !one.disabled);
+  (all.find((one) => named(one) === name) ?? all[0])?.focus({ preventScroll: true });
+}
+
 /** A path through [x, y] pairs in pixels, or in units of which a picture takes so many decimals; null breaks it. */
 export function path(places, decimals = 1) {
   let text = "";

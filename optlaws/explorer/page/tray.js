@@ -1,6 +1,6 @@
 // The laws side by side: which one is active, another added, one taken away.
 
-import { html } from "./svg.js";
+import { html, renew } from "./svg.js";
 
 const MOST = 4;
 
@@ -21,7 +21,7 @@ export class Tray {
     if (shown === this.#shown) return;
     this.#shown = shown;
     const chips = laws.map((law, i) => this.#chip(law, views[i], i, i === active, laws.length > 1));
-    this.#root.replaceChildren(...chips, ...(laws.length < MOST ? this.#adding() : []), this.#names);
+    renew(this.#root, ...chips, ...(laws.length < MOST ? this.#adding() : []), this.#names);
   }
 
   /** Compare with a standard law by its name. */
@@ -35,8 +35,8 @@ export class Tray {
 
   #chip(law, view, i, active, several) {
     const title = titled(law, view);
-    const choose = html("button", { type: "button", class: "choose", "aria-pressed": String(active), title, onclick: () => this.#study.change("active", (state) => (state.active = i)) }, html("span", { class: `swatch law-${i}`, text: "ABCD"[i] }), html("span", { class: "chip-name", text: title }));
-    const close = several ? html("button", { type: "button", class: "close", "aria-label": `Take ${title} away`, text: "×", onclick: () => this.#remove(i) }) : null;
+    const choose = html("button", { type: "button", class: "choose", "data-key": `law ${i}`, "aria-pressed": String(active), title, onclick: () => this.#study.change("active", (state) => (state.active = i)) }, html("span", { class: `swatch law-${i}`, text: "ABCD"[i] }), html("span", { class: "chip-name", text: title }));
+    const close = several ? html("button", { type: "button", class: "close", "data-key": `close ${i}`, "aria-label": `Take ${title} away`, text: "×", onclick: () => this.#remove(i) }) : null;
     return html("span", { class: `chip${active ? " active" : ""}` }, choose, close);
   }
 

@@ -1,13 +1,17 @@
 // How far the active law can be trusted, in words; or why there is none, and how far one must go back.
 
-import { html } from "./svg.js";
+import { html, renew } from "./svg.js";
 
 export function showTrust(root, view, ways, go) {
   root.classList.toggle("none", Boolean(view?.refused));
+  // the reader who went back by a key reads on here
+  const within = root.contains(document.activeElement);
+  root.tabIndex = -1;
   if (!view) root.replaceChildren();
-  else if (view.refused) root.replaceChildren(...refusal(view.refused, ways, go));
-  else if (view.trust) root.replaceChildren(...trust(view.trust));
-  else root.replaceChildren(html("p", {}, html("strong", { class: "word given", text: "given" }), " A law as it stands: nothing was optimised."));
+  else if (view.refused) renew(root, ...refusal(view.refused, ways, go));
+  else if (view.trust) renew(root, ...trust(view.trust));
+  else renew(root, html("p", {}, html("strong", { class: "word given", text: "given" }), " A law as it stands: nothing was optimised."));
+  if (within && !root.contains(document.activeElement)) root.focus({ preventScroll: true });
 }
 
 function trust({ status, word, advice, gap, facts }) {
