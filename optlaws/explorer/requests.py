@@ -62,7 +62,7 @@ def read(text: bytes, kind: type[Struct]) -> Struct:
     """
     try:
         return msgspec.json.decode(text, type=kind)
-    except (msgspec.DecodeError, RecursionError) as error:
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
         raise InputError(f"the question cannot be read: {error}") from None
 
 

@@ -5,6 +5,7 @@ import { path, svg } from "./svg.js";
 
 const BOX = { left: 58, right: 16, top: 12, bottom: 44 };
 const HALO = 13;
+const WRITTEN = 165; // pixels that the name of the limit takes
 const STEPS = { B: 0.001, C: 0.01, D: 0.01, J: 0.1 };
 
 /** A bound is rounded up: the law that has the value keeps it. */
@@ -95,7 +96,7 @@ export class Plane {
     const limit = this.#front.limit.map(at).filter((one) => this.#inside(one, box));
     // no smooth law lies below and before the limit: there is room
     const place = limit[Math.floor(limit.length * 0.22)];
-    if (place) group.append(svg("text", { class: "limit-name", x: Math.max(place[0] - 8, box.left + 90), y: place[1] + 14, "text-anchor": "end", text: "limit of all laws of this order" }));
+    if (place && place[0] > box.left + WRITTEN) group.append(svg("text", { class: "limit-name", x: place[0] - 8, y: place[1] + 14, "text-anchor": "end", text: "limit of all laws of this order" }));
     return group;
   }
 

@@ -1,0 +1,96 @@
+"""Mutated questions of every kind: each has an answer that is none of the server's faults, and soon."""
+
+import json
+from copy import deepcopy
+from random import Random
+from typing import Any
+
+import pytest
+
+from tests.explorer.talk import OPTIMAL, Server
+from tests.internals.explorer import QUESTIONS, cam_view, example
+
+CYCLE = {"study": example()}
+CAM = {"study": cam_view.example()}
+LAWS = [
+    OPTIMAL,
+    {"name": "modified sine"},
+    {"problem": {"start": [0, 0], "end": [1, 0.5], "degree": 7, "symmetric": False}},
+]
+SEEDS: dict[str, list[Any]] = {
+    "laws": [{"laws": LAWS}],
+    "front": [{"law": OPTIMAL, "over": ["B", "C"]}],
+    "nearest": [{"problem": {"order": 4, "degree": 9, "B": 1.7, "J": [0, 20]}, "weights": {"C": 1.0}}],
+    "cam": [CAM],
+    "cam-loads": [{"study": cam_view.example() | {"forces": {"width": "20 mm"}}}],
+    "cam-sizes": [CAM],
+    "cycle": [CYCLE],
+    "cycle-nearest": [CYCLE],
+    "export": [{"format": "csv", "laws": [OPTIMAL], "points": 9}],
+    "save": [
+        {"kind": "python", "laws": [OPTIMAL]},
+        {"kind": "problem", "view": "cycle", "laws": [OPTIMAL], "cycle": CYCLE},
+    ],
+    "residual": [{"laws": [OPTIMAL], "frequency": 12.0}],
+}
+ODD = [
+    None, True, 0, -1, 1e308, -1e-308, 9e15, 1e6, float("nan"), "", "x", "é\u202e", "9e15", "1e-400 mm", "inf deg", [],
+    {}, [[]], {"": ""}, "peak(cos(c))", "../../etc/passwd", "0/0", "1 " * 100, 41, 12, 2.5, "sin(1e9*k)", ["1", 2],
+]  # fmt: skip
+
+
+def places(value: Any, path: tuple[Any, ...] = ()) -> list[tuple[Any, ...]]:  # noqa: ANN401 - JSON
+    """The paths of all parts of a value."""
+    inner = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
+    return [path, *(below for key, part in inner for below in places(part, (*path, key)))]
+
+
+def mutated(question: Any, random: Random) -> bytes:  # noqa: ANN401 - JSON
+    """A question with one to three parts replaced, copied, dropped or renamed, or with bytes that are none of JSON."""
+    changed = {"whole": deepcopy(question)}
+    for _ in range(random.randint(1, 3)):
+        *way, last = random.choice([path for path in places(changed) if path])
+        holder: Any = changed
+        for key in way:
+            holder = holder[key]
+        kind = random.randrange(4)
+        if kind == 0 and isinstance(holder, dict) and way:
+            holder[random.choice(["", "B", "law", "windows", "basis", "kind", last])] = holder.pop(last)
+        elif kind == 1 and isinstance(holder, list):
+            holder.extend(deepcopy(holder))
+        else:
+            holder[last] = deepcopy(random.choice(ODD))
+    text = json.dumps(changed["whole"]).encode()
+    if random.random() < 0.1 and text:
+        at = random.randrange(len(text))
+        text = text[:at] + bytes([random.randrange(256)]) + text[at + 1 :]
+    return text
+
+
+def answers(served: Server, count: int, seed: int) -> list[tuple[int, str, bytes]]:
+    """The codes of so many mutated questions, with what was asked."""
+    random = Random(seed)  # noqa: S311 - the same questions each time
+    names = sorted(SEEDS)
+    answered = []
+    for _ in range(count):
+        name = random.choice(names)
+        body = mutated(random.choice(SEEDS[name]), random)
+        response, said = served.send("POST", f"/api/{name}?patience=1", body, Content_Type="application/json")
+        assert isinstance(json.loads(said), dict)
+        answered.append((response.status, name, body))
+    return answered
+
+
+def test_every_question_has_mutations() -> None:
+    assert set(SEEDS) == set(QUESTIONS)
+
+
+@pytest.mark.parametrize("count", [60, pytest.param(20_000, marks=pytest.mark.long)])
+def test_no_mutated_question_is_a_fault_of_the_server(served: Server, count: int) -> None:
+    faults = [asked for asked in answers(served, count, seed=29) if asked[0] not in {200, 422}]
+    assert not faults, faults[:5]
+
+
+def test_text_that_is_none_is_refused(served: Server) -> None:
+    assert "cannot be read" in served.ask("laws", b'{"laws": [{"name": "\xff\xfe"}]}', 422)["error"]
+    assert "cannot be read" in served.ask("cycle", b'{"study": {"title": "\xc3("}}', 422)["error"]
