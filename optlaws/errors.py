@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from copy import copy
 
 from optlaws.echo import cut
 
@@ -34,7 +35,7 @@ class InputError(OptlawsError, ValueError):
 
 @contextmanager
 def located(where: str) -> Iterator[None]:
-    """Wrong inputs are told with the file or the entry that they came from.
+    """Errors name the file, the axis or the entry that they came from; a problem and its proof stay with them.
 
     Examples
     --------
@@ -42,11 +43,19 @@ def located(where: str) -> Iterator[None]:
     ...     raise InputError("order must be at least 1, got 0")
     Traceback (most recent call last):
     optlaws.errors.InputError: axis slide: order must be at least 1, got 0
+    >>> try:
+    ...     with located("axis slide"):
+    ...         raise InfeasibleProblem("no law has B < 1", problem={"B": 0.5}, proof="the mean velocity is 1")
+    ... except InfeasibleProblem as error:
+    ...     print(error.args[0], error.problem, error.proof, sep="; ")
+    axis slide: no law has B < 1; {'B': 0.5}; the mean velocity is 1
     """
     try:
         yield
-    except InputError as error:
-        raise InputError(f"{where}: {error}") from None
+    except OptlawsError as error:
+        placed = copy(error)  # the error itself may be stored, and raised again elsewhere
+        placed.args = (cut(f"{where}: {error.args[0]}"), *error.args[1:])
+        raise placed from None
 
 
 class NotNormalised(UserWarning):

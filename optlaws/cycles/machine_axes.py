@@ -14,7 +14,7 @@ from optlaws.cycles.interlocks.overlapping import best_instants
 from optlaws.cycles.specification.programme import is_optimal, period_of
 from optlaws.cycles.specification.segments import CycleSegment, Dwell
 from optlaws.echo import shortened
-from optlaws.errors import InfeasibleProblem, InputError
+from optlaws.errors import InputError, located
 from optlaws.extras import needed
 from optlaws.files.reading import JsonText
 from optlaws.kept import kept_property
@@ -391,10 +391,8 @@ class Axes(JsonText, Mapping[str, Cycle]):
         if unnamed:
             raise InputError(f"an axis has a name, such as 'table', got {shortened(unnamed[0])}")
         for name, given in self.axes.items():
-            try:
+            with located(f"axis {name}"):
                 cycles[name] = given if isinstance(given, Cycle) else Cycle(**_entries(given), **clock)
-            except (InputError, InfeasibleProblem) as error:
-                raise type(error)(f"axis {name}: {error}") from None
         _check_durations(cycles, period_of(**clock) if clock else next(iter(cycles.values())).duration)
         return cycles
 

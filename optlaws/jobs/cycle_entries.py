@@ -11,7 +11,7 @@ import msgspec
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.interchange import CLOCK, ENTRIES
 from optlaws.cycles.machine_axes import Axes, Overlap
-from optlaws.errors import InfeasibleProblem, InputError, located
+from optlaws.errors import InputError, located
 from optlaws.files.problem_file import Text, convert
 from optlaws.jobs.axes.drive_entries import drive_of
 from optlaws.jobs.axes.entry_sweep import SweepEntries, SweptCycle, swept
@@ -118,10 +118,8 @@ def read_given(data: Mapping[str, Any], file: Path) -> tuple[CycleProblemFile, A
     for axis in spec.axis:
         if axis.name in cycles:
             raise InputError(f"{file}: two axes are called {axis.name}: give each a name of its own")
-        try:
+        with located(f"{file}: axis {axis.name}"):
             cycles[axis.name] = cycle_of(axis, spec.speed, spec.period, file.parent)
-        except (InputError, InfeasibleProblem) as error:
-            raise type(error)(f"{file}: axis {axis.name}: {error}") from None
     if spec.fastest and spec.overlap is not None:
         raise InputError(f"{file}: fastest and overlap are two ways to a period: give one of them")
     if len(cycles) > 1 and spec.interlocks and "interlocks" in cycles:

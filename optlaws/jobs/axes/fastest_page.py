@@ -10,7 +10,7 @@ from typing import Any
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.fastest_cycle import FastestCycle
 from optlaws.cycles.machine_axes import Axes
-from optlaws.errors import InfeasibleProblem, InputError
+from optlaws.errors import located
 from optlaws.files.tables import Cell
 from optlaws.results import Page
 
@@ -21,10 +21,8 @@ def fastest_of(cycles: Mapping[str, Cycle], file: Path) -> dict[str, FastestCycl
     """Each axis at its greatest speed; errors name the file and the axis."""
     fastest = {}
     for name, cycle in cycles.items():
-        try:
+        with located(f"{file}: axis {name}"):
             fastest[name] = cycle.fastest()
-        except (InputError, InfeasibleProblem) as error:
-            raise type(error)(f"{file}: axis {name}: {error}") from None
     return fastest
 
 
