@@ -32,11 +32,11 @@ from optlaws.cams.followers.oscillating_flat import OscillatingFlat as Oscillati
 from optlaws.cams.followers.oscillating_roller import OscillatingRoller as OscillatingRoller
 from optlaws.cams.followers.translating_flat import TranslatingFlat as TranslatingFlat
 from optlaws.cams.followers.translating_roller import TranslatingRoller as TranslatingRoller
-from optlaws.cams.forces import CamForces as CamForces
+from optlaws.cams.loads.forces import CamForces as CamForces
 from optlaws.cams.least_sizes import greatest_roller as greatest_roller
 from optlaws.cams.least_sizes import least_base_circle as least_base_circle
-from optlaws.cams.springs import Spring as Spring
-from optlaws.cams.springs import least_spring as least_spring
+from optlaws.cams.loads.springs import Spring as Spring
+from optlaws.cams.loads.springs import least_spring as least_spring
 from optlaws.cycles.cycle import Cycle as Cycle
 from optlaws.cycles.fastest_cycle import FastestCycle as FastestCycle
 from optlaws.cycles.fastest_cycle import LeastDuration as LeastDuration

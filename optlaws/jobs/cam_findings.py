@@ -18,9 +18,9 @@ from optlaws.cams.conjugate import conjugate_cam
 from optlaws.cams.curves.extremes import EnclosedExtreme
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.follower import read_follower
-from optlaws.cams.forces import CamForces
+from optlaws.cams.loads.forces import CamForces
 from optlaws.cams.least_sizes import GreatestRoller, LeastBaseCircle, greatest_roller, least_base_circle
-from optlaws.cams.springs import Spring, least_spring
+from optlaws.cams.loads.springs import Spring, least_spring
 from optlaws.cams.summary import geometry
 from optlaws.cycles.cycle import Cycle
 from optlaws.errors import InfeasibleProblem, InputError, located

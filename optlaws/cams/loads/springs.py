@@ -10,7 +10,7 @@ from typing import Any, NoReturn
 import numpy as np
 
 from optlaws.cams.disc import DiscCam
-from optlaws.cams.forces import CamForces
+from optlaws.cams.loads.forces import CamForces
 from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.laws.storage import PlainNumbers

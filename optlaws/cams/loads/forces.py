@@ -12,6 +12,7 @@ import numpy as np
 from optlaws.cams.curves.extremes import UNDERCUT
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.contact import Friction, Transmission
+from optlaws.cams.loads.process_on_cam import ProcessOnCam, read_process_on_cam
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.specification.drive import CycleDrive, read_constant_drive
 from optlaws.echo import shortened
@@ -121,6 +122,11 @@ class CamForces:
         the guide, with `overhang` and `length` of the guide.
     width, materials
         Of the contact, for Hertz's pressure: "20 mm", ("steel", "steel").
+    process
+        The force of a process on the follower, with the entries of a cycle's: `{"force": [("0 deg", "0 N"), ("90 deg",
+        "-300 N"), ("360 deg", "0 N")], "over": "master"}`, above 0 where it pushes to greater displacements; over the
+        "time" t, the "master", which is the cam's angle m, or the displacement s of the "driven" follower. A table over
+        time or angle leaps where a place is given twice.
 
     Raises
     ------
@@ -146,9 +152,10 @@ class CamForces:
     friction: Mapping[str, Any] = field(default_factory=dict)
     width: Quantity | None = None
     materials: Any = ("steel", "steel")
+    process: Mapping[str, Any] | None = None
 
     def __post_init__(self) -> None:
-        self.rate, self.load, self._friction, self._line  # noqa: B018 - what is wrong is refused at once
+        self.rate, self.load, self.process_force, self._friction, self._line  # noqa: B018 - what is wrong is refused at once
 
     @kept_property
     def rate(self) -> float:
@@ -169,18 +176,14 @@ class CamForces:
         return read_constant_drive(given, self.cam.displacement.axis)
 
     @kept_property
+    def process_force(self) -> ProcessOnCam:
+        """The force of the process on the follower over the cam's angle."""
+        return read_process_on_cam(self.process, self.cam.displacement, self.rate)
+
+    @kept_property
     def edges(self) -> Array:
-        """Angles between which forces are smooth, rad: breaks of the motion, and where the follower turns back."""
-        places = [np.array(self.cam.displacement.breaks)]
-        for stretch in self.cam.displacement.stretches:
-            inner = stretch.segment.candidates(stretch.length, 0) if stretch.stroke else np.empty(0)
-            if inner.size:
-                turns = stretch.start + (stretch.stop - stretch.start) * inner
-                ends = np.array([[stretch.start], [stretch.stop]])
-                way = np.abs(self.cam.displacement(turns) - self.cam.displacement(ends))
-                # roots of the velocity beside an end that is at rest are rounding
-                places.append(turns[(way > VALUE_ROUNDING * abs(stretch.stroke)).all(axis=0)])
-        return np.unique(np.concatenate(places))
+        """Angles between which forces are smooth, rad: of motion and process, and where the follower turns back."""
+        return np.unique(np.concatenate([self.cam.displacement.monotone_edges, self.process_force.edges]))
 
     def follower_force(self, angle: Any) -> Any:  # noqa: ANN401 - a number for a number, an array for arrays
         """The force on the follower along its way, N, or the torque about its pivot, N m."""
@@ -206,8 +209,8 @@ class CamForces:
 
     @property
     def lifts_off(self) -> bool:
-        """Whether the follower leaves the cam somewhere."""
-        return self.contact.low < 0.0
+        """Whether the follower leaves the cam somewhere, by more than the contact force is enclosed to."""
+        return self.contact.low < -FORCE_EXTREMES * self.contact.peak
 
     @kept_property
     def torque(self) -> Extremes:
@@ -293,7 +296,7 @@ class CamForces:
     def _taken(self, s: Jet, angle: Array | Interval) -> Jet:
         rate, load, slope = self.rate, self.load, s.slope()
         moved = slope.slope() * (load.inertia * rate**2) + slope * (load.viscous * rate) + s * load.stiffness
-        return moved + (load.constant + load.dry * self.direction(angle))
+        return moved + (load.constant + load.dry * self.direction(angle)) - self.process_force.jet(angle, moved.order)
 
     def _contact_force(self, angle: Array | Interval, order: int) -> Jet:
         return self._pressed(angle, order)[-1]
