@@ -10,6 +10,7 @@ from optlaws.cams.loads.forces import CamForces
 from optlaws.cycles.cycle import Cycle
 from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.formulas.tree import table_places
 from optlaws.laws.storage import PlainNumbers
 from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.motion.quantities import TURN, positive_quantity
@@ -31,8 +32,8 @@ class EnergyFluctuation(PlainNumbers):
     mean_power, mean_torque
         Over the turn, W and N m: what friction and processes take.
     energy
-        The greatest work above the mean, J: the shaft gives off so much between the angle at which it is fastest and the
-        one at which it is slowest.
+        The greatest work above the mean, J: the shaft gives off so much between the angle at which it is fastest and
+        the one at which it is slowest.
     fastest_at, slowest_at
         These angles, rad.
 
@@ -56,9 +57,9 @@ class EnergyFluctuation(PlainNumbers):
         Parameters
         ----------
         irregularity
-            K, the greatest less the least speed over their mean, such as 0.05: the cyclic irregularity, or coefficient of
-            fluctuation of speed. All that turns evenly with the shaft counts; what the cam or mechanism moves is
-            in the torque.
+            K, the greatest less the least speed over their mean, such as 0.05: the cyclic irregularity, or coefficient
+            of fluctuation of speed. All that turns evenly with the shaft counts; what the cam or mechanism moves is in
+            the torque.
 
         Raises
         ------
@@ -110,7 +111,8 @@ def energy_fluctuation(machine: CamForces | Cycle | Mechanism, speed: Quantity |
         return _of_torque(lambda angle: np.asarray(machine.shaft_torque(angle)), machine.edges, machine.rate)
     if isinstance(machine, Cycle):
         rate = TURN / machine.duration
-        return _of_torque(lambda angle: np.asarray(machine.power(angle / rate)) / rate, machine.smooth_times * rate, rate)
+        edges = machine.smooth_times * rate
+        return _of_torque(lambda angle: np.asarray(machine.power(angle / rate)) / rate, edges, rate)
     if not isinstance(machine, Mechanism):
         raise InputError(f"machine must be a CamForces, a Cycle or a Mechanism, got {shortened(machine)}")
     if machine.axis != "angle" or not (machine.over[0] <= 0.0 and machine.over[1] >= TURN):
@@ -118,7 +120,8 @@ def energy_fluctuation(machine: CamForces | Cycle | Mechanism, speed: Quantity |
     if speed is None:
         raise InputError("speed is missing: give that of the mechanism's input, such as speed='60 rpm'")
     known = positive_quantity(speed, "angular velocity", "speed")
-    inner = [place for place in machine.load_breaks if 0.0 < place < TURN]
+    kinks = (table_places(part, "x") for part in (machine.inertia_formula, machine.load_formula))
+    inner = sorted({place for places in kinks for place in places if 0.0 < place < TURN})
     edges = np.array([0.0, *inner, TURN])
     return _of_torque(lambda angle: np.asarray(machine.torque(angle, known, 0.0)), edges, known)
 

@@ -25,7 +25,7 @@ from optlaws.numerics.integral import integral
 from optlaws.numerics.interval import Interval, highest, middle
 from optlaws.numerics.taylor import Jet
 from optlaws.suggest import unknown_key
-from optlaws.tolerances import FORCE_EXTREMES, VALUE_ROUNDING
+from optlaws.tolerances import FORCE_EXTREMES
 
 #: Young's modulus and Poisson's ratio within the ranges of J. M. Gere, Mechanics of Materials, 5th edition, appendix H
 #: (steel 190 to 210 GPa and 0.27 to 0.30, cast iron 83 to 170 and 0.2 to 0.3, bronze 96 to 120 and 0.34, aluminium
@@ -301,9 +301,11 @@ class CamForces:
     def _contact_force(self, angle: Array | Interval, order: int) -> Jet:
         return self._pressed(angle, order)[-1]
 
-    def _pressed(self, angle: Array | Interval, order: int) -> tuple[Jet, Transmission, Jet]:
-        """The displacement, what a force of 1 N does, and the contact force."""
-        s = self.cam.displacement.jet(angle, order + 2)
+    def lever(self, angle: Array | Interval, order: int) -> Jet:
+        """The force that drives the follower for a contact force of 1 N, N, or the torque, N m; friction included."""
+        return self._driven(self.cam.displacement.jet(angle, order + 2), angle)[1]
+
+    def _driven(self, s: Jet, angle: Array | Interval) -> tuple[Transmission, Jet]:
         unit = self.cam.contact.transmission(s)
         lever = unit.lever_with(self._friction.contact)
         if self._friction.guide:
@@ -315,6 +317,12 @@ class CamForces:
                 f"the follower jams in its guide at {place:.6g} deg of the cam: lessen the pressure angle, the "
                 "friction of the guide or its overhang, or make the guide longer"
             )
+        return unit, lever
+
+    def _pressed(self, angle: Array | Interval, order: int) -> tuple[Jet, Transmission, Jet]:
+        """The displacement, what a force of 1 N does, and the contact force."""
+        s = self.cam.displacement.jet(angle, order + 2)
+        unit, lever = self._driven(s, angle)
         return s, unit, self._taken(s, angle) / lever
 
     def _torque(self, angle: Array | Interval, order: int) -> Jet:

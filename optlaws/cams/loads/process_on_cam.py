@@ -1,7 +1,7 @@
 """A process force on a cam's follower, over the cam's angle, the time or the follower's way: smooth between its edges.
 
-Its tables may leap where a place is given twice, as where a tool strikes. Between two edges each table is a polynomial, so
-that forces are enclosed there as those of inertia and spring are.
+Its tables may leap where a place is given twice, as where a tool strikes. Between two edges each table is a polynomial,
+so that forces are enclosed there as those of inertia and spring are.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.formulas.arithmetic import pieces
 from optlaws.formulas.slopes import added, multiplied
-from optlaws.formulas.tree import Formula, Name, Table, number, rebuilt
+from optlaws.formulas.tree import Formula, Name, Table, number, rebuilt, table_places
 from optlaws.kept import kept_property
 from optlaws.mechanisms.linkages.entries import TableKind, formula_of, table_numbers
 from optlaws.motion.quantities import TURN
@@ -88,8 +88,8 @@ def read_process_on_cam(given: Mapping[str, Any] | None, motion: CamMotion, rate
     """A process force from its entries, as cycles have it on mechanisms; none without entries.
 
     `force`, or `torque` on a follower that swings, is a table, a formula or a quantity, above 0 where it pushes to
-    greater displacements; `over` the "time" t from the beginning of the motion, the "master", which is the cam's angle m,
-    or the displacement s of the "driven" follower. Over time and angle a table leaps where a place is given twice.
+    greater displacements; `over` the "time" t from the beginning of the motion, the "master", which is the cam's angle
+    m, or the displacement s of the "driven" follower. Over time and angle a table leaps where a place is given twice.
 
     Parameters
     ----------
@@ -119,7 +119,6 @@ def read_process_on_cam(given: Mapping[str, Any] | None, motion: CamMotion, rate
         raise InputError(
             "process: a force over time is another at each speed: give it over the 'master', the cam's angle"
         )
-    dimensions = ({"time": "time", "master": "angle", "driven": motion.axis}[over], kind)
     name, dimension = VARIABLES[over], {"time": "time", "master": "angle"}.get(over, motion.axis)
     runs = _runs(given[kind], (dimension, kind), f"process: {kind}", name, interpolation)
     if over == "driven":
@@ -155,7 +154,7 @@ def _over_angle(runs: list[Formula], motion: CamMotion, kind: str) -> list[Force
     (first, last), breaks = motion.interval, np.array(motion.breaks)
     stretches: list[ForceStretch] = []
     for run in runs:
-        places = [_snapped(place, breaks) for place in _places(run, "m")]
+        places = [_snapped(place, breaks) for place in table_places(run, "m")]
         ends = (places[0], places[-1]) if isinstance(run, Table) else (first, last)
         within = [ends[0], *(place for place in places if ends[0] < place < ends[1]), ends[1]]
         stretches += [ForceStretch(*cell, _smooth_at(run, "m", 0.5 * sum(cell))) for cell in pairwise(within)]
@@ -177,23 +176,20 @@ def _over_angle(runs: list[Formula], motion: CamMotion, kind: str) -> list[Force
 def _over_way(force: Formula, motion: CamMotion) -> list[ForceStretch]:
     """Smooth stretches of a formula of the displacement: between the angles at which it is at a place of a table."""
     edges: list[float] = []
+    places = table_places(force, "s")
     for low, high in pairwise(motion.monotone_edges.tolist()):
-        ends = [float(motion.jet(np.array(at), 0, before=before).terms[0]) for at, before in ((low, False), (high, True))]
-        within = sorted(place for place in _places(force, "s") if min(ends) < place < max(ends))
-        rising = ends[1] > ends[0]
-        edges.append(low)
-        for place in within if rising else within[::-1]:
-            edges.append(bisect(lambda at, place=place: (motion(at) < place) == rising, low, high)[0])
+        first, last = float(motion(low)), float(motion.jet(np.array(high), 0, before=True).terms[0])
+        within = [place for place in places if min(first, last) < place < max(first, last)]
+        edges += [low, *(_reached(motion, place, (low, high), rises=last > first) for place in within[:: 1 if last > first else -1])]
     edges.append(motion.interval[1])
     middles = [0.5 * (low + high) for low, high in pairwise(edges)]
     formulas = (_smooth_at(force, "s", float(motion(middle))) for middle in middles)
     return [ForceStretch(*cell, formula) for cell, formula in zip(pairwise(edges), formulas, strict=True)]
 
 
-def _places(formula: Formula, name: str) -> list[float]:
-    """The places of all tables of a name in a formula, ascending."""
-    tables = (part for part in formula.walk() if isinstance(part, Table) and part.of == Name(name))
-    return sorted({place for table in tables for place in table.places})
+def _reached(motion: CamMotion, place: float, ends: tuple[float, float], *, rises: bool) -> float:
+    """The angle between two, from the one to the other of which the motion goes one way, at which it is at a place."""
+    return bisect(lambda at: bool((motion(at) < place) == rises), *ends)[0]
 
 
 def _snapped(place: float, breaks: Array) -> float:

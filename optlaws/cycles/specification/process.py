@@ -11,7 +11,7 @@ import numpy as np
 from optlaws.errors import InputError
 from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.formulas.slopes import added, derivative, multiplied
-from optlaws.formulas.tree import Formula, Name, Table, number, rebuilt, substituted
+from optlaws.formulas.tree import Formula, Name, Table, number, rebuilt, substituted, table_places
 from optlaws.mechanisms.linkages.entries import FEWEST, TableKind, formula_of
 from optlaws.mechanisms.linkages.mechanism import DIMENSIONS, Mechanism
 from optlaws.motion.quantities import TURN
@@ -42,8 +42,7 @@ class ProcessForce:
     @property
     def breaks(self) -> tuple[float, ...]:
         """Times at which it has kinks."""
-        tables = (part for part in self.load.walk() if isinstance(part, Table) and part.of == Name("t"))
-        return tuple(place for table in tables for place in table.places)
+        return tuple(table_places(self.load, "t"))
 
 
 def is_process(given: Any) -> bool:  # noqa: ANN401 - whatever a person gave
