@@ -123,6 +123,7 @@ OUTLINE_SHARE = 1e-3  # no part of an outline is left without places, however st
 OUTLINE_DRAWN = 1e-5  # m: by so much the outline of an animated cam may be off
 LIFTED = 1e-3  # of the stroke: so far up more stiffness is more force
 SIZE_BRACKET = 1e-8  # of a radius: width of the bracket of a least size
+OFFSET_SETTLED = 1e-12  # of a pressure angle: at the places that an offset is sought by it is the greatest to so much
 SIZE_MET = 1e-7  # of a radius: a size that is proven to so much is the least one
 SIZE_MARGIN = 1e-10  # of a radius: by how much more than needed it grows at last
 SIZE_NUDGE = 1e-9  # of a radius: a step to where a limit is proven to be kept

@@ -9,6 +9,7 @@ from optlaws.cams.barrel import Side as Side
 from optlaws.cams.barrel import SpaceCurve as SpaceCurve
 from optlaws.cams.best_laws import BestBaseCircle as BestBaseCircle
 from optlaws.cams.best_laws import BestCam as BestCam
+from optlaws.cams.best_offset import BestOffset as BestOffset
 from optlaws.cams.curves.file_options import CutFormat as CutFormat
 from optlaws.cams.curves.motion_by_angle import CamStretch as CamStretch
 from optlaws.cams.curves.motion_by_angle import Direction as Direction
@@ -21,6 +22,8 @@ from optlaws.cams.followers.rollers_and_faces import FaceContact as FaceContact
 from optlaws.cams.followers.rollers_and_faces import RollerContact as RollerContact
 from optlaws.cams.least_sizes import GreatestRoller as GreatestRoller
 from optlaws.cams.least_sizes import LeastBaseCircle as LeastBaseCircle
+from optlaws.cams.loads.process_on_cam import ForceStretch as ForceStretch
+from optlaws.cams.loads.process_on_cam import ProcessOnCam as ProcessOnCam
 from optlaws.cycles.interchange import PlotOver as PlotOver
 from optlaws.cycles.interlocks.enclosed_axis import Way as Way
 from optlaws.cycles.interlocks.interlock import Interlock as Interlock
@@ -120,6 +123,7 @@ __all__ = [
     "BestBaseCircle",
     "BestBreaks",
     "BestCam",
+    "BestOffset",
     "BestRatio",
     "Bound",
     "CamFollower",
@@ -148,6 +152,7 @@ __all__ = [
     "Extremes",
     "FaceContact",
     "FollowerResidual",
+    "ForceStretch",
     "Formula",
     "FormulaKind",
     "FourBarBranch",
@@ -194,6 +199,7 @@ __all__ = [
     "PlotOver",
     "Polynomial",
     "PolynomialBasis",
+    "ProcessOnCam",
     "Quantity",
     "RateLimit",
     "Residual",
