@@ -112,15 +112,16 @@ def best_offset(
     radius, course = positive(base_radius, "base_radius"), as_motion(motion, follower.axis)
     offsets = _Offsets(radius, course.range[0], sense(turning))
     angles = np.unique([*np.linspace(*course.interval, _FIRST), *course.monotone_edges])
+    last = np.inf
     for _ in range(_STEPS):
         s, slope = (np.asarray(term) for term in course.jet(angles, 1).terms)
         offset = _balanced(offsets, s, slope)
         cam = DiscCam(motion, base_radius, replace(follower, offset=f"{offset!r} m"), turning=turning)
         ends = cam.extremes.pressure_angles
         reached, greatest = float(np.abs(offsets.tangents(offset, s, slope)).max()), max(-ends[0].low, ends[1].high)
-        if greatest <= atan(reached) * (1.0 + OFFSET_SETTLED):
+        if greatest <= atan(reached) * (1.0 + OFFSET_SETTLED) or abs(offset - last) <= ROUNDOFF * radius:
             break
-        angles = np.append(angles, [end.angle for end in ends])
+        last, angles = offset, np.append(angles, [end.angle for end in ends])
     tangents = offsets.tangents(offset, s, slope)
     worst = angles[[int(np.argmax(tangents)), int(np.argmin(tangents))]]
     bound = reached * (1.0 - SIZE_BRACKET)

@@ -129,15 +129,14 @@ def energy_fluctuation(machine: CamForces | Cycle | Mechanism, speed: Quantity |
 def _of_torque(torque: RealFunction, edges: Array, speed: float) -> EnergyFluctuation:
     """What a torque is beside its mean, from the first to the last of the edges between which it is smooth."""
     start, stop = float(edges[0]), float(edges[-1])
-    mean = SmoothParts.between(start, stop, breaks=edges).integral(torque) / (stop - start)
-    parts = SmoothParts.between(start, stop, breaks=edges, signs=[lambda angle: torque(angle) - mean])
-    places, weights = parts.places
-    excess = torque(places) - mean
-    works = (weights * excess).reshape(len(parts.edges) - 1, -1).sum(axis=1)
-    work, size = np.concatenate([[0.0], np.cumsum(works)]), float(weights @ np.abs(excess))
+    even = SmoothParts.between(start, stop, breaks=edges).halved(torque)
+    mean = even.integral(torque) / (stop - start)
+    parts = SmoothParts.between(start, stop, breaks=even.edges, signs=[lambda angle: torque(angle) - mean])
+    works = parts.integrals(lambda angle: torque(angle) - mean)
+    work, size = np.concatenate([[0.0], np.cumsum(works)]), float(np.abs(works).sum())
     # of angles at which the work is the same but for rounding, as in a dwell, the first
     least, most = work.min() + VALUE_ROUNDING * size, work.max() - VALUE_ROUNDING * size
     fastest, slowest = float(parts.edges[np.argmax(work <= least)]), float(parts.edges[np.argmax(work >= most)])
-    if abs(mean) <= VALUE_ROUNDING * float(np.abs(excess).max(initial=0.0)):
+    if abs(mean) * (stop - start) <= VALUE_ROUNDING * size:
         mean = 0.0
     return EnergyFluctuation(speed, mean * speed, mean, float(work.max() - work.min()), fastest, slowest)

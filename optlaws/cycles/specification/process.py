@@ -102,7 +102,7 @@ def process_entries(
     over, interpolation = given.get("over", "time"), given.get("interpolation", "lines")
     if over not in variables:
         raise InputError(f"{name}: over: {unknown_key(over, variables, 'variable')}")
-    if interpolation not in FEWEST:
+    if interpolation not in tuple(FEWEST):
         raise InputError(f"{name}: {unknown_key(interpolation, FEWEST, 'interpolation')}")
     return kinds[0], over, interpolation
 

@@ -17,7 +17,7 @@ from optlaws.numbers import finite, real
 TableKind = Literal["spline", "lines"]
 FEWEST = {"spline": 4, "lines": 2}
 #: a number with a unit behind it; in formulas a number is followed by a sign
-_WITH_UNIT = re.compile(r"\s*[+-]?[\d./]*\d(?:[eE][+-]?\d+)?\s*[^\W\d_]")
+_WITH_UNIT = re.compile(r"\s*[+-]?[\d./]*\d(?:[eE][+-]?\d+)?+\s*[^\W\d_]")
 
 
 def formula_of(
