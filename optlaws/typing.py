@@ -20,7 +20,7 @@ __getattr__, __dir__, __all__ = face(
         "optlaws.cams.followers.follower": "CamFollower Place",
         "optlaws.cams.followers.rollers_and_faces": "FaceContact RollerContact",
         "optlaws.cams.least_sizes": "GreatestRoller LeastBaseCircle",
-        "optlaws.cams.loads.process_on_cam": "ForceStretch ProcessOnCam",
+        "optlaws.cams.curves.process_by_angle": "ForceStretch ProcessByAngle",
         "optlaws.cycles.interchange": "PlotOver",
         "optlaws.cycles.interlocks.enclosed_axis": "Way",
         "optlaws.cycles.interlocks.interlock": "Interlock LeastClearance",

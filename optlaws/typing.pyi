@@ -14,6 +14,8 @@ from optlaws.cams.curves.file_options import CutFormat as CutFormat
 from optlaws.cams.curves.motion_by_angle import CamStretch as CamStretch
 from optlaws.cams.curves.motion_by_angle import Direction as Direction
 from optlaws.cams.curves.plane_curve import PlaneCurve as PlaneCurve
+from optlaws.cams.curves.process_by_angle import ForceStretch as ForceStretch
+from optlaws.cams.curves.process_by_angle import ProcessByAngle as ProcessByAngle
 from optlaws.cams.disc import CutCurve as CutCurve
 from optlaws.cams.disc import Turning as Turning
 from optlaws.cams.followers.follower import CamFollower as CamFollower
@@ -22,8 +24,6 @@ from optlaws.cams.followers.rollers_and_faces import FaceContact as FaceContact
 from optlaws.cams.followers.rollers_and_faces import RollerContact as RollerContact
 from optlaws.cams.least_sizes import GreatestRoller as GreatestRoller
 from optlaws.cams.least_sizes import LeastBaseCircle as LeastBaseCircle
-from optlaws.cams.loads.process_on_cam import ForceStretch as ForceStretch
-from optlaws.cams.loads.process_on_cam import ProcessOnCam as ProcessOnCam
 from optlaws.cycles.interchange import PlotOver as PlotOver
 from optlaws.cycles.interlocks.enclosed_axis import Way as Way
 from optlaws.cycles.interlocks.interlock import Interlock as Interlock
@@ -199,7 +199,7 @@ __all__ = [
     "PlotOver",
     "Polynomial",
     "PolynomialBasis",
-    "ProcessOnCam",
+    "ProcessByAngle",
     "Quantity",
     "RateLimit",
     "Residual",

@@ -1,13 +1,13 @@
-"""The best offset of a slide with a roller: the least greatest pressure angle over the turn, with proof that none is less.
+"""The best offset of a slide with a roller: the least greatest pressure angle over the turn, with its proof.
 
-An offset lessens the pressure angle on one way and adds to it on the other. Where both are as great the offset is best: every
-other breaks the angle at one of two places of the turn, as is shown for all offsets at once by intervals of them.
+An offset lessens the pressure angle on one way and adds to it on the other. Where both are as great the offset is best:
+every other breaks the angle at one of two places of the turn, as is shown for all offsets at once by intervals of them.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import atan, sqrt, tan
+from math import atan, sqrt
 from typing import NamedTuple
 
 import numpy as np
@@ -40,7 +40,7 @@ class _Offsets(NamedTuple):
         return np.asarray((slope - self.turning * offset) / (level + s - self.lowest))
 
     def beyond(self, tangent: float, s: Interval, slope: Interval, low: float, high: float) -> bool:
-        """Whether every offset in a range is proven to have more than a tangent, of either sign, at one of some places."""
+        """Whether every offset in a range is proven to have more than a tangent, of either sign, at some place."""
         least, most = (0.0 if low <= 0.0 <= high else min(abs(low), abs(high))), max(abs(low), abs(high))
         levels = (sqrt((self.radius - size) * (self.radius + size)) for size in (most, least))
         lower, upper = (level * (1.0 + way * 8.0 * ROUNDOFF) for level, way in zip(levels, (-1.0, 1.0), strict=True))

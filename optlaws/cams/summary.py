@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import degrees
 from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
 
-from optlaws.cams.loads.forces import CamForces
+from optlaws.cams.forces import CamForces
 from optlaws.cycles.cycle import Cycle
 from optlaws.shown.summary import Row, Summary
 from optlaws.tolerances import SMALLEST_ANGLE

@@ -17,9 +17,9 @@ from optlaws.cams.curves.extremes import UNDERCUT
 from optlaws.cams.curves.plane_curve import PlaneCurve
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.follower import positive
-from optlaws.cams.loads.forces import CamForces
+from optlaws.cams.forces import CamForces
 from optlaws.cams.least_sizes import LeastBaseCircle
-from optlaws.cams.loads.springs import CONTACT, GREATEST
+from optlaws.cams.sizing.springs import CONTACT, GREATEST
 from optlaws.cams.summary import named_forces
 from optlaws.cycles.summary import objective_unit
 from optlaws.files import tables, writing

@@ -20,10 +20,10 @@ from optlaws.cams.curves.extremes import EnclosedExtreme
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.follower import read_follower
 from optlaws.cams.followers.translating_roller import TranslatingRoller
-from optlaws.cams.loads.energy_fluctuation import EnergyFluctuation, energy_fluctuation
-from optlaws.cams.loads.forces import CamForces
+from optlaws.cams.forces import CamForces
 from optlaws.cams.least_sizes import GreatestRoller, LeastBaseCircle, greatest_roller, least_base_circle
-from optlaws.cams.loads.springs import Spring, least_spring
+from optlaws.cams.sizing.energy_fluctuation import EnergyFluctuation, energy_fluctuation
+from optlaws.cams.sizing.springs import Spring, least_spring
 from optlaws.cams.summary import geometry
 from optlaws.cycles.cycle import Cycle
 from optlaws.errors import InfeasibleProblem, InputError, located
@@ -225,10 +225,9 @@ class Findings:
             inertia = self.fluctuation.flywheel(self.spec.forces.irregularity or 0.0)
             data["energy"] = {**self.fluctuation.to_dict(), "flywheel": inertia}
         if self.offset is not None:
-            data["best_offset"] = {
-                "offset": self.offset.offset, "pressure_angle": self.offset.pressure_angle,
-                "lower_bound": self.offset.lower_bound, "proven": self.offset.proven, "angles": list(self.offset.angles),
-            }  # fmt: skip
+            known = ("offset", "pressure_angle", "lower_bound", "proven")
+            best = {name: getattr(self.offset, name) for name in known}
+            data["best_offset"] = {**best, "angles": list(self.offset.angles)}
         if self.spring is not None:
             data["spring"] = self.spring.to_dict()
         if self.as_made:

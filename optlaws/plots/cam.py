@@ -10,7 +10,7 @@ import numpy as np
 
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.contact import FollowerContact
-from optlaws.cams.loads.forces import CamForces
+from optlaws.cams.forces import CamForces
 from optlaws.errors import InputError
 from optlaws.files.writing import MARK
 from optlaws.numbers import Array

@@ -21,7 +21,7 @@ from optlaws import (
 from tests.cams.placed import cycle_of
 
 ROLLER = TranslatingRoller("12 mm", offset="5 mm")
-MOTIONS = {
+MOTIONS: dict[str, Cycle | CamMotion] = {
     "up and down": cycle_of("30 mm"),
     "raised": Cycle([Rise("20 mm", "60 deg", law="345"), Return(law="modified sine")], start="7 mm", period="1 s"),
     "a return": CamMotion.of_law("cycloidal", "40 mm", "120 deg", "return"),

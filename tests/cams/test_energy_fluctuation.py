@@ -40,15 +40,16 @@ def test_a_shaft_with_the_flywheel_keeps_within_the_irregularity(irregularity: f
     machine = forces()
     energy = energy_fluctuation(machine)
     inertia = energy.flywheel(irregularity)
-    square, start, places, squares = energy.speed**2, energy.speed**2, [], []
+    square, start = energy.speed**2, energy.speed**2
+    every: list[np.ndarray] = []
     for low, high in zip(machine.edges[:-1] + 1e-12, machine.edges[1:] - 1e-12, strict=True):
         angles = np.linspace(low, high, 2001)
         given = energy.mean_torque - np.asarray(machine.shaft_torque(angles))
-        places.append(angles)
-        squares.append(start + 2.0 / inertia * cumulative_simpson(given, x=angles, initial=0.0))
-        start = squares[-1][-1]
+        gained = start + 2.0 / inertia * cumulative_simpson(given, x=angles, initial=0.0)
+        every.append(np.stack([angles, gained]))
+        start = float(gained[-1])
     assert start == pytest.approx(square, rel=1e-8)
-    places, squares = np.concatenate(places), np.concatenate(squares)
+    places, squares = np.concatenate(every, axis=1)
     # the mean of the extreme speeds is that of the shaft: what is added to all squares is free
     least, most = squares.min() - square, squares.max() - square
     speed = energy.speed
@@ -96,7 +97,9 @@ def test_cycles_cams_and_mechanisms_say_the_same() -> None:
 def test_of_a_cycle_with_a_motor_it_is_the_power_of_the_motor() -> None:
     press = slider_crank("0.1 m", "0.4 m", bodies={"crank": "0.02 kg m^2", "slider": "5 kg"})
     drive = Drive(press, Motor("3e-4 kg m^2"), ratio=8, efficiency=0.9)
-    cycle = Cycle([Rise("180 deg", "0.3 s", law="345"), Return(duration="0.4 s", law="345"), Dwell()], period="1 s", drive=drive)
+    cycle = Cycle(
+        [Rise("180 deg", "0.3 s", law="345"), Return(duration="0.4 s", law="345"), Dwell()], period="1 s", drive=drive
+    )
     energy = energy_fluctuation(cycle)
     times = (np.arange(1_000_000) + 0.5) * 1e-6
     power = np.asarray(cycle.power(times))

@@ -1,4 +1,4 @@
-"""Numbers of cam assignments as students of a university published them: forces, springs, offsets, power and flywheels."""
+"""Cam assignments of a university as students published them: forces, springs, offsets, power and flywheels."""
 
 import json
 from math import degrees, pi, radians, sqrt
@@ -33,7 +33,11 @@ PRINT, EXAM = DATA["assignment"], DATA["exam"]
 def moves(name: str) -> list[Dwell | Move]:
     law = "cycloidal"
     if name == "SV":
-        fall = [Return("20 mm", "50 deg", law=law), Dwell("10 deg"), Return("20 mm", "85 deg", law=law)]
+        fall: list[Dwell | Move] = [
+            Return("20 mm", "50 deg", law=law),
+            Dwell("10 deg"),
+            Return("20 mm", "85 deg", law=law),
+        ]
         return [Rise("40 mm", "100 deg", law=law), *fall, Dwell()]
     return [
         *(Dwell("60 deg"), Rise("30 mm", "120 deg", law=law), Dwell("20 deg")),

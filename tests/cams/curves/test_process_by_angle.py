@@ -149,9 +149,10 @@ def test_a_spring_under_a_process_holds_at_every_speed_and_no_lesser_does() -> N
         ({"force": [("0 deg", "0 N"), ("300 deg", "1 N")], "over": "master"}, "goes from 0 to 300 deg"),
         ({"force": [("0 mm", "0 N"), ("9 mm", "1 N"), ("9 mm", "2 N"), ("30 mm", "0 N")], "over": "driven"}, "twice"),
         ({"force": float("nan")}, "finite"),
+        ({"force": "3 N", "interpolation": []}, "interpolation"),
     ],
 )
-def test_wrong_processes_say_why(process: Any, says: str) -> None:
+def test_wrong_processes_say_why(process: Any, says: str) -> None:  # noqa: ANN401 - whatever a person gave
     with pytest.raises(InputError, match=says):
         CamForces(cam_of("translating roller"), "60 rpm", MOVED, process=process)
 

@@ -9,9 +9,9 @@ from typing import Any, Literal, NoReturn
 
 import numpy as np
 
+from optlaws.cams.curves.process_by_angle import read_process_by_angle
 from optlaws.cams.disc import DiscCam
-from optlaws.cams.loads.forces import CamForces
-from optlaws.cams.loads.process_on_cam import read_process_on_cam
+from optlaws.cams.forces import CamForces
 from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.kept import kept_property
@@ -40,6 +40,8 @@ _PARTS = 12
 CONTACT = "contact"
 #: what is sought by the greatest force that is to be least
 GREATEST = {"force": "greatest", CONTACT: CONTACT}
+#: what is sought by itself
+_SOLE = ("preload", "stiffness")
 _UNITS = {"length": ("force", "stiffness"), "angle": ("torque", "torsional stiffness")}
 
 
@@ -237,7 +239,7 @@ def _task(
         raise InputError(f"speeds must rise from at least 0, got {shortened(speeds)}")
     least = 0.0 if force is None else quantity(force, _UNITS[cam.displacement.axis][0], "force")
     if slow < fast:  # a force over time, which is another at each speed, is refused
-        read_process_on_cam(moved["process"], cam.displacement, None)
+        read_process_by_angle(moved["process"], cam.displacement, None)
     return _SpringTask(CamForces(cam, speed=speeds[1], **moved), slow, fast, least, contact)
 
 
@@ -258,7 +260,7 @@ def _exchange(task: _SpringTask, given: _KnownSpring) -> Spring:
         best = _program(task, angles, given)
         force, pushed = _extremes(task, best)
         slack = PROGRAM_SLACK * max(pushed.peak, task.least)
-        settled = given.objective not in GREATEST.values() or pushed.high <= best[2] * (1.0 + SPRING_SETTLED)
+        settled = given.objective in _SOLE or pushed.high <= best[2] * (1.0 + SPRING_SETTLED)
         if force.low >= task.least - slack and settled:
             break
         angles = np.append(angles, [force.least_at, pushed.most_at])
@@ -296,16 +298,20 @@ def _program(task: _SpringTask, angles: Array, given: _KnownSpring) -> tuple[flo
     known = (given.preload, given.stiffness)
     bounds = [(0.0, None) if value is None else (value / by,) * 2 for value, by in zip(known, units, strict=False)]
 
-    def least(weights: Any, most: float | None) -> Any:  # noqa: ANN401 - scipy's
-        options = {"primal_feasibility_tolerance": PROGRAM_ROUNDING, "dual_feasibility_tolerance": PROGRAM_ROUNDING}
-        every = [*bounds, (None, most)]
-        return linprog(weights, A_ub=rows, b_ub=sides, bounds=every, method="highs", options=options)
+    def least(weights: Array, most: float | None) -> Any:  # noqa: ANN401 - scipy's
+        return linprog(
+            weights,
+            A_ub=rows,
+            b_ub=sides,
+            bounds=[*bounds, (None, most)],
+            method="highs",
+            options={"primal_feasibility_tolerance": PROGRAM_ROUNDING, "dual_feasibility_tolerance": PROGRAM_ROUNDING},
+        )
 
-    weights = {"preload": (1.0, 0.0, 0.0), "stiffness": (0.0, 1.0, 0.0)}.get(given.objective, (0.0, 0.0, 1.0))
-    optimum = least(weights, None)
+    optimum = least(np.eye(3)[_SOLE.index(given.objective) if given.objective in _SOLE else 2], None)
     if optimum.status != 0 or optimum.x is None:
         _refuse(task, angles, given)
-    if given.objective in GREATEST.values():
+    if given.objective not in _SOLE:
         # of all that are as good the one of the least mean force
         mean = np.array([*task.sums, 0.0]) * units
         gentlest = least(mean / np.abs(mean).max(), float(optimum.x[2]))

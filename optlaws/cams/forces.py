@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 
 from optlaws.cams.curves.extremes import UNDERCUT
+from optlaws.cams.curves.process_by_angle import ProcessByAngle, read_process_by_angle
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.contact import Friction, Transmission
-from optlaws.cams.loads.process_on_cam import ProcessOnCam, read_process_on_cam
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.specification.drive import CycleDrive, read_constant_drive
 from optlaws.echo import shortened
@@ -176,9 +176,9 @@ class CamForces:
         return read_constant_drive(given, self.cam.displacement.axis)
 
     @kept_property
-    def process_force(self) -> ProcessOnCam:
+    def process_force(self) -> ProcessByAngle:
         """The force of the process on the follower over the cam's angle."""
-        return read_process_on_cam(self.process, self.cam.displacement, self.rate)
+        return read_process_by_angle(self.process, self.cam.displacement, self.rate)
 
     @kept_property
     def edges(self) -> Array:

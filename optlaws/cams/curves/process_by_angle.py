@@ -46,7 +46,7 @@ class ForceStretch(NamedTuple):
 
 
 @dataclass(frozen=True)
-class ProcessOnCam:
+class ProcessByAngle:
     """The force of a process on a follower over the cam's angle, N, or N m of one that swings.
 
     It is above 0 where it pushes the follower along its way, off the cam.
@@ -84,7 +84,7 @@ class ProcessOnCam:
         return jet_of_parts(self.stretches, along, angle)
 
 
-def read_process_on_cam(given: Mapping[str, Any] | None, motion: CamMotion, rate: float | None) -> ProcessOnCam:
+def read_process_by_angle(given: Mapping[str, Any] | None, motion: CamMotion, rate: float | None) -> ProcessByAngle:
     """A process force from its entries, as cycles have it on mechanisms; none without entries.
 
     `force`, or `torque` on a follower that swings, is a table, a formula or a quantity, above 0 where it pushes to
@@ -106,7 +106,7 @@ def read_process_on_cam(given: Mapping[str, Any] | None, motion: CamMotion, rate
         If an entry is unknown or wrong, or a table ends within the motion.
     """
     if given is None:
-        return ProcessOnCam(motion)
+        return ProcessByAngle(motion)
     if not isinstance(given, Mapping):
         raise InputError(
             f"process must be entries such as {{'force': '-300 N', 'over': 'master'}}, got {shortened(given)}"
@@ -124,10 +124,10 @@ def read_process_on_cam(given: Mapping[str, Any] | None, motion: CamMotion, rate
     if over == "driven":
         if len(runs) > 1:
             raise InputError(f"process: {kind}: over the follower's way its table gives a place twice: give it once")
-        return ProcessOnCam(motion, tuple(_over_way(runs[0], motion)), "s")
+        return ProcessByAngle(motion, tuple(_over_way(runs[0], motion)), "s")
     if over == "time":
         runs = [rescaled(run, "t", "m", (0.0, 1.0 / (rate or 1.0))) for run in runs]
-    return ProcessOnCam(motion, tuple(_over_angle(runs, motion, kind)))
+    return ProcessByAngle(motion, tuple(_over_angle(runs, motion, kind)))
 
 
 def _runs(
@@ -160,17 +160,13 @@ def _over_angle(runs: list[Formula], motion: CamMotion, kind: str) -> list[Force
         stretches += [ForceStretch(*cell, _smooth_at(run, "m", 0.5 * sum(cell))) for cell in pairwise(within)]
     inside = [stretch for stretch in stretches if stretch.stop > first and stretch.start < last]
     whole = bool(inside) and inside[0].start <= first and inside[-1].stop >= last
-    if not whole or any(one.stop != following.start for one, following in pairwise(inside)):
-        ends = (f"{degrees(place):.6g}" for place in (stretches[0].start, stretches[-1].stop, first, last))
+    if not whole or any(each.stop != following.start for each, following in pairwise(inside)):
+        shown = (f"{degrees(place):.6g}" for place in (stretches[0].start, stretches[-1].stop, first, last))
         raise InputError(
             "process: {}: its table goes from {} to {} deg of the cam, and the motion from {} to {} deg: give a table "
-            "that ascends over the whole motion".format(kind, *ends)
+            "that ascends over the whole motion".format(kind, *shown)
         )
-    return [
-        inside[0]._replace(start=first),
-        *inside[1:-1],
-        *([inside[-1]._replace(stop=last)] if len(inside) > 1 else []),
-    ]
+    return [each._replace(start=max(each.start, first), stop=min(each.stop, last)) for each in inside]
 
 
 def _over_way(force: Formula, motion: CamMotion) -> list[ForceStretch]:
@@ -180,7 +176,13 @@ def _over_way(force: Formula, motion: CamMotion) -> list[ForceStretch]:
     for low, high in pairwise(motion.monotone_edges.tolist()):
         first, last = float(motion(low)), float(motion.jet(np.array(high), 0, before=True).terms[0])
         within = [place for place in places if min(first, last) < place < max(first, last)]
-        edges += [low, *(_reached(motion, place, (low, high), rises=last > first) for place in within[:: 1 if last > first else -1])]
+        edges += [
+            low,
+            *(
+                _reached(motion, place, (low, high), rises=last > first)
+                for place in within[:: 1 if last > first else -1]
+            ),
+        ]
     edges.append(motion.interval[1])
     middles = [0.5 * (low + high) for low, high in pairwise(edges)]
     formulas = (_smooth_at(force, "s", float(motion(middle))) for middle in middles)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from optlaws.cams.loads.forces import CamForces
+from optlaws.cams.forces import CamForces
 from optlaws.cycles.cycle import Cycle
 from optlaws.echo import shortened
 from optlaws.errors import InputError
