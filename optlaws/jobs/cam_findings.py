@@ -104,10 +104,11 @@ class Findings:
     @kept_property
     def cam(self) -> DiscCam:
         """The cam; with the laws or the offset found where the best ones are sought."""
-        if self.offset is not None:
-            return self.offset.cam
-        if self.best is not None:
-            return self.best.cam if isinstance(self.best, BestCam) else self.best.least.cam
+        best, offset = self.best, self.offset
+        if offset is not None:
+            return offset.cam
+        if best is not None:
+            return best.cam if isinstance(best, BestCam) else best.least.cam
         turning = self.spec.limits["turning"]
         return DiscCam(self.cycle, self.spec.base_radius or "", read_follower(self.spec.follower), turning=turning)
 
@@ -193,9 +194,7 @@ class Findings:
             return None
         given = self.cycle.drive if isinstance(self.cycle.drive, Mapping) else {}
         load = {key: value for key, value in given.items() if key not in {"stiffness", "preload"}}
-        friction = {} if self.spec.forces is None else self.spec.forces.friction
-        beside: dict[str, Any] = {"process": self.spec.process, "friction": friction}
-        return least_spring(self.cam, drive=load, **beside, **msgspec.structs.asdict(self.spec.spring))
+        return least_spring(self.cam, drive=load, process=self.spec.process, **msgspec.structs.asdict(self.spec.spring))
 
     @kept_property
     def as_made(self) -> dict[str, AsMade | None]:

@@ -96,7 +96,6 @@ def least_spring(
     preload: Quantity | None = None,
     process: Mapping[str, Any] | None = None,
     greatest: Literal["force", "contact"] = "force",
-    friction: Mapping[str, Any] | None = None,
 ) -> Spring:
     """The least spring that keeps the follower on the cam at every speed of a range.
 
@@ -120,9 +119,7 @@ def least_spring(
         The force of a process on the follower, as of `CamForces`; over the time only where both speeds are the same.
     greatest
         Which greatest force is least where neither stiffness nor preload is given: the "force" on the follower along
-        its way, or the "contact" force between cam and follower.
-    friction
-        Of the contact force, as of `CamForces`.
+        its way, or the "contact" force between cam and follower without friction.
 
     Raises
     ------
@@ -143,8 +140,7 @@ def least_spring(
     """
     if greatest not in GREATEST:
         raise InputError(unknown_key(greatest, GREATEST, "greatest"))
-    moved = {"drive": drive, "process": process, "friction": friction or {}}
-    task = _task(cam, moved, speeds, force, contact=greatest == CONTACT)
+    task = _task(cam, {"drive": drive, "process": process}, speeds, force, contact=greatest == CONTACT)
     force_unit, stiffness_unit = _UNITS[cam.displacement.axis]
     known = _known(preload, force_unit, "preload"), _known(stiffness, stiffness_unit, "stiffness")
     return _exchange(task, _KnownSpring(*known, GREATEST[greatest]))
@@ -317,7 +313,7 @@ def _program(task: _SpringTask, angles: Array, given: _KnownSpring) -> tuple[flo
         gentlest = least(mean / np.abs(mean).max(), float(optimum.x[2]))
         optimum = gentlest if gentlest.status == 0 and gentlest.x is not None else optimum
     preload, stiffness, greatest = (float(number) for number in optimum.x * units)
-    return max(preload, 0.0), max(stiffness, 0.0), greatest
+    return max(0.0, preload), max(0.0, stiffness), greatest
 
 
 def _refuse(task: _SpringTask, angles: Array, given: _KnownSpring) -> NoReturn:
