@@ -24,6 +24,7 @@ from optlaws.cams.at_shaft import cam_mechanism as cam_mechanism
 from optlaws.cams.barrel import BarrelCam as BarrelCam
 from optlaws.cams.best_laws import best_base_circle as best_base_circle
 from optlaws.cams.best_laws import best_cam as best_cam
+from optlaws.cams.best_offset import best_offset as best_offset
 from optlaws.cams.conjugate import conjugate_cam as conjugate_cam
 from optlaws.cams.curves.motion_by_angle import CamMotion as CamMotion
 from optlaws.cams.disc import DiscCam as DiscCam
@@ -35,8 +36,10 @@ from optlaws.cams.followers.translating_roller import TranslatingRoller as Trans
 from optlaws.cams.forces import CamForces as CamForces
 from optlaws.cams.least_sizes import greatest_roller as greatest_roller
 from optlaws.cams.least_sizes import least_base_circle as least_base_circle
-from optlaws.cams.springs import Spring as Spring
-from optlaws.cams.springs import least_spring as least_spring
+from optlaws.cams.sizing.energy_fluctuation import EnergyFluctuation as EnergyFluctuation
+from optlaws.cams.sizing.energy_fluctuation import energy_fluctuation as energy_fluctuation
+from optlaws.cams.sizing.springs import Spring as Spring
+from optlaws.cams.sizing.springs import least_spring as least_spring
 from optlaws.cycles.cycle import Cycle as Cycle
 from optlaws.cycles.fastest_cycle import FastestCycle as FastestCycle
 from optlaws.cycles.fastest_cycle import LeastDuration as LeastDuration
@@ -226,6 +229,7 @@ __all__ = [
     "DriveLimit",
     "Dwell",
     "DwellMachine",
+    "EnergyFluctuation",
     "Expression",
     "FastestCycle",
     "FastestMove",
@@ -298,6 +302,7 @@ __all__ = [
     "best_base_circle",
     "best_breaks",
     "best_cam",
+    "best_offset",
     "between",
     "cam_constant",
     "cam_mechanism",
@@ -311,6 +316,7 @@ __all__ = [
     "driving_law",
     "dwell_machine",
     "dwell_mechanism",
+    "energy_fluctuation",
     "fastest",
     "fastest_moves",
     "find_torsion_levers",

@@ -9,10 +9,13 @@ from optlaws.cams.barrel import Side as Side
 from optlaws.cams.barrel import SpaceCurve as SpaceCurve
 from optlaws.cams.best_laws import BestBaseCircle as BestBaseCircle
 from optlaws.cams.best_laws import BestCam as BestCam
+from optlaws.cams.best_offset import BestOffset as BestOffset
 from optlaws.cams.curves.file_options import CutFormat as CutFormat
 from optlaws.cams.curves.motion_by_angle import CamStretch as CamStretch
 from optlaws.cams.curves.motion_by_angle import Direction as Direction
 from optlaws.cams.curves.plane_curve import PlaneCurve as PlaneCurve
+from optlaws.cams.curves.process_by_angle import ForceStretch as ForceStretch
+from optlaws.cams.curves.process_by_angle import ProcessByAngle as ProcessByAngle
 from optlaws.cams.disc import CutCurve as CutCurve
 from optlaws.cams.disc import Turning as Turning
 from optlaws.cams.followers.follower import CamFollower as CamFollower
@@ -120,6 +123,7 @@ __all__ = [
     "BestBaseCircle",
     "BestBreaks",
     "BestCam",
+    "BestOffset",
     "BestRatio",
     "Bound",
     "CamFollower",
@@ -148,6 +152,7 @@ __all__ = [
     "Extremes",
     "FaceContact",
     "FollowerResidual",
+    "ForceStretch",
     "Formula",
     "FormulaKind",
     "FourBarBranch",
@@ -194,6 +199,7 @@ __all__ = [
     "PlotOver",
     "Polynomial",
     "PolynomialBasis",
+    "ProcessByAngle",
     "Quantity",
     "RateLimit",
     "Residual",

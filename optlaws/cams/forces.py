@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from optlaws.cams.curves.extremes import UNDERCUT
+from optlaws.cams.curves.process_by_angle import ProcessByAngle, read_process_by_angle
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.contact import Friction, Transmission
 from optlaws.cycles.cycle import Cycle
@@ -24,7 +25,7 @@ from optlaws.numerics.integral import integral
 from optlaws.numerics.interval import Interval, highest, middle
 from optlaws.numerics.taylor import Jet
 from optlaws.suggest import unknown_key
-from optlaws.tolerances import FORCE_EXTREMES, VALUE_ROUNDING
+from optlaws.tolerances import FORCE_EXTREMES
 
 #: Young's modulus and Poisson's ratio within the ranges of J. M. Gere, Mechanics of Materials, 5th edition, appendix H
 #: (steel 190 to 210 GPa and 0.27 to 0.30, cast iron 83 to 170 and 0.2 to 0.3, bronze 96 to 120 and 0.34, aluminium
@@ -121,6 +122,11 @@ class CamForces:
         the guide, with `overhang` and `length` of the guide.
     width, materials
         Of the contact, for Hertz's pressure: "20 mm", ("steel", "steel").
+    process
+        The force of a process on the follower, with the entries of a cycle's: `{"force": [("0 deg", "0 N"), ("90 deg",
+        "-300 N"), ("360 deg", "0 N")], "over": "master"}`, above 0 where it pushes to greater displacements; over the
+        "time" t, the "master", which is the cam's angle m, or the displacement s of the "driven" follower. A table over
+        time or angle leaps where a place is given twice.
 
     Raises
     ------
@@ -146,9 +152,10 @@ class CamForces:
     friction: Mapping[str, Any] = field(default_factory=dict)
     width: Quantity | None = None
     materials: Any = ("steel", "steel")
+    process: Mapping[str, Any] | None = None
 
     def __post_init__(self) -> None:
-        self.rate, self.load, self._friction, self._line  # noqa: B018 - what is wrong is refused at once
+        self.rate, self.load, self.process_force, self._friction, self._line  # noqa: B018 - what is wrong is refused at once
 
     @kept_property
     def rate(self) -> float:
@@ -169,18 +176,14 @@ class CamForces:
         return read_constant_drive(given, self.cam.displacement.axis)
 
     @kept_property
+    def process_force(self) -> ProcessByAngle:
+        """The force of the process on the follower over the cam's angle."""
+        return read_process_by_angle(self.process, self.cam.displacement, self.rate)
+
+    @kept_property
     def edges(self) -> Array:
-        """Angles between which forces are smooth, rad: breaks of the motion, and where the follower turns back."""
-        places = [np.array(self.cam.displacement.breaks)]
-        for stretch in self.cam.displacement.stretches:
-            inner = stretch.segment.candidates(stretch.length, 0) if stretch.stroke else np.empty(0)
-            if inner.size:
-                turns = stretch.start + (stretch.stop - stretch.start) * inner
-                ends = np.array([[stretch.start], [stretch.stop]])
-                way = np.abs(self.cam.displacement(turns) - self.cam.displacement(ends))
-                # roots of the velocity beside an end that is at rest are rounding
-                places.append(turns[(way > VALUE_ROUNDING * abs(stretch.stroke)).all(axis=0)])
-        return np.unique(np.concatenate(places))
+        """Angles between which forces are smooth, rad: of motion and process, and where the follower turns back."""
+        return np.unique(np.concatenate([self.cam.displacement.monotone_edges, self.process_force.edges]))
 
     def follower_force(self, angle: Any) -> Any:  # noqa: ANN401 - a number for a number, an array for arrays
         """The force on the follower along its way, N, or the torque about its pivot, N m."""
@@ -206,8 +209,8 @@ class CamForces:
 
     @property
     def lifts_off(self) -> bool:
-        """Whether the follower leaves the cam somewhere."""
-        return self.contact.low < 0.0
+        """Whether the follower leaves the cam somewhere, by more than the contact force is enclosed to."""
+        return self.contact.low < -FORCE_EXTREMES * self.contact.peak
 
     @kept_property
     def torque(self) -> Extremes:
@@ -293,14 +296,16 @@ class CamForces:
     def _taken(self, s: Jet, angle: Array | Interval) -> Jet:
         rate, load, slope = self.rate, self.load, s.slope()
         moved = slope.slope() * (load.inertia * rate**2) + slope * (load.viscous * rate) + s * load.stiffness
-        return moved + (load.constant + load.dry * self.direction(angle))
+        return moved + (load.constant + load.dry * self.direction(angle)) - self.process_force.jet(angle, moved.order)
 
     def _contact_force(self, angle: Array | Interval, order: int) -> Jet:
         return self._pressed(angle, order)[-1]
 
-    def _pressed(self, angle: Array | Interval, order: int) -> tuple[Jet, Transmission, Jet]:
-        """The displacement, what a force of 1 N does, and the contact force."""
-        s = self.cam.displacement.jet(angle, order + 2)
+    def lever(self, angle: Array | Interval, order: int) -> Jet:
+        """The force that drives the follower for a contact force of 1 N, N, or the torque, N m; friction included."""
+        return self._driven(self.cam.displacement.jet(angle, order + 2), angle)[1]
+
+    def _driven(self, s: Jet, angle: Array | Interval) -> tuple[Transmission, Jet]:
         unit = self.cam.contact.transmission(s)
         lever = unit.lever_with(self._friction.contact)
         if self._friction.guide:
@@ -312,6 +317,12 @@ class CamForces:
                 f"the follower jams in its guide at {place:.6g} deg of the cam: lessen the pressure angle, the "
                 "friction of the guide or its overhang, or make the guide longer"
             )
+        return unit, lever
+
+    def _pressed(self, angle: Array | Interval, order: int) -> tuple[Jet, Transmission, Jet]:
+        """The displacement, what a force of 1 N does, and the contact force."""
+        s = self.cam.displacement.jet(angle, order + 2)
+        unit, lever = self._driven(s, angle)
         return s, unit, self._taken(s, angle) / lever
 
     def _torque(self, angle: Array | Interval, order: int) -> Jet:

@@ -23,14 +23,14 @@ from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.motion.quantities import quantity
 from optlaws.numbers import Quantity
 from optlaws.numerics.interval import Interval, exact
-from optlaws.numerics.roots import bisect
+from optlaws.numerics.roots import bisect, holds_throughout
 from optlaws.numerics.taylor import Jet
 from optlaws.tolerances import ROUNDOFF, SIZE_BRACKET, SIZE_MARGIN, SIZE_NUDGE, SMALLEST_BASE
 
 Kind = TypeVar("Kind", bound=FollowerContact)
 
 _NUDGES = 6
-_STEPS, _LOOKS, _DEPTH = 60, 150, 60
+_STEPS, _LOOKS = 60, 150
 _LARGEST = 1e3
 
 
@@ -288,17 +288,12 @@ class _Sizes:
     def breaks_between(self, low: float, high: float, witnesses: list[Witness]) -> bool:
         """Whether every base circle in a range is proven to break a limit at one of the witnesses' angles."""
         jets = [(witness, self._jet(witness)) for witness in witnesses]
-        waiting = [(low, high, 0)]
-        while waiting:
-            first, last, depth = waiting.pop()
+
+        def breaks(first: float, last: float) -> bool:
             contact = _spanning(self.contact(first), self.contact(last))
-            if any(bool(self._excess(contact, witness, jet).low > 0.0) for witness, jet in jets):
-                continue
-            if depth == _DEPTH:
-                return False
-            middle = 0.5 * (first + last)
-            waiting += [(first, middle, depth + 1), (middle, last, depth + 1)]
-        return True
+            return any(bool(self._excess(contact, witness, jet).low > 0.0) for witness, jet in jets)
+
+        return holds_throughout(breaks, low, high)
 
     def _jet(self, witness: Witness) -> Jet:
         return self.motion.jet(exact(witness.angle), 2, before=witness.before)

@@ -321,6 +321,12 @@ class Cycle(CycleInterchange):
         """Power of the drive at a time in seconds, W: above 0 where it drives, below where it brakes."""
         return self._of_drive(time, PieceEffort.power)
 
+    @kept_property
+    def smooth_times(self) -> Array:
+        """Times between which force and power of the drive are smooth and of one sign, s."""
+        drive = known_drive(self._drive)
+        return np.unique(np.concatenate([PieceEffort(drive, piece).parts.edges for piece in self.pieces]))
+
     def _of_drive(self, time: Any, function: Callable[[PieceEffort, Array], Array]) -> Any:  # noqa: ANN401
         drive = known_drive(self._drive)
         places = np.mod(real_times(time), self.duration)

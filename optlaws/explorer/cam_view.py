@@ -303,4 +303,6 @@ def _spring(findings: Findings) -> list[str]:
     axis = findings.cam.displacement.axis
     preload = 0.0 if abs(spring.preload) <= FORCE_ROUNDING * spring.greatest else spring.preload
     sizes = f"{digits(spring.stiffness, 6)} {STIFFNESS[axis]}, preload {digits(preload, 6)} {FORCE[axis]}"
-    return [f"least spring without lift-off: {sizes}, up to {digits(spring.greatest, 6)} {FORCE[axis]} on the follower"]
+    pressed = findings.spec.spring is not None and findings.spec.spring.greatest == "contact"
+    greatest = f"{digits(spring.greatest, 6)} {'N of contact' if pressed else f'{FORCE[axis]} on the follower'}"
+    return [f"least spring without lift-off: {sizes}, up to {greatest}"]

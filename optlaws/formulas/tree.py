@@ -286,6 +286,17 @@ class Table(OfOnePart):
         return f"{kind}{self.order or ''}({self.of}, {', '.join(pairs)})"
 
 
+def table_places(formula: Formula, name: str) -> list[float]:
+    """The places of all tables of a name in a formula, ascending.
+
+    >>> from optlaws.formulas.reading import read
+    >>> table_places(read("table(x, 0:1, 2:5) + 3*table(x, 1:0, 2:1)", ("x",)), "x")
+    [0.0, 1.0, 2.0]
+    """
+    tables = (part for part in formula.walk() if isinstance(part, Table) and part.of == Name(name))
+    return sorted({place for table in tables for place in table.places})
+
+
 class Step(NamedTuple):
     """A part of a formula as it is computed: from which steps before it, and which of them are then done with."""
 

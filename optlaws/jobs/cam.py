@@ -12,13 +12,14 @@ import numpy as np
 
 from optlaws.cams.as_manufactured import AsMade
 from optlaws.cams.best_laws import BestBaseCircle, BestCam
+from optlaws.cams.best_offset import BestOffset
 from optlaws.cams.curves.extremes import UNDERCUT
 from optlaws.cams.curves.plane_curve import PlaneCurve
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.follower import positive
 from optlaws.cams.forces import CamForces
 from optlaws.cams.least_sizes import LeastBaseCircle
-from optlaws.cams.springs import Spring
+from optlaws.cams.sizing.springs import CONTACT, GREATEST
 from optlaws.cams.summary import named_forces
 from optlaws.cycles.summary import objective_unit
 from optlaws.files import tables, writing
@@ -33,6 +34,7 @@ from optlaws.tolerances import FORCE_ROUNDING, SIZE_MET
 _MILLI, _MICRO = 1e3, 1e6
 _TURN = 360.0
 _HEADINGS = ("what", "value", "no laws are below", "unit", "status")
+_OF_OFFSET = ("what", "value", "no offset is below", "unit", "status")
 #: before the names of the files of the return cam
 _RETURN = "return-"
 
@@ -146,6 +148,8 @@ def page(findings: Findings) -> Page:
         result.heading("Laws for the cam").table(_HEADINGS, _best_rows(findings), digits=6)
     result.text(f"Undercut: {findings.cam.extremes.undercut}.")
     result.table(EXTREMES, extreme_rows(findings.cam, findings.limits), digits=7)
+    if findings.offset is not None:
+        result.heading("Offset").table(_OF_OFFSET, _offset_rows(findings.offset), digits=6)
     if rows := _size_rows(findings):
         result.heading("Sizes").table(("what", "kept with", "broken with", "unit", "at, deg"), rows, digits=7)
     if isinstance(least, str):
@@ -158,7 +162,7 @@ def page(findings: Findings) -> Page:
     _add_forces(result, findings)
     if findings.spring is not None:
         result.heading("Spring")
-        result.table(("what", "value", "unit"), _spring_rows(findings.spring, findings.cam), digits=6)
+        result.table(("what", "value", "unit"), _spring_rows(findings), digits=6)
     if findings.as_made:
         unit = "um" if findings.cam.displacement.axis == "length" else "urad"
         headings = ("what", f"deviation, {unit}", "peak acceleration, ratio", "peak jerk, ratio")
@@ -214,8 +218,34 @@ def _add_forces(result: Page, findings: Findings) -> None:
         f"{_rounded(0.5 * sum(forces.mean_torque), forces.torque.peak):.6g} N m. "
         + ("The follower lifts off." if forces.lifts_off else "The follower stays on the cam.")
     )
+    if rows := _energy_rows(findings):
+        result.heading("Energy").table(("what", "value", "unit"), rows, digits=6)
     if findings.cam.extremes.undercut.status == UNDERCUT:
         result.text("That is so if the follower moves as asked, which it cannot on a cam that is undercut.")
+
+
+def _energy_rows(findings: Findings) -> list[list[tables.Cell]]:
+    """Mean power and the flywheel; none where no irregularity is given."""
+    energy, entries = findings.fluctuation, findings.spec.forces
+    if energy is None or entries is None or entries.irregularity is None:
+        return []
+    return [
+        ["mean power", energy.mean_power, "W"],
+        ["mean torque", energy.mean_torque, "N m"],
+        ["work above the mean torque", energy.energy, "J"],
+        ["the shaft is fastest at", degrees(energy.fastest_at), "deg"],
+        ["the shaft is slowest at", degrees(energy.slowest_at), "deg"],
+        [f"flywheel for an irregularity of {entries.irregularity:g}", energy.flywheel(entries.irregularity), "kg m²"],
+    ]
+
+
+def _offset_rows(best: BestOffset) -> list[list[tables.Cell]]:
+    angles = [degrees(best.pressure_angle), degrees(best.lower_bound)]
+    status = "optimal" if best.proven else "local"
+    return [
+        ["best offset", _MILLI * best.offset, None, "mm", status],
+        ["greatest pressure angle with it", *angles, "deg", status],
+    ]
 
 
 def _force_rows(forces: CamForces) -> list[list[tables.Cell]]:
@@ -227,14 +257,18 @@ def _force_rows(forces: CamForces) -> list[list[tables.Cell]]:
     return rows
 
 
-def _spring_rows(spring: Spring, cam: DiscCam) -> list[list[tables.Cell]]:
-    force, stiffness = FORCE[cam.displacement.axis], STIFFNESS[cam.displacement.axis]
+def _spring_rows(findings: Findings) -> list[list[tables.Cell]]:
+    spring, entries, axis = findings.spring, findings.spec.spring, findings.cam.displacement.axis
+    if spring is None or entries is None:
+        return []
+    force, stiffness, contact = FORCE[axis], STIFFNESS[axis], entries.greatest == CONTACT
     bound = stiffness if spring.objective == "stiffness" else force
-    sought = {"greatest": "greatest force on the follower"}.get(spring.objective, spring.objective)
+    greatest = "greatest contact force" if contact else "greatest force on the follower"
+    sought = greatest if spring.objective in GREATEST.values() else spring.objective
     return [
         ["stiffness", spring.stiffness, stiffness],
         ["preload", _rounded(spring.preload, spring.greatest), force],
-        ["greatest force on the follower, any speed", spring.greatest, force],
+        [f"{greatest}, any speed", spring.greatest, FORCE["length"] if contact else force],
         [f"lower bound of the {sought}", _rounded(spring.lower_bound, spring.greatest), bound],
         ["least force left along the follower's way", _rounded(spring.margin, spring.greatest), force],
         ["it is left at", _rounded(spring.critical[0], _TURN), "deg"],

@@ -27,6 +27,11 @@ class ForcesEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     friction: dict[str, float | str] = {}
     width: str | None = None
     materials: tuple[str, str] = ("steel", "steel")
+    irregularity: float | None = None
+
+    def options(self) -> dict[str, Any]:
+        """Entries of the forces themselves."""
+        return {"friction": self.friction, "width": self.width, "materials": self.materials}
 
 
 class SpringEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
@@ -36,6 +41,7 @@ class SpringEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     force: str | None = None
     stiffness: str | None = None
     preload: str | None = None
+    greatest: Literal["force", "contact"] = "force"
 
 
 class AsManufacturedEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
@@ -91,7 +97,7 @@ class CamProblemFile(JobFile, kw_only=True, forbid_unknown_fields=True):
     motion: AxisEntries
     follower: FollowerEntries
     base_radius: str | None = None
-    best: Literal["laws", "base circle"] | None = None
+    best: Literal["laws", "base circle", "offset"] | None = None
     pair: PairEntries | None = None
     speed: str | None = None
     period: str | None = None
@@ -100,6 +106,7 @@ class CamProblemFile(JobFile, kw_only=True, forbid_unknown_fields=True):
     pressure_angle: str | None = None
     radius_of_curvature: str | None = None
     rows: Annotated[int, msgspec.Meta(ge=2, le=100_000)] = 361
+    process: dict[str, Any] | None = None
     forces: ForcesEntries | None = None
     spring: SpringEntries | None = None
     as_made: AsManufacturedEntries | None = None

@@ -14,13 +14,16 @@ import numpy as np
 
 from optlaws.cams.as_manufactured import AsMade, UnreachedProfileError, as_made, with_profile_error
 from optlaws.cams.best_laws import BestBaseCircle, BestCam, best_base_circle, best_cam
+from optlaws.cams.best_offset import BestOffset, best_offset
 from optlaws.cams.conjugate import conjugate_cam
 from optlaws.cams.curves.extremes import EnclosedExtreme
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.follower import read_follower
+from optlaws.cams.followers.translating_roller import TranslatingRoller
 from optlaws.cams.forces import CamForces
 from optlaws.cams.least_sizes import GreatestRoller, LeastBaseCircle, greatest_roller, least_base_circle
-from optlaws.cams.springs import Spring, least_spring
+from optlaws.cams.sizing.energy_fluctuation import EnergyFluctuation, energy_fluctuation
+from optlaws.cams.sizing.springs import Spring, least_spring
 from optlaws.cams.summary import geometry
 from optlaws.cycles.cycle import Cycle
 from optlaws.errors import InfeasibleProblem, InputError, located
@@ -58,7 +61,7 @@ class Findings:
         spec = convert(data, CamProblemFile, file)
         findings = cls(spec)
         with located(str(file)):
-            findings.second, findings.forces  # noqa: B018 - what is wrong is refused at once
+            findings.second, findings.forces, findings.fluctuation  # noqa: B018 - what is wrong is refused at once
             if spec.cutter_radius is not None:
                 findings.cam.cutter_path(spec.cutter_radius)
             for entry in spec.file:
@@ -76,6 +79,8 @@ class Findings:
         spec, follower = self.spec, read_follower(self.spec.follower)
         if spec.best != "base circle" and spec.base_radius is None:
             raise InputError("base_radius is missing: give it, such as '60 mm', or ask for best = 'base circle'")
+        if spec.best == "offset":
+            return None
         if spec.best == "base circle" and spec.base_radius is not None:
             raise InputError(
                 "base_radius is what best = 'base circle' looks for: leave it out, or ask for best = 'laws'"
@@ -85,10 +90,25 @@ class Findings:
         return best_cam(self.cycle, spec.base_radius or "", follower, **spec.limits) if spec.best else None
 
     @kept_property
+    def offset(self) -> BestOffset | None:
+        """The best offset of the slide; None where the one of the file is that of the cam."""
+        spec, follower = self.spec, read_follower(self.spec.follower)
+        if spec.best != "offset":
+            return None
+        if "offset" in spec.follower:
+            raise InputError("follower: offset is what best = 'offset' looks for: leave it out")
+        if not isinstance(follower, TranslatingRoller):
+            raise InputError(f"best = 'offset' is of a translating roller, got a {follower.kind}")
+        return best_offset(self.cycle, spec.base_radius or "", follower, turning=spec.limits["turning"])
+
+    @kept_property
     def cam(self) -> DiscCam:
-        """The cam; with the laws found where the best ones are sought."""
-        if self.best is not None:
-            return self.best.cam if isinstance(self.best, BestCam) else self.best.least.cam
+        """The cam; with the laws or the offset found where the best ones are sought."""
+        best, offset = self.best, self.offset
+        if offset is not None:
+            return offset.cam
+        if best is not None:
+            return best.cam if isinstance(best, BestCam) else best.least.cam
         turning = self.spec.limits["turning"]
         return DiscCam(self.cycle, self.spec.base_radius or "", read_follower(self.spec.follower), turning=turning)
 
@@ -156,7 +176,16 @@ class Findings:
         beside: dict[str, Any] = {}
         if self.cam.motion is not self.cycle:
             beside = {"speed": f"{TURN / self.cycle.duration!r} rad/s", "drive": self.cycle.drive}
-        return CamForces(self.cam, **msgspec.structs.asdict(options), **beside)
+        return CamForces(self.cam, process=self.spec.process, **options.options(), **beside)
+
+    @kept_property
+    def fluctuation(self) -> EnergyFluctuation | None:
+        """Mean power and work above the mean, if the file asks for an irregularity, which is checked."""
+        if self.forces is None or self.spec.forces is None or self.spec.forces.irregularity is None:
+            return None
+        fluctuation = energy_fluctuation(self.forces)
+        fluctuation.flywheel(self.spec.forces.irregularity)
+        return fluctuation
 
     @kept_property
     def spring(self) -> Spring | None:
@@ -165,7 +194,7 @@ class Findings:
             return None
         given = self.cycle.drive if isinstance(self.cycle.drive, Mapping) else {}
         load = {key: value for key, value in given.items() if key not in {"stiffness", "preload"}}
-        return least_spring(self.cam, drive=load, **msgspec.structs.asdict(self.spec.spring))
+        return least_spring(self.cam, drive=load, process=self.spec.process, **msgspec.structs.asdict(self.spec.spring))
 
     @kept_property
     def as_made(self) -> dict[str, AsMade | None]:
@@ -191,6 +220,13 @@ class Findings:
         data: dict[str, Any] = {}
         if self.forces is not None:
             data["forces"] = self.forces.results()
+        if self.fluctuation is not None and self.spec.forces is not None:
+            inertia = self.fluctuation.flywheel(self.spec.forces.irregularity or 0.0)
+            data["energy"] = {**self.fluctuation.to_dict(), "flywheel": inertia}
+        if self.offset is not None:
+            known = ("offset", "pressure_angle", "lower_bound", "proven")
+            best = {name: getattr(self.offset, name) for name in known}
+            data["best_offset"] = {**best, "angles": list(self.offset.angles)}
         if self.spring is not None:
             data["spring"] = self.spring.to_dict()
         if self.as_made:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from math import factorial
-from typing import Any, TypeVar
+from typing import Any, Protocol, TypeVar
 
 import numpy as np
 
@@ -22,6 +22,15 @@ from optlaws.numerics.taylor import Jet
 from optlaws.tolerances import ROUNDOFF
 
 StretchT = TypeVar("StretchT", bound="EnclosedStretch")
+PartT = TypeVar("PartT", bound="Started")
+
+
+class Started(Protocol):
+    """What has a place from which on it holds."""
+
+    @property
+    def start(self) -> float:
+        """The first place of it."""
 
 
 @dataclass(frozen=True)
@@ -109,8 +118,8 @@ def smooth_parts(piece: Piece, kind: type[StretchT]) -> tuple[StretchT, ...]:
 
 
 def jet_of_parts(
-    stretches: Sequence[StretchT],
-    jet: Callable[[StretchT, Any], Jet],
+    stretches: Sequence[PartT],
+    jet: Callable[[PartT, Any], Jet],
     at: Array | Interval,
     *,
     before: bool = False,

@@ -245,6 +245,24 @@ def bisect(holds: Callable[[float], bool], inside: float, outside: float, halvin
     return inside, outside
 
 
+def holds_throughout(holds: Callable[[float, float], bool], low: float, high: float, deepest: int = 60) -> bool:
+    """Whether a condition on ranges holds in all of some that together make a whole one: halved where it does not.
+
+    >>> holds_throughout(lambda low, high: high - low < 0.3, 0.0, 1.0)
+    True
+    """
+    waiting = [(low, high, 0)]
+    while waiting:
+        first, last, depth = waiting.pop()
+        if holds(first, last):
+            continue
+        if depth == deepest:
+            return False
+        middle = 0.5 * (first + last)
+        waiting += [(first, middle, depth + 1), (middle, last, depth + 1)]
+    return True
+
+
 def bisect_each(
     holds: Callable[[Array], NDArray[np.bool_]], inside: Array, outside: Array, halvings: int = 60
 ) -> tuple[Array, Array]:

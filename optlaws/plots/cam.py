@@ -42,22 +42,40 @@ def cam_figure(cam: DiscCam, title: str) -> Figure:
 
 
 def forces_figure(forces: CamForces, title: str) -> Figure:
-    """FollowerContact force, torque at the shaft and, where the contact has a width, Hertz's pressure over the turn."""
+    """Contact force, torque and, where the contact has a width, Hertz's pressure over the turn; a process force above.
+
+    Between the torque and its mean lies the work that a flywheel stores, where a process takes some.
+    """
     panels: list[tuple[str, Values, str]] = [
         ("contact force, N", forces.contact_force, BLUES[3]),
         ("torque at the shaft, N m", forces.shaft_torque, WARM),
     ]
     if forces.width is not None:
         panels.append(("Hertz's pressure, MPa", lambda at: 1e-6 * np.asarray(forces.contact_pressure(at)), GREEN))
+    process = forces.process_force
+    if forces.process is not None:
+        unit = "N" if forces.cam.displacement.axis == "length" else "N m"
+        panels.insert(0, (f"process force, {unit}", lambda at: process.jet(at, 0).terms[0], GREEN))
+    edges = np.union1d(forces.cam.displacement.breaks, process.edges)
     with plot_style():
         figure = new_figure(8.6, 2.2 * len(panels))
         column = np.ravel(figure.subplots(len(panels), 1, sharex=True))
         for axes, (label, values, colour) in zip(column, panels, strict=True):
-            _curve(axes, np.array(forces.cam.displacement.breaks), values, label, color=colour)
+            (curve,) = _curve(axes, edges, values, label, color=colour)
             axes.axhline(0.0, color=GREY, linewidth=0.8)
+            if forces.process is not None and colour == WARM:
+                _work_above_mean(axes, curve, 0.5 * sum(forces.mean_torque))
         figure.axes[-1].set(xlabel="cam, deg")
         figure.align_ylabels()
         return titled(figure, title)
+
+
+def _work_above_mean(axes: Axes, curve: Any, mean: float) -> None:  # noqa: ANN401 - matplotlib's
+    """The mean of a torque, and what lies between them."""
+    at, torque = (np.asarray(part) for part in curve.get_data())
+    axes.axhline(mean, color=WARM, linewidth=0.8, linestyle=(0, (6, 4)), label="mean")
+    axes.fill_between(at, torque, mean, where=list(torque > mean), color=WARM, alpha=0.15, label="above the mean")
+    axes.legend(loc="upper right")
 
 
 def pair_figure(first: DiscCam, second: DiscCam, title: str) -> Figure:

@@ -13,7 +13,7 @@ SPEEDS = ("60 rpm", "300 rpm")
 
 @pytest.mark.sample(2)
 @pytest.mark.parametrize("said", [{}, {"preload": "40 N"}, {"stiffness": "1 N/mm"}, {"force": "15 N"}])
-def test_the_least_spring_keeps_the_follower_on_and_no_lesser_does(said: dict[str, str]) -> None:
+def test_the_least_spring_keeps_the_follower_on_and_no_lesser_does(said: dict[str, Any]) -> None:
     cam = cam_of("translating roller")
     spring = least_spring(cam, drive=MASS, speeds=SPEEDS, **said)
     asked = 15.0 if "force" in said else 0.0

@@ -153,6 +153,7 @@ def values(jumping: Solution) -> dict[str, Any]:
         "Forbidden": optlaws.Forbidden("x", "z", [("0 mm", "1 mm"), ("9 mm", "3 mm"), ("9 mm", "1 mm")]),
         "Synchronous": optlaws.Synchronous("x", "z", during=("0.1 s", "0.2 s"), within="1 mm/s"),
         "AsMade": AsMade(1e-5, 1.0, float("inf"), 0.1, 1.01, float("inf")),
+        "EnergyFluctuation": optlaws.EnergyFluctuation(4.0, 120.0, 30.0, 16.0, 0.5, 2.5),
         "Spring": Spring(3000.0, 20.0, 140.0, "stiffness", 3000.0, 0.0, (92.0, 31.4)),
     }
 

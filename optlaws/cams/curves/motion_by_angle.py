@@ -20,7 +20,7 @@ from optlaws.numbers import Array, Quantity, derivative, number_or_array, real_t
 from optlaws.numerics.interval import Interval, hull
 from optlaws.numerics.taylor import Jet
 from optlaws.suggest import unknown_key
-from optlaws.tolerances import CLOSURE, ROUNDOFF
+from optlaws.tolerances import CLOSURE, ROUNDOFF, VALUE_ROUNDING
 
 Direction = Literal["rise", "return"]
 DIRECTIONS: dict[Direction, float] = {"rise": 1.0, "return": -1.0}
@@ -130,6 +130,20 @@ class CamMotion:
     def breaks(self) -> tuple[float, ...]:
         """Angles between which the motion is smooth, both ends included, rad."""
         return (*(stretch.start for stretch in self.stretches), self.stretches[-1].stop)
+
+    @kept_property
+    def monotone_edges(self) -> Array:
+        """Angles between which the motion is smooth and goes one way: its breaks, and where it turns back, rad."""
+        places = [np.array(self.breaks)]
+        for stretch in self.stretches:
+            inner = stretch.segment.candidates(stretch.length, 0) if stretch.stroke else np.empty(0)
+            if inner.size:
+                turns = stretch.start + (stretch.stop - stretch.start) * inner
+                ends = np.array([[stretch.start], [stretch.stop]])
+                way = np.abs(self(turns) - self(ends))
+                # roots of the velocity beside an end that is at rest are rounding
+                places.append(turns[(way > VALUE_ROUNDING * abs(stretch.stroke)).all(axis=0)])
+        return np.unique(np.concatenate(places))
 
     @kept_property
     def range(self) -> tuple[float, float]:

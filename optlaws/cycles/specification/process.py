@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,8 +11,8 @@ import numpy as np
 from optlaws.errors import InputError
 from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.formulas.slopes import added, derivative, multiplied
-from optlaws.formulas.tree import Formula, Name, Table, number, rebuilt, substituted
-from optlaws.mechanisms.linkages.entries import formula_of
+from optlaws.formulas.tree import Formula, Name, Table, number, rebuilt, substituted, table_places
+from optlaws.mechanisms.linkages.entries import FEWEST, TableKind, formula_of
 from optlaws.mechanisms.linkages.mechanism import DIMENSIONS, Mechanism
 from optlaws.motion.quantities import TURN
 from optlaws.numbers import Array
@@ -42,8 +42,7 @@ class ProcessForce:
     @property
     def breaks(self) -> tuple[float, ...]:
         """Times at which it has kinks."""
-        tables = (part for part in self.load.walk() if isinstance(part, Table) and part.of == Name("t"))
-        return tuple(place for table in tables for place in table.places)
+        return tuple(table_places(self.load, "t"))
 
 
 def is_process(given: Any) -> bool:  # noqa: ANN401 - whatever a person gave
@@ -63,15 +62,8 @@ def read_process(given: Mapping[str, Any], mechanism: Mechanism, period: float) 
     InputError
         If an entry is unknown or wrong, no link has the name, or a table over time ends within the cycle.
     """
-    for key in given:
-        if key not in ENTRIES:
-            raise InputError(f"load: {unknown_key(key, ENTRIES)}")
-    kinds = [key for key in FORCES if key in given]
-    if len(kinds) > 1:
-        raise InputError("load: give a force or a torque, not both")
-    kind, on, over = kinds[0], given.get("on"), given.get("over", "time")
-    if over not in OVER:
-        raise InputError(f"load: over: {unknown_key(over, OVER, 'variable')}")
+    kind, over, interpolation = process_entries(given, "load", ENTRIES, OVER)
+    on = given.get("on")
     position = _position(mechanism, on, kind)
     places, variable = {
         "time": ("time", "t"),
@@ -84,13 +76,35 @@ def read_process(given: Mapping[str, Any], mechanism: Mechanism, period: float) 
         (places, kind),
         f"load: {kind}",
         variable=variable,
-        interpolation=given.get("interpolation", "lines"),
+        interpolation=interpolation,
     )
     end = {"t": period, "m": TURN}.get(variable)
     if end is not None:
         _check_ends(force, variable, end, kind)
     force = _over_time(force, period) if variable == "m" else substituted(force, {"s": position})
     return ProcessForce(multiplied([number(-1.0), force, derivative(position, "x")]))
+
+
+def process_entries(
+    given: Mapping[str, Any], name: str, known: Sequence[str], variables: Sequence[str]
+) -> tuple[str, str, TableKind]:
+    """Whether a process is a "force" or a "torque", what it is over, and how its tables go on between places.
+
+    >>> process_entries({"force": "3 N", "over": "master"}, "load", ENTRIES, OVER)
+    ('force', 'master', 'lines')
+    """
+    for key in given:
+        if key not in known:
+            raise InputError(f"{name}: {unknown_key(key, known)}")
+    kinds = [key for key in FORCES if key in given]
+    if len(kinds) != 1:
+        raise InputError(f"{name}: give a force or a torque, {'not both' if kinds else 'such as force = 300 N'}")
+    over, interpolation = given.get("over", "time"), given.get("interpolation", "lines")
+    if over not in variables:
+        raise InputError(f"{name}: over: {unknown_key(over, variables, 'variable')}")
+    if interpolation not in tuple(FEWEST):
+        raise InputError(f"{name}: {unknown_key(interpolation, FEWEST, 'interpolation')}")
+    return kinds[0], over, interpolation
 
 
 def _position(mechanism: Mechanism, on: Any, kind: str) -> Formula:  # noqa: ANN401 - it is checked here
@@ -122,16 +136,21 @@ def _check_ends(force: Formula, variable: str, end: float, kind: str) -> None:
 
 def _over_time(formula: Formula, period: float) -> Formula:
     """A formula of the master's angle m as one of the time."""
-    return _rescaled(formula, "m", "t", (0.0, TURN / period))
+    return rescaled(formula, "m", "t", (0.0, TURN / period))
 
 
 def _in_k(formula: Formula, start: float, duration: float) -> Formula:
     """A formula of the time as one of k."""
-    return _rescaled(formula, "t", "k", (start, duration))
+    return rescaled(formula, "t", "k", (start, duration))
 
 
-def _rescaled(formula: Formula, name: str, other: str, line: tuple[float, float]) -> Formula:
-    """The formula with first + slope times another name for one; tables over it become tables over the other."""
+def rescaled(formula: Formula, name: str, other: str, line: tuple[float, float]) -> Formula:
+    """The formula with first + slope times another name for one; tables over it become tables over the other.
+
+    >>> from optlaws.formulas.reading import read
+    >>> rescaled(read("3*t"), "t", "m", (0.0, 0.5))
+    3*0.5*m
+    """
     first, slope = line
     if formula == Name(name):
         way = multiplied([number(slope), Name(other)])
@@ -141,4 +160,4 @@ def _rescaled(formula: Formula, name: str, other: str, line: tuple[float, float]
         return Table(Name(other), places, formula.values, formula.smooth, formula.order)
     if name not in formula.names():
         return formula
-    return rebuilt(formula, [_rescaled(part, name, other, line) for part in formula.parts])
+    return rebuilt(formula, [rescaled(part, name, other, line) for part in formula.parts])

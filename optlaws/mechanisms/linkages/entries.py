@@ -17,7 +17,7 @@ from optlaws.numbers import finite, real
 TableKind = Literal["spline", "lines"]
 FEWEST = {"spline": 4, "lines": 2}
 #: a number with a unit behind it; in formulas a number is followed by a sign
-_WITH_UNIT = re.compile(r"\s*[+-]?[\d./]*\d(?:[eE][+-]?\d+)?\s*[^\W\d_]")
+_WITH_UNIT = re.compile(r"\s*[+-]?[\d./]*\d(?:[eE][+-]?\d+)?+\s*[^\W\d_]")
 
 
 def formula_of(
@@ -70,22 +70,35 @@ def formula_of(
 def _table(
     pairs: list[Any], dimensions: tuple[str, str], name: str, variable: str, interpolation: TableKind
 ) -> Formula:
+    numbers = table_numbers(pairs, dimensions, name, interpolation)
+    for (place, _), (following, _) in pairwise(numbers):
+        if place >= following:
+            raise InputError(f"{name}: the places of a table must ascend, got {place:g} before {following:g}")
+    places, values = zip(*numbers, strict=True)
+    return Table(Name(variable), places, values, interpolation == "spline")
+
+
+def table_numbers(
+    pairs: list[Any], dimensions: tuple[str, str], name: str, interpolation: TableKind
+) -> list[tuple[float, float]]:
+    """Places and values of a table in SI units, whether they ascend or not.
+
+    >>> table_numbers([("0 deg", "1 kN"), ("90 deg", "0 N")], ("angle", "force"), "force", "lines")
+    [(0.0, 1000.0), (1.5707963267948966, 0.0)]
+    """
     fewest = FEWEST[interpolation]
     if len(pairs) < fewest or any(not isinstance(pair, list | tuple) or len(pair) != 2 for pair in pairs):
         raise InputError(
             f"{name}: a table of {interpolation} needs {fewest} pairs of a place and a value at least, got "
             f"{shortened(pairs)}"
         )
-    places, values = (
-        tuple(
-            _number(pair[i], dimensions[i], f"{name}: {('place', 'value')[i]} {n}") for n, pair in enumerate(pairs, 1)
+    return [
+        (
+            _number(place, dimensions[0], f"{name}: place {n}"),
+            _number(value, dimensions[1], f"{name}: value {n}"),
         )
-        for i in range(2)
-    )
-    for place, following in pairwise(places):
-        if place >= following:
-            raise InputError(f"{name}: the places of a table must ascend, got {place:g} before {following:g}")
-    return Table(Name(variable), places, values, interpolation == "spline")
+        for n, (place, value) in enumerate(pairs, 1)
+    ]
 
 
 def _number(value: Any, dimension: str, name: str) -> float:  # noqa: ANN401

@@ -9,6 +9,7 @@ import pytest
 
 from optlaws import (
     BarrelCam,
+    CamForces,
     Cycle,
     DiscCam,
     Dwell,
@@ -20,7 +21,10 @@ from optlaws import (
     TranslatingRoller,
     best_base_circle,
     best_cam,
+    best_offset,
     conjugate_cam,
+    energy_fluctuation,
+    least_spring,
 )
 from tests.internals.files import reading
 from tests.internals.jobs import answer, job
@@ -46,6 +50,13 @@ HEAD = 'job = "cam"\ntitle = "Small"\nspeed = "200 rpm"\nrows = 13\n'
 ROLLER = '[follower]\nkind = "translating roller"\nradius = "12 mm"\n'
 LAWS = HEAD + 'base_radius = "50 mm"\npressure_angle = "25 deg"\nbest = "laws"\n' + ROLLER + MOTION
 BASE = HEAD + 'radius_of_curvature = "3 mm"\nbest = "base circle"\n[follower]\nkind = "translating flat"\n' + MOTION
+OFFSET = (
+    HEAD + 'base_radius = "60 mm"\nbest = "offset"\n[process]\nover = "master"\n'
+    'force = [["0 deg", "0 N"], ["90 deg", "0 N"], ["90 deg", "-300 N"], ["120 deg", "0 N"], ["360 deg", "0 N"]]\n'
+    '[forces]\nirregularity = 0.04\n[spring]\nspeeds = ["0 rpm", "220 rpm"]\ngreatest = "contact"\n'
+    + ROLLER + MOTION.replace("degree = 5", 'drive = { mass = "2 kg", preload = "100 N" }').replace(
+        '"120 deg"', '"120 deg"\nlaw = "3-4-5"').replace('"100 deg"', '"100 deg"\nlaw = "3-4-5"')
+)  # fmt: skip
 PAIR = HEAD + 'base_radius = "60 mm"\n[pair]\ndistance = "190 mm"\n' + ROLLER + MOTION
 BARREL = HEAD + '[barrel]\nouter_radius = "60 mm"\ndepth = "12 mm"\nroller_radius = "8 mm"\n' + MOTION
 
@@ -99,6 +110,27 @@ def test_the_least_base_circle_is_that_of_the_library(tmp_path: Path) -> None:
     assert told["best"]["status"] == "optimal"
 
 
+def test_the_best_offset_bears_a_process_a_flywheel_and_a_spring(tmp_path: Path) -> None:
+    page, told, written = done(tmp_path, OFFSET)
+    moves = [Rise("35 mm", "120 deg", law="3-4-5"), Dwell("90 deg"), Return(duration="100 deg", law="3-4-5"), Dwell()]
+    cycle = Cycle(moves, speed="200 rpm", drive={"mass": "2 kg", "preload": "100 N"})
+    best = best_offset(cycle, "60 mm", TranslatingRoller("12 mm"))
+    process = reading.toml(tmp_path / "small.toml")["process"]
+    forces = CamForces(best.cam, process=process)
+    energy = energy_fluctuation(forces)
+    assert told["best_offset"]["offset"] == pytest.approx(best.offset, rel=1e-9)
+    assert told["best_offset"]["proven"] is True
+    assert told["forces"] == forces.results()
+    assert told["energy"] == {**energy.to_dict(), "flywheel": energy.flywheel(0.04)}
+    spring = least_spring(
+        best.cam, drive={"mass": "2 kg"}, speeds=("0 rpm", "220 rpm"), process=process, greatest="contact"
+    )
+    assert told["spring"] == json.loads(spring.to_json())
+    for text in ("best offset", "mean power", "flywheel for an irregularity of 0.04", "greatest contact force, any"):
+        assert text in page
+    assert "forces.svg" in written
+
+
 def test_a_pair_has_its_second_cam_in_table_picture_and_files(tmp_path: Path) -> None:
     asked = '[[file]]\nname = "cam.nc"\ntolerance = "0.1 mm"\ndecimals = 2\n'
     page, told, written = done(tmp_path, PAIR.replace("[pair]", asked + "[pair]"))
@@ -130,6 +162,14 @@ def test_a_barrel_has_its_flanks_tabled(tmp_path: Path) -> None:
         (LAWS, 'base_radius = "50 mm"\n', "", "base_radius is missing.*best = 'base circle'"),
         (LAWS, '"laws"', '"law"', "best"),
         (BASE, "speed", 'base_radius = "9 mm"\nspeed', "base_radius is what best = 'base circle' looks for"),
+        (OFFSET, 'base_radius = "60 mm"\n', "", "base_radius is missing"),
+        (OFFSET, '"12 mm"', '"12 mm"\noffset = "1 mm"', "offset is what best = 'offset' looks for"),
+        (OFFSET, '"translating roller"\nradius = "12 mm"', '"translating flat"', "is of a translating roller, got a"),
+        (OFFSET, "irregularity = 0.04", "irregularity = 4.0", "irregularity must be above 0 and below 2"),
+        (OFFSET, '"master"', '"mastr"', "did you mean 'master'"),
+        (OFFSET, '"-300 N"', '"-300 mm"', "process: force: value 3"),
+        (OFFSET, "process", "proces", "proces"),
+        (OFFSET, '"contact"', '"contacts"', "greatest"),
         (PAIR, "distance", "angle", "pair: a pair of TranslatingRoller is given by its distance alone"),
         (PAIR, '"190 mm"', '"90 mm"', "pair: .*distance"),
         (BARREL, "depth", "deep", "deep.*depth"),

@@ -5,25 +5,43 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import degrees
-from typing import Any, NoReturn
+from typing import Any, Literal, NoReturn
 
 import numpy as np
 
+from optlaws.cams.curves.process_by_angle import read_process_by_angle
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.forces import CamForces
 from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError
+from optlaws.kept import kept_property
 from optlaws.laws.storage import PlainNumbers
 from optlaws.motion.quantities import quantity
 from optlaws.numbers import Array, Quantity
 from optlaws.numerics.branch_and_bound import Extremes, Function, extremes
+from optlaws.numerics.integral import integral
 from optlaws.numerics.interval import Interval
-from optlaws.numerics.taylor import Jet
-from optlaws.tolerances import LIFTED, PROGRAM_SLACK, SPRING_EXTREMES
+from optlaws.numerics.taylor import Jet, variable
+from optlaws.suggest import unknown_key
+from optlaws.tolerances import (
+    BEFORE_BREAK,
+    FORCE_EXTREMES,
+    LIFTED,
+    PROGRAM_ROUNDING,
+    PROGRAM_SLACK,
+    SPRING_EXTREMES,
+    SPRING_SETTLED,
+)
 
 _FIRST = 97
 _STEPS = 40
+_NEAR, _BESIDE = 0.03, 10
 _PARTS = 12
+CONTACT = "contact"
+#: what is sought by the greatest force that is to be least
+GREATEST = {"force": "greatest", CONTACT: CONTACT}
+#: what is sought by itself
+_SOLE = ("preload", "stiffness")
 _UNITS = {"length": ("force", "stiffness"), "angle": ("torque", "torsional stiffness")}
 
 
@@ -36,9 +54,10 @@ class Spring(PlainNumbers):
     stiffness, preload
         Of the spring; the preload is its force where the displacement is 0.
     greatest
-        The greatest force on the follower along its way, at any angle and speed.
+        The greatest force at any angle and speed: on the follower along its way, or the contact force, N, where
+        `least_spring` had greatest="contact".
     objective
-        What was sought: "preload", "stiffness" or "greatest".
+        What was sought: "preload", "stiffness", "greatest" or "contact".
     lower_bound
         What it cannot be below, to the accuracy of a linear program: the least of springs that do at the angles that
         bind.
@@ -64,7 +83,7 @@ class Spring(PlainNumbers):
     @property
     def value(self) -> float:
         """The value of the objective that was sought."""
-        return float(getattr(self, self.objective))
+        return self.greatest if self.objective == CONTACT else float(getattr(self, self.objective))
 
 
 def least_spring(
@@ -75,12 +94,14 @@ def least_spring(
     force: Quantity | None = None,
     stiffness: Quantity | None = None,
     preload: Quantity | None = None,
+    process: Mapping[str, Any] | None = None,
+    greatest: Literal["force", "contact"] = "force",
 ) -> Spring:
     """The least spring that keeps the follower on the cam at every speed of a range.
 
     The spring's preload is sought where its stiffness is given, its stiffness where the preload is, and where neither
-    is, both, so that the greatest force on the follower is least. The problem is linear; at each angle the worst speed
-    is known in closed form.
+    is, both, so that the greatest force is least; of several such springs the one whose mean force is least. The
+    problem is linear; at each angle the worst speed is known in closed form.
 
     Parameters
     ----------
@@ -94,6 +115,11 @@ def least_spring(
         What the cam shall press with at least, along the follower's way: "20 N"; 0 unless given.
     stiffness, preload
         Of the spring, where it is known: "3 N/mm", "60 N".
+    process
+        The force of a process on the follower, as of `CamForces`; over the time only where both speeds are the same.
+    greatest
+        Which greatest force is least where neither stiffness nor preload is given: the "force" on the follower along
+        its way, or the "contact" force between cam and follower without friction.
 
     Raises
     ------
@@ -112,11 +138,12 @@ def least_spring(
     >>> round(spring.stiffness, 3), round(spring.margin, 6) + 0.0, round(spring.critical[0], 3)
     (2273.443, 0.0, 91.667)
     """
-    task = _task(cam, drive, speeds, force)
+    if greatest not in GREATEST:
+        raise InputError(unknown_key(greatest, GREATEST, "greatest"))
+    task = _task(cam, {"drive": drive, "process": process}, speeds, force, contact=greatest == CONTACT)
     force_unit, stiffness_unit = _UNITS[cam.displacement.axis]
-    return _exchange(
-        task, _KnownSpring(_known(preload, force_unit, "preload"), _known(stiffness, stiffness_unit, "stiffness"))
-    )
+    known = _known(preload, force_unit, "preload"), _known(stiffness, stiffness_unit, "stiffness")
+    return _exchange(task, _KnownSpring(*known, GREATEST[greatest]))
 
 
 @dataclass(frozen=True)
@@ -125,12 +152,13 @@ class _KnownSpring:
 
     preload: float | None
     stiffness: float | None
+    greatest: str
 
     @property
     def objective(self) -> str:
         if self.stiffness is not None:
             return "preload"
-        return "greatest" if self.preload is None else "stiffness"
+        return self.greatest if self.preload is None else "stiffness"
 
 
 @dataclass(frozen=True)
@@ -141,6 +169,11 @@ class _SpringTask:
     slow: float
     fast: float
     least: float
+    contact: bool
+
+    def lever(self, angle: Array | Interval, order: int) -> Jet:
+        """The force on the follower for 1 N of the force that is least where it is greatest."""
+        return self.forces.lever(angle, order) if self.contact else variable(angle, order) * 0.0 + 1.0
 
     def displacement(self, angle: Array) -> Array:
         return np.asarray(self.forces.cam.displacement(angle))
@@ -163,24 +196,47 @@ class _SpringTask:
         load, least = self.forces.load, forces[0]
         for force in forces[1:]:
             least = -(-least).maximum(-force)
-        return least * side + (load.constant + load.dry * self.forces.direction(angle))
+        taken = self.forces.process_force.jet(angle, order)
+        return least * side + (load.constant + load.dry * self.forces.direction(angle)) - taken
+
+    @kept_property
+    def sides(self) -> Array:
+        """Angles beside the edges at which forces may leap, on both sides of each, ever nearer to it."""
+        edges = self.forces.edges
+        steps = np.multiply.outer(np.geomspace(BEFORE_BREAK, _NEAR, _BESIDE), np.diff(edges))
+        return np.concatenate([(edges[:-1] + steps).ravel(), (edges[1:] - steps).ravel()])
+
+    @kept_property
+    def sums(self) -> tuple[float, float]:
+        """The integrals over the turn of what a preload and a stiffness of 1 add to the force."""
+        motion, edges = self.forces.cam.displacement, self.forces.edges
+        shares: tuple[Function, ...] = (
+            lambda angle, order: 1.0 / self.lever(angle, order),
+            lambda angle, order: motion.jet(angle, order) / self.lever(angle, order),
+        )
+        preload, stiffness = (0.5 * sum(integral(share, edges, share=FORCE_EXTREMES)) for share in shares)
+        return preload, stiffness
 
     def _moved(self, angle: Array | Interval, order: int) -> tuple[Jet, Jet]:
         s, load = self.forces.cam.displacement.jet(angle, order + 2), self.forces.load
         return s.slope().slope() * load.inertia, s.slope() * load.viscous
 
 
-def _task(cam: DiscCam, drive: Mapping[str, Any], speeds: Sequence[Quantity], force: Quantity | None) -> _SpringTask:
+def _task(
+    cam: DiscCam, moved: dict[str, Any], speeds: Sequence[Quantity], force: Quantity | None, *, contact: bool
+) -> _SpringTask:
     if not isinstance(speeds, tuple | list) or len(speeds) != 2:
         raise InputError(f"speeds must be two, the least and the greatest, got {shortened(speeds)}")
     for key in ("stiffness", "preload"):
-        if key in drive:
+        if key in moved["drive"]:
             raise InputError(f"drive: the {key} is sought with the spring: to fix it give {key}=... beside the drive")
     slow, fast = (quantity(speed, "angular velocity", "speeds") for speed in speeds)
     if not 0.0 <= slow <= fast or fast == 0.0:
         raise InputError(f"speeds must rise from at least 0, got {shortened(speeds)}")
     least = 0.0 if force is None else quantity(force, _UNITS[cam.displacement.axis][0], "force")
-    return _SpringTask(CamForces(cam, speed=speeds[1], drive=drive), slow, fast, least)
+    if slow < fast:  # a force over time, which is another at each speed, is refused
+        read_process_by_angle(moved["process"], cam.displacement, None)
+    return _SpringTask(CamForces(cam, speed=speeds[1], **moved), slow, fast, least, contact)
 
 
 def _known(value: Quantity | None, dimension: str, name: str) -> float | None:
@@ -195,12 +251,13 @@ def _known(value: Quantity | None, dimension: str, name: str) -> float | None:
 def _exchange(task: _SpringTask, given: _KnownSpring) -> Spring:
     """The best spring by exchange: for some angles, then for those at which it is wrong too, until there are none."""
     edges = task.forces.edges
-    angles = np.linspace(edges[0], edges[-1], _FIRST)
+    angles = np.concatenate([np.linspace(edges[0], edges[-1], _FIRST), task.sides])
     for _ in range(_STEPS):
         best = _program(task, angles, given)
         force, pushed = _extremes(task, best)
         slack = PROGRAM_SLACK * max(pushed.peak, task.least)
-        if force.low >= task.least - slack and (given.objective != "greatest" or pushed.high <= best[2] + slack):
+        settled = given.objective in _SOLE or pushed.high <= best[2] * (1.0 + SPRING_SETTLED)
+        if force.low >= task.least - slack and settled:
             break
         angles = np.append(angles, [force.least_at, pushed.most_at])
     return _strengthened(task, given, best, force)
@@ -212,7 +269,8 @@ def _extremes(task: _SpringTask, spring: tuple[float, float, float]) -> tuple[Ex
     def along(side: float) -> Function:
         def force(angle: Interval, order: int) -> Jet:
             spring_force = task.forces.cam.displacement.jet(angle, order) * spring[1] + spring[0]
-            return task.without_spring(angle, side, order) + spring_force
+            along_way = task.without_spring(angle, side, order) + spring_force
+            return along_way / task.lever(angle, order) if task.contact and side < 0.0 else along_way
 
         return force
 
@@ -225,22 +283,37 @@ def _program(task: _SpringTask, angles: Array, given: _KnownSpring) -> tuple[flo
     """The best preload and stiffness for some angles, and the greatest force there: a linear program."""
     from scipy.optimize import linprog
 
-    y = task.displacement(angles)
+    y, lever = task.displacement(angles), np.asarray(task.lever(angles, 0).terms[0])
     low, high = (np.asarray(task.without_spring(angles, side).terms[0]) for side in (1.0, -1.0))
     unit = float(np.abs([low, high]).max() + abs(task.least)) or 1.0
-    scale = float(np.abs(y).max())
-    units = (unit, unit / scale)
-    ones, y = np.ones_like(y), y / scale
-    rows = np.concatenate([np.stack([-ones, -y, 0.0 * ones], axis=1), np.stack([ones, y, -ones], axis=1)])
+    scale, arm = float(np.abs(y).max()), float(lever.max())
+    units = np.array([unit, unit / scale, unit / arm])
+    ones, y, lever = np.ones_like(y), y / scale, lever / arm
+    rows = np.concatenate([np.stack([-ones, -y, 0.0 * ones], axis=1), np.stack([ones, y, -lever], axis=1)])
     sides = np.concatenate([low - task.least, -high]) / unit
     known = (given.preload, given.stiffness)
-    bounds = [(0.0, None) if value is None else (value / by,) * 2 for value, by in zip(known, units, strict=True)]
-    weights = {"preload": (1.0, 0.0, 0.0), "stiffness": (0.0, 1.0, 0.0), "greatest": (0.0, 0.0, 1.0)}[given.objective]
-    optimum = linprog(weights, A_ub=rows, b_ub=sides, bounds=[*bounds, (None, None)], method="highs")
+    bounds = [(0.0, None) if value is None else (value / by,) * 2 for value, by in zip(known, units, strict=False)]
+
+    def least(weights: Array, most: float | None) -> Any:  # noqa: ANN401 - scipy's
+        return linprog(
+            weights,
+            A_ub=rows,
+            b_ub=sides,
+            bounds=[*bounds, (None, most)],
+            method="highs",
+            options={"primal_feasibility_tolerance": PROGRAM_ROUNDING, "dual_feasibility_tolerance": PROGRAM_ROUNDING},
+        )
+
+    optimum = least(np.eye(3)[_SOLE.index(given.objective) if given.objective in _SOLE else 2], None)
     if optimum.status != 0 or optimum.x is None:
         _refuse(task, angles, given)
-    preload, stiffness, greatest = (float(number) for number in optimum.x)
-    return max(preload, 0.0) * unit, max(stiffness, 0.0) * units[1], greatest * unit
+    if given.objective not in _SOLE:
+        # of all that are as good the one of the least mean force
+        mean = np.array([*task.sums, 0.0]) * units
+        gentlest = least(mean / np.abs(mean).max(), float(optimum.x[2]))
+        optimum = gentlest if gentlest.status == 0 and gentlest.x is not None else optimum
+    preload, stiffness, greatest = (float(number) for number in optimum.x * units)
+    return max(0.0, preload), max(0.0, stiffness), greatest
 
 
 def _refuse(task: _SpringTask, angles: Array, given: _KnownSpring) -> NoReturn:
@@ -255,7 +328,7 @@ def _refuse(task: _SpringTask, angles: Array, given: _KnownSpring) -> NoReturn:
 def _strengthened(task: _SpringTask, given: _KnownSpring, best: tuple[float, float, float], force: Extremes) -> Spring:
     """The spring made stronger by what it may miss, and what is then left everywhere."""
     preload, stiffness, greatest = best
-    bound = {"preload": preload, "stiffness": stiffness, "greatest": greatest}[given.objective]
+    bound = {"preload": preload, "stiffness": stiffness}.get(given.objective, greatest)
     missing = max(task.least - force.low, 0.0)
     if given.preload is None:
         preload += missing

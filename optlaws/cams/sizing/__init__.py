@@ -1,0 +1,1 @@
+"""Springs and flywheels of cams, sized by their forces over the turn."""
