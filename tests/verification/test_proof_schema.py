@@ -53,7 +53,10 @@ def test_what_it_refuses_is_refused(kind: str) -> None:
         *(whole | {key: value} for key in whole.keys() - {"problem", "about"} for value in values),
         *({key: value for key, value in whole.items() if key != missing} for missing in whole if missing != "bound"),
         whole | {"further": 1},
+        *(whole | {"format": value} for value in (0, 2, 1.5, True, "1")),
     ]  # fmt: skip
+    assert validator().is_valid(whole | {"format": 1})
+    assert verify(whole | {"format": 1}) == verify(whole)
     for data in wrong:
         assert not validator().is_valid(data), data.keys()
         with pytest.raises(InputError):

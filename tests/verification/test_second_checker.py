@@ -16,8 +16,10 @@ from hypothesis import strategies as st
 
 from optlaws import (
     BSplines,
+    Certificate,
     Chebyshev,
     InfeasibleProblem,
+    InputError,
     OptlawsError,
     Pieces,
     Problem,
@@ -26,7 +28,7 @@ from optlaws import (
     synthesize,
     via,
 )
-from optlaws.verification import exact_bound
+from optlaws.verification import exact_bound, verify
 from tests.documents import ROOT
 
 PROGRAM = ROOT / "optlaws" / "explorer" / "page" / "check_proof.mjs"
@@ -44,13 +46,18 @@ def node() -> str:
     return str(compute_driver_executable()[0])
 
 
-def checked(data: object, folder: Path) -> list[dict[str, Any]]:
-    """What the program says of data."""
+def ended(data: object, folder: Path) -> subprocess.CompletedProcess[str]:
+    """The program on data that it may refuse to read."""
     file = folder / "proofs.json"
     file.write_text(json.dumps(data), encoding="utf8")
-    ended = subprocess.run([node(), PROGRAM, "--json", file], capture_output=True, text=True, check=False)
-    assert ended.returncode in {0, 1}, ended.stderr
-    results: list[dict[str, Any]] = json.loads(ended.stdout)
+    return subprocess.run([node(), PROGRAM, "--json", file], capture_output=True, text=True, check=False)
+
+
+def checked(data: object, folder: Path) -> list[dict[str, Any]]:
+    """What the program says of data."""
+    answer = ended(data, folder)
+    assert answer.returncode in {0, 1}, answer.stderr
+    results: list[dict[str, Any]] = json.loads(answer.stdout)
     return results
 
 
@@ -65,6 +72,39 @@ def test_stored_proofs_hold_there_too(name: str, least: int, tmp_path: Path) -> 
     assert all("by a limit of laws of any degree" in detail for detail in unchecked)
     assert not [result for result in results if result["verdict"] == "not proven"]
     assert len(results) - len(unchecked) >= least
+
+
+def test_a_newer_format_is_refused_by_both_and_the_first_is_read(tmp_path: Path) -> None:
+    solution = _solution().to_dict()
+    proof = solution["certificate"]
+    for path in ((), ("certificate",), ("law",)):
+        first, newer = (_changed({"": solution}, ("", *path, "format"), lambda _, i=i: i)[""] for i in (1, 3))
+        assert ended(first, tmp_path).stdout == ended(solution, tmp_path).stdout
+        assert verify(first).proven
+        why = f"{path[0] if path else 'the file'} was written by a newer optlaws: format 3, this reads up to 1"
+        refused = ended(newer, tmp_path)
+        assert refused.returncode == 2
+        assert why in refused.stderr
+        with pytest.raises(InputError, match=why):
+            verify(newer)
+    with pytest.raises(InputError, match="the certificate was written by a newer optlaws"):
+        Certificate.from_dict(proof | {"format": 2})
+    assert Certificate.from_dict(proof | {"format": 1}) == Certificate.from_dict(proof)
+
+
+def test_what_nobody_knows_is_refused(tmp_path: Path) -> None:
+    proof = _solution().certificate.to_dict()
+    contact = proof["contacts"][0]
+    for path in (
+        ("further",),
+        ("problem", "further"),
+        ("contacts", 0, "further"),
+        ("problem", "windows", 0, "further"),
+    ):
+        (result,) = checked(_changed(proof, path, lambda _: 1.0), tmp_path)
+        assert result["verdict"] == "not proven", path
+        assert "nothing is known of the entry further" in result["detail"]
+    assert contact.keys() == {"constraint", "sign", "k", "multiplier", "direction"}
 
 
 def test_what_it_does_not_know_it_says(tmp_path: Path) -> None:
@@ -153,7 +193,7 @@ def _changed(data: object, path: Sequence[Any], change: Any) -> Any:  # noqa: AN
     at = copy
     for key in path[:-1]:
         at = at[key]
-    at[path[-1]] = change(at[path[-1]])
+    at[path[-1]] = change(at[path[-1]] if isinstance(at, list) else at.get(path[-1]))
     return copy
 
 

@@ -13,6 +13,25 @@ const STATED = exact(1e-9);
 const ROUNDED = exact(1e-11);
 const ROUNDING = exact(1e-12);
 
+/* The newest format that is read; what names none is of the first. */
+const FORMAT = 1;
+/* What certificates, their parts and problems may say: anything else could mean that they speak of something else. */
+const COMMON = ["format", "problem", "bound", "about"];
+const KEYS = {
+  contacts: [...COMMON, "program", "tangent", "contacts", "equations"],
+  steps: [...COMMON, "claim", "points", "steps"],
+  cells: [...COMMON, "constant", "claim", "cells"],
+  contact: ["constraint", "sign", "k", "multiplier", "direction"],
+  split: ["variable", "at"],
+  step: ["variable", "side", "contacts", "equations", "claim"],
+  cell: ["k", "reach", "sign", "contacts", "equations"],
+  problem: [
+    "minimise", "order", "basis", "degree", "continuity", "breaks", "straight", "monotone", "symmetric", "B", "C", "D", "J",
+    "bounds", "inflexion", "start", "end", "windows",
+  ],
+  window: ["quantity", "low", "high", "start", "stop"],
+};
+
 function isCertificate(data) {
   return typeof data.problem === "object" && data.problem !== null && ("contacts" in data || "steps" in data || "cells" in data);
 }
@@ -20,6 +39,7 @@ function isCertificate(data) {
 /* What a certificate proves: {verdict: "proven" | "not proven" | "not checked", detail, bound}. */
 export function checked(certificate) {
   try {
+    checkKeys(certificate);
     if ("steps" in certificate) return boxesChecked(certificate);
     if ("cells" in certificate) throw new Unknown("places of a peak");
     return leafChecked(certificate);
@@ -27,6 +47,33 @@ export function checked(certificate) {
     if (error instanceof Unknown) return { verdict: "not checked", detail: `this program does not know ${error.message}`, bound: null };
     return { verdict: "not proven", detail: `the file is no certificate: ${error.message}`, bound: null };
   }
+}
+
+/* Refuse what nobody knows, and a file of a newer format. */
+function checkKeys(certificate) {
+  const known = (data, kind) => {
+    const unknown = Object.keys(data).find((key) => !KEYS[kind].includes(key));
+    if (unknown !== undefined) throw new TypeError(`nothing is known of the entry ${unknown} of a ${kind in certificate ? "certificate" : kind}`);
+  };
+  const summed = (data) => data.contacts?.forEach((contact) => known(contact, "contact"));
+  const kind = ["steps", "cells", "contacts"].find((key) => key in certificate);
+  known(certificate, kind);
+  known(certificate.problem, "problem");
+  certificate.problem.windows?.forEach((window) => known(window, "window"));
+  summed(certificate);
+  certificate.steps?.forEach((step) => {
+    known(step, "at" in step ? "split" : "step");
+    summed(step);
+  });
+  certificate.cells?.forEach((cell) => {
+    known(cell, "cell");
+    summed(cell);
+  });
+}
+
+function checkFormat({ format = 1 }, path) {
+  if (!Number.isInteger(format) || format < 1) throw new TypeError(`${path}: the format must be a whole number from 1 on`);
+  if (format > FORMAT) throw new TypeError(`${path} was written by a newer optlaws: format ${format}, this reads up to ${FORMAT}`);
 }
 
 function boxesChecked(certificate) {
@@ -206,6 +253,7 @@ function near(stated, [low, high]) {
 export function fileChecked(data, path = "") {
   if (Array.isArray(data)) return data.flatMap((entry, i) => fileChecked(entry, `${path}[${i}]`));
   if (data === null || typeof data !== "object") return [];
+  checkFormat(data, path || "the file");
   if (isCertificate(data)) return [{ path: path || "the file", ...checked(data) }];
   const inner = Object.entries(data).flatMap(([key, entry]) => fileChecked(entry, path ? `${path}.${key}` : key));
   if (!data.law || !data.certificate || !data.problem) return inner;
