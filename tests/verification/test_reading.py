@@ -35,7 +35,7 @@ WRONG: dict[str, tuple[Callable[[str], str], str]] = {
     "huge": (lambda text: text.replace('"objective": ', f'"objective": {"9" * 400}, "was": '), "beyond the numbers"),
     "endless": (lambda text: text.replace('"objective": ', f'"objective": {"9" * 5000}, "was": '), "not JSON"),
     "twice": (lambda text: text.replace('"objective": ', '"objective": 1, "objective": '), "comes twice"),
-    "format": (lambda text: text.replace('"format": 1', '"format": 2'), "law was written by a newer optlaws: format 2, this reads up to 1"),
+    "format": (lambda text: text.replace('"format": 1', '"format": 2'), "law was written by a newer optlaws: format 2"),
     "degree": (lambda text: text.replace('"degree": 5', '"degree": 100000'), "more than exact verification takes"),
     "program": (lambda text: text.replace('"program": "objective"', '"program": "divine"'), "program of a certificate"),
     "basis": (lambda text: text.replace('"chebyshev"', '"legendre"'), "basis 'legendre' is unknown"),

@@ -94,17 +94,10 @@ def test_a_newer_format_is_refused_by_both_and_the_first_is_read(tmp_path: Path)
 
 def test_what_nobody_knows_is_refused(tmp_path: Path) -> None:
     proof = _solution().certificate.to_dict()
-    contact = proof["contacts"][0]
-    for path in (
-        ("further",),
-        ("problem", "further"),
-        ("contacts", 0, "further"),
-        ("problem", "windows", 0, "further"),
-    ):
-        (result,) = checked(_changed(proof, path, lambda _: 1.0), tmp_path)
+    for path in ((), ("problem",), ("contacts", 0), ("problem", "windows", 0)):
+        (result,) = checked(_changed(proof, (*path, "further"), lambda _: 1.0), tmp_path)
         assert result["verdict"] == "not proven", path
         assert "nothing is known of the entry further" in result["detail"]
-    assert contact.keys() == {"constraint", "sign", "k", "multiplier", "direction"}
 
 
 def test_what_it_does_not_know_it_says(tmp_path: Path) -> None:
