@@ -1,7 +1,6 @@
 """The JSON Schema of certificates: every stored one obeys it, and what it refuses the library refuses too."""
 
 import json
-from collections.abc import Iterator
 from functools import cache
 from typing import Any
 
@@ -10,6 +9,7 @@ from jsonschema import Draft202012Validator
 
 from optlaws import InputError
 from optlaws.verification import verify
+from tests.check_proofs import RESULTS, certificates
 from tests.documents import ROOT
 
 SCHEMA = json.loads((ROOT / "optlaws" / "verification" / "proof.schema.json").read_text(encoding="utf8"))
@@ -21,21 +21,9 @@ def validator() -> Draft202012Validator:
     return Draft202012Validator(SCHEMA)
 
 
-def certificates(data: object) -> Iterator[dict[str, Any]]:
-    if isinstance(data, dict):
-        if "problem" in data and data.keys() & {"contacts", "steps", "cells"}:
-            yield data
-            return
-        for entry in data.values():
-            yield from certificates(entry)
-    elif isinstance(data, list):
-        for entry in data:
-            yield from certificates(entry)
-
-
 @cache
 def stored(name: str) -> list[dict[str, Any]]:
-    return list(certificates(json.loads((ROOT / "results" / name / "laws.json").read_text(encoding="utf8"))))
+    return [proof for _, proof in certificates(json.loads((RESULTS / name / "laws.json").read_text(encoding="utf8")))]
 
 
 @pytest.mark.parametrize("name", ["optimal_table", "d_minimal", "mixed", "machine_sloshing"])

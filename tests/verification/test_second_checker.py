@@ -7,7 +7,6 @@ from copy import deepcopy
 from functools import cache
 from pathlib import Path
 from random import Random
-from shutil import which
 from typing import Any
 
 import pytest
@@ -29,28 +28,14 @@ from optlaws import (
     via,
 )
 from optlaws.verification import exact_bound, verify
-from tests.documents import ROOT
-
-PROGRAM = ROOT / "optlaws" / "explorer" / "page" / "check_proof.mjs"
-RESULTS = ROOT / "results"
-
-
-@cache
-def node() -> str:
-    """Node.js of this machine, or that of the browser's driver."""
-    installed = which("node")
-    if installed is not None:
-        return installed
-    from playwright._impl._driver import compute_driver_executable
-
-    return str(compute_driver_executable()[0])
+from tests.check_proofs import RESULTS, run
 
 
 def ended(data: object, folder: Path) -> subprocess.CompletedProcess[str]:
     """The program on data that it may refuse to read."""
     file = folder / "proofs.json"
     file.write_text(json.dumps(data), encoding="utf8")
-    return subprocess.run([node(), PROGRAM, "--json", file], capture_output=True, text=True, check=False)
+    return run(file)
 
 
 def checked(data: object, folder: Path) -> list[dict[str, Any]]:
