@@ -1,7 +1,7 @@
 /* Trees over boxes of velocities and constants, for problems with the power D, with every rounding outward. */
 
-import { ONE, Rational, TWO, ZERO, exact, greatest, least, quotientRounded, whole } from "./proof_numbers.mjs";
-import { Rows, Unknown, rangeOf } from "./proof_rows.mjs";
+import { ONE, Rational, TWO, Unknown, ZERO, exact, greatest, least, quotientRounded, whole } from "./proof_numbers.mjs";
+import { Rows, rangeOf } from "./proof_rows.mjs";
 import { endVelocities } from "./proof_laws.mjs";
 
 const BITS = 192;

@@ -2,8 +2,8 @@
 
    It shares no code with the library that writes the proofs: docs/reference/proof-format.md says what is computed. */
 
-import { ONE, Rational, ZERO, exact, greatest, least, quotientRounded, solvedWhole, whole, wholeNumbers } from "./proof_numbers.mjs";
-import { MEANS, PEAKS, ROOT, Rows, Unknown, parsed, rangeOf } from "./proof_rows.mjs";
+import { ONE, Rational, Unknown, ZERO, exact, greatest, least, quotientRounded, solvedWhole, sum, whole, wholeNumbers } from "./proof_numbers.mjs";
+import { MEANS, PEAKS, ROOT, Rows, parsed, rangeOf } from "./proof_rows.mjs";
 import { boxesHold } from "./proof_boxes.mjs";
 import { endVelocities, ends, stroke } from "./proof_laws.mjs";
 import { enclosed, missesOf, motionOf, objectiveOf } from "./proof_motion.mjs";
@@ -103,13 +103,28 @@ export function provenBy(certificate) {
   if (!["objective", "relaxed", "violation"].includes(program)) throw new TypeError(`there is no program ${program}`);
   const rows = new Rows(certificate.problem, program, tangent ?? 0);
   const contradiction = program === "violation";
-  const total = { z: Array(rows.laws.terms).fill(ZERO), names: new Map(rows.cost), constant: ZERO };
+  const nothing = Array(rows.laws.terms).fill(ZERO);
+  const total = { z: nothing, off: nothing, names: new Map(rows.cost), constant: ZERO, offConstant: ZERO };
+  const loose = new Map();
+  const means = new Set();
   for (const contact of contacts) {
     const multiplier = exact(contact.multiplier);
     const row = multiplier.sign > 0 ? rows.row(contact) : null;
-    if (row) add(total, multiplier, row);
+    if (row?.rms) means.add(row.rms);
+    else if (row?.loose) loose.set(row.loose, [...(loose.get(row.loose) ?? []), [multiplier, row]]);
+    else if (row) add(total, multiplier, row);
   }
   rows.equations.forEach((row, i) => { if (equations[i]) add(total, exact(equations[i]), row); });
+  // rows in a unit of the machine's: such that nothing is left of their variable
+  for (const [name, group] of loose) {
+    const factor = total.names.get(name).over(sum(group.map(([multiplier]) => multiplier)));
+    if (factor.sign > 0) group.forEach(([multiplier, row]) => add(total, multiplier.times(factor), row));
+  }
+  for (const name of means) {
+    const weight = total.names.get(name);
+    const row = weight.sign > 0 ? rows.beside(name, total.z.map((slope) => slope.over(weight))) : null;
+    if (row) add(total, weight, row);
+  }
   const claim = contradiction ? ZERO : greatest(total.constant, ZERO);
   const charge = chargeOf(rows, total, claim, contradiction);
   if (charge === null) return { bound: contradiction ? ZERO : floorOf(rows), contradiction };
@@ -119,9 +134,13 @@ export function provenBy(certificate) {
 }
 
 function add(total, multiplier, row) {
-  row.z.forEach((entry, i) => { total.z[i] = total.z[i].plus(multiplier.times(entry)); });
+  total.z = total.z.map((entry, i) => entry.plus(multiplier.times(row.z[i])));
   for (const [name, entry] of Object.entries(row.names)) total.names.set(name, (total.names.get(name) ?? ZERO).plus(multiplier.times(entry)));
   total.constant = total.constant.plus(multiplier.times(row.constant));
+  if (!row.off) return;
+  const size = multiplier.magnitude();
+  total.off = total.off.map((entry, i) => entry.plus(size.times(row.off[i])));
+  total.offConstant = total.offConstant.plus(size.times(row.offConstant));
 }
 
 /* What the objective is at least because none of its constants is negative; null where one may be. */
@@ -139,15 +158,20 @@ function never(rows, name) {
 /* What the slopes that are left can be worth at most in a law whose objective is below the claim; null if nothing bounds it. */
 function chargeOf(rows, total, claim, contradiction) {
   const most = greatestValues(rows, claim, contradiction);
-  let charge = ZERO;
+  let charge = total.offConstant;
   for (const [name, slope] of total.names) {
     if (slope.sign === 0 || (slope.sign > 0 && never(rows, name))) continue;
     if (slope.sign > 0 || !most.has(name)) return null;
     charge = charge.minus(slope.times(most.get(name)));
   }
-  if (total.z.every((slope) => slope.sign === 0)) return charge;
-  const worths = meansOf(rows, most).map(([nu, mean]) => worth(rows, total.z, nu, mean)).filter((value) => value !== null);
-  return worths.length ? charge.plus(worths.reduce(least)) : null;
+  if ([...total.z, ...total.off].every((slope) => slope.sign === 0)) return charge;
+  const families = meansOf(rows, most);
+  const worths = families.map((family) => worthIn(family, total.z)).filter((value) => value !== null);
+  if (!worths.length) return null;
+  charge = charge.plus(worths.reduce(least));
+  if (total.off.every((off) => off.sign === 0)) return charge;
+  const sizes = families.map(sizesIn).find((value) => value !== null);
+  return sizes ? charge.plus(sum(total.off.map((off, i) => off.times(sizes[i])))) : null;
 }
 
 /* The greatest values of constants, maxima and B in a law whose objective is below the claim. */
@@ -162,7 +186,7 @@ function greatestValues(rows, claim, contradiction) {
     }
   }
   if (!contradiction) spread(rows.objective, claim);
-  for (const name of [...Object.keys(PEAKS), ...Object.keys(MEANS), "D"]) {
+  for (const name of [...Object.keys(PEAKS), ...Object.keys(MEANS), "D", ...rows.machines.keys()]) {
     const range = rangeOf(rows.problem, name);
     if (range?.high) lower(name, range.high);
   }
@@ -170,7 +194,7 @@ function greatestValues(rows, claim, contradiction) {
   return most;
 }
 
-/* Orders of derivatives whose mean magnitude is bounded in such a law, each with the bound. */
+/* Functions whose mean magnitude is bounded in such a law: their moments, by how much these are off, and the bound. */
 function meansOf(rows, most) {
   const { problem } = rows;
   const known = [];
@@ -188,12 +212,42 @@ function meansOf(rows, most) {
   const way = stroke(problem);
   if (most.has("B")) known.push([1, most.get("B").times(whole(2)).plus(way.magnitude())]);
   if (problem.monotone) known.push([1, way.magnitude()]);
-  return known;
+  const families = known.map(([nu, mean]) => ({ moments: rows.laws.moments(nu), off: ZERO, mean }));
+  if (families.length) return families;
+  for (const [name, { constant }] of rows.machines) {
+    if (!most.has(name) || constant.kind === "mode_residual" || constant.start.sign || constant.stop.below(ONE)) continue;
+    const { rows: moments, off } = rows.outputMoments(name);
+    const mean = constant.kind === "output_rms" ? most.get(name).times(constant.stop.rootAbove()) : most.get(name);
+    families.push({ moments, off, mean });
+  }
+  return families;
 }
 
-/* What slopes in the coordinates are worth at most where a derivative's mean magnitude is bounded: by Legendre moments. */
-function worth(rows, slopes, nu, mean) {
-  const moments = rows.laws.moments(nu);
+/* What slopes are worth at most where means are bounded, those that are off by rounding too; null if nothing is known. */
+function worthIn(family, slopes) {
+  const found = worth(family, slopes);
+  if (found === null || family.off.sign === 0) return found?.value ?? null;
+  const sizes = sizesIn(family);
+  return sizes && found.value.plus(found.weight.times(family.off).times(sum(sizes)));
+}
+
+/* What each coordinate of the law is at most in magnitude. */
+function sizesIn(family) {
+  if (family.sizes !== undefined) return family.sizes;
+  const terms = family.moments[0]?.length - 1;
+  const units = Array.from({ length: terms }, (_, i) => worth(family, Array.from({ length: terms }, (__, j) => (i === j ? ONE : ZERO))));
+  family.sizes = null;
+  if (units.some((unit) => unit === null)) return null;
+  // the sum S of all is at most that of the values and `left` times S
+  const left = sum(units.map(({ weight }) => weight)).times(family.off);
+  if (!left.below(ONE)) return null;
+  const all = sum(units.map(({ value }) => value)).over(ONE.minus(left)).rounded(1);
+  family.sizes = units.map(({ value, weight }) => value.plus(weight.times(family.off).times(all)).rounded(1));
+  return family.sizes;
+}
+
+/* What slopes in the coordinates are worth at most where a mean magnitude is bounded, by Legendre moments; and the sum of weights. */
+function worth({ moments, off, mean }, slopes) {
   const { whole: all, factor } = wholeNumbers(moments.flatMap((row) => row.slice(0, -1)));
   const columns = slopes.length;
   const matrix = moments.map((_, m) => all.slice(m * columns, (m + 1) * columns));
@@ -203,14 +257,16 @@ function worth(rows, slopes, nu, mean) {
   const solution = solvedWhole(gram.map((row, i) => row.map((entry, j) => (j < i ? gram[j][i] : entry))), right.whole);
   if (solution === null) return null;
   let total = ZERO;
+  let weights = ZERO;
   matrix.forEach((row, m) => {
     const weight = row.reduce((value, entry, i) => value + entry * solution.numerators[i], 0n);
     const size = new Rational(weight).magnitude().rounded(1);
-    total = total.plus(size.times(mean.plus(moments[m].at(-1).magnitude()).rounded(1)));
+    total = total.plus(size.times(mean.plus(moments[m].at(-1).magnitude()).plus(off).rounded(1)));
+    weights = weights.plus(size);
   });
   // the moments are whole / factor, the slopes whole / right.factor: weights grow by the quotient of both
-  const value = quotientRounded(total, new Rational(solution.divisor).magnitude(), 1, 160);
-  return value.times(factor).over(right.factor).rounded(1);
+  const scaled = (number) => quotientRounded(number, new Rational(solution.divisor).magnitude(), 1, 160).times(factor).over(right.factor).rounded(1);
+  return { value: scaled(total), weight: scaled(weights) };
 }
 
 /* What a solution states beside its proofs, held against its law and against what the proofs prove. */

@@ -1,8 +1,8 @@
 /* The constants of a stored law, enclosed: of the very function that its numbers describe. */
 
-import { ONE, Rational, TWO, ZERO, exact, greatest, sum, whole } from "./proof_numbers.mjs";
+import { ONE, Rational, TWO, Unknown, ZERO, exact, greatest, sum, whole } from "./proof_numbers.mjs";
 import { derivative, inPlace, multiplied } from "./proof_laws.mjs";
-import { MEANS, PEAKS, Unknown } from "./proof_rows.mjs";
+import { MEANS, PEAKS } from "./proof_rows.mjs";
 
 const BITS = 256;
 /* Peaks are enclosed to this share of themselves. */
