@@ -194,7 +194,9 @@ function greatestValues(rows, claim, contradiction) {
   return most;
 }
 
-/* Functions whose mean magnitude is bounded in such a law: their moments, by how much these are off, and the bound. */
+/* Functions whose mean magnitude is bounded in such a law: their moments, by how much these are off, and the bound.
+
+   The last moments are those of equations, `fixed` of them, which are 0. */
 function meansOf(rows, most) {
   const { problem } = rows;
   const known = [];
@@ -212,13 +214,16 @@ function meansOf(rows, most) {
   const way = stroke(problem);
   if (most.has("B")) known.push([1, most.get("B").times(whole(2)).plus(way.magnitude())]);
   if (problem.monotone) known.push([1, way.magnitude()]);
-  const families = known.map(([nu, mean]) => ({ moments: rows.laws.moments(nu), off: ZERO, mean }));
+  // what a derivative does not see of pieces, their equations settle
+  const settled = rows.equations.filter(({ names }) => !Object.keys(names).length).map(({ z, constant }) => [...z, constant]);
+  const fixed = rows.laws.conditions.length ? settled : [];
+  const families = known.map(([nu, mean]) => ({ moments: [...rows.laws.moments(nu), ...fixed], fixed: fixed.length, off: ZERO, mean }));
   if (families.length) return families;
   for (const [name, { constant }] of rows.machines) {
     if (!most.has(name) || constant.kind === "mode_residual" || constant.start.sign || constant.stop.below(ONE)) continue;
     const { rows: moments, off } = rows.outputMoments(name);
     const mean = constant.kind === "output_rms" ? most.get(name).times(constant.stop.rootAbove()) : most.get(name);
-    families.push({ moments, off, mean });
+    families.push({ moments, fixed: 0, off, mean });
   }
   return families;
 }
@@ -247,7 +252,7 @@ function sizesIn(family) {
 }
 
 /* What slopes in the coordinates are worth at most where a mean magnitude is bounded, by Legendre moments; and the sum of weights. */
-function worth({ moments, off, mean }, slopes) {
+function worth({ moments, fixed, off, mean }, slopes) {
   const { whole: all, factor } = wholeNumbers(moments.flatMap((row) => row.slice(0, -1)));
   const columns = slopes.length;
   const matrix = moments.map((_, m) => all.slice(m * columns, (m + 1) * columns));
@@ -261,7 +266,8 @@ function worth({ moments, off, mean }, slopes) {
   matrix.forEach((row, m) => {
     const weight = row.reduce((value, entry, i) => value + entry * solution.numerators[i], 0n);
     const size = new Rational(weight).magnitude().rounded(1);
-    total = total.plus(size.times(mean.plus(moments[m].at(-1).magnitude()).plus(off).rounded(1)));
+    const most = m < moments.length - fixed ? mean : ZERO;
+    total = total.plus(size.times(most.plus(moments[m].at(-1).magnitude()).plus(off).rounded(1)));
     weights = weights.plus(size);
   });
   // the moments are whole / factor, the slopes whole / right.factor: weights grow by the quotient of both

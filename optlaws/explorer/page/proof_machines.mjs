@@ -11,6 +11,8 @@ const NEAR = exact(1e-9);
 /* A term this small, in units of 2^-640, ends a series. */
 const SMALL = 1n << 40n;
 const MOST_TERMS = 4000;
+/* What of a Legendre series is left out of peaks, in the same units. */
+const ENOUGH = 1n << 420n;
 
 /* The text of a machine's constant at the beginning of a text; null where there is none. */
 export function machineName(text) {
@@ -95,6 +97,14 @@ export class Outputs {
     }
   }
 
+  /* What follows the rise, for a length of time. */
+  dwell(length) {
+    return this.rise.map(({ end }, i) => {
+      const drive = this.constant.inputs.map((symbol) => (symbol === "a" ? [this.levels[i]] : []));
+      return this.#series(drive, end, length);
+    });
+  }
+
   /* The outputs at a share of all the time; null where it does not count. */
   at(share) {
     const { start, stop } = this.constant;
@@ -102,25 +112,13 @@ export class Outputs {
     if (given.plus(NEAR).below(start)) return null;
     const time = given.below(start) ? start : given;
     if (!ONE.below(time)) return this.rise.map((series) => valueOf(series, time));
-    return this.rise.map(({ end }, i) => {
-      const drive = this.constant.inputs.map((symbol) => (symbol === "a" ? [this.levels[i]] : []));
-      return valueOf(this.#series(drive, end, time.minus(ONE)), time.minus(ONE));
-    });
+    const after = time.minus(ONE);
+    return this.dwell(after).map((series) => valueOf(series, after));
   }
 
   /* Integrals over the rise of the outputs times Legendre's polynomials, a list for each output. */
   moments(count) {
-    const longest = Math.max(...this.rise.map(({ terms }) => terms.length));
-    const totals = this.rise.map(() => []);
-    // the integral of P_m t^j, from that of P_(m-1)
-    let weights = Array.from({ length: longest }, (_, j) => inverse(ball(whole(j + 1))));
-    for (let m = 0; m < Math.min(count, longest); m += 1) {
-      if (m) weights = weights.map((weight, j) => (j < m ? NOTHING : part(times(weight, ball(whole(j - m + 1))), BigInt(j + m + 1))));
-      this.rise.forEach(({ terms, rest }, i) => {
-        totals[i].push(terms.reduce((total, term, j) => (j < m ? total : plus(total, times(term, weights[j]))), rest));
-      });
-    }
-    return totals;
+    return momentsOf(this.rise, count);
   }
 
   /* Integrals over the rise of the products of outputs. */
@@ -134,6 +132,68 @@ export class Outputs {
       return plus(total, around(plus(times([0n, sizes[i]], [0n, other]), times([0n, one], [0n, sizes[j]]))));
     }));
   }
+}
+
+/* Integrals from 0 to 1 of power series times Legendre's polynomials, a list for each series. */
+function momentsOf(several, count) {
+  const longest = Math.max(...several.map(({ terms }) => terms.length));
+  const totals = several.map(() => []);
+  // the integral of P_m t^j, from that of P_(m-1)
+  let weights = Array.from({ length: longest }, (_, j) => inverse(ball(whole(j + 1))));
+  for (let m = 0; m < Math.min(count, longest); m += 1) {
+    if (m) weights = weights.map((weight, j) => (j < m ? NOTHING : part(times(weight, ball(whole(j - m + 1))), BigInt(j + m + 1))));
+    several.forEach(({ terms, rest }, i) => {
+      totals[i].push(terms.reduce((total, term, j) => (j < m ? total : plus(total, times(term, weights[j]))), rest));
+    });
+  }
+  return totals;
+}
+
+/* Polynomials of the share of each stretch of time, which the output of one law is but for `off`; or its mean square. */
+export function outputOf(constant, position) {
+  if (constant.kind === "mode_residual" || constant.start.sign || constant.stop.below(ONE)) throw new Unknown("an output that counts later");
+  const outputs = new Outputs(constant, { derivative: () => [[position]] });
+  const after = constant.stop.minus(ONE);
+  if (constant.kind === "output_rms") {
+    if (after.sign) throw new Unknown("means beyond the rise");
+    return { size: root(outputs.products()[0][0]) };
+  }
+  const stretches = [outputs.rise[0]];
+  if (after.sign) {
+    const [{ terms, rest }] = outputs.dwell(after);
+    let power = ONE;
+    const scaled = terms.map((term) => {
+      const value = times(term, ball(power));
+      power = power.times(after);
+      return value;
+    });
+    stretches.push({ terms: scaled, rest });
+  }
+  const short = stretches.map(shortened);
+  return { polynomials: short.map(({ polynomial }) => polynomial), off: short.map(({ off }) => off).reduce(greatest) };
+}
+
+/* A polynomial of low degree that a power series is from 0 to 1 but for `off`: its Legendre series, cut. */
+function shortened(series) {
+  const parts = momentsOf([series], Infinity)[0].map((moment, m) => times(moment, ball(whole(2 * m + 1))));
+  let off = magnitude(series.rest);
+  let count = parts.length;
+  while (count > 1 && magnitude(parts[count - 1]) < ENOUGH) {
+    count -= 1;
+    off += magnitude(parts[count]);
+  }
+  let left = above([0n, off]);
+  let polynomial = [];
+  parts.slice(0, count).forEach((entry, m) => {
+    const { centre, off: rounding } = middle(entry);
+    left = left.plus(rounding);
+    let coefficient = whole(m % 2 ? -1 : 1);
+    for (let j = 0; j <= m; j += 1) {
+      polynomial[j] = (polynomial[j] ?? ZERO).plus(centre.times(coefficient));
+      coefficient = coefficient.times(whole(-(m - j) * (m + j + 1))).over(whole((j + 1) * (j + 1)));
+    }
+  });
+  return { polynomial, off: left };
 }
 
 function valueOf({ terms, rest }, time) {

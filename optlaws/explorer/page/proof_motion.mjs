@@ -2,6 +2,8 @@
 
 import { ONE, Rational, TWO, Unknown, ZERO, exact, greatest, sum, whole } from "./proof_numbers.mjs";
 import { derivative, inPlace, multiplied } from "./proof_laws.mjs";
+import { above, below } from "./proof_balls.mjs";
+import { machineConstant, machineName, outputOf } from "./proof_machines.mjs";
 import { MEANS, PEAKS } from "./proof_rows.mjs";
 
 const BITS = 256;
@@ -54,6 +56,7 @@ function of(piece, nu) {
 
 /* A constant of a law between two numbers. */
 export function enclosed(motion, name) {
+  if (machineName(name)) return ofMachine(motion, machineConstant(name));
   if (name in MEANS) {
     const square = sum(motion.map((piece) => sum(integral(multiplied(of(piece, MEANS[name]), of(piece, MEANS[name])), piece.length, ZERO))));
     const high = square.rootAbove();
@@ -62,6 +65,14 @@ export function enclosed(motion, name) {
   if (name === "D") return extreme(motion.map((piece) => multiplied(of(piece, 1), of(piece, 2))), [1, -1]);
   const [nu, signs] = PEAKS[name];
   return extreme(motion.map((piece) => of(piece, nu)), signs);
+}
+
+function ofMachine(motion, constant) {
+  if (motion.length > 1) throw new Unknown("outputs under laws of pieces");
+  const { polynomials, off, size } = outputOf(constant, of(motion[0], 0));
+  if (size) return [below(size), above(size)];
+  const [low, high] = extreme(polynomials, [1, -1]);
+  return [low.minus(off), high.plus(off)];
 }
 
 /* The greatest value of signs times polynomials over [0, 1], between two numbers. */
