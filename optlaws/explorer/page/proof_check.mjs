@@ -3,15 +3,18 @@
    It shares no code with the library that writes the proofs: docs/reference/proof-format.md says what is computed. */
 
 import { ONE, Rational, Unknown, ZERO, exact, greatest, least, quotientRounded, solvedWhole, sum, whole, wholeNumbers } from "./proof_numbers.mjs";
-import { MEANS, PEAKS, ROOT, Rows, parsed, rangeOf } from "./proof_rows.mjs";
+import { MEANS, PEAKS, ROOT, Rows, neverNegative, parsed, rangeOf } from "./proof_rows.mjs";
+import { limitOf } from "./proof_limits.mjs";
 import { boxesHold } from "./proof_boxes.mjs";
 import { endVelocities, ends, stroke } from "./proof_laws.mjs";
-import { enclosed, missesOf, motionOf, objectiveOf } from "./proof_motion.mjs";
+import { conditionsOf, enclosed, missesOf, motionOf, objectiveOf } from "./proof_motion.mjs";
 
 /* Stated bounds and constants are doubles: by how much of themselves they may be off, and the ends of a law. */
 const STATED = exact(1e-9);
 const ROUNDED = exact(1e-11);
 const ROUNDING = exact(1e-12);
+/* By how much of its bound a law may break a condition. */
+const KEPT = exact(1e-9);
 
 /* The newest format that is read; what names none is of the first. */
 const FORMAT = 1;
@@ -145,14 +148,7 @@ function add(total, multiplier, row) {
 
 /* What the objective is at least because none of its constants is negative; null where one may be. */
 function floorOf(rows) {
-  return [...rows.cost.keys()].every((name) => never(rows, name)) ? ZERO : null;
-}
-
-/* Whether a variable is never below 0 in a law. */
-function never(rows, name) {
-  const oneSided = ["C_plus", "C_minus"].some((constant) => name.includes(constant));
-  const velocities = endVelocities(rows.problem);
-  return !oneSided || (velocities !== null && velocities.change.sign === 0);
+  return [...rows.cost.keys()].every((name) => neverNegative(rows.problem, name)) ? ZERO : null;
 }
 
 /* What the slopes that are left can be worth at most in a law whose objective is below the claim; null if nothing bounds it. */
@@ -160,7 +156,7 @@ function chargeOf(rows, total, claim, contradiction) {
   const most = greatestValues(rows, claim, contradiction);
   let charge = total.offConstant;
   for (const [name, slope] of total.names) {
-    if (slope.sign === 0 || (slope.sign > 0 && never(rows, name))) continue;
+    if (slope.sign === 0 || (slope.sign > 0 && neverNegative(rows.problem, name))) continue;
     if (slope.sign > 0 || !most.has(name)) return null;
     charge = charge.minus(slope.times(most.get(name)));
   }
@@ -180,7 +176,7 @@ function greatestValues(rows, claim, contradiction) {
   const lower = (name, value) => most.set(name, most.has(name) ? least(most.get(name), value) : value);
   function spread(terms, value) {
     for (const [weight, term] of terms) {
-      if (terms.some(([, other]) => other !== term && !never(rows, other.name))) continue;
+      if (terms.some(([, other]) => other !== term && !neverNegative(rows.problem, other.name))) continue;
       lower(term.name, value.over(weight));
       if (term.parts) for (const part of term.parts) spread(part, value.over(weight));
     }
@@ -279,31 +275,61 @@ function worth({ moments, fixed, off, mean }, slopes) {
 function solutionChecked(data, path, proven) {
   const claims = [];
   const claim = (name, holds, detail) => claims.push({ path: `${path}: ${name}`, verdict: holds ? "proven" : "not proven", detail });
-  try {
+  const tried = (name, check) => {
+    try {
+      check();
+    } catch (error) {
+      const known = error instanceof Unknown;
+      claims.push({ path: `${path}: ${name}`, verdict: known ? "not checked" : "not proven", detail: known ? `this program does not know ${error.message}` : error.message });
+    }
+  };
+  const { problem } = data;
+  tried("law", () => {
     const motion = motionOf(data.law);
-    for (const [name, entry] of Object.entries(data.constants ?? {})) {
-      const stated = typeof entry === "object" && entry !== null ? entry.value : entry;
-      if (stated === null || !(name in PEAKS || name in MEANS || name === "D")) continue;
-      claim(name, near(stated, enclosed(motion, name)), `${stated} is stated`);
-    }
-    const objective = objectiveOf(motion, parsed(data.problem.minimise));
-    if (data.objective !== undefined) claim("objective", near(data.objective, objective), `${data.objective} is stated, ${objective[1].toNumber()} is that of the law`);
-    const misses = missesOf(motion, ends(data.problem)).filter(({ by, size }) => ROUNDING.times(size).below(by));
+    claims.push(...constantsChecked(data, path, motion));
+    tried("objective", () => {
+      const objective = objectiveOf(motion, parsed(problem.minimise));
+      if (data.objective !== undefined) claim("objective", near(data.objective, objective), `${data.objective} is stated, ${objective[1].toNumber()} is that of the law`);
+    });
+    const misses = missesOf(motion, ends(problem)).filter(({ by, size }) => ROUNDING.times(size).below(by));
     claim("ends", misses.length === 0, misses.length ? `derivative ${misses[0].nu} at ${misses[0].end} is off by ${misses[0].by.toNumber()}` : "the law has the derivatives that are given");
-    const bounds = proven.filter(({ bound }) => bound);
-    const best = bounds.length ? bounds.map(({ bound }) => bound).reduce(greatest) : null;
-    const stated = data.lower_bound ?? null;
-    if (stated !== null && best !== null && !best.plus(STATED.times(best.magnitude())).below(exact(stated))) {
-      claim("lower bound", true, `${stated} is stated, ${best.toNumber()} is proven`);
-    } else if (stated !== null) {
-      const other = data.limit != null && data.limit >= stated ? "a limit of laws of any degree, which this program does not know" : "no proof in the file that this program knows";
-      claims.push({ path: `${path}: lower bound`, verdict: "not checked", detail: `${stated} is stated, by ${other}` });
+    for (const { name, by } of conditionsOf(motion, problem)) {
+      tried(name, () => {
+        const most = by();
+        claim(name, !KEPT.below(most), most.sign > 0 ? `broken by at most ${most.toNumber()} of its bound` : "kept");
+      });
     }
+  });
+  tried("lower bound", () => {
+    const limit = limitOf(problem, parsed(problem.minimise));
+    const agrees = (stated, bound) => bound !== null && !bound.plus(STATED.times(bound.magnitude())).below(exact(stated));
+    const bounds = [...proven.map(({ bound }) => bound), limit].filter((bound) => bound);
+    const best = bounds.length ? bounds.reduce(greatest) : null;
+    for (const [name, stated, bound] of [["limit", data.limit ?? null, limit], ["lower bound", data.lower_bound ?? null, best]]) {
+      if (stated === null) continue;
+      if (agrees(stated, bound)) claim(name, true, `${stated} is stated, ${bound.toNumber()} is proven`);
+      else claims.push({ path: `${path}: ${name}`, verdict: "not checked", detail: `${stated} is stated, by no proof that this program knows` });
+    }
+  });
+  return claims;
+}
+
+/* The constants that a law is said to have. */
+function constantsChecked(data, path, motion) {
+  return Object.entries(data.constants ?? {}).flatMap(([name, entry]) => {
+    const stated = typeof entry === "object" && entry !== null ? entry.value : entry;
+    if (stated === null || !(name in PEAKS || name in MEANS || name === "D")) return [];
+    return [{ path: `${path}: ${name}`, verdict: near(stated, enclosed(motion, name)) ? "proven" : "not proven", detail: `${stated} is stated` }];
+  });
+}
+
+function lawChecked(data, path) {
+  try {
+    return constantsChecked(data, path, motionOf(data.law));
   } catch (error) {
     const known = error instanceof Unknown;
-    claims.push({ path: `${path}: law`, verdict: known ? "not checked" : "not proven", detail: known ? `this program does not know ${error.message}` : error.message });
+    return [{ path: `${path}: law`, verdict: known ? "not checked" : "not proven", detail: known ? `this program does not know ${error.message}` : error.message }];
   }
-  return claims;
 }
 
 function near(stated, [low, high]) {
@@ -318,9 +344,15 @@ export function fileChecked(data, path = "") {
   checkFormat(data, path || "the file");
   if (isCertificate(data)) return [{ path: path || "the file", ...checked(data) }];
   const inner = Object.entries(data).flatMap(([key, entry]) => fileChecked(entry, path ? `${path}.${key}` : key));
-  if (!data.law || !data.certificate || !data.problem) return inner;
+  const where = path || "the file";
+  if (!data.law || !data.certificate || !data.problem) {
+    const alone = data.law && data.constants ? lawChecked(data, where) : [];
+    const stated = data.lower_bound ?? null;
+    if (stated !== null) alone.push({ path: `${where}: lower bound`, verdict: "not checked", detail: `${stated} is stated, and no certificate stands beside it` });
+    return [...inner, ...alone];
+  }
   const same = JSON.stringify(data.problem);
   const of = (key) => (data[key] && JSON.stringify(data[key].problem) === same ? [`${path ? `${path}.` : ""}${key}`] : []);
   const proofs = ["certificate", "power_certificate"].flatMap(of);
-  return [...inner, ...solutionChecked(data, path || "the file", inner.filter((result) => proofs.includes(result.path)))];
+  return [...inner, ...solutionChecked(data, where, inner.filter((result) => proofs.includes(result.path)))];
 }

@@ -151,7 +151,8 @@ function momentsOf(several, count) {
 
 /* Polynomials of the share of each stretch of time, which the output of one law is but for `off`; or its mean square. */
 export function outputOf(constant, position) {
-  if (constant.kind === "mode_residual" || constant.start.sign || constant.stop.below(ONE)) throw new Unknown("an output that counts later");
+  if (constant.kind === "mode_residual") throw new Unknown("how great the residual of a law is over a box");
+  if (constant.start.sign || constant.stop.below(ONE)) throw new Unknown("an output that counts later");
   const outputs = new Outputs(constant, { derivative: () => [[position]] });
   const after = constant.stop.minus(ONE);
   if (constant.kind === "output_rms") {

@@ -52,7 +52,8 @@ export function parsed(text) {
   return read;
 }
 
-function leavesOf(terms) {
+/* The names of the constants in an objective. */
+export function leavesOf(terms) {
   return terms.flatMap(([, term]) => (term.parts ? term.parts.flatMap(leavesOf) : [term.name]));
 }
 
@@ -68,7 +69,14 @@ export function rangeOf(problem, name) {
   return { low: exact(low ?? 0), high: high === null ? null : exact(high) };
 }
 
-function fixed(range) {
+/* Whether a constant is never below 0 in a law of a problem. */
+export function neverNegative(problem, name) {
+  const velocities = endVelocities(problem);
+  return !["C_plus", "C_minus"].some((constant) => name.includes(constant)) || (velocities !== null && velocities.change.sign === 0);
+}
+
+/* Whether a range is one value. */
+export function fixed(range) {
   return range !== null && range.high !== null && range.low.same(range.high);
 }
 
@@ -385,4 +393,4 @@ function gauss(count) {
   return { nodes, weights };
 }
 
-export { ROOT, PEAKS, MEANS };
+export { MEANS, ORDERS, PEAKS, ROOT };
