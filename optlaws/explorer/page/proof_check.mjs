@@ -6,8 +6,8 @@ import { ONE, Rational, Unknown, ZERO, exact, greatest, least, quotientRounded, 
 import { MEANS, PEAKS, ROOT, Rows, neverNegative, parsed, rangeOf } from "./proof_rows.mjs";
 import { limitOf } from "./proof_limits.mjs";
 import { boxesHold } from "./proof_boxes.mjs";
-import { endVelocities, ends, stroke } from "./proof_laws.mjs";
-import { conditionsOf, enclosed, missesOf, motionOf, objectiveOf } from "./proof_motion.mjs";
+import { endVelocities, ends, lawOfZ, stroke } from "./proof_laws.mjs";
+import { conditionsOf, distance, enclosed, missesOf, motionOf, objectiveOf, reachedAt } from "./proof_motion.mjs";
 
 /* Stated bounds and constants are doubles: by how much of themselves they may be off, and the ends of a law. */
 const STATED = exact(1e-9);
@@ -15,6 +15,10 @@ const ROUNDED = exact(1e-11);
 const ROUNDING = exact(1e-12);
 /* By how much of its bound a law may break a condition. */
 const KEPT = exact(1e-9);
+/* What a gap may be off, and be without: the law is optimal then. */
+const GAP = exact(1e-8);
+/* By how much of its size a law may differ from its Z. */
+const ROUNDED_SERIES = exact(2 ** -44);
 
 /* The newest format that is read; what names none is of the first. */
 const FORMAT = 1;
@@ -58,14 +62,29 @@ function checkKeys(certificate) {
     const unknown = Object.keys(data).find((key) => !KEYS[kind].includes(key));
     if (unknown !== undefined) throw new TypeError(`nothing is known of the entry ${unknown} of a ${kind in certificate ? "certificate" : kind}`);
   };
-  const summed = (data) => data.contacts?.forEach((contact) => known(contact, "contact"));
+  const needed = (holds, what) => {
+    if (!holds) throw new TypeError(what);
+  };
+  const signed = (value, name) => needed(value === 1 || value === -1, `${name} must be 1 or -1`);
+  const placed = (value, name) => needed(value >= 0 && value <= 1, `${name} must be from 0 to 1`);
+  const summed = (data) => data.contacts?.forEach((contact) => {
+    known(contact, "contact");
+    signed(contact.sign, "the sign of a contact");
+    placed(contact.k, "the k of a contact");
+  });
   const kind = ["steps", "cells", "contacts"].find((key) => key in certificate);
   known(certificate, kind);
   known(certificate.problem, "problem");
+  for (const name of ["order", "degree", "continuity"]) {
+    needed(Number.isInteger(certificate.problem[name] ?? 0), `${name} must be a whole number`);
+  }
+  certificate.points?.forEach((k) => placed(k, "a point"));
   certificate.problem.windows?.forEach((window) => known(window, "window"));
   summed(certificate);
   certificate.steps?.forEach((step) => {
     known(step, "at" in step ? "split" : "step");
+    needed(Number.isInteger(step.variable) && step.variable >= -1, "a variable is numbered from 0 on, or -1");
+    if (!("at" in step)) signed(step.side, "a side");
     summed(step);
   });
   certificate.cells?.forEach((cell) => {
@@ -284,13 +303,19 @@ function solutionChecked(data, path, proven) {
     }
   };
   const { problem } = data;
+  let highest = null;
   tried("law", () => {
     const motion = motionOf(data.law);
     claims.push(...constantsChecked(data, path, motion));
     tried("objective", () => {
       const objective = objectiveOf(motion, parsed(problem.minimise));
+      [, highest] = objective;
       if (data.objective !== undefined) claim("objective", near(data.objective, objective), `${data.objective} is stated, ${objective[1].toNumber()} is that of the law`);
     });
+    for (const key of ["certificate", "power_certificate", "peak_certificate"]) {
+      if (data[key]) claim(`problem of the ${key.replace("_", " ")}`, sorted(data[key].problem) === sorted(problem), "it is to be that of the file");
+    }
+    if (data.z) tried("Z", () => claim("Z", fitsZ(motion, problem, data.z), "its law is to be that of the file"));
     const misses = missesOf(motion, ends(problem)).filter(({ by, size }) => ROUNDING.times(size).below(by));
     claim("ends", misses.length === 0, misses.length ? `derivative ${misses[0].nu} at ${misses[0].end} is off by ${misses[0].by.toNumber()}` : "the law has the derivatives that are given");
     for (const { name, by } of conditionsOf(motion, problem)) {
@@ -310,16 +335,42 @@ function solutionChecked(data, path, proven) {
       if (agrees(stated, bound)) claim(name, true, `${stated} is stated, ${bound.toNumber()} is proven`);
       else claims.push({ path: `${path}: ${name}`, verdict: "not checked", detail: `${stated} is stated, by no proof that this program knows` });
     }
+    const gap = highest && best && highest.sign > 0 ? highest.minus(best).over(highest) : null;
+    const room = (most) => gap && !most.plus(GAP).below(gap);
+    const shown = gap ? `it is at most ${gap.toNumber()}` : "the gap is not known";
+    if ((data.gap ?? null) !== null) gapClaims(claim, claims, path, "gap", data.gap, room(exact(data.gap)), shown);
+    if (data.status === "optimal") gapClaims(claim, claims, path, "status", data.status, room(ZERO), shown);
   });
   return claims;
+}
+
+/* A gap that is greater may be that of a proof which this program does not know. */
+function gapClaims(claim, claims, path, name, stated, holds, shown) {
+  if (holds) claim(name, true, `${stated} is stated, ${shown}`);
+  else claims.push({ path: `${path}: ${name}`, verdict: "not checked", detail: `${stated} is stated, ${shown} by what this program knows` });
+}
+
+/* Plain data as a text in which keys are in order. */
+function sorted(data) {
+  return JSON.stringify(data, (_, value) => (value && typeof value === "object" && !Array.isArray(value) ? Object.fromEntries(Object.entries(value).sort()) : value));
+}
+
+/* Whether the law has the polynomial Z that is stated, by powers of k, but for rounding. */
+function fitsZ(motion, problem, z) {
+  const stated = lawOfZ(problem, z.map(exact));
+  if (!stated || motion.length > 1) throw new Unknown(`Z of laws of the basis ${problem.basis}`);
+  const size = sum(z.map((entry) => exact(entry).magnitude())).over(whole(4).power(problem.order)).plus(ONE);
+  return !ROUNDED_SERIES.times(size).below(distance(motion, stated));
 }
 
 /* The constants that a law is said to have. */
 function constantsChecked(data, path, motion) {
   return Object.entries(data.constants ?? {}).flatMap(([name, entry]) => {
-    const stated = typeof entry === "object" && entry !== null ? entry.value : entry;
+    const { value: stated, k = null } = typeof entry === "object" && entry !== null ? entry : { value: entry };
     if (stated === null || !(name in PEAKS || name in MEANS || name === "D")) return [];
-    return [{ path: `${path}: ${name}`, verdict: near(stated, enclosed(motion, name)) ? "proven" : "not proven", detail: `${stated} is stated` }];
+    const reached = k === null || reachedAt(motion, name, exact(k), exact(stated));
+    const detail = reached ? `${stated} is stated` : `${stated} is stated, but not reached at k = ${k}`;
+    return [{ path: `${path}: ${name}`, verdict: reached && near(stated, enclosed(motion, name)) ? "proven" : "not proven", detail }];
   });
 }
 

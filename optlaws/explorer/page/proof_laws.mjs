@@ -240,6 +240,12 @@ export function lawsOf(problem) {
   return new Laws(problem, breaks, pieces, { continuity, conditions, divided, ratios });
 }
 
+/* The law of a polynomial Z by powers of k; null where laws have none. */
+export function lawOfZ(problem, z) {
+  if (!["chebyshev", "bernstein", "powers"].includes(problem.basis)) return null;
+  return added(between(...ends(problem)), multiplied(powerOf([ZERO, ONE.negative(), ONE], problem.order), z));
+}
+
 /* On each piece: powers of k from the lowest on, then what begins at each inner break. */
 function splinesOf(breaks, degree, continuity, lowest = 0) {
   return breaks.slice(0, -1).map((start) => {

@@ -1,12 +1,14 @@
 /* The constants of a stored law, enclosed: of the very function that its numbers describe. */
 
 import { ONE, Rational, TWO, Unknown, ZERO, exact, greatest, least, sum, whole } from "./proof_numbers.mjs";
-import { derivative, inPlace, multiplied } from "./proof_laws.mjs";
+import { derivative, inPlace, multiplied, valueAt } from "./proof_laws.mjs";
 import { above, below } from "./proof_balls.mjs";
 import { machineConstant, machineName, outputOf } from "./proof_machines.mjs";
 import { MEANS, ORDERS, PEAKS, rangeOf } from "./proof_rows.mjs";
 
 const BITS = 256;
+/* By how much of itself a peak may be above the value where it is said to be. */
+const PLACE = exact(1e-7);
 /* Peaks are enclosed to this share of themselves. */
 const NARROW = new Rational(1n, 1n, -46);
 /* By how much rounding may move the mirror image of a break. */
@@ -208,4 +210,22 @@ function unevenness(motion) {
     return whole_;
   });
   return extreme(parts, [1, -1])[1];
+}
+
+/* How far a law of one polynomial is from another at most. */
+export function distance([piece], polynomial) {
+  const position = of(piece, 0);
+  const longer = Array.from({ length: Math.max(position.length, polynomial.length) }, (_, i) => (position[i] ?? ZERO).minus(polynomial[i] ?? ZERO));
+  return extreme([longer], [1, -1])[1];
+}
+
+/* Whether a peak is where it is said to be, but for rounding of the place. */
+export function reachedAt(motion, name, k, stated) {
+  const least = stated.minus(PLACE.times(greatest(ONE, stated)));
+  return motion.some((piece) => {
+    if (k.below(piece.start) || piece.stop.below(k)) return false;
+    const t = k.minus(piece.start).over(piece.length);
+    const value = name === "D" ? valueAt(of(piece, 1), t).times(valueAt(of(piece, 2), t)) : valueAt(of(piece, (PEAKS[name] ?? [2])[0]), t);
+    return !value.magnitude().below(least);
+  });
 }
