@@ -29,6 +29,7 @@ from optlaws import (
 )
 from optlaws.verification import exact_bound, verify
 from tests.check_proofs import RESULTS, certificates, run
+from tests.documents import ROOT
 from tests.verification.tampering import changed, data_of, numbers, places, value_at
 from tests.verification.test_tampered import FILES, PLAIN
 
@@ -102,11 +103,12 @@ def test_what_it_does_not_know_it_says(tmp_path: Path) -> None:
         Problem(B=at_least(2.2), order=2, basis=Chebyshev(1), minimise="rms_c"), bound="tight"
     ).to_dict()
     machine = json.loads((RESULTS / "machine_hanging_load" / "laws.json").read_text(encoding="utf8"))
-    damped = json.dumps(machine["laws"]["least C, sway kept"]["certificate"]).replace(
-        "spread=0.1", "damping=(0.1, 0.2)"
-    )
-    results = checked([places["peak_certificate"], json.loads(damped)], tmp_path)
-    assert [result["verdict"] for result in results] == ["not checked"] * 2
+    sway = machine["laws"]["least C, sway kept"]["certificate"]
+    half = {"basis": "pieces", "breaks": [0.0, 0.5, 1.0], "degree": 7, "continuity": 3, "symmetric": True}
+    of_pieces = sway | {"problem": sway["problem"] | half}
+    damped = json.dumps(sway).replace("spread=0.1", "damping=(0.1, 0.2)")
+    results = checked([places["peak_certificate"], json.loads(damped), of_pieces], tmp_path)
+    assert [result["verdict"] for result in results] == ["not checked"] * 3
     assert all("does not know" in result["detail"] for result in results)
 
 
@@ -286,3 +288,19 @@ def test_the_least_power_by_boxes_is_proven_there_too(B: float, degree: int) -> 
         assert [result["verdict"] for result in results] == ["proven"]
         above = solution.power_certificate.to_dict() | {"claim": solution.objective * 1.001, "bound": None}
         assert [result["verdict"] for result in checked(above, Path(folder))] == ["not proven"]
+
+
+@pytest.mark.long
+def test_the_program_of_the_page_takes_every_simple_proof(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    page = (ROOT / "docs" / "theory" / "certificate.md").read_text(encoding="utf8")
+    program = page[page.index("import json\nfrom fractions import Fraction as F") :].split("\nassert f")[0]
+    monkeypatch.chdir(tmp_path)
+    count = 0
+    for file in RESULTS.rglob("*.json"):
+        for _, proof in certificates(json.loads(file.read_text(encoding="utf8"))):
+            problem = proof["problem"]
+            if proof.get("program") == "objective" and problem["symmetric"] and problem["minimise"] in {"C", "J"}:
+                (tmp_path / "solution.json").write_text(json.dumps({"certificate": proof}), encoding="utf8")
+                exec(program, {})  # noqa: S102 - as a reader does
+                count += 1
+    assert count == 167

@@ -1,7 +1,7 @@
 /* The rows that every law of a problem obeys, by the names that certificates use, in exact numbers. */
 
 import { HALF, ONE, TWO, Unknown, ZERO, exact, greatest, solved, sum, whole } from "./proof_numbers.mjs";
-import { endVelocities, inPlace, lawsOf, legendreMoment } from "./proof_laws.mjs";
+import { POLYNOMIALS, endVelocities, inPlace, lawsOf, legendreMoment } from "./proof_laws.mjs";
 import { ball, middle, plus, times } from "./proof_balls.mjs";
 import { Mode, Outputs, machineConstant, machineName } from "./proof_machines.mjs";
 
@@ -172,7 +172,7 @@ export class Rows {
     const constant = machineConstant(name);
     if (!constant) throw new Unknown(`the constant ${name}`);
     const { problem, laws } = this;
-    if (problem.start || problem.end || problem.order < 2 || laws.breaks.length > 2) throw new Unknown("machines that such laws drive");
+    if (problem.start || problem.end || problem.order < 2 || !POLYNOMIALS.includes(problem.basis)) throw new Unknown("machines that such laws drive");
     this.machines.set(name, constant.kind === "mode_residual" ? new Mode(constant, laws) : new Outputs(constant, laws));
   }
 
