@@ -3,6 +3,7 @@
 import json
 import subprocess
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from random import Random
@@ -18,12 +19,14 @@ from optlaws import (
     Chebyshev,
     InfeasibleProblem,
     InputError,
+    Machine,
     OptlawsError,
     Pieces,
     Problem,
     Solution,
     Window,
     at_least,
+    at_most,
     synthesize,
     via,
 )
@@ -172,6 +175,36 @@ def test_random_proofs_are_worth_the_same(count: int, seed: int, tmp_path: Path)
         assert (result["verdict"] == "proven") == proven, (certificate.problem, value, result)
         if proven and value > 0.0:
             assert result["bound"] == pytest.approx(value, rel=1e-9)
+
+
+def _machine_problems(count: int, seed: int) -> Iterator[Problem]:
+    rng = Random(seed)  # noqa: S311 - a sample
+    for i in range(count):
+        frequency, damping = rng.uniform(6.0, 30.0), rng.choice([0.0, 0.02, 0.2, 0.9])
+        A, B = [[0.0, 1.0], [-(frequency**2), -2.0 * damping * frequency]], [[0.0], [frequency**2]]
+        machine = Machine(A, B, [A[1]], [B[1]], outputs=["y"])
+        problem = Problem(
+            order=3,
+            basis=Chebyshev(rng.choice([3, 5, 8])),
+            symmetric=rng.random() < 0.5,
+            J=at_most(400.0),
+            minimise="C",
+        )
+        minimise = [machine.peak("y"), machine.peak("y", within=(0.0, 1.6)), machine.rms("y")][i % 4 - 1]
+        if i % 4:
+            yield replace(problem, minimise=minimise)
+        elif damping < 0.9:
+            yield replace(problem, bounds={machine.residual(1, "y", spread=0.1): at_most(0.3 * frequency)})
+
+
+@pytest.mark.long
+def test_random_machines_are_worth_the_same(tmp_path: Path) -> None:
+    proofs = list(_proofs(_machine_problems(24, 5)))
+    results = checked([proof.to_dict() for proof, _ in proofs], tmp_path)
+    assert len(proofs) > 15
+    for (certificate, value), result in zip(proofs, results, strict=True):
+        assert result["verdict"] == "proven", (certificate.problem, result)
+        assert certificate.program == "violation" or result["bound"] == pytest.approx(value, rel=1e-9)
 
 
 @cache
