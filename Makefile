@@ -24,7 +24,7 @@ endif
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help table test test-long test-random mutants lint format docs bench results check-results constraints clean
+.PHONY: help table test test-long test-random mutants lint format docs bench results check-results check-proofs constraints clean
 
 help: ## list the targets
 	@sed -nE 's/^([a-z-]+):[^#]*## (.*)/  make \1|\2/p' Makefile | awk -F'|' '{ printf "%-22s %s\n", $$1, $$2 }'
@@ -74,6 +74,9 @@ check-results: $(RUN) ## run every problem file on a copy of results/ and see th
 	{ diff there made && diff -rq $(UNSTEADY:%=-x %) "$$top/results" results; } \
 		|| { echo "results/ differs from what the problem files give (see above)" >&2; exit 1; }; \
 	echo "results/ agrees with the problem files"
+
+check-proofs: $(DEV) ## check every proof of results/ with optlaws verify and with the program in JavaScript
+	$(BIN)/python -m tests.check_proofs
 
 constraints: $(BIN)/python ## resolve every dependency again into constraints.txt (needs uv)
 	@test -n "$(UV)" || { echo "make constraints needs uv" >&2; exit 1; }

@@ -22,6 +22,8 @@ LARGEST_TOML = 1_000_000
 LARGEST_JSON = 64_000_000
 DEEPEST = 50
 _MOST_BITS = 1024
+#: the newest format of proofs and laws that is read; an object without a `format` is of the first
+FORMAT = 1
 #: of a JSON text: values (what parts them, and escapes in texts), and lists and objects, each of which takes as much
 #: memory as ten numbers; an array of 10,000 solutions has two thirds of the one, and half of the other
 _MOST_VALUES, _MOST_BRACKETS = 3_600_000, 600_000
@@ -96,6 +98,31 @@ def json_file(file: Path) -> Any:  # noqa: ANN401 - whatever it holds
 def json_text(content: Any, name: str) -> Any:  # noqa: ANN401 - it is checked here
     """The contents of a JSON text; `name` is what an error calls it."""
     return checked(parsed(content, name), name)
+
+
+def of_known_format(data: Mapping[str, Any], name: str) -> dict[str, Any]:
+    """The other entries of an object whose format is read; `name` is what an error calls it.
+
+    Raises
+    ------
+    InputError
+        If it is of a newer format, or its format is no whole number from 1 on.
+
+    Examples
+    --------
+    >>> of_known_format({"format": 1, "program": "objective"}, "the certificate")
+    {'program': 'objective'}
+    >>> of_known_format({"format": FORMAT + 1}, "the certificate")
+    Traceback (most recent call last):
+    optlaws.errors.InputError: the certificate was written by a newer optlaws: format 2, this reads up to 1
+    """
+    entries = dict(data)
+    stated_format = entries.pop("format", 1)
+    if type(stated_format) is not int or stated_format < 1:
+        raise InputError(f"{name}: the format must be a whole number from 1 on, got {shortened(stated_format)}")
+    if stated_format > FORMAT:
+        raise InputError(f"{name} was written by a newer optlaws: format {stated_format}, this reads up to {FORMAT}")
+    return entries
 
 
 def entries_of(data: Any, names: Iterable[str], what: str) -> dict[str, Any]:  # noqa: ANN401 - it is checked here

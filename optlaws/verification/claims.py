@@ -11,6 +11,7 @@ from typing import Any
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.files.reading import of_known_format
 from optlaws.laws import MotionLaw
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.limits.drive_limits import DriveLimit
@@ -52,7 +53,7 @@ _BESIDE = ("power_certificate", "peak_certificate")
 
 def verify(source: Mapping[str, Any] | Path | str) -> Verification:
     """Check every claim of one solution, certificate or law."""
-    data = read(source)
+    data = of_known_format(read(source), "the file")
     if not is_entry(data):
         several = ", ".join(list(entries(data))[:3])
         inside = f"; it holds others, such as {several}: verify those with verify_all" if several else ""

@@ -15,6 +15,7 @@ import msgspec
 
 from optlaws.errors import InputError
 from optlaws.files.problem_file import typed
+from optlaws.files.reading import of_known_format
 from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.proof.data import problem_of
 from optlaws.synthesis.proof.no_law import ground_of
@@ -192,6 +193,7 @@ def _stated(data: object, kind: type[Any], name: str) -> Any:  # noqa: ANN401 - 
 
 
 def _walk(data: object, path: str, around: Around) -> Iterator[tuple[str, FileEntry]]:
+    data = of_known_format(data, path or "the file") if isinstance(data, Mapping) else data
     if isinstance(data, list):
         for i, value in enumerate(data):
             yield from _walk(value, f"{path}[{i}]", around)

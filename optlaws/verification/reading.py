@@ -10,13 +10,13 @@ from typing import Any, TypeVar
 
 from optlaws.errors import InputError
 from optlaws.files import reading
+from optlaws.files.reading import of_known_format
 from optlaws.synthesis.proof.data import as_json
 
 Kind = TypeVar("Kind")
 
 #: greatest entries that are sizes, and how many numbers a law may have
 _SIZES = {"order": 100, "degree": 300, "continuity": 300, "breaks": 1000}
-_FORMAT = 1
 #: greatest magnitude of a number: none of a motion law comes near, and its powers are still numbers
 _GREATEST = 1e100
 
@@ -53,8 +53,8 @@ def _check(data: object, path: str) -> None:
         for key, value in data.items():
             _check_size(key, value, path)
             _check(value, f"{path}.{key}" if path else str(key))
-        if "format" in data and (data["format"] != _FORMAT or isinstance(data["format"], bool)):
-            raise InputError(f"{path or 'the file'} has the format {data['format']!r}; this version reads {_FORMAT}")
+        if "format" in data:
+            of_known_format(data, path or "the file")
     elif isinstance(data, list | tuple):
         for i, value in enumerate(data):
             # most of a file are numbers

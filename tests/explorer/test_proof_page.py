@@ -29,8 +29,8 @@ def test_a_file_is_checked_on_the_page_without_the_server(page: Page, served: Se
         page.locator("body[data-work=ready] #verdict", has_text=name).wait_for(timeout=15_000)
         return page.locator("#verdict").inner_text()
 
-    assert verdict("law.json").startswith("proven law.json: 8 proven")
-    assert page.locator(".claims tbody tr").count() == 8
+    assert verdict("law.json").startswith("proven law.json: 15 proven")
+    assert page.locator(".claims tbody tr").count() == 15
     page.screenshot(path=tmp_path / "proof.png")
     assert verdict("false.json").startswith("not proven false.json")
     assert "nothing in it is a certificate" in verdict("text.json")

@@ -1,7 +1,6 @@
 """The JSON Schema of certificates: every stored one obeys it, and what it refuses the library refuses too."""
 
 import json
-from collections.abc import Iterator
 from functools import cache
 from typing import Any
 
@@ -10,6 +9,7 @@ from jsonschema import Draft202012Validator
 
 from optlaws import InputError
 from optlaws.verification import verify
+from tests.check_proofs import RESULTS, certificates
 from tests.documents import ROOT
 
 SCHEMA = json.loads((ROOT / "optlaws" / "verification" / "proof.schema.json").read_text(encoding="utf8"))
@@ -21,21 +21,9 @@ def validator() -> Draft202012Validator:
     return Draft202012Validator(SCHEMA)
 
 
-def certificates(data: object) -> Iterator[dict[str, Any]]:
-    if isinstance(data, dict):
-        if "problem" in data and data.keys() & {"contacts", "steps", "cells"}:
-            yield data
-            return
-        for entry in data.values():
-            yield from certificates(entry)
-    elif isinstance(data, list):
-        for entry in data:
-            yield from certificates(entry)
-
-
 @cache
 def stored(name: str) -> list[dict[str, Any]]:
-    return list(certificates(json.loads((ROOT / "results" / name / "laws.json").read_text(encoding="utf8"))))
+    return [proof for _, proof in certificates(json.loads((RESULTS / name / "laws.json").read_text(encoding="utf8")))]
 
 
 @pytest.mark.parametrize("name", ["optimal_table", "d_minimal", "mixed", "machine_sloshing"])
@@ -53,7 +41,10 @@ def test_what_it_refuses_is_refused(kind: str) -> None:
         *(whole | {key: value} for key in whole.keys() - {"problem", "about"} for value in values),
         *({key: value for key, value in whole.items() if key != missing} for missing in whole if missing != "bound"),
         whole | {"further": 1},
+        *(whole | {"format": value} for value in (0, 2, 1.5, True, "1")),
     ]  # fmt: skip
+    assert validator().is_valid(whole | {"format": 1})
+    assert verify(whole | {"format": 1}) == verify(whole)
     for data in wrong:
         assert not validator().is_valid(data), data.keys()
         with pytest.raises(InputError):

@@ -35,7 +35,7 @@ WRONG: dict[str, tuple[Callable[[str], str], str]] = {
     "huge": (lambda text: text.replace('"objective": ', f'"objective": {"9" * 400}, "was": '), "beyond the numbers"),
     "endless": (lambda text: text.replace('"objective": ', f'"objective": {"9" * 5000}, "was": '), "not JSON"),
     "twice": (lambda text: text.replace('"objective": ', '"objective": 1, "objective": '), "comes twice"),
-    "format": (lambda text: text.replace('"format": 1', '"format": 2'), "law has the format 2"),
+    "format": (lambda text: text.replace('"format": 1', '"format": 2'), "law was written by a newer optlaws: format 2"),
     "degree": (lambda text: text.replace('"degree": 5', '"degree": 100000'), "more than exact verification takes"),
     "program": (lambda text: text.replace('"program": "objective"', '"program": "divine"'), "program of a certificate"),
     "basis": (lambda text: text.replace('"chebyshev"', '"legendre"'), "basis 'legendre' is unknown"),
@@ -66,8 +66,10 @@ def test_a_wrong_file_is_refused_and_says_why(name: str, tmp_path: Path, capsys:
         ({"C": -1e100}, {"law": {"C": [0.0, -1.001e100]}}, r"law.C\[1\]: -1.001e\+100"),
         ({"B": 1.5}, {"B": float("nan")}, "B must be a finite number, got nan"),
         ({"B": 10**90}, {"B": 10**400}, "B is beyond the numbers of double precision"),
-        ({"format": 1}, {"format": 2}, "the file has the format 2; this version reads 1"),
-        ({"format": 1}, {"law": {"format": True}}, "law has the format True"),
+        ({"format": 1}, {"format": 2}, "the file was written by a newer optlaws: format 2, this reads up to 1"),
+        ({"format": 1}, {"rows": [{"law": {"format": 3}}]}, r"rows\[0\].law was written by a newer .* format 3"),
+        ({"format": 1}, {"law": {"format": True}}, "law: the format must be a whole number from 1 on, got True"),
+        ({"format": 1}, {"format": 0}, "the file: the format must be a whole number from 1 on, got 0"),
     ],
 )
 def test_sizes_and_numbers_are_read_up_to_their_greatest(good: dict[str, Any], bad: dict[str, Any], why: str) -> None:

@@ -1,8 +1,8 @@
 /* Trees over boxes of velocities and constants, for problems with the power D, with every rounding outward. */
 
-import { ONE, Rational, TWO, ZERO, exact, greatest, least, quotientRounded, whole } from "./proof_numbers.mjs";
-import { Rows, Unknown, rangeOf } from "./proof_rows.mjs";
-import { endVelocities } from "./proof_laws.mjs";
+import { ONE, Rational, TWO, Unknown, ZERO, exact, greatest, least, quotientRounded, whole } from "./proof_numbers.mjs";
+import { Rows, rangeOf } from "./proof_rows.mjs";
+import { POLYNOMIALS, endVelocities } from "./proof_laws.mjs";
 
 const BITS = 192;
 const NOTHING = [ZERO, ZERO];
@@ -47,7 +47,7 @@ class Boxes {
     const { problem, points } = certificate;
     this.rows = new Rows(problem, "objective");
     const { laws, names } = this.rows;
-    if (!["chebyshev", "bernstein", "powers"].includes(problem.basis) || problem.order < 2) throw new Unknown(`boxes of laws in ${problem.basis}`);
+    if (!POLYNOMIALS.includes(problem.basis) || problem.order < 2) throw new Unknown(`boxes of laws in ${problem.basis}`);
     if (names.some((name) => name.startsWith("C_") || name.startsWith("max"))) throw new Unknown(`boxes of ${problem.minimise}`);
     this.problem = problem;
     this.claim = exact(certificate.claim);

@@ -2,16 +2,32 @@
 
    It shares no code with the library that writes the proofs: docs/reference/proof-format.md says what is computed. */
 
-import { ONE, Rational, ZERO, exact, greatest, least, quotientRounded, solvedWhole, whole, wholeNumbers } from "./proof_numbers.mjs";
-import { MEANS, PEAKS, ROOT, Rows, Unknown, parsed, rangeOf } from "./proof_rows.mjs";
+import { ONE, Rational, Unknown, ZERO, exact, greatest, least, quotientRounded, solvedWhole, sum, whole, wholeNumbers } from "./proof_numbers.mjs";
+import { MEANS, PEAKS, ROOT, Rows, neverNegative, rangeOf } from "./proof_rows.mjs";
 import { boxesHold } from "./proof_boxes.mjs";
-import { endVelocities, ends, stroke } from "./proof_laws.mjs";
-import { enclosed, missesOf, motionOf, objectiveOf } from "./proof_motion.mjs";
+import { lawChecked, solutionChecked } from "./proof_solution.mjs";
+import { endVelocities, stroke } from "./proof_laws.mjs";
 
-/* Stated bounds and constants are doubles: by how much of themselves they may be off, and the ends of a law. */
+/* A stated bound is a double: by how much of itself it may be above the proven one. */
 const STATED = exact(1e-9);
-const ROUNDED = exact(1e-11);
-const ROUNDING = exact(1e-12);
+/* The newest format that is read; what names none is of the first. */
+const FORMAT = 1;
+/* What certificates, their parts and problems may say: anything else could mean that they speak of something else. */
+const COMMON = ["format", "problem", "bound", "about"];
+const KEYS = {
+  contacts: [...COMMON, "program", "tangent", "contacts", "equations"],
+  steps: [...COMMON, "claim", "points", "steps"],
+  cells: [...COMMON, "constant", "claim", "cells"],
+  contact: ["constraint", "sign", "k", "multiplier", "direction"],
+  split: ["variable", "at"],
+  step: ["variable", "side", "contacts", "equations", "claim"],
+  cell: ["k", "reach", "sign", "contacts", "equations"],
+  problem: [
+    "minimise", "order", "basis", "degree", "continuity", "breaks", "straight", "monotone", "symmetric", "B", "C", "D", "J",
+    "bounds", "inflexion", "start", "end", "windows",
+  ],
+  window: ["quantity", "low", "high", "start", "stop"],
+};
 
 function isCertificate(data) {
   return typeof data.problem === "object" && data.problem !== null && ("contacts" in data || "steps" in data || "cells" in data);
@@ -20,6 +36,7 @@ function isCertificate(data) {
 /* What a certificate proves: {verdict: "proven" | "not proven" | "not checked", detail, bound}. */
 export function checked(certificate) {
   try {
+    checkKeys(certificate);
     if ("steps" in certificate) return boxesChecked(certificate);
     if ("cells" in certificate) throw new Unknown("places of a peak");
     return leafChecked(certificate);
@@ -27,6 +44,48 @@ export function checked(certificate) {
     if (error instanceof Unknown) return { verdict: "not checked", detail: `this program does not know ${error.message}`, bound: null };
     return { verdict: "not proven", detail: `the file is no certificate: ${error.message}`, bound: null };
   }
+}
+
+/* Refuse what nobody knows, and a file of a newer format. */
+function checkKeys(certificate) {
+  const known = (data, kind) => {
+    const unknown = Object.keys(data).find((key) => !KEYS[kind].includes(key));
+    if (unknown !== undefined) throw new TypeError(`nothing is known of the entry ${unknown} of a ${kind in certificate ? "certificate" : kind}`);
+  };
+  const needed = (holds, what) => {
+    if (!holds) throw new TypeError(what);
+  };
+  const signed = (value, name) => needed(value === 1 || value === -1, `${name} must be 1 or -1`);
+  const placed = (value, name) => needed(value >= 0 && value <= 1, `${name} must be from 0 to 1`);
+  const summed = (data) => data.contacts?.forEach((contact) => {
+    known(contact, "contact");
+    signed(contact.sign, "the sign of a contact");
+    placed(contact.k, "the k of a contact");
+  });
+  const kind = ["steps", "cells", "contacts"].find((key) => key in certificate);
+  known(certificate, kind);
+  known(certificate.problem, "problem");
+  for (const name of ["order", "degree", "continuity"]) {
+    needed(Number.isInteger(certificate.problem[name] ?? 0), `${name} must be a whole number`);
+  }
+  certificate.points?.forEach((k) => placed(k, "a point"));
+  certificate.problem.windows?.forEach((window) => known(window, "window"));
+  summed(certificate);
+  certificate.steps?.forEach((step) => {
+    known(step, "at" in step ? "split" : "step");
+    needed(Number.isInteger(step.variable) && step.variable >= -1, "a variable is numbered from 0 on, or -1");
+    if (!("at" in step)) signed(step.side, "a side");
+    summed(step);
+  });
+  certificate.cells?.forEach((cell) => {
+    known(cell, "cell");
+    summed(cell);
+  });
+}
+
+function checkFormat({ format = 1 }, path) {
+  if (!Number.isInteger(format) || format < 1) throw new TypeError(`${path}: the format must be a whole number from 1 on`);
+  if (format > FORMAT) throw new TypeError(`${path} was written by a newer optlaws: format ${format}, this reads up to ${FORMAT}`);
 }
 
 function boxesChecked(certificate) {
@@ -56,13 +115,28 @@ export function provenBy(certificate) {
   if (!["objective", "relaxed", "violation"].includes(program)) throw new TypeError(`there is no program ${program}`);
   const rows = new Rows(certificate.problem, program, tangent ?? 0);
   const contradiction = program === "violation";
-  const total = { z: Array(rows.laws.terms).fill(ZERO), names: new Map(rows.cost), constant: ZERO };
+  const nothing = Array(rows.laws.terms).fill(ZERO);
+  const total = { z: nothing, off: nothing, names: new Map(rows.cost), constant: ZERO, offConstant: ZERO };
+  const loose = new Map();
+  const means = new Set();
   for (const contact of contacts) {
     const multiplier = exact(contact.multiplier);
     const row = multiplier.sign > 0 ? rows.row(contact) : null;
-    if (row) add(total, multiplier, row);
+    if (row?.rms) means.add(row.rms);
+    else if (row?.loose) loose.set(row.loose, [...(loose.get(row.loose) ?? []), [multiplier, row]]);
+    else if (row) add(total, multiplier, row);
   }
   rows.equations.forEach((row, i) => { if (equations[i]) add(total, exact(equations[i]), row); });
+  // rows in a unit of the machine's: such that nothing is left of their variable
+  for (const [name, group] of loose) {
+    const factor = (total.names.get(name) ?? ZERO).over(sum(group.map(([multiplier]) => multiplier)));
+    if (factor.sign > 0) group.forEach(([multiplier, row]) => add(total, multiplier.times(factor), row));
+  }
+  for (const name of means) {
+    const weight = total.names.get(name) ?? ZERO;
+    const row = weight.sign > 0 ? rows.beside(name, total.z.map((slope) => slope.over(weight))) : null;
+    if (row) add(total, weight, row);
+  }
   const claim = contradiction ? ZERO : greatest(total.constant, ZERO);
   const charge = chargeOf(rows, total, claim, contradiction);
   if (charge === null) return { bound: contradiction ? ZERO : floorOf(rows), contradiction };
@@ -72,35 +146,37 @@ export function provenBy(certificate) {
 }
 
 function add(total, multiplier, row) {
-  row.z.forEach((entry, i) => { total.z[i] = total.z[i].plus(multiplier.times(entry)); });
+  total.z = total.z.map((entry, i) => entry.plus(multiplier.times(row.z[i])));
   for (const [name, entry] of Object.entries(row.names)) total.names.set(name, (total.names.get(name) ?? ZERO).plus(multiplier.times(entry)));
   total.constant = total.constant.plus(multiplier.times(row.constant));
+  if (!row.off) return;
+  const size = multiplier.magnitude();
+  total.off = total.off.map((entry, i) => entry.plus(size.times(row.off[i])));
+  total.offConstant = total.offConstant.plus(size.times(row.offConstant));
 }
 
 /* What the objective is at least because none of its constants is negative; null where one may be. */
 function floorOf(rows) {
-  return [...rows.cost.keys()].every((name) => never(rows, name)) ? ZERO : null;
-}
-
-/* Whether a variable is never below 0 in a law. */
-function never(rows, name) {
-  const oneSided = ["C_plus", "C_minus"].some((constant) => name.includes(constant));
-  const velocities = endVelocities(rows.problem);
-  return !oneSided || (velocities !== null && velocities.change.sign === 0);
+  return [...rows.cost.keys()].every((name) => neverNegative(rows.problem, name)) ? ZERO : null;
 }
 
 /* What the slopes that are left can be worth at most in a law whose objective is below the claim; null if nothing bounds it. */
 function chargeOf(rows, total, claim, contradiction) {
   const most = greatestValues(rows, claim, contradiction);
-  let charge = ZERO;
+  let charge = total.offConstant;
   for (const [name, slope] of total.names) {
-    if (slope.sign === 0 || (slope.sign > 0 && never(rows, name))) continue;
+    if (slope.sign === 0 || (slope.sign > 0 && neverNegative(rows.problem, name))) continue;
     if (slope.sign > 0 || !most.has(name)) return null;
     charge = charge.minus(slope.times(most.get(name)));
   }
-  if (total.z.every((slope) => slope.sign === 0)) return charge;
-  const worths = meansOf(rows, most).map(([nu, mean]) => worth(rows, total.z, nu, mean)).filter((value) => value !== null);
-  return worths.length ? charge.plus(worths.reduce(least)) : null;
+  if ([...total.z, ...total.off].every((slope) => slope.sign === 0)) return charge;
+  const families = meansOf(rows, most);
+  const worths = families.map((family) => worthIn(family, total.z)).filter((value) => value !== null);
+  if (!worths.length) return null;
+  charge = charge.plus(worths.reduce(least));
+  if (total.off.every((off) => off.sign === 0)) return charge;
+  const sizes = families.map(sizesIn).find((value) => value !== null);
+  return sizes ? charge.plus(sum(total.off.map((off, i) => off.times(sizes[i])))) : null;
 }
 
 /* The greatest values of constants, maxima and B in a law whose objective is below the claim. */
@@ -109,13 +185,13 @@ function greatestValues(rows, claim, contradiction) {
   const lower = (name, value) => most.set(name, most.has(name) ? least(most.get(name), value) : value);
   function spread(terms, value) {
     for (const [weight, term] of terms) {
-      if (terms.some(([, other]) => other !== term && !never(rows, other.name))) continue;
+      if (terms.some(([, other]) => other !== term && !neverNegative(rows.problem, other.name))) continue;
       lower(term.name, value.over(weight));
       if (term.parts) for (const part of term.parts) spread(part, value.over(weight));
     }
   }
   if (!contradiction) spread(rows.objective, claim);
-  for (const name of [...Object.keys(PEAKS), ...Object.keys(MEANS), "D"]) {
+  for (const name of [...Object.keys(PEAKS), ...Object.keys(MEANS), "D", ...rows.machines.keys()]) {
     const range = rangeOf(rows.problem, name);
     if (range?.high) lower(name, range.high);
   }
@@ -123,7 +199,9 @@ function greatestValues(rows, claim, contradiction) {
   return most;
 }
 
-/* Orders of derivatives whose mean magnitude is bounded in such a law, each with the bound. */
+/* Functions whose mean magnitude is bounded in such a law: their moments, by how much these are off, and the bound.
+
+   The last moments are those of equations, `fixed` of them, which are 0. */
 function meansOf(rows, most) {
   const { problem } = rows;
   const known = [];
@@ -141,12 +219,45 @@ function meansOf(rows, most) {
   const way = stroke(problem);
   if (most.has("B")) known.push([1, most.get("B").times(whole(2)).plus(way.magnitude())]);
   if (problem.monotone) known.push([1, way.magnitude()]);
-  return known;
+  // what a derivative does not see of pieces, their equations settle
+  const settled = rows.equations.filter(({ names }) => !Object.keys(names).length).map(({ z, constant }) => [...z, constant]);
+  const fixed = rows.laws.conditions.length ? settled : [];
+  const families = known.map(([nu, mean]) => ({ moments: [...rows.laws.moments(nu), ...fixed], fixed: fixed.length, off: ZERO, mean }));
+  if (families.length) return families;
+  for (const [name, { constant }] of rows.machines) {
+    if (!most.has(name) || constant.kind === "mode_residual" || constant.start.sign || constant.stop.below(ONE)) continue;
+    const { rows: moments, off } = rows.outputMoments(name);
+    const mean = constant.kind === "output_rms" ? most.get(name).times(constant.stop.rootAbove()) : most.get(name);
+    families.push({ moments, fixed: 0, off, mean });
+  }
+  return families;
 }
 
-/* What slopes in the coordinates are worth at most where a derivative's mean magnitude is bounded: by Legendre moments. */
-function worth(rows, slopes, nu, mean) {
-  const moments = rows.laws.moments(nu);
+/* What slopes are worth at most where means are bounded, those that are off by rounding too; null if nothing is known. */
+function worthIn(family, slopes) {
+  const found = worth(family, slopes);
+  if (found === null || family.off.sign === 0) return found?.value ?? null;
+  const sizes = sizesIn(family);
+  return sizes && found.value.plus(found.weight.times(family.off).times(sum(sizes)));
+}
+
+/* What each coordinate of the law is at most in magnitude. */
+function sizesIn(family) {
+  if (family.sizes !== undefined) return family.sizes;
+  const terms = family.moments[0]?.length - 1;
+  const units = Array.from({ length: terms }, (_, i) => worth(family, Array.from({ length: terms }, (__, j) => (i === j ? ONE : ZERO))));
+  family.sizes = null;
+  if (units.some((unit) => unit === null)) return null;
+  // the sum S of all is at most that of the values and `left` times S
+  const left = sum(units.map(({ weight }) => weight)).times(family.off);
+  if (!left.below(ONE)) return null;
+  const all = sum(units.map(({ value }) => value)).over(ONE.minus(left)).rounded(1);
+  family.sizes = units.map(({ value, weight }) => value.plus(weight.times(family.off).times(all)).rounded(1));
+  return family.sizes;
+}
+
+/* What slopes in the coordinates are worth at most where a mean magnitude is bounded, by Legendre moments; and the sum of weights. */
+function worth({ moments, fixed, off, mean }, slopes) {
   const { whole: all, factor } = wholeNumbers(moments.flatMap((row) => row.slice(0, -1)));
   const columns = slopes.length;
   const matrix = moments.map((_, m) => all.slice(m * columns, (m + 1) * columns));
@@ -156,61 +267,35 @@ function worth(rows, slopes, nu, mean) {
   const solution = solvedWhole(gram.map((row, i) => row.map((entry, j) => (j < i ? gram[j][i] : entry))), right.whole);
   if (solution === null) return null;
   let total = ZERO;
+  let weights = ZERO;
   matrix.forEach((row, m) => {
     const weight = row.reduce((value, entry, i) => value + entry * solution.numerators[i], 0n);
     const size = new Rational(weight).magnitude().rounded(1);
-    total = total.plus(size.times(mean.plus(moments[m].at(-1).magnitude()).rounded(1)));
+    const most = m < moments.length - fixed ? mean : ZERO;
+    total = total.plus(size.times(most.plus(moments[m].at(-1).magnitude()).plus(off).rounded(1)));
+    weights = weights.plus(size);
   });
   // the moments are whole / factor, the slopes whole / right.factor: weights grow by the quotient of both
-  const value = quotientRounded(total, new Rational(solution.divisor).magnitude(), 1, 160);
-  return value.times(factor).over(right.factor).rounded(1);
-}
-
-/* What a solution states beside its proofs, held against its law and against what the proofs prove. */
-function solutionChecked(data, path, proven) {
-  const claims = [];
-  const claim = (name, holds, detail) => claims.push({ path: `${path}: ${name}`, verdict: holds ? "proven" : "not proven", detail });
-  try {
-    const motion = motionOf(data.law);
-    for (const [name, entry] of Object.entries(data.constants ?? {})) {
-      const stated = typeof entry === "object" && entry !== null ? entry.value : entry;
-      if (stated === null || !(name in PEAKS || name in MEANS || name === "D")) continue;
-      claim(name, near(stated, enclosed(motion, name)), `${stated} is stated`);
-    }
-    const objective = objectiveOf(motion, parsed(data.problem.minimise));
-    if (data.objective !== undefined) claim("objective", near(data.objective, objective), `${data.objective} is stated, ${objective[1].toNumber()} is that of the law`);
-    const misses = missesOf(motion, ends(data.problem)).filter(({ by, size }) => ROUNDING.times(size).below(by));
-    claim("ends", misses.length === 0, misses.length ? `derivative ${misses[0].nu} at ${misses[0].end} is off by ${misses[0].by.toNumber()}` : "the law has the derivatives that are given");
-    const bounds = proven.filter(({ bound }) => bound);
-    const best = bounds.length ? bounds.map(({ bound }) => bound).reduce(greatest) : null;
-    const stated = data.lower_bound ?? null;
-    if (stated !== null && best !== null && !best.plus(STATED.times(best.magnitude())).below(exact(stated))) {
-      claim("lower bound", true, `${stated} is stated, ${best.toNumber()} is proven`);
-    } else if (stated !== null) {
-      const other = data.limit != null && data.limit >= stated ? "a limit of laws of any degree, which this program does not know" : "no proof in the file that this program knows";
-      claims.push({ path: `${path}: lower bound`, verdict: "not checked", detail: `${stated} is stated, by ${other}` });
-    }
-  } catch (error) {
-    const known = error instanceof Unknown;
-    claims.push({ path: `${path}: law`, verdict: known ? "not checked" : "not proven", detail: known ? `this program does not know ${error.message}` : error.message });
-  }
-  return claims;
-}
-
-function near(stated, [low, high]) {
-  const room = ROUNDED.times(greatest(ONE, high.magnitude()));
-  return !exact(stated).below(low.minus(room)) && !high.plus(room).below(exact(stated));
+  const scaled = (number) => quotientRounded(number, new Rational(solution.divisor).magnitude(), 1, 160).times(factor).over(right.factor).rounded(1);
+  return { value: scaled(total), weight: scaled(weights) };
 }
 
 /* Everything in a file that this program can check, each with its verdict. */
 export function fileChecked(data, path = "") {
   if (Array.isArray(data)) return data.flatMap((entry, i) => fileChecked(entry, `${path}[${i}]`));
   if (data === null || typeof data !== "object") return [];
+  checkFormat(data, path || "the file");
   if (isCertificate(data)) return [{ path: path || "the file", ...checked(data) }];
   const inner = Object.entries(data).flatMap(([key, entry]) => fileChecked(entry, path ? `${path}.${key}` : key));
-  if (!data.law || !data.certificate || !data.problem) return inner;
+  const where = path || "the file";
+  if (!data.law || !data.certificate || !data.problem) {
+    const alone = data.law && data.constants ? lawChecked(data, where) : [];
+    const stated = data.lower_bound ?? null;
+    if (stated !== null) alone.push({ path: `${where}: lower bound`, verdict: "not checked", detail: `${stated} is stated, and no certificate stands beside it` });
+    return [...inner, ...alone];
+  }
   const same = JSON.stringify(data.problem);
   const of = (key) => (data[key] && JSON.stringify(data[key].problem) === same ? [`${path ? `${path}.` : ""}${key}`] : []);
   const proofs = ["certificate", "power_certificate"].flatMap(of);
-  return [...inner, ...solutionChecked(data, path || "the file", inner.filter((result) => proofs.includes(result.path)))];
+  return [...inner, ...solutionChecked(data, where, inner.filter((result) => proofs.includes(result.path)))];
 }

@@ -2,6 +2,9 @@
 
 import { HALF, ONE, Rational, TWO, ZERO, exact, solved, sum, whole } from "./proof_numbers.mjs";
 
+/* Bases of laws that are one polynomial. */
+export const POLYNOMIALS = ["chebyshev", "bernstein", "powers"];
+
 /* Polynomials are lists of coefficients of powers of k. */
 export function valueAt(polynomial, k) {
   let value = ZERO;
@@ -203,7 +206,7 @@ export function lawsOf(problem) {
   const [start, end] = ends(problem);
   const edge = powerOf([ZERO, ONE.negative(), ONE], problem.order);
   const { degree, continuity, symmetric } = problem;
-  if (["chebyshev", "bernstein", "powers"].includes(problem.basis)) {
+  if (POLYNOMIALS.includes(problem.basis)) {
     const odd = [ONE.negative(), TWO];
     const free = [];
     for (let i = symmetric ? 1 : 0; i <= degree; i += symmetric ? 2 : 1) free.push(symmetric ? powerOf(odd, i) : monomial(i));
@@ -238,6 +241,12 @@ export function lawsOf(problem) {
     ratios[ratios.length - 1] = powerOf([ONE.over(last), ONE.over(last).negative()], problem.order - 1);
   }
   return new Laws(problem, breaks, pieces, { continuity, conditions, divided, ratios });
+}
+
+/* The law of a polynomial Z by powers of k; null where laws have none. */
+export function lawOfZ(problem, z) {
+  if (!POLYNOMIALS.includes(problem.basis)) return null;
+  return added(between(...ends(problem)), multiplied(powerOf([ZERO, ONE.negative(), ONE], problem.order), z));
 }
 
 /* On each piece: powers of k from the lowest on, then what begins at each inner break. */

@@ -1,12 +1,18 @@
 /* The constants of a stored law, enclosed: of the very function that its numbers describe. */
 
-import { ONE, Rational, TWO, ZERO, exact, greatest, sum, whole } from "./proof_numbers.mjs";
-import { derivative, inPlace, multiplied } from "./proof_laws.mjs";
-import { MEANS, PEAKS, Unknown } from "./proof_rows.mjs";
+import { ONE, Rational, TWO, Unknown, ZERO, exact, greatest, least, sum, whole } from "./proof_numbers.mjs";
+import { derivative, inPlace, multiplied, valueAt } from "./proof_laws.mjs";
+import { above, below } from "./proof_balls.mjs";
+import { machineConstant, machineName, outputOf } from "./proof_machines.mjs";
+import { MEANS, ORDERS, PEAKS, rangeOf } from "./proof_rows.mjs";
 
 const BITS = 256;
+/* By how much of itself a peak may be above the value where it is said to be. */
+const PLACE = exact(1e-7);
 /* Peaks are enclosed to this share of themselves. */
 const NARROW = new Rational(1n, 1n, -46);
+/* By how much rounding may move the mirror image of a break. */
+const EVEN = new Rational(1n, 1n, -50);
 
 /* The pieces of a stored law: where each begins and ends, and its acceleration, velocity and position over t in [0, 1]. */
 export function motionOf(law) {
@@ -54,6 +60,7 @@ function of(piece, nu) {
 
 /* A constant of a law between two numbers. */
 export function enclosed(motion, name) {
+  if (machineName(name)) return ofMachine(motion, machineConstant(name));
   if (name in MEANS) {
     const square = sum(motion.map((piece) => sum(integral(multiplied(of(piece, MEANS[name]), of(piece, MEANS[name])), piece.length, ZERO))));
     const high = square.rootAbove();
@@ -64,7 +71,15 @@ export function enclosed(motion, name) {
   return extreme(motion.map((piece) => of(piece, nu)), signs);
 }
 
-/* The greatest value of signs times polynomials over [0, 1], between two numbers. */
+function ofMachine(motion, constant) {
+  if (motion.length > 1) throw new Unknown("outputs under laws of pieces");
+  const { polynomials, off, size } = outputOf(constant, of(motion[0], 0));
+  if (size) return [below(size), above(size)];
+  const [low, high] = extreme(polynomials, [1, -1]);
+  return [low.minus(off), high.plus(off)];
+}
+
+/* The greatest value of signs times polynomials over [0, 1], between two numbers; near 0 to a share of their size. */
 function extreme(polynomials, signs) {
   const parts = polynomials.flatMap((polynomial) => signs.map((sign) => bernstein(polynomial).map((entry) => entry.times(whole(sign)))));
   let low = parts.map((part) => greatest(part[0], part.at(-1))).reduce(greatest);
@@ -144,4 +159,73 @@ export function missesOf(motion, ends) {
     const there = end ? sum(polynomial) : polynomial[0] ?? ZERO;
     return { nu, end, by: there.minus(value).magnitude(), size: polynomial.map((entry) => entry.magnitude()).reduce(greatest, ONE) };
   }));
+}
+
+/* The conditions of a problem beside its ends, each with what computes by how much of its bound a law breaks it at most. */
+export function conditionsOf(motion, problem) {
+  const conditions = [];
+  const beyond = (value, bound) => value.minus(bound).over(greatest(ONE, bound.magnitude()));
+  const named = [...["B", "C", "D", "J"].filter((name) => (problem[name] ?? null) !== null), ...Object.keys(problem.bounds ?? {})];
+  for (const name of named) {
+    const { low, high } = rangeOf(problem, name);
+    conditions.push({
+      name: `bound of ${name.split("(")[0]}`,
+      by: () => {
+        const [least, most] = enclosed(motion, name);
+        return greatest(beyond(least.negative(), low.negative()), high ? beyond(most, high) : beyond(least.negative(), low.negative()));
+      },
+    });
+  }
+  (problem.windows ?? []).forEach((window, i) => {
+    conditions.push({ name: `window ${i + 1}`, by: () => beyondWindow(motion, window, beyond) });
+  });
+  if (problem.monotone) conditions.push({ name: "monotone", by: () => extreme(motion.map((piece) => of(piece, 1)), [-1])[1] });
+  if (problem.symmetric) conditions.push({ name: "symmetric", by: () => unevenness(motion) });
+  return conditions;
+}
+
+function beyondWindow(motion, { quantity, low = null, high = null, start = 0, stop = 1 }, beyond) {
+  if (!(quantity in ORDERS)) throw new Unknown("windows of a formula");
+  const [first, last] = [exact(start), exact(stop)];
+  const parts = motion.filter((piece) => !last.below(piece.start) && !piece.stop.below(first)).map((piece) => {
+    const from = greatest(piece.start, first).minus(piece.start).over(piece.length);
+    const to = least(piece.stop, last).minus(piece.start).over(piece.length);
+    return inPlace(of(piece, ORDERS[quantity]), from, to.minus(from));
+  });
+  const sides = [];
+  if (high !== null) sides.push(beyond(extreme(parts, [1])[1], exact(high)));
+  if (low !== null) sides.push(beyond(extreme(parts, [-1])[1], exact(low).negative()));
+  return sides.reduce(greatest, ONE.negative());
+}
+
+/* By how much a(k) + a(1 - k) is off what both ends give. */
+function unevenness(motion) {
+  const both = of(motion[0], 0)[0].plus(sum(of(motion.at(-1), 0)));
+  const parts = motion.map((piece, i) => {
+    const other = motion[motion.length - 1 - i];
+    if (EVEN.below(piece.start.plus(other.stop).minus(ONE).magnitude())) throw new Unknown("breaks that are not symmetric");
+    const mirrored = inPlace(of(other, 0), ONE, ONE.negative());
+    const whole_ = of(piece, 0).map((entry, j) => entry.plus(mirrored[j] ?? ZERO));
+    whole_[0] = whole_[0].minus(both);
+    return whole_;
+  });
+  return extreme(parts, [1, -1])[1];
+}
+
+/* How far a law of one polynomial is from another at most. */
+export function distance([piece], polynomial) {
+  const position = of(piece, 0);
+  const longer = Array.from({ length: Math.max(position.length, polynomial.length) }, (_, i) => (position[i] ?? ZERO).minus(polynomial[i] ?? ZERO));
+  return extreme([longer], [1, -1])[1];
+}
+
+/* Whether a peak is where it is said to be, but for rounding of the place. */
+export function reachedAt(motion, name, k, stated) {
+  const least = stated.minus(PLACE.times(greatest(ONE, stated)));
+  return motion.some((piece) => {
+    if (k.below(piece.start) || piece.stop.below(k)) return false;
+    const t = k.minus(piece.start).over(piece.length);
+    const value = name === "D" ? valueAt(of(piece, 1), t).times(valueAt(of(piece, 2), t)) : valueAt(of(piece, (PEAKS[name] ?? [2])[0]), t);
+    return !value.magnitude().below(least);
+  });
 }

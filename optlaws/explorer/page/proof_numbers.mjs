@@ -1,5 +1,8 @@
 /* Exact numbers: rationals n / d * 2^e of BigInt, d odd. Doubles are such numbers, and stay exact. */
 
+/* What this program does not know, so that nothing is checked. */
+export class Unknown extends Error {}
+
 const WORD = 64n;
 const MASK = (1n << WORD) - 1n;
 
@@ -109,7 +112,7 @@ export class Rational {
   rootAbove() {
     if (this.n <= 0n) return ZERO;
     const bits = 2 * Math.ceil((320 - bitLength(this.n) + bitLength(this.d) - this.e) / 2);
-    return new Rational(root(this.floorIn(bits) + 1n) + 1n, 1n, -bits / 2);
+    return new Rational(rootOf(this.floorIn(bits) + 1n) + 1n, 1n, -bits / 2);
   }
 
   /* The double next to it. */
@@ -226,7 +229,8 @@ function bitLength(n) {
   return n.toString(16).length * 4;
 }
 
-function root(n) {
+/* The greatest whole number whose square is not above n. */
+export function rootOf(n) {
   if (n < 2n) return n;
   let guess = 1n << BigInt((bitLength(n) + 1) >> 1);
   for (;;) {

@@ -1,10 +1,9 @@
 /* The rows that every law of a problem obeys, by the names that certificates use, in exact numbers. */
 
-import { HALF, ONE, TWO, ZERO, exact, sum, whole } from "./proof_numbers.mjs";
-import { endVelocities, inPlace, lawsOf, legendreMoment } from "./proof_laws.mjs";
-
-/* What this program does not know, so that nothing is checked. */
-export class Unknown extends Error {}
+import { HALF, ONE, TWO, Unknown, ZERO, exact, greatest, solved, sum, whole } from "./proof_numbers.mjs";
+import { POLYNOMIALS, endVelocities, inPlace, lawsOf, legendreMoment } from "./proof_laws.mjs";
+import { ball, middle, plus, times } from "./proof_balls.mjs";
+import { Mode, Outputs, machineConstant, machineName } from "./proof_machines.mjs";
 
 const PEAKS = {
   B: [1, [1, -1]], C: [2, [1, -1]], J: [3, [1, -1]], jounce: [4, [1, -1]], C_plus: [2, [1]], C_minus: [2, [-1]],
@@ -32,7 +31,7 @@ export function parsed(text) {
     if (number) at += number[0].length;
     const weight = number ? exact(Number(number[0].slice(0, -1))) : ONE;
     const start = at;
-    const name = /^\w+/.exec(text.slice(at))?.[0];
+    const name = machineName(text.slice(at)) ?? /^\w+/.exec(text.slice(at))?.[0];
     at += name?.length ?? 0;
     if (name === "max" && text[at] === "(") {
       const parts = [];
@@ -45,7 +44,7 @@ export function parsed(text) {
       at += 1;
       return [weight, { name: text.slice(start, at), parts }];
     }
-    if (!(name in PEAKS) && !(name in MEANS) && name !== "D") throw new Unknown(`the objective ${text}`);
+    if (!(name in PEAKS) && !(name in MEANS) && name !== "D" && !machineConstant(name ?? "")) throw new Unknown(`the objective ${text}`);
     return [weight, { name }];
   }
   const read = terms();
@@ -53,7 +52,8 @@ export function parsed(text) {
   return read;
 }
 
-function leavesOf(terms) {
+/* The names of the constants in an objective. */
+export function leavesOf(terms) {
   return terms.flatMap(([, term]) => (term.parts ? term.parts.flatMap(leavesOf) : [term.name]));
 }
 
@@ -69,7 +69,14 @@ export function rangeOf(problem, name) {
   return { low: exact(low ?? 0), high: high === null ? null : exact(high) };
 }
 
-function fixed(range) {
+/* Whether a constant is never below 0 in a law of a problem. */
+export function neverNegative(problem, name) {
+  const velocities = endVelocities(problem);
+  return !["C_plus", "C_minus"].some((constant) => name.includes(constant)) || (velocities !== null && velocities.change.sign === 0);
+}
+
+/* Whether a range is one value. */
+export function fixed(range) {
   return range !== null && range.high !== null && range.low.same(range.high);
 }
 
@@ -82,7 +89,8 @@ export class Rows {
     if (!this.laws) throw new Unknown(`laws of the basis ${problem.basis}`);
     this.objective = parsed(problem.minimise);
     const others = Object.keys(problem.bounds ?? {}).filter((name) => !(name in PEAKS) && !(name in MEANS) && name !== "D");
-    if (others.length) throw new Unknown(`the constant ${others[0]}`);
+    this.machines = new Map();
+    for (const name of [...others, ...leavesOf(this.objective).filter((leaf) => leaf.includes("("))]) this.#addMachine(name);
     if (problem.windows?.some((window) => !(window.quantity in ORDERS))) throw new Unknown("windows of a formula");
     this.velocity = rangeOf(problem, "B");
     const rest = !problem.start && !problem.end;
@@ -134,6 +142,7 @@ export class Rows {
       return values && this.#below(values, sign, name);
     }
     if (name in MEANS) return this.#mean(name, direction);
+    if (machineName(name)) return this.machines.has(name) ? this.#ofMachine(name, sign, k, direction) : this.#strange(name);
     if (name === "b" && this.velocity && signs(1, -1)) {
       const values = laws.values(1, k);
       if (!values) return null;
@@ -152,6 +161,85 @@ export class Rows {
     if (name === "tangent" && this.names.includes(ROOT)) return this.#tangent();
     if (!["b", "chord", "ratio", "forward", "tangent"].includes(name)) throw new Unknown(`rows ${name}`);
     return null;
+  }
+
+  #strange(name) {
+    if (machineName(name) !== name) throw new Unknown(`rows ${name}`);
+    return null;
+  }
+
+  #addMachine(name) {
+    const constant = machineConstant(name);
+    if (!constant) throw new Unknown(`the constant ${name}`);
+    const { problem, laws } = this;
+    if (problem.start || problem.end || problem.order < 2 || !POLYNOMIALS.includes(problem.basis)) throw new Unknown("machines that such laws drive");
+    this.machines.set(name, constant.kind === "mode_residual" ? new Mode(constant, laws) : new Outputs(constant, laws));
+  }
+
+  /* A row of a machine's constant; `loose` where its unit is the machine's and its variable is to be balanced. */
+  #ofMachine(name, sign, k, direction) {
+    const machine = this.machines.get(name);
+    const variable = this.names.includes(name);
+    const { kind } = machine.constant;
+    if (kind !== "mode_residual") {
+      if (!variable) throw new Unknown("the unit of an output that is bounded");
+      if (kind === "output_rms") return { rms: name };
+      const values = sign.magnitude().same(ONE) ? machine.at(k) : null;
+      return values && { ...this.#enclosed(values.map(middle), sign, { [name]: ONE.negative() }), loose: name };
+    }
+    if (direction.length !== 2) return null;
+    const [e1, e2] = direction.map(exact);
+    const length = greatest(ONE, e1.times(e1).plus(e2.times(e2)).rootAbove());
+    const values = machine.at(k).map(([real, imaginary]) => middle(plus(times(real, ball(e1)), times(imaginary, ball(e2)))));
+    if (variable) return { ...this.#enclosed(values, ONE.over(length), { [name]: ONE.negative() }), loose: name };
+    const { high } = rangeOf(this.problem, name) ?? {};
+    if (!high) return null;
+    if (high.sign <= 0) throw new Unknown("the unit of a residual whose bound is 0");
+    return this.#enclosed(values, ONE.over(length.times(high)), {}, ONE);
+  }
+
+  /* A row of numbers that are off by no more than they say. */
+  #enclosed(values, factor, names, high = ZERO) {
+    const size = factor.magnitude();
+    const off = values.map((value) => value.off.times(size).rounded(1, 64));
+    return { ...this.#row(values.map(({ centre }) => centre), factor, names, high), off: off.slice(0, -1), offConstant: off.at(-1) };
+  }
+
+  /* The row of an output's RMS that balances slopes: the output times the function g, over the RMS of g. */
+  beside(name, slopes) {
+    const machine = this.machines.get(name);
+    const { start, stop } = machine.constant;
+    if (start.sign || !stop.same(ONE)) throw new Unknown("means beyond the rise");
+    const products = machine.products().map((row) => row.map((entry) => entry && middle(entry)));
+    const gram = (i, j) => (i <= j ? products[i][j] : products[j][i]);
+    const base = this.laws.terms;
+    const free = [...slopes.keys()];
+    const matrix = free.map((i) => free.map((j) => gram(i, j).centre));
+    const aim = slopes.map((slope) => slope.negative().rounded(1, 400));
+    const across = free.map((i) => gram(i, base).centre);
+    const [along, part] = [solved(matrix, aim), solved(matrix, across)];
+    if (!along || !part) return null;
+    const dot = (x, y) => sum(x.map((entry, i) => entry.times(y[i])));
+    const left = ONE.minus(dot(along, aim));
+    const rest = gram(base, base).centre.minus(dot(part, across));
+    if (left.sign < 0 || rest.sign <= 0) return null;
+    const share = left.over(rest).rootAbove();
+    const g = [...along.map((entry, i) => entry.minus(share.times(part[i])).rounded(1, 400)), share.rounded(1, 400)];
+    const all = [...g.keys()];
+    const columns = all.map((j) => ({
+      centre: sum(all.map((i) => g[i].times(gram(i, j).centre))),
+      off: sum(all.map((i) => g[i].magnitude().times(gram(i, j).off))),
+    }));
+    const square = sum(columns.map(({ centre, off }, j) => g[j].times(centre).plus(g[j].magnitude().times(off))));
+    const norm = square.rootAbove();
+    return norm.sign ? this.#enclosed(columns, ONE.over(norm), { [name]: ONE.negative() }) : null;
+  }
+
+  /* Means over the rise of outputs times Legendre's polynomials, and by how much an entry may be off. */
+  outputMoments(name) {
+    const moments = this.machines.get(name).moments(2 * this.laws.terms + 2).map((column) => column.map(middle));
+    const off = moments.flat().map((entry) => entry.off).reduce(greatest);
+    return { rows: moments[0].map((_, m) => moments.map((column) => column[m].centre)), off };
   }
 
   #known(values, sign = ONE) {
@@ -305,4 +393,4 @@ function gauss(count) {
   return { nodes, weights };
 }
 
-export { ROOT, PEAKS, MEANS };
+export { MEANS, ORDERS, PEAKS, ROOT };

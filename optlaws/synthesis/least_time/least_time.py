@@ -9,7 +9,7 @@ from math import inf
 from typing import Any
 
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
-from optlaws.files.reading import JsonText, entries_of
+from optlaws.files.reading import JsonText, entries_of, of_known_format
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.numbers import finite, listed, positive, real
@@ -153,6 +153,7 @@ class LeastTime(JsonText):
         InputError
             If an entry is missing or wrong, or states what does not follow from the law and the proofs.
         """
+        data = of_known_format(data, cls._json_name) if isinstance(data, Mapping) else data
         entries = entries_of(data, KEYS, cls._json_name)
         torque, residual = data.get("torque"), data.get("residual")
         if len(data) > len(KEYS) + (torque is not None) + (residual is not None):

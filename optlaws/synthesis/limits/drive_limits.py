@@ -13,7 +13,7 @@ import numpy as np
 
 from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
-from optlaws.files.reading import JsonText
+from optlaws.files.reading import JsonText, of_known_format
 from optlaws.formulas.reading import read
 from optlaws.formulas.slopes import constant
 from optlaws.formulas.tree import Call, Exponentiation, Formula, Number, Product, Sum, product
@@ -152,6 +152,7 @@ class DriveLimit(JsonText):
         InputError
             If the data is no such limit, or claims more than its certificate proves.
         """
+        data = of_known_format(data, cls._json_name) if isinstance(data, Mapping) else data
         if not isinstance(data, Mapping) or set(data) != set(_KEYS):
             raise InputError(f"a drive's limit has the keys {', '.join(_KEYS)}, got {shortened(data)}")
         if data["minimise"] not in get_args(DriveObjective):

@@ -11,6 +11,7 @@ import msgspec
 
 from optlaws.errors import InputError
 from optlaws.files.problem_file import typed
+from optlaws.files.reading import of_known_format
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.nodes import Contact, Leaf, Node, PlaceRange, Split, Tightening
 
@@ -91,8 +92,9 @@ def stated(data: object, kind: type[Stated], name: str) -> Stated:
     Traceback (most recent call last):
     optlaws.errors.InputError: this is not a contact: Expected `float`, got `str` - at `$.k`
     """
+    entries = of_known_format(data, f"the {name}") if isinstance(data, Mapping) else data
     try:
-        return typed(as_json(data), kind)
+        return typed(as_json(entries), kind)
     except (TypeError, ValueError, RecursionError) as error:
         raise InputError(f"this is not a {name}: {error}") from None
 

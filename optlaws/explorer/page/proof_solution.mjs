@@ -1,0 +1,117 @@
+/* What a file states of a law beside its proofs, held against the law and against what the proofs prove. */
+
+import { ONE, Unknown, ZERO, exact, greatest, sum, whole } from "./proof_numbers.mjs";
+import { MEANS, PEAKS, parsed } from "./proof_rows.mjs";
+import { ends, lawOfZ } from "./proof_laws.mjs";
+import { limitOf } from "./proof_limits.mjs";
+import { conditionsOf, distance, enclosed, missesOf, motionOf, objectiveOf, reachedAt } from "./proof_motion.mjs";
+
+/* Stated constants are doubles: by how much of themselves they may be off, bounds, and the ends of a law. */
+const STATED = exact(1e-9);
+const ROUNDED = exact(1e-11);
+const ROUNDING = exact(1e-12);
+/* By how much of its bound a law may break a condition. */
+const KEPT = exact(1e-9);
+/* What a gap may be off, and be without: the law is optimal then. */
+const GAP = exact(1e-8);
+/* By how much of its size a law may differ from its Z. */
+const ROUNDED_SERIES = exact(2 ** -44);
+
+/* What a solution states beside its proofs, held against its law and against what the proofs prove. */
+export function solutionChecked(data, path, proven) {
+  const claims = [];
+  const claim = (name, holds, detail) => claims.push({ path: `${path}: ${name}`, verdict: holds ? "proven" : "not proven", detail });
+  const tried = (name, check) => {
+    try {
+      check();
+    } catch (error) {
+      const known = error instanceof Unknown;
+      claims.push({ path: `${path}: ${name}`, verdict: known ? "not checked" : "not proven", detail: known ? `this program does not know ${error.message}` : error.message });
+    }
+  };
+  const { problem } = data;
+  let highest = null;
+  tried("law", () => {
+    const motion = motionOf(data.law);
+    claims.push(...constantsChecked(data, path, motion));
+    tried("objective", () => {
+      const objective = objectiveOf(motion, parsed(problem.minimise));
+      [, highest] = objective;
+      if (data.objective !== undefined) claim("objective", near(data.objective, objective), `${data.objective} is stated, ${objective[1].toNumber()} is that of the law`);
+    });
+    for (const key of ["certificate", "power_certificate", "peak_certificate"]) {
+      if (data[key]) claim(`problem of the ${key.replace("_", " ")}`, sorted(data[key].problem) === sorted(problem), "it is to be that of the file");
+    }
+    if (data.z) tried("Z", () => claim("Z", fitsZ(motion, problem, data.z), "its law is to be that of the file"));
+    const misses = missesOf(motion, ends(problem)).filter(({ by, size }) => ROUNDING.times(size).below(by));
+    claim("ends", misses.length === 0, misses.length ? `derivative ${misses[0].nu} at ${misses[0].end} is off by ${misses[0].by.toNumber()}` : "the law has the derivatives that are given");
+    for (const { name, by } of conditionsOf(motion, problem)) {
+      tried(name, () => {
+        const most = by();
+        claim(name, !KEPT.below(most), most.sign > 0 ? `broken by at most ${most.toNumber()} of its bound` : "kept");
+      });
+    }
+  });
+  tried("lower bound", () => {
+    const limit = limitOf(problem, parsed(problem.minimise));
+    const agrees = (stated, bound) => bound !== null && !bound.plus(STATED.times(bound.magnitude())).below(exact(stated));
+    const bounds = [...proven.map(({ bound }) => bound), limit].filter((bound) => bound);
+    const best = bounds.length ? bounds.reduce(greatest) : null;
+    for (const [name, stated, bound] of [["limit", data.limit ?? null, limit], ["lower bound", data.lower_bound ?? null, best]]) {
+      if (stated === null) continue;
+      if (agrees(stated, bound)) claim(name, true, `${stated} is stated, ${bound.toNumber()} is proven`);
+      else claims.push({ path: `${path}: ${name}`, verdict: "not checked", detail: `${stated} is stated, by no proof that this program knows` });
+    }
+    const gap = highest && best && highest.sign > 0 ? highest.minus(best).over(highest) : null;
+    const room = (most) => gap && !most.plus(GAP).below(gap);
+    const shown = gap ? `it is at most ${gap.toNumber()}` : "the gap is not known";
+    if ((data.gap ?? null) !== null) gapClaims(claim, claims, path, "gap", data.gap, room(exact(data.gap)), shown);
+    if (data.status === "optimal") gapClaims(claim, claims, path, "status", data.status, room(ZERO), shown);
+  });
+  return claims;
+}
+
+/* A gap that is greater may be that of a proof which this program does not know. */
+function gapClaims(claim, claims, path, name, stated, holds, shown) {
+  if (holds) claim(name, true, `${stated} is stated, ${shown}`);
+  else claims.push({ path: `${path}: ${name}`, verdict: "not checked", detail: `${stated} is stated, ${shown} by what this program knows` });
+}
+
+/* Plain data as a text in which keys are in order. */
+function sorted(data) {
+  return JSON.stringify(data, (_, value) => (value && typeof value === "object" && !Array.isArray(value) ? Object.fromEntries(Object.entries(value).sort()) : value));
+}
+
+/* Whether the law has the polynomial Z that is stated, by powers of k, but for rounding. */
+function fitsZ(motion, problem, z) {
+  const stated = lawOfZ(problem, z.map(exact));
+  if (!stated || motion.length > 1) throw new Unknown(`Z of laws of the basis ${problem.basis}`);
+  const size = sum(z.map((entry) => exact(entry).magnitude())).over(whole(4).power(problem.order)).plus(ONE);
+  return !ROUNDED_SERIES.times(size).below(distance(motion, stated));
+}
+
+/* The constants that a law is said to have. */
+function constantsChecked(data, path, motion) {
+  return Object.entries(data.constants ?? {}).flatMap(([name, entry]) => {
+    const { value: stated, k = null } = typeof entry === "object" && entry !== null ? entry : { value: entry };
+    if (stated === null || !(name in PEAKS || name in MEANS || name === "D")) return [];
+    const reached = k === null || reachedAt(motion, name, exact(k), exact(stated));
+    const detail = reached ? `${stated} is stated` : `${stated} is stated, but not reached at k = ${k}`;
+    return [{ path: `${path}: ${name}`, verdict: reached && near(stated, enclosed(motion, name)) ? "proven" : "not proven", detail }];
+  });
+}
+
+/* The constants of a law that stands alone. */
+export function lawChecked(data, path) {
+  try {
+    return constantsChecked(data, path, motionOf(data.law));
+  } catch (error) {
+    const known = error instanceof Unknown;
+    return [{ path: `${path}: law`, verdict: known ? "not checked" : "not proven", detail: known ? `this program does not know ${error.message}` : error.message }];
+  }
+}
+
+function near(stated, [low, high]) {
+  const room = ROUNDED.times(greatest(ONE, high.magnitude()));
+  return !exact(stated).below(low.minus(room)) && !high.plus(room).below(exact(stated));
+}
