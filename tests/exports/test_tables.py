@@ -58,7 +58,12 @@ READ = {
     "rockwell-cam-profile": readers.rockwell_profile,
     "twincat-table": readers.twincat_table,
 }
-SPLINED = {"csv": lambda text: readers.separated(text)[1][:2], "lenze": readers.lenze, "kas": readers.kas}
+SPLINED = {
+    "csv": lambda text: readers.separated(text)[1][:2],
+    "lenze": readers.lenze,
+    "kas": readers.kas,
+    "plcopen": readers.plcopen,
+}
 
 
 def derivatives(made: Export, table: Array, orders: int) -> Array:
@@ -86,7 +91,8 @@ def _table(made: Export) -> tuple[Array, readers.Curve]:
         x, y = readers.isg(text) if name == "isg" else readers.technosoft(text, made.motion.stop, made.motion.stroke)
         return x, readers.broken(x, y)
     x, y = SPLINED[name](text)
-    return x, readers.spline(x, y, CLAMPED)
+    ends = "natural" if y[0] != y[-1] else "periodic"
+    return x, readers.spline(x, y, ends if name == "plcopen" else CLAMPED)
 
 
 PROGRAMS = {"br-acp10", "c99", "codesys-cambuilder", "iec-st", "iec-st-real", "siemens-elements", "siemens-points"}
