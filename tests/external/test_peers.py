@@ -1,6 +1,7 @@
 """Other packages side by side with this one, on cams and tables drawn at random."""
 
 import re
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -88,16 +89,18 @@ def with_named_types(source: str) -> str:
 @pytest.mark.parametrize("block", ["law", "law in REAL", "segments", "front"])
 def test_the_compiler_of_pyplcopen_takes_the_function_blocks(block: str) -> None:
     pyplcopen = pytest.importorskip("pyplcopen")
-    source = {
+    sources: dict[str, Callable[[], str]] = {
         "law": lambda: optimal().export("iec-st", name="FB_Cam", **SAID).text,
         "law in REAL": lambda: optimal().export("iec-st-real", name="FB_Cam", **SAID).text,
         "segments": lambda: jerk_limited_move("iec-st", name="FB_Cam").text,
         "front": lambda: exported("pieces", "iec-st").text.replace("FB_pieces", "FB_Cam"),
-    }[block]()
+    }
+    source = sources[block]()
     inputs = dict(re.findall(r"    (\w+) : (BOOL|L?REAL);", source.split("END_VAR")[0]))
     call = ", ".join(f"{name} := {'TRUE' if kind == 'BOOL' else '1.0'}" for name, kind in inputs.items())
+    document_of: Any = pyplcopen._StLanguageDocument
     program = f"\nPROGRAM Main\nVAR\n    cam : FB_Cam;\nEND_VAR\ncam({call});\nEND_PROGRAM\n"
-    document = pyplcopen._StLanguageDocument(with_named_types(source) + program)
+    document = document_of(with_named_types(source) + program)
     assert [(one["range"]["start"]["line"], one["message"]) for one in document.diagnostics()] == []
-    broken = pyplcopen._StLanguageDocument((with_named_types(source) + program).replace("jerk : ", "jolt : ", 1))
+    broken = document_of((with_named_types(source) + program).replace("jerk : ", "jolt : ", 1))
     assert broken.diagnostics()

@@ -1,11 +1,23 @@
 """Least times and trapezoids of others: laws that keep the limits in their time, and none in less."""
 
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
 import pytest
 
-from optlaws import InfeasibleProblem, Pieces, Problem, at_most, limit, synthesize, trapezoid
+from optlaws import (
+    BoundaryConditions,
+    InfeasibleProblem,
+    Pieces,
+    Problem,
+    at_most,
+    fastest,
+    law_from_z,
+    limit,
+    synthesize,
+    trapezoid,
+)
 from tests.external.published import cases
 from tests.internals.exports import segment_times
 
@@ -67,3 +79,34 @@ def test_peak_velocities_of_a_planner_from_rest_to_rest(stroke: float, accelerat
     move = segment_times(stroke, 1e3 * peak, acceleration, jerk)
     assert move.cruise_time == pytest.approx(0.0, abs=1e-9 * move.duration)
     assert move.motion().peak(1).value == pytest.approx(peak, rel=1e-9)
+
+
+@pytest.mark.parametrize("case", cases("profiles"), ids=lambda case: f"{case['stroke']:g} m")
+def test_trapezoids_with_other_decelerations_take_the_least_time(case: dict[str, Any]) -> None:
+    breaks = (0.0, *(time / case["time"] for time in case["breaks"]), 1.0)
+    space = Problem(order=2, symmetric=False, basis=Pieces(breaks, degree=2, continuity=1))
+    limits = {"velocity": f"{case['velocity']} m/s"}
+    limits |= {name: f"{case[name]} m/s^2" for name in ("acceleration", "deceleration")}
+    stroke, start = f"{case['stroke']} m", f"{case['start']} m/s"
+    move = fastest(space, stroke=stroke, limits=limits, start_velocity=start)
+    assert move.duration == pytest.approx(case["time"], rel=1e-6)
+    assert move.none_below == pytest.approx(case["time"], rel=3e-6)
+    for time, place in case["places"]:
+        assert case["stroke"] * move.law(time / move.duration) == pytest.approx(place, abs=1e-6 * case["stroke"])
+
+
+@pytest.mark.parametrize("case", cases("jerk_quintics"), ids=lambda case: f"{case['time']} s")
+def test_the_smoothest_laws_are_the_quintics_of_least_jerk(case: dict[str, Any]) -> None:
+    """Of any ends: in units of the stroke and of the time, from which both are brought back."""
+    stroke, time = case["end"][0] - case["start"][0], case["time"]
+    units = [stroke / time**nu for nu in range(3)]
+    first, last = (
+        tuple(Fraction(value) / Fraction(unit) for value, unit in zip(values, units, strict=True))
+        for values in ((0, *case["start"][1:]), (stroke, *case["end"][1:]))
+    )
+    law = law_from_z(BoundaryConditions(start=first, end=last))
+    at = np.linspace(0.0, time, 41)
+    theirs = np.polynomial.Polynomial(case["powers"])
+    for nu in range(4):
+        ours = np.asarray(law(at / time, nu)) * stroke / time**nu + (case["start"][0] if nu == 0 else 0.0)
+        assert ours == pytest.approx(theirs.deriv(nu)(at) if nu else theirs(at), abs=1e-9)
