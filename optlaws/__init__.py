@@ -141,7 +141,7 @@ declare(
         "optlaws.exports.formats.br": "br-acp10",
         "optlaws.exports.formats.c99": "c99",
         "optlaws.exports.formats.codesys": "codesys-cambuilder codesys-xy codesys-xyva",
-        "optlaws.exports.formats.plain": "csv isg kas lenze sew technosoft",
+        "optlaws.exports.formats.plain": "csv isg kas lenze plcopen sew technosoft",
         "optlaws.exports.formats.rockwell": "rockwell-cam rockwell-cam-extended rockwell-cam-profile",
         "optlaws.exports.formats.ros": "ros2",
         "optlaws.exports.formats.siemens": "siemens-elements siemens-points siemens-polynomials",

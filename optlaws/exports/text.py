@@ -169,6 +169,7 @@ _WORDS = """
     rol ror sel shl shr sin single sint sqrt step string struct sub super task tan then this time time_of_day to tod
     transition true trunc type udint uint ulint until using usint var var_access var_config var_external var_global
     var_in_out var_input var_output var_temp wchar when while with word wstring xor
+    ctd ctu ctud derivative f_trig hysteresis integral pid r_trig ramp rs rtc sema sr tof ton tp
 """
 _C_WORDS = """
     auto break case char const continue default do double else enum extern float for goto if inline int long
@@ -180,7 +181,8 @@ _C_WORDS = """
 """
 #: keywords of C and C++
 C_KEYWORDS = frozenset(_C_WORDS.split())
-#: keywords of IEC 61131-3 and of the languages made of it; no variable may be called so, in whatever case
+#: keywords of IEC 61131-3 and of the languages made of it, and the names of its functions and function blocks; no
+#: variable may be called so, in whatever case
 IEC_KEYWORDS = frozenset(_WORDS.split())
 
 

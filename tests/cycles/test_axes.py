@@ -16,7 +16,7 @@ from tests.internals.jobs import read_of_cycle_entries as read
 TABLE: dict[str, Any] = {"segments": [Rise("45 deg", "400 ms", law="345"), Dwell()], "advance": "45 deg"}
 HEAD = [Dwell("400 ms", name="up"), Rise("250 mm", "200 ms", law="345"), Dwell("1200 ms"), Return(law="345")]
 NO_SEGMENTS: Any = 3
-NAMELESS = {"csv", "kas", "lenze", "sew", "technosoft"}  # rows of numbers
+NAMELESS = {"csv", "kas", "lenze", "plcopen", "sew", "technosoft"}  # rows of numbers
 MACHINE = Axes({"table": TABLE, "weld head": HEAD}, period="2 s")
 
 

@@ -93,12 +93,12 @@ class Answer(NamedTuple):
     motion: np.ndarray[Any, Any]
 
 
-def program(folder: Path, name: str, header: str) -> Path:
+def program(folder: Path, name: str, header: str, compiler: str | None = COMPILER) -> Path:
     """The compiled program of a header."""
     shares = ", ".join(float(share).hex() for share in SHARES)
     (folder / f"{name}.h").write_text(header, "utf-8")
     (folder / f"{name}.c").write_text(_PROGRAM.format(name=name, shares=shares), "utf-8")
-    command = [str(COMPILER), *STRICT, *SANITISED, f"{name}.c", "-o", name, "-lm"]
+    command = [str(compiler), *STRICT, *SANITISED, f"{name}.c", "-o", name, "-lm"]
     subprocess.run(command, cwd=folder, check=True)
     return folder / name
 

@@ -142,6 +142,11 @@ def kas(text: str, decimal: str = ".") -> Array:
     return np.array([[float(cell.replace(decimal, ".")) for cell in row[:2]] for row in rows]).T
 
 
+def plcopen(text: str) -> Array:
+    rows = [line.split(",") for line in text.splitlines() if not line.startswith("#")]
+    return np.array(rows, dtype=np.float64).T
+
+
 def isg(text: str) -> Array:
     lines = [line.partition("#")[0].strip() for line in text.splitlines()]
     start, stop = lines.index("Begintable"), lines.index("EndTable")

@@ -89,7 +89,7 @@ def _python(body: str, kinds: dict[str, str]) -> str:
     """The statements as Python."""
     lines, depth = [], 0
     for line in filter(None, map(str.strip, body.splitlines())):
-        if line in {"END_FOR", "END_WHILE", "END_IF"}:
+        if line in {"END_FOR;", "END_WHILE;", "END_IF;"}:
             depth -= 1
             continue
         depth -= line.startswith(("ELSE", "ELSIF"))

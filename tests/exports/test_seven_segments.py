@@ -52,10 +52,13 @@ def drawn(count: int, seed: int) -> list[tuple[float, ...]]:
 
 @pytest.fixture(scope="module")
 def compiled(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("segments")
+    return program_of_segments(tmp_path_factory.mktemp("segments"))
+
+
+def program_of_segments(folder: Path, compiler: str | None = COMPILER) -> Path:
     jerk_limited_move("c99", name="axis").write(folder / "axis.h")
     (folder / "main.c").write_text(_PROGRAM.format(shares=", ".join(map(str, SHARES))), "utf-8")
-    command = [str(COMPILER), *STRICT, *SANITISED, "main.c", "-o", "main", "-lm"]
+    command = [str(compiler), *STRICT, *SANITISED, "main.c", "-o", "main", "-lm"]
     subprocess.run(command, cwd=folder, check=True)
     return folder / "main"
 

@@ -10,7 +10,16 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from optlaws import Cycle, InputError, PolynomialLaw, catalogue, reversed_law, smoothstep
+from optlaws import (
+    BoundaryConditions,
+    Cycle,
+    InputError,
+    PolynomialLaw,
+    catalogue,
+    law_from_z,
+    reversed_law,
+    smoothstep,
+)
 from tests.exports import readers
 from tests.exports.interpolations import cubic_spline
 from tests.exports.samples import SAID, one_shot, optimal, press, repeating, shearing, turning
@@ -58,7 +67,12 @@ READ = {
     "rockwell-cam-profile": readers.rockwell_profile,
     "twincat-table": readers.twincat_table,
 }
-SPLINED = {"csv": lambda text: readers.separated(text)[1][:2], "lenze": readers.lenze, "kas": readers.kas}
+SPLINED = {
+    "csv": lambda text: readers.separated(text)[1][:2],
+    "lenze": readers.lenze,
+    "kas": readers.kas,
+    "plcopen": readers.plcopen,
+}
 
 
 def derivatives(made: Export, table: Array, orders: int) -> Array:
@@ -86,7 +100,8 @@ def _table(made: Export) -> tuple[Array, readers.Curve]:
         x, y = readers.isg(text) if name == "isg" else readers.technosoft(text, made.motion.stop, made.motion.stroke)
         return x, readers.broken(x, y)
     x, y = SPLINED[name](text)
-    return x, readers.spline(x, y, CLAMPED)
+    ends = "natural" if y[0] != y[-1] else "periodic"
+    return x, readers.spline(x, y, ends if name == "plcopen" else CLAMPED)
 
 
 PROGRAMS = {"br-acp10", "c99", "codesys-cambuilder", "iec-st", "iec-st-real", "siemens-elements", "siemens-points"}
@@ -286,3 +301,12 @@ def test_the_best_run_of_a_cycle_is_the_motion(name: str, made: Callable[[], Cyc
     assert best.report.deviation[0].value <= 1.6e-4 * best.motion.stroke
     assert best.points > 50
     assert name == "isg" or best.report.ratio(2) == pytest.approx(1.0, abs=5e-3)
+
+
+def test_a_velocity_that_rounding_left_at_an_end_is_written_as_none() -> None:
+    almost = law_from_z(BoundaryConditions(start=(0, -1e-16, 0), end=(1, -1e-16, 0)))
+    text = almost.export("rockwell-cam", points=9, stroke="35 mm", master="120 deg", duration="0.1 s").text
+    assert "StartSlope = 0.0, EndSlope = 0.0" in text
+    true = law_from_z(BoundaryConditions(start=(0, 0.5, 0), end=(1, 1e-9, 0)))
+    text = true.export("rockwell-cam", points=9, stroke="30 mm", master="60 deg", duration="0.1 s").text
+    assert "StartSlope = 0.25, EndSlope = 5.0E-10" in text

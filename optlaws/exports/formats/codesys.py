@@ -132,7 +132,7 @@ def _cam_builder(motion: Motion, request: Request) -> Written:
             "    SMCB.InitCamRef(camRef, ADR(segments), XSIZEOF(segments));",
             "    camBuilder.Write(camRef);",
             "    built := TRUE;",
-            "END_IF",
+            "END_IF;",
             "END_FUNCTION_BLOCK",
             "",
         ]

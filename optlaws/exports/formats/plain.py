@@ -1,4 +1,4 @@
-"""Tables as text without a language: SEW, Lenze, KAS, ISG and TwinCAT CNC, Technosoft, and CSV for all others."""
+"""Tables as text without a language: SEW, Lenze, KAS, ISG and TwinCAT CNC, Technosoft, plcopen, CSV."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ from optlaws.exports.formats.point_table import (
     hermite_table,
     linear_table,
     positions,
+    spline_table,
 )
 from optlaws.exports.interpolation import linear_powers
 from optlaws.exports.spacing import PointTable, chosen
@@ -23,7 +24,7 @@ from optlaws.exports.text import plain, plain_column, table_heading
 from optlaws.files.writing import MARK
 from optlaws.motion.motion import Motion
 from optlaws.motion.quantities import quantity
-from optlaws.tolerances import DECADIC_STEP
+from optlaws.tolerances import CLOSURE, DECADIC_STEP
 
 MODELS = {
     "linear": "straight lines",
@@ -36,6 +37,7 @@ MODELS = {
 ORDERS = {"c1": 2, "quintic": 3, "septic": 4}
 ISG_LINES, ISG_LEAST = 360, 0.1
 TECHNOSOFT_POINTS, TECHNOSOFT_STEPS = 8192, 128
+PLCOPEN_POINTS = 64
 
 
 _TEXT = ("points", "counts", "digits", "decimal")
@@ -93,6 +95,28 @@ def _lenze(motion: Motion, request: Request) -> Written:
     table = chosen_table(motion, request, "cubic", MOST_POINTS)
     first, *others = _rows(_x_and_y(table), request, " ")
     return table.written(_lines([f"{first} // {table_heading(motion, 'cam')[0]}; {MARK}", *others]), MODELS["cubic"])
+
+
+@_plain_format(
+    "plcopen",
+    target="plcopen, the open run time (pyplcopen), cam table of load_cam_table_csv",
+    model="C2 cubic spline, natural or cyclic, or straight lines",
+    limits=f"at most {PLCOPEN_POINTS} points of a spline",
+    extension=".csv",
+    takes=("points", "counts", "digits", "interpolation"),
+)
+def _plcopen(motion: Motion, request: Request) -> Written:
+    interpolation = request.interpolation_among(("cubic", "linear"))
+    number_format = NumberFormat(request.counts, request.digits)
+    cyclic = motion.repeats and abs(motion.advance) <= CLOSURE * motion.stroke
+    if interpolation == "linear":
+        make, most, model = partial(linear_table, motion, number_format=number_format), MOST_POINTS, MODELS["linear"]
+    else:
+        make = partial(spline_table, motion, number_format=number_format, ends="periodic" if cyclic else "natural")
+        most, model = PLCOPEN_POINTS, f"C2 cubic spline, {'cyclic' if cyclic else 'natural'}"
+    table = chosen(motion, request, make, least=4, most=most)
+    heading = f"# {table_heading(motion, 'cam')[0]}; {MARK}"
+    return table.written(_lines([heading, *_rows(_x_and_y(table), request, ",")]), model)
 
 
 @_plain_format(

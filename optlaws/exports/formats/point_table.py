@@ -66,11 +66,18 @@ def spline_table(motion: Motion, count: int, number_format: NumberFormat, *, end
     A periodic one ends exactly where it begins, as the motion does but for rounding.
     """
     x, y = positions(motion, count, number_format)
-    slopes = number_format.numbers(np.array(motion.ends(1)))
+    slopes = end_slopes(motion, number_format)
     if ends == "periodic":
         y[-1] = y[0]
     powers = spline_powers(x, y, ends, (float(slopes[0]), float(slopes[1])))
     return PointTable(x, y[None], powers, number_format.resolution(motion), rounding_bound(motion, x, y, slopes))
+
+
+def end_slopes(motion: Motion, number_format: NumberFormat) -> Array:
+    """The velocities of a motion's ends as the target stores them, 0 where rounding beside the mean has missed it."""
+    slopes = np.array(motion.ends(1))
+    rounding = TABLE_ROUNDING * motion.stroke / motion.length
+    return number_format.numbers(np.where(np.abs(slopes) <= rounding, 0.0, slopes))
 
 
 def linear_table(motion: Motion, count: int, number_format: NumberFormat) -> PointTable:

@@ -6,11 +6,9 @@ import struct
 from collections.abc import Sequence
 from functools import partial
 
-import numpy as np
-
 from optlaws.errors import InputError
 from optlaws.exports.format import MOST_POINTS, Request, Written, file_format
-from optlaws.exports.formats.point_table import NumberFormat, chosen_table
+from optlaws.exports.formats.point_table import NumberFormat, chosen_table, end_slopes
 from optlaws.exports.spacing import PointTable
 from optlaws.exports.text import iec_comment, iec_name, real, table_heading
 from optlaws.motion.motion import Motion
@@ -75,9 +73,8 @@ def _array(motion: Motion, request: Request, *, single: bool) -> Written:
     name = iec_name(request.name, "Logix")
     table = _table(motion, request, single=single)
     kind = SEGMENT_TYPES[request.interpolation_among(SEGMENT_TYPES)]
-    start, end = (
-        real(float(number), single=single) for number in NumberFormat(single=single).numbers(np.array(motion.ends(1)))
-    )
+    slopes = end_slopes(motion, NumberFormat(single=single))
+    start, end = (real(float(slope), single=single) for slope in slopes)
     rows = [
         f"{name}[{i}].Master := {real(x, single=single)}; {name}[{i}].Slave := {real(y, single=single)}; "
         f"{name}[{i}].SegmentType := {kind};"

@@ -24,10 +24,10 @@ place := LIMIT(breaks[0], x, breaks[{last}]);
 inside := (place = x);
 WHILE piece > 0 AND place < breaks[piece] DO
     piece := piece - 1;
-END_WHILE
+END_WHILE;
 WHILE piece < {most} AND place >= breaks[piece + 1] DO
     piece := piece + 1;
-END_WHILE
+END_WHILE;
 s := place - breaks[piece];
 position := coefficients[piece * {width} + {degree}];
 velocity := 0.0;
@@ -38,7 +38,7 @@ FOR power := {degree} - 1 TO 0 BY -1 DO
     acceleration := acceleration * s + velocity;
     velocity := velocity * s + position;
     position := position * s + coefficients[piece * {width} + power];
-END_FOR
+END_FOR;
 acceleration := 2.0 * acceleration;
 jerk := 6.0 * jerk;
 """

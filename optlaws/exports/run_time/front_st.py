@@ -49,7 +49,7 @@ VAR
     ofC : LREAL;
     ofJ : LREAL;
     m : LREAL;
-    right : LREAL;
+    rhs : LREAL;
     third : LREAL;
     u : LREAL;
     v : LREAL;
@@ -101,8 +101,8 @@ IF plan THEN
                             high := middle;
                         ELSE
                             low := middle + 1;
-                        END_IF
-                    END_WHILE
+                        END_IF;
+                    END_WHILE;
                     IF low = 0 THEN
                         z := tableB[0];
                         status := {first};
@@ -115,28 +115,28 @@ IF plan THEN
                         IF byJerk > z THEN
                             z := byJerk;
                             status := {jerk};
-                        END_IF
+                        END_IF;
                     ELSE
                         law := low - 1;
                         status := {proven};
                         m := ofC * ((tableC[law] - tableC[low]) / (tableB[low] - tableB[law]));
-                        right := ofC * tableC[law] + m * tableB[law];
-                        z := 2.0 * right / (m + SQRT(m * m + 4.0 * right));
+                        rhs := ofC * tableC[law] + m * tableB[law];
+                        z := 2.0 * rhs / (m + SQRT(m * m + 4.0 * rhs));
                         third := ofJ * ((tableJ[law] - tableJ[low]) / (tableB[low] - tableB[law])) / 3.0;
-                        right := ofJ * tableJ[law] + 3.0 * third * tableB[law];
-                        u := EXP(LN(0.5 * right + SQRT(0.25 * right * right + third * third * third)) / 3.0);
+                        rhs := ofJ * tableJ[law] + 3.0 * third * tableB[law];
+                        u := EXP(LN(0.5 * rhs + SQRT(0.25 * rhs * rhs + third * third * third)) / 3.0);
                         v := third / u;
-                        byJerk := right / (u * u + third + v * v);
+                        byJerk := rhs / (u * u + third + v * v);
                         IF byJerk > z THEN
                             z := byJerk;
                             status := {jerk};
-                        END_IF
+                        END_IF;
                         z := LIMIT(tableB[law], z, tableB[low]);
                         share := LIMIT(0.0, (z - tableB[law]) / (tableB[low] - tableB[law]), 1.0);
-                    END_IF
+                    END_IF;
                     moveTime := z / rate * widened;
-                END_IF
-            END_IF
+                END_IF;
+            END_IF;
         ELSIF givenTime >= {least} AND givenTime <= {most} THEN
             IF way = 0.0 THEN
                 status := {proven};
@@ -161,16 +161,16 @@ IF plan THEN
                                 low := middle;
                             ELSE
                                 high := middle;
-                            END_IF
-                        END_WHILE
+                            END_IF;
+                        END_WHILE;
                         law := low;
                         status := {proven};
                         share := LIMIT(0.0, (z - tableB[law]) / (tableB[law + 1] - tableB[law]), 1.0);
-                    END_IF
-                END_IF
-            END_IF
-        END_IF
-    END_IF
+                    END_IF;
+                END_IF;
+            END_IF;
+        END_IF;
+    END_IF;
     peakVelocity := 0.0;
     peakAcceleration := 0.0;
     peakJerk := 0.0;
@@ -179,8 +179,8 @@ IF plan THEN
         peakVelocity := way * (tableB[law] + share * (tableB[law + 1] - tableB[law]));
         peakAcceleration := way / moveTime * (tableC[law] + share * (tableC[law + 1] - tableC[law]));
         peakJerk := way / moveTime / moveTime * (tableJ[law] + share * (tableJ[law + 1] - tableJ[law]));
-    END_IF
-END_IF
+    END_IF;
+END_IF;
 """
 _MOTION = """\
 position := 0.0;
@@ -204,13 +204,13 @@ ELSIF plannedStroke <> 0.0 AND elapsed >= 0.0 THEN
     q3 := 0.0;
     FOR n := {highest} TO 1 BY -1 DO
         c := series[row + n] + share * (series[row + {law_size} + n] - series[row + n]);
-{step}    END_FOR
+{step}    END_FOR;
     c := series[row] + share * (series[row + {law_size}] - series[row]);
 {end}    position := plannedStroke * s0;
     velocity := plannedStroke * rate * s1;
     acceleration := plannedStroke * rate * rate * s2;
     jerk := plannedStroke * rate * rate * rate * s3;
-END_IF
+END_IF;
 """
 _STEP = """\
         s0 := y * p0 - q0 + c;
@@ -251,8 +251,8 @@ _PLACE_IN_PIECES = """\
             piece := middle;
         ELSE
             high := middle - 1;
-        END_IF
-    END_WHILE
+        END_IF;
+    END_WHILE;
     row := law * {law_size} + piece * {terms};
     rate := scales[piece] / moveTime;
     x := scales[piece] * (k - breaks[piece]) - 1.0;"""

@@ -145,7 +145,7 @@ VAR
     v : LREAL;
     a : LREAL;
     j : LREAL;
-    ramp : LREAL;
+    rampTime : LREAL;
     least : LREAL;
     most : LREAL;
     t : LREAL;
@@ -171,29 +171,29 @@ IF plan THEN
             plannedJerk := j;
             IF stroke < 0.0 THEN
                 plannedJerk := -j;
-            END_IF
+            END_IF;
             IF v >= a * (a / j) THEN
                 jerkTime := a / j;
                 accelerationTime := v / a - a / j;
-                ramp := v / a + a / j;
+                rampTime := v / a + a / j;
             ELSE
                 jerkTime := SQRT(v / j);
-                ramp := 2.0 * SQRT(v / j);
-            END_IF
-            IF way >= v * ramp THEN
-                cruiseTime := way / v - ramp;
+                rampTime := 2.0 * SQRT(v / j);
+            END_IF;
+            IF way >= v * rampTime THEN
+                cruiseTime := way / v - rampTime;
             ELSIF way >= 2.0 * a * (a / j) * (a / j) THEN
                 jerkTime := a / j;
                 accelerationTime := 2.0 * (way / a) / (a / j + SQRT(a / j * (a / j) + 4.0 * (way / a))) - a / j;
             ELSE
                 jerkTime := EXP(LN(0.5 * (way / j)) / 3.0);
                 accelerationTime := 0.0;
-            END_IF
+            END_IF;
             accelerationTime := MAX(accelerationTime, 0.0);
             moveTime := 4.0 * jerkTime + 2.0 * accelerationTime + cruiseTime;
-        END_IF
-    END_IF
-END_IF
+        END_IF;
+    END_IF;
+END_IF;
 position := 0.0;
 velocity := 0.0;
 acceleration := 0.0;
@@ -220,13 +220,13 @@ ELSIF plannedStroke <> 0.0 AND elapsed >= 0.0 THEN
         acceleration := plannedJerk * s;
         IF s > 0.0 THEN
             jerk := -plannedJerk;
-        END_IF
-    END_IF
+        END_IF;
+    END_IF;
     IF elapsed > 0.5 * moveTime THEN
         position := plannedStroke - position;
         acceleration := -acceleration;
-    END_IF
-END_IF
+    END_IF;
+END_IF;
 """
 
 

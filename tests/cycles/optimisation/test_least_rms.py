@@ -1,7 +1,6 @@
 """Free motions of least root mean square: the splines of scipy through the same points, and of no other space."""
 
 from itertools import pairwise
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -75,20 +74,6 @@ def test_the_least_rms_of_random_points_is_the_spline_through_them(seed: int) ->
     assert solution.objective * abs(piece.stroke) / time**nu == pytest.approx(rms(curve, nu, times), rel=1e-9)
     assert cycle.status == "optimal"
     assert cycle.search_space == ALL
-
-
-def test_published_points_of_least_jerk() -> None:
-    """Both axes of a published trajectory; the jerk at its start is printed with it."""
-    table = np.loadtxt(Path(__file__).parents[2] / "reference" / "waypoints.csv", delimiter=",", skiprows=3)
-    times = table[:, 0]
-    for column, least in ((1, 16.48077106217057), (2, 55.54054040806039)):
-        cycle = between_rests(motions(times, table[:, column], {1, 2, 3}), float(times[-1]), 3)
-        (solution,) = cycle.solutions
-        piece = next(piece for piece in cycle.pieces if piece.law is solution.law)
-        assert solution.objective * abs(piece.stroke) / times[-1] ** 3 == pytest.approx(least, rel=1e-12)
-        assert least == pytest.approx(rms(spline(times, table[:, column], 3, periodic=False), 3, times), rel=1e-12)
-        if column == 1:
-            assert cycle(1.0 + 1e-9, 3) == pytest.approx(108.853, abs=1e-3)
 
 
 @pytest.mark.parametrize("nu", [3, 4])

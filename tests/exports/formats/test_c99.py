@@ -14,11 +14,10 @@ from hypothesis import strategies as st
 
 from optlaws import InputError, Pieces, PiecewiseMotion, Problem, smoothstep, synthesize
 from tests.exports.motions import random_motion
+from tests.exports.moves import COMPILER, SANITISED, STRICT
 from tests.internals.exports import DOUBLE, SINGLE, Labels, as_stored, c_name, error_bounds, header, polynomials_of_law
 from tests.sampling import examples
 
-COMPILER = shutil.which("gcc") or shutil.which("cc")
-STRICT = ["-std=c99", "-Wall", "-Wextra", "-Werror", "-pedantic", "-Wconversion", "-Wdouble-promotion", "-O2"]
 needs_compiler = pytest.mark.skipif(COMPILER is None, reason="there is no C compiler")
 
 
@@ -57,8 +56,17 @@ def program(number: int, x: list[float], *, single: bool) -> str:
 """
 
 
-@needs_compiler
-def test_compiled_headers_keep_their_bounds_in_double_and_float(tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("compiler", "sanitised"),
+    [(COMPILER, False), *(pytest.param(name, True, marks=pytest.mark.long) for name in ("gcc", "clang"))],
+)
+def test_compiled_headers_keep_their_bounds_in_double_and_float(
+    compiler: str | None,
+    sanitised: bool,  # noqa: FBT001
+    tmp_path: Path,
+) -> None:
+    if compiler is None or shutil.which(compiler) is None:
+        pytest.skip(f"there is no {compiler or 'C compiler'}")
     made = motions()
     bodies, asked = [], {}
     for i, motion in enumerate(made):
@@ -71,7 +79,8 @@ def test_compiled_headers_keep_their_bounds_in_double_and_float(tmp_path: Path) 
         f"#include <stddef.h>\n#include <stdio.h>\n{includes}int main(void)\n{{\n{''.join(bodies)}    return 0;\n}}\n"
     )
     (tmp_path / "main.c").write_text(source, "utf-8")
-    subprocess.run([str(COMPILER), *STRICT, "main.c", "-o", "main"], cwd=tmp_path, check=True)
+    flags = [*STRICT, *SANITISED] if sanitised else STRICT
+    subprocess.run([compiler, *flags, "main.c", "-o", "main"], cwd=tmp_path, check=True)
     run = subprocess.run([str(tmp_path / "main")], capture_output=True, text=True, check=True)
     rows = [line.split() for line in run.stdout.splitlines()]
     assert len(rows) == sum(map(len, asked.values()))

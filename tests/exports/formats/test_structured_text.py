@@ -1,5 +1,6 @@
 """Function blocks in Structured Text: parsed by a grammar of IEC 61131-3, and evaluated against exact arithmetic."""
 
+import re
 from fractions import Fraction
 from math import perm
 
@@ -8,14 +9,17 @@ import pytest
 
 from optlaws import InputError, Pieces, PiecewiseMotion, Problem, smoothstep, synthesize
 from tests.exports.motions import random_motion
-from tests.exports.structured_text import Block, parsed
+from tests.exports.moves import exported
+from tests.exports.structured_text import Block, parsed, without_comments
 from tests.internals.exports import (
     DOUBLE,
+    IEC_KEYWORDS,
     SINGLE,
     Labels,
     as_stored,
     error_bounds,
     function_block,
+    jerk_limited_move,
     polynomials_of_law,
     real,
 )
@@ -56,6 +60,23 @@ def test_evaluated_it_keeps_its_bounds_forwards_backwards_and_beyond(single: boo
         after, last = block(breaks[-1] + 1.0)["position"], block(breaks[-1])["position"]
         assert after == last
         assert not block(breaks[0] - 1.0)["inside"]
+
+
+@pytest.mark.parametrize("block", ["motion", "segments", "front"])
+def test_statements_end_with_semicolons_and_variables_are_called_like_nothing_of_the_standard(block: str) -> None:
+    """The standard's own grammar wants both, though the parser above takes a block without."""
+    source = without_comments(
+        {
+            "motion": lambda: function_block(random_motion(1, pieces=2, degree=2), "FB_Press"),
+            "segments": lambda: jerk_limited_move("iec-st", name="FB_Axis").text,
+            "front": lambda: exported("lift", "iec-st").text,
+        }[block]()
+    )
+    assert "END_IF;" in source or "END_WHILE;" in source
+    assert re.findall(r"END_(?:IF|WHILE|FOR)\b(?!;)", source) == []
+    names = {name.lower() for name in re.findall(r"^ +(\w+) : ", source, re.MULTILINE)}
+    assert len(names) > 8
+    assert names & IEC_KEYWORDS == set()
 
 
 def test_numbers_are_literals_of_the_standard_and_come_back() -> None:

@@ -56,29 +56,6 @@ def test_wrong_shapers_are_named(says: str, arguments: tuple[float, float, Shape
         shaped_law(smoothstep(3), *arguments)
 
 
-#: by how many per cent a frequency may be off while at most 5 % is left of an impulse: the first three from the table
-#: of a controller of printers (github.com/Klipper3d/klipper, docs/Resonance_Compensation.md, commit 84104bb), the other
-#: two half the widths 0.73 and 0.93 of Singhose, Porter, Tuttle and Singer 1997
-BANDS = {"MZV": 4.0, "ZVD": 15.0, "EI": 19.9, "two-hump EI": 36.2, "three-hump EI": 46.6}
-
-
-@pytest.mark.parametrize("shaper", BANDS)
-def test_little_is_left_within_the_band_of_a_shaper(shaper: Shaper) -> None:
-    law, nu = smoothstep(3), 60.0
-    shaped = shaped_law(law, nu, 0.0, shaper)
-    # what is left beside what the law alone leaves, as fast as it runs within the shaped one
-    duration = 1.0 - 2.0 * np.pi / nu * LASTS[shaper]
-    for off in 1.0 + BANDS[shaper] / 100.0 * np.linspace(-1.0, 1.0, 17):
-        alone = Follower(nu * off * duration).response(law).residual_displacement
-        left = Follower(nu * off).response(shaped).residual_displacement
-        assert left <= ALLOWED.get(shaper, 0.0502) * alone, off
-
-
-#: of those whose band is given in whole per cent
-ALLOWED = {"MZV": 0.062, "ZVD": 0.056}
-LASTS = {"ZV": 0.5, "MZV": 0.75, "ZVD": 1.0, "EI": 1.0, "two-hump EI": 1.5, "three-hump EI": 2.0}
-
-
 @pytest.mark.parametrize("shaper", ["ZV", "MZV", "ZVD"])
 def test_two_vibrations_are_shaped_one_after_the_other(shaper: Shaper) -> None:
     shaped = shaped_law(smoothstep(3), [25.0, 60.0], [0.02, 0.1], shaper)
