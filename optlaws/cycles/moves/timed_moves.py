@@ -53,9 +53,10 @@ def fastest(
     start_velocity, end_velocity
         Velocities at the ends, such as "0.2 m/s"; rest unless given. The acceleration is 0 there from order 3 on.
     drive
-        A motor that moves the axis through a mechanism, without losses in the gear: the stroke is that of the
+        A motor that moves the axis through a mechanism and a gear, which may lose power: the stroke is that of the
         mechanism's input. Limits may name the "torque" at the motor and its "rms torque" over the move; the torque is
-        at most the motor's peak torque and the speed its greatest speed. Laws never turn back then.
+        at most the motor's peak torque and below its curve over the speed, and the speed at most its greatest speed.
+        Laws never turn back then.
     start
         Position of the mechanism's input where the move begins.
     follower

@@ -59,13 +59,13 @@ def motor_limits(
     known = {
         FORCE: motor.peak_torque,
         _VELOCITY: motor.greatest_speed / ratio,
-        CURVE: 1.0 if _lines(motor) else float("inf"),
+        CURVE: 1.0 if curve_lines(motor) else float("inf"),
     }
     rated = float(motor.continuous_at(ratio * way / programme.period))
     return MotorLimits({nu: most for nu, most in known.items() if isfinite(most)}, rated if isfinite(rated) else None)
 
 
-def _lines(motor: Motor) -> list[tuple[float, float]]:
+def curve_lines(motor: Motor) -> list[tuple[float, float]]:
     """The lines below which the curve of peak torque is: the torque at rest, and its slope over the speed."""
     curve = motor.curve
     if not curve:
@@ -91,7 +91,7 @@ def driven_curve(span: LawSpan, drive: CycleDrive | PositionDrive | None, stroke
     speed = known.speed_ratio * abs(factor(stroke, span.duration, 1))
     torque, back, unit = branches_of(span, known, stroke)
     constants: list[Functional] = []
-    for at_rest, slope in _lines(known.source.motor):
+    for at_rest, slope in curve_lines(known.source.motor):
         share, falls = unit / at_rest, slope * speed / at_rest
         if not falls and not known.loses:
             constants.append(peak(f"{share!r}*({torque})"))

@@ -9,7 +9,6 @@ from scipy.optimize import brentq
 
 from optlaws.synthesis.least_time.fastest_law import law_in_time, unsettled
 from optlaws.synthesis.least_time.least_time import LeastTime, limit_of_all_laws
-from optlaws.synthesis.least_time.motor_torque import MotorTorque
 from optlaws.synthesis.least_time.move_limits import TimedMove
 from optlaws.synthesis.least_time.time_proof import TimeProof, proof_by
 from optlaws.synthesis.solution import Solution
@@ -53,7 +52,7 @@ class _Trials:
         return min(time for time, solution in self.solutions.items() if solution.objective <= 1.0 + FEASIBILITY)
 
 
-def least_time_of_motor(move: TimedMove, torque: MotorTorque) -> LeastTime:
+def least_time_of_motor(move: TimedMove) -> LeastTime:
     """The least time that is found between one that is too short and one that is enough.
 
     Where laws that keep the limits keep them in every longer time, a certificate of one time proves the shorter ones.
@@ -63,7 +62,7 @@ def least_time_of_motor(move: TimedMove, torque: MotorTorque) -> LeastTime:
     duration = trials.root(low, high)
     too_short = duration * (1.0 - LEAST_TIME_GAP)
     proofs: tuple[TimeProof, ...] = ()
-    if torque.grows_possible and move.shares(duration).convex:
+    if move.stays_possible and move.shares(duration).convex:
         proof = proof_by(trials.solution(too_short).certificate, move, 0.0, too_short)
         proofs = (proof,) if proof.stands(move) else ()
     return LeastTime(move, duration, trials.solutions[duration], proofs)

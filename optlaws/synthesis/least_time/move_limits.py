@@ -189,7 +189,10 @@ class TimedMove:
     @property
     def stays_possible(self) -> bool:
         """Whether a law that keeps every limit but that of the vibration left keeps them in every longer time."""
-        return self.at_rest and (self.torque is None or self.torque.grows_possible)
+        if self.torque is None:
+            return self.at_rest
+        greatest = inf if self.limits.velocity is None else self.limits.velocity / self.stroke
+        return self.torque.grows_possible and self.torque.brakes_with_load(greatest)
 
     @property
     def rates(self) -> tuple[RateLimit, ...]:
