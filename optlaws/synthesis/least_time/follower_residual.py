@@ -80,8 +80,8 @@ class FollowerResidual(JsonText):
         >>> size = LawSize(0.5, 2.0)
         >>> FollowerResidual(95.0, 105.0, 0.05, most=0.4).limit_over(0.199, 0.2, 0.1, size).constant
         residual(frequency=(19.000000000000004, 20.894999999999996), damping=0.05)
-        >>> one = FollowerResidual(100.0, 100.0, 0.0, most=0.4)
-        >>> round(one.limit_over(0.1998, 0.2, 0.1, size).bound, 6)
+        >>> certain = FollowerResidual(100.0, 100.0, 0.0, most=0.4)
+        >>> round(certain.limit_over(0.1998, 0.2, 0.1, size).bound, 6)
         0.55972
         """
         low, high = nextafter(self.lowest * longest, inf), nextafter(self.highest * shortest, 0.0)
