@@ -166,11 +166,12 @@ def _proof_of_power(base: Problem, rows: Sequence[SpanLimit], scale: float, allo
         with meant():
             solution = synthesize(replace(within, minimise="D", bounds=others, D=None), bound="tight")
     except InfeasibleProblem as error:
-        return error.proof if isinstance(error.proof, Certificate) else None
+        proof = error.proof
+        return proof if isinstance(proof, Certificate) and proof.proves_infeasible else None
     except SolverFailure:
         return None
-    proof = solution.power_certificate
-    return proof if proof is not None and proof.bound > allowed else None
+    bound = solution.power_certificate
+    return bound if bound is not None and bound.bound > allowed else None
 
 
 def _shares(rows: Sequence[SpanLimit], solution: Solution, scale: float) -> tuple[float, ...]:

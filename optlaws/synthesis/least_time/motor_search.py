@@ -19,7 +19,7 @@ _WIDER, _WIDEST = 0.1, 20.0
 #: by how much the logarithm of the time grows where a limit of vibrations is not kept
 _UPWARD = 0.01
 #: of the times not yet proven to be too short: the first box, the longest, the shortest; how boxes grow and shrink
-_FIRST_BOX, _MOST_BOX, _LEAST_BOX = 0.3, 0.9, 2.0**-8
+_FIRST_BOX, _MOST_BOX, _LEAST_BOX = 0.3, 0.9, 0.01
 _MORE, _LESS = 1.3, 0.5
 _MOST_BOXES = 60
 #: of the gap that is allowed, what the last box leaves
