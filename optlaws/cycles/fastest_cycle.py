@@ -9,10 +9,12 @@ from typing import Any
 
 from optlaws.cycles.greatest_speed.fastest_search import FastestSearch, TimedSpan
 from optlaws.cycles.kinematics import TimedCycle
-from optlaws.cycles.optimisation.motion_limits import amount, word_of
+from optlaws.cycles.optimisation.motion_limits import CURVE, amount, word_of
+from optlaws.cycles.optimisation.motor_limits import MOTOR
 from optlaws.cycles.optimisation.objectives import CycleObjective
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
+from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.motion.quantities import TURN
 from optlaws.shown.summary import Row, Summary
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
@@ -187,7 +189,8 @@ class FastestCycle:
         }
         about = (
             f"greatest speed {self.rpm:.9g} rpm, least period {self.period:.9g} s; in a millionth less of their time "
-            "these motions have no law within the limits, or their least mean squares sum to more than the rating"
+            "these motions have no law within the limits, or take more power, or their least mean squares sum to more "
+            "than the rating"
         )
         return {"about": about, **entries}
 
@@ -224,6 +227,12 @@ def fastest_cycle(cycle: Any, objective: CycleObjective) -> FastestCycle:  # noq
             "the greatest speed is not sought with a load that is minimised or limited, as what it does follows its "
             "own period: limit the cycle's own quantities, and look at load_motion of the cycle at that speed"
         )
+    source = getattr(objective.drive, "source", None)
+    if cycle.limits.get(MOTOR) is True and isinstance(source, Drive) and source.motor.continuous:
+        raise InputError(
+            "limits, motor: its continuous torque follows the speed that is sought: give a rated torque in place of "
+            'that curve, or limits={"rms torque": "2 N m"} beside a motor without it'
+        )
     search = FastestSearch(cycle.programme, objective, {})
     laws = search.laws()
     timed = TimedCycle(laws.programme, laws.starts, laws.pieces)
@@ -241,7 +250,10 @@ def _raised_period(search: FastestSearch, name: str) -> float:
 
 def _least_duration(search: FastestSearch, span: TimedSpan) -> LeastDuration:
     axis = search.programme.axis
-    limits = (f"{word_of(row.key, axis)} {amount(row.key, row.most, axis)}" for row in span.least.binding)
+    limits = (
+        "motor's curve" if row.key == CURVE else f"{word_of(row.key, axis)} {amount(row.key, row.most, axis)}"
+        for row in span.least.binding
+    )
     return LeastDuration(
         span.where, span.needed, search.time_of(span), tuple(dict.fromkeys(limits)), binding=span in search.binding
     )

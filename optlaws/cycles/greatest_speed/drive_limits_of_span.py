@@ -2,25 +2,29 @@
 
 Run `scale` times slower, a motion takes what it takes at rest in its positions, the static force F_0, and the rest of
 its force divided by the square of the scale. With u = 1/scale² that is (1 - u) F_0 + u F: between two forces that keep
-the limit, where the static one does. With viscous friction, and of power beside a static force, this does not follow.
+the limit, where the static one does. With viscous friction, below a motor's curve and of power this follows between
+rests where inertia and static force are constant: docs/theory/cycles.md.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import exp, inf, log
 
 from optlaws.cycles.greatest_speed.scaling import slower
-from optlaws.cycles.optimisation.drive_formulas import driven_peak
-from optlaws.cycles.optimisation.motion_limits import FORCE, in_units
+from optlaws.cycles.optimisation.drive_formulas import Driven, driven_peak
+from optlaws.cycles.optimisation.motion_limits import CURVE, FORCE, POWER, in_units
+from optlaws.cycles.optimisation.motor_limits import driven_curve, torque_at_rest
 from optlaws.cycles.specification.drive import CycleDrive
 from optlaws.cycles.specification.joints import LawSpan
 from optlaws.cycles.specification.position_drive import PositionDrive
-from optlaws.errors import InfeasibleProblem, InputError
+from optlaws.errors import InfeasibleProblem
+from optlaws.formulas.tree import Number
 from optlaws.laws import MotionLaw
+from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.motion.quantities import in_small_units
 from optlaws.synthesis.problem.constants import Functional
-from optlaws.tolerances import AGREEMENT, DURATION_STEP, SAME_TIME
+from optlaws.tolerances import AGREEMENT, DURATION_STEP, LEAST_SHARE, SAME_TIME
 
 _PLACES = 65  # at which the static torque of a mechanism is looked at
 _SLOWEST = 2.0**40
@@ -28,26 +32,44 @@ _SLOWEST = 2.0**40
 
 @dataclass(frozen=True)
 class DrivenLimit:
-    """A limit of force or torque (-1) or of power (-3) along a span's law."""
+    """A limit of force or torque (-1), of power (-3) or of the share of a motor's curve (-6) along a span's law.
+
+    Where several constants make it, as behind a gear with losses, `part` says which is meant.
+    """
 
     key: int
     most: float
     span: LawSpan
     drive: CycleDrive | PositionDrive
     stroke: float
+    part: int = 0
 
     @property
     def scales(self) -> bool:
-        """Whether a law that keeps it keeps it at every lower speed."""
+        """Whether it is the limit itself, and a law that keeps it keeps it at every lower speed."""
+        resting = not any((self.span.first.velocity, self.span.last.velocity))
         if isinstance(self.drive, PositionDrive):
-            return False
-        static = any((self.drive.stiffness, self.drive.constant, self.drive.dry))
-        return self.drive.viscous == 0.0 and (self.key == FORCE or not static)
+            return self.driven(1.0).exact and _torque_scales(self.drive, self.key, resting=resting)
+        drive, plain = self.drive, resting and self.drive.stiffness == 0.0
+        if self.key == FORCE:
+            return drive.viscous == 0.0 or plain
+        static = drive.dry + (drive.constant if self.span.displacement > 0.0 else -drive.constant)
+        if drive.stiffness == drive.constant == drive.dry == 0.0:
+            return drive.viscous == 0.0 or plain
+        # dry friction is of laws that never turn back
+        return plain and drive.dry > 0.0 and (drive.viscous == 0.0 or static >= 0.0)
+
+    def driven(self, scale: float) -> Driven:
+        """What the drive takes of the law at a scale of the time."""
+        span = slower(self.span, scale)
+        if self.key == CURVE:
+            return driven_curve(span, self.drive, self.stroke)
+        return driven_peak(span, self.drive, self.stroke, self.key)
 
     def term(self, scale: float) -> tuple[Functional, float]:
         """The peak of the force or power of the law at a scale of the time, and the share that one of it is."""
-        driven = driven_peak(slower(self.span, scale), self.drive, self.stroke, self.key)
-        return driven.constants[0], driven.unit / self.most
+        driven = self.driven(scale)
+        return driven.constants[self.part], driven.unit / self.most
 
     def share(self, law: MotionLaw, scale: float) -> float:
         """What a law takes of the limit at a scale of the time."""
@@ -56,11 +78,13 @@ class DrivenLimit:
 
     def slope(self, law: MotionLaw, scale: float) -> float:
         """By which power of the scale the share of a law falls, by differences."""
-        before, after = (self.share(law, scale * (1.0 + sign * DURATION_STEP)) for sign in (-1.0, 1.0))
+        before, after = (
+            max(self.share(law, scale * (1.0 + sign * DURATION_STEP)), LEAST_SHARE) for sign in (-1.0, 1.0)
+        )
         return max(0.0, log(before / after) / log((1.0 + DURATION_STEP) / (1.0 - DURATION_STEP)))
 
     def least_scale(self, law: MotionLaw) -> float:
-        """The least scale from which on a law keeps it; infinite where it keeps it at none."""
+        """The least scale from which on a law keeps it; infinite where it keeps it at none, 0 where at every one."""
         from scipy.optimize import brentq
 
         high = 1.0
@@ -71,38 +95,49 @@ class DrivenLimit:
         low = 0.5 * high
         while self.share(law, low) <= 1.0:
             low, high = 0.5 * low, low
+            if low < 1.0 / _SLOWEST:
+                return 0.0
         root = brentq(
-            lambda place: log(self.share(law, exp(place))), log(low), log(high), xtol=SAME_TIME, rtol=SAME_TIME
+            lambda place: log(max(self.share(law, exp(place)), LEAST_SHARE)),
+            log(low),
+            log(high),
+            xtol=SAME_TIME,
+            rtol=SAME_TIME,
         )
         return exp(float(root))
 
 
-def driven_limit(
+def driven_limits(
     key: int, most: float, span: LawSpan, drive: CycleDrive | PositionDrive, stroke: float, axis: str
-) -> DrivenLimit:
-    """A limit of the drive along a span.
+) -> list[DrivenLimit]:
+    """A limit of the drive along a span: one for each constant that makes it.
 
     Raises
     ------
-    InputError
-        If a gear loses power, so that the torque is the greater of two.
     InfeasibleProblem
         If the static force is beyond it, so that no speed keeps it.
     """
-    if isinstance(drive, PositionDrive) and drive.loses:
-        raise InputError(
-            f"{span.where}: the greatest speed behind a gear with losses is not sought: give an efficiency of 1 and "
-            "limits that leave room for what the gear loses"
-        )
-    if key == FORCE:
+    if key in {FORCE, CURVE}:
         position, force = static_force(span, drive)
-        if force > most * (1.0 + AGREEMENT):
-            taken, allowed = (in_units(FORCE, value, axis) for value in (force, most))
+        allowed_at_rest = most * (torque_at_rest(drive) if key == CURVE else 1.0)
+        if force > allowed_at_rest * (1.0 + AGREEMENT):
+            taken, allowed = (in_units(FORCE, value, axis) for value in (force, allowed_at_rest))
             raise InfeasibleProblem(
                 f"{span.where}: at {in_small_units(position, axis)} what is static takes {taken}, so that no speed "
                 f"keeps {allowed}: allow more, or change the drive's spring, preload, gravity or friction"
             )
-    return DrivenLimit(key, most, span, drive, stroke)
+    first = DrivenLimit(key, most, span, drive, stroke)
+    return [replace(first, part=part) for part in range(len(first.driven(1.0).constants))]
+
+
+def _torque_scales(drive: PositionDrive, key: int, *, resting: bool) -> bool:
+    """Whether a torque that keeps its limit keeps it at every lower speed: where the static one does, which is one."""
+    mechanism = drive.mechanism
+    if key == POWER or drive.process is not None or not isinstance(mechanism.load_formula, Number):
+        return False
+    motor = drive.source.train.viscous if isinstance(drive.source, Drive) else 0.0
+    plain = key == FORCE and not mechanism.viscous and not motor
+    return plain or (resting and isinstance(mechanism.inertia_formula, Number))
 
 
 def static_force(span: LawSpan, drive: CycleDrive | PositionDrive) -> tuple[float, float]:

@@ -28,7 +28,7 @@ from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.kept import kept_property
 from optlaws.motion.piece import Piece, factor
 from optlaws.synthesis.problem.problem import Problem
-from optlaws.synthesis.proof.certificate import Certificate
+from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.status import Status
 from optlaws.tolerances import BINDING_LIMIT, CLOSURE, FASTER, SAME_TIME
@@ -185,7 +185,7 @@ class FastestSearch:
         if self.rating is not None and self.rating.binds:
             return self.rating.proofs or {}
         return {
-            f"{span.where} in {span.needed * (1.0 - FASTER):.9g} s": span.least.proof
+            f"{span.where} in {span.needed * (1.0 - FASTER):.9g} s{_of_what(span.least.proof)}": span.least.proof
             for span in self.binding
             if span.least.proof is not None
         }
@@ -256,7 +256,8 @@ class FastestSearch:
         given = self.programme.stretches
         left = self.programme.period - sum(stretch.least for stretch in given if stretch.fixed)
         free = sum(not stretch.fixed for stretch in given)
-        return layout(self.programme, [stretch.least if stretch.fixed else left / free for stretch in given])
+        placed = layout(self.programme, [stretch.least if stretch.fixed else left / free for stretch in given])
+        return replace(placed, spans=tuple(map(_at_rest, placed.spans)))
 
     def _of_piece(self, piece: Piece) -> TimedSpan:
         """A motion by a law that is given, or of constant velocity."""
@@ -339,3 +340,18 @@ class FastestSearch:
                     f"{stretch.where} takes what is left, and nothing stops it from vanishing at the greatest speed: "
                     "give it a least duration, such as duration=('20 ms', '10 s')"
                 )
+
+
+def _of_what(proof: Certificate) -> str:
+    """What a certificate bounds, unless it is a contradiction."""
+    return "" if proof.program == VIOLATION else ", least power"
+
+
+def _at_rest(span: LawSpan) -> LawSpan:
+    """The span at rest where a law beside it leaves it but for rounding: what is proven from rest counts on it."""
+    way = abs(scale(span)) * SAME_TIME
+    first, last = (
+        State(*(0.0 if abs(value) <= factor(way, span.duration, nu) else value for nu, value in enumerate(state, 1)))
+        for state in (span.first, span.last)
+    )
+    return replace(span, first=first, last=last)

@@ -117,7 +117,7 @@ class ForceRating:
     def scales(self) -> bool:
         """Whether a cycle that keeps the limit keeps it at every lower speed."""
         drive = self.drive
-        if isinstance(drive, PositionDrive) or drive.viscous:
+        if isinstance(drive, PositionDrive) or (drive.viscous and (drive.stiffness or drive.constant)):
             return False
         return all(static_force(span, drive)[1] <= self.most for span in self.placed(self.given).spans)
 

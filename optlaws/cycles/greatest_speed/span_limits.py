@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
-from optlaws.cycles.greatest_speed.drive_limits_of_span import driven_limit
+from optlaws.cycles.greatest_speed.drive_limits_of_span import DrivenLimit, driven_limits
 from optlaws.cycles.optimisation.motion_limits import CURVE, FORCE, POWER, LimitKey, Limits
 from optlaws.cycles.optimisation.objectives import CycleObjective
 from optlaws.cycles.optimisation.optimal import limited_by
@@ -89,13 +89,8 @@ def limits_of_span(
     for (low, high), of_part in _parts(span, limits):
         whole = (low, high) == (span.start, span.stop)
         for key, most in of_part.items():
-            if key == CURVE:
-                raise InputError(
-                    f"{span.where}: the greatest speed within a motor's curve is not sought: give limits of the torque "
-                    "and the velocity in its place"
-                )
-            if key in (FORCE, POWER):
-                rows.append(_of_drive(key, most, span, objective, stroke, axis, whole=whole))
+            if key in (FORCE, POWER, CURVE):
+                rows += _of_drive(key, most, span, objective, stroke, axis, whole=whole)
                 continue
             known = limited_by(span, objective, stroke, key)
             within = (place(span, low), place(span, high))
@@ -106,12 +101,12 @@ def limits_of_span(
 
 def _of_drive(
     key: LimitKey, most: float, span: LawSpan, objective: CycleObjective, stroke: float, axis: str, *, whole: bool
-) -> SpanLimit:
+) -> list[DrivenLimit]:
     if not isinstance(key, int) or not whole:
         raise InputError(f"{span.where} are one law: give the force or power of all of them the same limit")
     if objective.drive is None:
         raise InputError("force, torque and power are of a drive: give one, such as drive={'mass': '2 kg'}")
-    return driven_limit(key, most, span, objective.drive, stroke, axis)
+    return driven_limits(key, most, span, objective.drive, stroke, axis)
 
 
 def _parts(span: LawSpan, limits: Sequence[Limits]) -> Iterator[tuple[tuple[float, float], Limits]]:

@@ -14,9 +14,10 @@ from dataclasses import dataclass, replace
 from math import inf, sqrt
 
 from optlaws.cycles.greatest_speed.span_limits import SpanLimit, least_scale
-from optlaws.errors import SolverFailure
+from optlaws.errors import InfeasibleProblem, SolverFailure
+from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
-from optlaws.synthesis.problem.constants import meant
+from optlaws.synthesis.problem.constants import D, meant
 from optlaws.synthesis.problem.expression import maximum
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
@@ -37,7 +38,8 @@ class SpanTime:
     """The least scale of the time of a span, the law that has it, and why no law is faster.
 
     `shares` are the multipliers of the limits, which sum to 1: a limit that is raised by a little shortens the time by
-    its multiplier over the mean power. `proof` shows that no law keeps the limits in `FASTER` less of the time.
+    its multiplier over the mean power. `base` is the problem without its limits, None for a law that is given, and
+    `last` the solution whose multipliers may prove the most.
     """
 
     scale: float
@@ -45,7 +47,23 @@ class SpanTime:
     rows: tuple[SpanLimit, ...]
     shares: tuple[float, ...] = ()
     solution: Solution | None = None
-    proof: Certificate | None = None
+    base: Problem | None = None
+    last: Solution | None = None
+
+    @kept_property
+    def proof(self) -> Certificate | None:
+        """That no law keeps the limits in `FASTER` less of the time; None of a law that is given or if none is known.
+
+        It is a contradiction or, of the power of an inertia, a bound of the least power that is above its limit.
+        """
+        if self.base is None or self.last is None:
+            return None
+        faster = self.scale * (1.0 - FASTER)
+        allowed = _allowed_power(self.rows, faster)
+        if allowed is not None:
+            return _proof_of_power(self.base, self.rows, faster, allowed)
+        proof = _proof(self.base, self.rows, faster, self.last)
+        return proof or _proof(self.base, self.rows, faster, _least_share(self.base, self.rows, faster, self.last))
 
     @property
     def binding(self) -> tuple[SpanLimit, ...]:
@@ -88,11 +106,7 @@ def least_time(base: Problem, rows: Sequence[SpanLimit], where: str) -> SpanTime
         scale, previous = following, solution
     if fastest is None:
         raise SolverFailure(f"{where}: no least time was found: widen its limits a little, or give it another degree")
-    faster = best * (1.0 - FASTER)
-    proof = _proof(base, rows, faster, solution)
-    if proof is None:
-        proof = _proof(base, rows, faster, _least_share(base, rows, faster, solution))
-    return SpanTime(best, fastest.law, tuple(rows), _shares(rows, solution, scale), fastest, proof)
+    return SpanTime(best, fastest.law, tuple(rows), _shares(rows, solution, scale), fastest, base, solution)
 
 
 def _following(scale: float, share: float, slope: float, ends: tuple[float, float]) -> float:
@@ -136,6 +150,28 @@ def _proof(base: Problem, rows: Sequence[SpanLimit], scale: float, solution: Sol
     contacts = [contact for contact in solution.certificate.contacts if not _PART.match(contact.constraint)]
     proof = Certificate.of_leaf(limited(base, rows, scale), contacts, solution.certificate.equations, VIOLATION)
     return proof if proof.proves_infeasible else None
+
+
+def _allowed_power(rows: Sequence[SpanLimit], scale: float) -> float | None:
+    """What the limits of the power of an inertia allow of D at a scale; None where there are none."""
+    terms = (row.term(scale) for row in rows)
+    return min((1.0 / weight for constant, weight in terms if constant == D), default=None)
+
+
+def _proof_of_power(base: Problem, rows: Sequence[SpanLimit], scale: float, allowed: float) -> Certificate | None:
+    """That no law within the other limits takes as little power as is allowed, or that none keeps these."""
+    within = limited(base, rows, scale)
+    others = {constant: bound for constant, bound in within.bounds.items() if constant != D}
+    try:
+        with meant():
+            solution = synthesize(replace(within, minimise="D", bounds=others, D=None), bound="tight")
+    except InfeasibleProblem as error:
+        proof = error.proof
+        return proof if isinstance(proof, Certificate) and proof.proves_infeasible else None
+    except SolverFailure:
+        return None
+    bound = solution.power_certificate
+    return bound if bound is not None and bound.bound > allowed else None
 
 
 def _shares(rows: Sequence[SpanLimit], solution: Solution, scale: float) -> tuple[float, ...]:

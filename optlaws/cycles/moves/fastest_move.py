@@ -17,6 +17,7 @@ from optlaws.numbers import Quantity
 from optlaws.shown.summary import Row, Summary
 from optlaws.suggest import keywords_of
 from optlaws.synthesis.least_time.least_time import LeastTime
+from optlaws.synthesis.least_time.motor_torque import CURVE_LIMIT
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.status import Status
 from optlaws.tolerances import SAME_TIME
@@ -192,6 +193,8 @@ class FastestMove(LawExport, JsonText):
             for name, most in torques.items():
                 if most is not None:
                     rows.append(Row(name, most * self.least.used[name], "N m", note=self._use(name)))
+            if move.torque.curve:
+                rows.append(Row(CURVE_LIMIT, self.least.used[CURVE_LIMIT], "", note=self._use(CURVE_LIMIT)))
         if move.residual is not None:
             left = move.residual.most * self.least.used["residual acceleration"]
             rows.append(Row("residual acceleration", left, unit_of(axis, 2), note=self._use("residual acceleration")))

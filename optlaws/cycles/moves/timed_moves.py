@@ -8,13 +8,14 @@ from typing import Any, NamedTuple
 
 from optlaws.cycles.moves.fastest_move import AXES, FastestMove
 from optlaws.cycles.moves.torque_limits import TORQUES, motor_torque, without_torques
-from optlaws.cycles.moves.vibration_limits import RESIDUAL, vibration_limit
+from optlaws.cycles.moves.vibration_limits import vibration_limit
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.motion.quantities import either, positive_quantity, quantity, table
 from optlaws.numbers import NumberOrQuantity, Quantity, listed
 from optlaws.suggest import unknown_key
+from optlaws.synthesis.least_time.follower_residual import RESIDUAL
 from optlaws.synthesis.least_time.least_time import LeastTime
 from optlaws.synthesis.least_time.motor_torque import MotorTorque
 from optlaws.synthesis.least_time.move_limits import MoveLimits, TimedMove
@@ -53,9 +54,10 @@ def fastest(
     start_velocity, end_velocity
         Velocities at the ends, such as "0.2 m/s"; rest unless given. The acceleration is 0 there from order 3 on.
     drive
-        A motor that moves the axis through a mechanism, without losses in the gear: the stroke is that of the
+        A motor that moves the axis through a mechanism and a gear, which may lose power: the stroke is that of the
         mechanism's input. Limits may name the "torque" at the motor and its "rms torque" over the move; the torque is
-        at most the motor's peak torque and the speed its greatest speed. Laws never turn back then.
+        at most the motor's peak torque and below its curve over the speed, and the speed at most its greatest speed.
+        Laws never turn back then.
     start
         Position of the mechanism's input where the move begins.
     follower

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from math import isfinite
+from math import inf, isfinite
 from typing import Any
 
-from optlaws.echo import shortened
+from optlaws.cycles.optimisation.motor_limits import curve_lines
 from optlaws.errors import InputError
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.motion.quantities import positive_quantity, quantity
 from optlaws.numbers import NumberOrQuantity
-from optlaws.synthesis.least_time.motor_torque import MotorTorque
+from optlaws.synthesis.least_time.motor_torque import LossyGear, MotorTorque
 
 #: limits at the motor
 TORQUES = ("torque", "rms torque")
@@ -51,8 +51,8 @@ def motor_torque(
     Raises
     ------
     InputError
-        If the gear loses power, the stroke leaves the range of the mechanism, nothing limits the torque, or the load
-        alone is above the limit.
+        If the stroke leaves the range of the mechanism, the motor's curve is not concave, nothing limits the torque, or
+        the load alone is above the limit.
 
     Examples
     --------
@@ -62,26 +62,28 @@ def motor_torque(
     >>> torque.inertia, torque.friction, torque.load, torque.peak, torque.rms
     ('1.15', 0.0, '0.0', 4.0, 2.0)
     """
-    if drive.efficiencies != (1.0, 1.0):
-        raise InputError(
-            f"a least time is sought of a drive whose gear loses nothing, got the efficiency "
-            f"{shortened(drive.efficiency)}: give the torque before the gear a margin instead"
-        )
     most = {name: positive_quantity(limits[name], "torque", f"limits: {name}") for name in TORQUES if name in limits}
     if isfinite(drive.motor.peak_torque):
         most["torque"] = min(most.get("torque", drive.motor.peak_torque), drive.motor.peak_torque)
+    lines = curve_lines(drive.motor)
+    if lines:
+        most["torque"] = min(most.get("torque", inf), max(torque for _, torque in drive.motor.curve))
     if not most:
         raise InputError('nothing limits the torque: give limits={"torque": "3 N m"}, or a motor with a peak torque')
     moved, train, i = drive.mechanism.dimensionless(start, stroke, 1.0), drive.train, drive.ratio
     unit, way = moved.unit / i, abs(moved.stroke)
-    inertia, coulomb = train.inertia * i * way / unit, train.coulomb / unit
+    inertia, friction, coulomb = train.inertia * i * way / unit, train.viscous * i * way / unit, train.coulomb / unit
+    to_load, back = drive.efficiencies
+    gear = None if to_load == back == 1.0 else LossyGear(1.0 / to_load, back, inertia, friction, coulomb)
     return MotorTorque(
-        _sum(inertia, moved.inertia),
-        train.viscous * i * way / unit + float(moved.friction),
-        _sum(coulomb, moved.load),
+        moved.inertia if gear else _sum(inertia, moved.inertia),
+        float(moved.friction) + (0.0 if gear else friction),
+        moved.load if gear else _sum(coulomb, moved.load),
         unit,
         most.get("torque"),
         most.get("rms torque"),
+        gear,
+        tuple((torque, -slope * i * way) for torque, slope in lines if slope),
     )
 
 

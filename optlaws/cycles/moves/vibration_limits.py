@@ -10,9 +10,8 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.motion.quantities import positive_quantity, table
 from optlaws.suggest import unknown_key
-from optlaws.synthesis.least_time.follower_residual import FollowerResidual
+from optlaws.synthesis.least_time.follower_residual import RESIDUAL, FollowerResidual
 
-RESIDUAL = "residual acceleration"
 _EXAMPLE = '{"frequency": ("15.9 Hz", "17.5 Hz"), "damping": 0.05}'
 _KEYS = ("frequency", "damping")
 _ACCELERATIONS = {"m": "acceleration", "rad": "angular acceleration"}

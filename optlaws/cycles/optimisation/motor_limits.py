@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from itertools import pairwise
-from math import isfinite
+from math import inf, isfinite
 from typing import Any
 
 from optlaws.cycles.optimisation.drive_formulas import Driven, branches_of, known_drive
@@ -59,13 +59,13 @@ def motor_limits(
     known = {
         FORCE: motor.peak_torque,
         _VELOCITY: motor.greatest_speed / ratio,
-        CURVE: 1.0 if _lines(motor) else float("inf"),
+        CURVE: 1.0 if curve_lines(motor) else inf,
     }
     rated = float(motor.continuous_at(ratio * way / programme.period))
     return MotorLimits({nu: most for nu, most in known.items() if isfinite(most)}, rated if isfinite(rated) else None)
 
 
-def _lines(motor: Motor) -> list[tuple[float, float]]:
+def curve_lines(motor: Motor) -> list[tuple[float, float]]:
     """The lines below which the curve of peak torque is: the torque at rest, and its slope over the speed."""
     curve = motor.curve
     if not curve:
@@ -83,6 +83,13 @@ def _lines(motor: Motor) -> list[tuple[float, float]]:
     return [(torque - slope * speed, slope) for (speed, torque), slope in zip(curve, slopes, strict=False)]
 
 
+def torque_at_rest(drive: CycleDrive | PositionDrive) -> float:
+    """The torque that the curve of a drive's motor allows at rest; infinite without a curve."""
+    source = drive.source if isinstance(drive, PositionDrive) else None
+    lines = curve_lines(source.motor) if isinstance(source, Drive) else []
+    return min((torque for torque, _ in lines), default=inf)
+
+
 def driven_curve(span: LawSpan, drive: CycleDrive | PositionDrive | None, stroke: float) -> Driven:
     """The share of the motor's curve that a span's law uses: at most 1 where the motor can."""
     known = known_drive(drive)
@@ -91,11 +98,11 @@ def driven_curve(span: LawSpan, drive: CycleDrive | PositionDrive | None, stroke
     speed = known.speed_ratio * abs(factor(stroke, span.duration, 1))
     torque, back, unit = branches_of(span, known, stroke)
     constants: list[Functional] = []
-    for at_rest, slope in _lines(known.source.motor):
+    for at_rest, slope in curve_lines(known.source.motor):
         share, falls = unit / at_rest, slope * speed / at_rest
         if not falls and not known.loses:
             constants.append(peak(f"{share!r}*({torque})"))
             continue
         constants.append(peak(f"{share!r}*({torque}) + {-falls!r}*b", side="high"))
         constants.append(peak(f"{share!r}*({back}) + {falls!r}*b", side="low"))
-    return Driven(tuple(constants), 1.0, exact=known.brakes_as_it_drives)
+    return Driven(tuple(constants), 1.0, exact=not known.loses or known.brakes_as_it_drives)

@@ -16,8 +16,10 @@ _UNBOUNDED = (
 )
 
 
-def law_in_time(move: TimedMove, duration: float, warm: ActiveSet | None) -> Solution:
+def law_in_time(move: TimedMove, duration: float, warm: ActiveSet | None, shortest: float | None = None) -> Solution:
     """The law whose greatest share of the limits in a time is least, begun from the contacts of a time near by.
+
+    With a shortest time the limits are those of all times between.
 
     Raises
     ------
@@ -28,7 +30,7 @@ def law_in_time(move: TimedMove, duration: float, warm: ActiveSet | None) -> Sol
     SolverFailure
         If no law is found.
     """
-    problem = move.shares(duration)
+    problem = move.shares(duration, shortest=shortest)
     search = LawSearch(model_of(problem), warm=warm)
     solution = best_available(search)
     if solution is None:

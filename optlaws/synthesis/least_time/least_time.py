@@ -18,7 +18,8 @@ from optlaws.synthesis.least_time.motor_torque import MotorTorque
 from optlaws.synthesis.least_time.move_limits import MoveLimits, TimedMove, power
 from optlaws.synthesis.least_time.segment_times import segment_times, time_of_any_law
 from optlaws.synthesis.least_time.time_proof import Multipliers, TimeProof, covers
-from optlaws.synthesis.limits.drive_limits import drive_limit
+from optlaws.synthesis.limits.drive_limits import limit_of_plane, phase_torque
+from optlaws.synthesis.limits.phase_plane import PhasePlane, TorqueLimit
 from optlaws.synthesis.problem.constants import meant
 from optlaws.synthesis.proof.data import problem_of
 from optlaws.synthesis.solution import Solution
@@ -78,7 +79,7 @@ class LeastTime(JsonText):
 
     @property
     def status(self) -> Status:
-        """Whether the least time is proven, or the least that was found: a torque not convex in the law, vibration."""
+        """Whether the least time is proven, or the least that was found: where a torque is not convex in the law."""
         return Status.OPTIMAL if self.gap <= 2.0 * LEAST_TIME_GAP else Status.LOCAL
 
     @kept_property
@@ -207,22 +208,30 @@ def limit_of_all_laws(move: TimedMove) -> float | None:
         return None
     known = time_of_any_law(move.stroke, move.limits, move.problem.order) if move.rates else None
     torque = move.torque
-    if torque is None or torque.peak is None:
+    if torque is None or not torque.lines:
         return known
     limits, stroke = move.limits, move.stroke
     accelerations = [limit for limit in (limits.acceleration, limits.deceleration) if limit is not None]
     velocity = inf if limits.velocity is None else limits.velocity / stroke
     # a bound of both ways is the greater one, so that none of the laws is left out
     acceleration = max(accelerations) / stroke if len(accelerations) == 2 else inf
-    in_plane = _in_phase_plane(torque.text(1.0), velocity, acceleration, torque.peak / torque.unit)
+    # of a line that rises the greatest torque alone is left
+    lines = tuple((most / torque.unit, fall / torque.unit) for most, fall in torque.lines if fall >= 0.0)
+    in_plane = _in_phase_plane(torque.text(1.0), velocity, acceleration, lines) if lines else None
     return known if in_plane is None else max(known or 0.0, in_plane)
 
 
 @lru_cache(maxsize=64)
-def _in_phase_plane(torque: str, velocity: float, acceleration: float, most: float) -> float | None:
-    """The least time in the phase plane; None where nothing is known."""
+def _in_phase_plane(
+    torque: str, velocity: float, acceleration: float, lines: tuple[tuple[float, float], ...]
+) -> float | None:
+    """The least time in the phase plane within lines of torque over velocity; None where nothing is known."""
     try:
-        return drive_limit(torque, "time", B=velocity, C=acceleration, P=most).value
+        form = phase_torque(torque)
+        limits = tuple(
+            TorqueLimit(form.scaled(1.0 / form.size), most / form.size, fall / form.size) for most, fall in lines
+        )
+        return limit_of_plane(PhasePlane(limits=limits, B=velocity, C=acceleration), "time", form.size).value
     except (InputError, InfeasibleProblem, SolverFailure):
         return None
 

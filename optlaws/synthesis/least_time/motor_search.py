@@ -9,7 +9,6 @@ from scipy.optimize import brentq
 
 from optlaws.synthesis.least_time.fastest_law import law_in_time, unsettled
 from optlaws.synthesis.least_time.least_time import LeastTime, limit_of_all_laws
-from optlaws.synthesis.least_time.motor_torque import MotorTorque
 from optlaws.synthesis.least_time.move_limits import TimedMove
 from optlaws.synthesis.least_time.time_proof import TimeProof, proof_by
 from optlaws.synthesis.solution import Solution
@@ -19,6 +18,12 @@ from optlaws.tolerances import FEASIBILITY, LEAST_TIME_GAP, LEAST_TIME_MET
 _WIDER, _WIDEST = 0.1, 20.0
 #: by how much the logarithm of the time grows where a limit of vibrations is not kept
 _UPWARD = 0.01
+#: of the times not yet proven to be too short: the first box, the longest, the shortest; how boxes grow and shrink
+_FIRST_BOX, _MOST_BOX, _LEAST_BOX = 0.3, 0.9, 0.01
+_MORE, _LESS = 1.3, 0.5
+_MOST_BOXES = 60
+#: of the gap that is allowed, what the last box leaves
+_OF_GAP = 0.9
 
 
 @dataclass
@@ -40,30 +45,34 @@ class _Trials:
         """The logarithm of the greatest share in a time, by its logarithm: above 0 where a limit is exceeded."""
         return log(self.solution(exp(logarithm)).objective)
 
+    def root(self, low: float, high: float) -> float:
+        """The least time tried in which a law keeps the limits, once it is bracketed, by logarithms."""
+        if low < high:
+            brentq(self.excess, low, high, xtol=0.1 * LEAST_TIME_MET)
+        return min(time for time, solution in self.solutions.items() if solution.objective <= 1.0 + FEASIBILITY)
 
-def least_time_of_motor(move: TimedMove, torque: MotorTorque) -> LeastTime:
+
+def least_time_of_motor(move: TimedMove) -> LeastTime:
     """The least time that is found between one that is too short and one that is enough.
 
     Where laws that keep the limits keep them in every longer time, a certificate of one time proves the shorter ones.
     """
     trials = _Trials(move)
     low, high = _bracket(trials, log(max(limit_of_all_laws(move) or 0.0, move.least_conceivable()) or 1.0))
-    brentq(trials.excess, low, high, xtol=0.1 * LEAST_TIME_MET)
-    enough = (time for time, solution in trials.solutions.items() if solution.objective <= 1.0 + FEASIBILITY)
-    duration = min(enough)
+    duration = trials.root(low, high)
     too_short = duration * (1.0 - LEAST_TIME_GAP)
     proofs: tuple[TimeProof, ...] = ()
-    if torque.grows_possible and move.shares(duration).convex:
+    if move.stays_possible and move.shares(duration).convex:
         proof = proof_by(trials.solution(too_short).certificate, move, 0.0, too_short)
         proofs = (proof,) if proof.stands(move) else ()
     return LeastTime(move, duration, trials.solutions[duration], proofs)
 
 
 def least_time_of_follower(move: TimedMove, without: LeastTime) -> LeastTime:
-    """The least time that is found upward from that without a limit of the vibration that is left.
+    """The least time within a limit of the vibration that is left, from the least time without that limit.
 
-    Laws of a longer time may leave more again. So shorter times are proven to be too short only as far as they are
-    without that limit.
+    Laws of a longer time may leave more again. A law is found upward; boxes of the times before it are then proven to
+    be too short, and a law that they come upon is a faster one.
     """
     trials = _Trials(move)
     low = high = log(without.duration)
@@ -71,11 +80,32 @@ def least_time_of_follower(move: TimedMove, without: LeastTime) -> LeastTime:
         low, high = high, high + _UPWARD
         if high - log(without.duration) > _WIDEST:
             raise unsettled(move, exp(high))
-    if low < high:
-        brentq(trials.excess, low, high, xtol=0.1 * LEAST_TIME_MET)
-    enough = (time for time, solution in trials.solutions.items() if solution.objective <= 1.0 + FEASIBILITY)
-    duration = min(enough)
-    return LeastTime(move, duration, trials.solutions[duration], without.proofs)
+    duration = trials.root(low, high)
+    proofs = list(without.proofs)
+    if proofs and low < high and move.stays_possible and move.shares(duration).convex:
+        duration = _exclude(trials, proofs, duration)
+    return LeastTime(move, duration, trials.solutions[duration], tuple(proofs))
+
+
+def _exclude(trials: _Trials, proofs: list[TimeProof], duration: float) -> float:
+    """Extend proofs by boxes of the times before a duration; the least time, which is less where a box has a law.
+
+    A box that is too long proves nothing: it is halved, and grows again with those that do.
+    """
+    share = _FIRST_BOX
+    while proofs[-1].longest < duration * (1.0 - LEAST_TIME_GAP) and len(proofs) < _MOST_BOXES and share > _LEAST_BOX:
+        shortest = proofs[-1].longest
+        longest = min(shortest + share * (duration - shortest), duration * (1.0 - _OF_GAP * LEAST_TIME_GAP))
+        solution = law_in_time(trials.move, longest, None, shortest)
+        proof = proof_by(solution.certificate, trials.move, shortest, longest) if solution.objective > 1.0 else None
+        if proof is not None and proof.stands(trials.move):
+            proofs.append(proof)
+            share = min(_MORE * share, _MOST_BOX)
+        elif trials.excess(log(longest)) <= log(1.0 + FEASIBILITY):
+            duration = trials.root(log(shortest), log(longest))
+        else:
+            share *= _LESS
+    return duration
 
 
 def _bracket(trials: _Trials, logarithm: float) -> tuple[float, float]:

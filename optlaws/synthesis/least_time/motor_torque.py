@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from math import inf
 from typing import Any, NamedTuple
 
 from optlaws.errors import InputError
@@ -10,13 +12,86 @@ from optlaws.files.reading import JsonText, all_entries_of
 from optlaws.formulas.reading import read
 from optlaws.formulas.slopes import constant
 from optlaws.laws import smoothstep
-from optlaws.numbers import not_negative, positive
+from optlaws.numbers import finite, listed, not_negative, numbers, positive
 from optlaws.synthesis.functionals.makers import drive_torque, peak, rms
 from optlaws.synthesis.problem.constants import Functional
+from optlaws.tolerances import AGREEMENT
 
+#: the name of the limit of a motor's curve
+CURVE_LIMIT = "motor's curve"
 _KEYS = ("inertia", "friction", "load", "unit", "peak", "rms")
+_GEAR_KEYS = ("to_load", "back", "inertia", "friction", "load")
 #: a law that passes every position, in which a load over the position is as great as it ever is
 _PASSING = smoothstep(2)
+_MOST_LINES = 100
+
+
+@dataclass(frozen=True)
+class LossyGear(JsonText):
+    """A gear that loses power, and what the motor before it takes itself: J c + g b + Q beside the load X behind it.
+
+    The torque at the motor is J c + g b + Q + max(X/eta_1, X eta_2).
+
+    Attributes
+    ----------
+    to_load, back
+        1/eta_1, at least 1, and eta_2, at most 1: what a torque behind the gear is before it, by the way of the power.
+    inertia, friction, load
+        J, g and Q, at least 0, in the units of the load behind the gear.
+
+    Raises
+    ------
+    InputError
+        If a number is out of range.
+    """
+
+    to_load: float
+    back: float
+    inertia: float = 0.0
+    friction: float = 0.0
+    load: float = 0.0
+
+    _json_name = "a gear with losses"
+
+    def __post_init__(self) -> None:
+        for name in _GEAR_KEYS:
+            object.__setattr__(self, name, not_negative(getattr(self, name), name))
+        if not 0.0 < self.back <= 1.0 <= self.to_load:
+            raise InputError("of a gear with losses to_load must be at least 1, and back above 0 and at most 1")
+
+    def text(self, load: str, duration: float) -> str:
+        """T² times the torque at the motor, from T² times the load behind the gear."""
+        return " + ".join([*self._motor(duration), f"max({self.to_load!r}*({load}), {self.back!r}*({load}))"])
+
+    def branches(self, load: str, duration: float) -> tuple[str, str]:
+        """The same where power flows to the load, and where it flows back: the torque is the greater of both."""
+        first, last = (
+            " + ".join([*self._motor(duration), f"{share!r}*({load})"]) for share in (self.to_load, self.back)
+        )
+        return first, last
+
+    def _motor(self, duration: float) -> list[str]:
+        parts = (
+            (self.inertia, "*c"),
+            (self.friction * duration, "*b"),
+            (self.load * duration * duration, ""),
+        )
+        return [f"{size!r}{name}" for size, name in parts if size]
+
+    def to_dict(self) -> dict[str, float]:
+        """The numbers by name."""
+        return {name: getattr(self, name) for name in _GEAR_KEYS}
+
+    @classmethod
+    def from_dict(cls, data: Any) -> LossyGear:  # noqa: ANN401 - it is checked here
+        """The gear that `to_dict` described.
+
+        Raises
+        ------
+        InputError
+            If an entry is missing or wrong.
+        """
+        return cls(**all_entries_of(data, _GEAR_KEYS, cls._json_name))
 
 
 class TimedLimit(NamedTuple):
@@ -32,7 +107,7 @@ class MotorTorque(JsonText):
     """The torque I(a) c + I'(a) b²/2 + f b + L(a) at the motor of a move that takes 1 s, and its limits.
 
     In the time T the inertia's part is that over T², the friction's that over T, and the load stays. Friction that does
-    not depend on the speed is part of the load: laws never turn back.
+    not depend on the speed is part of the load: laws never turn back. Behind a gear with losses it is the load alone.
 
     Attributes
     ----------
@@ -44,6 +119,10 @@ class MotorTorque(JsonText):
         Of the torque, N m.
     peak, rms
         Limits of its greatest magnitude and of its root mean square over the move, N m; None where there is none.
+    gear
+        With losses, and the motor before it; None where nothing is lost.
+    curve
+        Lines of the motor's curve: its torque is at most the first number less the second times b, N m.
 
     Raises
     ------
@@ -62,6 +141,8 @@ class MotorTorque(JsonText):
     unit: float
     peak: float | None = None
     rms: float | None = None
+    gear: LossyGear | None = None
+    curve: tuple[tuple[float, float], ...] = ()
 
     _json_name = "the torque of a move"
 
@@ -75,43 +156,121 @@ class MotorTorque(JsonText):
         for name in ("unit", "peak", "rms"):
             if name == "unit" or getattr(self, name) is not None:
                 object.__setattr__(self, name, positive(getattr(self, name), name))
-        if self.peak is None and self.rms is None:
+        lines = tuple((positive(most, "curve"), finite(fall, "curve")) for most, fall in self.curve)
+        object.__setattr__(self, "curve", lines)
+        if not self.lines and self.rms is None:
             raise InputError("the torque of a move needs a limit: of its peak or its root mean square")
-        if self.peak is not None and self.static >= self.peak:
+        most = min((torque for torque, _ in self.lines), default=inf)
+        if self.static >= most:
             raise InputError(
                 f"the static torque at the motor reaches {self.static:.6g} N m, and the limit of the torque is "
-                f"{self.peak:.6g} N m: no time keeps it"
+                f"{most:.6g} N m: no time keeps it"
             )
+        mean = self.mean
+        if self.rms is not None and mean >= self.rms:
+            raise InputError(
+                f"the torque at the motor is {mean:.6g} N m in the mean, and the limit of the rms torque is "
+                f"{self.rms:.6g} N m: no time keeps it"
+            )
+
+    @property
+    def lines(self) -> tuple[tuple[float, float], ...]:
+        """The limit of the peak and the lines of the curve: a torque at rest, and how much it falls with b."""
+        return (*(() if self.peak is None else ((self.peak, 0.0),)), *self.curve)
 
     @property
     def static(self) -> float:
         """The greatest magnitude of the torque in an infinitely slow motion, N m."""
-        known = constant(read(self.load, ("a",)))
-        return self.unit * (abs(known) if known is not None else peak(self.load).value(_PASSING))
+        load = self.load if self.gear is None else replace(self.gear, inertia=0.0, friction=0.0).text(self.load, 1.0)
+        known = constant(read(load, ("a",)))
+        return self.unit * (abs(known) if known is not None else peak(load).value(_PASSING))
+
+    @property
+    def mean(self) -> float:
+        """What the mean of the torque over a move is at least, N m; 0 where the inertia or the load is not constant."""
+        load = constant(read(self.load, ("a",)))
+        return 0.0 if load is None or self._inertia is None or self.gear is not None else self.unit * max(load, 0.0)
+
+    @property
+    def _inertia(self) -> float | None:
+        """That of the load or of all, where it is constant."""
+        return constant(read(self.inertia, ("a",)))
 
     @property
     def grows_possible(self) -> bool:
         """Whether a law that keeps the limits in a time keeps them in every longer time: docs/theory/least-time.md."""
         load = constant(read(self.load, ("a",)))
-        of_peak = self.peak is None or self.friction == 0.0 or load is not None
-        of_rms = self.rms is None or (load is not None and (self.friction == 0.0 or load >= 0.0))
-        return of_peak and of_rms and constant(read(self.inertia, ("a",))) is not None
+        speedy = bool(self.friction or self.curve or (self.gear is not None and self.gear.friction))
+        of_peak = not self.lines or not speedy or load is not None
+        of_rms = self.rms is None or (self.gear is None and load is not None and (self.friction == 0.0 or load >= 0.0))
+        return of_peak and of_rms and self._inertia is not None
+
+    def brakes_with_load(self, greatest: float) -> bool:
+        """Whether power flows back wherever the motor brakes as much as it may, up to a greatest velocity.
+
+        So it is where the motor would take less to brake itself as the load X = 0 runs out. Limits of the torque of
+        power that flows back are then those of the torque itself: docs/theory/least-time.md.
+        """
+        if self.gear is None:
+            return True
+        load, inertia, gear = constant(read(self.load, ("a",))), self._inertia, self.gear
+        if load is None or not inertia:
+            return False
+        at_rest, steep = (
+            gear.inertia * of_load / inertia - of_motor
+            for of_load, of_motor in ((load, gear.load), (self.friction, gear.friction))
+        )
+        speeds = [0.0] if greatest == inf else [0.0, greatest]
+        return all(
+            self.unit * (at_rest + steep * speed) < (most - fall * speed) * (1.0 - AGREEMENT)
+            for most, fall in self.lines
+            for speed in speeds
+        ) and (greatest < inf or all(self.unit * steep + fall <= 0.0 for _, fall in self.lines))
 
     def text(self, duration: float) -> str:
         """T² times the torque in the time T, in its unit: the inertia's part stays as it is."""
+        load = self._behind(duration)
+        return load if self.gear is None else self.gear.text(load, duration)
+
+    def _behind(self, duration: float) -> str:
+        """The same of the load behind a gear with losses, of all without one."""
         load = read(self.load, ("a",))
         weighed = "0" if constant(load) == 0.0 else f"{duration * duration!r}*({self.load})"
         return drive_torque(inertia=self.inertia, friction=repr(self.friction * duration), load=weighed)
 
     def limits_in(self, duration: float) -> tuple[TimedLimit, ...]:
-        """The limits in a time: bounds of T² times the torque."""
-        text, factor = self.text(duration), duration * duration / self.unit
-        known = (("torque", peak, self.peak), ("rms torque", rms, self.rms))
-        return tuple(TimedLimit(name, make(text), limit * factor) for name, make, limit in known if limit is not None)
+        """The limits in a time: bounds of T² times the torque, and of its share of the curve.
+
+        Braking behind a gear with losses is limited as if power always flowed back, which is no less.
+        """
+        factor = duration * duration / self.unit
+        limits = []
+        if self.peak is not None:
+            highest = peak(self.text(duration)) if self.gear is None else self._greatest([(1.0, 0.0)], duration)
+            limits.append(TimedLimit("torque", highest, self.peak * factor))
+        if self.curve:
+            limits.append(TimedLimit(CURVE_LIMIT, self._greatest(self.curve, duration), factor))
+        if self.rms is not None:
+            limits.append(TimedLimit("rms torque", rms(self.text(duration)), self.rms * factor))
+        return tuple(limits)
+
+    def _greatest(self, lines: Sequence[tuple[float, float]], duration: float) -> Functional:
+        """The greatest share of lines of torque over velocity, driving and braking."""
+        behind = self._behind(duration)
+        driving = (behind,) if self.gear is None else self.gear.branches(behind, duration)
+        shares = [
+            f"{sign / most!r}*({torque})" + (f" + {fall * duration / (most * self.unit)!r}*b" if fall else "")
+            for most, fall in lines
+            for sign, torque in (*((1.0, each) for each in driving), (-1.0, driving[-1]))
+        ]
+        return peak(f"max({', '.join(shares)})", side="high")
 
     def to_dict(self) -> dict[str, Any]:
         """The formulas, the unit and the limits as plain data."""
-        return {name: getattr(self, name) for name in _KEYS}
+        further: dict[str, Any] = {} if self.gear is None else {"gear": self.gear.to_dict()}
+        if self.curve:
+            further["curve"] = [list(line) for line in self.curve]
+        return {name: getattr(self, name) for name in _KEYS} | further
 
     @classmethod
     def from_dict(cls, data: Any) -> MotorTorque:  # noqa: ANN401 - it is checked here
@@ -122,4 +281,13 @@ class MotorTorque(JsonText):
         InputError
             If an entry is missing or wrong.
         """
-        return cls(**all_entries_of(data, _KEYS, cls._json_name))
+        further = [key for key in ("gear", "curve") if isinstance(data, Mapping) and key in data]
+        entries = dict(all_entries_of(data, (*_KEYS, *further), cls._json_name))
+        if "gear" in entries:
+            entries["gear"] = LossyGear.from_dict(entries["gear"])
+        if "curve" in entries:
+            lines = tuple(numbers(line, "curve", 2) for line in listed(entries["curve"], "curve", _MOST_LINES))
+            if not lines or any(len(line) != 2 for line in lines):
+                raise InputError("a curve has lines, each a torque at rest and how much it falls with the velocity")
+            entries["curve"] = lines
+        return cls(**entries)

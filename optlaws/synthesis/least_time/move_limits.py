@@ -12,7 +12,7 @@ from optlaws.errors import InputError
 from optlaws.files.reading import JsonText
 from optlaws.numbers import finite, positive
 from optlaws.suggest import unknown_key
-from optlaws.synthesis.least_time.follower_residual import FollowerResidual
+from optlaws.synthesis.least_time.follower_residual import FollowerResidual, LawSize
 from optlaws.synthesis.least_time.motor_torque import MotorTorque, TimedLimit
 from optlaws.synthesis.problem.constants import B, C, C_minus, C_plus, Functional, J, jounce
 from optlaws.synthesis.problem.expression import Expression, maximum
@@ -187,6 +187,14 @@ class TimedMove:
         return self.start_velocity == self.end_velocity == 0.0
 
     @property
+    def stays_possible(self) -> bool:
+        """Whether a law that keeps every limit but that of the vibration left keeps them in every longer time."""
+        if self.torque is None:
+            return self.at_rest
+        greatest = inf if self.limits.velocity is None else self.limits.velocity / self.stroke
+        return self.torque.grows_possible and self.torque.brakes_with_load(greatest)
+
+    @property
     def rates(self) -> tuple[RateLimit, ...]:
         """The limits of the law with stroke 1, in 1/s^nu."""
         return self.limits.rates(self.stroke)
@@ -200,6 +208,26 @@ class TimedMove:
         left = () if self.residual is None else (self.residual.limit_in(duration, self.stroke),)
         return (*of_rates, *torques, *left)
 
+    def limits_over(self, shortest: float, longest: float) -> tuple[TimedLimit, ...]:
+        """Limits of every law from rest to rest that keeps those of the move in some time from one to another.
+
+        Limits that are kept in a time are kept in every longer one, but for that of the vibration that is left.
+        """
+        if self.residual is None:
+            return self.limits_in(longest)
+        left = self.residual.limit_over(shortest, longest, self.stroke, self._size_in(longest))
+        return (*self.without_residual.limits_in(longest), *((left,) if left.bound < inf else ()))
+
+    def _size_in(self, duration: float) -> LawSize:
+        """How large laws are that keep the limits in a time: the integrals of |k - 1/2| |b| and of |k - 1/2| |c|."""
+        most = {limit.constant: limit.bound for limit in self.without_residual.limits_in(duration)}
+        smooth = getattr(self.problem.basis, "continuity", 2) >= 2
+        velocity, jerk = 0.25 * most.get(B, inf), most.get(J, inf) if smooth else inf
+        up, down = (most.get(side, most.get(C, inf)) for side in (C_plus, C_minus))
+        # what is gained is lost again: the integral of |c| is at most twice that of one side; and c vanishes somewhere
+        acceleration = min(0.25 * max(up, down), up, down, 0.25 * jerk)
+        return LawSize(min(velocity, 0.5) if self.problem.monotone else velocity, acceleration)
+
     @property
     def without_residual(self) -> TimedMove:
         """The move without its limit of the vibration that is left: none of its laws is lost."""
@@ -210,8 +238,10 @@ class TimedMove:
         """The limit of the lowest derivative."""
         return min(self.rates, key=lambda limit: limit.nu)
 
-    def within(self, duration: float) -> Problem:
+    def within(self, duration: float, shortest: float | None = None) -> Problem:
         """The problem of the laws that keep every limit in a time: its ends, and bounds B <= v T/h, C <= a T²/h.
+
+        With a shortest time it is a problem of every law that keeps them in some time between these two.
 
         Examples
         --------
@@ -219,19 +249,23 @@ class TimedMove:
         >>> move.within(4.0)
         Problem(B=at_most(2.0), order=3, basis=Chebyshev(degree=9), minimise='C', J=at_most(96.0))
         """
-        bounds = {limit.constant: at_most(limit.bound) for limit in self.limits_in(duration)}
+        limits = self.limits_in(duration) if shortest is None else self.limits_over(shortest, duration)
+        bounds = {limit.constant: at_most(limit.bound) for limit in limits}
         ends = self._ends(duration)
         return replace(self.problem, boundary=ends, bounds={**self.problem.bounds, **bounds})
 
-    def shares(self, duration: float, ends: float | None = None) -> Problem:
+    def shares(self, duration: float, ends: float | None = None, shortest: float | None = None) -> Problem:
         """The problem of the least greatest share of the limits in a time; with the ends of another time if given.
+
+        With a shortest time the limits are those of all times between.
 
         Examples
         --------
         >>> TimedMove(Problem(order=3), 1.0, MoveLimits(velocity=1.0, jerk=1.0)).shares(2.0).minimise
         'max(0.5*B, 0.125*J)'
         """
-        parts = [limit.constant / limit.bound for limit in self.limits_in(duration)]
+        limits = self.limits_in(duration) if shortest is None else self.limits_over(shortest, duration)
+        parts = [limit.constant / limit.bound for limit in limits]
         objective: Expression = maximum(*parts).expression() if len(parts) > 1 else parts[0]
         return replace(self.problem, boundary=self._ends(duration if ends is None else ends), minimise=objective)
 

@@ -35,9 +35,11 @@ class TimeProof(JsonText):
     Attributes
     ----------
     shortest, longest
-        The ends of the interval, s; 0 where both ends of the move are at rest.
+        The ends of the interval, s; the shortest is 0 where limits that are kept stay so in every longer time.
     certificate
-        That no law keeps the limits in the longest time. The same multipliers prove it of the shortest.
+        That no law keeps the limits in the longest time. The same multipliers prove it of the shortest. Where a
+        vibration that is left is limited: that no law keeps what every law keeps that keeps the limits in some time
+        of the interval.
     """
 
     shortest: float
@@ -56,11 +58,17 @@ class TimeProof(JsonText):
 
         What is proven without the limit of the vibration that is left holds with it.
         """
+        if move.residual is not None and self.shortest > 0.0:
+            over = move.within(self.longest, self.shortest) if move.stays_possible else None
+            proves = self.certificate.problem == over and self.certificate.program == VIOLATION
+            return [self.certificate] if proves else []
         move = move.without_residual
         if self.certificate.problem != move.within(self.longest) or self.certificate.program != VIOLATION:
             return []
-        if move.at_rest or self.shortest == self.longest:
+        if move.stays_possible or self.shortest == self.longest:
             return [self.certificate]
+        if move.at_rest:
+            return []
         return [self.certificate, replace(self.certificate, problem=move.within(self.shortest))]
 
     def to_dict(self) -> dict[str, Any]:
@@ -156,11 +164,18 @@ class Multipliers:
 
 def proof_by(certificate: Certificate, move: TimedMove, shortest: float, longest: float) -> TimeProof:
     """The proof of an interval by the multipliers of an optimum, without those of the parts of the greatest share."""
-    of_rows = [contact for contact in certificate.contacts if names.part_number(contact.constraint) is None]
+    problem = move.within(longest, shortest if shortest and move.residual is not None else None)
+    # rows of an amplitude are in units of its bound, where it has one
+    units = {constant.name: bound.high for constant, bound in problem.bounds.items() if constant.normalised}
+    of_rows = [
+        replace(contact, multiplier=contact.multiplier * units.get(contact.constraint, 1.0))
+        for contact in certificate.contacts
+        if names.part_number(contact.constraint) is None
+    ]
     total = sum(contact.multiplier for contact in of_rows)
     contacts = [replace(contact, multiplier=contact.multiplier / total) for contact in of_rows]
     equations = [multiplier / total for multiplier in certificate.equations]
-    return TimeProof(shortest, longest, Certificate.of_leaf(move.within(longest), contacts, equations, VIOLATION))
+    return TimeProof(shortest, longest, Certificate.of_leaf(problem, contacts, equations, VIOLATION))
 
 
 def covering(move: TimedMove, known: Sequence[tuple[float, Multipliers]], duration: float) -> tuple[TimeProof, ...]:

@@ -2,9 +2,21 @@
 
 from typing import Any
 
+import numpy as np
 import pytest
 
-from optlaws import Cycle, Dwell, InfeasibleProblem, InputError, Return, Rise, slider_crank
+from optlaws import (
+    Cycle,
+    Drive,
+    Dwell,
+    InfeasibleProblem,
+    InputError,
+    Mechanism,
+    Motor,
+    Return,
+    Rise,
+    slider_crank,
+)
 from optlaws.verification import verify_all
 from tests.cycles.greatest_speed.test_fastest_cycle import NEAR, bisected
 
@@ -65,18 +77,87 @@ def test_given_laws_meet_the_force_where_it_is_greatest() -> None:
     assert fastest.status == "optimal"
 
 
+BESIDE = [Rise("35 mm", "120 deg"), Return(law="cycloidal")]
+
+
+@pytest.mark.parametrize(
+    ("drive", "limits", "segments"),
+    [
+        ({"mass": "2 kg", "viscous": "10 N s/m", "gravity": "19.6 N", "dry": "5 N"}, {"force": "60 N"}, TURNING),
+        ({"mass": "2 kg"}, {"power": "20 W"}, BESIDE),
+        pytest.param({"mass": "2 kg"}, {"power": "20 W", "jerk": "1500 m/s^3"}, TURNING, marks=pytest.mark.long),
+    ],
+)
+def test_viscous_friction_and_the_power_of_a_mass_are_proven(
+    drive: dict[str, str], limits: dict[str, str], segments: list[Any]
+) -> None:
+    fastest = cycle(drive=drive, limits=limits, segments=segments).fastest()
+    assert fastest.status == "optimal"
+    effort = fastest.cycle.effort
+    taken = {"force": effort.peak_force, "power": effort.peak_power}
+    name, most = next(iter(limits.items()))
+    assert taken[name] == pytest.approx(float(most.split()[0]), rel=1e-8)
+    (verified,) = verify_all(fastest.claims()).values()
+    assert verified.proven
+    if name == "power":
+        # D h² m/T³ a millionth faster
+        needed = fastest.segments[0].least if segments is BESIDE else fastest.segments[1].least
+        assert verified.bound is not None
+        assert verified.bound * 2.0 * 0.035**2 / (needed * (1.0 - 1e-6)) ** 3 > 20.0
+
+
 def test_what_is_not_convex_or_does_not_scale_is_local() -> None:
     for drive, limits in (
-        ({"mass": "2 kg", "viscous": "10 N s/m"}, {"force": "60 N"}),
-        ({"mass": "2 kg"}, {"power": "20 W"}),
+        ({"mass": "2 kg", "viscous": "10 N s/m", "stiffness": "0.1 N/mm"}, {"force": "60 N"}),
+        ({"mass": "2 kg", "gravity": "19.6 N"}, {"power": "20 W"}),
     ):
-        fastest = cycle(
-            drive=drive, limits=limits, segments=[Rise("35 mm", "120 deg"), Return(law="cycloidal")]
-        ).fastest()
+        fastest = cycle(drive=drive, limits=limits, segments=BESIDE).fastest()
         assert (fastest.status.value, fastest.lower_bound) == ("local", None)
         effort = fastest.cycle.effort
         taken = {"force": effort.peak_force, "power": effort.peak_power}
         assert all(taken[name] <= float(text.split()[0]) * (1.0 + 1e-8) for name, text in limits.items())
+
+
+SWING = [Rise("90 deg", "108 deg"), Dwell("36 deg"), Return("90 deg", "108 deg"), Dwell()]
+CURVE = [("0 rpm", "4 N m"), ("500 rpm", "4 N m"), ("900 rpm", "2 N m")]
+
+
+@pytest.mark.long
+def test_a_gear_that_loses_power_has_the_speed_of_accelerations() -> None:
+    lossy = Drive(Mechanism("0.8 kg m^2"), Motor("3e-4 kg m^2"), ratio=20, efficiency=(0.9, 0.8))
+    fastest = cycle(segments=SWING, drive=lossy, limits={"torque": "4 N m"}).fastest()
+    up, down = (4.0 / (3e-4 * 20 + 0.04 * share) for share in (1.0 / 0.9, 0.8))
+    limits = {"acceleration": f"{up!r} rad/s^2", "deceleration": f"{down!r} rad/s^2"}
+    plain = cycle(segments=SWING, limits=limits).fastest()
+    assert fastest.period == pytest.approx(plain.period, rel=1e-8)
+    assert fastest.status == "optimal"
+    assert all(each.proven for each in verify_all(fastest.claims()).values())
+
+
+@pytest.mark.parametrize(
+    ("efficiency", "friction", "status"),
+    [(1.0, "0.5 N m s/rad", "optimal"), pytest.param(0.85, "0.5 N m s/rad", "local", marks=pytest.mark.long)],
+)
+def test_a_motors_curve_is_kept(efficiency: float, friction: str, status: str) -> None:
+    mechanism = Mechanism("0.8 kg m^2", "20 N m", viscous=friction)
+    drive = Drive(mechanism, Motor("3e-4 kg m^2", curve=CURVE), ratio=20, efficiency=efficiency)
+    quick = cycle(segments=SWING, drive=drive, limits={"motor": True}).fastest()
+    assert quick.status == status
+    assert quick.binding == ("segment 1 (Rise): motor's curve, velocity 270 deg/s",)
+    (piece, *_) = (piece for piece in quick.cycle.pieces if piece.stroke)
+    times = np.linspace(piece.start, piece.start + piece.duration, 2001)[1:-1]
+    x, v, w = (piece.values(times, nu) for nu in range(3))
+    used = np.abs(drive.torque(x, v, w)) / np.maximum(drive.motor.peak_at(20.0 * v * (1.0 - 1e-9)), 1e-9)
+    assert used.max() == pytest.approx(1.0, rel=1e-5)
+
+
+def test_a_static_torque_beyond_the_curve_is_named() -> None:
+    drive = Drive(Mechanism("0.8 kg m^2", "90 N m"), Motor("3e-4 kg m^2", curve=CURVE), ratio=20)
+    with pytest.raises(InfeasibleProblem, match=r"takes the torque 4\.5 N m, so that no speed keeps the torque 4 N m"):
+        cycle(segments=SWING, drive=drive, limits={"motor": True}).fastest()
+    hot = Drive(Mechanism("0.8 kg m^2"), Motor("3e-4 kg m^2", continuous=[("0 rpm", "2 N m"), ("900 rpm", "1 N m")]))
+    with pytest.raises(InputError, match="continuous torque follows the speed"):
+        cycle(segments=SWING, drive=hot, limits={"motor": True}).fastest()
 
 
 @pytest.mark.long

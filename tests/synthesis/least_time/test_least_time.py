@@ -6,8 +6,15 @@ import numpy as np
 import pytest
 from scipy.optimize import linprog
 
-from optlaws import Chebyshev, InfeasibleProblem, InputError, Pieces, Problem, Window
-from tests.internals.synthesis import MoveLimits, TimedMove, least_time, segment_times, time_of_any_law
+from optlaws import B, C_minus, C_plus, Chebyshev, InfeasibleProblem, InputError, J, Pieces, Problem, Window, catalogue
+from tests.internals.synthesis import (
+    FollowerResidual,
+    MoveLimits,
+    TimedMove,
+    least_time,
+    segment_times,
+    time_of_any_law,
+)
 from tests.synthesis.least_time.otg import fastest_motion
 
 LIMITS = MoveLimits(velocity=5.0, acceleration=10.0, deceleration=10.0, jerk=30.0)
@@ -253,3 +260,29 @@ def test_a_deceleration_alone_is_a_limit_of_the_end() -> None:
     forward = least_time(TimedMove(Problem(order=2), 1.0, MoveLimits(acceleration=2.0), 0.3, 0.5))
     backward = least_time(TimedMove(Problem(order=2), 1.0, MoveLimits(deceleration=2.0), 0.5, 0.3))
     assert backward.duration == pytest.approx(forward.duration, rel=1e-9)
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("limits", [{"acceleration": 9.0, "deceleration": 7.0}, {"velocity": 2.5}, {"jerk": 90.0}])
+def test_what_a_law_keeps_in_a_time_it_keeps_in_every_box_of_that_time(limits: dict[str, float], seed: int) -> None:
+    """Random laws, times, frequencies and dampings: with just what is left of them, in boxes wide and narrow."""
+    random = np.random.default_rng(seed)
+    law = catalogue["modified sine" if seed % 2 else "3-4-5 polynomial"].law
+    duration, stroke = random.uniform(0.5, 2.0), random.uniform(0.5, 2.0)
+    damping = float(random.choice([0.0, 0.05, 0.3]))
+    low = random.uniform(3.0, 60.0) / duration
+    high = low * float(random.choice([1.0, 1.0001, 1.2]))
+    left = FollowerResidual(low, high, damping, 1.0).limit_in(duration, stroke).constant.value(law)
+    peaks = {"velocity": B, "acceleration": C_plus, "deceleration": C_minus, "jerk": J}
+    move = TimedMove(
+        Problem(order=3),
+        stroke,
+        MoveLimits(**{each: peaks[each].value(law) * stroke / duration ** peaks[each].nu for each in limits}),
+        residual=FollowerResidual(low, high, damping, left * stroke / duration**2),
+    )
+    for width in (1e-12, 1e-6, 1e-3, 0.05):
+        before = random.uniform(0.0, 1.0) * width
+        box = move.limits_over(duration * (1.0 - before), duration * (1.0 + width - before))
+        assert all(limit.constant.value(law) <= limit.bound * (1.0 + 1e-12) for limit in box)
+        assert box[-1].name == "residual acceleration"
+    assert box[-1].bound >= left
