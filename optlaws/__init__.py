@@ -47,6 +47,7 @@ _load, __dir__, __all__ = face(
         "optlaws.laws.making.through_points": "law_through",
         "optlaws.laws.constants": "Constants",
         "optlaws.laws.law": "MotionLaw",
+        "optlaws.laws.making.formula_law": "formula_law",
         "optlaws.laws.making.input_shaping": "shaped_law",
         "optlaws.laws.making.multiplier": "multiplied_law multiplier_for",
         "optlaws.laws.making.transform": "mirrored_law reversed_law with_end_velocity",

@@ -64,7 +64,7 @@ LEVEL = [Rise("35 mm", "180 deg"), Return("30 mm", "180 deg")]
         (
             [Rise("35 mm", "90 deg", law=cast("Any", 5)), Return()],
             {},
-            "a name of the catalogue, a JSON or CSV file or 'optimal', got 5",
+            "a name of the catalogue, a formula, a JSON or CSV file or 'optimal', got 5",
         ),
         ([Rise("35 mm", "9 deg", limits={"sped": "1 m/s"}), Return()], {}, "limits: unknown limit .*sped"),
         ([Rise("35 mm", "90 deg"), Return()], {"minimise": "accel"}, "minimise: unknown objective"),

@@ -14,6 +14,7 @@ from optlaws.files import reading
 from optlaws.files.writing import MARK
 from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.laws.law import MotionLaw
+from optlaws.laws.making.formula_law import formula_law, is_formula
 from optlaws.laws.making.through_points import MOST_THROUGH, law_of_table, law_through
 from optlaws.laws.savin import FAMILIES, SavinFamily
 from optlaws.numbers import not_negative
@@ -252,9 +253,9 @@ def read_law(
     ----------
     text
         A name or code of the catalogue ("modified sine", "0317(1,5)"), a member of Savin's families by alpha or B
-        ("III(7.2)", "III(B=1.8)"), a JSON file with a law, alone or of a solution, a file with a table of points
-        (.csv, .txt, .tsv, .tab, .dat), whose tolerance and columns may stand behind it in brackets:
-        "old.csv(tolerance=0.02; columns=1,3)".
+        ("III(7.2)", "III(B=1.8)"), a formula of k ("formula: k - sin(2*pi*k)/(2*pi)"), a JSON file with a law, alone or
+        of a solution, a file with a table of points (.csv, .txt, .tsv, .tab, .dat), whose tolerance and columns may
+        stand behind it in brackets: "old.csv(tolerance=0.02; columns=1,3)".
     tolerance
         Of a table: how far the law may be off its points, in the unit of its displacements, 0 for a law through them;
         the last digit, or what its noise asks for, unless given.
@@ -290,6 +291,8 @@ def read_law(
         )
     if file is not None:
         return stored_law(file)
+    if is_formula(str(text)):
+        return formula_law(str(text))
     chosen = member(str(text))
     if chosen is not None:
         family, alpha = chosen
@@ -322,6 +325,8 @@ def is_file(text: str) -> bool:
     >>> is_file("law.json"), is_file("modified sine")
     (True, False)
     """
+    if is_formula(text):
+        return False
     text = _of_table(text)[0]
     if text.lower().endswith(_ENDINGS):
         return True
