@@ -170,7 +170,9 @@ class MotionFormula:
 
     def _kinks(self, call: Call) -> list[float]:
         pairs = combinations(call.arguments, 2)
-        parts = call.arguments if call.function == "abs" else [added([first, opposite(second)]) for first, second in pairs]
+        parts = (
+            call.arguments if call.function == "abs" else [added([first, opposite(second)]) for first, second in pairs]
+        )
         places: list[float] = []
         for part in parts:
             if not part.names():

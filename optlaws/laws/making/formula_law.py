@@ -31,8 +31,9 @@ def formula_law(text: str) -> PiecewiseLaw:
     Parameters
     ----------
     text
-        The formula, with or without "formula:" before it: numbers, k, pi, + - * / ^, sin cos tan atan tanh exp log sqrt
-        abs, max min norm of several parts, `table(k, 0:0, 0.5:0.4, 1:1)` of straight lines, `spline(...)` of cubic ones.
+        The formula, with or without "formula:" before it: numbers, k, pi, + - * / ^, sin cos tan atan tanh exp log
+        sqrt abs, max min norm of several parts, `table(k, 0:0, 0.5:0.4, 1:1)` of straight lines, `spline(...)` of cubic
+        ones.
 
     Raises
     ------
