@@ -20,10 +20,11 @@ UNIFORM = smoothstep(1)
 
 
 class State(NamedTuple):
-    """Velocity and acceleration at a joint, in SI units."""
+    """Velocity, acceleration and jerk at a joint, in SI units."""
 
     velocity: float
     acceleration: float
+    jerk: float = 0.0
 
 
 @dataclass(frozen=True)
