@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from functools import partial
 from math import sqrt
 from typing import Any, Literal, Unpack, get_args
 
@@ -15,9 +14,9 @@ from optlaws.files.reading import JsonText, all_entries_of
 from optlaws.kept import kept_property
 from optlaws.laws.exporting import ExportOptions
 from optlaws.laws.making.transform import mirrored_law
-from optlaws.motion.motion import Motion, motion_of_pieces
+from optlaws.motion.motion import MASTERS, Motion, motion_of_pieces
 from optlaws.motion.piece import Piece, unit_of
-from optlaws.motion.quantities import QUANTITIES
+from optlaws.motion.quantities import QUANTITIES, given_quantity
 from optlaws.numbers import Quantity, derivative, finite, listed, number_or_array, positive, real_times
 from optlaws.shown.summary import Row, Summary
 from optlaws.suggest import keywords_of
@@ -26,8 +25,7 @@ from optlaws.synthesis.status import Status
 from optlaws.tolerances import STORED_VALUE
 
 TransitionKind = Literal["run-in", "run-out"]
-FORMAT = "optlaws transition cam 1"
-_KEYS = ("format", "kind", "unit", "period", "at", "rest", "state", "duration", "solution", "least")
+_KEYS = ("kind", "unit", "period", "at", "rest", "state", "duration", "best", "least")
 
 
 @dataclass(frozen=True, repr=False)
@@ -126,18 +124,22 @@ class TransitionCam(JsonText):
         side = 1 if self.kind == "run-in" else 0
         return {name: self.piece.end(nu, side) - self.state[nu] for nu, name in enumerate(QUANTITIES)}
 
-    def motion(self, master: Quantity | None = None, unit: str | None = None) -> Motion:
-        """The exact motion over its own master in machine units, which does not repeat.
+    def motion(self, master: Quantity | None = "360 deg", unit: str | None = None) -> Motion:
+        """The exact motion in machine units, which does not repeat; its master begins at 0 with the cam.
 
         Parameters
         ----------
         master
-            How far the master goes in the cam: its own angle unless given; "time" for a master in seconds.
+            How far the master goes in a cycle, as of `Cycle.motion`: less in the cam as it takes less time; None for a
+            master that is time in seconds.
         unit
             Of positions; "mm" for lengths and "deg" for angles unless given.
         """
-        first, last = self.master
-        span = {None: f"{last - first!r} deg", "time": None}.get(master, master)  # type: ignore[arg-type]
+        first = self.master[0]
+        span = master
+        if master is not None:
+            turn = given_quantity(master, MASTERS, "master")
+            span = f"{turn.number * self.duration / self.period!r} {turn.unit}"
         about = f"{self.kind}: its master at 0 is that of the cycle at {first:.9g} deg"
         return replace(
             motion_of_pieces((self.piece,), self.duration, self.axis, master=span, unit=unit, proof=(about,)),
@@ -146,7 +148,7 @@ class TransitionCam(JsonText):
 
     @keywords_of(ExportOptions)
     def export(
-        self, to: str, *, master: Quantity | None = None, unit: str | None = None, **options: Unpack[ExportOptions]
+        self, to: str, *, master: Quantity | None = "360 deg", unit: str | None = None, **options: Unpack[ExportOptions]
     ) -> Any:  # noqa: ANN401 - made a layer above
         """The cam in the format of a controller, as `Cycle.export`; its master begins at 0.
 
@@ -206,12 +208,31 @@ class TransitionCam(JsonText):
         return Summary(rows, "s")
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain JSON-able dict in SI units; `optlaws verify` checks the law and the proof in it."""
+        """Plain JSON-able dict in SI units, with the law and its proof."""
         unit = next(unit for unit, axis in AXES.items() if axis == self.axis)
-        own = {"solution": self.solution.to_dict()} if self.least is None else {"least": self.least.to_dict()}
+        own = {"best": self.solution.to_dict()} if self.least is None else {"least": self.least.to_dict()}
         numbers = {name: getattr(self, name) for name in ("period", "at", "rest", "duration")}
-        entries = {"format": FORMAT, "kind": self.kind, "unit": unit, **numbers, "state": list(self.state)}
-        return entries | {"solution": None, "least": None} | own
+        entries = {"kind": self.kind, "unit": unit, **numbers, "state": list(self.state)}
+        return entries | {"best": None, "least": None} | own
+
+    def claims(self) -> dict[str, Any]:
+        """The law and its proof as `optlaws verify` takes them.
+
+        Examples
+        --------
+        >>> from optlaws import Cycle, Return, Rise
+        >>> from optlaws.verification import verify_all
+        >>> cycle = Cycle([Rise("35 mm", "180 deg", law="cycloidal"), Return(law="cycloidal")], speed="60 rpm")
+        >>> [checked.proven for checked in verify_all(cycle.run_in("90 deg", over="120 deg").claims()).values()]
+        [True]
+        """
+        first, last = self.master
+        known = "its best law" if self.least is None else f"least time {self.duration:.9g} s"
+        about = (
+            f"{self.kind} from {first:.9g} to {last:.9g} deg of the master: {known}; a run-out runs backwards in time"
+        )
+        value = self.solution if self.least is None else self.least
+        return {"about": about, "law": value.to_dict()}
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> TransitionCam:
@@ -223,25 +244,26 @@ class TransitionCam(JsonText):
             If an entry is missing or wrong, or the law does not meet the cycle.
         """
         entries = all_entries_of(data, _KEYS, cls._json_name)
-        kinds = {"format": (FORMAT,), "kind": get_args(TransitionKind), "unit": tuple(AXES)}
+        kinds = {"kind": get_args(TransitionKind), "unit": tuple(AXES)}
         for name, known in kinds.items():
             if entries[name] not in known:
                 raise InputError(f"{name} of {cls._json_name} is {' or '.join(known)}, got {shortened(entries[name])}")
-        if (entries["least"] is None) == (entries["solution"] is None):
-            raise InputError(f"{cls._json_name} has either a solution or a least time")
+        if (entries["least"] is None) == (entries["best"] is None):
+            raise InputError(f"{cls._json_name} has either the best law of its time or a least time")
         least = None if entries["least"] is None else FastestMove.from_dict(entries["least"])
-        state = tuple(map(partial(finite, name="state"), listed(entries["state"], "state", len(QUANTITIES))))
-        if len(state) != len(QUANTITIES):
+        listed_state = listed(entries["state"], "state", len(QUANTITIES))
+        if len(listed_state) != len(QUANTITIES):
             raise InputError(f"state must be {len(QUANTITIES)} numbers, got {shortened(entries['state'])}")
+        position, velocity, acceleration, jerk = (finite(value, "state") for value in listed_state)
         read = cls(
             entries["kind"],
             AXES[entries["unit"]],
             positive(entries["period"], "period"),
             finite(entries["at"], "at"),
             finite(entries["rest"], "rest"),
-            state,
+            (position, velocity, acceleration, jerk),
             positive(entries["duration"], "duration"),
-            Solution.from_dict(entries["solution"]) if least is None else least.least.solution,
+            Solution.from_dict(entries["best"]) if least is None else least.least.solution,
             least,
         )
         read._check()

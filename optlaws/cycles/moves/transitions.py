@@ -13,7 +13,7 @@ from optlaws.cycles.moves.fastest_move import AXES, FastestMove
 from optlaws.cycles.moves.transition_cam import TransitionCam, TransitionKind
 from optlaws.cycles.optimisation.motion_limits import OneSided, along_motion, greatest
 from optlaws.cycles.optimisation.objectives import CycleObjective, kind_of, limits_of_stretch
-from optlaws.cycles.optimisation.optimal import solve
+from optlaws.cycles.optimisation.optimal import scale, solved, span_problem
 from optlaws.cycles.specification.joints import LawSpan, State
 from optlaws.cycles.specification.programme import Programme, TimedSegment, time_of
 from optlaws.cycles.specification.segments import Move
@@ -25,6 +25,7 @@ from optlaws.synthesis.least_time.move_limits import MoveLimits, TimedMove
 from optlaws.synthesis.least_time.time_search import least_time
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.spaces.bases import Chebyshev
+from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 from optlaws.tolerances import CLOSURE, INSIDE_PIECE
 
 _REST = State(0.0, 0.0)
@@ -114,8 +115,20 @@ def _in_time(
             f"the cycle is in the place of rest at {_shown(meeting)}, and rests: it needs no {meeting.kind}"
         )
     stretch = _stretch(meeting, position - rest, duration)
-    span = LawSpan((stretch,), (0.0,), duration, rest, position - rest, _REST, State(*rates), ())
-    _, solution = solve(span, objective, programme.axis)
+    span = LawSpan((stretch,), (0.0,), duration, rest, position - rest, _REST, State(*rates[:2]), ())
+    stroke = scale(span)
+    ends = tuple(rate / factor(stroke, duration, nu) for nu, rate in enumerate(rates, start=1))
+    count = objective.order - 1
+    still = (0.0,) * count
+    problem = replace(
+        span_problem(span, objective, programme.axis, stroke),
+        basis=Chebyshev(max(objective.degree, _DEGREE)),
+        symmetric=False,
+        boundary=BoundaryConditions(
+            (0.0, *still), (span.displacement / stroke, *(ends + still)[: objective.order - 1])
+        ),
+    )
+    solution = solved(problem, span)
     return _cam(meeting, programme, rest, duration, solution)
 
 

@@ -20,11 +20,10 @@ UNIFORM = smoothstep(1)
 
 
 class State(NamedTuple):
-    """Velocity, acceleration and jerk at a joint, in SI units."""
+    """Velocity and acceleration at a joint, in SI units."""
 
     velocity: float
     acceleration: float
-    jerk: float = 0.0
 
 
 @dataclass(frozen=True)
