@@ -36,6 +36,7 @@ _load, __dir__, __all__ = face(
         "optlaws.cycles.old_tables": "OldTable read_cycle_table split_table",
         "optlaws.cycles.moves.fastest_move": "FastestMove",
         "optlaws.cycles.moves.timed_moves": "fastest fastest_moves",
+        "optlaws.cycles.moves.transition_cam": "TransitionCam",
         "optlaws.cycles.specification.segments": "ConstantVelocity Dwell Free Move Return Rise",
         "optlaws.cycles.machine_follower": "MachineFollower machine_follower",
         "optlaws.errors": "InfeasibleProblem InputError NoisyTable NotNormalised OptlawsError SolverFailure",

@@ -22,7 +22,7 @@ from optlaws.shown.summary import Row, Summary
 from optlaws.suggest import keywords_of
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.status import Status
-from optlaws.tolerances import STORED_VALUE
+from optlaws.tolerances import JUMP, STORED_VALUE
 
 TransitionKind = Literal["run-in", "run-out"]
 _KEYS = ("kind", "unit", "period", "at", "rest", "state", "duration", "best", "least")
@@ -120,9 +120,17 @@ class TransitionCam(JsonText):
 
     @property
     def jumps(self) -> dict[str, float]:
-        """By how much position, velocity, acceleration and jerk of the cam differ from the cycle's where they meet."""
+        """By how much position, velocity, acceleration and jerk jump where cam and cycle meet; 0 where rounding."""
         side = 1 if self.kind == "run-in" else 0
-        return {name: self.piece.end(nu, side) - self.state[nu] for nu, name in enumerate(QUANTITIES)}
+        jumps = {}
+        for nu, name in enumerate(QUANTITIES):
+            jump = self.piece.end(nu, side) - self.state[nu]
+            jumps[name] = 0.0 if abs(jump) <= JUMP * self._size(nu) else jump
+        return jumps
+
+    def _size(self, nu: int) -> float:
+        """The greatest magnitude of a derivative in the cam and where it meets the cycle."""
+        return max(self.peak(nu), abs(self.state[nu]))
 
     def motion(self, master: Quantity | None = "360 deg", unit: str | None = None) -> Motion:
         """The exact motion in machine units, which does not repeat; its master begins at 0 with the cam.
@@ -228,9 +236,8 @@ class TransitionCam(JsonText):
         """
         first, last = self.master
         known = "its best law" if self.least is None else f"least time {self.duration:.9g} s"
-        about = (
-            f"{self.kind} from {first:.9g} to {last:.9g} deg of the master: {known}; a run-out runs backwards in time"
-        )
+        backwards = "" if self.kind == "run-in" else "; the law runs backwards in time"
+        about = f"{self.kind} from {first:.9g} to {last:.9g} deg of the master: {known}{backwards}"
         value = self.solution if self.least is None else self.least
         return {"about": about, "law": value.to_dict()}
 
@@ -274,7 +281,7 @@ class TransitionCam(JsonText):
         order = self.solution.problem.order
         side = 1 if self.kind == "run-in" else 0
         for nu, jump in enumerate(list(self.jumps.values())[:order]):
-            size = max(self.peak(nu), abs(self.state[nu]), abs(self.rest) if nu == 0 else 0.0)
+            size = self._size(nu)
             still = abs(self.piece.end(nu, 1 - side) - (self.rest if nu == 0 else 0.0))
             if max(abs(jump), still) > sqrt(STORED_VALUE) * size:
                 raise InputError(f"the law of {self._json_name} does not meet its state or its rest")
