@@ -142,7 +142,7 @@ def test_axes_are_one_trajectory_of_several_joints() -> None:
 
 
 @pytest.mark.parametrize("interpolation", ["cubic", "quintic", "linear"])
-def test_axes_are_columns_of_one_table(interpolation: str) -> None:
+def test_axes_are_columns_of_one_table(interpolation: Any) -> None:  # noqa: ANN401 - one of the literals
     made = MACHINE.export("csv", together=True, points=37, interpolation=interpolation)
     assert made["table"].text == made["weld head"].text
     _, headings, *lines = made["table"].text.splitlines()

@@ -12,6 +12,7 @@ import pytest
 from scipy.optimize import linprog
 
 from optlaws import (
+    Chebyshev,
     Cycle,
     Dwell,
     Free,
@@ -67,6 +68,7 @@ def test_a_cam_in_a_given_angle_goes_from_rest_to_the_motion_of_the_cycle(
 def feasible_on_grid(cam: TransitionCam, duration: float, places: int = 201) -> bool:
     """Whether a polynomial of the cam's degree goes from rest to its state within LIMITS, by a linear program."""
     problem = cam.solution.problem
+    assert isinstance(problem.basis, Chebyshev)
     degree = problem.basis.degree + 2 * problem.order
     x, basis = np.linspace(-1.0, 1.0, places), np.polynomial.chebyshev.Chebyshev.basis
     rows = [
@@ -221,7 +223,7 @@ def test_exports_and_pictures_are_of_the_cam(slide: Cycle, start: TransitionCam)
     assert motion.repeats is False
     assert motion.ends(1)[1] == pytest.approx(1e3 * start.state[1] / 720.0)
     assert start.export("codesys-xyva", points=61).report.deviation[0].value < 1e-2
-    panels = {artist.axes for artist in start.plot(cycle=slide)}  # type: ignore[union-attr]
+    panels = {artist.axes for artist in start.plot(cycle=slide)}
     assert len(panels) == 4
     assert start._repr_html_().count("jump of jerk") == 1
 

@@ -1,6 +1,6 @@
 """Laws given as formulas: beside closed forms, mpmath's derivatives and what is refused."""
 
-import mpmath
+import mpmath  # type: ignore[import-untyped]
 import numpy as np
 import pytest
 

@@ -221,7 +221,7 @@ def test_ends_with_an_acceleration_are_as_fast_as_ruckig_in_many_cases() -> None
 
 
 def test_an_acceleration_and_a_jerk_at_the_end_are_the_law_s_and_proven_for_every_time() -> None:
-    ends = {"end_velocity": 0.6, "end_acceleration": -3.0, "end_jerk": 150.0}
+    ends: dict[str, Any] = {"end_velocity": 0.6, "end_acceleration": -3.0, "end_jerk": 150.0}
     found = least_time(TimedMove(Problem(order=4), 0.1, UNEVEN, **ends))
     values = [0.1 * float(found.law(1.0, nu)) / found.duration**nu for nu in (1, 2, 3)]
     assert values == pytest.approx(list(ends.values()))
@@ -249,7 +249,7 @@ def test_an_acceleration_and_a_jerk_at_the_end_are_the_law_s_and_proven_for_ever
 )
 def test_ends_that_no_move_has_are_refused(ends: dict[str, Any], named: str) -> None:
     with pytest.raises(InputError, match=named):
-        TimedMove(**{"problem": Problem(order=4), "stroke": 0.1, "limits": UNEVEN} | ends)
+        TimedMove(ends.pop("problem", Problem(order=4)), 0.1, UNEVEN, **ends)
 
 
 @pytest.mark.long
