@@ -97,14 +97,13 @@ def _show(about: dict[str, Any], motion_law: optlaws.MotionLaw, values: list[dic
 def _about(name: str, alpha: float | None, B: float | None, motion_law: optlaws.MotionLaw) -> dict[str, Any]:
     from optlaws.laws.catalogue import reading
     from optlaws.laws.catalogue.entry import continuity_with_rest
-    from optlaws.laws.making.formula_law import is_formula
 
     family = reading.family_of(name)
     chosen = None if family is not None else reading.member(name)
     if family is not None or chosen is not None:
         return _member(motion_law, chosen or (optlaws.SavinFamily.of(str(family)), alpha), B)
-    if reading.is_file(name) or is_formula(name):
-        known = name if is_formula(name) else f"the law in {name}"
+    if reading.is_file(name) or reading.is_formula(name):
+        known = name if reading.is_formula(name) else f"the law in {name}"
         return _facts(known, motion_law) | {"continuity": continuity_with_rest(motion_law)}
     return optlaws.catalogue[name].to_dict()
 

@@ -14,7 +14,6 @@ from optlaws.files import reading
 from optlaws.files.writing import MARK
 from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.laws.law import MotionLaw
-from optlaws.laws.making.formula_law import formula_law, is_formula
 from optlaws.laws.making.through_points import MOST_THROUGH, law_of_table, law_through
 from optlaws.laws.savin import FAMILIES, SavinFamily
 from optlaws.numbers import not_negative
@@ -242,6 +241,8 @@ _OPTIONS: dict[str, Callable[[str], Any]] = {"tolerance": float, "columns": lamb
 #: a file's name and what is said of its table in brackets
 _OF_TABLE = re.compile(r"(.+)\((?=[^()]*=)([^()]*)\)", re.DOTALL)
 _LONGEST = 100
+#: before a formula that stands for a law
+_FORMULA = "formula:"
 
 
 def read_law(
@@ -292,7 +293,9 @@ def read_law(
     if file is not None:
         return stored_law(file)
     if is_formula(str(text)):
-        return formula_law(str(text))
+        from optlaws.laws.making.formula_law import formula_law
+
+        return formula_law(str(text).lstrip().removeprefix(_FORMULA))
     chosen = member(str(text))
     if chosen is not None:
         family, alpha = chosen
@@ -315,6 +318,17 @@ def _of_table(text: str) -> tuple[str, dict[str, Any]]:
                 f"a table is said to be read as in old.csv(tolerance=0.02; columns=1,3), got {shortened(text)}"
             ) from None
     return match[1], options
+
+
+def is_formula(text: str) -> bool:
+    """Whether a text is taken for a formula: it begins with "formula:".
+
+    Examples
+    --------
+    >>> is_formula("formula: k"), is_formula("modified sine")
+    (True, False)
+    """
+    return text.lstrip().startswith(_FORMULA)
 
 
 def is_file(text: str) -> bool:

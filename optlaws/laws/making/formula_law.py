@@ -19,8 +19,6 @@ from optlaws.numbers import Array
 from optlaws.numerics import chebyshev
 from optlaws.tolerances import AGREEMENT
 
-PREFIX = "formula:"
-
 
 def formula_law(text: str) -> PiecewiseLaw:
     """The law whose displacement a(k) is a formula of k, such as "k - sin(2*pi*k)/(2*pi)"; dimensionless.
@@ -31,9 +29,8 @@ def formula_law(text: str) -> PiecewiseLaw:
     Parameters
     ----------
     text
-        The formula, with or without "formula:" before it: numbers, k, pi, + - * / ^, sin cos tan atan tanh exp log
-        sqrt abs, max min norm of several parts, `table(k, 0:0, 0.5:0.4, 1:1)` of straight lines, `spline(...)` of cubic
-        ones.
+        The formula: numbers, k, pi, + - * / ^, sin cos tan atan tanh exp log sqrt abs, max min norm of several parts,
+        `table(k, 0:0, 0.5:0.4, 1:1)` of straight lines, `spline(...)` of cubic ones.
 
     Raises
     ------
@@ -53,24 +50,12 @@ def formula_law(text: str) -> PiecewiseLaw:
     """
     if not isinstance(text, str):
         raise InputError(f"a law's formula must be a text such as 'k - sin(2*pi*k)/(2*pi)', got {shortened(text)}")
-    bare = text.strip().removeprefix(PREFIX).strip()
-    motion = checked(MotionFormula(read(bare, ("k",))), bare)
+    motion = checked(MotionFormula(read(text, ("k",))), text)
     places = np.unique([0.0, *motion.kinks, 1.0])
     segments = [_segment(motion.formula, start, stop) for start, stop in pairwise(places.tolist())]
     law = PiecewiseLaw(places, segments, float(_values(motion.formula, np.zeros(1))[0]))
     _check(law, motion.formula, places)
     return law
-
-
-def is_formula(text: str) -> bool:
-    """Whether a text that names a law is a formula.
-
-    Examples
-    --------
-    >>> is_formula("formula: k"), is_formula("modified sine")
-    (True, False)
-    """
-    return text.lstrip().startswith(PREFIX)
 
 
 def _segment(formula: Formula, start: float, stop: float) -> PolynomialSegment:
