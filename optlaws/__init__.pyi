@@ -56,6 +56,7 @@ from optlaws.cycles.machine_follower import machine_follower as machine_follower
 from optlaws.cycles.moves.fastest_move import FastestMove as FastestMove
 from optlaws.cycles.moves.timed_moves import fastest as fastest
 from optlaws.cycles.moves.timed_moves import fastest_moves as fastest_moves
+from optlaws.cycles.moves.transition_cam import TransitionCam as TransitionCam
 from optlaws.cycles.old_tables import OldTable as OldTable
 from optlaws.cycles.old_tables import read_cycle_table as read_cycle_table
 from optlaws.cycles.old_tables import split_table as split_table
@@ -77,6 +78,7 @@ from optlaws.laws.catalogue.catalogue import catalogue as catalogue
 from optlaws.laws.catalogue.reading import read_law as read_law
 from optlaws.laws.constants import Constants as Constants
 from optlaws.laws.law import MotionLaw as MotionLaw
+from optlaws.laws.making.formula_law import formula_law as formula_law
 from optlaws.laws.making.input_shaping import shaped_law as shaped_law
 from optlaws.laws.making.multiplier import multiplied_law as multiplied_law
 from optlaws.laws.making.multiplier import multiplier_for as multiplier_for
@@ -289,6 +291,7 @@ __all__ = [
     "Synchronous",
     "Tightening",
     "TorsionLever",
+    "TransitionCam",
     "TranslatingFlat",
     "TranslatingRoller",
     "TrapeziumSubstitute",
@@ -321,6 +324,7 @@ __all__ = [
     "fastest_moves",
     "find_torsion_levers",
     "flat_output",
+    "formula_law",
     "four_bar",
     "functional",
     "greatest_roller",

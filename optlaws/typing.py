@@ -22,6 +22,7 @@ __getattr__, __dir__, __all__ = face(
         "optlaws.cams.least_sizes": "GreatestRoller LeastBaseCircle",
         "optlaws.cams.curves.process_by_angle": "ForceStretch ProcessByAngle",
         "optlaws.cycles.interchange": "PlotOver",
+        "optlaws.cycles.moves.transition_cam": "TransitionKind",
         "optlaws.cycles.interlocks.enclosed_axis": "Way",
         "optlaws.cycles.interlocks.interlock": "Interlock LeastClearance",
         "optlaws.cycles.machine_axes": "AxesPicture Overlap",

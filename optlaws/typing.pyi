@@ -31,6 +31,7 @@ from optlaws.cycles.interlocks.interlock import LeastClearance as LeastClearance
 from optlaws.cycles.machine_axes import AxesPicture as AxesPicture
 from optlaws.cycles.machine_axes import Overlap as Overlap
 from optlaws.cycles.machine_follower import MachineAnswer as MachineAnswer
+from optlaws.cycles.moves.transition_cam import TransitionKind as TransitionKind
 from optlaws.cycles.old_tables import Stretch as Stretch
 from optlaws.cycles.specification.cycle_sheet import CycleSheet as CycleSheet
 from optlaws.cycles.specification.effort import Effort as Effort
@@ -228,6 +229,7 @@ __all__ = [
     "TimedLimit",
     "TimedMove",
     "Train",
+    "TransitionKind",
     "Turning",
     "Watch",
     "Way",

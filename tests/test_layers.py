@@ -40,7 +40,7 @@ MAY_IMPORT = {
     "suggest": {"echo"},
     "tolerances": set[str](),
     "numerics": BASE - {"shown"},
-    "laws": KNOWN,
+    "laws": KNOWN | {"formulas"},
     "synthesis": KNOWN | {"formulas", "laws"},
     "mechanisms": KNOWN | {"formulas", "laws", "synthesis", "motion"},
     "verification": KNOWN | {"formulas", "laws", "synthesis"},

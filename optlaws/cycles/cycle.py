@@ -13,6 +13,8 @@ import numpy as np
 from optlaws.cycles.fastest_cycle import FastestCycle, fastest_cycle
 from optlaws.cycles.interchange import CycleInterchange
 from optlaws.cycles.kinematics import SegmentPeaks, TimedCycle
+from optlaws.cycles.moves.transition_cam import TransitionCam, TransitionKind
+from optlaws.cycles.moves.transitions import transition_cam
 from optlaws.cycles.optimisation.bounds import is_exact
 from optlaws.cycles.optimisation.drive_formulas import known_drive
 from optlaws.cycles.optimisation.durations import durations
@@ -381,6 +383,62 @@ class Cycle(CycleInterchange):
         FastestCycle(186.397 rpm, period=0.321894 s, status='optimal', binding=('segment 1 (Rise): acceleration 20 ...
         """
         return fastest_cycle(self, self._cycle_objective)
+
+    def run_in(
+        self, at: Quantity, *, rest: Quantity | None = None, over: Quantity | None = None, order: int | None = None
+    ) -> TransitionCam:
+        """The start cam: from rest into the cycle while the master turns, met at an angle.
+
+        Parameters
+        ----------
+        at
+            The angle of the master, or time, at which it meets the cycle: as after a joint there.
+        rest
+            The position of rest; where the cycle starts unless given.
+        over
+            The angle of the master, or time, that it takes; the least within the limits of the cycle, which is proven,
+            unless given.
+        order
+            How much is continuous where they meet: 3 the acceleration, 4 the jerk too. That of the cycle unless given.
+
+        Raises
+        ------
+        InputError
+            If a quantity is wrong, nothing is to move, or nothing limits the least time.
+        InfeasibleProblem
+            If no law keeps the limits.
+
+        Examples
+        --------
+        >>> from optlaws.cycles.specification.segments import Return, Rise
+        >>> limits = {"velocity": "0.5 m/s", "acceleration": "4 m/s^2", "jerk": "100 m/s^3"}
+        >>> cycle = Cycle([Rise("35 mm", "180 deg"), Return()], speed="90 rpm", limits=limits)
+        >>> start = cycle.run_in("60 deg", rest="-20 mm")
+        >>> start.status.value, round(start.duration, 6), start.least.binding
+        ('optimal', 0.2, ('acceleration', 'jerk'))
+        """
+        return self._transition("run-in", at=at, rest=rest, over=over, order=order)
+
+    def run_out(
+        self, at: Quantity, *, rest: Quantity | None = None, over: Quantity | None = None, order: int | None = None
+    ) -> TransitionCam:
+        """The stop cam: out of the cycle to rest while the master turns, from an angle on.
+
+        `at` is the angle of the master, or time, at which it leaves the cycle, as before a joint there; the others are
+        those of `run_in`.
+
+        Examples
+        --------
+        >>> from optlaws.cycles.specification.segments import Return, Rise
+        >>> cycle = Cycle([Rise("35 mm", "180 deg", law="cycloidal"), Return(law="cycloidal")], speed="90 rpm")
+        >>> stop = cycle.run_out("270 deg", rest="0 mm", over="100 deg")
+        >>> stop, round(stop(0.0, 1), 9), stop(stop.duration, 1)
+        (TransitionCam('run-out', 270 to 370 deg of the master, 0.185185 s, status='optimal'), -0.21, 0.0)
+        """
+        return self._transition("run-out", at=at, rest=rest, over=over, order=order)
+
+    def _transition(self, kind: TransitionKind, **given: Any) -> TransitionCam:
+        return transition_cam(kind, self.programme, self.pieces, self._cycle_objective, **given)
 
     def per_angle(self, degrees: Any, nu: int = 0) -> Any:  # noqa: ANN401 - as for times
         """Derivatives by the master's angle in radians, as cams and controllers take them."""

@@ -241,7 +241,8 @@ class Axes(JsonText, Mapping[str, Cycle]):
         to
             A format for all, or formats by the names of axes.
         together
-            One file for all axes, where the format holds several, as "ros2" does: one trajectory of several joints.
+            One file for all axes, where the format holds several: "ros2" one trajectory of several joints, "csv" one
+            table with columns for each axis.
             The `text` of every export is then that of all, and each joint has the points of all.
         master, points, counts, digits, decimal, interpolation, task
             As in `Cycle.export`, for every axis.

@@ -172,11 +172,11 @@ _MEMBERS = 33
 
 @cache
 def known_points(x: str, y: str) -> list[dict[str, Any]]:
-    """Each standard law whose two constants are finite, with what a reader is told of it."""
+    """Each standard law from rest to rest whose two constants are finite, with what a reader is told of it."""
     points = []
-    for name in catalogue:
-        law = catalogue[name].law
-        place = _place(law, x, y)
+    for name, entry in catalogue.items():
+        # what moves at its ends is no rival of laws from rest to rest
+        place = _place(entry.law, x, y) if entry.continuity else None
         if place is not None:
             text = f"{name}: {x} = {digits(place[0], 6)}, {y} = {digits(place[1], 6)}"
             points.append({"name": name, "at": place, "text": text, "named": name in NAMED})

@@ -219,7 +219,9 @@ def export_together(
     """Axes in one file of a format that holds several: the text of every export is that of all."""
     form = format_of(to)
     if form.write_joints is None:
-        raise InputError(f"a file of the format {form.name} holds one axis: leave `together` out, or take 'ros2'")
+        raise InputError(
+            f"a file of the format {form.name} holds one axis: leave `together` out, or take 'ros2' or 'csv'"
+        )
     names = variable_names(axes)
     motions = {names[axis]: cycle.motion(**placement) for axis, cycle in axes.items()}
     written = form.write_joints(motions, form.request(**options))

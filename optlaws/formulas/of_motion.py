@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import partial, reduce
+from itertools import combinations
 from math import prod
 from typing import Any
 
@@ -168,8 +169,10 @@ class MotionFormula:
         return [(place - rest) / slope for place in table.places]
 
     def _kinks(self, call: Call) -> list[float]:
-        first, *others = call.arguments
-        parts = [first] if call.function == "abs" else [added([first, opposite(argument)]) for argument in others]
+        pairs = combinations(call.arguments, 2)
+        parts = (
+            call.arguments if call.function == "abs" else [added([first, opposite(second)]) for first, second in pairs]
+        )
         places: list[float] = []
         for part in parts:
             if not part.names():

@@ -15,6 +15,7 @@ from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.fastest_cycle import FastestCycle
 from optlaws.cycles.limit_rows import limit_rows
 from optlaws.cycles.machine_axes import Axes, Overlap
+from optlaws.cycles.moves.transition_cam import TransitionCam, TransitionKind
 from optlaws.cycles.specification.process import is_process
 from optlaws.cycles.summary import drive_rows, force_name, force_unit, joint_rows, proof_rows
 from optlaws.errors import InputError, located
@@ -22,6 +23,17 @@ from optlaws.exports.export import Export, export_cycle
 from optlaws.exports.format import FORMATS, format_of
 from optlaws.exports.text import variable_names
 from optlaws.files import tables, writing
+from optlaws.jobs.axes.axis_transitions import (
+    TRANSITIONS,
+    AxisTransition,
+    Named,
+    TransitionEntries,
+    add_transitions,
+    transition_facts,
+    transition_names,
+    transitions_of,
+    write_transitions,
+)
 from optlaws.jobs.axes.entry_sweep import SweptCycle, sweep_table
 from optlaws.jobs.axes.fastest_page import (
     FASTEST_HEADINGS,
@@ -58,13 +70,16 @@ _PEAKS = ("peak velocity", "peak acceleration", "peak jerk")
 _EXPORT_HEADINGS = ("file", "format", "points", *_PEAKS, "greatest deviation, unit")
 
 
-def exports_of(spec: CycleProblemFile, cycles: Mapping[str, Cycle], file: Path) -> Exports:
-    """The exports that the axes name, made but not yet written."""
+def exports_of(
+    spec: CycleProblemFile, cycles: Mapping[str, Cycle], file: Path, transitions: Sequence[AxisTransition] = ()
+) -> Exports:
+    """The exports that the axes name, of their cycles and of their run-ins and run-outs, made but not yet written."""
     exports: Exports = {}
     together = {TOGETHER, TIMING, CLEARANCES, GIVEN}
     for name in sorted(together & {plain_name(axis.name) for axis in spec.axis}) if len(spec.axis) > 1 else ():
         raise InputError(f"{file}: an axis is called {name}, as the picture of all is: give it another name")
-    taken = {"cycle.md", "cycle.json", "fastest.json"}
+    taken = {"cycle.md", "cycle.json", "fastest.json", TRANSITIONS}
+    taken |= {f"{name}{ending}" for name in _transition_names(spec) for ending in (".csv", ".svg", ".png")}
     taken |= {f"{name}{ending}" for name in together for ending in (".svg", ".png")}
     taken |= {f"{SWEEP}{i}{end}" for i in range(1, len(spec.sweep) + 1) for end in (".csv", ".svg", ".png")}
     taken |= {f"{plain_name(axis.name)}{ending}" for axis in spec.axis for ending in (".csv", ".svg", ".png")}
@@ -76,10 +91,18 @@ def exports_of(spec: CycleProblemFile, cycles: Mapping[str, Cycle], file: Path) 
         for entry in axis.export:
             with located(f"{file}: axis {axis.name}: export to {entry.to}"):
                 name = _file_name(axis.name, entry)
-                if name in taken:
-                    raise InputError(f"another file is called {name}: give each a name of its own")
-                taken.add(name)
-                exports[axis.name][name] = _export(cycles[axis.name], entry, names[axis.name])
+                exported: list[tuple[str, Cycle | TransitionCam, str]] = [(name, cycles[axis.name], names[axis.name])]
+                ending = name.removeprefix(f"{plain_name(axis.name)}_")
+                exported += [
+                    (f"{cam.name}_{ending}", cam.cam, f"{names[axis.name]}_{cam.name.rpartition('run_')[2]}")
+                    for cam in transitions
+                    if cam.axis == axis.name
+                ]
+                for each, motion, variable in exported:
+                    if each in taken:
+                        raise InputError(f"another file is called {each}: give each a name of its own")
+                    taken.add(each)
+                    exports[axis.name][each] = _export(motion, entry, variable)
     return exports
 
 
@@ -88,7 +111,15 @@ def plain_name(axis: str) -> str:
     return "".join(letter if letter.isalnum() else "_" for letter in axis.lower())
 
 
-def _export(cycle: Cycle, entry: ExportEntries, variable: str) -> Export:
+def _transition_names(spec: CycleProblemFile) -> Named:
+    """The names of the files of run-ins and run-outs, each with what the file says of it."""
+    given: dict[str, Mapping[TransitionKind, Sequence[TransitionEntries]]] = {
+        axis.name: {"run-in": axis.run_in, "run-out": axis.run_out} for axis in spec.axis
+    }
+    return transition_names(given, {name: plain_name(name) for name in given})
+
+
+def _export(cycle: Cycle | TransitionCam, entry: ExportEntries, variable: str) -> Export:
     given = msgspec.structs.asdict(entry)
     given["name"] = variable if entry.name is None else entry.name
     placement = {"master": given.pop("master"), "unit": given.pop("unit")}
@@ -122,16 +153,17 @@ def run(results: Results) -> None:
     overlap = overlap_of(spec, given, results.file)
     fastest = fastest_of(given, results.file) if spec.fastest else {}
     cycles = at_greatest_speed(given if overlap is None else overlap.axes, fastest)
-    exports = exports_of(spec, cycles, results.file)
+    transitions = transitions_of(_transition_names(spec), cycles, results.file)
+    exports = exports_of(spec, cycles, results.file, transitions)
     sweeps = sweeps_of(spec, results.file)
     results.title = spec.title
-    results.text("cycle.md", str(page(spec, cycles, exports, CycleSearches(sweeps, fastest, overlap))))
+    results.text("cycle.md", str(page(spec, cycles, exports, CycleSearches(sweeps, fastest, overlap, transitions))))
     for number, (sweep, rows) in enumerate(zip(spec.sweep, sweeps, strict=True), 1):
         headings, cells = sweep_table(sweep, rows)
         results.table(f"{SWEEP}{number}", headings, cells)
         results.picture(f"{SWEEP}{number}", sweep_figure(headings, cells, f"{spec.title}: {sweep.axis}"))
     facts = {"unit": "SI", "axes": {name: _stored(cycle) for name, cycle in cycles.items()}}
-    results.data("cycle.json", facts | interlock_facts(cycles, overlap))
+    results.data("cycle.json", facts | interlock_facts(cycles, overlap) | transition_facts(transitions))
     if fastest:
         results.data("fastest.json", {name: axis.claims() for name, axis in fastest.items()})
     pictures = _drive_pictures(cycles)
@@ -142,6 +174,7 @@ def run(results: Results) -> None:
             results.picture(picture.name, picture.draw(f"{spec.title}: {name}, {picture.caption}"))
         for file, export in exports[name].items():
             results.add(file, export.write)
+    write_transitions(results, spec.title, transitions, spec.rows)
     if len(cycles) > 1:
         results.picture(TOGETHER, axes_figure(cycles, spec.title))
     if cycles.rules:
@@ -194,16 +227,18 @@ def answer(entries: Mapping[str, Any], file: Path) -> dict[str, Any]:
         return {name: fastest_facts(fastest) for name, fastest in fastest_of(given, file).items()}
     overlap = overlap_of(spec, given, file)
     axes = given if overlap is None else overlap.axes
-    return {name: _facts(cycle) for name, cycle in axes.items()} | interlock_facts(axes, overlap)
+    known = interlock_facts(axes, overlap) | transition_facts(transitions_of(_transition_names(spec), axes, file))
+    return {name: _facts(cycle) for name, cycle in axes.items()} | known
 
 
 @dataclass(frozen=True)
 class CycleSearches:
-    """What a file seeks beside its cycles: sweeps, the greatest speed of each axis, and how moves overlap."""
+    """What a file seeks beside its cycles: sweeps, greatest speeds, how moves overlap, run-ins and run-outs."""
 
     sweeps: Sequence[list[SweptCycle]] = ()
     fastest: Mapping[str, FastestCycle] = field(default_factory=dict)
     overlap: Overlap | None = None
+    transitions: Sequence[AxisTransition] = ()
 
 
 def page(spec: CycleProblemFile, axes: Axes, exports: Exports, sought: CycleSearches) -> Page:
@@ -227,6 +262,7 @@ def page(spec: CycleProblemFile, axes: Axes, exports: Exports, sought: CycleSear
         if exports[name]:
             result.text("What controllers will run: peaks of the exported files as interpolated, over the law's.")
             result.table(_EXPORT_HEADINGS, [_export_row(*item) for item in exports[name].items()], digits=7)
+    add_transitions(result, spec.title, sought.transitions)
     for number, (sweep, swept_cycles) in enumerate(zip(spec.sweep, sought.sweeps, strict=True), 1):
         result.heading(f"{sweep.axis} by {sweep.entry}").figure(f"{SWEEP}{number}", f"{sweep.axis} by {sweep.entry}")
         result.table(*sweep_table(sweep, swept_cycles), digits=7)

@@ -13,6 +13,7 @@ from optlaws.cycles.interchange import CLOCK, ENTRIES
 from optlaws.cycles.machine_axes import Axes, Overlap
 from optlaws.errors import InputError, located
 from optlaws.files.problem_file import Text, convert
+from optlaws.jobs.axes.axis_transitions import TransitionEntries
 from optlaws.jobs.axes.drive_entries import drive_of
 from optlaws.jobs.axes.entry_sweep import SweepEntries, SweptCycle, swept
 from optlaws.jobs.axes.interlock_entries import InterlockEntries, OverlapEntries
@@ -67,6 +68,8 @@ class AxisEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     load: LoadEntries | None = None
     follower: ElasticFollowerEntries | None = None
     export: Annotated[list[ExportEntries], msgspec.Meta(max_length=20)] = []
+    run_in: Annotated[list[TransitionEntries], msgspec.Meta(max_length=8)] = []
+    run_out: Annotated[list[TransitionEntries], msgspec.Meta(max_length=8)] = []
     order: int = 3
     degree: int = 9
 

@@ -50,7 +50,9 @@ def _of_name(name: str) -> MotionLaw:
 
 def _read(given: Any) -> MotionLaw:  # noqa: ANN401
     if not isinstance(given, str):
-        raise InputError(f"a law, a name of the catalogue, a JSON or CSV file or 'optimal', got {shortened(given)}")
+        raise InputError(
+            f"a law, a name of the catalogue, a formula, a JSON or CSV file or 'optimal', got {shortened(given)}"
+        )
     return read_law(given) if is_file(given) else _of_name(given)
 
 

@@ -72,6 +72,8 @@ class LeastTimeFile(msgspec.Struct, forbid_unknown_fields=True):
     space: dict[str, Any]
     solution: dict[str, Any]
     proofs: list[dict[str, Any]]
+    end_acceleration: float = 0.0
+    end_jerk: float = 0.0
     torque: dict[str, Any] | None = None
     residual: dict[str, Any] | None = None
     unit: Literal["m", "rad"] | None = None

@@ -101,6 +101,8 @@ def values(jumping: Solution) -> dict[str, Any]:
             Problem(order=3), stroke="90 deg", limits={"jerk": "900 rad/s^3"}, start_velocity="2 rad/s"
         ),
         "LeastTime": fastest.least,
+        "TransitionCam": slide.run_in("90 deg", rest="-1 mm", over="0.1 s"),
+        "TransitionCam of least time": replace(slide, limits={"jerk": "4000 m/s^3"}).run_out("90 deg", rest="40 mm"),
         "FollowerResidual": FollowerResidual(95.0, 105.0, 0.05, most=0.4),
         "MotorTorque": MotorTorque("1 + 0.3*a", 0.1, "0.2", 2.0, peak=3.0),
         "MoveLimits": fastest.least.move.limits,

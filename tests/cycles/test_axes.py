@@ -138,4 +138,22 @@ def test_axes_are_one_trajectory_of_several_joints() -> None:
         assert made[name].points >= alone.points
         assert made[name].report.deviation[0].value <= alone.report.deviation[0].value * 1.01 + 1e-12
     with pytest.raises(InputError, match="holds one axis"):
-        MACHINE.export("csv", together=True)
+        MACHINE.export("codesys-xyva", together=True)
+
+
+@pytest.mark.parametrize("interpolation", ["cubic", "quintic", "linear"])
+def test_axes_are_columns_of_one_table(interpolation: Any) -> None:  # noqa: ANN401 - one of the literals
+    made = MACHINE.export("csv", together=True, points=37, interpolation=interpolation)
+    assert made["table"].text == made["weld head"].text
+    _, headings, *lines = made["table"].text.splitlines()
+    rows = np.array([[float(cell) for cell in line.split(",")] for line in lines])
+    assert (np.diff(rows[:, 0]) > 1e-7).all()
+    orders = {"cubic": 1, "quintic": 3, "linear": 1}[interpolation]
+    assert [heading.split()[0] for heading in headings.split(",")[1:]] == ["table"] * orders + ["weld_head"] * orders
+    for place, (name, cycle) in enumerate(MACHINE.items()):
+        motion = cycle.motion()
+        values = np.asarray(motion(rows[:, 0]))
+        assert rows[:, 1 + place * orders] == pytest.approx(values, abs=1e-9 * motion.stroke)
+        alone = cycle.export("csv", points=37, interpolation=interpolation)
+        assert made[name].points >= alone.points
+        assert made[name].report.deviation[0].value <= alone.report.deviation[0].value * 1.01 + 1e-12

@@ -64,7 +64,7 @@ LEVEL = [Rise("35 mm", "180 deg"), Return("30 mm", "180 deg")]
         (
             [Rise("35 mm", "90 deg", law=cast("Any", 5)), Return()],
             {},
-            "a name of the catalogue, a JSON or CSV file or 'optimal', got 5",
+            "a name of the catalogue, a formula, a JSON or CSV file or 'optimal', got 5",
         ),
         ([Rise("35 mm", "9 deg", limits={"sped": "1 m/s"}), Return()], {}, "limits: unknown limit .*sped"),
         ([Rise("35 mm", "90 deg"), Return()], {"minimise": "accel"}, "minimise: unknown objective"),
@@ -74,7 +74,7 @@ LEVEL = [Rise("35 mm", "180 deg"), Return("30 mm", "180 deg")]
         (
             [ConstantVelocity("1 m/s", "90 deg"), Return(law=SINE)],
             {},
-            "ends with 0 mm/s and .*starts with 1000 mm/s: .* law='optimal'",
+            "ends with 0 mm/s and .*starts with 1000 mm/s, a jump of 1000 mm/s: .* law='optimal'",
         ),
         ([ConstantVelocity("1 m/s", "90 deg"), Dwell(), Return(duration="9 deg")], {}, "put a motion between them"),
         (
@@ -178,3 +178,43 @@ def test_a_file_of_another_job_is_refused(capsys: pytest.CaptureFixture[str], tm
     file.write_text((ROOT / "problems" / "lever_nomogram.toml").read_text("utf-8"), "utf-8")
     assert exit_code(["cycle", str(file), "--json"]) == 2
     assert "problem.toml" in capsys.readouterr().err
+
+
+def test_half_segments_join_to_the_cam_of_others() -> None:
+    """KU Leuven's cam of case KUL-18a: a rise and a return by halves, with the places that matcam wrote."""
+    known = json.loads((ROOT / "tests" / "reference" / "published_cams.json").read_text("utf-8"))["KUL-18a"]
+    halves = [
+        Dwell("60 deg"),
+        Rise("15 mm", "60 deg", law="C1"),
+        Rise("15 mm", "60 deg", law="C2"),
+        Dwell("20 deg"),
+        Return("15 mm", "40 deg", law="C3"),
+        Return("15 mm", "40 deg", law="C4"),
+        Dwell(),
+    ]
+    cam = cycle(*halves, speed="30 rpm")
+    places = np.array(known["thetadegree"])
+    for nu, name in enumerate(("S", "V", "A")):
+        assert 1e3 * cam.per_angle(places, nu) == pytest.approx(np.array(known[name]), abs=1e-10)
+    assert [joint["velocity"] for joint in cam.joints] == [0.0] * 7
+    assert [joint["acceleration"] for joint in cam.joints] == [0.0] * 7
+    assert Cycle.from_json(cam.to_json()).peak(3) == cam.peak(3)
+    assert Cycle.from_dict(cam.to_dict()).segments == cam.segments
+
+
+def test_half_segments_that_do_not_meet_are_refused_with_the_jump_and_the_stroke() -> None:
+    first, last = Rise("10 mm", "40 deg", law="C1"), Return(law="cycloidal")
+    met = r"a jump of -90 mm/s: .* moving by 20 mm in the same time, segment 2 \(Rise\) would meet"
+    with pytest.raises(InputError, match=met):
+        cycle(first, Rise("10 mm", "80 deg", law="C2"), Dwell("60 deg"), last, speed="60 rpm")
+    faster = ConstantVelocity("100 mm/s", "40 deg")
+    with pytest.raises(InputError, match=r"moving by 5\.55555556 mm in the same time, segment 1"):
+        cycle(first, faster, Rise("10 mm", "80 deg", law="C2"), last, speed="60 rpm")
+    for second in (Rise("20 mm", law="C2"), Rise("10 mm")):
+        shared = cycle(first, second, Dwell("20 deg"), Rise("5 mm"), Return("15 mm"), last, speed="60 rpm")
+        with pytest.raises(InputError, match="does not rest where they meet"):
+            _ = shared.durations
+    with pytest.raises(InputError, match="a law and no velocities that move at its ends"):
+        _ = cycle(Dwell("20 deg"), Rise("5 mm", law="H2"), Dwell("9 deg"), last, speed="60 rpm").durations
+    with pytest.raises(InputError, match="its law must have the stroke 1, which `by` multiplies, but it has 30"):
+        _ = cycle(Rise("5 mm", "90 deg", law="formula: 30*k^2*(3 - 2*k)"), last).pieces

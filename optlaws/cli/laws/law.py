@@ -102,8 +102,9 @@ def _about(name: str, alpha: float | None, B: float | None, motion_law: optlaws.
     chosen = None if family is not None else reading.member(name)
     if family is not None or chosen is not None:
         return _member(motion_law, chosen or (optlaws.SavinFamily.of(str(family)), alpha), B)
-    if reading.is_file(name):
-        return _facts(f"the law in {name}", motion_law) | {"continuity": continuity_with_rest(motion_law)}
+    if reading.is_file(name) or reading.is_formula(name):
+        known = name if reading.is_formula(name) else f"the law in {name}"
+        return _facts(known, motion_law) | {"continuity": continuity_with_rest(motion_law)}
     return optlaws.catalogue[name].to_dict()
 
 

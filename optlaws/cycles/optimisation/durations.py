@@ -30,7 +30,7 @@ from optlaws.synthesis.problem.constants import FUNCTIONALS
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.solve import synthesize
-from optlaws.tolerances import AGREEMENT, DURATION_STEP, SAME_TIME, SHORTEST_MOVE
+from optlaws.tolerances import AGREEMENT, CLOSURE, DURATION_STEP, SAME_TIME, SHORTEST_MOVE
 
 _REST = State(0.0, 0.0)
 _ROUNDS = 30
@@ -74,18 +74,27 @@ def durations(programme: Programme, objective: CycleObjective) -> tuple[float, .
 
 
 def _check_rest(programme: Programme, i: int) -> None:
-    for j in (i - 1, (i + 1) % len(programme.stretches)):
-        given = programme.stretches[j].given
-        if isinstance(given, ConstantVelocity | Free):
+    stretch, last = programme.stretches[i], len(programme.stretches) - 1
+    for neighbour, side in ((programme.stretches[i - 1], 1), (programme.stretches[i + 1 if i < last else 0], 0)):
+        if isinstance(neighbour.given, ConstantVelocity | Free) or _moves(neighbour, side):
             raise InputError(
-                f"{programme.stretches[i].where}: give it a duration: it is free only between dwells and moves, and "
-                f"{programme.stretches[j].where} is none"
+                f"{stretch.where}: give it a duration: it is free only between dwells and moves, and {neighbour.where} "
+                "does not rest where they meet"
             )
-    segment = programme.stretches[i].given
-    if isinstance(segment, Move) and (segment.start_velocity is not None or segment.end_velocity is not None):
-        raise InputError(f"{programme.stretches[i].where}: give it a duration, or no velocities at its ends")
-    if isinstance(segment, Dwell) or programme.stretches[i].displacement == 0.0:
-        raise InputError(f"{programme.stretches[i].where}: give it a duration: it has nothing to move")
+    if _moves(stretch, 0) or _moves(stretch, 1):
+        raise InputError(f"{stretch.where}: give it a duration, or a law and no velocities that move at its ends")
+    if isinstance(stretch.given, Dwell) or stretch.displacement == 0.0:
+        raise InputError(f"{stretch.where}: give it a duration: it has nothing to move")
+
+
+def _moves(stretch: TimedSegment, side: int) -> bool:
+    """Whether a move is to have a velocity at its start (side 0) or its end, by itself or by its law."""
+    given = stretch.given
+    if not isinstance(given, Move):
+        return False
+    if is_optimal(given):
+        return (given.start_velocity, given.end_velocity)[side] is not None
+    return abs(float(named_law(given.law, stretch.where).b(float(side)))) > CLOSURE
 
 
 def _cost(programme: Programme, i: int, objective: CycleObjective, nu: int, *, mean: bool) -> Callable[[float], float]:

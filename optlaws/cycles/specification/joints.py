@@ -146,12 +146,25 @@ def _check_velocities(programme: Programme, before: int, after: int, ended: Stat
     if abs(ended.velocity - begun.velocity) <= CLOSURE * max(size, abs(ended.velocity), abs(begun.velocity)):
         return
     first, second = programme.stretches[before], programme.stretches[after]
-    shown = [f"{in_small_units(state.velocity, programme.axis)}/s" for state in (ended, begun)]
+    velocities = (ended.velocity, begun.velocity)
+    shown = [f"{in_small_units(v, programme.axis)}/s" for v in (*velocities, begun.velocity - ended.velocity)]
     meant = second if not isinstance(second.given, Dwell | ConstantVelocity) else first
     raise InputError(
-        f"{first.where} ends with {shown[0]} and {second.where} starts with {shown[1]}: put a motion "
-        f"between them, or give {meant.where} law='optimal', which takes the velocities of its neighbours"
+        f"{first.where} ends with {shown[0]} and {second.where} starts with {shown[1]}, a jump of {shown[2]}: put a "
+        f"motion between them, or give {meant.where} law='optimal', which takes the velocities of its neighbours"
+        f"{_meeting(programme, (first, second), velocities)}"
     )
+
+
+def _meeting(
+    programme: Programme, stretches: tuple[TimedSegment, TimedSegment], velocities: tuple[float, float]
+) -> str:
+    """The stroke at which a half segment would meet its neighbour, as a remedy; nothing where none would."""
+    for stretch, velocity, other in zip(reversed(stretches), reversed(velocities), velocities, strict=True):
+        if isinstance(stretch.given, Move) and not is_optimal(stretch.given) and velocity * other > 0.0:
+            stroke = in_small_units(abs(stretch.displacement * other / velocity), programme.axis)
+            return f"; moving by {stroke} in the same time, {stretch.where} would meet its neighbour"
+    return ""
 
 
 def _whole(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import partial
 from itertools import pairwise
 
@@ -17,6 +17,7 @@ from optlaws.exports.formats.point_table import (
     linear_table,
     positions,
     spline_table,
+    table_by_interpolation,
 )
 from optlaws.exports.interpolation import linear_powers
 from optlaws.exports.spacing import PointTable, chosen
@@ -44,6 +45,38 @@ _TEXT = ("points", "counts", "digits", "decimal")
 _plain_format = partial(file_format, takes=_TEXT, contents="x, y as text", limits="no number of points is stated")
 
 
+def _columns_of_axes(motions: Mapping[str, Motion], request: Request) -> dict[str, Written]:
+    """One table over one master with columns for each axis, by their names: the text of each is that of all.
+
+    Each axis has the points that it would have alone, and those of the others.
+    """
+    interpolation = request.interpolation_among(MODELS, "cubic")
+    tables = {name: chosen_table(motion, request, interpolation, MOST_POINTS) for name, motion in motions.items()}
+    if len(tables) > 1:
+        numbers = NumberFormat(request.counts, request.digits)
+        places = np.unique(np.concatenate([table.x for table in tables.values()]))
+        # what differs by rounding is one place
+        places = places[np.diff(places, append=np.inf) > CLOSURE * (places[-1] - places[0])]
+        tables = {
+            name: table_by_interpolation(motion, places, numbers, interpolation) for name, motion in motions.items()
+        }
+    separator = ";" if request.decimal == "," else ","
+    first = next(iter(motions.values()))
+    headings, columns = [f"x {first.units.master}"], [next(iter(tables.values())).x.tolist()]
+    for name, motion in motions.items():
+        units, own = motion.units, f"{name} " if len(motions) > 1 else ""
+        derivatives = [units.slave, *(f"{units.slave}/{units.master}{power}" for power in ("", "^2", "^3"))]
+        values = tables[name].values.tolist()
+        headings += [f"{own}{letter} {unit}" for letter, unit in zip("yVAJ", derivatives[: len(values)], strict=False)]
+        columns += values
+    about = table_heading(first, "table")[0]
+    if len(motions) > 1:
+        about = f"table of {', '.join(motions)} over one master in {first.units.master}"
+    lines = [f"# {about}; {MARK}", separator.join(headings)]
+    text = _lines([*lines, *_rows(columns, request, separator)])
+    return {name: table.written(text, MODELS[interpolation]) for name, table in tables.items()}
+
+
 @_plain_format(
     "csv",
     target="any, comma-separated values with units in the table_heading",
@@ -51,19 +84,10 @@ _plain_format = partial(file_format, takes=_TEXT, contents="x, y as text", limit
     model=f"as asked: {', '.join(MODELS)}",
     extension=".csv",
     takes=(*_TEXT, "interpolation"),
+    joints=_columns_of_axes,
 )
 def _csv(motion: Motion, request: Request) -> Written:
-    interpolation = request.interpolation_among(("cubic", "linear", "akima", "c1", "quintic", "septic"))
-    table = chosen_table(motion, request, interpolation, MOST_POINTS)
-    separator = ";" if request.decimal == "," else ","
-    units = motion.units
-    derivatives = [f"{units.slave}/{units.master}{power}" for power in ("", "^2", "^3")]
-    columns = [f"x {units.master}", f"y {units.slave}"]
-    columns += [f"{letter} {unit}" for letter, unit in zip("VAJ", derivatives, strict=True)]
-    rows = [table.x.tolist(), *table.values.tolist()]
-    lines = [f"# {table_heading(motion, 'table')[0]}; {MARK}", separator.join(columns[: len(rows)])]
-    lines += _rows(rows, request, separator)
-    return table.written(_lines(lines), MODELS[interpolation])
+    return _columns_of_axes({request.name: motion}, request)[request.name]
 
 
 @_plain_format(

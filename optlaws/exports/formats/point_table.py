@@ -46,26 +46,36 @@ class NumberFormat:
         return (rounded.astype(np.float32).astype(np.float64) if self.single else rounded) + 0.0
 
 
+#: how many points, or the places of the master where they are
+Points = int | Array
+
+
+def _exact_places(motion: Motion, points: Points, *, straight: bool) -> Array:
+    return points if isinstance(points, np.ndarray) else places(motion, points, straight=straight)
+
+
 def positions(
-    motion: Motion, count: int, number_format: NumberFormat, *, even: bool = False, lines: bool = False
+    motion: Motion, points: Points, number_format: NumberFormat, *, even: bool = False, lines: bool = False
 ) -> tuple[Array, Array]:
-    """x and y of so many points as the target stores them."""
-    exact = np.linspace(motion.start, motion.stop, count) if even else places(motion, count, straight=lines)
+    """x and y of points as the target stores them."""
+    if even and isinstance(points, int):
+        points = np.linspace(motion.start, motion.stop, points)
+    exact = _exact_places(motion, points, straight=lines)
     x = number_format.numbers(exact)
     if (np.diff(x) <= 0.0).any():
         raise InputError(
-            f"{count} points of the master are closer than they can be held: take fewer points, more digits, "
+            f"{len(x)} points of the master are closer than they can be held: take fewer points, more digits, "
             "or a unit that is smaller"
         )
     return x, number_format.positions(np.asarray(motion(exact)), motion)
 
 
-def spline_table(motion: Motion, count: int, number_format: NumberFormat, *, ends: Ends = "clamped") -> PointTable:
+def spline_table(motion: Motion, points: Points, number_format: NumberFormat, *, ends: Ends = "clamped") -> PointTable:
     """Positions through which the controller lays the cubic spline; clamped to the velocities of the motion's ends.
 
     A periodic one ends exactly where it begins, as the motion does but for rounding.
     """
-    x, y = positions(motion, count, number_format)
+    x, y = positions(motion, points, number_format)
     slopes = end_slopes(motion, number_format)
     if ends == "periodic":
         y[-1] = y[0]
@@ -80,26 +90,26 @@ def end_slopes(motion: Motion, number_format: NumberFormat) -> Array:
     return number_format.numbers(np.where(np.abs(slopes) <= rounding, 0.0, slopes))
 
 
-def linear_table(motion: Motion, count: int, number_format: NumberFormat) -> PointTable:
+def linear_table(motion: Motion, points: Points, number_format: NumberFormat) -> PointTable:
     """Positions between which the controller goes straight."""
-    x, y = positions(motion, count, number_format, lines=True)
+    x, y = positions(motion, points, number_format, lines=True)
     return PointTable(x, y[None], linear_powers(x, y), number_format.resolution(motion), 0.0)
 
 
-def akima_table(motion: Motion, count: int, number_format: NumberFormat) -> PointTable:
+def akima_table(motion: Motion, points: Points, number_format: NumberFormat) -> PointTable:
     """Positions through which the controller lays Akima's cubics."""
-    x, y = positions(motion, count, number_format)
+    x, y = positions(motion, points, number_format)
     return PointTable(x, y[None], akima_powers(x, y), number_format.resolution(motion), 0.0)
 
 
 def hermite_table(
-    motion: Motion, count: int, number_format: NumberFormat, orders: int, *, with_derivatives: bool = True
+    motion: Motion, points: Points, number_format: NumberFormat, orders: int, *, with_derivatives: bool = True
 ) -> PointTable:
-    """Positions with derivatives, so many in all, from which the controller makes Hermite's polynomials.
+    """Positions with derivatives, so many or at places, from which the controller makes Hermite's polynomials.
 
     Where the table has no derivatives the controller computes them, and they are taken as the law's.
     """
-    exact = places(motion, count, straight=True)
+    exact = _exact_places(motion, points, straight=True)
     values = _without_rounding(np.array([motion(exact, nu) for nu in range(orders)]))
     if not np.isfinite(values).all():
         raise InputError(
@@ -111,17 +121,19 @@ def hermite_table(
     return PointTable(x, held_values, hermite_powers(x, held_values), number_format.resolution(motion), 0.0)
 
 
-def table_by_interpolation(motion: Motion, count: int, number_format: NumberFormat, interpolation: str) -> PointTable:
+def table_by_interpolation(
+    motion: Motion, points: Points, number_format: NumberFormat, interpolation: str
+) -> PointTable:
     """A table for an interpolation by its name: linear, cubic, akima, c1, quintic, septic."""
     orders = {"c1": 2, "quintic": 3, "septic": 4}
     if interpolation in orders:
-        return hermite_table(motion, count, number_format, orders[interpolation])
+        return hermite_table(motion, points, number_format, orders[interpolation])
     if interpolation == "akima":
-        return akima_table(motion, count, number_format)
+        return akima_table(motion, points, number_format)
     return (
-        linear_table(motion, count, number_format)
+        linear_table(motion, points, number_format)
         if interpolation == "linear"
-        else spline_table(motion, count, number_format)
+        else spline_table(motion, points, number_format)
     )
 
 

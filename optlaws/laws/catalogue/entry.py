@@ -23,7 +23,14 @@ from optlaws.laws.segments.segment import Segment
 from optlaws.laws.segments.sine import HarmonicSegment, SineSegment
 from optlaws.tolerances import JUMP
 
-BUILDERS = ("smoothstep", "sines", "cosines", "scca", "trapezoid", "code")
+#: half segments, which end or begin at their greatest velocity: acceleration in words, and exactly
+_HALVES = {
+    "C1": ("c = π sin πk", SineSegment(pi, pi)),
+    "C2": ("c = -π sin πk, b(0) = 2", SineSegment(-pi, pi, b0=2.0)),
+    "H1": ("c = π²/4 cos πk/2", SineSegment(0.25 * pi * pi, 0.5 * pi, 0.5 * pi)),
+    "H2": ("c = -π²/4 sin πk/2, b(0) = π/2", SineSegment(-0.25 * pi * pi, 0.5 * pi, b0=0.5 * pi)),
+}
+BUILDERS = ("smoothstep", "sines", "cosines", "half", "scca", "trapezoid", "code")
 
 
 @dataclass(frozen=True)
@@ -145,6 +152,8 @@ class CatalogueEntry(JsonText):
             return f"c = {outer} ({terms})".replace("+ -", "- ").replace("(1 ", "(").replace(" 1πk", " πk")
         if builder == "code":
             return f"code {numbers}"
+        if builder == "half":
+            return _HALVES[numbers][0]
         return f"{builder}({numbers if builder == 'smoothstep' else ', '.join(numbers)})"
 
     def to_dict(self) -> dict[str, Any]:
@@ -220,6 +229,8 @@ def _built(builder: str, numbers: Any) -> MotionLaw:  # noqa: ANN401 - whatever 
         return smoothstep(numbers)
     if builder == "code":
         return coded(numbers)
+    if builder == "half":
+        return PiecewiseLaw([0.0, 1.0], [_HALVES[numbers][1]])
     if builder in ("scca", "trapezoid"):
         build = scca if builder == "scca" else trapezoid
         return build(*(float(Fraction(number)) for number in numbers))

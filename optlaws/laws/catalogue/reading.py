@@ -241,6 +241,8 @@ _OPTIONS: dict[str, Callable[[str], Any]] = {"tolerance": float, "columns": lamb
 #: a file's name and what is said of its table in brackets
 _OF_TABLE = re.compile(r"(.+)\((?=[^()]*=)([^()]*)\)", re.DOTALL)
 _LONGEST = 100
+#: before a formula that stands for a law
+_FORMULA = "formula:"
 
 
 def read_law(
@@ -252,9 +254,9 @@ def read_law(
     ----------
     text
         A name or code of the catalogue ("modified sine", "0317(1,5)"), a member of Savin's families by alpha or B
-        ("III(7.2)", "III(B=1.8)"), a JSON file with a law, alone or of a solution, a file with a table of points
-        (.csv, .txt, .tsv, .tab, .dat), whose tolerance and columns may stand behind it in brackets:
-        "old.csv(tolerance=0.02; columns=1,3)".
+        ("III(7.2)", "III(B=1.8)"), a formula of k ("formula: k - sin(2*pi*k)/(2*pi)"), a JSON file with a law, alone or
+        of a solution, a file with a table of points (.csv, .txt, .tsv, .tab, .dat), whose tolerance and columns may
+        stand behind it in brackets: "old.csv(tolerance=0.02; columns=1,3)".
     tolerance
         Of a table: how far the law may be off its points, in the unit of its displacements, 0 for a law through them;
         the last digit, or what its noise asks for, unless given.
@@ -290,6 +292,10 @@ def read_law(
         )
     if file is not None:
         return stored_law(file)
+    if is_formula(str(text)):
+        from optlaws.laws.making.formula_law import formula_law
+
+        return formula_law(str(text).lstrip().removeprefix(_FORMULA))
     chosen = member(str(text))
     if chosen is not None:
         family, alpha = chosen
@@ -314,6 +320,17 @@ def _of_table(text: str) -> tuple[str, dict[str, Any]]:
     return match[1], options
 
 
+def is_formula(text: str) -> bool:
+    """Whether a text is taken for a formula: it begins with "formula:".
+
+    Examples
+    --------
+    >>> is_formula("formula: k"), is_formula("modified sine")
+    (True, False)
+    """
+    return text.lstrip().startswith(_FORMULA)
+
+
 def is_file(text: str) -> bool:
     """Whether a text is taken for a file: it ends as one of a law or a table, or is no law's name and a file is there.
 
@@ -322,6 +339,8 @@ def is_file(text: str) -> bool:
     >>> is_file("law.json"), is_file("modified sine")
     (True, False)
     """
+    if is_formula(text):
+        return False
     text = _of_table(text)[0]
     if text.lower().endswith(_ENDINGS):
         return True

@@ -124,8 +124,11 @@ class LeastTime(JsonText):
         if self.move.torque is not None or self.move.residual is not None:
             return {}
         multipliers = Multipliers.of(self.move, self.duration, self.solution)
-        weighed = [(nu, weight * power(self.duration, nu)) for nu, weight in multipliers.weights]
-        steep = sum(nu * share for nu, share in weighed) - multipliers.slope * self.duration
+        weighed, left = (
+            [(nu, weight * power(self.duration, nu)) for nu, weight in parts]
+            for parts in (multipliers.weights, multipliers.ends)
+        )
+        steep = sum(nu * share for nu, share in weighed) - sum(nu * share for nu, share in left)
         names = (limit.name for limit in self.move.rates)
         return {name: more * share / steep for name, (_, share) in zip(names, weighed, strict=True)}
 
@@ -133,17 +136,22 @@ class LeastTime(JsonText):
         """Plain JSON-able dict: law and proofs in one, which `optlaws verify` checks."""
         move = self.move
         timed = {"torque": move.torque, "residual": move.residual}
-        return {name: limit.to_dict() for name, limit in timed.items() if limit is not None} | {
-            "stroke": move.stroke,
-            "limits": move.limits.to_dict(),
-            "start_velocity": move.start_velocity,
-            "end_velocity": move.end_velocity,
-            "duration": self.duration,
-            "limit": self.limit,
-            "space": move.problem.to_dict(),
-            "solution": self.solution.to_dict(),
-            "proofs": [proof.to_dict() for proof in self.proofs],
-        }
+        ends = {name: getattr(move, name) for name in _MOVING if getattr(move, name)}
+        return (
+            {name: limit.to_dict() for name, limit in timed.items() if limit is not None}
+            | ends
+            | {
+                "stroke": move.stroke,
+                "limits": move.limits.to_dict(),
+                "start_velocity": move.start_velocity,
+                "end_velocity": move.end_velocity,
+                "duration": self.duration,
+                "limit": self.limit,
+                "space": move.problem.to_dict(),
+                "solution": self.solution.to_dict(),
+                "proofs": [proof.to_dict() for proof in self.proofs],
+            }
+        )
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> LeastTime:
@@ -157,7 +165,8 @@ class LeastTime(JsonText):
         data = of_known_format(data, cls._json_name) if isinstance(data, Mapping) else data
         entries = entries_of(data, KEYS, cls._json_name)
         torque, residual = data.get("torque"), data.get("residual")
-        if len(data) > len(KEYS) + (torque is not None) + (residual is not None):
+        ends = {name: finite(data[name], name) for name in _MOVING if name in data}
+        if len(data) > len(KEYS) + (torque is not None) + (residual is not None) + len(ends):
             raise InputError(f"{cls._json_name} has the entries {', '.join(KEYS)} and no other")
         move = TimedMove(
             problem_of(entries["space"]),
@@ -167,6 +176,7 @@ class LeastTime(JsonText):
             finite(entries["end_velocity"], "end_velocity"),
             None if torque is None else MotorTorque.from_dict(torque),
             None if residual is None else FollowerResidual.from_dict(residual),
+            **ends,
         )
         proofs = tuple(map(TimeProof.from_dict, listed(entries["proofs"], "proofs", _MOST_PROOFS)))
         with meant():
@@ -236,5 +246,7 @@ def _in_phase_plane(
         return None
 
 
+#: of a file, where the end moves so
+_MOVING = ("end_acceleration", "end_jerk")
 #: of a file
 KEYS = ("stroke", "limits", "start_velocity", "end_velocity", "duration", "limit", "space", "solution", "proofs")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields, replace
-from math import factorial, inf, nextafter
+from math import comb, factorial, inf, nextafter
 from typing import Any, NamedTuple
 
 from optlaws.echo import shortened
@@ -21,6 +21,10 @@ from optlaws.synthesis.problem.ranges import at_most
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 
 _EXAMPLE = "{'velocity': 1.0, 'acceleration': 12.0}"
+_HIGHEST = 4
+
+#: a time to the powers 1 to 4, or what stands for them in a Bernstein form
+Powers = tuple[float, ...]
 
 
 class RateLimit(NamedTuple):
@@ -129,7 +133,7 @@ class MoveLimits(JsonText):
 
 @dataclass(frozen=True)
 class TimedMove:
-    """A move of which the time is sought: the space of its laws, its stroke, its limits and its velocities at the ends.
+    """A move of which the time is sought: the space of its laws, its stroke, its limits and its motion at the ends.
 
     Attributes
     ----------
@@ -141,6 +145,8 @@ class TimedMove:
         What the move must keep.
     start_velocity, end_velocity
         Velocities at the ends, in units of the stroke a second.
+    end_acceleration, end_jerk
+        Of a move that begins at rest, at its end; the order is 3 or 4 at least for them.
     torque
         At the motor, with its limits; only for laws from rest to rest that never turn back. None without a motor.
     residual
@@ -159,6 +165,8 @@ class TimedMove:
     end_velocity: float = 0.0
     torque: MotorTorque | None = None
     residual: FollowerResidual | None = None
+    end_acceleration: float = 0.0
+    end_jerk: float = 0.0
 
     def __post_init__(self) -> None:
         if not self.limits.to_dict() and self.torque is None:
@@ -169,6 +177,7 @@ class TimedMove:
             most = self.limits.velocity
             if most is not None and abs(getattr(self, name)) > most:
                 raise InputError(f"{name} is beyond the limit of the velocity: no move keeps it, however long it takes")
+        self._check_end()
         even = self.at_rest and self.limits.symmetric and self.torque is None
         object.__setattr__(self, "problem", _checked(self.problem, even=even))
         if self.torque is not None and not (self.at_rest and self.problem.monotone):
@@ -181,10 +190,30 @@ class TimedMove:
                 f"derivative that is limited, got order {self.problem.order}"
             )
 
+    def _check_end(self) -> None:
+        """Refuse an acceleration and a jerk at the end that the start, the order or a limit does not allow."""
+        limits = self.limits
+        sides = limits.deceleration if self.end_acceleration < 0.0 else limits.acceleration
+        for name, least, most in (("end_acceleration", 3, sides), ("end_jerk", 4, limits.jerk)):
+            value = finite(getattr(self, name), name)
+            object.__setattr__(self, name, value)
+            if value and self.start_velocity:
+                raise InputError(f"{name} is that of a move which begins at rest: give no start_velocity")
+            if value and self.problem.order < least:
+                raise InputError(f"{name} needs order >= {least}, got order {self.problem.order}")
+            if most is not None and abs(value) > most:
+                what = name.removeprefix("end_")
+                raise InputError(f"{name} is beyond the limit of the {what}: no move keeps it, however long it takes")
+
     @property
     def at_rest(self) -> bool:
         """Whether both ends are at rest: then limits that are kept in one time are kept in any longer one."""
-        return self.start_velocity == self.end_velocity == 0.0
+        return self.start_velocity == self.end_velocity == 0.0 and self.concave
+
+    @property
+    def concave(self) -> bool:
+        """Whether multipliers leave a concave function of the time: nothing but velocities moves at the ends."""
+        return self.end_acceleration == self.end_jerk == 0.0
 
     @property
     def stays_possible(self) -> bool:
@@ -201,9 +230,7 @@ class TimedMove:
 
     def limits_in(self, duration: float) -> tuple[TimedLimit, ...]:
         """Every limit in a time, as a bound of a constant of the law."""
-        of_rates = (
-            TimedLimit(limit.name, limit.constant, limit.rate * power(duration, limit.nu)) for limit in self.rates
-        )
+        of_rates = self._limits_of_rates(powers_of(duration))
         torques = () if self.torque is None else self.torque.limits_in(duration)
         left = () if self.residual is None else (self.residual.limit_in(duration, self.stroke),)
         return (*of_rates, *torques, *left)
@@ -250,12 +277,33 @@ class TimedMove:
         Problem(B=at_most(2.0), order=3, basis=Chebyshev(degree=9), minimise='C', J=at_most(96.0))
         """
         limits = self.limits_in(duration) if shortest is None else self.limits_over(shortest, duration)
-        bounds = {limit.constant: at_most(limit.bound) for limit in limits}
-        ends = self._ends(duration)
-        return replace(self.problem, boundary=ends, bounds={**self.problem.bounds, **bounds})
+        return self._within(limits, powers_of(duration))
 
-    def shares(self, duration: float, ends: float | None = None, shortest: float | None = None) -> Problem:
-        """The problem of the least greatest share of the limits in a time; with the ends of another time if given.
+    def within_control_points(self, shortest: float, longest: float) -> list[Problem]:
+        """The problems of the times between two, in Bernstein form: of each time a convex mean of them, in its numbers.
+
+        What multipliers leave is affine in the powers of the time, so that a contradiction by the same multipliers in
+        all of these problems is one in every time between.
+
+        Examples
+        --------
+        >>> move = TimedMove(Problem(order=3), 1.0, MoveLimits(jerk=1.0), end_velocity=1.0, end_acceleration=0.5)
+        >>> [each.range("J").high for each in move.within_control_points(1.0, 2.0)]
+        [1.0, 2.0, 4.0, 8.0]
+        """
+        degree = max([3 if self.end_jerk else 2, *(limit.nu for limit in self.rates)])
+        points = [control_point(shortest, longest, i, degree) for i in range(degree + 1)]
+        return [self._within(self._limits_of_rates(powers), powers) for powers in points]
+
+    def _limits_of_rates(self, powers: Powers) -> tuple[TimedLimit, ...]:
+        return tuple(TimedLimit(limit.name, limit.constant, limit.rate * powers[limit.nu - 1]) for limit in self.rates)
+
+    def _within(self, limits: tuple[TimedLimit, ...], powers: Powers) -> Problem:
+        bounds = {limit.constant: at_most(limit.bound) for limit in limits}
+        return replace(self.problem, boundary=self._ends(powers), bounds={**self.problem.bounds, **bounds})
+
+    def shares(self, duration: float, ends: Powers | None = None, shortest: float | None = None) -> Problem:
+        """The problem of the least greatest share of the limits in a time; with the ends of other powers if given.
 
         With a shortest time the limits are those of all times between.
 
@@ -267,15 +315,33 @@ class TimedMove:
         limits = self.limits_in(duration) if shortest is None else self.limits_over(shortest, duration)
         parts = [limit.constant / limit.bound for limit in limits]
         objective: Expression = maximum(*parts).expression() if len(parts) > 1 else parts[0]
-        return replace(self.problem, boundary=self._ends(duration if ends is None else ends), minimise=objective)
+        return replace(
+            self.problem, boundary=self._ends(powers_of(duration) if ends is None else ends), minimise=objective
+        )
 
-    def _ends(self, duration: float) -> BoundaryConditions | None:
-        """The velocities at the ends as a law of that time has them."""
+    def _ends(self, powers: Powers) -> BoundaryConditions | None:
+        """The motion at the ends as a law of a time with these powers has it."""
         if self.at_rest:
             return None
-        rest = (0.0,) * (self.problem.order - 2)
-        start, end = (velocity * duration / self.stroke for velocity in (self.start_velocity, self.end_velocity))
-        return BoundaryConditions((0.0, start, *rest), (1.0, end, *rest))
+        start, end = (
+            tuple(rate * powers[i] / self.stroke if rate else 0.0 for i, rate in enumerate(rates))
+            for rates in (self.rates_at_start, self.rates_at_end)
+        )
+        return BoundaryConditions((0.0, *start), (1.0, *end))
+
+    @property
+    def rates_at_start(self) -> tuple[float, ...]:
+        """Velocity, acceleration, jerk at the start, as many as the order has conditions."""
+        return self._as_conditions(self.start_velocity, 0.0, 0.0)
+
+    @property
+    def rates_at_end(self) -> tuple[float, ...]:
+        """Velocity, acceleration, jerk at the end, as many as the order has conditions."""
+        return self._as_conditions(self.end_velocity, self.end_acceleration, self.end_jerk)
+
+    def _as_conditions(self, *rates: float) -> tuple[float, ...]:
+        count = self.problem.order - 1
+        return (rates + (0.0,) * count)[:count]
 
     def least_conceivable(self) -> float:
         """A time that no motion is faster than, by the lowest derivative that is limited and the velocity at an end."""
@@ -308,6 +374,31 @@ def power(duration: float, nu: int) -> float:
     for _ in range(nu - 1):
         product *= duration
     return product
+
+
+def powers_of(duration: float) -> Powers:
+    """A time to the powers 1 to 4.
+
+    >>> powers_of(2.0)
+    (2.0, 4.0, 8.0, 16.0)
+    """
+    return tuple(power(duration, nu) for nu in range(1, _HIGHEST + 1))
+
+
+def control_point(shortest: float, longest: float, i: int, degree: int) -> Powers:
+    """The Bernstein coefficients of number i of the powers of the time between two, up to the degree.
+
+    >>> control_point(1.0, 2.0, 1, 2)
+    (1.5, 2.0)
+    """
+
+    def coefficient(nu: int) -> float:
+        return sum(
+            comb(i, k) * comb(degree - i, nu - k) / comb(degree, nu) * longest**k * shortest ** (nu - k)
+            for k in range(max(0, nu - degree + i), min(i, nu) + 1)
+        )
+
+    return tuple(coefficient(nu) for nu in range(1, degree + 1))
 
 
 def _checked(problem: Any, *, even: bool) -> Problem:  # noqa: ANN401 - it is checked here

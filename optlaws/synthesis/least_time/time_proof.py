@@ -2,7 +2,8 @@
 
 Multipliers m of rows |a^(nu)(k)| <= limit T^nu / h leave of every law f(T) = A + V T - sum m limit T^nu / h, in which V
 comes from the velocities at the ends: no law keeps the limits where f > 0. It is concave, so that f > 0 at two times is
-f > 0 between them; where both ends are at rest it falls, so that f > 0 at a time is f > 0 at every shorter one.
+f > 0 between them; where both ends are at rest it falls, so that f > 0 at a time is f > 0 at every shorter one. With an
+acceleration or a jerk at the end it is a polynomial of higher degree, positive where its Bernstein coefficients are.
 """
 
 from __future__ import annotations
@@ -10,17 +11,20 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from math import inf
 from typing import Any
+
+from numpy.polynomial.polynomial import polyroots
 
 from optlaws.errors import InputError, SolverFailure
 from optlaws.files.reading import JsonText, all_entries_of
 from optlaws.numbers import not_negative, positive
 from optlaws.synthesis.families import names
-from optlaws.synthesis.least_time.move_limits import TimedMove, power
+from optlaws.synthesis.least_time.move_limits import TimedMove, control_point, power, powers_of
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
 from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.solution import Solution
-from optlaws.tolerances import LEAST_TIME_GAP
+from optlaws.tolerances import AGREEMENT, LEAST_TIME_GAP
 
 _KEYS = ("shortest", "longest", "certificate")
 #: how much of the overlap of two intervals is left to the one before
@@ -37,7 +41,7 @@ class TimeProof(JsonText):
     shortest, longest
         The ends of the interval, s; the shortest is 0 where limits that are kept stay so in every longer time.
     certificate
-        That no law keeps the limits in the longest time. The same multipliers prove it of the shortest. Where a
+        That no law keeps the limits in the longest time. The same multipliers prove it of all others. Where a
         vibration that is left is limited: that no law keeps what every law keeps that keeps the limits in some time
         of the interval.
     """
@@ -69,6 +73,9 @@ class TimeProof(JsonText):
             return [self.certificate]
         if move.at_rest:
             return []
+        if not move.concave:
+            between = move.within_control_points(self.shortest, self.longest)[:-1]
+            return [self.certificate, *(replace(self.certificate, problem=problem) for problem in between)]
         return [self.certificate, replace(self.certificate, problem=move.within(self.shortest))]
 
     def to_dict(self) -> dict[str, Any]:
@@ -100,27 +107,29 @@ class Multipliers:
     certificate
         The optimum's.
     weights
-        Of the limits in f(T) = constant + slope T - sum of weight T^nu, by the order nu.
-    constant, slope
-        Of what the ends leave.
+        Of the limits in f(T) = constant + sum of ends T^nu - sum of weight T^nu, by the order nu.
+    constant, ends
+        Of what the ends leave, by the order nu.
     """
 
     certificate: Certificate
     weights: tuple[tuple[int, float], ...]
     constant: float
-    slope: float
+    ends: tuple[tuple[int, float], ...]
 
     @classmethod
     def of(cls, move: TimedMove, duration: float, solution: Solution) -> Multipliers:
         """Those of the least greatest share of the limits in a time."""
-        proof = solution.certificate
+        proof, bound, powers = solution.certificate, solution.lower_bound, powers_of(duration)
         weights = _weights(move, duration, proof.contacts)
-        bound = solution.lower_bound
-        if move.at_rest:
-            return cls(proof, weights, bound, 0.0)
-        further = replace(proof, problem=move.shares(duration, ends=2.0 * duration)).bound
-        slope = (further - bound) / duration
-        return cls(proof, weights, bound - slope * duration, slope)
+        ends, constant = [], bound
+        moving = zip(move.rates_at_start, move.rates_at_end, strict=True)
+        for i in (i for i, rates in enumerate(moving) if any(rates)):
+            doubled = tuple(2.0 * each if i == j else each for j, each in enumerate(powers))
+            share = replace(proof, problem=move.shares(duration, ends=doubled)).bound - bound
+            ends.append((i + 1, share / powers[i]))
+            constant -= share
+        return cls(proof, weights, constant, tuple(ends))
 
     def of_stroke(self, ratio: float) -> Multipliers:
         """The same multipliers for a stroke that is so many times as long, from rest to rest: the limits weigh less."""
@@ -128,10 +137,24 @@ class Multipliers:
 
     def above(self, duration: float) -> float:
         """The value f at a time: above 0 no law keeps the limits."""
-        return self.constant + self.slope * duration - sum(weight * power(duration, nu) for nu, weight in self.weights)
+        left = self.constant + sum(end * power(duration, nu) for nu, end in self.ends)
+        return left - sum(weight * power(duration, nu) for nu, weight in self.weights)
+
+    @property
+    def steepness(self) -> dict[int, float]:
+        """The coefficients of f by the order nu, without the constant."""
+        orders = {nu for nu, _ in (*self.ends, *self.weights)}
+        return {
+            order: sum(end for nu, end in self.ends if nu == order) - sum(w for nu, w in self.weights if nu == order)
+            for order in sorted(orders)
+        }
 
     def longest(self, duration: float) -> float:
         """The time up to which f stays above 0, from one at which it is, or back to which it is not."""
+        if self.above(duration) > 0.0:
+            high = next(iter(self._roots(duration, 1.0)), inf)
+            if high < inf:
+                return self._crossing(duration, high)
         low = high = duration
         if self.above(duration) > 0.0:
             for _ in range(_DOUBLINGS):
@@ -147,15 +170,32 @@ class Multipliers:
 
     def shortest(self, duration: float) -> float:
         """The time down to which f stays above 0, from one at which it is; 0 where it is above at once."""
-        if self.above(0.0) > 0.0:
+        low = next(iter(self._roots(duration, -1.0)), 0.0)
+        if low == 0.0 and self.above(0.0) > 0.0:
             return 0.0
-        return self._crossing(duration, 0.0)
+        return self._crossing(duration, low)
+
+    def _roots(self, duration: float, sign: float) -> list[float]:
+        """Where f may cross 0 beyond a time (sign 1) or before it (-1), the nearest first; of f that is not concave."""
+        if all(nu < 2 for nu, _ in self.ends):
+            return []
+        series = [self.constant, *(self.steepness.get(nu, 0.0) * power(duration, nu) for nu in range(1, 5))]
+        known = (duration * float(root.real) for root in polyroots(series) if abs(root.imag) <= AGREEMENT)
+        beyond = [root * (1.0 + sign * AGREEMENT) for root in known if root > 0.0 and sign * (root - duration) > 0.0]
+        return sorted((root for root in beyond if self.above(root) <= 0.0), key=lambda root: sign * root)
 
     def _crossing(self, inside: float, outside: float) -> float:
         """The last time at which f is above 0, between one at which it is and one at which it is not."""
         while (middle := 0.5 * (inside + outside)) not in {inside, outside}:
             inside, outside = (middle, outside) if self.above(middle) > 0.0 else (inside, middle)
         return inside
+
+    def above_between(self, shortest: float, longest: float) -> bool:
+        """Whether the Bernstein coefficients of f between two times show that it is above 0 there."""
+        steep = self.steepness
+        degree = max(steep)
+        points = (control_point(shortest, longest, i, degree) for i in range(degree + 1))
+        return all(self.constant + sum(a * point[nu - 1] for nu, a in steep.items()) > 0.0 for point in points)
 
     def proof(self, move: TimedMove, shortest: float, longest: float) -> TimeProof:
         """The proof of an interval, by the multipliers of the limits alone."""
@@ -199,9 +239,18 @@ def covering(move: TimedMove, known: Sequence[tuple[float, Multipliers]], durati
         if low > lower:
             before = max((high for start, high, _ in ranges if start < low), default=low)
             lower = low + _OVERLAP * (min(before, upper) - low)
-        proofs.append(ranges[i][2].proof(move, lower, upper))
+        proofs += _in_parts(ranges[i][2], move, lower, upper)
         upper = lower
     return tuple(reversed(proofs))
+
+
+def _in_parts(multipliers: Multipliers, move: TimedMove, shortest: float, longest: float) -> list[TimeProof]:
+    """The proofs of an interval, the longest times first: one, or several where one does not show it."""
+    middle = 0.5 * (shortest + longest)
+    if move.concave or multipliers.above_between(shortest, longest) or not shortest < middle < longest:
+        return [multipliers.proof(move, shortest, longest)]
+    parts = ((middle, longest), (shortest, middle))
+    return [proof for low, high in parts for proof in _in_parts(multipliers, move, low, high)]
 
 
 def _weights(move: TimedMove, duration: float, contacts: Sequence[Contact]) -> tuple[tuple[int, float], ...]:

@@ -20,6 +20,7 @@ NAMES = {  # keys of the reference table that are no name of the catalogue
 }
 ROWS = rows("law_catalogue.csv")
 CONTINUITY = {"b": 1, "c": 2, "j": 3, "j'": 4}
+HALVES = {name for name in catalogue if name.startswith("half ")}
 every_entry = pytest.mark.parametrize("name", list(catalogue))
 
 
@@ -56,10 +57,34 @@ def test_entries_rise_from_0_to_1(name: str) -> None:
     assert law.a([0.0, 1.0]) == pytest.approx([0.0, 1.0], abs=1e-13)
     assert law.extrema(1)[0].value >= -1e-12
     if name != "constant velocity":
-        assert law.b([0.0, 1.0]) == pytest.approx([0.0, 0.0], abs=1e-13)
+        moving = law.constants.B.value if name in HALVES else 0.0
+        assert sorted(law.b([0.0, 1.0])) == pytest.approx([0.0, moving], abs=1e-13)
     k = np.linspace(0.0, 1.0, 101)
     symmetric = float(np.abs(law.a(k) + law.a(1.0 - k) - 1.0).max())
-    assert (symmetric > 0.01) == (name == "double harmonic")
+    assert (symmetric > 0.01) == (name == "double harmonic" or name in HALVES)
+
+
+def test_half_segments_are_those_of_kloomok_and_muffley() -> None:
+    k, pi = np.linspace(0.0, 1.0, 41), np.pi
+    forms = {  # displacement of a stroke of 1, and its three derivatives
+        "C1": (k - np.sin(pi * k) / pi, 1 - np.cos(pi * k), pi * np.sin(pi * k), pi**2 * np.cos(pi * k)),
+        "C2": (k + np.sin(pi * k) / pi, 1 + np.cos(pi * k), -pi * np.sin(pi * k), -(pi**2) * np.cos(pi * k)),
+        "H1": tuple(np.array([1, 0, 0, 0])[:, None] - (pi / 2) ** np.arange(4)[:, None] * [
+            np.cos(pi * k / 2), -np.sin(pi * k / 2), -np.cos(pi * k / 2), np.sin(pi * k / 2)]),
+        "H2": tuple((pi / 2) ** np.arange(4)[:, None] * [
+            np.sin(pi * k / 2), np.cos(pi * k / 2), -np.sin(pi * k / 2), -np.cos(pi * k / 2)]),
+    }  # fmt: skip
+    for code, values in forms.items():
+        for nu, expected in enumerate(values):
+            assert catalogue[code].law(k, nu) == pytest.approx(expected, abs=1e-14 * 10**nu)
+    for halves, whole in ((("C1", "C2"), "C5"), (("H1", "H2"), "H5")):  # two halves are the full segment
+        for place, half in enumerate(halves):
+            for nu in range(4):
+                whole_there = catalogue[whole].law((k + place) / 2, nu) - (place / 2 if nu == 0 else 0.0)
+                assert catalogue[half].law(k, nu) == pytest.approx(whole_there * 2.0 ** (1 - nu), abs=1e-12)
+    for cycloid, (B, C, J) in {"C3": (2.0, pi, pi**2), "H4": (pi / 2, pi**2 / 4, pi**3 / 8)}.items():
+        constants = catalogue[cycloid].constants
+        assert (constants.B.value, constants.C.value, constants.J.value) == pytest.approx((B, C, J), rel=1e-15)
 
 
 @every_entry

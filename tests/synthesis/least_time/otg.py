@@ -13,7 +13,7 @@ def fastest_motion(move: TimedMove) -> tuple[float, tuple[float, ...]]:
     limits, given = move.limits, ruckig.InputParameter(1)
     given.current_position, given.target_position = [0.0], [move.stroke]
     given.current_velocity, given.target_velocity = [move.start_velocity], [move.end_velocity]
-    given.current_acceleration = given.target_acceleration = [0.0]
+    given.current_acceleration, given.target_acceleration = [0.0], [move.end_acceleration]
     given.max_velocity, given.max_jerk = [limits.velocity], [limits.jerk]
     given.max_acceleration, given.min_acceleration = [limits.acceleration], [-float(limits.deceleration or 0.0)]
     motion = ruckig.Trajectory(1)

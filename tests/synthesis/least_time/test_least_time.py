@@ -1,9 +1,11 @@
 """The least time of a move by methods of its own: closed forms, a bisection with linear programs, ruckig."""
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
+import ruckig
 from scipy.optimize import linprog
 
 from optlaws import B, C_minus, C_plus, Chebyshev, InfeasibleProblem, InputError, J, Pieces, Problem, Window, catalogue
@@ -193,6 +195,68 @@ def compare_with_ruckig(count: int, seed: int, *, moving: bool) -> None:
 @pytest.mark.parametrize("moving", [False, True])
 def test_pieces_are_as_fast_as_ruckig(*, moving: bool) -> None:
     compare_with_ruckig(6, 4, moving=moving)
+
+
+def compare_moving_ends_with_ruckig(count: int, seed: int) -> None:
+    """From rest to a velocity and an acceleration; ruckig refuses those that the limits cannot bring about."""
+    numbers = np.random.default_rng(seed)
+    done = 0
+    while done < count:
+        move = random_move(numbers, moving=True)
+        limits = move.limits
+        sides = -float(limits.deceleration or 0.0), float(limits.acceleration or 0.0)
+        move = replace(move, start_velocity=0.0, end_acceleration=0.8 * numbers.uniform(*sides))
+        try:
+            duration, breaks = fastest_motion(move)
+        except ruckig.RuckigError:
+            continue
+        done += 1
+        space = Problem(order=3, basis=Pieces(breaks, **CUBIC), symmetric=False)
+        found = least_time(replace(move, problem=space))
+        assert found.duration == pytest.approx(duration, rel=1e-8), move
+        assert found.gap <= 1.001e-6
+        assert all(proof.stands(found.move) for proof in found.proofs)
+
+
+def test_ends_with_an_acceleration_are_as_fast_as_ruckig() -> None:
+    compare_moving_ends_with_ruckig(4, 11)
+
+
+@pytest.mark.long
+def test_ends_with_an_acceleration_are_as_fast_as_ruckig_in_many_cases() -> None:
+    compare_moving_ends_with_ruckig(500, 12)
+
+
+def test_an_acceleration_and_a_jerk_at_the_end_are_the_law_s_and_proven_for_every_time() -> None:
+    ends: dict[str, Any] = {"end_velocity": 0.6, "end_acceleration": -3.0, "end_jerk": 150.0}
+    found = least_time(TimedMove(Problem(order=4), 0.1, UNEVEN, **ends))
+    values = [0.1 * float(found.law(1.0, nu)) / found.duration**nu for nu in (1, 2, 3)]
+    assert values == pytest.approx(list(ends.values()))
+    assert found.move.concave is False
+    proof = found.proofs[-1]
+    assert proof.stands(found.move)
+    # one set of multipliers contradicts the limits at the times between, which are none of the control points
+    for share in (0.21, 0.5, 0.83):
+        time = proof.shortest + share * (proof.longest - proof.shortest)
+        assert replace(proof.certificate, problem=found.move.within(time)).proves_infeasible
+    assert not replace(proof, longest=found.duration * 1.01).stands(found.move)
+    moved = replace(found.move, end_acceleration=-2.9)
+    assert not any(each.stands(moved) for each in found.proofs)
+
+
+@pytest.mark.parametrize(
+    ("ends", "named"),
+    [
+        ({"end_acceleration": -9.0}, "end_acceleration is beyond the limit of the acceleration"),
+        ({"end_acceleration": 1.0, "start_velocity": 0.1}, "begins at rest: give no start_velocity"),
+        ({"end_jerk": 400.0}, "end_jerk is beyond the limit of the jerk"),
+        ({"end_jerk": 1.0, "problem": Problem(order=3)}, "end_jerk needs order >= 4, got order 3"),
+        ({"end_acceleration": float("nan")}, "end_acceleration"),
+    ],
+)
+def test_ends_that_no_move_has_are_refused(ends: dict[str, Any], named: str) -> None:
+    with pytest.raises(InputError, match=named):
+        TimedMove(ends.pop("problem", Problem(order=4)), 0.1, UNEVEN, **ends)
 
 
 @pytest.mark.long

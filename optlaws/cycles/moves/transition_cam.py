@@ -1,0 +1,301 @@
+"""A cam that brings an axis from rest into its cycle, or from its cycle to rest, while the master turns."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from math import sqrt
+from typing import Any, Literal, Unpack, get_args
+
+from optlaws.cycles.moves.fastest_move import AXES, FastestMove
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.files.reading import JsonText, all_entries_of
+from optlaws.kept import kept_property
+from optlaws.laws.exporting import ExportOptions
+from optlaws.laws.making.transform import mirrored_law
+from optlaws.motion.motion import MASTERS, Motion, motion_of_pieces
+from optlaws.motion.piece import Piece, unit_of
+from optlaws.motion.quantities import QUANTITIES, given_quantity
+from optlaws.numbers import Quantity, derivative, finite, listed, number_or_array, positive, real_times
+from optlaws.shown.summary import Row, Summary
+from optlaws.suggest import keywords_of
+from optlaws.synthesis.solution import Solution
+from optlaws.synthesis.status import Status
+from optlaws.tolerances import JUMP, STORED_VALUE
+
+TransitionKind = Literal["run-in", "run-out"]
+_KEYS = ("kind", "unit", "period", "at", "rest", "state", "duration", "best", "least")
+
+
+@dataclass(frozen=True, repr=False)
+class TransitionCam(JsonText):
+    """A cam beside that of a cycle: it starts the axis from rest, or stops it, while the master turns on.
+
+    Where it meets the cycle position, velocity and acceleration are those of the cycle, from order 4 on the jerk too.
+    Call it for the motion in SI units over the time since it began.
+
+    Attributes
+    ----------
+    kind
+        "run-in" from rest into the cycle, "run-out" from the cycle to rest.
+    axis
+        Whether positions are a "length" or an "angle".
+    period
+        Of the cycle, s.
+    at
+        The time in the cycle at which it meets the cycle, s.
+    rest
+        The position of rest, m or rad.
+    state
+        Position, velocity, acceleration and jerk of the cycle where they meet, in SI units.
+    duration
+        How long it takes, s.
+    solution
+        The law from rest to this state, dimensionless, with its proof; that of a run-out runs backwards in time.
+    least
+        The proof that no law of its space takes less time; None where the time was given.
+
+    Examples
+    --------
+    >>> from optlaws import Cycle, Return, Rise
+    >>> cycle = Cycle([Rise("35 mm", "180 deg", law="cycloidal"), Return(law="cycloidal")], speed="60 rpm")
+    >>> cam = cycle.run_in("90 deg", over="120 deg")
+    >>> cam
+    TransitionCam('run-in', -30 to 90 deg of the master, 0.333333 s, status='optimal')
+    >>> round(cam(cam.duration), 9) == round(cycle.at_angle(90), 9), round(cam(cam.duration, 1), 9), cam(0.0, 1)
+    (True, 0.14, 0.0)
+    """
+
+    kind: TransitionKind
+    axis: str
+    period: float
+    at: float
+    rest: float
+    state: tuple[float, float, float, float]
+    duration: float
+    solution: Solution
+    least: FastestMove | None = None
+
+    _json_name = "a transition cam"
+
+    @property
+    def status(self) -> Status:
+        """Of the law: proven to be the best in its time, or to take the least time."""
+        return self.solution.status if self.least is None else self.least.status
+
+    @property
+    def master(self) -> tuple[float, float]:
+        """The angles of the cycle's master at which it begins and ends, in degrees; below 0 in the turn before."""
+        share = 360.0 / self.period
+        at, over = share * self.at, share * self.duration
+        return (at - over, at) if self.kind == "run-in" else (at, at + over)
+
+    @kept_property
+    def piece(self) -> Piece:
+        """The law in its place over the time since the cam began."""
+        law, position, velocity = self.solution.law, *self.state[:2]
+        # a law that ends where it begins is one of the way that its last velocity would take it
+        stroke = position - self.rest or abs(velocity) * self.duration
+        if self.kind == "run-in":
+            return Piece(0.0, self.duration, self.rest, stroke, law)
+        return Piece(0.0, self.duration, position, stroke, mirrored_law(law))
+
+    def __call__(self, time: Any, nu: int = 0) -> Any:  # noqa: ANN401 - a number for a number, an array for arrays
+        """Position (nu 0), velocity, acceleration, jerk at a time in seconds since it began, in SI units.
+
+        Raises
+        ------
+        InputError
+            If the time is before it begins or after it ends.
+        """
+        times = real_times(time)
+        if ((times < 0.0) | (times > self.duration)).any():
+            raise InputError(f"a {self.kind} lasts from 0 to {self.duration:.9g} s, got {shortened(time)}")
+        return number_or_array(self.piece.values(times, derivative(nu)))
+
+    def peak(self, nu: int) -> float:
+        """The greatest magnitude of the derivative of order nu, in SI units, recomputed from the law."""
+        return max(abs(value) for value, _ in self.piece.extremes(derivative(nu), 0.0, self.duration))
+
+    @property
+    def jumps(self) -> dict[str, float]:
+        """By how much position, velocity, acceleration and jerk jump where cam and cycle meet; 0 where rounding."""
+        side = 1 if self.kind == "run-in" else 0
+        jumps = {}
+        for nu, name in enumerate(QUANTITIES):
+            jump = self.piece.end(nu, side) - self.state[nu]
+            jumps[name] = 0.0 if abs(jump) <= JUMP * self._size(nu) else jump
+        return jumps
+
+    def _size(self, nu: int) -> float:
+        """The greatest magnitude of a derivative in the cam and where it meets the cycle."""
+        return max(self.peak(nu), abs(self.state[nu]))
+
+    def motion(self, master: Quantity | None = "360 deg", unit: str | None = None) -> Motion:
+        """The exact motion in machine units, which does not repeat; its master begins at 0 with the cam.
+
+        Parameters
+        ----------
+        master
+            How far the master goes in a cycle, as of `Cycle.motion`: less in the cam as it takes less time; None for a
+            master that is time in seconds.
+        unit
+            Of positions; "mm" for lengths and "deg" for angles unless given.
+        """
+        first = self.master[0]
+        span = master
+        if master is not None:
+            turn = given_quantity(master, MASTERS, "master")
+            span = f"{turn.number * self.duration / self.period!r} {turn.unit}"
+        about = f"{self.kind}: its master at 0 is that of the cycle at {first:.9g} deg"
+        return replace(
+            motion_of_pieces((self.piece,), self.duration, self.axis, master=span, unit=unit, proof=(about,)),
+            repeats=False,
+        )
+
+    @keywords_of(ExportOptions)
+    def export(
+        self, to: str, *, master: Quantity | None = "360 deg", unit: str | None = None, **options: Unpack[ExportOptions]
+    ) -> Any:  # noqa: ANN401 - made a layer above
+        """The cam in the format of a controller, as `Cycle.export`; its master begins at 0.
+
+        Raises
+        ------
+        InputError
+            As `Cycle.export`.
+
+        Examples
+        --------
+        >>> from optlaws import Cycle, Return, Rise
+        >>> cycle = Cycle([Rise("35 mm", "180 deg", law="cycloidal"), Return(law="cycloidal")], speed="60 rpm")
+        >>> cycle.run_in("90 deg", over="120 deg").export("csv", points=3).text.splitlines()[-1].split(",")[:2]
+        ['120', '17.5']
+        """
+        from optlaws.exports.export import export_cycle
+
+        return export_cycle(self, to, {"master": master, "unit": unit}, **options)
+
+    def plot(self, ax: Any = None, *, cycle: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
+        """Draw position, velocity, acceleration and jerk over the master; return the artists.
+
+        `ax` are four axes of matplotlib, new ones unless given; the `cycle` is drawn beside if it is given; `style` is
+        what `Axes.plot` takes, for the cam.
+
+        Examples
+        --------
+        >>> from optlaws import Cycle, Return, Rise
+        >>> cycle = Cycle([Rise("35 mm", "180 deg", law="cycloidal"), Return(law="cycloidal")], speed="60 rpm")
+        >>> artists = cycle.run_in("90 deg", over="120 deg").plot(cycle=cycle)
+        >>> artists[0].axes.get_ylabel()
+        'position, mm'
+        """
+        from optlaws.plots.run_in import draw_transition
+
+        return draw_transition(self, ax, cycle=cycle, **style)
+
+    def summary(self) -> Summary:
+        """Where it runs, how long it takes, its peaks and how it meets the cycle, as rows in SI units.
+
+        Examples
+        --------
+        >>> from optlaws import Cycle, Return, Rise
+        >>> cycle = Cycle([Rise("35 mm", "180 deg", law="cycloidal"), Return(law="cycloidal")], speed="60 rpm")
+        >>> [f"{row.name} {row.text(5)} {row.unit}" for row in cycle.run_in("90 deg", over="120 deg").summary()[:3]]
+        ['master -30 to 90 deg', 'time 0.33333 s', 'status optimal ']
+        """
+        rows = [Row("master", self.master, "deg"), Row("time", self.duration, "s"), Row("status", self.status.value)]
+        if self.least is not None:
+            binding = ", ".join(self.least.binding)
+            rows.append(Row("proven: none below", self.least.none_below, "s", note=f"{binding} binds"))
+        for nu, name in enumerate(QUANTITIES[1:], start=1):
+            value, place = max(self.piece.extremes(nu, 0.0, self.duration), key=lambda each: abs(each[0]))
+            rows.append(Row(f"peak {name}", abs(value), unit_of(self.axis, nu), place))
+        for nu, (name, jump) in enumerate(self.jumps.items()):
+            rows.append(Row(f"jump of {name} where they meet", jump, unit_of(self.axis, nu)))
+        return Summary(rows, "s")
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain JSON-able dict in SI units, with the law and its proof."""
+        unit = next(unit for unit, axis in AXES.items() if axis == self.axis)
+        own = {"best": self.solution.to_dict()} if self.least is None else {"least": self.least.to_dict()}
+        numbers = {name: getattr(self, name) for name in ("period", "at", "rest", "duration")}
+        entries = {"kind": self.kind, "unit": unit, **numbers, "state": list(self.state)}
+        return entries | {"best": None, "least": None} | own
+
+    def claims(self) -> dict[str, Any]:
+        """The law and its proof as `optlaws verify` takes them.
+
+        Examples
+        --------
+        >>> from optlaws import Cycle, Return, Rise
+        >>> from optlaws.verification import verify_all
+        >>> cycle = Cycle([Rise("35 mm", "180 deg", law="cycloidal"), Return(law="cycloidal")], speed="60 rpm")
+        >>> [checked.proven for checked in verify_all(cycle.run_in("90 deg", over="120 deg").claims()).values()]
+        [True]
+        """
+        first, last = self.master
+        known = "its best law" if self.least is None else f"least time {self.duration:.9g} s"
+        backwards = "" if self.kind == "run-in" else "; the law runs backwards in time"
+        about = f"{self.kind} from {first:.9g} to {last:.9g} deg of the master: {known}{backwards}"
+        value = self.solution if self.least is None else self.least
+        return {"about": about, "law": value.to_dict()}
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> TransitionCam:
+        """Read what `to_dict` wrote; the law is held against the state where it meets the cycle.
+
+        Raises
+        ------
+        InputError
+            If an entry is missing or wrong, or the law does not meet the cycle.
+        """
+        entries = all_entries_of(data, _KEYS, cls._json_name)
+        kinds = {"kind": get_args(TransitionKind), "unit": tuple(AXES)}
+        for name, known in kinds.items():
+            if entries[name] not in known:
+                raise InputError(f"{name} of {cls._json_name} is {' or '.join(known)}, got {shortened(entries[name])}")
+        if (entries["least"] is None) == (entries["best"] is None):
+            raise InputError(f"{cls._json_name} has either the best law of its time or a least time")
+        least = None if entries["least"] is None else FastestMove.from_dict(entries["least"])
+        listed_state = listed(entries["state"], "state", len(QUANTITIES))
+        if len(listed_state) != len(QUANTITIES):
+            raise InputError(f"state must be {len(QUANTITIES)} numbers, got {shortened(entries['state'])}")
+        position, velocity, acceleration, jerk = (finite(value, "state") for value in listed_state)
+        read = cls(
+            entries["kind"],
+            AXES[entries["unit"]],
+            positive(entries["period"], "period"),
+            finite(entries["at"], "at"),
+            finite(entries["rest"], "rest"),
+            (position, velocity, acceleration, jerk),
+            positive(entries["duration"], "duration"),
+            Solution.from_dict(entries["best"]) if least is None else least.least.solution,
+            least,
+        )
+        read._check()
+        return read
+
+    def _check(self) -> None:
+        """Refuse a law that does not meet the cycle, or a least time of another move."""
+        order = self.solution.problem.order
+        side = 1 if self.kind == "run-in" else 0
+        for nu, jump in enumerate(list(self.jumps.values())[:order]):
+            size = self._size(nu)
+            still = abs(self.piece.end(nu, 1 - side) - (self.rest if nu == 0 else 0.0))
+            if max(abs(jump), still) > sqrt(STORED_VALUE) * size:
+                raise InputError(f"the law of {self._json_name} does not meet its state or its rest")
+        if self.least is not None and self.least.duration != self.duration:
+            raise InputError(f"{self._json_name} takes {self.duration!r} s, but its least time is another")
+
+    def __repr__(self) -> str:
+        first, last = self.master
+        return (
+            f"TransitionCam({self.kind!r}, {first:.6g} to {last:.6g} deg of the master, {self.duration:.6g} s, "
+            f"status={self.status.value!r})"
+        )
+
+    def _repr_html_(self) -> str:
+        from optlaws.shown.showing import page
+
+        return page(f"A {self.kind}", self.summary()._repr_html_())
