@@ -27,7 +27,7 @@ from optlaws import (
 from tests.contracts.faces import faces
 from tests.contracts.test_faces import package
 from tests.internals.laws import Segment
-from tests.internals.synthesis import FollowerResidual, MotorTorque
+from tests.internals.synthesis import FollowerResidual, MotorTorque, MoveObjective
 from tests.laws.examples import EXAMPLES
 
 #: an acceleration that jumps: J has no bound
@@ -101,6 +101,8 @@ def values(jumping: Solution) -> dict[str, Any]:
             Problem(order=3), stroke="90 deg", limits={"jerk": "900 rad/s^3"}, start_velocity="2 rad/s"
         ),
         "LeastTime": fastest.least,
+        "TimeFront": optlaws.time_front(fastest, "rms jerk", points=2),
+        "MoveObjective": MoveObjective("torque", MotorTorque("1 + 0.3*a", 0.1, "0.2", 2.0, rms=1.0)),
         "FollowerResidual": FollowerResidual(95.0, 105.0, 0.05, most=0.4),
         "MotorTorque": MotorTorque("1 + 0.3*a", 0.1, "0.2", 2.0, peak=3.0),
         "MoveLimits": fastest.least.move.limits,

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 from optlaws.cycles.moves.fastest_move import AXES, FastestMove
 from optlaws.cycles.moves.torque_limits import TORQUES, motor_torque, without_torques
-from optlaws.cycles.moves.vibration_limits import RESIDUAL, vibration_limit
+from optlaws.cycles.moves.vibration_limits import vibration_limit
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.mechanisms.drives.drive_train import Drive
@@ -18,6 +18,7 @@ from optlaws.suggest import unknown_key
 from optlaws.synthesis.least_time.least_time import LeastTime
 from optlaws.synthesis.least_time.motor_torque import MotorTorque
 from optlaws.synthesis.least_time.move_limits import MoveLimits, TimedMove
+from optlaws.synthesis.least_time.move_objective import RESIDUAL
 from optlaws.synthesis.least_time.time_search import least_time
 from optlaws.synthesis.problem.problem import Problem
 

@@ -11,8 +11,8 @@ from optlaws.errors import InputError
 from optlaws.motion.quantities import positive_quantity, table
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.least_time.follower_residual import FollowerResidual
+from optlaws.synthesis.least_time.move_objective import RESIDUAL
 
-RESIDUAL = "residual acceleration"
 _EXAMPLE = '{"frequency": ("15.9 Hz", "17.5 Hz"), "damping": 0.05}'
 _KEYS = ("frequency", "damping")
 _ACCELERATIONS = {"m": "acceleration", "rad": "angular acceleration"}
