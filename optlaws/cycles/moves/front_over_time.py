@@ -78,7 +78,7 @@ def time_front(
     >>> table = optlaws.Drive(optlaws.Mechanism("0.8 kg m^2", "20 N m"), motor, ratio=20)
     >>> turn = optlaws.fastest(optlaws.Problem(order=3), stroke="45 deg", limits={}, drive=table)
     >>> time_front(turn, "rms torque", points=3)
-    TimeFront(rms torque, 3 points from 0.219... s with 2.93... N m to 0.438... s with 1.19... N m, status='optimal')
+    TimeFront(rms torque, 3 points from 0.23167 s with 2.73454 N m to 0.46334 s with 1.16182 N m, status='optimal')
     """
     if not isinstance(move, FastestMove):
         raise InputError(f"a front over the time is that of a FastestMove, got {type(move).__name__}")

@@ -81,10 +81,10 @@ class TimeFront(JsonText):
     >>> move = optlaws.fastest(optlaws.Problem(order=3), stroke="100 mm", limits={"jerk": "300 m/s^3"})
     >>> front = optlaws.time_front(move, "rms acceleration", points=5)
     >>> [(round(point.duration, 4), round(point.value, 3)) for point in front][::2]
-    [(0.2253, 8.215), (0.3187, 3.769), (0.4507, 1.864)]
+    [(0.2253, 8.918), (0.3187, 3.671), (0.4507, 1.756)]
     >>> between = front(0.3)
     >>> between.lower_bound <= between.value, round(between.value, 2), round(between.gap, 2)
-    (True, 4.42, 0.04)
+    (True, 4.39, 0.06)
     """
 
     fastest: FastestMove

@@ -142,7 +142,7 @@ class MoveObjective(JsonText):
 
     @classmethod
     def from_dict(cls, data: Any) -> MoveObjective:  # noqa: ANN401 - it is checked here
-        """What `to_dict` described.
+        """The objective that `to_dict` described.
 
         Raises
         ------
