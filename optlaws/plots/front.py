@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -19,7 +20,9 @@ if TYPE_CHECKING:
 
 _AXES = {"B": "peak velocity B", "C": "peak acceleration C", "D": "peak power D", "J": "peak jerk J"}
 
-_SHOWN = 400
+_BETWEEN = 8
+#: of the time between two points: so near to one the sides are those between
+_NEXT = 1e-6
 _MS = 1e3
 
 
@@ -62,8 +65,9 @@ def draw_time_front(front: TimeFront, axes: Axes | None = None, **style: Any) ->
     line = {"color": colour, "linewidth": 1.4, "linestyle": "-", "zorder": 4, **style}
     points = axes.plot(_MS * times, upper, marker="o", markersize=3.0, label=label, **line)
     if front.falls:
-        # what is proven at every time: the bound of the point after it holds before it
-        shown = np.union1d(np.geomspace(times[0], times[-1], _SHOWN), times).clip(times[0], times[-1])
+        # both sides jump at points, and are smooth between two of them
+        inside = [np.linspace(low + _NEXT * (high - low), high, _BETWEEN) for low, high in pairwise(times)]
+        shown = np.unique(np.concatenate([times, *inside]))
         between = [front(float(time)) for time in shown]
         below = [point.lower_bound for point in between]
         bound = axes.plot(_MS * shown, below, color=GREY, linewidth=0.9, label="no law below")

@@ -13,6 +13,7 @@ from optlaws.cycles.moves.fastest_move import AXES, FastestMove
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.files.reading import JsonText, all_entries_of
+from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.motion.piece import unit_of
 from optlaws.motion.quantities import positive_quantity
@@ -171,27 +172,31 @@ class TimeFront(JsonText):
         slower = power(after.duration / time, nu) if nu else 1.0
         return self._point(time, before.law, after.lower_bound * slower)
 
-    def __getitem__(self, place: int) -> TimePoint:
-        duration, solution = self.durations[place], self.solutions[place]
-        bound = self.objective.in_time(duration, self.fastest.stroke).bound
-        return self._point(duration, solution.law, solution.lower_bound / bound)
-
-    def _point(self, duration: float, law: MotionLaw, lower_bound: float) -> TimePoint:
-        least = self.objective.in_time(duration, self.fastest.stroke)
-        value = self.objective.value(law, duration, self.fastest.stroke)
-        return TimePoint(
-            duration,
-            law,
-            value,
-            lower_bound,
-            (value - lower_bound) / measure(value, least.constant.scale / least.bound),
+    @kept_property
+    def points(self) -> tuple[TimePoint, ...]:
+        """The points, their values recomputed from the laws."""
+        return tuple(
+            self._point(duration, solution.law, solution.lower_bound, dimensionless=True)
+            for duration, solution in zip(self.durations, self.solutions, strict=True)
         )
+
+    def _point(self, duration: float, law: MotionLaw, bound: float, *, dimensionless: bool = False) -> TimePoint:
+        """The point of a law; its bound in SI units or as that of the law's constant."""
+        least = self.objective.in_time(duration, self.fastest.stroke)
+        value, lower_bound = float(least.constant.value(law)) / least.bound, bound
+        if dimensionless:
+            lower_bound /= least.bound
+        gap = (value - lower_bound) / measure(value, least.constant.scale / least.bound)
+        return TimePoint(duration, law, value, lower_bound, gap)
+
+    def __getitem__(self, place: int) -> TimePoint:
+        return self.points[place]
 
     def __len__(self) -> int:
         return len(self.durations)
 
     def __iter__(self) -> Iterator[TimePoint]:
-        return (self[i] for i in range(len(self)))
+        return iter(self.points)
 
     @property
     def headings(self) -> tuple[str, ...]:

@@ -9,7 +9,6 @@ from optlaws.errors import InputError
 from optlaws.files.reading import JsonText, all_entries_of
 from optlaws.formulas.reading import read
 from optlaws.formulas.slopes import constant
-from optlaws.laws import MotionLaw
 from optlaws.numbers import positive, real
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.functionals.makers import integral, peak, rms
@@ -108,11 +107,6 @@ class MoveObjective(JsonText):
     def problem(self, move: TimedMove, duration: float) -> Problem:
         """The problem of the laws that keep the limits of a move in a time, with what is least in it."""
         return replace(move.within(duration), minimise=self.in_time(duration, move.stroke).constant)
-
-    def value(self, law: MotionLaw, duration: float, stroke: float) -> float:
-        """What a law takes in a time, in SI units."""
-        least = self.in_time(duration, stroke)
-        return float(least.constant.value(law)) / least.bound
 
     @property
     def nu(self) -> int:
