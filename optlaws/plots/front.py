@@ -66,7 +66,10 @@ def draw_time_front(front: TimeFront, axes: Axes | None = None, **style: Any) ->
     points = axes.plot(_MS * times, upper, marker="o", markersize=3.0, label=label, **line)
     if front.falls:
         # both sides jump at points, and are smooth between two of them
-        inside = [np.linspace(low + _NEXT * (high - low), high, _BETWEEN) for low, high in pairwise(times)]
+        near = [_NEXT * (high - low) for low, high in pairwise(times)]
+        inside = [
+            np.linspace(low + by, high - by, _BETWEEN) for by, (low, high) in zip(near, pairwise(times), strict=True)
+        ]
         shown = np.unique(np.concatenate([times, *inside]))
         between = [front(float(time)) for time in shown]
         below = [point.lower_bound for point in between]
