@@ -9,6 +9,7 @@ import numpy as np
 
 from optlaws.plots.style import BLUES, GREY, WARM, new_axes
 from optlaws.synthesis.problem.named_constants import title_of
+from optlaws.tolerances import BESIDE_POINT
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -21,8 +22,6 @@ if TYPE_CHECKING:
 _AXES = {"B": "peak velocity B", "C": "peak acceleration C", "D": "peak power D", "J": "peak jerk J"}
 
 _BETWEEN = 8
-#: of the time between two points: so near to one the sides are those between
-_NEXT = 1e-6
 _MS = 1e3
 
 
@@ -66,7 +65,7 @@ def draw_time_front(front: TimeFront, axes: Axes | None = None, **style: Any) ->
     points = axes.plot(_MS * times, upper, marker="o", markersize=3.0, label=label, **line)
     if front.falls:
         # both sides jump at points, and are smooth between two of them
-        near = [_NEXT * (high - low) for low, high in pairwise(times)]
+        near = [BESIDE_POINT * (high - low) for low, high in pairwise(times)]
         inside = [
             np.linspace(low + by, high - by, _BETWEEN) for by, (low, high) in zip(near, pairwise(times), strict=True)
         ]

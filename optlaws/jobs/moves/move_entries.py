@@ -82,14 +82,14 @@ def sought(spec: FastestProblemFile, file: Path) -> list[SoughtMove]:
     if len(set(names)) < len(names):
         raise InputError(f"move: names must differ, got {', '.join(names)}")
     space = problem("problem", {"order": 3}, {} if spec.problem is None else spec.problem.given())
-    found = []
+    moves = []
     for move in spec.move:
         try:
             with located(f"move {move.name}"):
-                found.append(_sought(move, space, file.parent))
+                moves.append(_sought(move, space, file.parent))
         except (InfeasibleProblem, SolverFailure) as error:
             raise InputError(f"move {move.name}: {error.args[0]}") from error
-    return found
+    return moves
 
 
 def _sought(move: MoveEntries, space: Problem, folder: Path) -> SoughtMove:
