@@ -247,7 +247,8 @@ EXAMPLES = {
             ("degree = 7", "degree = 7\nB = 1.8", "the problem of a least time leaves B free"),
             ('stroke = "45 deg"', 'stroke = "45 mm"', "move table: .*limits|move table: .*angle"),
             ('stroke = "45 deg"', 'strok = "45 deg"', "did you mean 'stroke'"),
-            ('name = "slide"', 'name = "table"', "names must differ"),
+            ('name = "slide"', 'name = "Table"', "names must differ as files have them"),
+            ('name = "slide"', 'name = "about"', "none is about or fastest"),
             ('["100 mm", "90 mm"]', '["100 mm"]', "stroke"),
             ('velocity = "1 m/s"', 'speed = "1 m/s"', "move slide: unknown limit 'speed'"),
             (

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import json
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
 from optlaws.cycles.moves.fastest_move import FastestMove
 from optlaws.cycles.moves.time_front import TimeFront
+from optlaws.errors import InputError
+from optlaws.files import writing
 from optlaws.files.tables import Cell
 from optlaws.jobs.cycle import plain_name
 from optlaws.jobs.moves.move_entries import FastestProblemFile, SoughtMove, sought
@@ -25,6 +29,11 @@ _PERCENT = 100.0
 def run(results: Results) -> None:
     """Put the tables, the page, the pictures, and laws with their proofs into results."""
     spec = results.read(FastestProblemFile)
+    files = [plain_name(move.name) for move in spec.move]
+    if len(set(files)) < len(files) or {"about", "fastest"} & set(files):
+        raise InputError(
+            f"move: names must differ as files have them, and none is about or fastest: {', '.join(files)}"
+        )
     moves = sought(spec, results.file)
     results.table("fastest", (*HEADINGS, "binds"), [_line(each.name, move) for each in moves for move in each.moves])
     page = results.page("fastest").text(spec.text)
@@ -39,7 +48,7 @@ def run(results: Results) -> None:
             results.picture(name, motion_figure(each.moves[0], f"{spec.title}: {each.name}"))
         if each.fronts:
             results.picture(f"{name}_front", fronts_figure(each.fronts, f"{spec.title}: {each.name}"))
-    results.data("fastest.json", {each.name: _stored(each) for each in moves})
+    results.text("fastest.json", _json(results.about, moves))
 
 
 def _line(name: str, move: FastestMove) -> list[Cell]:
@@ -100,7 +109,18 @@ def _points(front: TimeFront) -> list[list[Cell]]:
     return rows
 
 
-def _stored(each: SoughtMove) -> dict[str, Any]:
+def _json(about: str, moves: Sequence[SoughtMove]) -> str:
+    """Laws and proofs, a line for each least time or front."""
+    head = json.dumps({"about": f"{about}; {writing.MARK}"})[:-1]
+    parts = []
+    for each in moves:
+        ((kind, rows),) = _stored(each).items()
+        lines = ",\n".join(map(json.dumps, rows))
+        parts.append(f"{json.dumps(each.name)}: {{{json.dumps(kind)}: [\n{lines}\n]}}")
+    return f"{head},\n" + ",\n".join(parts) + "}\n"
+
+
+def _stored(each: SoughtMove) -> dict[str, list[dict[str, Any]]]:
     """Laws and proofs for `optlaws verify`, without what differs from run to run."""
     if not each.fronts:
         return {"moves": [_move(move) for move in each.moves]}

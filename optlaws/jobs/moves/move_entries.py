@@ -78,9 +78,6 @@ def sought(spec: FastestProblemFile, file: Path) -> list[SoughtMove]:
     InputError, InfeasibleProblem, SolverFailure
         If an entry is wrong, or a move has no law; the error names the move.
     """
-    names = [move.name for move in spec.move]
-    if len(set(names)) < len(names):
-        raise InputError(f"move: names must differ, got {', '.join(names)}")
     space = problem("problem", {"order": 3}, {} if spec.problem is None else spec.problem.given())
     moves = []
     for move in spec.move:
