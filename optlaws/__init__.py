@@ -37,6 +37,8 @@ _load, __dir__, __all__ = face(
         "optlaws.cycles.cycle": "Cycle",
         "optlaws.cycles.old_tables": "OldTable read_cycle_table split_table",
         "optlaws.cycles.moves.fastest_move": "FastestMove",
+        "optlaws.cycles.moves.front_over_time": "time_front",
+        "optlaws.cycles.moves.time_front": "TimeFront",
         "optlaws.cycles.moves.timed_moves": "fastest fastest_moves",
         "optlaws.cycles.moves.transition_cam": "TransitionCam",
         "optlaws.cycles.specification.segments": "ConstantVelocity Dwell Free Move Return Rise",

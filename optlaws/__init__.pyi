@@ -54,6 +54,8 @@ from optlaws.cycles.machine_axes import Axes as Axes
 from optlaws.cycles.machine_follower import MachineFollower as MachineFollower
 from optlaws.cycles.machine_follower import machine_follower as machine_follower
 from optlaws.cycles.moves.fastest_move import FastestMove as FastestMove
+from optlaws.cycles.moves.front_over_time import time_front as time_front
+from optlaws.cycles.moves.time_front import TimeFront as TimeFront
 from optlaws.cycles.moves.timed_moves import fastest as fastest
 from optlaws.cycles.moves.timed_moves import fastest_moves as fastest_moves
 from optlaws.cycles.moves.transition_cam import TransitionCam as TransitionCam
@@ -290,6 +292,7 @@ __all__ = [
     "Status",
     "Synchronous",
     "Tightening",
+    "TimeFront",
     "TorsionLever",
     "TransitionCam",
     "TranslatingFlat",
@@ -380,6 +383,7 @@ __all__ = [
     "synthesize_array",
     "synthesize_chunks",
     "synthesize_many",
+    "time_front",
     "toggle",
     "trapezoid",
     "value",

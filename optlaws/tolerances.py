@@ -53,6 +53,7 @@ SHOWN_DIGITS = 1e-8  # numbers of two files that are equal to so much say the sa
 FILE_NOISE = 1e-9  # numbers of two files that differ by less say the same: a gap of 1e-10 is as good as one of 1e-9
 PEAK_PLACE = 1e-6  # of k: the place of a smooth peak is known to the root of rounding alone
 DRAWN_GAP = 1e-4  # of an objective: a gap that no picture shows
+BESIDE_POINT = 1e-6  # of the time between two points of a front: so near to one what is drawn is what holds between
 SHOWN_RESIDUAL = 1e-4  # of the greatest residual: what a logarithmic picture still shows
 RESIDUAL_ROUNDING = 1e-12  # of the vibration of a step: a residual that is less is rounding
 LOOKS_EQUAL = 1e-4  # of the highest peak: others so near look as high in a picture, and the first of them is marked

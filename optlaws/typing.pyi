@@ -31,6 +31,7 @@ from optlaws.cycles.interlocks.interlock import LeastClearance as LeastClearance
 from optlaws.cycles.machine_axes import AxesPicture as AxesPicture
 from optlaws.cycles.machine_axes import Overlap as Overlap
 from optlaws.cycles.machine_follower import MachineAnswer as MachineAnswer
+from optlaws.cycles.moves.time_front import TimePoint as TimePoint
 from optlaws.cycles.moves.transition_cam import TransitionKind as TransitionKind
 from optlaws.cycles.old_tables import Stretch as Stretch
 from optlaws.cycles.specification.cycle_sheet import CycleSheet as CycleSheet
@@ -99,6 +100,7 @@ from optlaws.synthesis.least_time.motor_torque import TimedLimit as TimedLimit
 from optlaws.synthesis.least_time.move_limits import MoveLimits as MoveLimits
 from optlaws.synthesis.least_time.move_limits import RateLimit as RateLimit
 from optlaws.synthesis.least_time.move_limits import TimedMove as TimedMove
+from optlaws.synthesis.least_time.move_objective import MoveObjective as MoveObjective
 from optlaws.synthesis.least_time.time_proof import TimeProof as TimeProof
 from optlaws.synthesis.limits.drive_limits import DriveObjective as DriveObjective
 from optlaws.synthesis.limits.phase_plane import PhasePlane as PhasePlane
@@ -184,6 +186,7 @@ __all__ = [
     "MotorLosses",
     "MotorTorque",
     "MoveLimits",
+    "MoveObjective",
     "MoveStatus",
     "Multiplier",
     "Node",
@@ -225,6 +228,7 @@ __all__ = [
     "TableKind",
     "Teeth",
     "Term",
+    "TimePoint",
     "TimeProof",
     "TimedLimit",
     "TimedMove",

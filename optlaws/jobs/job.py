@@ -11,7 +11,9 @@ from optlaws.results import Entries, Results
 from optlaws.suggest import unknown_key
 
 #: the job of a problem file is the function `run` of the module of its name
-JOBS = ("atlas", "cam", "cycle", "force loaded", "fronts", "machine laws", "solutions")
+JOBS = ("atlas", "cam", "cycle", "fastest", "force loaded", "fronts", "machine laws", "solutions")
+#: in a room of its own
+_ROOMS = {"fastest": "moves.fastest"}
 #: the job of the problem files that come with optlaws and have a script beside them
 SCRIPT = "script"
 
@@ -24,7 +26,7 @@ class JobFile(Entries, kw_only=True, forbid_unknown_fields=True):
 
 def do(name: str, results: Results) -> None:
     """Put what a problem file asks for into its results; the job's module is imported here, and matplotlib with it."""
-    import_module(f"optlaws.jobs.{name.replace(' ', '_')}").run(results)
+    import_module(f"optlaws.jobs.{_ROOMS.get(name, name.replace(' ', '_'))}").run(results)
 
 
 def run(file: Path, out: Path | None = None) -> list[Path]:

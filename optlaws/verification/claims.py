@@ -11,8 +11,9 @@ from typing import Any
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
-from optlaws.files.reading import of_known_format
+from optlaws.files.reading import entries_of, of_known_format
 from optlaws.laws import MotionLaw
+from optlaws.numbers import listed
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.limits.drive_limits import DriveLimit
 from optlaws.synthesis.limits.rounding import rounded_down, rounded_up
@@ -40,14 +41,17 @@ from optlaws.verification.file_entries import (
     is_least_time,
     is_move_limit,
     is_proven_front,
+    is_time_front,
 )
 from optlaws.verification.least_times import least_time
 from optlaws.verification.proven_fronts import proven_front
 from optlaws.verification.reading import built, number, read
 from optlaws.verification.result import Claim, Verification
 from optlaws.verification.stated_numbers import at_most, near, stated_constants, stated_numbers
+from optlaws.verification.time_fronts import time_front
 
 #: where further certificates of a solution are
+_MOST_POINTS = 1000
 _BESIDE = ("power_certificate", "peak_certificate")
 
 
@@ -91,6 +95,15 @@ def _front(data: Mapping[str, Any]) -> Verification:
 
 def _least_time(data: Mapping[str, Any]) -> Verification:
     return least_time(data, _solution(data["solution"]))
+
+
+def _time_front(data: Mapping[str, Any]) -> Verification:
+    check_keys(data["fastest"])
+    points = listed(data["points"], "points", _MOST_POINTS)
+    solutions = [
+        _solution(entries_of(point, ["solution"], f"points[{i}]")["solution"]) for i, point in enumerate(points)
+    ]
+    return time_front(data, _least_time(data["fastest"]), solutions)
 
 
 def _law_alone(data: Mapping[str, Any]) -> Verification:
@@ -324,6 +337,7 @@ _KINDS: tuple[tuple[Callable[[Mapping[str, Any]], bool], Callable[[Mapping[str, 
     (is_drive_limit, _limit_of_drive),
     (is_move_limit, _limit_of_drive),
     (is_least_time, _least_time),
+    (is_time_front, _time_front),
     (lambda data: "certificate" in data, _solution),
     (lambda data: "law" in data, _law_alone),
     (lambda _: True, _certificate),

@@ -80,6 +80,15 @@ class LeastTimeFile(msgspec.Struct, forbid_unknown_fields=True):
     about: str = ""
 
 
+class TimeFrontFile(msgspec.Struct, forbid_unknown_fields=True):
+    """What `TimeFront.to_dict` writes."""
+
+    minimise: dict[str, Any]
+    fastest: dict[str, Any]
+    points: list[dict[str, Any]]
+    about: str = ""
+
+
 class TableRow(msgspec.Struct, forbid_unknown_fields=True):
     """A row of a table of solutions."""
 
@@ -148,7 +157,7 @@ def is_entry(data: Data) -> bool:
     solution = {"problem", "law", "certificate"} <= data.keys()
     certificate = {"problem", "contacts"} <= data.keys() or {"problem", "steps"} <= data.keys()
     of_drive = is_drive_limit(data) or is_move_limit(data)
-    several = is_proven_front(data) or is_least_time(data) or of_drive
+    several = is_proven_front(data) or is_least_time(data) or is_time_front(data) or of_drive
     return solution or certificate or several or {"law", "constants"} <= data.keys()
 
 
@@ -177,10 +186,17 @@ def is_least_time(data: Data) -> bool:
     return {"duration", "solution", "proofs"} <= data.keys()
 
 
+def is_time_front(data: Data) -> bool:
+    """Whether this is a front over the time of a move."""
+    return {"minimise", "fastest", "points"} <= data.keys()
+
+
 def check_keys(data: Data) -> None:
     """Refuse an entry that says what no entry of its kind says."""
     if is_least_time(data):
         _stated(data, LeastTimeFile, "the least time")
+    elif is_time_front(data):
+        _stated(data, TimeFrontFile, "the front over the time")
     elif "certificate" in data:
         _stated(data, SolutionFile, "the solution")
     elif "law" in data:

@@ -27,7 +27,7 @@ from optlaws import (
 from tests.contracts.faces import faces
 from tests.contracts.test_faces import package
 from tests.internals.laws import Segment
-from tests.internals.synthesis import FollowerResidual, MotorTorque
+from tests.internals.synthesis import FollowerResidual, MotorTorque, MoveObjective
 from tests.laws.examples import EXAMPLES
 
 #: an acceleration that jumps: J has no bound
@@ -103,6 +103,8 @@ def values(jumping: Solution) -> dict[str, Any]:
         "LeastTime": fastest.least,
         "TransitionCam": slide.run_in("90 deg", rest="-1 mm", over="0.1 s"),
         "TransitionCam of least time": replace(slide, limits={"jerk": "4000 m/s^3"}).run_out("90 deg", rest="40 mm"),
+        "TimeFront": optlaws.time_front(fastest, "rms jerk", points=2),
+        "MoveObjective": MoveObjective("torque", MotorTorque("1 + 0.3*a", 0.1, "0.2", 2.0, rms=1.0)),
         "FollowerResidual": FollowerResidual(95.0, 105.0, 0.05, most=0.4),
         "MotorTorque": MotorTorque("1 + 0.3*a", 0.1, "0.2", 2.0, peak=3.0),
         "MoveLimits": fastest.least.move.limits,

@@ -35,7 +35,7 @@ class Move(NamedTuple):
 
 @cache
 def front(name: str) -> ProvenFront:
-    return proven_front(PROBLEMS[name], between=(1.4, 1.9) if name == "pieces" else None, gap=2e-4)
+    return proven_front(PROBLEMS[name], ("at_most.B", "C"), gap=2e-4)
 
 
 @cache

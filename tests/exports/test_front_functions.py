@@ -1,6 +1,7 @@
 """Fronts at run time: compiled and run, against the laws in Python, exact arithmetic, proofs and `synthesize`."""
 
 import re
+from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 from math import perm
@@ -9,10 +10,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from optlaws import InputError, MotionLaw, PolynomialLaw, Problem, proven_front, sweep
+from optlaws import InputError, MotionLaw, PolynomialLaw, Problem, at_most, proven_front, sweep
 from tests.exports.moves import COMPILER, PROBLEMS, SHARES, Answer, Move, answers, drawn, exported, front, program
 from tests.exports.structured_text import Block, parsed
 from tests.internals.exports import FrontExport, MoveStatus, RunTimeMove, summation_bounds
+from tests.internals.synthesis import MoveLimits, TimedMove, least_time
 
 needs_compiler = pytest.mark.skipif(COMPILER is None, reason="there is no C compiler")
 ORDERS = (1, 2, 3)
@@ -88,7 +90,7 @@ def assert_optimal(export: FrontExport, name: str, of_b: dict[float, float]) -> 
     inside = {b: c for b, c in of_b.items() if low < b < high}
     for b, c in inside.items():
         assert c * (1.0 - export.gap) <= front(name).lower(b) * (1.0 + 1e-9)
-    problems = [PROBLEMS[name].at_velocity(b) for b in inside if name == "lift"]
+    problems = [replace(PROBLEMS[name], B=at_most(b)) for b in inside if name == "lift"]
     for solution, c in zip(sweep(problems), inside.values(), strict=False):
         assert solution.lower_bound <= c * (1.0 + 1e-9)
         assert (c - solution.objective) / c <= export.gap + 1e-8
@@ -96,7 +98,7 @@ def assert_optimal(export: FrontExport, name: str, of_b: dict[float, float]) -> 
 
 @needs_compiler
 def test_compiled_functions_keep_limits_and_are_within_the_gap_of_synthesize(folder: Path) -> None:
-    assert checked("lift", folder, 300, 27) == {0, 1, 2, 3}
+    assert checked("lift", folder, 300, 27) == {0, 2, 3}
 
 
 @needs_compiler
@@ -109,7 +111,7 @@ def test_so_do_laws_of_pieces_and_laws_without_symmetry(name: str, folder: Path)
 @pytest.mark.long
 @pytest.mark.parametrize("name", ["lift", "pieces", "skew"])
 def test_ten_thousand_do(name: str, folder: Path) -> None:
-    assert checked(name, folder, 10_000, 29) >= {0, 1, 2, 3}
+    assert checked(name, folder, 10_000, 29) >= {0, 2, 3}
 
 
 def test_no_law_is_faster_by_more_than_half_the_gap() -> None:
@@ -126,6 +128,23 @@ def test_no_law_is_faster_by_more_than_half_the_gap() -> None:
             proofs += 1
             assert proven.lower(b) * abs(move.stroke) / time**2 > move.acceleration
     assert proofs > 50
+
+
+@pytest.mark.parametrize("name", ["lift", "skew"])
+def test_no_law_within_the_limits_is_faster_by_more_than_half_the_gap(name: str) -> None:
+    """Held against the least time of a move, which knows nothing of fronts."""
+    export, seen = exported(name), 0
+    for move in drawn(export, 60, 33):
+        planned = in_python(export, move)
+        if move.time or planned.status is not MoveStatus.PROVEN or seen == 8:
+            continue
+        # in units of the stroke, where the velocity is 1 a second
+        limits = MoveLimits(1.0, *2 * (move.acceleration * abs(move.stroke) / move.velocity**2,))
+        least = least_time(TimedMove(PROBLEMS[name], 1.0, limits))
+        quickest = least.none_below * abs(move.stroke) / move.velocity
+        assert quickest <= planned.duration <= quickest * (1.0 + 0.51 * export.gap + 2e-6)
+        seen += 1
+    assert seen == 8
 
 
 def test_where_the_jerk_decides_no_mean_of_the_laws_is_faster() -> None:
@@ -193,10 +212,12 @@ def test_the_function_block_plans_as_python_does(name: str) -> None:
         assert [values["moveTime"], *peaks] == pytest.approx(
             [planned.duration, planned.velocity, planned.acceleration, planned.jerk], rel=1e-12
         )
+        # that time, for a unit in its last place decides what is beyond the end
+        took = values["moveTime"]
         for at in SHARES:
             # other inputs mean nothing until the next plan
-            seen = block(plan=False, stroke=-1.0, velocityLimit=0.0, elapsed=at * planned.duration)
-            reference = export.motion(planned, at * planned.duration)
+            seen = block(plan=False, stroke=-1.0, velocityLimit=0.0, elapsed=at * took)
+            reference = export.motion(replace(planned, duration=took), at * took)
             for nu, output in enumerate(("position", "velocity", "acceleration", "jerk")):
                 unit = abs(planned.stroke) / planned.duration**nu if planned.duration else 0.0
                 assert abs(seen[output] - reference[nu]) <= 2.0 * export.table.errors[nu] * unit
@@ -234,7 +255,7 @@ def test_what_is_no_number_is_refused_and_no_stroke_takes_no_time(folder: Path) 
 
 
 def test_a_front_whose_ends_are_cut_says_so() -> None:
-    cut = proven_front(Problem(order=4), between=(1.5, 1.7), gap=1e-3).export("c99", name="cut")
+    cut = proven_front(Problem(order=4), ("at_most.B", "C"), between=(1.5, 1.7), gap=1e-3).export("c99", name="cut")
     limits = {"stroke": 1.0, "velocity": 1.0, "jerk": 1e6}
     assert cut.least_time(acceleration=0.1, **limits).status is MoveStatus.AT_END
     assert cut.least_time(acceleration=100.0, **limits).status is MoveStatus.AT_END
@@ -247,7 +268,7 @@ def test_the_export_says_what_it_is(tmp_path: Path) -> None:
     assert export.size < 4000
     results = export.results()
     assert results["gap"] <= 1e-3
-    assert results["proven_ends"] == [False, True]
+    assert results["proven_ends"] == [True, True]
     assert export.write(tmp_path / "lift.h").read_text("utf-8").startswith("/* lift: laws of a proven front")
     assert any(row.name == "gap of C, proven" and row.value == export.gap for row in export.summary())
     assert "32 certified laws" in str(export) or f"{export.points} certified laws" in str(export)
@@ -261,7 +282,7 @@ def test_what_cannot_be_exported_is_named() -> None:
         proven.export("c99", gap=1e-6)
     with pytest.raises(InputError, match=r"0.001 takes \d+ laws, points allows 12, which reach 0.0\d+"):
         proven.export("c99", points=12)
-    with pytest.raises(InputError, match="a front at run time exchanges B and C, got rms_c and C"):
+    with pytest.raises(InputError, match=r"a front at run time exchanges at_most\.B and C, got rms_c and C"):
         proven_front(Problem(order=4), ("rms_c", "C"), between=(4.1, 4.3), gap=1e-2).export("c99")
     with pytest.raises(InputError, match="C takes no name"):
         proven.export("c99", name="2nd lift")

@@ -39,6 +39,29 @@ duration = "100 deg"
 [[axis.segment]]
 kind = "dwell"
 """
+FASTEST = """
+job = "fastest"
+title = "Quick moves"
+[problem]
+degree = 7
+[[move]]
+name = "table"
+stroke = "45 deg"
+start = "0 deg"
+mechanism = { kind = "table", inertia = "0.8 kg m^2" }
+drive = { motor = { inertia = "3e-4 kg m^2", peak_torque = "4 N m" }, ratio = 20 }
+front = { minimise = ["torque"], points = 2 }
+[[move]]
+name = "slide"
+stroke = ["100 mm", "90 mm"]
+limits = { velocity = "1 m/s", acceleration = ["-8 m/s^2", "12 m/s^2"], jerk = "300 m/s^3" }
+[[move]]
+name = "arm"
+stroke = "100 mm"
+limits = { jerk = "300 m/s^3" }
+follower = { frequency = "16 Hz", damping = 0.02 }
+front = { minimise = ["residual acceleration", "jerk"], longest = "0.24 s", points = 3 }
+"""
 CAM = """
 job = "cam"
 title = "Slide on a cam"
@@ -215,6 +238,39 @@ EXAMPLES = {
             ("counts = 65536", "file = '../cam.st'", "axis slide: export to rockwell-cam: file must be a name without"),
             ("counts = 65536", "file = 'slide.csv'", "axis slide: export.*another file is called slide.csv"),
             ("points = 61", "points = 4", "axis slide: export.*points must be from 5"),
+        ),
+    ),
+    "fastest": Example(
+        FASTEST,
+        (
+            ("degree = 7", "degre = 7", "did you mean 'degree'"),
+            ("degree = 7", "degree = 7\nB = 1.8", "the problem of a least time leaves B free"),
+            ('stroke = "45 deg"', 'stroke = "45 mm"', "move table: .*limits|move table: .*angle"),
+            ('stroke = "45 deg"', 'strok = "45 deg"', "did you mean 'stroke'"),
+            ('name = "slide"', 'name = "Table"', "names must differ as files have them"),
+            ('name = "slide"', 'name = "about"', "none is about or fastest"),
+            ('["100 mm", "90 mm"]', '["100 mm"]', "stroke"),
+            ('velocity = "1 m/s"', 'speed = "1 m/s"', "move slide: unknown limit 'speed'"),
+            (
+                '["-8 m/s^2", "12 m/s^2"]',
+                '["8 m/s^2", "12 m/s^2"]',
+                "limits: acceleration: the least value",
+            ),
+            (
+                '"300 m/s^3" }\n[[move]]',
+                '"300 m/s^3" }\nfront = { minimise = ["jerk"] }\n[[move]]',
+                "that of one stroke",
+            ),
+            ('minimise = ["torque"]', 'minimise = ["torqe"]', "move table: front: .*did you mean 'torque'"),
+            ('minimise = ["torque"]', 'minimise = ["torque", "torque"]', "move table: front: .*twice"),
+            ('minimise = ["torque"]', "minimise = []", "minimise"),
+            ("ratio = 20 }", "ration = 20 }", "did you mean 'ratio'"),
+            ("drive = {", "drives = {", "did you mean 'drive'"),
+            ('mechanism = { kind = "table", inertia = "0.8 kg m^2" }\n', "", "move table: drive: a motor drives"),
+            ('["residual acceleration", "jerk"]', '["jerk"]', "move arm: follower: give a limit or a front"),
+            ('longest = "0.24 s"', 'longest = "0.2 s"', "move arm: front: longest must be above the least time"),
+            ('frequency = "16 Hz"', 'frequency = "16 mm"', "move arm: front: follower: frequency"),
+            ('limits = { jerk = "300 m/s^3" }', "limits = {}", "move arm: limits must name one"),
         ),
     ),
     "fronts": Example(

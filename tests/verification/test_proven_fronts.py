@@ -25,6 +25,7 @@ def written(problem: Problem, over: Any, between: tuple[float, float], gap: floa
         [
             (REST, ("B", "C"), (1.5, 1.7)),
             (REST, ("J", "C"), (60.0, 90.0)),
+            (REST, ("at_most.B", "C"), (1.2, 1.7)),
             (Problem(order=4, B=1.9), ("rms_c", "C"), (3.98, 4.2)),
             (Problem(order=4, minimise="rms_c"), "B", (1.7, 1.8)),
             (MIXED, "weight of rms_c", (0.05, 0.6)),

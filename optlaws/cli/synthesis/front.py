@@ -80,7 +80,7 @@ _AT_POINTS, _NO_FILES = ProofOptions(), FileOptions()
 def front(
     entries: dict[str, Any],
     *,
-    over: str = "B,C",
+    over: str | None = None,
     points: Whole = 50,
     between: tuple[float, float] | None = None,
     proof: ProofOptions = _AT_POINTS,
@@ -93,7 +93,7 @@ def front(
     ----------
     over
         Two or three constants, separated by commas, such as "residual(frequency=20),C"; the last is minimised at given
-        values of the others.
+        values of the others. "B,C" unless given, with --to "at_most.B,C".
     points
         How many laws.
     between
@@ -106,7 +106,7 @@ def front(
     if files.output is not None and files.to is None:
         raise InputError("--output is where functions of a controller go: say --to c99 or --to iec-st")
     proven_to = positive(files.within, "within") / 10.0 if files.to and proof.gap is None else proof.gap
-    problem, names = optlaws.Problem.from_dict(entries), tuple(apart(over))
+    problem, names = optlaws.Problem.from_dict(entries), tuple(apart(over or ("at_most.B,C" if files.to else "B,C")))
     front: optlaws.Front | optlaws.ProvenFront
     if proven_to is None:  # which shows its steps itself
         front = optlaws.pareto_front(problem, names, points=points, between=between, bound=proof.bound)

@@ -85,17 +85,26 @@ def limits_of_span(
     span: LawSpan, limits: Sequence[Limits], objective: CycleObjective, stroke: float, axis: str
 ) -> list[SpanLimit]:
     """The limits of a span, whose stretches have these each."""
+    parts = list(_parts(span, limits))
     rows: list[SpanLimit] = []
-    for (low, high), of_part in _parts(span, limits):
-        whole = (low, high) == (span.start, span.stop)
-        for key, most in of_part.items():
-            if key in (FORCE, POWER, CURVE):
-                rows += _of_drive(key, most, span, objective, stroke, axis, whole=whole)
-                continue
-            known = limited_by(span, objective, stroke, key)
-            within = (place(span, low), place(span, high))
-            constant = known.constants[0] if whole else _of_part(key, stroke, within)
-            rows.append(DerivativeLimit(key, most, constant, known.unit))
+    for key in dict.fromkeys(key for _, of_part in parts for key in of_part):
+        limited = [(ends, of_part[key]) for ends, of_part in parts if key in of_part]
+        first, everywhere = limited[0][1], len(limited) == len(parts)
+        alike = everywhere and all(most == first for _, most in limited)
+        if key in (FORCE, POWER, CURVE):
+            rows += _of_drive(key, first, span, objective, stroke, axis, whole=alike)
+            continue
+        known = limited_by(span, objective, stroke, key)
+        if not alike:
+            constants = (_of_part(key, stroke, (place(span, low), place(span, high))) for (low, high), _ in limited)
+            rows += [
+                DerivativeLimit(key, most, constant, known.unit)
+                for constant, (_, most) in zip(constants, limited, strict=True)
+            ]
+        if everywhere:
+            # beside those of parts it says nothing new, but bounds laws as wholes, without which nothing is proven
+            greatest = max(most for _, most in limited)
+            rows.append(DerivativeLimit(key, greatest, known.constants[0], known.unit))
     return rows
 
 

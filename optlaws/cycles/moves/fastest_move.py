@@ -229,8 +229,8 @@ class FastestMove(LawExport, JsonText):
         --------
         >>> import optlaws
         >>> move = optlaws.fastest(optlaws.Problem(order=3), stroke="100 mm", limits={"jerk": "300 m/s^3"})
-        >>> move.export("csv", points=3).text.splitlines()[-1].split(",")[1]
-        '100'
+        >>> round(float(move.export("csv", points=3).text.splitlines()[-1].split(",")[1]), 9)
+        100.0
         """
         whole = f"{self.stroke * 1e3!r} mm" if self.unit == "m" else f"{self.stroke * _DEGREES!r} deg"
         return super().export(

@@ -87,15 +87,7 @@ def fastest(
     >>> round(move.duration, 6), round(move.limit, 6), move.binding
     (0.243994, 0.240161, ('acceleration', 'deceleration', 'jerk'))
     """
-    rest, left = (limits, None) if follower is None else vibration_limit(follower, table(limits, "limits", _EXAMPLE))
-    if drive is None:
-        move, unit = _move(problem, stroke, rest, (start_velocity, end_velocity))
-    else:
-        given = table(rest, "limits", _EXAMPLE)
-        torque = motor_torque(drive, start, stroke, given)
-        move, unit = _move(problem, stroke, without_torques(drive, given), (start_velocity, end_velocity), torque)
-    if left is not None:
-        move = replace(move, residual=left(unit))
+    move, unit = _timed(problem, stroke, limits, _Machine((start_velocity, end_velocity), drive, start, follower))
     return FastestMove(least_time(move), unit)
 
 
@@ -106,16 +98,19 @@ def fastest_moves(
     limits: Mapping[str, Any],
     start_velocity: Quantity | None = None,
     end_velocity: Quantity | None = None,
+    drive: Drive | None = None,
+    start: NumberOrQuantity = 0.0,
+    follower: Mapping[str, Any] | None = None,
 ) -> tuple[FastestMove, ...]:
     """The least times of many strokes within the same limits, each with its law and its proof.
 
     From rest to rest each begins from the next shorter stroke, whose multipliers say up to which time its own limits
-    are too tight.
+    are too tight, or whose contacts are near its own.
 
     Parameters
     ----------
-    problem, limits, start_velocity, end_velocity
-        As `fastest` takes them.
+    problem, limits, start_velocity, end_velocity, drive, start, follower
+        As `fastest` takes them; all moves begin at one position of the mechanism.
     strokes
         How far, all lengths or all angles; the answers are in their order.
 
@@ -132,16 +127,37 @@ def fastest_moves(
     >>> [(round(move.duration, 6), move.binding) for move in moves]
     [(0.528054, ('velocity', 'jerk')), (0.178846, ('jerk',))]
     """
-    moves = [
-        _move(problem, stroke, limits, (start_velocity, end_velocity)) for stroke in listed(strokes, "strokes", _MOST)
-    ]
+    machine = _Machine((start_velocity, end_velocity), drive, start, follower)
+    moves = [_timed(problem, stroke, limits, machine) for stroke in listed(strokes, "strokes", _MOST)]
     answers: dict[int, FastestMove] = {}
     last: LeastTime | None = None
     for i in sorted(range(len(moves)), key=lambda place: moves[place][0].stroke):
         move, unit = moves[i]
-        last = least_time(move, last)
+        last = least_time(move, last if follower is None else None)
         answers[i] = FastestMove(last, unit)
     return tuple(answers[i] for i in range(len(moves)))
+
+
+class _Machine(NamedTuple):
+    """What moves of one machine have in common: the velocities at their ends, the motor and what vibrates."""
+
+    ends: tuple[Quantity | None, Quantity | None]
+    drive: Drive | None
+    start: NumberOrQuantity
+    follower: Mapping[str, Any] | None
+
+
+def _timed(problem: Problem, stroke: Quantity, limits: Mapping[str, Any], machine: _Machine) -> tuple[TimedMove, str]:
+    """The move whose time is sought within all its limits in SI units, and the unit of its stroke."""
+    rest, left, torque = limits, None, None
+    if machine.follower is not None:
+        rest, left = vibration_limit(machine.follower, table(limits, "limits", _EXAMPLE))
+    if machine.drive is not None:
+        given = table(rest, "limits", _EXAMPLE)
+        torque = motor_torque(machine.drive, machine.start, stroke, given)
+        rest = without_torques(machine.drive, given)
+    move, unit = _move(problem, stroke, rest, machine.ends, torque)
+    return (move if left is None else replace(move, residual=left(unit))), unit
 
 
 def _move(

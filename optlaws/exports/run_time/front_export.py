@@ -45,12 +45,12 @@ class FrontExport:
     Examples
     --------
     >>> from optlaws import Problem, proven_front
-    >>> export = proven_front(Problem(order=4), gap=1e-4).export("c99", gap=1e-2, name="lift")
+    >>> export = proven_front(Problem(order=4), ("at_most.B", "C"), gap=1e-4).export("c99", gap=1e-2, name="lift")
     >>> export.points, export.size, export.gap <= 1e-2
     (10, 960, True)
     >>> move = export.least_time(stroke=0.5, velocity=1.2, acceleration=6.0, jerk=400.0)
     >>> move.status.name, round(move.duration, 3), round(export.law(move).constants.C.value, 3)
-    ('PROVEN', 0.665, 5.304)
+    ('PROVEN', 0.661, 5.239)
     """
 
     format: str
@@ -70,7 +70,7 @@ class FrontExport:
 
     @property
     def gap(self) -> float:
-        """The proven gap: no law of the problem with b(1/2) = B has a C that is less by more than this share."""
+        """The proven gap: no law of the problem with at most this B has a C that is less by more than this share."""
         return self.table.gap
 
     def least_time(self, *, stroke: float, velocity: float, acceleration: float, jerk: float = NO_LIMIT) -> RunTimeMove:
@@ -195,7 +195,7 @@ def _heading(table: FrontTable, about: str) -> list[str]:
     lines = [
         *([about] if about else []),
         f"{len(table)} certified laws of degree {table.degree}, B from {first:.9g} to {last:.9g}, {table.size} bytes",
-        f"proven: no law of the same B, taken at the middle, has a C less by more than {rounded_up(table.gap)} of it",
+        f"proven: no law within the same B has a C less by more than {rounded_up(table.gap)} of it",
         "units: any that fit each other, such as mm, mm/s, mm/s^2, mm/s^3 and s",
         "rounding in LREAL, proven, at most, times stroke/duration^n for n = 0, 1, 2, 3: " + errors,
         f"times are lengthened by {rounded_up(table.slack)} of them, so that limits are kept whatever is rounded",

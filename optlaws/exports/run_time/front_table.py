@@ -40,7 +40,7 @@ class FrontTable:
         Whether the laws are of one piece and antisymmetric about its middle: only odd coefficients are kept then, and
         the constant is 1/2.
     gap
-        What is proven of C: no law of the problem at the same B has one that is less by more than this share.
+        What is proven of C: no law of the problem with at most this B has one that is less by more than this share.
     ends
         Whether this holds for the first and the last law against laws of all B: no law is as much slower or better.
     errors

@@ -20,8 +20,8 @@ class MoveStatus(IntEnum):
     Attributes
     ----------
     PROVEN
-        The limits are kept, and no law of the front's problems, which take B at the middle, takes less time, or less
-        acceleration in this time, by more than the gap.
+        The limits are kept, and no law of the front's problem within them takes less time, or less acceleration in this
+        time, by more than the gap.
     AT_END
         The limits are kept by the law at an end of the front; one beyond may be better.
     JERK

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from math import exp, log
+from math import exp, log, sqrt
 
 from scipy.optimize import brentq
 
@@ -32,12 +32,14 @@ class _Trials:
 
     move: TimedMove
     solutions: dict[float, Solution] = field(default_factory=dict)
+    first: Solution | None = None  #: of another move near by
 
     def solution(self, time: float) -> Solution:
         if time not in self.solutions:
             # where the problem is convex, the contacts of a time near by lead to the same optimum
             near = min(self.solutions, key=lambda known: abs(known - time), default=None)
-            warm = None if near is None or not self.solutions[near].problem.convex else self.solutions[near].active_set
+            beside = self.first if near is None else self.solutions[near]
+            warm = None if beside is None or not beside.problem.convex else beside.active_set
             self.solutions[time] = law_in_time(self.move, time, warm)
         return self.solutions[time]
 
@@ -52,13 +54,18 @@ class _Trials:
         return min(time for time, solution in self.solutions.items() if solution.objective <= 1.0 + FEASIBILITY)
 
 
-def least_time_of_motor(move: TimedMove) -> LeastTime:
-    """The least time that is found between one that is too short and one that is enough.
+def least_time_of_motor(move: TimedMove, near: LeastTime | None = None) -> LeastTime:
+    """The least time that is found between one that is too short and one that is enough, perhaps begun near another.
 
     Where laws that keep the limits keep them in every longer time, a certificate of one time proves the shorter ones.
     """
-    trials = _Trials(move)
-    low, high = _bracket(trials, log(max(limit_of_all_laws(move) or 0.0, move.least_conceivable()) or 1.0))
+    if near is None:
+        trials, begin = _Trials(move), max(limit_of_all_laws(move) or 0.0, move.least_conceivable()) or 1.0
+    else:
+        # a torque that accelerates alone takes times as the roots of the strokes
+        trials = _Trials(move, first=near.solution)
+        begin = near.duration * sqrt(move.stroke / near.move.stroke)
+    low, high = _bracket(trials, log(begin))
     duration = trials.root(low, high)
     too_short = duration * (1.0 - LEAST_TIME_GAP)
     proofs: tuple[TimeProof, ...] = ()
@@ -116,8 +123,9 @@ def _bracket(trials: _Trials, logarithm: float) -> tuple[float, float]:
     SolverFailure
         If there are none far and wide.
     """
-    step = _WIDER if trials.excess(logarithm) > 0.0 else -_WIDER
-    last = logarithm
+    excess, last = trials.excess(logarithm), logarithm
+    # most limits fall with the time or a power of it, so that the excess is about how far the end is
+    step = max(-_WIDER, min(_WIDER, excess)) or -_WIDER
     while abs(last - logarithm) < _WIDEST:
         here = last + step
         if (trials.excess(here) > 0.0) == (step < 0.0):

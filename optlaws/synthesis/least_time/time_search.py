@@ -30,7 +30,7 @@ def least_time(move: TimedMove, near: LeastTime | None = None) -> LeastTime:
     """The least time in which a law of the move's space keeps its limits, proven to a millionth.
 
     From rest to rest the search may begin near that of another stroke in the same space: its multipliers say of this
-    stroke too which times are too short.
+    stroke too which times are too short; its contacts are those to begin with where a torque is limited.
 
     Raises
     ------
@@ -45,7 +45,7 @@ def least_time(move: TimedMove, near: LeastTime | None = None) -> LeastTime:
         if move.residual is not None:
             return least_time_of_follower(move, least_time(move.without_residual))
         if move.torque is not None:
-            return least_time_of_motor(move)
+            return least_time_of_motor(move, near)
         duration, solution, known = _from_either_side(move, near) if move.at_rest else _from_below(move)
     return LeastTime(move, duration, solution, covering(move, known, duration * (1.0 - LEAST_TIME_GAP)))
 

@@ -23,10 +23,13 @@ from optlaws.synthesis.program.evaluation import worth
 from optlaws.synthesis.proof.certificate import OBJECTIVE, Certificate
 from optlaws.synthesis.proof.data import StatedContact, brief_sum_of, contacts_of, problem_of, stated
 from optlaws.synthesis.proof.nodes import Contact
-from optlaws.synthesis.proven.swept_parameter import SweptParameter, gap_bounds, lower_line
+from optlaws.synthesis.proven.swept_parameter import AT_MOST, SweptParameter, gap_bounds, lower_line
 from optlaws.synthesis.status import measure
 
 T = TypeVar("T")
+
+#: what a controller exchanges while it runs
+RUN_TIME = (f"{AT_MOST}B", "C")
 
 
 class LazySequence(Sequence[T]):
@@ -368,7 +371,8 @@ class ProvenFront(JsonText):
     def export(self, to: str, gap: float = 1e-3, *, name: str = "Front", points: int | None = None) -> Any:  # noqa: ANN401
         """The front as functions of a controller, which chooses a law for stroke, time and limits while it runs.
 
-        Between neighbouring laws of the table the weighted mean keeps every constraint and is within the gap.
+        The front is one of "at_most.B" and C: between neighbouring laws of the table the weighted mean keeps every
+        constraint, and is within the gap of all laws within the velocity, wherever they reach it.
 
         Parameters
         ----------
@@ -388,12 +392,14 @@ class ProvenFront(JsonText):
         Raises
         ------
         InputError
-            If it is no front of B and C from rest to rest, the gap is not reached, or the format has no functions.
+            If it is no front of "at_most.B" and C from rest to rest, the gap is not reached, or the format has no
+            functions.
 
         Examples
         --------
         >>> from optlaws.synthesis.proven.refine import proven_front
-        >>> export = proven_front(Problem(order=4), gap=1e-4).export("iec-st", name="FB_Lift")
+        >>> front = proven_front(Problem(order=4), ("at_most.B", "C"), gap=1e-4)
+        >>> export = front.export("iec-st", name="FB_Lift")
         >>> export.points, export.size, export.gap <= 1e-3
         (32, 3072, True)
         """
@@ -401,8 +407,11 @@ class ProvenFront(JsonText):
         from optlaws.synthesis.proven.fewest_laws import ChordSelection, proven_ends
 
         function_format(to)
-        if self.over != ("B", "C"):
-            raise InputError(f"a front at run time exchanges B and C, got {self.over[0]} and {self.over[1]}")
+        if self.over != RUN_TIME:
+            raise InputError(
+                f"a front at run time exchanges {RUN_TIME[0]} and C, got {self.over[0]} and {self.over[1]}: make it "
+                f"with proven_front(problem, {RUN_TIME!r})"
+            )
         chords = ChordSelection(np.array(self.values), self.sides, self.problem.objective.scale)
         places, reached = chords.fewest(gap, points)
         values, laws = [self.values[i] for i in places], [self.laws[i] for i in places]

@@ -16,6 +16,7 @@ from optlaws.numbers import Array, positive, real
 from optlaws.synthesis.arrays.dual_bounds import bounds_below, rounding_charge, sharp_sums
 from optlaws.synthesis.families.family import LinearFamily
 from optlaws.synthesis.pareto import least_value, where_it_pays
+from optlaws.synthesis.problem.constants import FUNCTIONALS
 from optlaws.synthesis.problem.fields import CONSTANTS
 from optlaws.synthesis.problem.named_constants import apart
 from optlaws.synthesis.problem.problem import Problem
@@ -63,8 +64,8 @@ def proven_front(
         What else is asked.
     over
         What runs, and what is minimised, such as ("B", "C") or ("rms_c", "J"); of one name alone the problem's own
-        objective is. B is given as a number, other constants are bounded from above; "weight of C" is the weight of a
-        term of the objective.
+        objective is. B is given as a number and taken at the middle, "at_most.B" and other constants are bounded from
+        above; "weight of C" is the weight of a term of the objective.
     between
         Least and greatest value; where it pays unless given, as of `pareto_front`. Weights need it.
     gap
@@ -100,7 +101,7 @@ def proven_front(
         # so near to the least value that has a law multipliers are great, and proofs may be worse than what is asked
         with suppress(SolverFailure):
             return _Refined(number, (low, high)).until(greatest_gap)
-        low = least_value(number.problem, number.name) * (1.0 + above)
+        low = _least(number) * (1.0 + above)
     return _Refined(number, (low, high)).until(greatest_gap)
 
 
@@ -239,9 +240,19 @@ def _checked(between: tuple[float, float]) -> tuple[float, float]:
 
 def _where_it_pays(number: SweptParameter) -> tuple[float, float]:
     terms = number.problem.objective.terms
-    if number.concave or len(terms) > 1 or number.name not in CONSTANTS:
+    if number.concave or len(terms) > 1 or number.constant not in CONSTANTS:
         raise InputError(f"give between: where {number.name} pays is known for B, C or J and one constant alone")
-    return where_it_pays(number.problem, (number.name, repr(terms[0][1])))
+    if number.name in CONSTANTS:
+        return where_it_pays(number.problem, (number.name, repr(terms[0][1])))
+    best = FUNCTIONALS[number.constant].value(synthesize(number.problem).law)
+    return min(_least(number) * (1.0 + _ABOVE[0]), best), best
+
+
+def _least(number: SweptParameter) -> float:
+    """The least value of the number that has a law."""
+    if number.name in CONSTANTS:
+        return least_value(number.problem, number.name)
+    return synthesize(replace(number.problem, minimise=number.constant)).objective
 
 
 def _at_end(number: SweptParameter, value: float) -> Solution:
@@ -259,7 +270,7 @@ def _at_end(number: SweptParameter, value: float) -> Solution:
 
 def _least_known(number: SweptParameter) -> str:
     try:
-        return f"; the least {number.name} of these problems is {least_value(number.problem, number.name):.9g}"
+        return f"; the least {number.constant} of these problems is {_least(number):.9g}"
     except OptlawsError:
         return ""
 

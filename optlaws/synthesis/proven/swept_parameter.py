@@ -32,6 +32,8 @@ Ends = tuple[float, float]
 
 #: before the name of a term of the objective: its weight runs
 WEIGHT = "weight of "
+#: before B: it is bounded from above, wherever it is reached
+AT_MOST = "at_most."
 
 
 @dataclass(frozen=True)
@@ -47,8 +49,8 @@ class SweptParameter:
     problem
         What else is asked.
     name
-        "B", which is given as a number; "C", "J", "rms_c" or another constant, which is bounded from above; or
-        "weight of C", the weight of a term of the objective.
+        "B", which is given as a number; "at_most.B", "C", "J", "rms_c" or another constant, which is bounded from
+        above; or "weight of C", the weight of a term of the objective.
 
     Raises
     ------
@@ -83,6 +85,8 @@ class SweptParameter:
             return replace(self.problem, minimise=self._weighted(value))
         if self.name == "B":
             return self._at_two.at_velocity(value)
+        if self._constant.name == "B":
+            return replace(self.problem, B=Range(0.0, value))
         bounds: Mapping[Any, Any] = {**self.problem.bounds, self._constant: Range(0.0, value)}
         return replace(self.problem, bounds=bounds)
 
@@ -96,8 +100,15 @@ class SweptParameter:
         return self.problem.objective.terms[self._place][1]
 
     @property
+    def constant(self) -> str:
+        """The constant that is given or bounded, by name."""
+        return self._constant.name
+
+    @property
     def _constant(self) -> Functional:
         known = FUNCTIONALS | ALIASES
+        if self.name == f"{AT_MOST}B":
+            return known["B"]
         if "(" in self.name:
             return named(self.name)
         if self.name not in known:

@@ -32,6 +32,10 @@ def cycle(**given: Any) -> Cycle:
     return Cycle(given.pop("segments", TURNING), **({"speed": "60 rpm", "limits": LIMITS} | given))
 
 
+#: free motions that are one law, of which one has an acceleration of its own
+JOINED = cycle(segments=[Dwell("72 deg"), Free("30 mm", "144 deg", limits={"acceleration": "8 m/s^2"}), Free("-30 mm")])
+
+
 def possible(given: Cycle, period: float) -> bool:
     """Whether a cycle has laws within its limits at a period, by looking for them."""
     try:
@@ -82,6 +86,7 @@ def test_a_turning_cycle_is_as_fast_as_a_bisection_finds() -> None:
          (0.25, 0.45)),
         (cycle(segments=[Dwell("72 deg"), Free("30 mm", "144 deg"), Free("-30 mm")]), (0.18, 0.25)),
         (cycle(limits={"acceleration": "20 m/s^2", "deceleration": "12 m/s^2", "velocity": "1 m/s"}), (0.3, 0.4)),
+        (JOINED, (0.24, 0.26)),
     ],
 )  # fmt: skip
 def test_other_cycles_are_as_fast_as_a_bisection_finds(given: Cycle, ends: tuple[float, float]) -> None:
@@ -89,6 +94,26 @@ def test_other_cycles_are_as_fast_as_a_bisection_finds(given: Cycle, ends: tuple
     low, high = bisected(given, *ends)
     assert low * (1.0 - NEAR) <= fastest.period <= high * (1.0 + NEAR)
     assert fastest.status == "optimal"
+
+
+def test_joined_motions_with_limits_of_their_own_are_proven() -> None:
+    fastest = JOINED.fastest()
+    assert fastest.status == "optimal"
+    assert fastest.lower_bound == pytest.approx(fastest.period, rel=2e-6)
+    assert keeps(fastest, velocity=1.0, acceleration=20.0, jerk=2000.0)
+    forth, back = (
+        np.abs(np.asarray(fastest.cycle(np.linspace(*ends, 4001) * fastest.period, 2))).max()
+        for ends in ((0.2, 0.6 - 1e-9), (0.6 + 1e-9, 1.0))
+    )
+    assert forth == pytest.approx(8.0, rel=1e-6)
+    assert back == pytest.approx(20.0, rel=1e-6)
+    assert "acceleration 8 m/s^2" in fastest.binding[0]
+    verified = verify_all(json.loads(json.dumps(fastest.claims())))
+    assert verified
+    assert all(each.proven for each in verified.values())
+    # limits as one: 8 m/s² for both is slower, 20 m/s² for both is faster
+    alone = replace(JOINED, segments=[Dwell("72 deg"), Free("30 mm", "144 deg"), Free("-30 mm")])
+    assert alone.fastest().period < fastest.period
 
 
 def test_given_laws_have_closed_forms() -> None:

@@ -16,6 +16,7 @@ from optlaws import (
     Problem,
     Status,
     fastest,
+    fastest_moves,
     slider_crank,
     smoothstep,
     synthesize,
@@ -54,6 +55,20 @@ def test_the_root_mean_square_is_that_of_the_acceleration() -> None:
     least = synthesize(Problem(order=3, monotone=True, minimise="rms_c", symmetric=False))
     assert by_torque.duration == pytest.approx(sqrt(SEEN / 20 * (pi / 4) * least.objective / 2.0), rel=1e-7)
     assert by_torque.gap <= 1.1e-6
+
+
+def test_many_strokes_are_as_fast_as_one_by_one_and_begin_near_each_other() -> None:
+    strokes = ["60 deg", "44 deg", "45 deg", "46 deg"]
+    moves = fastest_moves(ORDER_3, strokes=strokes, limits={"rms torque": "2 N m", "torque": "4 N m"}, drive=TABLE)
+    alone = fastest(ORDER_3, stroke="45 deg", limits={"rms torque": "2 N m", "torque": "4 N m"}, drive=TABLE)
+    assert moves[2].duration == pytest.approx(alone.duration, rel=1e-8)
+    assert [move.status for move in moves] == [Status.OPTIMAL] * 4
+    # inertia alone: times are as the roots of the strokes
+    assert [move.duration for move in moves] == pytest.approx(
+        [alone.duration * sqrt(move.stroke / alone.stroke) for move in moves], rel=2e-6
+    )
+    for move in moves:
+        assert all(proof.stands(move.least.move) for proof in move.least.proofs)
 
 
 @pytest.fixture(scope="module")

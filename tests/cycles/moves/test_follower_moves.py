@@ -17,6 +17,7 @@ from optlaws import (
     Problem,
     Status,
     fastest,
+    fastest_moves,
     residual_functional,
     shaped_law,
 )
@@ -187,3 +188,11 @@ def test_wrong_followers_are_named(changes: dict[str, Any], named: str) -> None:
     given = {"limits": LIMITS | {"residual acceleration": "1 m/s^2"}, "follower": {"frequency": "16.7 Hz"}}
     with pytest.raises(InputError, match=named):
         fastest(Problem(order=3), stroke="100 mm", **(given | changes))
+
+
+def test_many_strokes_leave_as_much_as_one_by_one() -> None:
+    limits, elastic = LIMITS | {"residual acceleration": "0.5 m/s^2"}, {"frequency": "16.7 Hz", "damping": 0.02}
+    moves = fastest_moves(Problem(order=3), strokes=["140 mm", "100 mm"], limits=limits, follower=elastic)
+    alone = fastest(Problem(order=3), stroke="100 mm", limits=limits, follower=elastic)
+    assert moves[1].duration == pytest.approx(alone.duration, rel=1e-9)
+    assert moves[0].least.used["residual acceleration"] <= 1.0 + 1e-9

@@ -1,0 +1,290 @@
+"""Fronts over the time of a move: what is least at each time, with a law and a proof at every point."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from itertools import pairwise
+from math import inf
+from typing import Any, NamedTuple
+
+from optlaws.cycles.moves.fastest_move import AXES, FastestMove
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.files.reading import JsonText, all_entries_of
+from optlaws.kept import kept_property
+from optlaws.laws import MotionLaw
+from optlaws.motion.piece import unit_of
+from optlaws.motion.quantities import positive_quantity
+from optlaws.numbers import Quantity, bounded, listed, positive, real
+from optlaws.synthesis.least_time.follower_residual import RESIDUAL
+from optlaws.synthesis.least_time.move_limits import power
+from optlaws.synthesis.least_time.move_objective import AT_MOTOR, MoveObjective
+from optlaws.synthesis.problem.constants import meant
+from optlaws.synthesis.solution import Solution
+from optlaws.synthesis.status import Status, measure
+from optlaws.tolerances import STORED_VALUE
+
+_KEYS = ("fastest", "minimise", "points")
+_POINT_KEYS = ("duration", "value", "lower_bound", "solution")
+MOST_POINTS = 1000
+
+
+class TimePoint(NamedTuple):
+    """A law of a front over the time.
+
+    Attributes
+    ----------
+    duration
+        The time of the move, s.
+    law
+        A law that keeps the limits in it.
+    value
+        What is minimised, of this law, in SI units.
+    lower_bound
+        No law of the space that keeps the limits in this time takes less.
+    gap
+        (value - lower bound) / value; as a share of the objective's scale where the value is 0 but for rounding.
+    """
+
+    duration: float
+    law: MotionLaw
+    value: float
+    lower_bound: float
+    gap: float
+
+
+@dataclass(frozen=True, repr=False)
+class TimeFront(JsonText):
+    """What is least in each time of a move within its limits, from its least time on: a law and a proof at each point.
+
+    Where a longer time never needs more, calling it with a time between the points gives a law and a bound there too.
+
+    Attributes
+    ----------
+    fastest
+        The least time, below which the proofs leave no law.
+    objective
+        What is least.
+    durations
+        The times of the points, s, ascending.
+    solutions
+        The laws of the points with their proofs.
+
+    Raises
+    ------
+    InputError
+        If a point is of another problem, or times do not ascend.
+
+    Examples
+    --------
+    >>> import optlaws
+    >>> move = optlaws.fastest(optlaws.Problem(order=3), stroke="100 mm", limits={"jerk": "300 m/s^3"})
+    >>> front = optlaws.time_front(move, "rms acceleration", points=5)
+    >>> [(round(point.duration, 4), round(point.value, 3)) for point in front][::2]
+    [(0.2253, 8.918), (0.3187, 3.671), (0.4507, 1.756)]
+    >>> between = front(0.3)
+    >>> between.lower_bound <= between.value, round(between.value, 2), round(between.gap, 2)
+    (True, 4.39, 0.06)
+    """
+
+    fastest: FastestMove
+    objective: MoveObjective
+    durations: tuple[float, ...]
+    solutions: tuple[Solution, ...]
+
+    _json_name = "a front over the time"
+
+    def __post_init__(self) -> None:
+        if not self.solutions or len(self.durations) != len(self.solutions):
+            raise InputError(f"{self._json_name} has points, each with a time and a solution")
+        if self.durations[0] < self.fastest.duration or not all(
+            first < second for first, second in pairwise(self.durations)
+        ):
+            raise InputError(f"{self._json_name} has ascending times, none below the least time")
+        for duration, solution in zip(self.durations, self.solutions, strict=True):
+            if solution.problem != self.objective.problem(self.fastest.least.move, duration):
+                raise InputError(f"{self._json_name}: the law at {duration!r} s is not of the move in this time")
+
+    @property
+    def minimise(self) -> str:
+        """The name of what is least."""
+        return self.objective.name
+
+    @property
+    def unit(self) -> str:
+        """The unit of what is least."""
+        nu = 2 if self.minimise == RESIDUAL else self.objective.nu
+        return AT_MOTOR.get(self.minimise) or unit_of(AXES[self.fastest.unit], nu)
+
+    @property
+    def values(self) -> tuple[float, ...]:
+        """What is least at each point, recomputed from its law, in SI units."""
+        return tuple(point.value for point in self)
+
+    @property
+    def lower_bounds(self) -> tuple[float, ...]:
+        """What no law of the space takes less than at each point, in SI units."""
+        return tuple(point.lower_bound for point in self)
+
+    @property
+    def gap(self) -> float:
+        """The greatest gap of a point."""
+        return max(point.gap for point in self)
+
+    @property
+    def status(self) -> Status:
+        """`optimal` where every point is proven."""
+        optimal = all(solution.status is Status.OPTIMAL for solution in self.solutions)
+        return Status.OPTIMAL if optimal else Status.LOCAL
+
+    @property
+    def falls(self) -> bool:
+        """Whether it is known that a longer time never needs more: then the front is known between its points too."""
+        return self.objective.falls(self.fastest.least.move)
+
+    def __call__(self, duration: Quantity | float) -> TimePoint:
+        """A law in a time, in s or such as "0.3 s", and a bound of what any law takes; between points by convexity.
+
+        The law is that of the point before, played more slowly: it keeps every limit. The bound is that of the point
+        after: what a law takes in less time, it takes at most in more.
+
+        Raises
+        ------
+        InputError
+            If the time is beyond the ends, or between points where nothing is known.
+        """
+        given = real(duration)
+        time = positive_quantity(duration, "time", "duration") if given is None else given
+        if not self.durations[0] <= time <= self.durations[-1]:
+            first, last = self.durations[0], self.durations[-1]
+            raise InputError(f"the front goes from {first:.9g} s to {last:.9g} s, got {shortened(duration)}")
+        i = bisect_right(self.durations, time) - 1
+        before = self[i]
+        if before.duration == time:
+            return before
+        if not self.falls:
+            raise InputError(
+                f"the {self.minimise} need not fall with the time, so that nothing is known between the points of the "
+                f"front; the nearest are at {before.duration:.9g} s and {self.durations[i + 1]:.9g} s"
+            )
+        after, nu = self[i + 1], self.objective.nu
+        slower = power(after.duration / time, nu) if nu else 1.0
+        return self._point(time, before.law, after.lower_bound * slower)
+
+    @kept_property
+    def points(self) -> tuple[TimePoint, ...]:
+        """The points, their values recomputed from the laws."""
+        return tuple(
+            self._point(duration, solution.law, solution.lower_bound, dimensionless=True)
+            for duration, solution in zip(self.durations, self.solutions, strict=True)
+        )
+
+    def _point(self, duration: float, law: MotionLaw, bound: float, *, dimensionless: bool = False) -> TimePoint:
+        """The point of a law; its bound in SI units or as that of the law's constant."""
+        least = self.objective.in_time(duration, self.fastest.stroke)
+        value, lower_bound = float(least.constant.value(law)) / least.bound, bound
+        if dimensionless:
+            lower_bound /= least.bound
+        gap = (value - lower_bound) / measure(value, least.constant.scale / least.bound)
+        return TimePoint(duration, law, value, lower_bound, gap)
+
+    def __getitem__(self, place: int) -> TimePoint:
+        return self.points[place]
+
+    def __len__(self) -> int:
+        return len(self.durations)
+
+    def __iter__(self) -> Iterator[TimePoint]:
+        return iter(self.points)
+
+    @property
+    def headings(self) -> tuple[str, ...]:
+        """What the rows have."""
+        return ("time, s", f"{self.minimise}, {self.unit}", f"lower bound, {self.unit}", "gap", "status")
+
+    @property
+    def rows(self) -> list[list[float | str]]:
+        """What `headings` name, a row for each point."""
+        return [
+            [point.duration, point.value, point.lower_bound, point.gap, solution.status.value]
+            for point, solution in zip(self, self.solutions, strict=True)
+        ]
+
+    def to_csv(self) -> str:
+        """The rows as CSV."""
+        from optlaws.files.tables import to_csv
+
+        return to_csv(self.headings, self.rows, about=f"least {self.minimise} over the time of a move", digits=12)
+
+    def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
+        """Draw the front into matplotlib's axes, new ones unless given, with what is proven below; the artists.
+
+        Examples
+        --------
+        >>> import optlaws
+        >>> move = optlaws.fastest(optlaws.Problem(order=3), stroke="100 mm", limits={"jerk": "300 m/s^3"})
+        >>> [artist.get_label() for artist in optlaws.time_front(move, "velocity", points=2).plot()]
+        ['velocity', 'no law below', 'least time']
+        """
+        from optlaws.plots.front import draw_time_front
+
+        return draw_time_front(self, ax, **style)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain JSON-able dict in SI units: laws and proofs in one, which `optlaws verify` checks."""
+        points = [
+            {
+                "duration": point.duration,
+                "value": point.value,
+                "lower_bound": bounded(point.lower_bound),
+                "solution": solution.to_dict(),
+            }
+            for point, solution in zip(self, self.solutions, strict=True)
+        ]
+        return {"minimise": self.objective.to_dict(), "fastest": self.fastest.to_dict(), "points": points}
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> TimeFront:
+        """Read what `to_dict` wrote; laws and proofs are held against the move, numbers against the laws.
+
+        Raises
+        ------
+        InputError
+            If an entry is missing or wrong, or states what does not follow from laws and proofs.
+        """
+        entries = all_entries_of(data, _KEYS, cls._json_name)
+        rows = [
+            all_entries_of(row, _POINT_KEYS, f"points[{i}]")
+            for i, row in enumerate(listed(entries["points"], "points", MOST_POINTS))
+        ]
+        with meant():
+            solutions = tuple(Solution.from_dict(row["solution"]) for row in rows)
+        front = cls(
+            FastestMove.from_dict(entries["fastest"]),
+            MoveObjective.from_dict(entries["minimise"]),
+            tuple(positive(row["duration"], "duration") for row in rows),
+            solutions,
+        )
+        for i, (row, point) in enumerate(zip(rows, front, strict=True)):
+            for name in ("value", "lower_bound"):
+                known = getattr(point, name)
+                stated = -inf if row[name] is None and name == "lower_bound" else real(row[name])
+                if stated is None or (stated != known and abs(stated - known) > STORED_VALUE * abs(point.value)):
+                    raise InputError(f"points[{i}]: {name} is {shortened(row[name])}, but its law gives {known!r}")
+        return front
+
+    def _repr_html_(self) -> str:
+        from optlaws.shown.showing import drawing, page, table
+
+        curve = drawing(f"{self.minimise}, {self.unit}", self.durations, self.values)
+        cells = [[f"{cell:.7g}" if isinstance(cell, float) else cell for cell in row] for row in self.rows]
+        return page("TimeFront", table(self.headings, cells), curve)
+
+    def __repr__(self) -> str:
+        first, last = self[0], self[-1]
+        return (
+            f"TimeFront({self.minimise}, {len(self)} points from {first.duration:.6g} s with {first.value:.6g} "
+            f"{self.unit} to {last.duration:.6g} s with {last.value:.6g} {self.unit}, status={self.status.value!r})"
+        )

@@ -1,0 +1,151 @@
+"""What is least in a move of a given time: a rate of its motion, what its motor takes, or what is left vibrating."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+from optlaws.errors import InputError
+from optlaws.files.reading import JsonText, all_entries_of
+from optlaws.formulas.reading import read
+from optlaws.formulas.slopes import constant
+from optlaws.numbers import positive, real
+from optlaws.suggest import unknown_key
+from optlaws.synthesis.functionals.makers import integral, peak, rms
+from optlaws.synthesis.least_time.follower_residual import RESIDUAL, FollowerResidual
+from optlaws.synthesis.least_time.motor_torque import MotorTorque, TimedLimit
+from optlaws.synthesis.least_time.move_limits import TimedMove, power
+from optlaws.synthesis.problem.constants import B, C, Functional, J, jounce, rms_c, rms_j, rms_jounce
+from optlaws.synthesis.problem.problem import Problem
+
+#: of the motion: the order of the derivative, and the constant of the law
+RATES: dict[str, tuple[int, Functional]] = {
+    "velocity": (1, B),
+    "acceleration": (2, C),
+    "jerk": (3, J),
+    "snap": (4, jounce),
+    "rms acceleration": (2, rms_c),
+    "rms jerk": (3, rms_j),
+    "rms snap": (4, rms_jounce),
+}
+#: at a motor, with the unit
+AT_MOTOR = {"torque": "N m", "rms torque": "N m", "energy": "J"}
+#: what is left vibrating in a follower
+OBJECTIVES = (*RATES, *AT_MOTOR, RESIDUAL)
+_KEYS = ("name", "torque", "way", "regeneration", "residual")
+_SMOOTH = 3
+
+
+@dataclass(frozen=True)
+class MoveObjective(JsonText):
+    """What is least in a move of a given time.
+
+    Attributes
+    ----------
+    name
+        One of "velocity", "acceleration", "jerk", "snap", "rms acceleration", "rms jerk", "rms snap", "torque", "rms
+        torque", "energy" and "residual acceleration".
+    torque
+        That at the motor, where its torque or energy is least; its limit is 1 N m and says nothing.
+    way, regeneration
+        Of an energy: how far the motor turns, rad, and the share of the braking energy that is fed back.
+    residual
+        The follower, where what is left vibrating is least; its limit is 1 and says nothing.
+
+    Raises
+    ------
+    InputError
+        If the name is unknown, or there is not what it needs and nothing else.
+
+    Examples
+    --------
+    >>> MoveObjective("acceleration").in_time(0.2, stroke=0.1)
+    TimedLimit(name='acceleration', constant=C, bound=0.4)
+    """
+
+    name: str
+    torque: MotorTorque | None = None
+    way: float | None = None
+    regeneration: float = 0.0
+    residual: FollowerResidual | None = None
+
+    _json_name = "what is least in a move"
+
+    def __post_init__(self) -> None:
+        if self.name not in OBJECTIVES:
+            raise InputError(f"minimise: {unknown_key(self.name, OBJECTIVES, 'objective of a move')}")
+        needs = (self.name in AT_MOTOR, self.name == "energy", self.name == RESIDUAL)
+        if needs != (self.torque is not None, self.way is not None, self.residual is not None):
+            raise InputError(f"{self._json_name}: the {self.name} needs its motor or its follower, and nothing else")
+        if self.torque is not None and (self.torque.peak, self.torque.rms) != (None, 1.0):
+            raise InputError(f"{self._json_name}: its torque has the limit 1 N m of its root mean square alone")
+        if self.residual is not None and self.residual.most != 1.0:
+            raise InputError(f"{self._json_name}: its residual has the limit 1")
+        if self.way is not None:
+            object.__setattr__(self, "way", positive(self.way, "way"))
+        share = real(self.regeneration)
+        if share is None or not 0.0 <= share <= 1.0 or (share and self.way is None):
+            raise InputError(f"{self._json_name}: regeneration must be a share from 0 to 1 of an energy, got {share!r}")
+
+    def in_time(self, duration: float, stroke: float) -> TimedLimit:
+        """The constant of the law that is least, and what of it is 1 in SI units."""
+        if self.name in RATES:
+            nu, of = RATES[self.name]
+            return TimedLimit(self.name, of, power(duration, nu) / stroke)
+        if self.residual is not None:
+            return self.residual.limit_in(duration, stroke)
+        assert self.torque is not None  # noqa: S101 - as was checked
+        text, unit = self.torque.text(duration), duration * duration / self.torque.unit
+        if self.way is None:
+            return TimedLimit(self.name, (rms if self.name == "rms torque" else peak)(text), unit)
+        taken = f"({text})*b"
+        braked = f"{self.regeneration!r}*{taken}" if self.regeneration else "0"
+        energy = taken if self.regeneration == 1.0 else f"max({taken}, {braked})"
+        return TimedLimit(self.name, integral(energy), unit / self.way)
+
+    def problem(self, move: TimedMove, duration: float) -> Problem:
+        """The problem of the laws that keep the limits of a move in a time, with what is least in it."""
+        return replace(move.within(duration), minimise=self.in_time(duration, move.stroke).constant)
+
+    @property
+    def nu(self) -> int:
+        """A law takes this power of s less where it is played s times as long, at least; 0 of torques and energy."""
+        return RATES[self.name][0] if self.name in RATES else 0
+
+    def falls(self, move: TimedMove) -> bool:
+        """Whether a longer time never needs more: docs/theory/least-time.md."""
+        if not move.at_rest or move.residual is not None or self.residual is not None:
+            return False
+        if move.torque is not None and not move.torque.grows_possible:
+            return False
+        if self.torque is None:
+            return True
+        inertia, load = (constant(read(text, ("a",))) for text in (self.torque.inertia, self.torque.load))
+        if inertia is None or load is None:
+            return False
+        if self.name == "torque":
+            return self.torque.friction == 0.0 or load >= 0.0 or move.problem.order >= _SMOOTH
+        return self.torque.friction == 0.0 or load >= 0.0
+
+    def to_dict(self) -> dict[str, Any]:
+        """Name, motor and follower as plain data."""
+        parts = {"torque": self.torque, "residual": self.residual}
+        plain = {name: None if part is None else part.to_dict() for name, part in parts.items()}
+        return {"name": self.name, "way": self.way, "regeneration": self.regeneration, **plain}
+
+    @classmethod
+    def from_dict(cls, data: Any) -> MoveObjective:  # noqa: ANN401 - it is checked here
+        """The objective that `to_dict` described.
+
+        Raises
+        ------
+        InputError
+            If an entry is missing or wrong.
+        """
+        entries = all_entries_of(data, _KEYS, cls._json_name)
+        torque, residual = entries["torque"], entries["residual"]
+        known = {
+            "torque": None if torque is None else MotorTorque.from_dict(torque),
+            "residual": None if residual is None else FollowerResidual.from_dict(residual),
+        }
+        return cls(**entries | known)
