@@ -33,7 +33,7 @@ _load, __dir__, __all__ = face(
         "optlaws.cycles.interlocks.synchronous": "Synchronous",
         "optlaws.cycles.machine_axes": "Axes",
         "optlaws.cycles.cycle": "Cycle",
-        "optlaws.cycles.old_tables": "OldTable read_cycle_table split_table",
+        "optlaws.cycles.old_tables.table": "OldTable read_cycle_table split_table",
         "optlaws.cycles.moves.fastest_move": "FastestMove",
         "optlaws.cycles.moves.timed_moves": "fastest fastest_moves",
         "optlaws.cycles.specification.segments": "ConstantVelocity Dwell Free Move Return Rise",

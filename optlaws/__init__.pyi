@@ -53,9 +53,9 @@ from optlaws.cycles.machine_follower import machine_follower as machine_follower
 from optlaws.cycles.moves.fastest_move import FastestMove as FastestMove
 from optlaws.cycles.moves.timed_moves import fastest as fastest
 from optlaws.cycles.moves.timed_moves import fastest_moves as fastest_moves
-from optlaws.cycles.old_tables import OldTable as OldTable
-from optlaws.cycles.old_tables import read_cycle_table as read_cycle_table
-from optlaws.cycles.old_tables import split_table as split_table
+from optlaws.cycles.old_tables.table import OldTable as OldTable
+from optlaws.cycles.old_tables.table import read_cycle_table as read_cycle_table
+from optlaws.cycles.old_tables.table import split_table as split_table
 from optlaws.cycles.specification.segments import ConstantVelocity as ConstantVelocity
 from optlaws.cycles.specification.segments import Dwell as Dwell
 from optlaws.cycles.specification.segments import Free as Free
