@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.old_tables.better_moves import MoveGain, better, gain
 from optlaws.cycles.old_tables.reading import read_points
 from optlaws.cycles.old_tables.stretches import Stretch, of_standard_laws, seam_of, stretches_of
 from optlaws.cycles.specification.segments import CycleSegment, Dwell, Return, Rise
@@ -18,16 +20,7 @@ from optlaws.laws import MotionLaw
 from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.laws.making.through_points import noise
 from optlaws.numbers import Array, Quantity, not_negative, positive
-from optlaws.synthesis.problem.problem import Problem
-from optlaws.synthesis.problem.ranges import at_most
-from optlaws.synthesis.problem.windows import Window
-from optlaws.synthesis.solve import synthesize
-from optlaws.synthesis.spaces.bases import Chebyshev
-from optlaws.tolerances import MODERNISED_JERK, NOISE_ROOM, STANDARD_LAW_ROOM
-
-#: places at which the old law and the new one are compared
-_COMPARED = 41
-
+from optlaws.tolerances import NOISE_ROOM, STANDARD_LAW_ROOM
 
 @dataclass(frozen=True, eq=False)
 class OldTable:
@@ -45,6 +38,8 @@ class OldTable:
         By how much the last position differs from the first one.
     unit, master
         The units of positions and of the master.
+    places, heights
+        The points, arrays of shape (n,).
     layout
         What the file is that it was read from.
     rate
@@ -65,6 +60,8 @@ class OldTable:
     seam: float
     unit: str
     master: str
+    places: Array
+    heights: Array
     layout: str = ""
     rate: float | None = None
 
@@ -98,24 +95,89 @@ class OldTable:
         order, degree
             Of the new laws; their jerk is at most a fifth above the old one where that has a greatest value.
         """
-        room = positive(tolerance, "tolerance")
-        laws = [self._better(part, room, order, degree) for part in self.stretches]
-        return self._cycle(laws, speed, period)
+        return self.bettered(tolerance, order=order, degree=degree).cycle(speed=speed, period=period)
 
-    def _better(self, part: Stretch, room: float, order: int, degree: int) -> MotionLaw | None:
-        if part.law is None:
-            return None
-        old = catalogue[part.law].law if isinstance(part.law, str) else part.law
-        k = np.linspace(0.0, 1.0, _COMPARED)
-        points = ", ".join(f"{place:.9g}:{height:.9g}" for place, height in zip(k, old(k), strict=True))
-        share = room / abs(part.stroke)
-        near = Window(f"a - spline(k, {points})", low=-share, high=share)
-        jerk = MODERNISED_JERK * old.constants.J.value
-        problem = Problem(
-            order=order, basis=Chebyshev(degree), symmetric=False, windows=(near,),
-            J=at_most(jerk) if np.isfinite(jerk) else None,
-        )  # fmt: skip
-        return synthesize(problem).law
+    def bettered(self, tolerance: float, *, order: int = 3, degree: int = 15) -> OldTable:
+        """The table with the laws of least acceleration that stay within a tolerance of the old ones everywhere.
+
+        A move keeps its law where no law of this order and degree within the tolerance has less acceleration.
+
+        Parameters
+        ----------
+        tolerance
+            In units of the table, above 0.
+        order, degree
+            Of the new laws; their jerk is at most a fifth above the old one where that has a greatest value.
+
+        Raises
+        ------
+        InputError
+            If the tolerance is not above 0.
+
+        Examples
+        --------
+        >>> x = np.arange(361.0)
+        >>> law = catalogue["cycloidal"].law
+        >>> old = split_table(x, np.round(30 * (law(np.clip(x / 120, 0, 1)) - law(np.clip((x - 180) / 120, 0, 1))), 4))
+        >>> [f"{gain.share(2):.1%} of {gain.kind}" for gain in old.bettered(0.1, degree=11).gains(old)]
+        ['-9.7% of rise', '-9.7% of return']
+        """
+        room = positive(tolerance, "tolerance")
+        return replace(self, stretches=tuple(better(part, room, order, degree) for part in self.stretches))
+
+    def gains(self, old: OldTable) -> tuple[MoveGain, ...]:
+        """What each move has in place of that of an older table with the same moves: peaks, and how far it is off.
+
+        Raises
+        ------
+        InputError
+            If the moves of the two are not at the same places.
+
+        Examples
+        --------
+        >>> x = np.arange(361.0)
+        >>> law = catalogue["cycloidal"].law
+        >>> old = split_table(x, np.round(30 * (law(np.clip(x / 120, 0, 1)) - law(np.clip((x - 180) / 120, 0, 1))), 4))
+        >>> [round(number, 9) for number in old.gains(old)[0].old]  # mm/deg, mm/deg², mm/deg³
+        [0.5, 0.01308997, 0.000685389]
+        """
+        pairs = list(zip(self.moves, old.moves, strict=False))
+        if len(self.moves) != len(old.moves) or any(a != b for a, b in _places(pairs)):
+            raise InputError("gains are told of two tables with the same moves, one made from the other")
+        return tuple(gain(new, was) for new, was in pairs)
+
+    def plot(self, ax: Any = None, *, new: OldTable | None = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
+        """Draw the points and the laws over the master: positions, velocity, acceleration, jerk; return the artists.
+
+        Parameters
+        ----------
+        ax
+            Four axes of matplotlib, five with a new table; a new figure unless given.
+        new
+            A table with better laws, to be drawn beside it, and how far it is off.
+        style
+            As of `Axes.plot`, for the curves.
+
+        Raises
+        ------
+        InputError
+            If there are not as many axes.
+
+        Examples
+        --------
+        >>> law = catalogue["cycloidal"].law
+        >>> table = split_table(np.arange(361.0), [30 * float(law(min(x / 120, 1))) for x in range(361)])
+        >>> len({artist.axes for artist in table.plot()})
+        4
+        """
+        from optlaws.plots.old_table import draw_old_table
+
+        return draw_old_table(self, ax, new, **style)
+
+    @property
+    def moves(self) -> tuple[Stretch, ...]:
+        """Its rises and returns."""
+        return tuple(part for part in self.stretches if part.law is not None)
 
     def _cycle(self, laws: Sequence[str | MotionLaw | None], speed: Quantity | None, period: Quantity | None) -> Cycle:
         segments: list[CycleSegment] = []
@@ -151,6 +213,10 @@ class OldTable:
         if isinstance(part.law, str):
             return f"{part.law} (within {part.distance:.2g} {self.unit})"
         return f"a law of its own; the nearest standard law is {part.nearest}, {part.distance:.2g} {self.unit} off"
+
+
+def _places(pairs: Sequence[tuple[Stretch, Stretch]]) -> list[tuple[tuple[float, ...], tuple[float, ...]]]:
+    return [((a.start, a.stop, a.low, a.high), (b.start, b.stop, b.low, b.high)) for a, b in pairs]
 
 
 def read_cycle_table(
@@ -191,6 +257,7 @@ def read_cycle_table(
     Examples
     --------
     >>> from pathlib import Path
+from typing import Any
     >>> from tempfile import TemporaryDirectory
     >>> law = catalogue["3-4-5 polynomial"].law
     >>> with TemporaryDirectory() as folder:
@@ -271,6 +338,6 @@ def split_table(
         room = max(least, NOISE_ROOM * scatter)
         # joints of a standard law may look like noise
         if room > least and (split := of_standard_laws(places, heights, least)):
-            return OldTable(split, least, 0.0, seam_of(heights, least), unit, master)
+            return OldTable(split, least, 0.0, seam_of(heights, least), unit, master, places, heights)
     stretches = tuple(stretches_of(places, heights, room))
-    return OldTable(stretches, room, scatter, seam_of(heights, room), unit, master)
+    return OldTable(stretches, room, scatter, seam_of(heights, room), unit, master, places, heights)
