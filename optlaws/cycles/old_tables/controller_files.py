@@ -32,6 +32,8 @@ _ABSENT = {"nan", "#ignore", "ignore"}
 _YAML = re.compile(r"\b(positions|velocities|accelerations):\s*\[([^\]]*)\]")
 _YAML_TIME = re.compile(r"time_from_start:\s*\{\s*sec:\s*(\d+)\s*,\s*nanosec:\s*(\d+)\s*\}")
 _CALCULATED = 14  # DINT in an element of CAM_PROFILE
+#: a cycle's table has as many points at least: fewer stand for what is laid through them
+FEWEST_POINTS = 12
 _KINDS_OF_CAM = ("CAM", "CAM_EXTENDED", "CAM_PROFILE")
 
 
@@ -383,11 +385,13 @@ def _of_cam_profile(rows: Sequence[Sequence[_Value]]) -> Decoded:
             values.append([_double(halves[i], halves[i + 1]) for i in (1, 3, 6, 8, 10, 12)])
         except ValueError:
             raise InputError(f"line {row[0].line}: an element of CAM_PROFILE holds no finite number") from None
+    places, heights = ([repr(numbers[i]) for numbers in values] for i in (0, 1))
     pieces = []
     for row, (x, y, *constants), (stop, *_) in zip(rows, values, values[1:], strict=False):
         with _at({"x": row[0]}):
             pieces.append(powers(x, stop, [y + constants[0], *constants[1:]]))
-    return Decoded("Rockwell CAM_PROFILE", pieces=pieces)
+    # the points are the cam, and the spline through them the controller's
+    return Decoded("Rockwell CAM_PROFILE", places, heights, [] if len(values) >= FEWEST_POINTS else pieces)
 
 
 def _double(high: int, low: int) -> float:

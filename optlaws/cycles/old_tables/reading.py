@@ -27,10 +27,10 @@ _UNITS = {"degree": "deg", "degrees": "deg", "grad": "deg", "°": "deg", "sec": 
 _WORD = re.compile(r"°|[A-Za-zµ]+")
 #: units of places and heights in the comments that optlaws writes
 _ABOUT = (
-    re.compile(r"master in (?P<master>\S+) from \S+ to [^\s,]+(?:, (?P<rate>\S+) \S+/s)?, slave in (?P<slave>[^\s;]+)"),
+    re.compile(r"master in (?P<master>\S+) from \S+ to [^\s,]+(?:, (?P<rate>[\d.e+-]+) \S+/s)?, slave in (?P<slave>[^\s;]+)"),
     re.compile(r"y\(x\) in (?P<slave>\S+) for x from \S+ to \S+ (?P<master>[^\s:]+):"),
 )
-_RATE = re.compile(r"the master goes (\S+) \S+/s")
+_RATE = re.compile(r"the master goes (\d[\d.e+-]*) \S+/s")
 _FACTOR = re.compile(r"\s*([\d.]+(?:[eE][+-]?\d+)?)\s*(\D.*)")
 #: masters without a unit, by their length
 _TURNS = {360.0: "deg", 1.0: "turn", 2.0 * np.pi: "rad"}
@@ -111,11 +111,12 @@ def read_points(
 
 
 def _of_layout(known: Decoded, content: str, unit: str | None, master: str | None) -> CamPoints:
+    digit = 0.0  # pieces are what runs, however their ends are rounded
     if known.pieces:
         places, heights = sampled(known.pieces)
     else:
-        places, heights = (np.array(list(map(float, texts))) for texts in (known.places, known.heights))
-    digit = resolution_of(known.heights, [float(text) for text in known.heights]) if known.heights else 0.0
+        places, heights = (np.array(texts, dtype=np.float64) for texts in (known.places, known.heights))
+        digit = resolution_of(known.heights, heights.tolist())
     if known.layout.startswith("ROS"):
         master = master or "s"
         if unit is None and _about(content) is None:
@@ -131,7 +132,11 @@ def _of_columns(
     try:
         layout, scale = _columns_layout(content, points)
         places, heights = scale * np.array(points.places), scale * np.array(points.heights)
-        master = master or ("deg" if scale != 1.0 else None)
+        if scale != 1.0:
+            # whole numbers of 1e-4 deg or 1e-4 mm, whatever the units of what they were made of
+            about = _about(content)
+            turns = about is not None and either(f"1 {about['slave']}", ("length", "angle"), "unit")[0] == "angle"
+            unit, master = unit or ("deg" if turns else "mm"), master or "deg"
         units = _units(points.headings, content, unit, master, float(np.ptp(places)))
         if points.derivatives:
             places, heights = _through(places, heights, points.derivatives, points.lines)
@@ -220,7 +225,8 @@ def _through(
 def rate_of(places: Array, heights: Array, velocities: Array, lines: Sequence[int]) -> float:
     """How fast the master goes where velocities are by the second; 1 where they are by the master.
 
-    Over each interval the mean of velocities by the master is nearly the slope: their least-squares ratio tells.
+    The integral of their magnitude by the trapezium rule, which is sharp between rests, is the way of the positions
+    times the rate.
 
     Raises
     ------
@@ -230,14 +236,13 @@ def rate_of(places: Array, heights: Array, velocities: Array, lines: Sequence[in
     Examples
     --------
     >>> x = np.linspace(0.0, 10.0, 101)
-    >>> round(rate_of(x, np.sin(x), 5.0 * np.cos(x), range(101)), 6), rate_of(x, np.sin(x), np.cos(x), range(101))
+    >>> round(rate_of(x, np.sin(x), 5.0 * np.cos(x), range(101)), 2), rate_of(x, np.sin(x), np.cos(x), range(101))
     (5.0, 1.0)
     """
-    slopes, means = np.diff(heights) / np.diff(places), 0.5 * (velocities[1:] + velocities[:-1])
-    # the trapezium rule errs by the second difference: compare where the slope is plain
-    weight = float(slopes @ slopes)
-    rate = float(means @ slopes) / weight if weight else 1.0
-    off = np.abs(means - rate * slopes) / max(float(np.abs(velocities).max()), np.finfo(float).tiny)
+    steps, means = np.diff(places), 0.5 * (velocities[1:] + velocities[:-1])
+    way = float(np.abs(np.diff(heights)).sum())
+    rate = float(np.abs(steps * means).sum()) / way if way else 1.0
+    off = np.abs(means - rate * np.diff(heights) / steps) / max(float(np.abs(velocities).max()), np.finfo(float).tiny)
     worst = int(np.argmax(off))
     if not rate > 0.0 or off[worst] > TABLE_SLOPE:
         raise InputError(f"line {lines[worst]}: the velocity there is not that of the positions: check the columns")

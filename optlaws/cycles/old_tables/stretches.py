@@ -21,6 +21,8 @@ StretchKind: TypeAlias = Literal["dwell", "rise", "return"]
 _FEWEST = 3
 #: and in the middle of one of as many points the motion rests indeed
 _LONG = 12
+#: points of a move by which laws far from it are told, and how many laws are compared by all points
+_COARSE, _NEAREST = 40, 4
 #: steps to which the ends of moves are rounded where the points allow it, in parts of the master's turn
 _ROUND = (1.0 / 36.0, 1.0 / 72.0, 1.0 / 360.0, 1.0 / 720.0, 1.0 / 3600.0)
 
@@ -153,8 +155,9 @@ def _move(places: Array, heights: Array, first: _Rest, last: _Rest, room: float)
     high = last.last if last.last - last.first < _LONG else (last.first + last.last + 1) // 2
     x, y = places[low : high + 1], (heights[low : high + 1] - first.level) / (last.level - first.level)
     share = room / abs(last.level - first.level)
-    fits = [(*_fitted(x, y, catalogue[name].law), name) for name in catalogue]
-    distance, start, stop, name = min(fits)
+    some = slice(None, None, max(1, len(x) // _COARSE))
+    near = sorted((_fitted(x[some], y[some], catalogue[name].law)[0], name) for name in catalogue)
+    distance, start, stop, name = min((*_fitted(x, y, catalogue[name].law), name) for _, name in near[:_NEAREST])
     law = catalogue[name].law
     kind: StretchKind = "rise" if last.level > first.level else "return"
     if distance <= 1.5 * share:

@@ -11,6 +11,7 @@ import numpy as np
 
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.old_tables.better_moves import MoveGain, better, gain
+from optlaws.cycles.old_tables.controller_files import FEWEST_POINTS
 from optlaws.cycles.old_tables.reading import read_points
 from optlaws.cycles.old_tables.stretches import Stretch, of_standard_laws, seam_of, stretches_of
 from optlaws.cycles.specification.segments import CycleSegment, Dwell, Return, Rise
@@ -257,7 +258,6 @@ def read_cycle_table(
     Examples
     --------
     >>> from pathlib import Path
-from typing import Any
     >>> from tempfile import TemporaryDirectory
     >>> law = catalogue["3-4-5 polynomial"].law
     >>> with TemporaryDirectory() as folder:
@@ -323,8 +323,8 @@ def split_table(
     within 0.0001 mm of the points
     """
     places, heights = np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64)
-    if places.shape != heights.shape or places.ndim != 1 or len(places) < 12:
-        raise InputError(f"a cycle's table has at least 12 points, as many places as positions, got {shortened(x)}")
+    if places.shape != heights.shape or places.ndim != 1 or len(places) < FEWEST_POINTS:
+        raise InputError(f"a cycle's table has at least {FEWEST_POINTS} points, as many places as positions, got {shortened(x)}")
     if not np.all(np.diff(places) > 0.0) or not np.all(np.isfinite(heights)):
         raise InputError("the places of a table must increase, and its positions be finite numbers")
     stroke = float(np.ptp(heights))
