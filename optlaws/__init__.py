@@ -73,6 +73,7 @@ _load, __dir__, __all__ = face(
         "optlaws.mechanisms.machine.masses": "Link",
         "optlaws.mechanisms.machine.parameters": "MachineSpectrum machine_spectrum",
         "optlaws.cycles.law_comparison": "Comparison compare_laws",
+        "optlaws.mechanisms.measured_spectrum": "read_spectrum",
         "optlaws.mechanisms.residual": "residual_functional residual_phasor residual_vibration",
         "optlaws.mechanisms.spectrum": "ResponseSpectrum response_spectrum",
         "optlaws.numerics.peaks": "Peak",

@@ -112,6 +112,7 @@ from optlaws.mechanisms.machine.machine import Machine as Machine
 from optlaws.mechanisms.machine.masses import Link as Link
 from optlaws.mechanisms.machine.parameters import MachineSpectrum as MachineSpectrum
 from optlaws.mechanisms.machine.parameters import machine_spectrum as machine_spectrum
+from optlaws.mechanisms.measured_spectrum import read_spectrum as read_spectrum
 from optlaws.mechanisms.polydyne_cam import mass_law as mass_law
 from optlaws.mechanisms.polydyne_cam import polydyne as polydyne
 from optlaws.mechanisms.residual import residual_functional as residual_functional
@@ -347,6 +348,7 @@ __all__ = [
     "read_cycle_table",
     "read_law",
     "read_motors",
+    "read_spectrum",
     "residual_functional",
     "residual_phasor",
     "residual_vibration",

@@ -57,9 +57,7 @@ class OldCamOptions:
 NO_OLD_CAM = OldCamOptions()
 
 
-def old_cam(
-    file: Path, options: OldCamOptions, points: TableOptions, out: Path | None, *, as_json: bool
-) -> None:
+def old_cam(file: Path, options: OldCamOptions, points: TableOptions, out: Path | None, *, as_json: bool) -> None:
     """Answer for the table of an old cam."""
     from optlaws.cycles.old_tables.table import read_cycle_table
     from optlaws.exports.format import format_of
@@ -154,13 +152,19 @@ def _show(old: OldTable, new: OldTable | None) -> None:
     headings = ["move", "from", "to"]
     headings += [f"{name}, {unit}" for name, unit in zip(("velocity", "acceleration", "jerk"), units, strict=True)]
     rows = [
-        (gain.kind, f"{gain.start:g}", f"{gain.stop:g}", *(_change(gain, nu) for nu in (1, 2, 3)), f"{gain.deviation:.3g}")
+        (
+            gain.kind,
+            f"{gain.start:g}",
+            f"{gain.stop:g}",
+            *(_change(gain, nu) for nu in (1, 2, 3)),
+            f"{gain.deviation:.3g}",
+        )
         for gain in new.gains(old)
     ]
     show(table(*headings, f"off by, {old.unit}", rows=rows))
     same = [part for part, was in zip(new.moves, old.moves, strict=True) if part.law is was.law]
     for part in same:
-        show(f"the {part.kind} from {part.start:g} keeps its law: none of degree 15 within the tolerance has less acceleration")
+        show(f"the {part.kind} from {part.start:g} keeps its law: none of degree 15 so near has less acceleration")
 
 
 def _change(gain: Any, nu: int) -> str:  # noqa: ANN401 - a MoveGain, which the help must not import

@@ -29,8 +29,8 @@ def cycle(
     Parameters
     ----------
     file
-        A problem file whose job is "cycle", or the name of one that comes with optlaws, such as cycle_press; or the table
-        of an old cam: columns of text, or a file of a controller.
+        A problem file whose job is "cycle", or the name of one that comes with optlaws, such as cycle_press; or the
+        table of an old cam: columns of text, or a file of a controller.
     out
         Folder for the table, the pictures and the laws; otherwise where `optlaws run` puts them. Of an old cam for the
         file of --export; otherwise where you are.

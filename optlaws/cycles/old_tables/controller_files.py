@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from itertools import pairwise
 from math import isfinite
 from struct import pack, unpack
 from typing import NamedTuple
@@ -179,9 +180,7 @@ def _of_yaml(text: str, cam: str | None) -> str:
         return f"{match[1]} := {cells[place].strip()}"
 
     # digits of the seconds and of the nanoseconds, so that none is lost
-    return _YAML_TIME.sub(
-        lambda m: f"time_from_start := {int(m[1])}.{int(m[2]):09d}", _YAML.sub(of_joint, text)
-    )
+    return _YAML_TIME.sub(lambda m: f"time_from_start := {int(m[1])}.{int(m[2]):09d}", _YAML.sub(of_joint, text))
 
 
 def _records(layout: Layout, fields: Sequence[tuple[str | None, str, _Value]]) -> Iterator[_Record]:
@@ -209,9 +208,7 @@ def _records(layout: Layout, fields: Sequence[tuple[str | None, str, _Value]]) -
 def _check_count(text: str, count: int) -> None:
     """Refuse a file that holds not as many points as it says."""
     stated = [(int(match[1]), _line(text, match.start())) for match in _COUNT.finditer(text)]
-    stated += [
-        (int(match[2]) - int(match[1]) + 1, _line(text, match.start())) for match in _BOUNDS.finditer(text)
-    ]
+    stated += [(int(match[2]) - int(match[1]) + 1, _line(text, match.start())) for match in _BOUNDS.finditer(text)]
     for number, line in stated:
         if number != count:
             raise InputError(
@@ -239,7 +236,7 @@ def _of_records(layout: Layout, records: Sequence[_Record]) -> Decoded:
     if orders < 2 and "type" not in roles:
         return Decoded(layout.name, places, heights)
     pieces = []
-    for i, (first, last) in enumerate(zip(points, points[1:], strict=False)):
+    for i, (first, last) in enumerate(pairwise(points)):
         profile = _profile(layout, records[i])
         known = min(len(first), len(last)) - 1
         with _at(records[i]):
@@ -288,7 +285,9 @@ def _pieces(layout: Layout, records: Sequence[_Record]) -> Iterator[Piece]:
             if "c0" in numbers:
                 yield powers(start, stop, [numbers[f"c{n}"] for n in range(8) if f"c{n}" in numbers])
             else:
-                first, last = ([numbers[f"{role}{end}"] for role in "yvaj" if f"{role}{end}" in numbers] for end in "01")
+                first, last = (
+                    [numbers[f"{role}{end}"] for role in "yvaj" if f"{role}{end}" in numbers] for end in "01"
+                )
                 yield of_profile(_profile(layout, record), (start, stop), first, last)
         begin = stop
 
@@ -305,12 +304,15 @@ def _of_arrays(text: str) -> Decoded | None:
     if len(named) == 2:
         return _of_source(text, named)
     tables = [(head, list(_rows(text, start, body))) for head, start, body in arrays]
-    head, rows = max(tables, key=lambda table: len(table[1]), default=("", []))
+    rows = max((rows for _, rows in tables), key=len, default=[])
     if len(rows) < 2:
         # one flat array of pairs
-        head, rows = next(((head, _pairs(head, rows[0])) for head, rows in tables if rows and _is_flat(head)), ("", []))
-    if len(rows) < 2:
-        return None
+        rows = next((_pairs(head, rows[0]) for head, rows in tables if rows and _is_flat(head)), [])
+    return _of_rows(text, rows) if len(rows) > 1 else None
+
+
+def _of_rows(text: str, rows: list[list[_Value]]) -> Decoded | None:
+    """Rows of two to five numbers, or elements of CAM_PROFILE."""
     width = len(rows[0])
     for row in rows:
         if len(row) != width:

@@ -27,7 +27,9 @@ _UNITS = {"degree": "deg", "degrees": "deg", "grad": "deg", "°": "deg", "sec": 
 _WORD = re.compile(r"°|[A-Za-zµ]+")
 #: units of places and heights in the comments that optlaws writes
 _ABOUT = (
-    re.compile(r"master in (?P<master>\S+) from \S+ to [^\s,]+(?:, (?P<rate>[\d.e+-]+) \S+/s)?, slave in (?P<slave>[^\s;]+)"),
+    re.compile(
+        r"master in (?P<master>\S+) from \S+ to [^\s,]+(?:, (?P<rate>[\d.e+-]+) \S+/s)?, slave in (?P<slave>[^\s;]+)"
+    ),
     re.compile(r"y\(x\) in (?P<slave>\S+) for x from \S+ to \S+ (?P<master>[^\s:]+):"),
 )
 _RATE = re.compile(r"the master goes (\d[\d.e+-]*) \S+/s")
@@ -98,10 +100,10 @@ def read_points(
     content = reading.text(path, LARGEST_TABLE, legacy=True)
     try:
         known = decoded(content, cam) if columns is None else None
-        if known is None and cam is not None:
-            raise InputError(f"it has columns of numbers, and no cam {shortened(cam)}")
     except InputError as error:
         raise InputError(f"{path}: {error}") from None
+    if known is None and cam is not None:
+        raise InputError(f"{path} has columns of numbers, and no cam {shortened(cam)}")
     if known is None:
         return _of_columns(path, content, columns, unit, master)
     try:
@@ -183,7 +185,7 @@ def sampled(pieces: Sequence[Piece]) -> tuple[Array, Array]:
     --------
     >>> from optlaws.cycles.old_tables.pieces import powers
     >>> x, y = sampled([powers(0.0, 1.0, [0.0, 1.0]), powers(1.0, 3.0, [1.0, -0.5])])
-    >>> len(x), y[-1]
+    >>> len(x), float(y[-1])
     (721, 0.0)
     """
     start, stop = pieces[0].start, pieces[-1].stop
@@ -253,9 +255,7 @@ def _about(content: str) -> re.Match[str] | None:
     return next((match for pattern in _ABOUT if (match := pattern.search(content[:10_000]))), None)
 
 
-def _units(
-    headings: tuple[str, str], content: str, unit: str | None, master: str | None, length: float
-) -> Units:
+def _units(headings: tuple[str, str], content: str, unit: str | None, master: str | None, length: float) -> Units:
     """Units as given, as comments of optlaws or headings say them, or as the length of the master lets suppose."""
     about = _about(content)
     stated = (about["master"], about["slave"]) if about else (None, None)

@@ -129,6 +129,7 @@ def _joined(rests: Sequence[_Rest], room: float) -> list[_Rest]:
 
 
 def stretches_of(places: Array, heights: Array, room: float) -> Iterator[Stretch]:
+    """The dwells and moves of points in their order."""
     rests = _joined(list(_rests(heights, room)), room)
     # what rises or falls through a short run does not rest there
     apart = [rests[0]]

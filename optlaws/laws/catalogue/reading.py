@@ -190,7 +190,13 @@ def _is_point(cells: list[str]) -> bool:
 
 
 def _chosen(
-    columns: Sequence[Column] | None, headings: list[str], line: _Line, name: str, most: int, *, written_by_optlaws: bool
+    columns: Sequence[Column] | None,
+    headings: list[str],
+    line: _Line,
+    name: str,
+    most: int,
+    *,
+    written_by_optlaws: bool,
 ) -> tuple[int, ...]:
     """The places of the two columns that are meant, and of derivatives."""
     numeric = [i for i, cell in enumerate(line.cells) if _NUMBER.fullmatch(cell)]
@@ -239,12 +245,13 @@ def _check(points: list[_Line], columns: tuple[int, ...], name: str) -> None:
     if len(points) > _MOST_POINTS:
         raise InputError(f"{name} has more than {_MOST_POINTS} points")
     units: list[str] | None = None
+    count = "two" if len(columns) == 2 else len(columns)
     for line in points:
         matches = line.numbers(columns)
         if None in matches:
             raise InputError(
-                f"{name}, line {line.number}: a point is {'two' if len(columns) == 2 else len(columns)} numbers, got {shortened(', '.join(line.cells))}; mend the "
-                "line, or put # before it if it is none"
+                f"{name}, line {line.number}: a point is {count} numbers, got {shortened(', '.join(line.cells))}; mend "
+                "the line, or put # before it if it is none"
             )
         here = [match[2] or "" for match in matches if match]
         units = units or here
