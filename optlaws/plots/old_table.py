@@ -57,10 +57,10 @@ def draw_old_table(table: OldTable, axes: Any = None, new: OldTable | None = Non
 
 def _difference(table: OldTable, new: OldTable, panel: Any) -> list[Artist]:  # noqa: ANN401 - matplotlib's
     """How far the points, and the new law, are from the old law."""
-    (x, old), (at, late) = curve(table, 0), curve(new, 0)
+    at = np.linspace(table.places[0], table.places[-1], 8 * _EACH)
     points: dict[str, Any] = {"linestyle": "", "marker": ".", "markersize": 2.0, "color": GREY}
-    artists = list(panel.plot(table.places, table.heights - np.interp(table.places, x, old), **points))
-    artists += panel.plot(at, late - np.interp(at, x, old), color=WARM, linewidth=1.3)
+    artists = list(panel.plot(table.places, table.heights - table.at(table.places), **points))
+    artists += panel.plot(at, new.at(at) - table.at(at), color=WARM, linewidth=1.3)
     panel.set_ylabel(f"off the old\nlaw, {table.unit}")
     return artists
 

@@ -121,7 +121,7 @@ def gain(new: Stretch, old: Stretch) -> MoveGain:
 def deviation(law: MotionLaw, other: MotionLaw) -> float:
     """The greatest difference of two laws over the whole of k."""
     breaks = np.unique([0.0, 1.0, *law.breaks, *other.breaks])
-    return float(greatest_difference(law, other, breaks)[0])
+    return abs(float(greatest_difference(law, other, breaks)[0]))
 
 
 def law_of_move(part: Stretch) -> MotionLaw:

@@ -122,7 +122,7 @@ def _joined(rests: Sequence[_Rest], room: float) -> list[_Rest]:
     joined: list[_Rest] = []
     longest = sorted(rests, key=lambda rest: rest.first - rest.last)
     for rest in rests:
-        level = next(other.level for other in longest if abs(other.level - rest.level) <= 2.0 * room)
+        level = next(other.level for other in longest if abs(other.level - rest.level) <= room)
         first = joined.pop().first if joined and joined[-1].level == level else rest.first
         joined.append(_Rest(first, rest.last, level))
     return joined
@@ -152,8 +152,10 @@ def stretches_of(places: Array, heights: Array, room: float) -> Iterator[Stretch
 
 def _move(places: Array, heights: Array, first: _Rest, last: _Rest, room: float) -> Stretch:
     """The move between two rests: by the standard law that is nearest, or by one through its points."""
-    low = first.first if first.last - first.first < _LONG else (first.first + first.last) // 2
-    high = last.last if last.last - last.first < _LONG else (last.first + last.last + 1) // 2
+    # a run between two moves is shared at its middle, so that neither reaches into the other
+    low = 0 if first.first == 0 and first.last < _LONG else (first.first + first.last) // 2
+    whole = last.last == len(places) - 1 and last.last - last.first < _LONG
+    high = last.last if whole else (last.first + last.last) // 2
     x, y = places[low : high + 1], (heights[low : high + 1] - first.level) / (last.level - first.level)
     share = room / abs(last.level - first.level)
     some = slice(None, None, max(1, len(x) // _COARSE))

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.old_tables.better_moves import MoveGain, better, gain
+from optlaws.cycles.old_tables.better_moves import MoveGain, better, gain, law_of_move
 from optlaws.cycles.old_tables.controller_files import FEWEST_POINTS
 from optlaws.cycles.old_tables.reading import read_points
 from optlaws.cycles.old_tables.stretches import Stretch, of_standard_laws, seam_of, stretches_of
@@ -20,7 +20,7 @@ from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
 from optlaws.laws.making.through_points import noise
 from optlaws.numbers import Array, Quantity, not_negative, positive
-from optlaws.tolerances import NOISE_ROOM, STANDARD_LAW_ROOM
+from optlaws.tolerances import AGREEMENT, NOISE_ROOM, STANDARD_LAW_ROOM
 
 
 @dataclass(frozen=True, eq=False)
@@ -179,6 +179,32 @@ class OldTable:
 
         return draw_old_table(self, ax, new, **style)
 
+    def at(self, places: Any) -> Array:  # noqa: ANN401 - numbers of any kind
+        """The positions of its laws at places of the master, an array of the same shape, in units of the table.
+
+        Examples
+        --------
+        >>> from optlaws import catalogue
+        >>> law = catalogue["cycloidal"].law
+        >>> table = split_table(np.arange(361.0), [30 * float(law(min(x / 120, 1))) for x in range(361)])
+        >>> table.at([0.0, 60.0, 200.0]).round(9).tolist()
+        [0.0, 15.0, 30.0]
+        """
+        x = np.asarray(places, dtype=np.float64)
+        y = np.full(x.shape, self.stretches[0].low)
+        for part in self.stretches:
+            inside = x >= part.start
+            k = np.clip((x[inside] - part.start) / (part.stop - part.start), 0.0, 1.0)
+            y[inside] = part.low + (0.0 if part.law is None else part.stroke * np.asarray(law_of_move(part)(k)))
+        return y
+
+    @property
+    def off(self) -> tuple[float, float]:
+        """How far its laws are from the points at most, in units of the table, and where; recomputed from the laws."""
+        apart = np.abs(self.at(self.places) - self.heights)
+        worst = int(np.argmax(apart))
+        return float(apart[worst]), float(self.places[worst])
+
     @property
     def moves(self) -> tuple[Stretch, ...]:
         """Its rises and returns."""
@@ -210,6 +236,9 @@ class OldTable:
             f"within {self.room:.3g} {self.unit} of the points"
             + (f", which scatter by {self.scatter:.2g}" if self.scatter else "")
         )
+        off, place = self.off
+        if off > self.room * (1.0 + AGREEMENT):
+            lines.append(f"but {off:.3g} {self.unit} off the point at {place:g} {self.master}")
         if self.seam:
             lines.append(f"the last position is {self.seam:+.3g} {self.unit} from the first one")
         return "\n".join(lines)
