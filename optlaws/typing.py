@@ -24,6 +24,7 @@ __getattr__, __dir__, __all__ = face(
         "optlaws.cycles.interlocks.interlock": "Interlock LeastClearance",
         "optlaws.cycles.machine_axes": "AxesPicture Overlap",
         "optlaws.cycles.machine_follower": "MachineAnswer",
+        "optlaws.cycles.old_tables.better_moves": "MoveGain",
         "optlaws.cycles.old_tables.stretches": "Stretch",
         "optlaws.cycles.specification.cycle_sheet": "CycleSheet",
         "optlaws.cycles.specification.effort": "Effort SegmentEffort",
