@@ -76,7 +76,9 @@ def spectrum_of(given: Any, frequency: tuple[float, float] | None = None) -> Spe
     if (sizes < 0.0).any() or not sizes.any():
         raise InputError(f"amplitudes of a spectrum are at least 0, and one is above, got {shortened(sizes.tolist())}")
     if len(nu) > MOST_POINTS:
-        raise InputError(f"a spectrum has {MOST_POINTS} points at most, got {len(nu)}: `read_spectrum` covers a file of more by fewer")
+        raise InputError(
+            f"a spectrum has {MOST_POINTS} points at most, got {len(nu)}: `read_spectrum` covers more by fewer"
+        )
     if frequency is None:
         return tuple(zip(nu.tolist(), sizes.tolist(), strict=True))
     low, high = frequency

@@ -69,9 +69,7 @@ def test_a_weight_that_is_even_is_a_scale_in_however_many_parts() -> None:
 
 def test_the_least_weighed_residual_is_proven() -> None:
     solution = synthesize(
-        Problem(
-            order=3, basis=Chebyshev(7), minimise=residual_vibration(spectrum=SPECTRUM), B=at_most(2), C=at_most(7)
-        )
+        Problem(order=3, basis=Chebyshev(7), minimise=residual_vibration(spectrum=SPECTRUM), B=at_most(2), C=at_most(7))
     )
     assert solution.status.value == "optimal"
     assert "\nproven      optimal: the proven gap" in str(verify(solution.to_dict()))

@@ -23,7 +23,7 @@ from optlaws.synthesis.spaces.bases import Chebyshev
 from optlaws.tolerances import MODERNISED_JERK, WITHIN_TOLERANCE
 
 #: places of the spline that stands for the old law in the window of the new one, more where they are too few
-_PLACES = (41, 81, 161)
+_PLACES = (81, 161)
 
 
 class MoveGain(NamedTuple):

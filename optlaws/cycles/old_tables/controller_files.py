@@ -129,7 +129,7 @@ def _of_xml(content: str, cam: str | None) -> str:
     except ET.ParseError as error:
         raise InputError(f"it is no XML that can be read: {error}") from None
     for element in tree.iter():
-        element.tag = element.tag.rpartition("}")[2] if isinstance(element.tag, str) else ""
+        element.tag = element.tag.rpartition("}")[2]
     tags = {
         element.attrib.get("Name", ""): element
         for element in tree.iter()
@@ -421,9 +421,9 @@ def _of_source(text: str, named: dict[str, tuple[str, int, str]]) -> Decoded:
     width = len(flat) // (len(breaks) - 1)
     rows = [flat[i : i + width] for i in range(0, len(flat), width)]
     pieces = []
-    for start, stop, row, cell in zip(breaks, breaks[1:], rows, cells["breaks"], strict=False):
+    for low, high, row, cell in zip(breaks, breaks[1:], rows, cells["breaks"], strict=False):
         with _at({"x": cell}):
-            pieces.append(powers(start, stop, row))
+            pieces.append(powers(low, high, row))
     return Decoded("breaks and coefficients", pieces=pieces)
 
 

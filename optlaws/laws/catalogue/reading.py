@@ -212,8 +212,8 @@ def _chosen(
     of_ours = [next((short.index(word) for word in words if word in short), None) for words in (_MASTERS, _SLAVES)]
     if written_by_optlaws and None not in of_ours:
         derivatives = short[2:] if short[:2] == ["x", "y"] else []
-        known = len(derivatives) if derivatives == list(_DERIVATIVES[: len(derivatives)]) else 0
-        return int(of_ours[0] or 0), int(of_ours[1] or 0), *range(2, min(2 + known, most))
+        orders = len(derivatives) if derivatives == list(_DERIVATIVES[: len(derivatives)]) else 0
+        return int(of_ours[0] or 0), int(of_ours[1] or 0), *range(2, min(2 + orders, most))
     if len(numeric) > 2:
         known = ", ".join(f"{i + 1} {headings[i]!r}" if i < len(headings) else str(i + 1) for i in numeric)
         raise InputError(
