@@ -149,9 +149,7 @@ TABLE_RATE = (
     0.25  # velocities of a table that are so near the slopes of its positions are by the master, not the second
 )
 TABLE_SLOPE = 0.5  # of the greatest velocity of a table: one that is farther from the slope of the positions is wrong
-WHOLE_TURN = (
-    1e-6  # of a turn: a master without a unit whose length is so near 360, 1 or 2 pi is meant in deg, turn, rad
-)
+WHOLE_TURN = 1e-6  # of a turn: a master without a unit whose length is so near 360, 1 or 2 pi is one turn
 WITHIN_TOLERANCE = 1e-6  # of a tolerance: a new law that is beyond it by no more is within it, but for rounding
 MODERNISED_JERK = 1.2  # of an old law's greatest jerk: what a law of less acceleration in its place may have
 

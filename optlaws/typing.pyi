@@ -28,6 +28,7 @@ from optlaws.cycles.interlocks.interlock import LeastClearance as LeastClearance
 from optlaws.cycles.machine_axes import AxesPicture as AxesPicture
 from optlaws.cycles.machine_axes import Overlap as Overlap
 from optlaws.cycles.machine_follower import MachineAnswer as MachineAnswer
+from optlaws.cycles.old_tables.better_moves import MoveGain as MoveGain
 from optlaws.cycles.old_tables.stretches import Stretch as Stretch
 from optlaws.cycles.specification.cycle_sheet import CycleSheet as CycleSheet
 from optlaws.cycles.specification.effort import Effort as Effort
@@ -177,6 +178,7 @@ __all__ = [
     "Motion",
     "MotorLosses",
     "MotorTorque",
+    "MoveGain",
     "MoveLimits",
     "MoveStatus",
     "Multiplier",

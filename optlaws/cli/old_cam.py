@@ -103,8 +103,8 @@ def _tolerance(text: str, old: OldTable) -> float:
     try:
         return float(text)
     except ValueError:
-        dimension, one = either(f"1 {old.unit}", ("length", "angle"), "unit")
-        return either(text, (dimension,), "--modernise")[1] / one
+        dimension, size = either(f"1 {old.unit}", ("length", "angle"), "unit")
+        return either(text, (dimension,), "--modernise")[1] / size
 
 
 def _cycle(old: OldTable, speed: str | None) -> Cycle:

@@ -163,7 +163,7 @@ def read_spectrum(
     duration: Quantity | None = None,
     points: int = _FROM_FILE,
     columns: Sequence[int | str] | None = None,
-) -> Spectrum:
+) -> tuple[tuple[float, float], ...]:
     r"""A measured spectrum from a file: frequencies nu and amplitudes, as weight of `residual_vibration`.
 
     Parameters

@@ -76,7 +76,7 @@ def test_decimal_commas_are_read(name: str, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("interpolation", ["c1", "quintic", "septic"])
-def test_derivatives_in_columns_are_what_runs_between_points(interpolation: Any, tmp_path: Path) -> None:
+def test_derivatives_in_columns_are_what_runs_between_points(interpolation: Any, tmp_path: Path) -> None:  # noqa: ANN401 - a Literal
     made = press().export("csv", points=25, interpolation=interpolation)
     compared(made, tmp_path / "cam.csv")
     heading, *rows = made.text.splitlines()[1:]
@@ -292,6 +292,7 @@ def test_what_is_no_table_is_said_to_be_none(tmp_path: Path) -> None:
         ("hello", "holds no points"),
         ("", "holds no points"),
         ("<a><b/></a>", "holds no points"),
+        ("<!DOCTYPE a [<!ENTITY b 'c'>]><a>&b;</a>", "entities of its own"),
         ("x : ARRAY[0..2] OF LREAL := [1.0, 2.0", "line 1: an array does not end"),
         ("5\n0;0\n1;1\n2;1\n", "says that it has 5 points and holds 3"),
         ("CYCLIC;YES;\nTABLE_BEGIN;;\n0;0;SPLINE\n1;1;SPLINE\n", "no TABLE_END"),

@@ -13,8 +13,8 @@ from xml.etree import ElementTree as ET
 
 import numpy as np
 
-from optlaws.cycles.old_tables.layouts import LAYOUTS, Layout
-from optlaws.cycles.old_tables.pieces import Piece, of_profile, powers
+from optlaws.cycles.old_tables.layouts import LAYOUTS, FieldLayout
+from optlaws.cycles.old_tables.curve_pieces import CurvePiece, of_profile, powers
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 
@@ -55,7 +55,7 @@ class Decoded:
     layout: str
     places: list[str] = field(default_factory=list)
     heights: list[str] = field(default_factory=list)
-    pieces: list[Piece] = field(default_factory=list)
+    pieces: list[CurvePiece] = field(default_factory=list)
 
 
 class _Value(NamedTuple):
@@ -124,8 +124,10 @@ def _line(text: str, place: int) -> int:
 
 def _of_xml(content: str, cam: str | None) -> str:
     """The fields and the programs in XML as text: of one tag where it is a project with several cams."""
+    if "<!ENTITY" in content:
+        raise InputError("it is XML with entities of its own, which are not read")
     try:
-        tree = ET.fromstring(content)  # noqa: S314 - it has no entities of its own, which are refused here
+        tree = ET.fromstring(content)  # noqa: S314 - it has no entities of its own
     except ET.ParseError as error:
         raise InputError(f"it is no XML that can be read: {error}") from None
     for element in tree.iter():
@@ -183,7 +185,7 @@ def _of_yaml(text: str, cam: str | None) -> str:
     return _YAML_TIME.sub(lambda m: f"time_from_start := {int(m[1])}.{int(m[2]):09d}", _YAML.sub(of_joint, text))
 
 
-def _records(layout: Layout, fields: Sequence[tuple[str | None, str, _Value]]) -> Iterator[_Record]:
+def _records(layout: FieldLayout, fields: Sequence[tuple[str | None, str, _Value]]) -> Iterator[_Record]:
     """The elements of a structure: each begins with the field that the first one begins with."""
     begins, record, before = None, _Record(), -1
     for index, name, value in fields:
@@ -217,7 +219,7 @@ def _check_count(text: str, count: int) -> None:
             )
 
 
-def _of_records(layout: Layout, records: Sequence[_Record]) -> Decoded:
+def _of_records(layout: FieldLayout, records: Sequence[_Record]) -> Decoded:
     for record in records:
         line = next(iter(record.values())).line
         missing = records[0].keys() - record.keys()
@@ -254,7 +256,7 @@ def _point(record: _Record) -> list[float]:
     return numbers
 
 
-def _profile(layout: Layout, record: _Record) -> str | None:
+def _profile(layout: FieldLayout, record: _Record) -> str | None:
     """The name of what runs after a point; None where the layout has one kind alone."""
     if "type" not in record:
         return None
@@ -276,7 +278,7 @@ class _at:  # noqa: N801 - as contextlib's
             raise InputError(f"line {self.line}: {error}") from None
 
 
-def _pieces(layout: Layout, records: Sequence[_Record]) -> Iterator[Piece]:
+def _pieces(layout: FieldLayout, records: Sequence[_Record]) -> Iterator[CurvePiece]:
     begin = 0.0
     for record in records:
         numbers = {role: value.number() for role, value in record.items() if role != "type"}
@@ -325,7 +327,7 @@ def _of_rows(text: str, rows: list[list[_Value]]) -> Decoded | None:
     _check_count(text, len(rows))
     records = [dict(zip(("x", "y", "v", "a", "type")[: 2 if width == 3 else width], row, strict=False)) for row in rows]
     names = {2: "array of pairs", 3: "Rockwell CAM", 5: "RTmotion McCamXYVA"}
-    layout = Layout(names[width], "x=x y=y v=v a=a type=type")
+    layout = FieldLayout(names[width], "x=x y=y v=v a=a type=type")
     points = list(map(_point, records))
     if min(map(len, points)) < 4:
         records = [{role: record[role] for role in "xy"} for record in records]

@@ -8,7 +8,7 @@ from functools import cached_property
 
 
 @dataclass(frozen=True)
-class Layout:
+class FieldLayout:
     """Fields of a controller's structure, by what they hold.
 
     Parameters
@@ -70,28 +70,28 @@ _MC3 = {
 _LCAMHDL = {"2": "DWELL", "3": "POLYNOM1", "4": "POLYNOM3", "5": "POLYNOM5", "44": ""}
 
 LAYOUTS = (
-    Layout("CODESYS SMC_CAMXYVA", "x=dX y=dY v=dV a=dA"),
-    Layout(
+    FieldLayout("CODESYS SMC_CAMXYVA", "x=dX y=dY v=dV a=dA"),
+    FieldLayout(
         "CODESYS Poly7_Coeffs", "x0=x0 x1=x1 c0=a0 c1=a1 c2=a2 c3=a3 c4=a4 c5=a5 c6=a6 c7=a7",
     ),
-    Layout(
+    FieldLayout(
         "TwinCAT MC_MotionFunctionPoint",
         "x=MasterPos y=SlavePos v=SlaveVelo a=SlaveAcc j=SlaveJerk type=FunctionType",
         _NC2,
     ),
-    Layout(
+    FieldLayout(
         "TwinCAT MotionFunctionPoint",
         "x=MasterPosition y=SlavePosition v=SlaveVelocity a=SlaveAcceleration j=SlaveJerk type=FunctionType",
         _MC3,
     ),
-    Layout(
+    FieldLayout(
         "Siemens LCamHdl_typeBasicPoint", "x=leadingValue y=followingValue v=velocityRatio a=accelerationRatio",
     ),
-    Layout("Siemens LCamHdl elements", f"{_ENDS} j0=geoJerkStart type=camProfileType", _LCAMHDL),
-    Layout("Rockwell CAM", "x=Master y=Slave"),
-    Layout("B&R MC_CAMPROFILE_TYP", "c0=a c1=b c2=c c3=d c4=e c5=f c6=g x1=x"),
-    Layout(
+    FieldLayout("Siemens LCamHdl elements", f"{_ENDS} j0=geoJerkStart type=camProfileType", _LCAMHDL),
+    FieldLayout("Rockwell CAM", "x=Master y=Slave"),
+    FieldLayout("B&R MC_CAMPROFILE_TYP", "c0=a c1=b c2=c c3=d c4=e c5=f c6=g x1=x"),
+    FieldLayout(
         "ABB MC_PPROFILE", "x=master_position y=interpolation_point v=Velocity_ratio a=Acceleration_ratio",
     ),
-    Layout("ROS 2 JointTrajectory", "y=positions v=velocities a=accelerations x=time_from_start"),
+    FieldLayout("ROS 2 JointTrajectory", "y=positions v=velocities a=accelerations x=time_from_start"),
 )  # fmt: skip

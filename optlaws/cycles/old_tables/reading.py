@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from optlaws.cycles.old_tables.controller_files import Decoded, decoded
-from optlaws.cycles.old_tables.pieces import Piece, hermite
+from optlaws.cycles.old_tables.curve_pieces import CurvePiece, hermite
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.files import reading
@@ -38,7 +38,7 @@ _FACTOR = re.compile(r"\s*([\d.]+(?:[eE][+-]?\d+)?)\s*(\D.*)")
 _TURNS = {360.0: "deg", 1.0: "turn", 2.0 * np.pi: "rad"}
 
 
-class Units(NamedTuple):
+class TableUnits(NamedTuple):
     """The units of positions and of the master, how many of these a number is, and the master's speed where known."""
 
     slave: str
@@ -68,7 +68,7 @@ class CamPoints:
     heights: Array
     digit: float
     layout: str
-    units: Units
+    units: TableUnits
 
 
 def read_points(
@@ -173,7 +173,7 @@ def _compare(stated: int, count: int) -> None:
         raise InputError(f"the file says that it has {stated} points and holds {count}: lines are missing or too many")
 
 
-def sampled(pieces: Sequence[Piece]) -> tuple[Array, Array]:
+def sampled(pieces: Sequence[CurvePiece]) -> tuple[Array, Array]:
     """Places all over pieces that follow each other, and the positions there.
 
     Raises
@@ -183,7 +183,7 @@ def sampled(pieces: Sequence[Piece]) -> tuple[Array, Array]:
 
     Examples
     --------
-    >>> from optlaws.cycles.old_tables.pieces import powers
+    >>> from optlaws.cycles.old_tables.curve_pieces import powers
     >>> x, y = sampled([powers(0.0, 1.0, [0.0, 1.0]), powers(1.0, 3.0, [1.0, -0.5])])
     >>> len(x), float(y[-1])
     (721, 0.0)
@@ -255,8 +255,8 @@ def _about(content: str) -> re.Match[str] | None:
     return next((match for pattern in _ABOUT if (match := pattern.search(content[:10_000]))), None)
 
 
-def _units(headings: tuple[str, str], content: str, unit: str | None, master: str | None, length: float) -> Units:
-    """Units as given, as comments of optlaws or headings say them, or as the length of the master lets suppose."""
+def _units(headings: tuple[str, str], content: str, unit: str | None, master: str | None, length: float) -> TableUnits:
+    """TableUnits as given, as comments of optlaws or headings say them, or as the length of the master lets suppose."""
     about = _about(content)
     stated = (about["master"], about["slave"]) if about else (None, None)
     stated_rate = _RATE.search(content[:10_000])
@@ -267,7 +267,9 @@ def _units(headings: tuple[str, str], content: str, unit: str | None, master: st
     of_slave = unit or stated[1] or _unit_in(headings[1], ("length", "angle")) or "mm"
     slave_size, slave = _sized(of_slave, ("length", "angle"), "unit")
     master_size, of_units = _sized(of_master, ("angle", "time"), "master")
-    return Units(slave, of_units, slave_size, master_size, float(rate) if rate and of_master == stated[0] else None)
+    return TableUnits(
+        slave, of_units, slave_size, master_size, float(rate) if rate and of_master == stated[0] else None
+    )
 
 
 def _sized(text: str, dimensions: tuple[str, ...], name: str) -> tuple[float, str]:
@@ -300,5 +302,5 @@ def _in_units(points: CamPoints) -> CamPoints:
     slave, master = units.slave_size, units.master_size
     return CamPoints(
         master * points.places, slave * points.heights, slave * points.digit, points.layout,
-        Units(units.slave, units.master, rate=units.rate),
+        TableUnits(units.slave, units.master, rate=units.rate),
     )  # fmt: skip

@@ -19,7 +19,7 @@ _LINE = ("linear", "line")
 _NONE = ("notdef", "undefined", "nonextsegment")
 
 
-class Piece(NamedTuple):
+class CurvePiece(NamedTuple):
     """A piece of a cam: where it begins and ends, and its positions over the distance from where it begins."""
 
     start: float
@@ -27,17 +27,17 @@ class Piece(NamedTuple):
     position: Callable[[Array], Array]
 
 
-def powers(start: float, stop: float, coefficients: Sequence[float]) -> Piece:
+def powers(start: float, stop: float, coefficients: Sequence[float]) -> CurvePiece:
     """The piece of ascending powers of the distance from where it begins.
 
     >>> powers(10.0, 12.0, [1.0, 0.0, 0.5]).position(np.array([0.0, 2.0])).tolist()
     [1.0, 3.0]
     """
     _check(start, stop)
-    return Piece(start, stop, np.polynomial.Polynomial(list(coefficients)))
+    return CurvePiece(start, stop, np.polynomial.Polynomial(list(coefficients)))
 
 
-def hermite(start: float, stop: float, first: Sequence[float], last: Sequence[float]) -> Piece:
+def hermite(start: float, stop: float, first: Sequence[float], last: Sequence[float]) -> CurvePiece:
     """The polynomial with a position and derivatives by the master at each end, as many as are given there.
 
     >>> hermite(0.0, 2.0, [0.0, 0.0, 0.0], [1.0, 0.0, 0.0]).position(np.array([1.0])).tolist()
@@ -46,12 +46,12 @@ def hermite(start: float, stop: float, first: Sequence[float], last: Sequence[fl
     from scipy.interpolate import BPoly
 
     _check(start, stop)
-    return Piece(start, stop, BPoly.from_derivatives([0.0, stop - start], [list(first), list(last)]))
+    return CurvePiece(start, stop, BPoly.from_derivatives([0.0, stop - start], [list(first), list(last)]))
 
 
 def of_profile(
     profile: str | None, places: tuple[float, float], first: Sequence[float], last: Sequence[float]
-) -> Piece:
+) -> CurvePiece:
     """The piece of a profile by its name, between positions with derivatives.
 
     Parameters
@@ -89,7 +89,7 @@ def of_profile(
         raise InputError(f"{profile} goes from rest to rest, and a velocity is given at an end: it is not known here")
     _check(start, stop)
     length = stop - start
-    return Piece(start, stop, lambda d: first[0] + (last[0] - first[0]) * law(np.clip(d / length, 0.0, 1.0)))
+    return CurvePiece(start, stop, lambda d: first[0] + (last[0] - first[0]) * law(np.clip(d / length, 0.0, 1.0)))
 
 
 def _check(start: float, stop: float) -> None:
