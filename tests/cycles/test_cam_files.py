@@ -58,7 +58,7 @@ def compared(made: Export, file: Path) -> None:
     assert np.abs(y - run).max() <= close * made.motion.stroke + read.digit
 
 
-@pytest.mark.sample(3)
+@pytest.mark.sample(4)
 @pytest.mark.parametrize("units", UNITS, ids=lambda units: f"{units[0]}-{units[1]}")
 @pytest.mark.parametrize("name", sorted(FORMATS))
 def test_every_format_is_read_back(name: str, units: tuple[str | None, str], tmp_path: Path) -> None:
@@ -151,11 +151,11 @@ ROWS = {
     ("kind", "law"),
     [
         ("MOTIONFUNCTYPE_POLYNOM5", "3-4-5 polynomial"),
-        ("15", "3-4-5 polynomial"),
         ("MOTIONFUNCTYPE_MODSINUSLINIE", "modified sine"),
-        ("10", "simple harmonic"),
-        ("MOTIONFUNCTYPE_BESTEHORN", "cycloidal"),
-        ("MOTIONFUNCTYPE_POLYNOM7_MM", "4-5-6-7 polynomial"),
+        pytest.param("15", "3-4-5 polynomial", marks=pytest.mark.long),
+        pytest.param("10", "simple harmonic", marks=pytest.mark.long),
+        pytest.param("MOTIONFUNCTYPE_BESTEHORN", "cycloidal", marks=pytest.mark.long),
+        pytest.param("MOTIONFUNCTYPE_POLYNOM7_MM", "4-5-6-7 polynomial", marks=pytest.mark.long),
     ],
 )
 def test_profiles_of_twincat_are_laws_of_the_catalogue(kind: str, law: str, tmp_path: Path) -> None:
@@ -252,7 +252,7 @@ def lines_of(name: str) -> list[str]:
     return exported(name).text.splitlines()
 
 
-@pytest.mark.sample(3)
+@pytest.mark.sample(5)
 @pytest.mark.parametrize("name", sorted(FORMATS))
 def test_a_file_with_a_line_missing_or_wrong_is_refused_or_says_the_same(name: str, tmp_path: Path) -> None:
     """A line removed, doubled, emptied of its numbers, or the end cut: an error with the file, or the same moves."""

@@ -13,8 +13,8 @@ from xml.etree import ElementTree as ET
 
 import numpy as np
 
-from optlaws.cycles.old_tables.layouts import LAYOUTS, FieldLayout
 from optlaws.cycles.old_tables.curve_pieces import CurvePiece, of_profile, powers
+from optlaws.cycles.old_tables.layouts import LAYOUTS, FieldLayout
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 
