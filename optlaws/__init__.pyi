@@ -59,9 +59,9 @@ from optlaws.cycles.moves.time_front import TimeFront as TimeFront
 from optlaws.cycles.moves.timed_moves import fastest as fastest
 from optlaws.cycles.moves.timed_moves import fastest_moves as fastest_moves
 from optlaws.cycles.moves.transition_cam import TransitionCam as TransitionCam
-from optlaws.cycles.old_tables import OldTable as OldTable
-from optlaws.cycles.old_tables import read_cycle_table as read_cycle_table
-from optlaws.cycles.old_tables import split_table as split_table
+from optlaws.cycles.old_tables.table import OldTable as OldTable
+from optlaws.cycles.old_tables.table import read_cycle_table as read_cycle_table
+from optlaws.cycles.old_tables.table import split_table as split_table
 from optlaws.cycles.specification.segments import ConstantVelocity as ConstantVelocity
 from optlaws.cycles.specification.segments import Dwell as Dwell
 from optlaws.cycles.specification.segments import Free as Free
@@ -119,6 +119,7 @@ from optlaws.mechanisms.machine.machine import Machine as Machine
 from optlaws.mechanisms.machine.masses import Link as Link
 from optlaws.mechanisms.machine.parameters import MachineSpectrum as MachineSpectrum
 from optlaws.mechanisms.machine.parameters import machine_spectrum as machine_spectrum
+from optlaws.mechanisms.measured_spectrum import read_spectrum as read_spectrum
 from optlaws.mechanisms.polydyne_cam import mass_law as mass_law
 from optlaws.mechanisms.polydyne_cam import polydyne as polydyne
 from optlaws.mechanisms.residual import residual_functional as residual_functional
@@ -360,6 +361,7 @@ __all__ = [
     "read_cycle_table",
     "read_law",
     "read_motors",
+    "read_spectrum",
     "residual_functional",
     "residual_phasor",
     "residual_vibration",

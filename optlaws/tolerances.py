@@ -148,6 +148,14 @@ PEAK_BRACKET = 1e-11  # of a peak: where a limit is met
 # --- old tables -----------------------------------------------------------------------------------------------------
 NOISE_ROOM = 4.0  # of the standard deviation of a table's noise: points that are farther from a law speak against it
 STANDARD_LAW_ROOM = 1e-7  # of the stroke of a table with all digits: by how much a standard law may be off its points
+TABLE_LEAP = 1e-6  # of the positions: by how much pieces of a file may be apart where they meet, as REAL32 leaves them
+TABLE_MASTER = 1e-9  # of the master's length: places of a table that are nearer are one
+TABLE_RATE = (
+    0.25  # velocities of a table that are so near the slopes of its positions are by the master, not the second
+)
+TABLE_SLOPE = 0.5  # of the greatest velocity of a table: one that is farther from the slope of the positions is wrong
+WHOLE_TURN = 1e-6  # of a turn: a master without a unit whose length is so near 360, 1 or 2 pi is one turn
+WITHIN_TOLERANCE = 1e-6  # of a tolerance: a new law that is beyond it by no more is within it, but for rounding
 MODERNISED_JERK = 1.2  # of an old law's greatest jerk: what a law of less acceleration in its place may have
 
 # --- laws and exports -----------------------------------------------------------------------------------------------

@@ -33,7 +33,8 @@ from optlaws.cycles.machine_axes import Overlap as Overlap
 from optlaws.cycles.machine_follower import MachineAnswer as MachineAnswer
 from optlaws.cycles.moves.time_front import TimePoint as TimePoint
 from optlaws.cycles.moves.transition_cam import TransitionKind as TransitionKind
-from optlaws.cycles.old_tables import Stretch as Stretch
+from optlaws.cycles.old_tables.better_moves import MoveGain as MoveGain
+from optlaws.cycles.old_tables.stretches import Stretch as Stretch
 from optlaws.cycles.specification.cycle_sheet import CycleSheet as CycleSheet
 from optlaws.cycles.specification.effort import Effort as Effort
 from optlaws.cycles.specification.effort import SegmentEffort as SegmentEffort
@@ -185,6 +186,7 @@ __all__ = [
     "Motion",
     "MotorLosses",
     "MotorTorque",
+    "MoveGain",
     "MoveLimits",
     "MoveObjective",
     "MoveStatus",

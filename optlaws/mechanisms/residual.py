@@ -14,6 +14,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.cam_constants import check_order
+from optlaws.mechanisms.measured_spectrum import Spectrum, WeightPart, parts_of, spectrum_of, weight_of
 from optlaws.mechanisms.transforms import legendre_from_chebyshev, moments, velocity_transform
 from optlaws.numbers import Array, Complex, circular_frequency, not_negative, numbers, positive, whole
 from optlaws.numerics.chebyshev import from_values, nodes
@@ -124,7 +125,7 @@ def roots(frequency: Any, damping: float) -> tuple[Array, Complex, Array]:  # no
 
 @dataclass(frozen=True, repr=False)
 class Residual(Functional):
-    """Greatest residual acceleration over an interval of frequencies; made by `residual_vibration`.
+    """Greatest residual acceleration over an interval of frequencies, weighed or not; made by `residual_vibration`.
 
     Attributes
     ----------
@@ -136,6 +137,8 @@ class Residual(Functional):
         Frequency for which the cam is made if the law is the mass's; None if the law is the cam's own.
     design_damping
         The ratio for which it is made.
+    spectrum
+        Pairs of a frequency and a weight, linear between them; None where all frequencies weigh 1.
     """
 
     low: float
@@ -143,6 +146,7 @@ class Residual(Functional):
     damping: float = 0.0
     design: float | None = None
     design_damping: float = 0.0
+    spectrum: Spectrum | None = None
 
     #: as of the law's acceleration, and in units of a bound where there is one
     scale = 1.0
@@ -154,8 +158,23 @@ class Residual(Functional):
 
     def peak(self, law: MotionLaw) -> Peak:
         """The greatest over the whole interval; its `k` is the frequency at which it is."""
-        value, place = greatest_modulus(lambda u: self._phasors(law, self._frequencies(u)), self._nodes)
-        return Peak(value, float(self._frequencies(np.array([place]))[0]))
+        return max((self._peak_of(law, part) for part in self.parts), key=lambda peak: peak.value)
+
+    def _peak_of(self, law: MotionLaw, part: WeightPart) -> Peak:
+        value, place = greatest_modulus(lambda u: self._phasors(law, part, _frequencies(part, u)), _nodes(part))
+        return Peak(value, float(_frequencies(part, np.array([place]))[0]))
+
+    @property
+    def parts(self) -> tuple[WeightPart, ...]:
+        """The intervals of frequencies over which the weight is linear; one where there is none."""
+        if self.spectrum is None:
+            return (WeightPart(self.low, self.high, 1.0, 1.0),)
+        return parts_of(self.spectrum)
+
+    @property
+    def part_names(self) -> tuple[str, ...]:
+        """What a certificate calls each part."""
+        return (self.name, *(f"{self.name}, part {i + 1}" for i in range(1, len(self.parts))))
 
     def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConeFamily, ...]:
         """One cone for each frequency. A bound becomes 1, so that residuals are measured by it."""
@@ -164,24 +183,31 @@ class Residual(Functional):
         elif space.start_velocity != 0.0 or space.velocity_change != 0.0 or space.boundary.order < 2:
             raise InputError(f"{self.name} needs laws from rest to rest, of order 2 at least")
         unit = bound or 1.0
-        series = widened(self._columns(space), len(slack)) / unit
-        return (ConeFamily(self.name, slack, bound / unit, domain=domain_of(self._nodes), series=series),)
+        return tuple(
+            ConeFamily(
+                name,
+                slack,
+                bound / unit,
+                domain=domain_of(_nodes(part)),
+                series=self._series(space, part, slack) / unit,
+            )
+            for name, part in zip(self.part_names, self.parts, strict=True)
+        )
+
+    def _series(self, space: LawSpace, part: WeightPart, slack: Array) -> Complex:
+        return widened(self._columns(space, part), len(slack))
 
     def where(self, k: float) -> str:
-        """The frequency of a place."""
+        """The frequency of a place in the first part."""
         return f"frequency = {self.frequency(k):.5g}"
 
     def frequency(self, place: float) -> float:
-        """The frequency of a certificate's contact, which stands there as a number k from 0 to 1."""
-        return float(self._frequencies(np.array([2.0 * place - 1.0]))[0])
+        """The frequency of a certificate's contact in the first part, which stands there as a number k from 0 to 1."""
+        return float(_frequencies(self.parts[0], np.array([2.0 * place - 1.0]))[0])
 
-    def _frequencies(self, u: Array) -> Array:
-        inner: Array = 0.5 * ((1.0 - u) * self.low + (1.0 + u) * self.high)
-        return inner
-
-    def _phasors(self, law: MotionLaw, frequencies: Array) -> Complex:
+    def _phasors(self, law: MotionLaw, part: WeightPart, frequencies: Array) -> Complex:
         phasors = residual_phasor(law, frequencies, self.damping)
-        return np.asarray(frequencies**2 * self._detuning(frequencies) * phasors)
+        return np.asarray(part.at(frequencies) * frequencies**2 * self._detuning(frequencies) * phasors)
 
     def _detuning(self, frequencies: Array) -> Complex:
         """The share that a polydyne cam leaves of the residual of its mass law cut directly on a cam."""
@@ -193,29 +219,36 @@ class Residual(Functional):
         ratio = frequencies / self.design
         return np.asarray(1.0 - ratio**2 + 2.0 * (n0 - n) * w / self.design**2)
 
-    @property
-    def _nodes(self) -> Array:
-        """Chebyshev nodes, enough for functions of exponential type 1 in nu; a single place where there is no more."""
-        length = self.high - self.low
-        return nodes(ceil(0.75 * length) + _SPARE) if length else np.ones(1)
-
-    def _columns(self, space: LawSpace) -> Complex:
+    def _columns(self, space: LawSpace, part: WeightPart) -> Complex:
         """Chebyshev series in u of nu² times the complex amplitude: free functions, then the base law."""
-        return cached_columns(space, ("residual", self.name), lambda: self._computed(space))
+        return cached_columns(space, ("residual", self.name, part), lambda: self._computed(space, part))
 
-    def _computed(self, space: LawSpace) -> Complex:
-        frequencies = self._frequencies(self._nodes)
+    def _computed(self, space: LawSpace, part: WeightPart) -> Complex:
+        frequencies = _frequencies(part, _nodes(part))
         _, w, damped = roots(frequencies, self.damping)
-        scale = -1j * frequencies**2 * w.conj() / damped * self._detuning(frequencies)
-        return np.ascontiguousarray(from_values(scale[:, None] * velocity_transforms(space, w, self.high)))
+        scale = -1j * part.at(frequencies) * frequencies**2 * w.conj() / damped * self._detuning(frequencies)
+        return np.ascontiguousarray(from_values(scale[:, None] * velocity_transforms(space, w, part.high)))
+
+
+def _frequencies(part: WeightPart, u: Array) -> Array:
+    inner: Array = 0.5 * ((1.0 - u) * part.low + (1.0 + u) * part.high)
+    return inner
+
+
+def _nodes(part: WeightPart) -> Array:
+    """Chebyshev nodes, enough for functions of exponential type 1 in nu; a single place where there is no more."""
+    length = part.high - part.low
+    return nodes(ceil(0.75 * length) + _SPARE) if length else np.ones(1)
 
 
 def residual_vibration(
     *,
-    frequency: float | tuple[float, float],
+    frequency: float | tuple[float, float] | None = None,
     damping: float = 0.0,
     design: float | None = None,
     design_damping: float | None = None,
+    spectrum: Any = None,  # noqa: ANN401 - pairs, or text
+    duration: Any = None,  # noqa: ANN401 - a quantity, or seconds
 ) -> Residual:
     """The greatest residual acceleration of an elastic follower over a whole interval of frequencies.
 
@@ -225,13 +258,18 @@ def residual_vibration(
     Parameters
     ----------
     frequency
-        The interval (low, high) of frequencies nu, or one of them.
+        The interval (low, high) of frequencies nu, or one of them; all of a spectrum unless given.
     damping
         Ratio zeta of the follower, below 1.
     design
         If given, the law is the mass's and the cam is made from it for this frequency; otherwise it is the cam's own.
     design_damping
         The ratio for which that cam is made; `damping` unless given.
+    spectrum
+        Pairs of a frequency nu and an amplitude, linear between them, by which the residual at each frequency is
+        multiplied: of `read_spectrum`, arrays, text "{18: 0.5, 20: 1, 22: 0.5}", or a file as `read_spectrum` takes it.
+    duration
+        Of the motion, where the frequencies of a spectrum are in Hz: "0.1 s", or seconds.
 
     Raises
     ------
@@ -241,6 +279,9 @@ def residual_vibration(
     Examples
     --------
     >>> from optlaws.laws.savin import savin
+    >>> weighed = residual_vibration(spectrum=[(16, 0.1), (18, 1.0), (20, 0.1)])
+    >>> weighed, round(weighed.value(savin("III", 7.2)), 6)
+    (residual(spectrum='{16.0:0.1, 18.0:1.0, 20.0:0.1}'), 7.296848)
     >>> vibration = residual_vibration(frequency=18)
     >>> round(vibration.value(savin("III", 7.2)), 6)
     7.204401
@@ -248,6 +289,13 @@ def residual_vibration(
     >>> wide, wide.peak(savin("III", 7.2))
     (residual(frequency=(18.0, 22.0), design=20.0), Peak(value=1.368836, k=18.0))
     """
+    if frequency is None and spectrum is None:
+        raise InputError("residual needs a frequency, an interval of them, or a spectrum")
+    if spectrum is None and duration is not None:
+        raise InputError("a duration is of a spectrum in Hz: give the spectrum too")
+    weights = None if spectrum is None else weight_of(spectrum, duration)
+    if weights is not None and frequency is None:
+        frequency = (weights[0][0], weights[-1][0])
     pair = tuple(frequency) if isinstance(frequency, list | tuple) else (frequency, frequency)
     if len(pair) != 2:
         raise InputError(f"frequency must be a frequency or two, (low, high), got {shortened(frequency)}")
@@ -263,6 +311,10 @@ def residual_vibration(
     design_frequency = None if design is None else positive(design, "design")
     made_ratio = ratio if design_damping is None else not_negative(design_damping, "design_damping")
     parts = [f"frequency={low!r}" if low == high else f"frequency=({low!r}, {high!r})"]
+    if weights is not None:
+        weights = spectrum_of(weights, (low, high))
+        pairs = ", ".join(f"{nu!r}:{size!r}" for nu, size in weights)
+        parts = [f"spectrum='{{{pairs}}}'"] if low < high else [*parts, f"spectrum='{{{pairs}}}'"]
     parts += [f"damping={ratio!r}"] if ratio else []
     parts += [f"design={design_frequency!r}"] if design_frequency else []
     parts += [f"design_damping={made_ratio!r}"] if design_frequency and made_ratio != ratio else []
@@ -276,6 +328,7 @@ def residual_vibration(
         damping=ratio,
         design=design_frequency,
         design_damping=made_ratio if design_frequency else 0.0,
+        spectrum=weights,
     )
 
 

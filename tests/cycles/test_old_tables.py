@@ -57,27 +57,6 @@ def test_noise_and_a_seam_are_reported() -> None:
     assert "from the first one" in str(split)
 
 
-#: rows of a cam profile as a controller's project stores them: (0, 0), (40, 20), (100, 25), slopes 1 and 0 at the ends
-L5X = (
-    "<Value>[2,0,0,0,0,1,0,0,1072693248,0,-1080956027,515396076,1059086925,-755914243],"
-    "[2,1078198272,0,1077149696,0,1,0,0,1070176665,-1717986918,-1083933983,1202590845,1055091462,-418679770],"
-    "[2,1079574528,0,1077477376,0,1,0,0,0,0,0,0,0,0]</Value>"
-)
-
-
-def test_cubic_splines_of_logix_designer_are_decoded(tmp_path) -> None:  # type: ignore[no-untyped-def] # noqa: ANN001
-    from scipy.interpolate import CubicSpline
-
-    from tests.internals.cycles import spline_of_l5x
-
-    x, y = spline_of_l5x(L5X, "cam")
-    wanted = CubicSpline([0.0, 40.0, 100.0], [0.0, 20.0, 25.0], bc_type=((1, np.array(1.0)), (1, np.array(0.0))))
-    assert y == pytest.approx(wanted(x), abs=1e-13)
-    (tmp_path / "empty.L5X").write_text("<Value>[1,2]</Value>", encoding="utf8")
-    with pytest.raises(InputError, match="holds no cam profile"):
-        read_cycle_table(tmp_path / "empty.L5X")
-
-
 def test_a_file_of_a_cycle_is_read(tmp_path) -> None:  # type: ignore[no-untyped-def] # noqa: ANN001
     x, y = table("modified sine", "cycloidal", 3)
     file = tmp_path / "old.csv"

@@ -1,7 +1,7 @@
 """Internals of `optlaws.cycles` that tests look at by themselves."""
 
 from optlaws.cycles.interlocks.polygon import SimplePolygon
-from optlaws.cycles.old_tables import _spline_of_l5x as spline_of_l5x
+from optlaws.cycles.old_tables.reading import read_points
 from optlaws.cycles.optimisation.motion_limits import FORCE, POWER
 from optlaws.cycles.optimisation.search_spaces import halved
 from optlaws.cycles.specification.drive import read_drive

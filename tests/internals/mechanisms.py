@@ -4,6 +4,7 @@ from optlaws.mechanisms.cam_constants import CamPeak, CamPower, gain
 from optlaws.mechanisms.machine.output_constants import OutputConstant, OutputPeak, output_peak, output_rms
 from optlaws.mechanisms.machine.residual_boxes import ModeResidual
 from optlaws.mechanisms.machine.state_space import StateSpace
+from optlaws.mechanisms.measured_spectrum import above
 from optlaws.mechanisms.polydyne_cam import cam_factors, cam_powers
 from optlaws.mechanisms.residual import Residual
 from optlaws.mechanisms.response import MassMotion

@@ -6,21 +6,34 @@ from importlib import import_module
 from pathlib import Path
 
 from optlaws.cli.app import NotProven
-from optlaws.cli.options import AsJson
+from optlaws.cli.old_cam import NO_OLD_CAM, OldCamOptions, old_cam, refuse_options
+from optlaws.cli.options import WHOLE_TABLE, AsJson, TableOptions
 from optlaws.cli.show import busy, print_json, show
 from optlaws.cli.synthesis.run import run
+from optlaws.errors import InputError
 from optlaws.synthesis.status import Status
 
 
-def cycle(file: Path, /, *, out: Path | None = None, fastest: bool = False, as_json: AsJson = False) -> None:
-    """Whole cycles of a machine in physical units, optimal as a whole: peaks, joints, drives, tables and pictures.
+def cycle(
+    file: Path,
+    /,
+    *,
+    out: Path | None = None,
+    fastest: bool = False,
+    cam: OldCamOptions = NO_OLD_CAM,
+    points: TableOptions = WHOLE_TABLE,
+    as_json: AsJson = False,
+) -> None:
+    """Whole cycles of a machine in physical units, optimal as a whole; or the table of an old cam, and a better one.
 
     Parameters
     ----------
     file
-        A problem file whose job is "cycle", or the name of one that comes with optlaws, such as cycle_press.
+        A problem file whose job is "cycle", or the name of one that comes with optlaws, such as cycle_press; or the
+        table of an old cam: columns of text, or a file of a controller.
     out
-        Folder for the table, the pictures and the laws; otherwise where `optlaws run` puts them.
+        Folder for the table, the pictures and the laws; otherwise where `optlaws run` puts them. Of an old cam for the
+        file of --export; otherwise where you are.
     fastest
         The greatest speed of the master at which every axis keeps its limits, what binds there, and the proof: a table,
         and with `--out` all results at that speed with fastest.json for `optlaws verify`. The exit code is 1 where none
@@ -28,6 +41,12 @@ def cycle(file: Path, /, *, out: Path | None = None, fastest: bool = False, as_j
     as_json
         Print one JSON object on stdout and write nothing.
     """
+    if file.suffix and file.suffix.lower() != ".toml":
+        if fastest:
+            raise InputError("--fastest is of a problem file: --save makes one of the table, whose limits you enter")
+        old_cam(file, cam, points, out, as_json=as_json)
+        return
+    refuse_options(cam, points)
     if fastest:
         _greatest_speed(file, out, as_json=as_json)
     else:

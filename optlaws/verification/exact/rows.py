@@ -43,10 +43,18 @@ from optlaws.verification.exact.motion_formulas import (
     tangent_integral,
 )
 from optlaws.verification.exact.of_basis import exact_space
-from optlaws.verification.machines.certificate_rows import BallRow, Corner, Maker, Names, UpperLimit, cone, mode_edges
+from optlaws.verification.machines.certificate_rows import (
+    BallRow,
+    Corner,
+    Maker,
+    Names,
+    UpperLimit,
+    mode_edges,
+    residual_parts,
+)
 from optlaws.verification.machines.output_motion import of_space
 from optlaws.verification.machines.outputs import KnownOutput, KnownOutputRms, OutputRows
-from optlaws.verification.machines.residuals import ExactResidual, ModeConstant, ResidualConstant
+from optlaws.verification.machines.residuals import ModeConstant, ResidualConstant
 
 _NEAR = Fraction(1, 10**9)
 
@@ -267,8 +275,8 @@ class ExactRows:
 
     def _of_machine(self, constant: OfMachine, limit: UpperLimit) -> None:
         if isinstance(constant, ResidualConstant):
-            amplitudes = partial(ExactResidual(constant).rows, of_space(self.space))
-            makers = {constant.name: cone(amplitudes, limit, arb(limit.high or 1.0))}
+            makers, corners = residual_parts(constant, of_space(self.space), limit)
+            self.corners.update(corners)
         elif isinstance(constant, ModeConstant):
             makers, corners = mode_edges(constant, of_space(self.space), self._solved, limit)
             self.corners.update(corners)

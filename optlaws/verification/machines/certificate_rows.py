@@ -14,7 +14,7 @@ from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.verification.enclosing.balls import ball
 from optlaws.verification.machines.output_motion import DrivenStretch
-from optlaws.verification.machines.residuals import ExactModeResidual, ModeConstant
+from optlaws.verification.machines.residuals import ExactModeResidual, ExactResidual, ModeConstant, ResidualConstant
 
 Names = Mapping[str, float | arb]
 
@@ -71,6 +71,20 @@ def cone(amplitudes: Callable[[Fraction], list[acb]], limit: UpperLimit, unit: a
         return limit.row(((value.real * real + value.imag * imaginary) / length for value in known[k]), unit)
 
     return make
+
+
+def residual_parts(
+    constant: ResidualConstant, drives: Sequence[DrivenStretch], limit: UpperLimit
+) -> tuple[dict[str, Maker], dict[Corner, tuple[Corner, float]]]:
+    """A cone for each part of the frequencies by its name, and where a part begins at the end of the one before."""
+    exact, names = ExactResidual(constant), constant.part_names
+    unit = arb(limit.high or 1.0)
+    makers = {name: cone(partial(exact.rows, drives, i), limit, unit) for i, name in enumerate(names)}
+    corners: dict[Corner, tuple[Corner, float]] = {}
+    for i, (before, part) in enumerate(zip(exact.parts, exact.parts[1:], strict=False)):
+        if before[1] == part[0]:
+            corners[names[i + 1], 0.0] = ((names[i], 1.0), 1.0)
+    return makers, corners
 
 
 def mode_edges(

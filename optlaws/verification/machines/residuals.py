@@ -85,12 +85,20 @@ class ResidualConstant(Protocol):
     design: float | None
     design_damping: float
 
+    @property
+    def parts(self) -> tuple[tuple[float, float, float, float], ...]:
+        """Intervals of frequencies over which the weight is linear: both ends, and the weights there."""
+
+    @property
+    def part_names(self) -> tuple[str, ...]:
+        """What a certificate calls each part."""
+
 
 class ExactResidual:
-    """The complex amplitude, times nu², as a function of the frequency."""
+    """The complex amplitude, times nu² and the weight, as a function of the frequency, in parts."""
 
     def __init__(self, constant: ResidualConstant) -> None:
-        self.low, self.high = Fraction(constant.low), Fraction(constant.high)
+        self.parts = [tuple(map(Fraction, part)) for part in constant.parts]
         self.damping, self.design_damping = Fraction(constant.damping), Fraction(constant.design_damping)
         self.design = None if constant.design is None else Fraction(constant.design)
 
@@ -110,15 +118,24 @@ class ExactResidual:
         apart = frequency * acb(ball(-self.damping)) + acb(ball(self.design_damping * self.design))
         return 1 - frequency * frequency * acb(square) + apart * w * acb(2 * square)
 
-    def rows(self, drives: Sequence[DrivenStretch], place: Fraction) -> list[acb]:
-        """Amplitudes of a space's free functions and of its base law, at the frequency of a certificate's place."""
-        frequency = (1 - place) * self.low + place * self.high
-        return self.amplitudes(acb(ball(frequency)), drives)
+    def rows(self, drives: Sequence[DrivenStretch], part: int, place: Fraction) -> list[acb]:
+        """Amplitudes of a space's free functions and of its base law, at a place of a part from 0 to 1."""
+        low, high, first, last = self.parts[part]
+        weight = ball((1 - place) * first + place * last)
+        return [weight * value for value in self.amplitudes(acb(ball((1 - place) * low + place * high)), drives)]
 
     def peak(self, pieces: Sequence[PolynomialPiece]) -> arb:
-        """A ball that holds the greatest magnitude over the interval of frequencies, at the precision at work."""
+        """A ball that holds the greatest magnitude over all frequencies, at the precision at work."""
         drives = of_pieces(pieces)
-        return greatest_modulus([lambda frequency: self.amplitudes(frequency, drives)[0]], self.low, self.high)
+
+        def weighed(part: tuple[Fraction, ...], frequency: Number) -> Number:
+            low, high, first, last = part
+            slope = (last - first) / (high - low) if high > low else Fraction(0)
+            weight = acb(ball(first)) + (frequency - acb(ball(low))) * acb(ball(slope))
+            return weight * self.amplitudes(frequency, drives)[0]
+
+        tops = [greatest_modulus([partial(weighed, part)], part[0], part[1]) for part in self.parts]
+        return reduce(arb.max, tops)
 
 
 Corner = tuple[arb, arb]

@@ -1,0 +1,136 @@
+"""Better moves in place of old ones: of least acceleration within a tolerance, and what is gained by them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from math import isfinite
+from typing import NamedTuple
+
+import numpy as np
+
+from optlaws.cycles.old_tables.stretches import Stretch
+from optlaws.errors import InfeasibleProblem, SolverFailure
+from optlaws.laws import MotionLaw
+from optlaws.laws.catalogue.catalogue import catalogue
+from optlaws.laws.polynomial import smoothstep
+from optlaws.numerics.bernstein import greatest_difference
+from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.problem.ranges import at_most
+from optlaws.synthesis.problem.windows import Window
+from optlaws.synthesis.solve import synthesize
+from optlaws.synthesis.spaces.bases import Chebyshev
+from optlaws.tolerances import MODERNISED_JERK, WITHIN_TOLERANCE
+
+#: places of the spline that stands for the old law in the window of the new one, more where they are too few
+_PLACES = (81, 161)
+
+
+class MoveGain(NamedTuple):
+    """What a move has in place of an old one, in units of the table.
+
+    Attributes
+    ----------
+    kind
+        "rise" or "return".
+    start, stop
+        Where it is, in units of the master.
+    old, new
+        The peaks of velocity, acceleration and jerk by the master; inf where one has no greatest value.
+    deviation
+        The greatest difference of positions, over the whole move.
+
+    Examples
+    --------
+    >>> round(MoveGain("rise", 0.0, 120.0, (1.0, 2.0, 3.0), (1.0, 1.5, 3.3), 0.05).share(2), 3)
+    -0.25
+    """
+
+    kind: str
+    start: float
+    stop: float
+    old: tuple[float, float, float]
+    new: tuple[float, float, float]
+    deviation: float
+
+    def share(self, nu: int) -> float:
+        """The change of the peak of order nu, 1 to 3, as a share of the old one; nan where that is infinite."""
+        old, new = self.old[nu - 1], self.new[nu - 1]
+        return new / old - 1.0 if isfinite(old) else float("nan")
+
+
+def better(part: Stretch, room: float, order: int, degree: int) -> Stretch:
+    """A move with the law of least acceleration within a room of the old one; with its own where there is none."""
+    if part.law is None:
+        return part
+    old, share = law_of_move(part), room / abs(part.stroke)
+    if share < least_distance(old, order, degree):
+        return part
+    for places in _PLACES:
+        law = _nearby(old, share, places, order, degree)
+        if law is None or law.constants.C.value >= old.constants.C.value:
+            return part
+        # between its places the spline is not the old law
+        if deviation(law, old) <= share * (1.0 + WITHIN_TOLERANCE):
+            return replace(part, law=law)
+    return part
+
+
+def least_distance(old: MotionLaw, order: int, degree: int) -> float:
+    """What no law of an order and a degree is nearer to another at every k: the rms of the nearest by least squares.
+
+    The greatest difference at places is at least the rms over them, which no law makes less than that of least squares.
+
+    >>> least_distance(smoothstep(3), 3, 4) < 1e-15 < 1e-6 < least_distance(smoothstep(6), 3, 4)
+    True
+    """
+    k = np.linspace(0.0, 1.0, _PLACES[-1])
+    rows = ((k * (1.0 - k)) ** order)[:, None] * np.polynomial.chebyshev.chebvander(2.0 * k - 1.0, degree)
+    missing = np.asarray(old(k)) - np.asarray(smoothstep(order)(k))
+    left = missing - rows @ np.linalg.lstsq(rows, missing, rcond=None)[0]
+    return float(np.sqrt(np.mean(left**2)))
+
+
+def _nearby(old: MotionLaw, share: float, places: int, order: int, degree: int) -> MotionLaw | None:
+    k = np.linspace(0.0, 1.0, places)
+    points = ", ".join(f"{place:.9g}:{height:.9g}" for place, height in zip(k, old(k), strict=True))
+    near = Window(f"a - spline(k, {points})", low=-share, high=share)
+    jerk = MODERNISED_JERK * old.constants.J.value
+    problem = Problem(
+        order=order, basis=Chebyshev(degree), symmetric=False, windows=(near,),
+        J=at_most(jerk) if np.isfinite(jerk) else None,
+    )  # fmt: skip
+    try:
+        return synthesize(problem).law
+    except (InfeasibleProblem, SolverFailure):
+        return None
+
+
+def gain(new: Stretch, old: Stretch) -> MoveGain:
+    """What a move has in place of an old one at the same place."""
+    laws = law_of_move(new), law_of_move(old)
+    size, length = abs(old.stroke), old.stop - old.start
+    peaks = (
+        tuple(size / length**nu * getattr(law.constants, name).value for nu, name in enumerate("BCJ", start=1))
+        for law in laws
+    )
+    after, before = peaks
+    return MoveGain(old.kind, old.start, old.stop, _three(before), _three(after), size * deviation(*laws))
+
+
+def deviation(law: MotionLaw, other: MotionLaw) -> float:
+    """The greatest difference of two laws over the whole of k."""
+    breaks = np.unique([0.0, 1.0, *law.breaks, *other.breaks])
+    return abs(float(greatest_difference(law, other, breaks)[0]))
+
+
+def law_of_move(part: Stretch) -> MotionLaw:
+    """The law of a move, which may be a name of the catalogue."""
+    if isinstance(part.law, MotionLaw):
+        return part.law
+    return catalogue[str(part.law)].law
+
+
+def _three(peaks: Sequence[float]) -> tuple[float, float, float]:
+    velocity, acceleration, jerk = peaks
+    return velocity, acceleration, jerk

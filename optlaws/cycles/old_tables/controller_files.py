@@ -1,0 +1,433 @@
+"""Cam tables in programs and projects of controllers: structures, arrays and XML, by the layouts of their fields."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from itertools import pairwise
+from math import isfinite
+from struct import pack, unpack
+from typing import NamedTuple
+from xml.etree import ElementTree as ET
+
+import numpy as np
+
+from optlaws.cycles.old_tables.curve_pieces import CurvePiece, of_profile, powers
+from optlaws.cycles.old_tables.layouts import LAYOUTS, FieldLayout
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+
+#: comments of IEC 61131-3, C and YAML
+_COMMENT = re.compile(r"\(\*.*?\*\)|/\*.*?\*/|//[^\n]*|(?m:^\s*#[^\n]*)", re.DOTALL)
+#: a field with its value, and the number of the element that it is of where that is beside it
+_FIELD = re.compile(r"(?:\[(\d+)\]\s*\.\s*)?\b([A-Za-z_]\w*)\s*:=\s*([^\s,;:()\[\]{}=]+)")
+#: how many points a file says that it has
+_COUNT = re.compile(r"\b(?:nElements|NoOfRows|PolynomialNumber|NumberOfPoints)\s*:=\s*(\d+)")
+_BOUNDS = re.compile(r"\bARRAY\s*\[\s*(\d+)\s*\.\.\s*(\d+)\s*(,[^\]]*)?\]\s*OF", re.IGNORECASE)
+_ARRAY = re.compile(r"([^;\n]*?)(?::=|(?<![:=<>])=)\s*(?=\[)")
+_INNER = re.compile(r"\[([^\[\]]*)\]")
+_TYPED = re.compile(r"^(?:L?REAL|[US]?D?INT)#", re.IGNORECASE)
+#: values of a field that is left to the controller
+_ABSENT = {"nan", "#ignore", "ignore"}
+_YAML = re.compile(r"\b(positions|velocities|accelerations):\s*\[([^\]]*)\]")
+_YAML_TIME = re.compile(r"time_from_start:\s*\{\s*sec:\s*(\d+)\s*,\s*nanosec:\s*(\d+)\s*\}")
+_CALCULATED = 14  # DINT in an element of CAM_PROFILE
+#: a cycle's table has as many points at least: fewer stand for what is laid through them
+FEWEST_POINTS = 12
+_KINDS_OF_CAM = ("CAM", "CAM_EXTENDED", "CAM_PROFILE")
+
+
+@dataclass(frozen=True)
+class Decoded:
+    """What a file of a controller says: points, or pieces between them.
+
+    Parameters
+    ----------
+    layout
+        The name of the layout.
+    places, heights
+        Points; the texts of these where pieces are none.
+    pieces
+        What runs between; empty where that is not said.
+    """
+
+    layout: str
+    places: list[str] = field(default_factory=list)
+    heights: list[str] = field(default_factory=list)
+    pieces: list[CurvePiece] = field(default_factory=list)
+
+
+class _Value(NamedTuple):
+    """The value of a field, and the line where it stands."""
+
+    text: str
+    line: int
+
+    def number(self) -> float:
+        """It as a number."""
+        try:
+            value = float(_TYPED.sub("", self.text).replace("_", ""))
+        except ValueError:
+            raise InputError(f"line {self.line}: {shortened(self.text)} is no number") from None
+        if not isfinite(value):
+            raise InputError(f"line {self.line}: {self.text} is no finite number")
+        return value
+
+
+_Record = dict[str, _Value]
+
+
+def decoded(content: str, cam: str | None = None) -> Decoded | None:
+    """What a program or a project holds; None where it is neither, as of columns of numbers.
+
+    Parameters
+    ----------
+    content
+        The text of the file.
+    cam
+        Which tag or variable of a file with several cams.
+
+    Raises
+    ------
+    InputError
+        If it has the fields of a layout, and a value is missing or wrong; the error tells the line.
+    """
+    if content.lstrip().startswith("<"):
+        content = _of_xml(content, cam)
+    text = _COMMENT.sub(_blank, content)
+    if "joint_names:" in text:
+        text = _of_yaml(text, cam)
+    fields = [(m[1], m[2].lower(), _Value(m[3], _line(text, m.start(2)))) for m in _FIELD.finditer(text)]
+    names = {name for _, name, _ in fields}
+    layout = max(
+        (layout for layout in LAYOUTS if layout.needed <= names),
+        key=lambda layout: len(names & layout.roles.keys()),
+        default=None,
+    )
+    if layout is not None:
+        records = list(_records(layout, fields))
+        if len(records) > 1:
+            _check_count(text, len(records))
+            return _of_records(layout, records)
+    return _of_arrays(text)
+
+
+def _blank(match: re.Match[str]) -> str:
+    """The lines of a comment without what it says."""
+    return "\n" * match[0].count("\n") or " "
+
+
+def _line(text: str, place: int) -> int:
+    return text.count("\n", 0, place) + 1
+
+
+def _of_xml(content: str, cam: str | None) -> str:
+    """The fields and the programs in XML as text: of one tag where it is a project with several cams."""
+    if "<!ENTITY" in content:
+        raise InputError("it is XML with entities of its own, which are not read")
+    try:
+        tree = ET.fromstring(content)  # noqa: S314 - it has no entities of its own
+    except ET.ParseError as error:
+        raise InputError(f"it is no XML that can be read: {error}") from None
+    for element in tree.iter():
+        element.tag = element.tag.rpartition("}")[2]
+    tags = {
+        element.attrib.get("Name", ""): element
+        for element in tree.iter()
+        if element.tag in {"Tag", "LocalTag"} and element.attrib.get("DataType") in _KINDS_OF_CAM
+    }
+    if not tags:
+        return "\n".join(_lines_of(tree))
+    if cam is None and len(tags) > 1:
+        raise InputError(f"it has several cams, say which: {', '.join(tags)}")
+    if cam is not None and cam not in tags:
+        raise InputError(f"it has no cam {shortened(cam)}; it has {', '.join(tags)}")
+    tag = tags[next(iter(tags)) if cam is None else cam]
+    packed = [part for part in tag.iter("Data") if part.attrib.get("Format") == "L5K" and (part.text or "").strip()]
+    return f"cam := {packed[0].text};" if packed else "\n".join(_lines_of(tag))
+
+
+def _lines_of(tree: ET.Element) -> Iterator[str]:
+    """Fields of decorated data and of values by the schema of PLCopen, and texts that stand in elements."""
+    index = ""
+    for element in tree.iter():
+        if element.tag == "Element":
+            index = element.attrib.get("Index", "")
+        value = element.attrib.get("Value")
+        inner = next(iter(element), None)
+        if element.tag == "DataValueMember" and value is not None:
+            yield f"{index}.{element.attrib.get('Name', '')} := {value}"
+        elif element.tag == "value" and inner is not None and inner.tag == "simpleValue":
+            yield f"{element.attrib.get('member', '')} := {inner.attrib.get('value', '')}"
+        elif element.tag not in {"DataValueMember", "simpleValue"} and (element.text or "").strip():
+            yield str(element.text)
+
+
+def _of_yaml(text: str, cam: str | None) -> str:
+    """The points of one joint of a trajectory as fields."""
+    joints = [name.strip("\"' ") for name in re.findall(r"^\s*-\s*([\"']?[^\s:\[{]+)\s*$", text, re.MULTILINE)]
+    inline = re.search(r"joint_names:\s*\[([^\]]*)\]", text)
+    joints = [name.strip("\"' ") for name in inline[1].split(",")] if inline else joints
+    if cam is None and len(joints) != 1:
+        raise InputError(f"it has several joints, say which: {', '.join(joints)}")
+    if cam is not None and cam not in joints:
+        raise InputError(f"it has no joint {shortened(cam)}; it has {', '.join(joints)}")
+    place = 0 if cam is None else joints.index(cam)
+
+    def of_joint(match: re.Match[str]) -> str:
+        cells = match[2].split(",")
+        if len(cells) != len(joints):
+            raise InputError(f"line {_line(text, match.start())}: {len(cells)} {match[1]} of {len(joints)} joints")
+        return f"{match[1]} := {cells[place].strip()}"
+
+    # digits of the seconds and of the nanoseconds, so that none is lost
+    return _YAML_TIME.sub(lambda m: f"time_from_start := {int(m[1])}.{int(m[2]):09d}", _YAML.sub(of_joint, text))
+
+
+def _records(layout: FieldLayout, fields: Sequence[tuple[str | None, str, _Value]]) -> Iterator[_Record]:
+    """The elements of a structure: each begins with the field that the first one begins with."""
+    begins, record, before = None, _Record(), -1
+    for index, name, value in fields:
+        role = layout.roles.get(name)
+        if role is None:
+            continue
+        begins = begins or role
+        if role == begins and record:
+            yield record
+            record = _Record()
+        if role in record:
+            raise InputError(f"line {value.line}: {name} stands twice in an element of {layout.name}")
+        if role == begins and index is not None:
+            if int(index) != before + 1:
+                raise InputError(f"line {value.line}: element {index} follows element {before}; mend the file")
+            before = int(index)
+        record[role] = value
+    if record:
+        yield record
+
+
+def _check_count(text: str, count: int) -> None:
+    """Refuse a file that holds not as many points as it says."""
+    stated = [(int(match[1]), _line(text, match.start())) for match in _COUNT.finditer(text)]
+    stated += [(int(match[2]) - int(match[1]) + 1, _line(text, match.start())) for match in _BOUNDS.finditer(text)]
+    for number, line in stated:
+        if number != count:
+            raise InputError(
+                f"line {line}: the file says that it has {number} points or pieces and holds {count}: points are "
+                "missing or too many; mend the number where the file is whole"
+            )
+
+
+def _of_records(layout: FieldLayout, records: Sequence[_Record]) -> Decoded:
+    for record in records:
+        line = next(iter(record.values())).line
+        missing = records[0].keys() - record.keys()
+        if missing or record.keys() - records[0].keys():
+            names = {role: name for name, role in layout.roles.items()}
+            fields = ", ".join(sorted(names[role] for role in missing or record.keys() - records[0].keys()))
+            raise InputError(
+                f"line {line}: an element of {layout.name} has {'no' if missing else 'a'} {fields}, unlike the first"
+            )
+    roles = records[0].keys()
+    if "x" not in roles:
+        return Decoded(layout.name, pieces=list(_pieces(layout, records)))
+    points = list(map(_point, records))
+    orders = min(len(point) - 1 for point in points)
+    places, heights = ([record[role].text for record in records] for role in "xy")
+    if orders < 2 and "type" not in roles:
+        return Decoded(layout.name, places, heights)
+    pieces = []
+    for i, (first, last) in enumerate(pairwise(points)):
+        profile = _profile(layout, records[i])
+        known = min(len(first), len(last)) - 1
+        with _at(records[i]):
+            pieces.append(of_profile(profile, (first[0], last[0]), first[1 : known + 1], last[1 : known + 1]))
+    return Decoded(layout.name, places, heights, pieces)
+
+
+def _point(record: _Record) -> list[float]:
+    """x, y and as many derivatives as are given."""
+    numbers = [record[role].number() for role in "xy"]
+    for role in "vaj":
+        if role not in record or record[role].text.lower() in _ABSENT:
+            break
+        numbers.append(record[role].number())
+    return numbers
+
+
+def _profile(layout: FieldLayout, record: _Record) -> str | None:
+    """The name of what runs after a point; None where the layout has one kind alone."""
+    if "type" not in record:
+        return None
+    text = record["type"].text
+    return (layout.profiles or {}).get(text, re.sub(r"^(?:.*\.|MOTIONFUNCTYPE_)", "", text)) or None
+
+
+class _at:  # noqa: N801 - as contextlib's
+    """Errors of what is in an element, with its line."""
+
+    def __init__(self, record: _Record) -> None:
+        self.line = next(iter(record.values())).line
+
+    def __enter__(self) -> None:
+        pass
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, _: object) -> None:
+        if isinstance(error, InputError):
+            raise InputError(f"line {self.line}: {error}") from None
+
+
+def _pieces(layout: FieldLayout, records: Sequence[_Record]) -> Iterator[CurvePiece]:
+    begin = 0.0
+    for record in records:
+        numbers = {role: value.number() for role, value in record.items() if role != "type"}
+        start, stop = numbers.get("x0", begin), numbers["x1"]
+        with _at(record):
+            if "c0" in numbers:
+                yield powers(start, stop, [numbers[f"c{n}"] for n in range(8) if f"c{n}" in numbers])
+            else:
+                first, last = (
+                    [numbers[f"{role}{end}"] for role in "yvaj" if f"{role}{end}" in numbers] for end in "01"
+                )
+                yield of_profile(_profile(layout, record), (start, stop), first, last)
+        begin = stop
+
+
+def _of_arrays(text: str) -> Decoded | None:
+    """Arrays of numbers: rows of points, elements of CAM_PROFILE, breaks with coefficients."""
+    text = text.translate({ord("{"): "[", ord("}"): "]"})
+    arrays = []
+    for match in _ARRAY.finditer(text):
+        if (stop := _closed(text, match.end())) is None:
+            raise InputError(f"line {_line(text, match.end())}: an array does not end")
+        arrays.append((match[1], match.end(), text[match.end() : stop]))
+    named = {name: item for item in arrays for name in ("breaks", "coefficients") if re.search(rf"{name}\b", item[0])}
+    if len(named) == 2:
+        return _of_source(text, named)
+    tables = [(head, list(_rows(text, start, body))) for head, start, body in arrays]
+    rows = max((rows for _, rows in tables), key=len, default=[])
+    if len(rows) < 2:
+        # one flat array of pairs
+        rows = next((_pairs(head, rows[0]) for head, rows in tables if rows and _is_flat(head)), [])
+    return _of_rows(text, rows) if len(rows) > 1 else None
+
+
+def _of_rows(text: str, rows: list[list[_Value]]) -> Decoded | None:
+    """Rows of two to five numbers, or elements of CAM_PROFILE."""
+    width = len(rows[0])
+    for row in rows:
+        if len(row) != width:
+            raise InputError(f"line {row[0].line}: a row of {len(row)} numbers among rows of {width}")
+    if width == _CALCULATED:
+        return _of_cam_profile(_used(rows))
+    if width not in {2, 3, 5}:
+        return None
+    rows = _used(rows)
+    _check_count(text, len(rows))
+    records = [dict(zip(("x", "y", "v", "a", "type")[: 2 if width == 3 else width], row, strict=False)) for row in rows]
+    names = {2: "array of pairs", 3: "Rockwell CAM", 5: "RTmotion McCamXYVA"}
+    layout = FieldLayout(names[width], "x=x y=y v=v a=a type=type")
+    points = list(map(_point, records))
+    if min(map(len, points)) < 4:
+        records = [{role: record[role] for role in "xy"} for record in records]
+    return _of_records(layout, records)
+
+
+def _closed(text: str, start: int) -> int | None:
+    """Where the bracket that opens at a place is closed."""
+    depth = 0
+    for match in re.compile(r"[\[\]]").finditer(text, start):
+        depth += 1 if match[0] == "[" else -1
+        if not depth:
+            return match.end()
+    return None
+
+
+def _rows(text: str, start: int, body: str) -> Iterator[list[_Value]]:
+    for match in _INNER.finditer(body):
+        yield [
+            _Value(cell[0], _line(text, start + match.start(1) + cell.start()))
+            for cell in re.finditer(r"[^\s,()]+", match[1])
+        ]
+
+
+def _is_flat(head: str) -> bool:
+    bounds = _BOUNDS.search(head)
+    return bool(bounds and bounds[3])
+
+
+def _pairs(head: str, flat: list[_Value]) -> list[list[_Value]]:
+    rows = [flat[i : i + 2] for i in range(0, len(flat), 2)]
+    bounds = _BOUNDS.search(head)
+    if bounds and re.search(r"(?:0\s*\.\.\s*1|1\s*\.\.\s*2)", bounds[3] or "") is None:
+        raise InputError(f"line {flat[0].line}: an array of points has two columns, master and slave")
+    if flat and len(flat) % 2:
+        raise InputError(f"line {flat[-1].line}: {len(flat)} numbers are no pairs of master and slave")
+    return rows
+
+
+def _used(rows: list[list[_Value]]) -> list[list[_Value]]:
+    """Rows without those at the end that repeat the last one, or hold nothing but 0."""
+    texts = [[cell.text for cell in row] for row in rows]
+    count = len(rows)
+    while count > 2 and all(text.strip("0.") == "" for text in texts[count - 1]):
+        count -= 1
+    while count > 2 and texts[count - 1] == texts[count - 2]:
+        count -= 1
+    return rows[:count]
+
+
+def _of_cam_profile(rows: Sequence[Sequence[_Value]]) -> Decoded:
+    """Elements of CAM_PROFILE: status, X, Y, kind, C0 to C3, numbers of 64 bits in halves."""
+    values = []
+    for row in rows:
+        halves = [int(number) for cell in row if (number := cell.number()).is_integer() and abs(number) <= 2**31]
+        if len(halves) != _CALCULATED:
+            raise InputError(f"line {row[0].line}: an element of CAM_PROFILE is 14 whole numbers of 32 bits")
+        try:
+            values.append([_double(halves[i], halves[i + 1]) for i in (1, 3, 6, 8, 10, 12)])
+        except ValueError:
+            raise InputError(f"line {row[0].line}: an element of CAM_PROFILE holds no finite number") from None
+    places, heights = ([repr(numbers[i]) for numbers in values] for i in (0, 1))
+    pieces = []
+    for row, (x, y, *constants), (stop, *_) in zip(rows, values, values[1:], strict=False):
+        with _at({"x": row[0]}):
+            pieces.append(powers(x, stop, [y + constants[0], *constants[1:]]))
+    # the points are the cam, and the spline through them the controller's
+    return Decoded("Rockwell CAM_PROFILE", places, heights, [] if len(values) >= FEWEST_POINTS else pieces)
+
+
+def _double(high: int, low: int) -> float:
+    """The double whose halves are two whole numbers of 32 bits."""
+    (value,) = unpack(">d", pack(">II", high & 0xFFFFFFFF, low & 0xFFFFFFFF))
+    if not isfinite(value):
+        raise ValueError
+    return float(value)
+
+
+def _of_source(text: str, named: dict[str, tuple[str, int, str]]) -> Decoded:
+    """Breaks and coefficients of a function block or a header."""
+    cells = {}
+    for name, (head, start, body) in named.items():
+        cells[name] = [cell for row in _rows(text, start, body) for cell in row]
+        bounds = _BOUNDS.search(head)
+        sizes = [int(size) for size in re.findall(r"\[(\d+)\]", head)]
+        stated = int(bounds[2]) - int(bounds[1]) + 1 if bounds else int(np.prod(sizes)) if sizes else None
+        if stated is not None and stated != len(cells[name]):
+            line = _line(text, start)
+            raise InputError(f"line {line}: {name} are said to be {stated} numbers and are {len(cells[name])}")
+    breaks, flat = ([_number_of_c(cell) for cell in cells[name]] for name in ("breaks", "coefficients"))
+    if len(breaks) < 2 or len(flat) % (len(breaks) - 1):
+        raise InputError(f"{len(flat)} coefficients are no rows for {len(breaks) - 1} pieces")
+    width = len(flat) // (len(breaks) - 1)
+    rows = [flat[i : i + width] for i in range(0, len(flat), width)]
+    pieces = []
+    for low, high, row, cell in zip(breaks, breaks[1:], rows, cells["breaks"], strict=False):
+        with _at({"x": cell}):
+            pieces.append(powers(low, high, row))
+    return Decoded("breaks and coefficients", pieces=pieces)
+
+
+def _number_of_c(cell: _Value) -> float:
+    return cell._replace(text=cell.text.rstrip("fF")).number()

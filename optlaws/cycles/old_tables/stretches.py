@@ -1,0 +1,212 @@
+"""The dwells and moves of a table of points: rests, moves between them, and the standard laws nearest to these."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Literal, TypeAlias
+
+import numpy as np
+
+from optlaws.errors import InputError
+from optlaws.laws import MotionLaw
+from optlaws.laws.catalogue.catalogue import catalogue
+from optlaws.laws.making.through_points import law_through
+from optlaws.numbers import Array
+
+StretchKind: TypeAlias = Literal["dwell", "rise", "return"]
+
+#: a dwell has as many points at least
+_FEWEST = 3
+#: and in the middle of one of as many points the motion rests indeed
+_LONG = 12
+#: points of a move by which laws far from it are told, and how many laws are compared by all points
+_COARSE, _NEAREST = 40, 4
+#: steps to which the ends of moves are rounded where the points allow it, in parts of the master's turn
+_ROUND = (1.0 / 36.0, 1.0 / 72.0, 1.0 / 360.0, 1.0 / 720.0, 1.0 / 3600.0)
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """A part of an old table.
+
+    Attributes
+    ----------
+    kind
+        "dwell", "rise" or "return".
+    start, stop
+        Where it is, in units of the table's master.
+    low, high
+        The positions at its start and its end, in units of the table.
+    law
+        Of a move: a name of the catalogue where a standard law keeps within the room, else a law through the points.
+    nearest
+        The standard law that is nearest.
+    distance
+        How far the points are from that at most, in units of the table.
+    """
+
+    kind: StretchKind
+    start: float
+    stop: float
+    low: float
+    high: float
+    law: str | MotionLaw | None = None
+    nearest: str = ""
+    distance: float = 0.0
+
+    @property
+    def stroke(self) -> float:
+        """The displacement from its start to its end."""
+        return self.high - self.low
+
+
+def of_standard_laws(places: Array, heights: Array, room: float) -> tuple[Stretch, ...] | None:
+    """The parts of a table whose moves are all standard laws; None where one is not."""
+    stretches = []
+    try:
+        for part in stretches_of(places, heights, room):
+            if isinstance(part.law, MotionLaw):
+                return None
+            stretches.append(part)
+    except InputError:
+        return None
+    return tuple(stretches)
+
+
+def seam_of(heights: Array, room: float) -> float:
+    """By how much the last position differs from the first one; 0 within the room."""
+    seam = float(heights[-1] - heights[0])
+    return seam if abs(seam) > room else 0.0
+
+
+@dataclass(frozen=True)
+class _Rest:
+    """A run of points at one level."""
+
+    first: int
+    last: int
+    level: float
+
+
+def _rests(heights: Array, room: float) -> Iterator[_Rest]:
+    """Runs of points that keep within the room of a level, and single points at which the motion turns."""
+    count, i = len(heights), 0
+    while i < count:
+        low = high = heights[i]
+        j = i
+        while j + 1 < count and max(high, heights[j + 1]) - min(low, heights[j + 1]) <= 2.0 * room:
+            j += 1
+            low, high = min(low, heights[j]), max(high, heights[j])
+        turns = i > 0 and j + 1 < count and (heights[i - 1] - heights[i]) * (heights[j + 1] - heights[j]) > 0.0
+        if j - i + 1 >= _FEWEST or turns or i == 0 or j == count - 1:
+            yield _Rest(i, j, _level(heights, i, j))
+            i = j + 1
+        else:
+            i += 1
+
+
+def _level(heights: Array, first: int, last: int) -> float:
+    """The level of a run: the median of the middle of a long one, of a short one what is farthest from the moves."""
+    quarter = (last - first) // 4
+    if last - first + 1 >= _LONG:
+        return float(np.median(heights[first + quarter : last - quarter + 1]))
+    beside = [float(heights[i]) for i in (first - 1, last + 1) if 0 <= i < len(heights)]
+    run = heights[first : last + 1]
+    return float(run.max() if np.mean(beside) < np.mean(run) else run.min())
+
+
+def _joined(rests: Sequence[_Rest], room: float) -> list[_Rest]:
+    """Runs at one level that follow each other as one, and levels that differ by no more than the room as one level."""
+    joined: list[_Rest] = []
+    longest = sorted(rests, key=lambda rest: rest.first - rest.last)
+    for rest in rests:
+        level = next(other.level for other in longest if abs(other.level - rest.level) <= room)
+        first = joined.pop().first if joined and joined[-1].level == level else rest.first
+        joined.append(_Rest(first, rest.last, level))
+    return joined
+
+
+def stretches_of(places: Array, heights: Array, room: float) -> Iterator[Stretch]:
+    """The dwells and moves of points in their order."""
+    rests = _joined(list(_rests(heights, room)), room)
+    # what rises or falls through a short run does not rest there
+    apart = [rests[0]]
+    for rest, after in pairwise(rests[1:]):
+        passes = (rest.level - apart[-1].level) * (after.level - rest.level) > 0.0
+        if not passes or rest.last - rest.first + 1 >= _LONG:
+            apart.append(rest)
+    apart.append(rests[-1])
+    moves = (_move(places, heights, first, last, room) for first, last in pairwise(apart))
+    turn = float(np.ptp(places))
+    at = float(places[0])
+    for move, rest in zip(moves, apart, strict=False):
+        if move.start - at > _ROUND[-1] * turn:
+            yield Stretch("dwell", at, move.start, rest.level, rest.level)
+        yield move
+        at = move.stop
+    if places[-1] - at > _ROUND[-1] * turn:
+        yield Stretch("dwell", at, float(places[-1]), apart[-1].level, apart[-1].level)
+
+
+def _move(places: Array, heights: Array, first: _Rest, last: _Rest, room: float) -> Stretch:
+    """The move between two rests: by the standard law that is nearest, or by one through its points."""
+    # a run between two moves is shared at its middle, so that neither reaches into the other
+    low = 0 if first.first == 0 and first.last < _LONG else (first.first + first.last) // 2
+    whole = last.last == len(places) - 1 and last.last - last.first < _LONG
+    high = last.last if whole else (last.first + last.last) // 2
+    x, y = places[low : high + 1], (heights[low : high + 1] - first.level) / (last.level - first.level)
+    share = room / abs(last.level - first.level)
+    some = slice(None, None, max(1, len(x) // _COARSE))
+    near = sorted((_fitted(x[some], y[some], catalogue[name].law)[0], name) for name in catalogue)
+    distance, start, stop, name = min((*_fitted(x, y, catalogue[name].law), name) for _, name in near[:_NEAREST])
+    law = catalogue[name].law
+    kind: StretchKind = "rise" if last.level > first.level else "return"
+    if distance <= 1.5 * share:
+        start, stop = _rounded(x, y, law, (start, stop), share)
+        distance = _distance(x, y, law, start, stop)
+    if distance <= share * (1.0 + 1e-9):
+        return Stretch(kind, start, stop, first.level, last.level, name, name, distance * abs(last.level - first.level))
+    inner = np.flatnonzero((y > share) & (y < 1.0 - share))
+    begin, end = max(int(inner[0]) - 1, 0), min(int(inner[-1]) + 1, len(x) - 1)
+    begin = min(begin, int(np.searchsorted(x, start, side="right")) - 1) if start > x[0] else 0
+    end = max(end, int(np.searchsorted(x, stop))) if stop < x[-1] else len(x) - 1
+    through = law_through(x[begin : end + 1], np.clip(y[begin : end + 1], 0.0, 1.0), tolerance=share)
+    size = distance * abs(last.level - first.level)
+    return Stretch(kind, float(x[begin]), float(x[end]), first.level, last.level, through, name, size)
+
+
+def _distance(x: Array, y: Array, law: MotionLaw, start: float, stop: float) -> float:
+    return float(np.abs(law(np.clip((x - start) / (stop - start), 0.0, 1.0)) - y).max())
+
+
+def _fitted(x: Array, y: Array, law: MotionLaw) -> tuple[float, float, float]:
+    """How far the points are from a law at most, and where it begins and ends then, by least squares."""
+    from scipy.optimize import least_squares
+
+    k = np.linspace(0.0, 1.0, 401)
+    tenth, ninth = (float(np.interp(share, law(k), k)) for share in (0.1, 0.9))
+    rising = np.maximum.accumulate(y)
+    first, last = (float(np.interp(share, rising, x)) for share in (0.1, 0.9))
+    length = max((last - first) / (ninth - tenth), float(np.diff(x).min()))
+    guess = first - tenth * length
+
+    def missed(ends: Array) -> Array:
+        start, stop = ends
+        return np.asarray(law(np.clip((x - start) / max(stop - start, 1e-9 * length), 0.0, 1.0)) - y)
+
+    solution = least_squares(missed, [guess, guess + length], x_scale=length, xtol=1e-14, ftol=1e-14, gtol=1e-14)
+    start, stop = map(float, solution.x)
+    return float(np.abs(missed(solution.x)).max()), start, stop
+
+
+def _rounded(x: Array, y: Array, law: MotionLaw, ends: tuple[float, float], room: float) -> tuple[float, float]:
+    """The ends of a move rounded as much as the points allow, and within them."""
+    turn = 360.0 if float(np.ptp(x)) > 12.0 else 1.0
+    for share in _ROUND:
+        step = share * turn
+        start, stop = (max(min(round(end / step) * step, float(x[-1])), float(x[0])) for end in ends)
+        if start < stop and _distance(x, y, law, start, stop) <= room:
+            return start, stop
+    return max(ends[0], float(x[0])), min(ends[1], float(x[-1]))

@@ -1,0 +1,380 @@
+"""Tables of whole cycles from old cams and controllers: their dwells, rises and returns, and what laws these are."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.old_tables.better_moves import MoveGain, better, gain, law_of_move
+from optlaws.cycles.old_tables.controller_files import FEWEST_POINTS
+from optlaws.cycles.old_tables.reading import read_points
+from optlaws.cycles.old_tables.stretches import Stretch, of_standard_laws, seam_of, stretches_of
+from optlaws.cycles.specification.segments import CycleSegment, Dwell, Return, Rise
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.laws import MotionLaw
+from optlaws.laws.making.through_points import noise
+from optlaws.numbers import Array, Quantity, not_negative, positive
+from optlaws.tolerances import AGREEMENT, NOISE_ROOM, STANDARD_LAW_ROOM
+
+
+@dataclass(frozen=True, eq=False)
+class OldTable:
+    """A table of a whole cycle, divided into dwells, rises and returns.
+
+    Attributes
+    ----------
+    stretches
+        Its parts in order.
+    room
+        How far a law may be from the points: what was given, else the last digit or what the noise asks for.
+    scatter
+        The standard deviation of the noise that the points show; 0 where none is seen.
+    seam
+        By how much the last position differs from the first one.
+    unit, master
+        The units of positions and of the master.
+    places, heights
+        The points, arrays of shape (n,).
+    layout
+        What the file is that it was read from.
+    rate
+        How many units of its master go by in a second, where the file says it.
+
+    Examples
+    --------
+    >>> from optlaws import catalogue
+    >>> table = split_table(
+    ...     np.arange(361.0), [round(30 * float(catalogue["cycloidal"].law(min(x / 120, 1))), 3) for x in range(361)]
+    ... )
+    >>> [(part.kind, part.start, part.stop, part.law) for part in table.stretches]
+    [('rise', 0.0, 120.0, 'cycloidal'), ('dwell', 120.0, 360.0, None)]
+    """
+
+    stretches: tuple[Stretch, ...]
+    room: float
+    scatter: float
+    seam: float
+    unit: str
+    master: str
+    places: Array
+    heights: Array
+    layout: str = ""
+    rate: float | None = None
+
+    def cycle(self, *, speed: Quantity | None = None, period: Quantity | None = None) -> Cycle:
+        """The cycle of the table, at a speed of the master or of a period.
+
+        Raises
+        ------
+        InputError
+            If both or neither is given where the master is an angle.
+        """
+        return self._cycle([part.law for part in self.stretches], speed, period)
+
+    def modernised(
+        self,
+        tolerance: float,
+        *,
+        speed: Quantity | None = None,
+        period: Quantity | None = None,
+        order: int = 3,
+        degree: int = 15,
+    ) -> Cycle:
+        """The cycle with the laws of least acceleration that stay within a tolerance of the old ones everywhere.
+
+        Parameters
+        ----------
+        tolerance
+            In units of the table, above 0.
+        speed, period
+            As of `cycle`.
+        order, degree
+            Of the new laws; their jerk is at most a fifth above the old one where that has a greatest value.
+        """
+        return self.bettered(tolerance, order=order, degree=degree).cycle(speed=speed, period=period)
+
+    def bettered(self, tolerance: float, *, order: int = 3, degree: int = 15) -> OldTable:
+        """The table with the laws of least acceleration that stay within a tolerance of the old ones everywhere.
+
+        A move keeps its law where no law of this order and degree within the tolerance has less acceleration.
+
+        Parameters
+        ----------
+        tolerance
+            In units of the table, above 0.
+        order, degree
+            Of the new laws; their jerk is at most a fifth above the old one where that has a greatest value.
+
+        Raises
+        ------
+        InputError
+            If the tolerance is not above 0.
+
+        Examples
+        --------
+        >>> from optlaws import catalogue
+        >>> x = np.arange(361.0)
+        >>> law = catalogue["cycloidal"].law
+        >>> old = split_table(x, np.round(30 * (law(np.clip(x / 120, 0, 1)) - law(np.clip((x - 180) / 120, 0, 1))), 4))
+        >>> [f"{gain.share(2):.1%} of {gain.kind}" for gain in old.bettered(0.1, degree=11).gains(old)]
+        ['-10.9% of rise', '-10.9% of return']
+        """
+        room = positive(tolerance, "tolerance")
+        return replace(self, stretches=tuple(better(part, room, order, degree) for part in self.stretches))
+
+    def gains(self, old: OldTable) -> tuple[MoveGain, ...]:
+        """What each move has in place of that of an older table with the same moves: peaks, and how far it is off.
+
+        Raises
+        ------
+        InputError
+            If the moves of the two are not at the same places.
+
+        Examples
+        --------
+        >>> from optlaws import catalogue
+        >>> x = np.arange(361.0)
+        >>> law = catalogue["cycloidal"].law
+        >>> old = split_table(x, np.round(30 * (law(np.clip(x / 120, 0, 1)) - law(np.clip((x - 180) / 120, 0, 1))), 4))
+        >>> [round(number, 9) for number in old.gains(old)[0].old]  # mm/deg, mm/deg², mm/deg³
+        [0.5, 0.01308997, 0.000685389]
+        """
+        pairs = list(zip(self.moves, old.moves, strict=False))
+        if len(self.moves) != len(old.moves) or any(a != b for a, b in _places(pairs)):
+            raise InputError("gains are told of two tables with the same moves, one made from the other")
+        return tuple(gain(new, was) for new, was in pairs)
+
+    def plot(self, ax: Any = None, *, new: OldTable | None = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
+        """Draw the points and the laws over the master: positions, velocity, acceleration, jerk; return the artists.
+
+        Parameters
+        ----------
+        ax
+            Four axes of matplotlib, five with a new table; a new figure unless given.
+        new
+            A table with better laws, to be drawn beside it, and how far it is off.
+        style
+            As of `Axes.plot`, for the curves.
+
+        Raises
+        ------
+        InputError
+            If there are not as many axes.
+
+        Examples
+        --------
+        >>> from optlaws import catalogue
+        >>> law = catalogue["cycloidal"].law
+        >>> table = split_table(np.arange(361.0), [30 * float(law(min(x / 120, 1))) for x in range(361)])
+        >>> len({artist.axes for artist in table.plot()})
+        4
+        """
+        from optlaws.plots.old_table import draw_old_table
+
+        return draw_old_table(self, ax, new, **style)
+
+    def at(self, places: Any) -> Array:  # noqa: ANN401 - numbers of any kind
+        """The positions of its laws at places of the master, an array of the same shape, in units of the table.
+
+        Examples
+        --------
+        >>> from optlaws import catalogue
+        >>> law = catalogue["cycloidal"].law
+        >>> table = split_table(np.arange(361.0), [30 * float(law(min(x / 120, 1))) for x in range(361)])
+        >>> table.at([0.0, 60.0, 200.0]).round(9).tolist()
+        [0.0, 15.0, 30.0]
+        """
+        x = np.asarray(places, dtype=np.float64)
+        y = np.full(x.shape, self.stretches[0].low)
+        for part in self.stretches:
+            inside = x >= part.start
+            k = np.clip((x[inside] - part.start) / (part.stop - part.start), 0.0, 1.0)
+            y[inside] = part.low + (0.0 if part.law is None else part.stroke * np.asarray(law_of_move(part)(k)))
+        return y
+
+    @property
+    def off(self) -> tuple[float, float]:
+        """How far its laws are from the points at most, in units of the table, and where; recomputed from the laws."""
+        apart = np.abs(self.at(self.places) - self.heights)
+        worst = int(np.argmax(apart))
+        return float(apart[worst]), float(self.places[worst])
+
+    @property
+    def moves(self) -> tuple[Stretch, ...]:
+        """Its rises and returns."""
+        return tuple(part for part in self.stretches if part.law is not None)
+
+    def _cycle(self, laws: Sequence[str | MotionLaw | None], speed: Quantity | None, period: Quantity | None) -> Cycle:
+        segments: list[CycleSegment] = []
+        for part, law in zip(self.stretches, laws, strict=True):
+            duration = f"{part.stop - part.start!r} {self.master}"
+            if law is None:
+                segments.append(Dwell(duration))
+            else:
+                move = Rise if part.stroke > 0.0 else Return
+                segments.append(move(f"{abs(part.stroke)!r} {self.unit}", duration, law=law))
+        start = f"{self.stretches[0].low!r} {self.unit}"
+        ahead = self.stretches[-1].high - self.stretches[0].low
+        if self.master in {"s", "ms"} and speed is None and period is None:
+            period = f"{self.stretches[-1].stop - self.stretches[0].start!r} {self.master}"
+        advance = f"{ahead!r} {self.unit}" if ahead else None
+        return Cycle(segments, speed=speed, period=period, start=start, advance=advance)
+
+    def __str__(self) -> str:
+        lines = [
+            f"{part.kind:<7}{part.start:g} to {part.stop:g} {self.master}"
+            + ("" if part.law is None else f", {part.stroke:+g} {self.unit}: {self._law_in_words(part)}")
+            for part in self.stretches
+        ]
+        lines.append(
+            f"within {self.room:.3g} {self.unit} of the points"
+            + (f", which scatter by {self.scatter:.2g}" if self.scatter else "")
+        )
+        off, place = self.off
+        if off > self.room * (1.0 + AGREEMENT):
+            lines.append(f"but {off:.3g} {self.unit} off the point at {place:g} {self.master}")
+        if self.seam:
+            lines.append(f"the last position is {self.seam:+.3g} {self.unit} from the first one")
+        return "\n".join(lines)
+
+    def _law_in_words(self, part: Stretch) -> str:
+        if isinstance(part.law, str):
+            return f"{part.law} (within {part.distance:.2g} {self.unit})"
+        return f"a law of its own; the nearest standard law is {part.nearest}, {part.distance:.2g} {self.unit} off"
+
+
+def _places(pairs: Sequence[tuple[Stretch, Stretch]]) -> list[tuple[tuple[float, ...], tuple[float, ...]]]:
+    return [((a.start, a.stop, a.low, a.high), (b.start, b.stop, b.low, b.high)) for a, b in pairs]
+
+
+def read_cycle_table(
+    file: str | Path,
+    *,
+    tolerance: float | None = None,
+    columns: Sequence[int | str] | None = None,
+    unit: str | None = None,
+    master: str | None = None,
+    cam: str | None = None,
+) -> OldTable:
+    r"""A table of a whole cycle from a file, divided into dwells, rises and returns.
+
+    Parameters
+    ----------
+    file
+        Points in columns, as `read_law` takes them, with derivatives in further ones, or what a controller has: every
+        format that optlaws writes, Structured Text with the structures of CODESYS, TwinCAT, Siemens, ABB, B&R or
+        Rockwell, XML of PLCopen, a project of Logix Designer (.L5X), a trajectory of ROS. What it holds tells the
+        layout, not its name.
+    tolerance
+        How far laws may be off the points, in units of the table; the last digit, or what the noise asks for, unless
+        given.
+    columns
+        Which hold the master and the position, by headings or numbers from 1; behind these the derivatives of the
+        position by the master, or by the second, in order.
+    unit, master
+        The units of the positions and of the master: "mm", "deg", "s" and the like, or "0.01 mm" where numbers count
+        these. What the file says unless given, else "mm", and "deg", "turn" or "rad" by the master's length.
+    cam
+        Which cam of a file with several: a tag of Logix Designer, a joint of ROS.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read or is damaged, or its points make no cycle of dwells and moves from rest to rest.
+
+    Examples
+    --------
+    >>> from optlaws import catalogue
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> law = catalogue["3-4-5 polynomial"].law
+    >>> with TemporaryDirectory() as folder:
+    ...     file = Path(folder) / "index.txt"
+    ...     _ = file.write_text("\n".join(f"{x} {45 * law(min(x / 180, 1)):.4f}" for x in range(361)))
+    ...     table = read_cycle_table(file, unit="deg")
+    >>> table.stretches[0].law, table.seam
+    ('3-4-5 polynomial', 45.0)
+    """
+    path = Path(file)
+    points = read_points(path, columns, unit=unit, master=master, cam=cam)
+    try:
+        table = split_table(
+            points.places,
+            points.heights,
+            tolerance=tolerance,
+            unit=points.units.slave,
+            master=points.units.master,
+            digit=points.digit,
+        )
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from None
+    return replace(table, layout=points.layout, rate=points.units.rate)
+
+
+def split_table(
+    x: Sequence[float] | Array,
+    y: Sequence[float] | Array,
+    *,
+    tolerance: float | None = None,
+    unit: str = "mm",
+    master: str = "deg",
+    digit: float = 0.0,
+) -> OldTable:
+    """The dwells, rises and returns of a table of a whole cycle.
+
+    Parameters
+    ----------
+    x, y
+        Increasing places of the master and positions there, as many, at least 12.
+    tolerance
+        How far laws may be off the points; what the noise asks for unless given.
+    unit, master
+        The units of positions and places.
+    digit
+        The unit of the last digit of the positions, where they are rounded.
+
+    Raises
+    ------
+    InputError
+        If the points are too few, do not increase, never move, or turn without rest in a way that no law fits.
+
+    Examples
+    --------
+    >>> from optlaws import catalogue
+    >>> x = np.linspace(0.0, 360.0, 181)
+    >>> rise, back = np.clip(x / 100.0, 0.0, 1.0), np.clip((x - 160.0) / 100.0, 0.0, 1.0)
+    >>> law = catalogue["modified trapezoid"].law
+    >>> print(split_table(x, np.round(20.0 * (law(rise) - law(back)), 4), digit=1e-4))
+    rise   0 to 100 deg, +20 mm: modified trapezoid (within 4.2e-05 mm)
+    dwell  100 to 160 deg
+    return 160 to 260 deg, -20 mm: modified trapezoid (within 4.2e-05 mm)
+    dwell  260 to 360 deg
+    within 0.0001 mm of the points
+    """
+    places, heights = np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64)
+    if places.shape != heights.shape or places.ndim != 1 or len(places) < FEWEST_POINTS:
+        raise InputError(
+            f"a cycle's table has at least {FEWEST_POINTS} points, as many places as positions, got {shortened(x)}"
+        )
+    if not np.all(np.diff(places) > 0.0) or not np.all(np.isfinite(heights)):
+        raise InputError("the places of a table must increase, and its positions be finite numbers")
+    stroke = float(np.ptp(heights))
+    if stroke == 0.0:
+        raise InputError("the table never moves: all its positions are the same")
+    scatter = noise((places - places[0]) / np.ptp(places), heights / stroke) * stroke
+    least = max(digit, STANDARD_LAW_ROOM * stroke)
+    if tolerance is not None:
+        room = max(not_negative(tolerance, "tolerance"), STANDARD_LAW_ROOM * stroke)
+    else:
+        room = max(least, NOISE_ROOM * scatter)
+        # joints of a standard law may look like noise
+        if room > least and (split := of_standard_laws(places, heights, least)):
+            return OldTable(split, least, 0.0, seam_of(heights, least), unit, master, places, heights)
+    stretches = tuple(stretches_of(places, heights, room))
+    return OldTable(stretches, room, scatter, seam_of(heights, room), unit, master, places, heights)

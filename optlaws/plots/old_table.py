@@ -1,0 +1,80 @@
+"""Pictures of old tables: points and laws over the master, beside the laws that better them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optlaws.cycles.old_tables.better_moves import law_of_move
+from optlaws.errors import InputError
+from optlaws.motion.quantities import QUANTITIES
+from optlaws.numbers import Array
+from optlaws.plots.law import broken
+from optlaws.plots.style import BLUES, GREY, WARM, new_figure, plot_style
+
+if TYPE_CHECKING:
+    from matplotlib.artist import Artist
+
+    from optlaws.cycles.old_tables.table import OldTable
+
+_EACH = 400  # samples in a move
+
+
+def draw_old_table(table: OldTable, axes: Any = None, new: OldTable | None = None, **style: Any) -> list[Artist]:  # noqa: ANN401
+    """Draw positions, velocity, acceleration and jerk into four axes; with a new table five, the second its difference.
+
+    Points are those of the table. New axes unless given.
+    """
+    count = 4 if new is None else 5
+    if axes is None:
+        with plot_style():
+            axes = new_figure(8.6, 2.0 * count + 0.4).subplots(count, 1, sharex=True)
+    panels = list(np.ravel(np.asarray(axes, dtype=object)))
+    if len(panels) != count:
+        raise InputError(f"ax must be {count} pairs of axes for this, got {len(panels)}")
+    points: dict[str, Any] = {"linestyle": "", "marker": ".", "markersize": 2.0, "color": GREY, "label": "points"}
+    artists: list[Artist] = list(panels[0].plot(table.places, table.heights, **points))
+    shown = [panels[0], *panels[count - 3 :]]
+    for each, look in ((table, {"color": BLUES[3], "label": "old law"}), (new, {"color": WARM, "label": "new law"})):
+        if each is None:
+            continue
+        for nu, panel in enumerate(shown):
+            artists += panel.plot(*curve(each, nu), **{"linewidth": 1.3} | look | style)
+    if new is not None:
+        artists += _difference(table, new, panels[1])
+    for nu, panel in enumerate(shown):
+        power = {0: "", 1: f"/{table.master}", 2: f"/{table.master}²", 3: f"/{table.master}³"}[nu]
+        panel.set_ylabel(f"{QUANTITIES[nu]},\n{table.unit}{power}")
+    for panel in panels:
+        for part in table.stretches[1:]:
+            panel.axvline(part.start, color=GREY, linewidth=0.7, linestyle=":")
+    panels[0].legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=3, frameon=False, fontsize=8.0)
+    panels[-1].set(xlabel=f"master, {table.master}", xlim=(table.places[0], table.places[-1]))
+    panels[0].get_figure().align_ylabels()
+    return artists
+
+
+def _difference(table: OldTable, new: OldTable, panel: Any) -> list[Artist]:  # noqa: ANN401 - matplotlib's
+    """How far the points, and the new law, are from the old law."""
+    at = np.linspace(table.places[0], table.places[-1], 8 * _EACH)
+    points: dict[str, Any] = {"linestyle": "", "marker": ".", "markersize": 2.0, "color": GREY}
+    artists = list(panel.plot(table.places, table.heights - table.at(table.places), **points))
+    artists += panel.plot(at, new.at(at) - table.at(at), color=WARM, linewidth=1.3)
+    panel.set_ylabel(f"off the old\nlaw, {table.unit}")
+    return artists
+
+
+def curve(table: OldTable, nu: int) -> tuple[Array, Array]:
+    """Places of the master and values of a derivative by it, broken by nan where it jumps."""
+    places, values = [], []
+    for part in table.stretches:
+        length = part.stop - part.start
+        if part.law is None:
+            places.append(np.array([part.start, part.stop]))
+            values.append(np.full(2, part.low if nu == 0 else 0.0))
+            continue
+        k, value = broken(law_of_move(part), nu, _EACH)
+        places.append(part.start + length * k)
+        values.append((part.low if nu == 0 else 0.0) + part.stroke / length**nu * value)
+    return np.concatenate(places), np.concatenate(values)

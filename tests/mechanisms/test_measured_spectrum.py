@@ -1,0 +1,132 @@
+"""Residuals weighed by a measured spectrum: greatest values, proofs over the whole band, files."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from optlaws import (
+    Chebyshev,
+    InputError,
+    Problem,
+    at_most,
+    read_spectrum,
+    residual_phasor,
+    residual_vibration,
+    smoothstep,
+    synthesize,
+)
+from optlaws.verification import verify
+from tests.internals.mechanisms import above
+
+SPECTRUM = ((16.0, 0.2), (18.0, 1.0), (19.0, 0.4), (22.0, 0.9), (24.0, 0.0), (26.0, 0.0), (27.0, 0.3))
+
+
+def weighed(law: object, nu: np.ndarray, damping: float) -> np.ndarray:
+    weights = np.interp(nu, *np.array(SPECTRUM).T)
+    return np.asarray(weights * nu**2 * np.abs(residual_phasor(law, nu, damping)))  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("damping", [0.0, 0.03])
+def test_the_greatest_is_that_of_many_frequencies(damping: float) -> None:
+    law, nu = smoothstep(4), np.linspace(16.0, 27.0, 110_001)
+    peak = residual_vibration(spectrum=SPECTRUM, damping=damping).peak(law)
+    many = weighed(law, nu, damping)
+    assert peak.value == pytest.approx(many.max(), rel=1e-7)
+    assert peak.value >= many.max() * (1.0 - 1e-12)
+    assert peak.k == pytest.approx(nu[many.argmax()], abs=1e-3)
+
+
+def test_a_law_within_a_weighed_residual_is_proven_over_the_whole_band() -> None:
+    limit = residual_vibration(spectrum=SPECTRUM, damping=0.02)
+    problem = Problem(order=3, basis=Chebyshev(9), bounds={limit: at_most(0.1)})
+    solution = synthesize(problem)
+    assert solution.status.value == "optimal"
+    assert weighed(solution.law, np.linspace(16.0, 27.0, 11_001), 0.02).max() == pytest.approx(0.1, rel=1e-6)
+    checked = verify(solution.to_dict())
+    assert "\nproven      optimal: the proven gap" in str(checked)
+    assert f"\nproven      {limit.name} at most" in str(checked)
+    assert Problem.from_dict(problem.to_dict()) == problem
+    # what claims to leave less, or to keep to a heavier weight, is refused
+    data = solution.to_dict()
+    for name, most in ((limit.name, 0.099), (limit.name.replace("18.0:1.0", "18.0:1.1"), 0.1)):
+        data["problem"]["bounds"] = {name: [None, most]}
+        assert "\nnot proven" in str(verify(data))
+
+
+def test_a_weight_that_is_even_is_a_scale_in_however_many_parts() -> None:
+    plain = synthesize(
+        Problem(order=3, basis=Chebyshev(7), bounds={residual_vibration(frequency=(16, 22)): at_most(0.1)})
+    )
+    for nu in ((16.0, 22.0), (16.0, 17.5, 19.0, 22.0)):
+        even = residual_vibration(spectrum=[(x, 3.0) for x in nu])
+        solution = synthesize(Problem(order=3, basis=Chebyshev(7), bounds={even: at_most(0.3)}))
+        assert solution.status.value == "optimal"
+        assert solution.objective == pytest.approx(plain.objective, rel=1e-9)
+    part = residual_vibration(spectrum=SPECTRUM, frequency=(18.0, 19.0))
+    assert part.value(smoothstep(4)) <= residual_vibration(spectrum=SPECTRUM).value(smoothstep(4))
+
+
+def test_the_least_weighed_residual_is_proven() -> None:
+    solution = synthesize(
+        Problem(order=3, basis=Chebyshev(7), minimise=residual_vibration(spectrum=SPECTRUM), B=at_most(2), C=at_most(7))
+    )
+    assert solution.status.value == "optimal"
+    assert "\nproven      optimal: the proven gap" in str(verify(solution.to_dict()))
+
+
+def test_a_spectrum_is_read_from_a_file_and_covered_by_fewer_points(tmp_path: Path) -> None:
+    file = tmp_path / "shaker.csv"
+    hertz = np.linspace(20.0, 60.0, 801)
+    sizes = 1.0 / np.abs(1.0 - (hertz / 33.0) ** 2 + 0.08j * hertz / 33.0)
+    rows = "\n".join(f"{f:.2f};{a:.6f}".replace(".", ",") for f, a in zip(hertz, sizes, strict=True))
+    file.write_text(f"frequency Hz;amplitude\n{rows}\n")
+    nu, amplitude = np.array(read_spectrum(file, duration="100 ms", points=25)).T
+    assert len(nu) == 25
+    assert nu[[0, -1]] == pytest.approx(0.2 * np.pi * hertz[[0, -1]])
+    assert (np.interp(0.2 * np.pi * hertz, nu, amplitude) >= np.round(sizes, 6) - 1e-12).all()
+    named = Problem(order=3, basis=Chebyshev(5), bounds={f"residual(spectrum='{{{file}}}', duration=0.1)": (0, 1)})
+    assert "spectrum='{12.566" in str(named)
+    assert above([1.0, 2.0], [1.0, 2.0], 5) == ((1.0, 1.0), (2.0, 2.0))
+
+
+@pytest.mark.parametrize(
+    ("spectrum", "says"),
+    [
+        ([(18, 1.0)], "two frequencies at least"),
+        ([(20, 1.0), (18, 1.0)], "increasing"),
+        ([(0, 1.0), (18, 1.0)], "above 0"),
+        ([(18, -1.0), (20, 1.0)], "at least 0"),
+        ([(18, 0.0), (20, 0.0)], "one is above"),
+        ([(18, 1.0, 2.0), (20, 1.0)], "pairs"),
+        (7, "pairs"),
+        ("{18: one, 20: 1}", "as text"),
+        ([(x, 1.0) for x in range(1, 80)], "65 points at most"),
+        ("{gone.csv}", "cannot read gone.csv"),
+        ([(18, float("nan")), (20, 1.0)], "amplitude"),
+    ],
+)
+def test_what_is_no_spectrum_is_refused(spectrum: object, says: str) -> None:
+    with pytest.raises(InputError, match=says):
+        residual_vibration(spectrum=spectrum)
+
+
+def test_what_does_not_go_together_is_refused() -> None:
+    with pytest.raises(InputError, match="needs a frequency"):
+        residual_vibration()
+    with pytest.raises(InputError, match="known from 16 to 27, and the frequencies are 10 to 20"):
+        residual_vibration(spectrum=SPECTRUM, frequency=(10, 20))
+    with pytest.raises(InputError, match="of a spectrum in Hz"):
+        residual_vibration(frequency=18, duration="1 s")
+
+
+@pytest.mark.parametrize("line", range(6))
+def test_damaged_lines_are_refused_with_their_file(line: int, tmp_path: Path) -> None:
+    lines = ["Hz,amplitude", "30,0.2", "31,0.5", "32,1.0", "33,0.5", "35,0.3"]
+    file = tmp_path / "shaker.csv"
+    file.write_text("\n".join([*lines[:line], "what,is this", *lines[line + 1 :]]))
+    if line in {0, 1, 5}:  # a heading, or below the last numbers
+        assert len(read_spectrum(file)) in {4, 5}
+        return
+    with pytest.raises(InputError, match=rf"shaker\.csv, line {line + 1}: a point is two numbers"):
+        read_spectrum(file)
