@@ -6,6 +6,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal, TypeAlias, Unpack
 
+from optlaws.cycles.coordination.instant_search import best_bent
+from optlaws.cycles.coordination.timeline import bends_at
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.interchange import problem_file
 from optlaws.cycles.interlocks.interlock import Interlock, LeastClearance
@@ -18,6 +20,7 @@ from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.extras import needed
 from optlaws.files.reading import JsonText
 from optlaws.kept import kept_property
+from optlaws.laws import MotionLaw
 from optlaws.laws.exporting import AxesExportOptions
 from optlaws.numbers import Quantity
 from optlaws.suggest import keywords_of, unknown_key
@@ -196,11 +199,22 @@ class Axes(JsonText, Mapping[str, Cycle]):
         return self._overlap("acceleration", of or tuple(self))
 
     def _overlap(self, goal: str, longer: Sequence[str]) -> Overlap:
+        if all(bends_at(self[name]) for name in longer):
+            return self._bent(goal, longer)
         instants = best_instants(self, self.rules, goal, longer)
         cycles = {name: _retimed(cycle, instants.durations[name], instants.period) for name, cycle in self.items()}
         axes = Axes(cycles, interlocks=self.rules)
         value = instants.period if goal == "period" else 1.0 / instants.pace**2
         return Overlap(axes, goal, value, instants.bound, instants.binding, self)
+
+    def _bent(self, goal: str, longer: Sequence[str]) -> Overlap:
+        best = best_bent(self, self.rules, goal, longer)
+        cycles = dict(self)
+        for name, axis in best.axes.items():
+            cycles[name] = _retimed(self[name], axis.durations, best.period, axis.laws)
+        axes = Axes(cycles, interlocks=self.rules)
+        value = best.period if goal == "period" else max(axes[name].peak(2) / self[name].peak(2) for name in longer)
+        return Overlap(axes, goal, value, best.bound, (), self)
 
     @kept_property
     def clearances(self) -> tuple[LeastClearance, ...]:
@@ -450,14 +464,20 @@ class Overlap:
         return f"Overlap({what}, {self.gain:.4g} times better, status={self.status.value!r}, bound by {self.binding})"
 
 
-def _retimed(cycle: Cycle, durations: Sequence[float], period: float) -> Cycle:
-    """The cycle with its laws in other times; dwells of no time are left out."""
+def _retimed(
+    cycle: Cycle, durations: Sequence[float], period: float, laws: Mapping[int, MotionLaw] | None = None
+) -> Cycle:
+    """The cycle with its laws in other times, or with others by the numbers of segments; dwells of no time are left out."""
     segments, pieces = list[CycleSegment](), {piece.start: piece for piece in cycle.pieces}
-    for stretch, peaks, duration in zip(cycle.programme.stretches, cycle.peaks, durations, strict=True):
+    for i, (stretch, peaks, duration) in enumerate(
+        zip(cycle.programme.stretches, cycle.peaks, durations, strict=True)
+    ):
         segment = stretch.given
         if isinstance(segment, Dwell) and duration <= CLOSURE * period:
             continue
-        law = {} if isinstance(segment, Dwell) or not is_optimal(segment) else {"law": pieces[peaks.start].law}
+        law: dict[str, Any] = {}
+        if not isinstance(segment, Dwell) and is_optimal(segment):
+            law["law"] = laws[i] if laws else pieces[peaks.start].law
         segments.append(replace(segment, duration=f"{duration!r} s", **law))  # type: ignore[type-var]
     minimise = "acceleration" if cycle.load is not None else cycle.minimise
     return replace(cycle, segments=segments, speed=None, period=f"{period!r} s", minimise=minimise)
