@@ -12,7 +12,7 @@ from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.interchange import problem_file
 from optlaws.cycles.interlocks.interlock import Interlock, LeastClearance
 from optlaws.cycles.interlocks.interlock_kinds import checked
-from optlaws.cycles.interlocks.overlapping import best_instants
+from optlaws.cycles.interlocks.overlapping import BestInstants, best_instants
 from optlaws.cycles.specification.programme import is_optimal, period_of
 from optlaws.cycles.specification.segments import CycleSegment, Dwell
 from optlaws.echo import shortened
@@ -202,13 +202,20 @@ class Axes(JsonText, Mapping[str, Cycle]):
         if all(bends_at(self[name]) for name in longer):
             return self._bent(goal, longer)
         instants = best_instants(self, self.rules, goal, longer)
-        cycles = {name: _retimed(cycle, instants.durations[name], instants.period) for name, cycle in self.items()}
-        axes = Axes(cycles, interlocks=self.rules)
+        axes = self._at_instants(instants)
         value = instants.period if goal == "period" else 1.0 / instants.pace**2
         return Overlap(axes, goal, value, instants.bound, instants.binding, self)
 
+    def _at_instants(self, instants: BestInstants) -> Axes:
+        cycles = {name: _retimed(cycle, instants.durations[name], instants.period) for name, cycle in self.items()}
+        return Axes(cycles, interlocks=self.rules)
+
     def _bent(self, goal: str, longer: Sequence[str]) -> Overlap:
-        best = best_bent(self, self.rules, goal, longer)
+        try:
+            start = self._at_instants(best_instants(self, self.rules, goal, longer))
+        except InfeasibleProblem:
+            start = None  # laws that bend may do what these shapes cannot
+        best = best_bent(self, self.rules, goal, longer, start)
         cycles = dict(self)
         for name, axis in best.axes.items():
             cycles[name] = _retimed(self[name], axis.durations, best.period, axis.laws)

@@ -19,7 +19,7 @@ from optlaws.laws import MotionLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
 from optlaws.numbers import Array
-from optlaws.tolerances import BENT_MARGIN, SAME_NODE, STANDSTILL
+from optlaws.tolerances import BENT_MARGIN, SAME_NODE, SAME_TIME, STANDSTILL
 
 #: places and values of a row over the unknowns, and a constant
 Linear = tuple[list[int], list[float], float]
@@ -39,6 +39,8 @@ class BentLaws:
 
     share: float
     axes: Mapping[str, BentAxis]
+    instants: Array
+    sides: tuple[int, ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,6 +68,8 @@ def bent_laws(bent: Bent, instants: Array, sides: tuple[int, ...], goal: Goal, p
     """The laws of least share at instants in a period; None where there are none."""
     box = Box(instants, instants, sides)
     nodes = {name: chain.times(box.low, box.high, period)[0] for name, chain in bent.chains.items()}
+    if any(_at_once(chain, nodes[name]) for name, chain in bent.chains.items()):
+        return None
     knots = _knots(nodes, pieces)
     stands = {name: Stand.at(chain, nodes[name], nodes[name], knots) for name, chain in bent.chains.items()}
     free = [name for name, chain in bent.chains.items() if chain.timeline.bends]
@@ -98,7 +102,12 @@ def bent_laws(bent: Bent, instants: Array, sides: tuple[int, ...], goal: Goal, p
     if solved is None:
         return None
     axes = {name: _axis(stands[name], cubics[name], knots, solved, period) for name in free}
-    return BentLaws(float(solved[-1]), axes)
+    return BentLaws(float(solved[-1]), axes, instants, sides)
+
+
+def _at_once(chain: Chain, times: Array) -> bool:
+    """Whether the axis would be at two places at one time."""
+    return bool((np.diff(times)[np.diff(chain.places) != 0.0] <= SAME_TIME).any() or times[-1] > 1.0 + SAME_NODE)
 
 
 def _knots(nodes: Mapping[str, Array], pieces: int) -> Array:

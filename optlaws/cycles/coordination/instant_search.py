@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import heapq
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import count
 from math import inf
@@ -18,11 +18,19 @@ from optlaws.cycles.coordination.timeline import Chain, timeline_of
 from optlaws.cycles.interlocks.interlock import Interlock
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.numbers import Array
-from optlaws.tolerances import BENT_GAP, BROKEN_RULE, NARROWEST_INSTANT
+from optlaws.tolerances import BENT_GAP, BROKEN_RULE, NARROWEST_INSTANT, SAME_NODE
 
-_PIECES, _FINE = 32, 96
+#: pieces of the cycle by the width of the widest instant
+_PIECES = ((4e-3, 96), (3e-2, 64), (2.0, 32))
+_ROUGH, _FINE = 48, 96
 _NODES = 400
-_LEAST_STEP = 1e-4
+_PERIODS, _STEPS = 6, 5
+_ROUGH_NODES = 60
+_FIRST_STEP, _LAST_STEP = 0.02, 1e-3  # of a period: by how much instants are moved to find better ones
+_PLACES = 4001
+_TRIED_CUTS = 2
+_SAME = BENT_GAP
+_NEAR = 1e-6  # of a stroke: places that are as near to a node
 
 
 @dataclass(frozen=True)
@@ -37,113 +45,118 @@ class BestBent:
 
 @dataclass(frozen=True)
 class _Node:
+    """A box, the share that no laws in it are below, and the relaxation that says so."""
+
     box: Box
     bound: float
-    relaxed: Relaxed | None
+    relaxed: Relaxed
+    pieces: int
 
 
 @dataclass(eq=False)
 class _Search:
-    """The objective is the period, where none is given, or the greatest share of accelerations."""
+    """Laws of the least share, of limits or of accelerations, in a period.
+
+    `enough` is a share from which on boxes are of no use.
+    """
 
     bent: Bent
     goal: Goal
-    period: float | None
-    scale: float
-    best: tuple[float, float, BentLaws] | None = None
+    period: float
+    enough: float = inf
+    gap: float = BENT_GAP
+    best: BentLaws | None = None
+    nodes: int = 0
 
-    def nodes(self) -> tuple[int, float]:
-        """Part boxes, that of the least bound first; how many were looked at, and the bound of all."""
-        number = count()
-        whole = Box(np.zeros(self.bent.count), np.ones(self.bent.count), self._sides())
-        root = self._node(whole, 0.0 if self.period is not None else self._shortest(whole))
-        if root is None:
-            return 0, inf
-        heap, looked_at, closed = [(root.bound, next(number), root)], 1, inf
-        while heap:
+    @property
+    def most(self) -> float:
+        """The share that laws have to be below."""
+        return min(self.enough, inf if self.best is None else self.best.share * (1.0 - self.gap))
+
+    def search(self, most: int) -> float:
+        """Part boxes, that of the least bound first, and return the bound of the share over all of them."""
+        number, heap, closed = count(), list[tuple[float, int, _Node]](), inf
+        sides = tuple(0 if len(visit.sides) == 1 else None for visit in self.bent.visits)
+        root = self._node(Box(np.zeros(self.bent.count), np.ones(self.bent.count), sides), 0.0)
+        if root is not None:
+            heap.append((root.bound, next(number), root))
+        while heap and heap[0][0] < self.most and self.nodes < most:
             bound, _, node = heapq.heappop(heap)
-            if self.best is not None and bound >= self.best[0] * (1.0 - BENT_GAP):
-                return looked_at, min(bound, closed)
             self._try(node)
-            parts = list(self._parts(node))
-            if not parts:
-                closed = min(closed, node.bound)
+            parts = self._parts(node)
+            if parts is None:
+                closed = min(closed, bound)
+                continue
             for part in parts:
-                looked_at += 1
-                inner = self._node(part, node.bound)
-                if inner is not None:
-                    heapq.heappush(heap, (inner.bound, next(number), inner))
-            if looked_at > _NODES:
-                return looked_at, min([closed, *(open_[0] for open_ in heap)])
-        return looked_at, closed
+                heapq.heappush(heap, (part.bound, next(number), part))
+        return min([closed, self.most, *(open_[0] for open_ in heap[:1])])
 
-    def _sides(self) -> tuple[int | None, ...]:
-        return tuple(0 if len(visit.sides) == 1 else None for visit in self.bent.visits)
-
-    def _shortest(self, box: Box) -> float:
-        """A period that no laws keep: a quarter of those that the relaxation allows, again and again."""
-        period = self.scale
-        while True:
-            known = relaxed(self.bent, box, self.goal, period, _PIECES)
-            if known is None or known.bound > 1.0:
-                return period
-            period *= 0.5 * max(known.bound, 1e-6) ** 0.5
-
-    def _node(self, box: Box, bound: float) -> _Node | None:
+    def _node(self, box: Box, bound: float, pieces: int = 0) -> _Node | None:
         """The box with its bound, at least that of the box it is part of; None where it has no laws."""
-        if self.period is not None:
-            known = relaxed(self.bent, box, self.goal, self.period, _PIECES)
-            return None if known is None else _Node(box, max(bound, known.bound), known)
-        period, known, power = bound, None, 2.0
-        for _ in range(8):
-            here = relaxed(self.bent, box, self.goal, period * (1.0 + _LEAST_STEP), _PIECES)
-            if here is not None and here.bound <= 1.0:
-                return _Node(box, period, here)
-            # laws need more than this period
-            period *= 1.0 + _LEAST_STEP
-            longer = 2.0 if here is None else here.bound ** (1.0 / power)
-            while True:
-                known = relaxed(self.bent, box, self.goal, period * longer, _PIECES)
-                if known is None or known.bound > 1.0:
-                    period *= longer
-                    break
-                if longer < 1.0 + _LEAST_STEP:
-                    break
-                longer = 1.0 + 0.5 * (longer - 1.0)
-            if period > 1e3 * self.scale:
-                return None
-        return _Node(box, period, known)
+        self.nodes += 1
+        pieces = max(pieces, next(pieces for most, pieces in _PIECES if (box.high - box.low).max(initial=0.0) <= most))
+        known = relaxed(self.bent, box, replace(self.goal, most=self.most), self.period, pieces)
+        return None if known is None else _Node(box, max(bound, known.bound), known, pieces)
 
     def _try(self, node: _Node) -> None:
         """Laws at the instants that the relaxation suggests, if they are better than those known."""
-        if node.relaxed is None or not all(len(p) for p in node.relaxed.positions.values()):
+        if not node.relaxed.times.size:
             return
         instants = self._suggested(node)
         sides = tuple(self._side(visit, node, i) for i, visit in enumerate(self.bent.visits))
-        if self.period is not None:
-            laws = bent_laws(self.bent, instants, sides, self.goal, self.period, _FINE)
-            if laws is not None and (self.best is None or laws.share < self.best[0]):
-                self.best = laws.share, self.period, laws
-            return
-        period = node.bound
-        for _ in range(6):
-            laws = bent_laws(self.bent, instants, sides, self.goal, period, _FINE)
-            if laws is None:
-                period *= 1.2
-                continue
-            if laws.share <= 1.0 + _LEAST_STEP:
-                if self.best is None or period < self.best[0]:
-                    self.best = period, period, laws
-                return
-            period *= min(laws.share, 4.0) ** 0.5
-            if self.best is not None and period > self.best[0]:
-                return
+        laws = self.at(instants, sides, self.period, _ROUGH)
+        if laws is not None and (self.best is None or laws.share < self.best.share):
+            self.best = self._nearby(laws)
+
+    def at(self, instants: Array, sides: tuple[int, ...], period: float, pieces: int) -> BentLaws | None:
+        """The laws at instants in a period."""
+        return bent_laws(self.bent, instants, sides, self.goal, period, pieces)
+
+    def begin(self, cycles: Mapping[str, Any]) -> None:
+        """Take the instants of cycles that keep all interlocks, and better ones near by."""
+        self.period = next(iter(cycles.values())).duration
+        instants = np.full(self.bent.count, 0.5)
+        times = np.linspace(0.0, 1.0, _PLACES)
+        positions = {}
+        for name, chain in self.bent.chains.items():
+            line, cycle = chain.timeline, cycles[name]
+            positions[name] = (cycle(np.minimum(times, 1.0 - SAME_NODE) * self.period) - line.low) / line.stroke
+            before = 0.0
+            for node, after in zip(chain.nodes, chain.nodes[1:], strict=False):
+                if node.instant is not None and (node.rest is None or node.rest == after.rest):
+                    instants[node.instant] = before = _reached(positions[name], times, node.place, before, 1.0)
+        sides = []
+        for visit in self.bent.visits:
+            first, last = self.bent.chains[visit.over].times(instants, instants, self.period)
+            middle = 0.5 * (first[visit.between[0]] + last[visit.between[1]])
+            x, y = (float(np.interp(middle, times, positions[name])) for name in (visit.over, visit.axis))
+            off = [each.sign * (each.level(x) - y) for each in visit.sides]
+            sides.append(int(np.argmin(off)))
+        laws = self.at(instants, tuple(sides), self.period, _ROUGH)
+        self.best = None if laws is None else self._nearby(laws)
+
+    def _nearby(self, laws: BentLaws) -> BentLaws:
+        """Better laws at instants near those of given ones: each instant is moved, by less and less."""
+        step = _FIRST_STEP
+        while step > _LAST_STEP:
+            before = laws.share
+            for i in range(self.bent.count):
+                for way in (step, -step):
+                    instants = laws.instants.copy()
+                    instants[i] += way
+                    other = self.at(instants, laws.sides, self.period, _ROUGH)
+                    if other is not None and other.share < laws.share:
+                        laws = other
+                        break
+            if laws.share > before * (1.0 - BENT_GAP):
+                step *= 0.4
+        fine = self.at(laws.instants, laws.sides, self.period, _FINE)
+        return laws if fine is None or fine.share > laws.share else fine
 
     def _suggested(self, node: _Node) -> Array:
         """When the positions of the relaxation pass each node, within the box."""
-        assert node.relaxed is not None  # noqa: S101 - its caller looked
         box, times = node.box, node.relaxed.times
-        period = self.period or node.bound
+        period = self.period
         instants = 0.5 * (box.low + box.high)
         for name, chain in self.bent.chains.items():
             positions = node.relaxed.positions[name]
@@ -168,11 +181,10 @@ class _Search:
 
     def _broken(self, visit: Visit, side: int, node: _Node) -> Iterator[tuple[float, int, float]]:
         """By how much the positions of the relaxation break a visit when each node is reached, and between nodes."""
-        assert node.relaxed is not None  # noqa: S101 - its caller looked
         times, profile = node.relaxed.times, visit.sides[side]
         x, y = (node.relaxed.positions[name] for name in (visit.over, visit.axis))
         chain = self.bent.chains[visit.over]
-        first, last = chain.times(node.box.low, node.box.high, self.period or node.bound)
+        first, last = chain.times(node.box.low, node.box.high, self.period)
         places, spans = chain.places, []
         for i in range(visit.between[0], visit.between[1] + 1):
             time = _reached(x, times, float(places[i]), first[i], last[i])
@@ -187,33 +199,37 @@ class _Search:
                     wider = k if last[k] - first[k] > last[k + 1] - first[k + 1] else k + 1
                     yield off, wider, float(times[j])
 
-    def _parts(self, node: _Node) -> Iterator[Box]:
-        """The box parted: by the side of a region, or at an instant that says most."""
-        if node.relaxed is None or not all(len(p) for p in node.relaxed.positions.values()):
-            yield from self._halved(node.box, int(np.argmax(node.box.high - node.box.low)), None)
-            return
-        box, worst = node.box, (BROKEN_RULE, -1, 0.0)
-        undecided, most = -1, BROKEN_RULE
+    def _parts(self, node: _Node) -> list[_Node] | None:
+        """The box parted, by the side of a region or at the instant that says most; None where no more is to be said."""
+        box = node.box
+        if not node.relaxed.times.size:
+            widest = int(np.argmax(box.high - box.low))
+            return self._nodes(_halved(box, widest, None), node.bound)
         for i, visit in enumerate(self.bent.visits):
-            if box.sides[i] is None:
-                off = max(self._broken(visit, self._side(visit, node, i), node), default=(0.0, 0, 0.0))[0]
-                if off > most:
-                    undecided, most = i, off
-        if undecided >= 0:
-            for side in range(len(self.bent.visits[undecided].sides)):
-                sides = (*box.sides[:undecided], side, *box.sides[undecided + 1 :])
-                yield replace(box, sides=sides)
-            return
+            off = max(self._broken(visit, self._side(visit, node, i), node), default=(0.0, 0, 0.0))[0]
+            if box.sides[i] is None and off > BROKEN_RULE:
+                ways = [(*box.sides[:i], side, *box.sides[i + 1 :]) for side in range(len(visit.sides))]
+                return self._nodes([replace(box, sides=way) for way in ways], node.bound)
+        worst: dict[int, tuple[float, float]] = {}
+        for off, instant, time in (*self._late(node), *self._restless(node)):
+            if off > max(BROKEN_RULE, worst.get(instant, (0.0, 0.0))[0]):
+                worst[instant] = off, time
+        first = sorted(worst, key=lambda instant: -worst[instant][0])[:_TRIED_CUTS]
+        cuts = [self._nodes(_halved(box, instant, worst[instant][1]), node.bound) for instant in first]
+        if not cuts:
+            # nothing is broken: what is left is owed to the pieces
+            return None if node.pieces >= _FINE else self._nodes([box], node.bound, 2 * node.pieces)
+        # where the bound of the worse part is greatest, then that of the better one
+        return max(cuts, key=lambda parts: sorted([*(part.bound for part in parts), inf, inf])[:2])
+
+    def _nodes(self, boxes: Iterable[Box], bound: float, pieces: int = 0) -> list[_Node]:
+        return [node for node in (self._node(box, bound, pieces) for box in boxes) if node is not None]
+
+    def _late(self, node: _Node) -> Iterator[tuple[float, int, float]]:
+        """By how much visits are broken, with the instant to part."""
         for i, visit in enumerate(self.bent.visits):
             for off, place, time in self._broken(visit, self._side(visit, node, i), node):
-                for instant in self._near(visit, place, time, box):
-                    if off > worst[0]:
-                        worst = off, instant, time
-        for off, instant, time in self._restless(node):
-            if off > worst[0] and box.high[instant] - box.low[instant] > NARROWEST_INSTANT:
-                worst = off, instant, time
-        if worst[1] >= 0:
-            yield from self._halved(box, worst[1], worst[2])
+                yield from ((off, instant, time) for instant in self._near(visit, place, time, node.box))
 
     def _near(self, visit: Visit, place: int, time: float, box: Box) -> list[int]:
         """The instant to part where a node is reached too early or too late: of the axis, or of the other's rest."""
@@ -227,8 +243,7 @@ class _Search:
 
     def _restless(self, node: _Node) -> Iterator[tuple[float, int, float]]:
         """By how much the positions of the relaxation miss each rest, or do not stay there."""
-        assert node.relaxed is not None  # noqa: S101 - its caller looked
-        times, period = node.relaxed.times, self.period or node.bound
+        times, period = node.relaxed.times, self.period
         for name, chain in self.bent.chains.items():
             positions = node.relaxed.positions[name]
             first, last = chain.times(node.box.low, node.box.high, period)
@@ -238,19 +253,20 @@ class _Search:
                 time = _reached(positions, times, here.place, first[i], last[i])
                 stay = np.linspace(time, time + after.after[0] / period + after.after[1], 5)
                 off = float(np.abs(np.interp(stay, times, positions) - here.place).max())
-                yield off, here.instant, time
+                if node.box.high[here.instant] - node.box.low[here.instant] > NARROWEST_INSTANT:
+                    yield off, here.instant, time
 
-    def _halved(self, box: Box, instant: int, time: float | None) -> Iterator[Box]:
-        low, high = float(box.low[instant]), float(box.high[instant])
-        if high - low <= NARROWEST_INSTANT:
-            return
-        cut = 0.5 * (low + high)
-        if time is not None and low + 0.1 * (high - low) < time < high - 0.1 * (high - low):
-            cut = time
-        for start, stop in ((low, cut), (cut, high)):
-            lows, highs = box.low.copy(), box.high.copy()
-            lows[instant], highs[instant] = start, stop
-            yield Box(lows, highs, box.sides)
+
+def _halved(box: Box, instant: int, time: float | None) -> Iterator[Box]:
+    """The box parted at a time of an instant, or in its middle where that is near an end."""
+    low, high = float(box.low[instant]), float(box.high[instant])
+    cut = 0.5 * (low + high)
+    if time is not None and low + 0.2 * (high - low) < time < high - 0.2 * (high - low):
+        cut = time
+    for start, stop in ((low, cut), (cut, high)):
+        lows, highs = box.low.copy(), box.high.copy()
+        lows[instant], highs[instant] = start, stop
+        yield Box(lows, highs, box.sides)
 
 
 def _reached(positions: Array, times: Array, place: float, first: float, last: float) -> float:
@@ -260,14 +276,23 @@ def _reached(positions: Array, times: Array, place: float, first: float, last: f
     off = np.interp(at, times, positions) - place
     crossed = np.flatnonzero(off[:-1] * off[1:] <= 0.0)
     if not crossed.size:
-        return float(at[np.abs(off).argmin()])
+        near = np.abs(off) <= np.abs(off).min() + _NEAR
+        return float(0.5 * (at[near][0] + at[near][-1]))
     j = int(crossed[0])
     width = abs(off[j]) + abs(off[j + 1])
     return float(at[j] + (at[j + 1] - at[j]) * (abs(off[j]) / width if width > 0.0 else 0.0))
 
 
-def best_bent(cycles: Mapping[str, Any], rules: Sequence[Interlock], goal: str, longer: Sequence[str]) -> BestBent:
+def best_bent(
+    cycles: Mapping[str, Any],
+    rules: Sequence[Interlock],
+    goal: str,
+    longer: Sequence[str],
+    start: Mapping[str, Any] | None,
+) -> BestBent:
     """Laws and instants of the least period, or of the least acceleration of some axes in the period they have.
+
+    The search begins with the instants of cycles that keep the interlocks, where such are known.
 
     Raises
     ------
@@ -285,21 +310,71 @@ def best_bent(cycles: Mapping[str, Any], rules: Sequence[Interlock], goal: str, 
                 if not {2, 3} & set(move.limits):
                     raise InputError(f"axis {line.name}: {move.name} needs a limit of its acceleration or its jerk")
 
-    def search(of: Sequence[Interlock]) -> tuple[_Search, int, float]:
-        known = _Search(bent(timelines, of), Goal(references), None if goal == "period" else duration, duration)
-        return known, *known.nodes()
+    known = _Search(bent(timelines, rules), Goal(references), duration)
+    if start is not None:
+        known.begin(start)
+    if goal == "period":
+        limited = {nu for line in timelines.values() for move in line.moves for nu in move.limits}
+        best = _shortest(known, min(limited))
+    else:
+        bound = known.search(_NODES)
+        best = None if known.best is None else BestBent(known.best.axes, duration, min(bound, known.best.share), known.nodes)
+    if best is None:
+        raise InfeasibleProblem(_contradiction(timelines, rules, known))
+    return best
 
-    found, nodes, bound = search(rules)
-    if found.best is None:
-        raise InfeasibleProblem(_contradiction(rules, search))
-    _, period, laws = found.best
-    return BestBent(laws.axes, period, min(bound, found.best[0]), nodes)
+
+def _shortest(first: _Search, slowest: int) -> BestBent | None:
+    """Laws of the least period, and a bound of it; None where none were found in any.
+
+    Of the instants that are known the period is shortened until the limits are met. Then all laws in a period that is
+    shorter by the gap are looked for: none keep the limits, or a law played slower by a factor, which has less of every
+    limit by the factor to the power of the slowest at least, says by how much the period may be less.
+    """
+    nodes, search = 0, first
+    for _ in range(_PERIODS):
+        if search.best is not None:
+            search = _met(search)
+        short = 1.0 - BENT_GAP if search.best is not None and search.best.share <= 1.0 else 1.0
+        most = inf if search.best is None else 1.0
+        proof = replace(search, period=search.period * short, enough=most, best=None, nodes=0)
+        share = proof.search(_NODES)
+        nodes += proof.nodes
+        if proof.best is not None and proof.best.share <= most:
+            search = proof
+        elif search.best is not None:
+            return BestBent(search.best.axes, search.period, proof.period * min(share, 1.0) ** (1.0 / slowest), nodes)
+        else:
+            search = replace(first, period=2.0 * search.period)
+    return None
 
 
-def _contradiction(rules: Sequence[Interlock], search: Any) -> str:  # noqa: ANN401 - a function
+def _met(search: _Search) -> _Search:
+    """The search in the period in which the laws at the best instants just keep the limits."""
+    best = search
+    for _ in range(_STEPS):
+        assert best.best is not None  # noqa: S101 - of laws that are known
+        share = best.best.share
+        if 1.0 - _SAME <= share <= 1.0:
+            break
+        period = best.period * (share * (1.0 + 0.3 * BENT_GAP)) ** 0.45
+        laws = best.at(best.best.instants, best.best.sides, period, _FINE)
+        if laws is None:
+            break
+        best = replace(best, period=period, best=laws)
+    return best
+
+
+def _contradiction(timelines: Mapping[str, Timeline], rules: Sequence[Interlock], known: _Search) -> str:
     """The interlocks without any of which there are laws."""
-    if search(())[0].best is None:
+
+    def has_laws(of: Sequence[Interlock]) -> bool:
+        other = replace(known, bent=bent(timelines, of), best=None, nodes=0, gap=1.0)
+        other.search(_ROUGH_NODES)
+        return other.best is not None
+
+    if not has_laws(()):
         return "the moves and dwells alone take longer than the period: give a longer one, or looser limits"
-    named = [rule.label for rule in rules if search([each for each in rules if each is not rule])[0].best is not None]
+    named = [rule.label for rule in rules if has_laws([each for each in rules if each is not rule])]
     listed = "; ".join(named or [rule.label for rule in rules])
     return f"no laws keep all interlocks: {listed}: change a position of one of them, or give a longer period"

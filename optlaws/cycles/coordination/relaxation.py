@@ -35,10 +35,12 @@ class Box:
 class Goal:
     """What is least: the greatest share of all limits, or the accelerations of axes as shares of those they had.
 
-    `references` are these accelerations in SI units, none where the share is of the limits.
+    `references` are these accelerations in SI units, none where the share is of the limits; greater shares than `most`
+    are of no use.
     """
 
     references: Mapping[str, float]
+    most: float = inf
 
 
 @dataclass(frozen=True)
@@ -59,8 +61,11 @@ def relaxed(bent: Bent, box: Box, goal: Goal, period: float, pieces: int) -> Rel
     stands = {name: Stand.at(chain, *spans[name], times) for name, chain in bent.chains.items()}
     free = [name for name, chain in bent.chains.items() if chain.timeline.bends]
     offsets = {name: i * len(times) for i, name in enumerate(free)}
-    size = len(free) * len(times) + 1
+    # positions, instants from the last on, and the share
+    size = len(free) * len(times) + bent.count + 1
     rows = Rows(size, np.zeros(size), np.ones(size))
+    instants = size - 2 - np.arange(bent.count)
+    rows.low[instants], rows.high[instants] = box.low, box.high
     rows.high[-1] = _MOST_SHARE
     positions: dict[str, Places] = {}
     for name, stand in stands.items():
@@ -75,13 +80,15 @@ def relaxed(bent: Bent, box: Box, goal: Goal, period: float, pieces: int) -> Rel
         rows.low[place : place + len(times)], rows.high[place : place + len(times)] = hulls.T
         _ways(rows, stand, place, len(times))
         _limits(rows, stand, place, times, goal.references.get(name), period)
-        _near_rests(rows, stand, place, times, spans[name], goal.references.get(name), period)
+        _near_rests(rows, stand, place, times, box, goal, period)
     for visit, side in zip(bent.visits, box.sides, strict=True):
         if side is not None and not _beyond(rows, visit, side, positions, stands, spans, times):
             return None
     solved = rows.solve(size - 1)
     if solved is None:
         return None
+    if not solved.unknowns.size:
+        return Relaxed(np.empty(0), {}, solved.bound)
     return Relaxed(times, {name: place.values(solved, len(times)) for name, place in positions.items()}, solved.bound)
 
 
@@ -118,12 +125,11 @@ def _times(chains: Mapping[str, Chain], spans: Mapping[str, tuple[Array, Array]]
 
 
 def _ways(rows: Rows, stand: Stand, place: int, count: int) -> None:
-    for j in range(count - 1):
-        rises, falls = stand.way(j, j + 1)
-        if not falls:
-            rows.add([place + j + 1, place + j], [1.0, -1.0], 0.0)
-        if not rises:
-            rows.add([place + j + 1, place + j], [-1.0, 1.0], 0.0)
+    ways = np.array([stand.way(j, j + 1) for j in range(count - 1)])
+    steps = np.diff(np.eye(count), axis=0)
+    for sign, other in ((1.0, ~ways[:, 1]), (-1.0, ~ways[:, 0])):
+        if other.any():
+            rows.block(sign * steps[other], place, None, np.zeros(int(other.sum())))
 
 
 def _limits(rows: Rows, stand: Stand, place: int, times: Array, reference: float | None, period: float) -> None:
@@ -137,47 +143,98 @@ def _limits(rows: Rows, stand: Stand, place: int, times: Array, reference: float
         width = at[nu:] - at[:-nu]
         steps = np.diff(table, axis=0)
         table = np.divide(steps, width[:, None], out=np.zeros_like(steps), where=width[:, None] > 0.0)
-        for i in np.flatnonzero(np.abs(table).max(axis=1) > 0.0):
-            first, last = knots[i], knots[i + nu]
-            if rests[first] is not None and rests[first] == rests[last]:
-                continue
-            filled = np.flatnonzero(table[i])
-            scale = factorial(nu) * line.stroke / period**nu
-            row = scale * table[i, filled]
-            if nu == 2 and reference is not None:
-                for sign in (1.0, -1.0):
-                    rows.add([*(place + filled), rows.size - 1], [*(sign * row / reference), 1.0], 0.0)
-            low, high = stand.limits(first, last).get(nu, (-inf, inf))
-            for sign, most in ((1.0, -low), (-1.0, high)):
-                if most < inf and reference is None:
-                    rows.add([*(place + filled), rows.size - 1], [*(sign * row / most), 1.0], 0.0)
-                elif most < inf:
-                    rows.add(place + filled, sign * row / most, -1.0)
-
-
-def _near_rests(
-    rows: Rows, stand: Stand, place: int, times: Array, span: tuple[Array, Array], reference: float | None, period: float
-) -> None:  # fmt: skip
-    """Near an instant at which it rests an axis is as near to the rest as its acceleration allows."""
-    line, (first, last) = stand.chain.timeline, span
-    for i, node in enumerate(stand.chain.nodes):
-        if node.rest is None or last[i] - first[i] <= SAME_NODE:
-            continue
-        for j in np.flatnonzero((times >= first[i] - SAME_NODE) & (times <= last[i] + SAME_NODE)):
-            if stand.rest(int(j)) is not None:
-                continue
-            off = max(times[j] - first[i], last[i] - times[j])
-            ends = [int(k) for k in (np.searchsorted(times, first[i] - SAME_NODE), np.searchsorted(times, last[i] + SAME_NODE, side="right") - 1)]
-            low, high = stand.limits(ends[0], ends[1]).get(2, (-inf, inf))
-            rises = node.place >= max(stand.chain.places[max(i - 1, 0)], node.place)
-            most = max(-low, high) if reference is None else reference
-            if most == inf:
-                continue
-            reach = 0.5 * (off * period) ** 2 * most / line.stroke
+        ends = [(knots[i], knots[i + nu]) for i in range(len(table))]
+        moves = np.array([rests[i] is None or rests[i] != rests[j] for i, j in ends]) & (width > 0.0)
+        moves &= np.abs(table).max(axis=1) > 0.0
+        among = factorial(nu) * line.stroke / period**nu * table[moves]
+        ones = np.ones(len(among))
+        if nu == 2 and reference is not None:
             for sign in (1.0, -1.0):
-                # sign (p - place) >= -share reach
-                rows.add([place + j, rows.size - 1], [sign, reach], sign * node.place)
-            del rises
+                rows.block(sign * among / reference, place, ones, 0.0 * ones)
+        sides = [stand.limits(*ends[i]).get(nu, (-inf, inf)) for i in np.flatnonzero(moves)]
+        for sign, most in zip((1.0, -1.0), np.array(sides).reshape(-1, 2).T * [[-1.0], [1.0]], strict=True):
+            limited = most < inf
+            if limited.any():
+                share = ones[limited] if reference is None else None
+                side = 0.0 * ones[limited] if reference is None else -ones[limited]
+                rows.block(sign * among[limited] / most[limited, None], place, share, side)
+
+
+def _near_rests(rows: Rows, stand: Stand, place: int, times: Array, box: Box, goal: Goal, period: float) -> None:
+    """What an axis has left to go until it rests, or has gone since, is no more than its limits allow in the time.
+
+    The greatest way from rest is convex in the time, and so below its chord over a box: linear in the instant.
+    """
+    chain, line = stand.chain, stand.chain.timeline
+    owners = chain.owners
+    for i, node in enumerate(chain.nodes):
+        before = i > 0 and owners[i - 1] is not None
+        move = owners[i - 1] if before else owners[i] if i < len(owners) else None
+        if node.rest is None or move is None:
+            continue
+        start, stop = line.ways()[move]
+        sign = (1.0 if stop > start else -1.0) * (1.0 if before else -1.0)
+        after = node.after[0] / period + node.after[1]
+        first, last = (after + (0.0 if node.instant is None else float(side[node.instant])) for side in (box.low, box.high))
+        reach = _Reach.of(line.moves[move].limits, goal.references.get(line.name), goal.most)
+        off = (first - times, last - times) if before else (times - last, times - first)
+        near, far = (reach.way(np.maximum(period * side, 0.0)) / line.stroke for side in off)
+        for j in np.flatnonzero((off[0] >= -SAME_NODE) & (far < 1.0)):
+            width = last - first
+            slope = (far[j] - near[j]) / width if width > SAME_NODE else 0.0
+            if node.instant is None or slope == 0.0:
+                rows.add([place + int(j)], [sign], sign * node.place - far[j])
+            else:
+                # at the near end of the box there is less to go
+                at, turn = (first, 1.0) if before else (last, -1.0)
+                side = sign * node.place - near[j] + turn * slope * (at - after)
+                rows.add([place + int(j), rows.size - 2 - node.instant], [sign, turn * slope], side)
+
+
+@dataclass(frozen=True)
+class _Reach:
+    """The greatest way from rest within limits of velocity, acceleration and jerk, infinite where there is none."""
+
+    velocity: float
+    acceleration: float
+    jerk: float
+
+    @classmethod
+    def of(cls, limits: Mapping[int, tuple[float, float]], reference: float | None, most: float) -> _Reach:
+        velocity, acceleration, jerk = (max(-low, high) for low, high in (limits.get(nu, (-inf, inf)) for nu in (1, 2, 3)))
+        if reference is not None:
+            return cls(velocity, min(acceleration, most * reference), jerk)
+        return cls(most * velocity, most * acceleration, most * jerk)
+
+    def way(self, time: Array) -> Array:
+        """The way after times: by the jerk, then the acceleration, then the velocity."""
+        if self.acceleration == self.jerk == inf:
+            return np.where(time > 0.0, self.velocity * time if self.velocity < inf else inf, 0.0)
+        ramp = self.acceleration / self.jerk if self.jerk < inf else 0.0
+        first = np.minimum(time, ramp)
+        rest = np.maximum(time - ramp, 0.0)
+        speed = 0.5 * self.jerk * first**2 if self.jerk < inf else 0.0 * time
+        way = (self.jerk * first**3 / 6.0 if self.jerk < inf else 0.0) + speed * rest
+        steady = self.acceleration if self.acceleration < inf else 0.0
+        way = way + 0.5 * steady * rest**2
+        if self.velocity == inf:
+            return way
+        # from when it is as fast as it may be
+        at = self._fastest()
+        return np.where(time <= at, way, self._until(at) + self.velocity * (time - at))
+
+    def _fastest(self) -> float:
+        """When the velocity is the greatest."""
+        if self.jerk == inf:
+            return self.velocity / self.acceleration
+        ramp = self.acceleration / self.jerk
+        if 0.5 * self.jerk * ramp**2 >= self.velocity:
+            return (2.0 * self.velocity / self.jerk) ** 0.5
+        return ramp + (self.velocity - 0.5 * self.jerk * ramp**2) / self.acceleration
+
+    def _until(self, time: float) -> float:
+        unlimited = _Reach(inf, self.acceleration, self.jerk)
+        return float(unlimited.way(np.array([time]))[0])
 
 
 def _beyond(

@@ -30,25 +30,38 @@ class Rows:
     size: int
     low: Array
     high: Array
-    places: list[Array] = field(default_factory=list)
-    values: list[Array] = field(default_factory=list)
-    sides: list[float] = field(default_factory=list)
-    equal: list[bool] = field(default_factory=list)
+    count: int = 0
+    entries: list[tuple[Array, Array, Array]] = field(default_factory=list)
+    sides: list[Array] = field(default_factory=list)
+    equal: list[Array] = field(default_factory=list)
 
-    def add(self, places: Sequence[int] | Array, values: Sequence[float] | Array, side: float, *, equal: bool = False) -> None:
-        """A row by its places and values; those of unknowns that are fixed go to the right side."""
-        where, row = np.asarray(places, dtype=int), np.asarray(values, dtype=float)
-        size = float(np.abs(row).max(initial=0.0))
+    def add(self, places: Sequence[int], values: Sequence[float], side: float, *, equal: bool = False) -> None:
+        """A row by its places and values."""
+        size = max(map(abs, values), default=0.0)
         if size > 0.0:
-            self.places.append(where)
-            self.values.append(row / size)
-            self.sides.append(side / size)
-            self.equal.append(equal)
+            self._append(np.zeros(len(values), dtype=int), np.array(places), np.array(values) / size)
+            self._ended(np.array([side / size]), equal=equal)
         elif side > 0.0 or (equal and side != 0.0):
-            self.places.append(where[:0])
-            self.values.append(row[:0])
-            self.sides.append(side)
-            self.equal.append(equal)
+            self._ended(np.array([side]), equal=equal)
+
+    def block(self, rows: Array, first: int, last: Array | None, sides: Array) -> None:
+        """Rows of neighbours from a place on, shape (m, n), with an entry of each for the last unknown."""
+        sizes = np.abs(rows).max(axis=1)
+        sizes = sizes if last is None else np.maximum(sizes, np.abs(last))
+        where, places = np.nonzero(rows)
+        self._append(where, first + places, rows[where, places] / sizes[where])
+        if last is not None:
+            every = np.arange(len(rows))
+            self._append(every, np.full(len(rows), self.size - 1), last / sizes)
+        self._ended(sides / sizes, equal=False)
+
+    def _append(self, where: Array, places: Array, values: Array) -> None:
+        self.entries.append((where + self.count, places, values))
+
+    def _ended(self, sides: Array, *, equal: bool) -> None:
+        self.count += len(sides)
+        self.sides.append(sides)
+        self.equal.append(np.full(len(sides), equal))
 
     def solve(self, goal: int) -> Solved | None:
         """The least value of an unknown, with its bound; None where it is proven that the rows contradict each other."""
@@ -76,11 +89,11 @@ class Rows:
     @property
     def _given(self) -> tuple[Any, Array, Array]:
         """The matrix, the right sides, and which rows are equations."""
-        from scipy.sparse import csr_array
+        from scipy.sparse import coo_array
 
-        starts = np.concatenate([[0], np.cumsum([len(places) for places in self.places])])
-        entries = np.concatenate(self.values), np.concatenate(self.places), starts
-        return csr_array(entries, shape=(len(self.sides), self.size)), np.array(self.sides), np.array(self.equal)
+        where, places, values = (np.concatenate(parts) for parts in zip(*self.entries, strict=True))
+        matrix: Any = coo_array((values, (where, places)), shape=(self.count, self.size)).tocsr()
+        return matrix, np.concatenate(self.sides), np.concatenate(self.equal)
 
 
 def _answer(weights: Array, matrix: Any, right: Array, equal: Array | None, low: Array, high: Array) -> Any:  # noqa: ANN401
