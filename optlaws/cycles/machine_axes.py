@@ -124,9 +124,11 @@ class Axes(JsonText, Mapping[str, Cycle]):
     def fastest(self) -> Overlap:
         """The least period that the interlocks allow: moves overlap as far as they can, each in its least time.
 
-        Laws keep their shapes. A move whose axis has limits of velocity, acceleration or jerk takes the least time
-        under these; another one keeps its time, or its angle of the master. Dwells last at least as long as they were
-        given, or their `least`. The order of the segments of each axis stays, and all axes rest when the cycle begins.
+        Laws that are given keep their shapes. A move whose axis has limits of velocity, acceleration or jerk takes the
+        least time under these; another one keeps its time, or its angle of the master. Where no move has a law, all are
+        looked for together with their instants, within limits of velocity, acceleration and jerk: the law bends for
+        the interlocks. Dwells last at least as long as they were given, or their `least`. The order of the segments of
+        each axis stays, and all axes rest when the cycle begins.
 
         Returns
         -------
@@ -161,6 +163,9 @@ class Axes(JsonText, Mapping[str, Cycle]):
 
     def gentlest(self, *of: str) -> Overlap:
         """The least greatest acceleration in the same period: moves grow into the time that the interlocks leave.
+
+        Laws that are given keep their shapes. Where no move of the axes `of` has a law, theirs are looked for together
+        with the instants at which they wait; the other axes move as they did.
 
         Parameters
         ----------
@@ -429,21 +434,23 @@ class Axes(JsonText, Mapping[str, Cycle]):
 
 @dataclass(frozen=True, eq=False)
 class Overlap:
-    """Axes whose moves overlap best, with the proof that no other instants of these moves are better.
+    """Axes whose moves overlap as well as was found, with the bound that no others pass.
 
     Attributes
     ----------
     axes
-        The machine with its new durations; laws and strokes are those it had.
+        The machine with its new durations; laws that were given and strokes are those it had.
     goal
         "period" or "acceleration".
     objective
         The period in seconds, or the greatest acceleration as a share of what it was.
     lower_bound
-        No instants of moves by these laws have less, in the order of the segments, with all axes at rest when the cycle
-        begins, and with each move of an axis around one rest of the other axis.
+        Nothing has less in the order of the segments, with all axes at rest when the cycle begins: of laws that are
+        given no instants, with each move of an axis around one rest of the other axis; of laws that are looked for no
+        motions from rest to rest that never turn back within a move.
     binding
-        What leaves no room where the objective is least: limits of moves, dwells and interlocks, by their names.
+        What leaves no room where the objective is least: limits of moves, dwells and interlocks, by their names; empty
+        where laws are looked for.
     given
         The machine as it was.
     """
@@ -457,9 +464,19 @@ class Overlap:
 
     @property
     def status(self) -> Status:
-        """Optimal where all interlocks are proven clear and the bound is reached; else inaccurate."""
+        """Optimal where all interlocks are proven clear and the bound is reached, local where there is a `gap`.
+
+        Inaccurate where an interlock is not proven clear.
+        """
+        if self.axes.broken:
+            return Status.INACCURATE
         near = self.objective <= self.lower_bound * (1.0 + CYCLE_OPTIMALITY)
-        return Status.OPTIMAL if near and not self.axes.broken else Status.INACCURATE
+        return Status.OPTIMAL if near else Status.LOCAL
+
+    @property
+    def gap(self) -> float:
+        """The share of the objective by which another one could be better at most."""
+        return max(1.0 - self.lower_bound / self.objective, 0.0)
 
     @property
     def gain(self) -> float:

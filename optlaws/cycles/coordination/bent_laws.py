@@ -32,6 +32,10 @@ class BentAxis:
     durations: list[float]
     laws: dict[int, MotionLaw]
 
+    def slower(self, factor: float) -> BentAxis:
+        """The same laws in longer times."""
+        return BentAxis([factor * duration for duration in self.durations], self.laws)
+
 
 @dataclass(frozen=True)
 class BentLaws:
@@ -78,7 +82,7 @@ def bent_laws(bent: Bent, instants: Array, sides: tuple[int, ...], goal: Goal, p
     rows = Rows(size, np.full(size, -inf), np.full(size, inf))
     rows.low[-1] = 0.0
     for name in free:
-        _spline(rows, stands[name], cubics[name], knots, nodes[name])
+        _spline(rows, stands[name], cubics[name], knots)
         _limited(rows, stands[name], cubics[name], knots, goal.references.get(name), period)
     for visit, side in zip(bent.visits, sides, strict=True):
         profile, (start, stop) = visit.sides[side], visit.between
@@ -93,11 +97,13 @@ def bent_laws(bent: Bent, instants: Array, sides: tuple[int, ...], goal: Goal, p
             places = over.chain.places[int(over.after[j]) : int(over.before[j + 1]) + 1] if inside else ()
             edges = profile.edges(min(places), max(places)) if inside else []
             for number, (y, x) in enumerate(pairs):
-                lines = edges
-                if number == 0 and over.after[j] >= start and over.before[j] <= stop:
-                    lines = [*edges, (0.0, profile.level(over.hull(j)[0]))] if over.after[j] >= over.before[j] else edges
-                for slope, value in lines:
+                for slope, value in edges:
                     _keep(rows, y, x, profile.sign, slope, value)
+                if number == 0 and stop >= over.before[j] and start <= over.after[j] >= over.before[j]:
+                    level = profile.level(over.hull(j)[0])
+                    # what is as far as the axis goes has no room beyond
+                    apart = BENT_MARGIN if BENT_MARGIN < level < 1.0 - BENT_MARGIN else 0.0
+                    _keep(rows, y, x, profile.sign, 0.0, level + profile.sign * apart)
     solved = rows.optimum(size - 1)
     if solved is None:
         return None
@@ -118,7 +124,7 @@ def _knots(nodes: Mapping[str, Array], pieces: int) -> Array:
     return np.sort(np.concatenate([given, even[apart]]))
 
 
-def _spline(rows: Rows, stand: Stand, cubics: _Cubics, knots: Array, nodes: Array) -> None:
+def _spline(rows: Rows, stand: Stand, cubics: _Cubics, knots: Array) -> None:
     """Velocity and acceleration are continuous, the axis rests and passes where it does, and goes one way between."""
     for j, length in enumerate(np.diff(knots)):
         p, v, a = ([cubics.at(nu, j), cubics.at(nu, j + 1)] for nu in (0, 1, 2))
@@ -141,7 +147,6 @@ def _spline(rows: Rows, stand: Stand, cubics: _Cubics, knots: Array, nodes: Arra
             if rises != falls:
                 edge = rows.low if rises else rows.high
                 edge[cubics.at(1, j)] = 0.0
-    del nodes
 
 
 def _limited(rows: Rows, stand: Stand, cubics: _Cubics, knots: Array, reference: float | None, period: float) -> None:
@@ -184,11 +189,10 @@ def _controls(chain: Chain, cubics: _Cubics | None, knots: Array, j: int, period
 
 
 def _keep(rows: Rows, y: Linear, x: Linear, sign: float, slope: float, value: float) -> None:
-    """sign (y - slope x - value) is at least the margin."""
+    """sign (y - slope x - value) is not below 0."""
     places = [*y[0], *x[0]]
     values = [*(sign * weight for weight in y[1]), *(-sign * slope * weight for weight in x[1])]
-    side = BENT_MARGIN * (1.0 + abs(slope)) + sign * (value - y[2] + slope * x[2])
-    rows.add(places, values, side)
+    rows.add(places, values, sign * (value - y[2] + slope * x[2]))
 
 
 def _axis(stand: Stand, cubics: _Cubics, knots: Array, solved: Array, period: float) -> BentAxis:

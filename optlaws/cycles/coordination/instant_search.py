@@ -18,14 +18,14 @@ from optlaws.cycles.coordination.timeline import Chain, timeline_of
 from optlaws.cycles.interlocks.interlock import Interlock
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.numbers import Array
-from optlaws.tolerances import BENT_GAP, BROKEN_RULE, NARROWEST_INSTANT, SAME_NODE
+from optlaws.tolerances import BENT_GAP, BROKEN_RULE, NARROWEST_INSTANT, OVERLAP_GAP, SAME_NODE
 
 #: pieces of the cycle by the width of the widest instant
 _PIECES = ((4e-3, 96), (3e-2, 64), (2.0, 32))
-_ROUGH, _FINE = 48, 96
-_NODES = 400
+_ROUGH, _FINE, _FINEST = 48, 96, 288
+_NODES = 160
 _PERIODS, _STEPS = 6, 5
-_ROUGH_NODES = 60
+_ROUGH_NODES = 60  # where laws are looked for without one of the interlocks
 _FIRST_STEP, _LAST_STEP = 0.02, 1e-3  # of a period: by how much instants are moved to find better ones
 _PLACES = 4001
 _TRIED_CUTS = 2
@@ -214,7 +214,8 @@ class _Search:
         for off, instant, time in (*self._late(node), *self._restless(node)):
             if off > max(BROKEN_RULE, worst.get(instant, (0.0, 0.0))[0]):
                 worst[instant] = off, time
-        first = sorted(worst, key=lambda instant: -worst[instant][0])[:_TRIED_CUTS]
+        widths = box.high - box.low
+        first = sorted(worst, key=lambda instant: -widths[instant] * worst[instant][0])[:_TRIED_CUTS]
         cuts = [self._nodes(_halved(box, instant, worst[instant][1]), node.bound) for instant in first]
         if not cuts:
             # nothing is broken: what is left is owed to the pieces
@@ -318,7 +319,8 @@ def best_bent(
         best = _shortest(known, min(limited))
     else:
         bound = known.search(_NODES)
-        best = None if known.best is None else BestBent(known.best.axes, duration, min(bound, known.best.share), known.nodes)
+        laws = None if known.best is None else _polished(known, known.best)
+        best = None if laws is None else BestBent(laws.axes, duration, min(bound, laws.share), known.nodes)
     if best is None:
         raise InfeasibleProblem(_contradiction(timelines, rules, known))
     return best
@@ -343,22 +345,33 @@ def _shortest(first: _Search, slowest: int) -> BestBent | None:
         if proof.best is not None and proof.best.share <= most:
             search = proof
         elif search.best is not None:
-            return BestBent(search.best.axes, search.period, proof.period * min(share, 1.0) ** (1.0 / slowest), nodes)
+            bound = proof.period * min(share, 1.0) ** (1.0 / slowest)
+            finest = _met(replace(search, best=_polished(search, search.best)), _FINEST)
+            best = finest if finest.best is not None and finest.best.share <= 1.0 else search
+            assert best.best is not None  # noqa: S101 - of laws that are known
+            axes = {name: axis.slower(1.0 + OVERLAP_GAP) for name, axis in best.best.axes.items()}
+            return BestBent(axes, best.period * (1.0 + OVERLAP_GAP), min(bound, best.period), nodes)
         else:
             search = replace(first, period=2.0 * search.period)
     return None
 
 
-def _met(search: _Search) -> _Search:
+def _polished(search: _Search, laws: BentLaws) -> BentLaws:
+    """The laws at the same instants in more pieces."""
+    finest = search.at(laws.instants, laws.sides, search.period, _FINEST)
+    return laws if finest is None or finest.share > laws.share else finest
+
+
+def _met(search: _Search, pieces: int = 0) -> _Search:
     """The search in the period in which the laws at the best instants just keep the limits."""
     best = search
     for _ in range(_STEPS):
         assert best.best is not None  # noqa: S101 - of laws that are known
         share = best.best.share
-        if 1.0 - _SAME <= share <= 1.0:
+        if 1.0 - 0.5 * _SAME <= share <= 1.0:
             break
         period = best.period * (share * (1.0 + 0.3 * BENT_GAP)) ** 0.45
-        laws = best.at(best.best.instants, best.best.sides, period, _FINE)
+        laws = best.at(best.best.instants, best.best.sides, period, pieces or _FINE)
         if laws is None:
             break
         best = replace(best, period=period, best=laws)
