@@ -362,6 +362,6 @@ BENT_GAP = 1e-3  # of the objective: a search for instants of laws that bend end
 BENT_MARGIN = 1e-7  # of a stroke: laws that bend stay so much apart from what they must not touch
 BENT_FEASIBILITY = 1e-10  # of a row: by so much the solver of programs of laws that bend may break one
 BROKEN_RULE = 1e-7  # of a stroke: instants at which less is broken are not parted
-NARROWEST_INSTANT = 1e-5  # of a period: boxes of instants that are narrower are not parted
+NARROWEST_INSTANT = 1e-4  # of a period: boxes of instants that are narrower are not parted
 STANDSTILL = 1e-8  # of the greatest acceleration: where a law has less from an end on it stands still
 SECTION_WIDTH = 1e-12  # of a polygon: sides that are narrower are upright

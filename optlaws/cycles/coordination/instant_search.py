@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import heapq
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import count
 from math import inf
 from typing import Any
@@ -23,10 +23,11 @@ from optlaws.tolerances import BENT_GAP, BROKEN_RULE, NARROWEST_INSTANT, OVERLAP
 #: pieces of the cycle by the width of the widest instant
 _PIECES = ((4e-3, 96), (3e-2, 64), (2.0, 32))
 _ROUGH, _FINE, _FINEST = 48, 96, 288
-_NODES = 160
+_NODES = 60
 _PERIODS, _STEPS = 6, 5
-_ROUGH_NODES = 60  # where laws are looked for without one of the interlocks
-_FIRST_STEP, _LAST_STEP = 0.02, 1e-3  # of a period: by how much instants are moved to find better ones
+_ROUGH_NODES = 30  # where laws are looked for without one of the interlocks
+_NARROW = 2e-3  # of a period: narrower boxes in which nothing is broken say no more
+_FIRST_STEP, _LAST_STEP = 0.02, 2e-3  # of a period: by how much instants are moved to find better ones
 _PLACES = 4001
 _TRIED_CUTS = 2
 _SAME = BENT_GAP
@@ -67,6 +68,7 @@ class _Search:
     gap: float = BENT_GAP
     best: BentLaws | None = None
     nodes: int = 0
+    tried: list[tuple[Array, tuple[int, ...]]] = field(default_factory=list)
 
     @property
     def most(self) -> float:
@@ -104,6 +106,9 @@ class _Search:
             return
         instants = self._suggested(node)
         sides = tuple(self._side(visit, node, i) for i, visit in enumerate(self.bent.visits))
+        if any(way == sides and np.abs(instants - known).max(initial=0.0) < _LAST_STEP for known, way in self.tried):
+            return
+        self.tried.append((instants, sides))
         laws = self.at(instants, sides, self.period, _ROUGH)
         if laws is not None and (self.best is None or laws.share < self.best.share):
             self.best = self._nearby(laws)
@@ -218,8 +223,13 @@ class _Search:
         first = sorted(worst, key=lambda instant: -widths[instant] * worst[instant][0])[:_TRIED_CUTS]
         cuts = [self._nodes(_halved(box, instant, worst[instant][1]), node.bound) for instant in first]
         if not cuts:
-            # nothing is broken: what is left is owed to the pieces
-            return None if node.pieces >= _FINE else self._nodes([box], node.bound, 2 * node.pieces)
+            # nothing is broken: what is left is owed to the pieces, then to the width of the box
+            widest = int(np.argmax(widths)) if widths.size else -1
+            if node.pieces < _FINE:
+                return self._nodes([box], node.bound, 2 * node.pieces)
+            if widest < 0 or widths[widest] <= _NARROW:
+                return None
+            return self._nodes(_halved(box, widest, None), node.bound, node.pieces)
         # where the bound of the worse part is greatest, then that of the better one
         return max(cuts, key=lambda parts: sorted([*(part.bound for part in parts), inf, inf])[:2])
 
@@ -339,7 +349,7 @@ def _shortest(first: _Search, slowest: int) -> BestBent | None:
             search = _met(search)
         short = 1.0 - BENT_GAP if search.best is not None and search.best.share <= 1.0 else 1.0
         most = inf if search.best is None else 1.0
-        proof = replace(search, period=search.period * short, enough=most, best=None, nodes=0)
+        proof = replace(search, period=search.period * short, enough=most, best=None, nodes=0, tried=[])
         share = proof.search(_NODES)
         nodes += proof.nodes
         if proof.best is not None and proof.best.share <= most:
@@ -352,7 +362,7 @@ def _shortest(first: _Search, slowest: int) -> BestBent | None:
             axes = {name: axis.slower(1.0 + OVERLAP_GAP) for name, axis in best.best.axes.items()}
             return BestBent(axes, best.period * (1.0 + OVERLAP_GAP), min(bound, best.period), nodes)
         else:
-            search = replace(first, period=2.0 * search.period)
+            search = replace(first, period=2.0 * search.period, tried=[])
     return None
 
 
@@ -382,7 +392,7 @@ def _contradiction(timelines: Mapping[str, Timeline], rules: Sequence[Interlock]
     """The interlocks without any of which there are laws."""
 
     def has_laws(of: Sequence[Interlock]) -> bool:
-        other = replace(known, bent=bent(timelines, of), best=None, nodes=0, gap=1.0)
+        other = replace(known, bent=bent(timelines, of), best=None, nodes=0, gap=1.0, tried=[])
         other.search(_ROUGH_NODES)
         return other.best is not None
 
