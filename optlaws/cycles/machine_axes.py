@@ -493,9 +493,7 @@ def _retimed(
 ) -> Cycle:
     """The cycle with its laws in other times, or with others by the numbers of segments; dwells of no time are left out."""
     segments, pieces = list[CycleSegment](), {piece.start: piece for piece in cycle.pieces}
-    for i, (stretch, peaks, duration) in enumerate(
-        zip(cycle.programme.stretches, cycle.peaks, durations, strict=True)
-    ):
+    for i, (stretch, peaks, duration) in enumerate(zip(cycle.programme.stretches, cycle.peaks, durations, strict=True)):
         segment = stretch.given
         if isinstance(segment, Dwell) and duration <= CLOSURE * period:
             continue

@@ -68,7 +68,9 @@ class _Cubics:
         ]
 
 
-def bent_laws(bent: Bent, instants: Array, sides: tuple[int, ...], goal: Goal, period: float, pieces: int) -> BentLaws | None:
+def bent_laws(
+    bent: Bent, instants: Array, sides: tuple[int, ...], goal: Goal, period: float, pieces: int
+) -> BentLaws | None:
     """The laws of least share at instants in a period; None where there are none."""
     box = Box(instants, instants, sides)
     nodes = {name: chain.times(box.low, box.high, period)[0] for name, chain in bent.chains.items()}

@@ -14,7 +14,7 @@ import numpy as np
 from optlaws.cycles.coordination.bent_laws import BentAxis, BentLaws, bent_laws
 from optlaws.cycles.coordination.passages import Bent, Visit, bent
 from optlaws.cycles.coordination.relaxation import Box, Goal, Relaxed, relaxed
-from optlaws.cycles.coordination.timeline import Chain, timeline_of
+from optlaws.cycles.coordination.timeline import timeline_of
 from optlaws.cycles.interlocks.interlock import Interlock
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.numbers import Array

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any
 
 from optlaws.cycles.coordination.timeline import Chain, Node, Timeline
 from optlaws.cycles.interlocks.after import After
@@ -43,7 +42,9 @@ class Profile:
         They are the edges of its convex hull there: where it is convex it is the greatest of them.
         """
         cut = [(max(low, start), min(high, stop), part) for part in self.parts for low, high in [part[:2]]]
-        points = sorted({(x, self.sign * _along(part, x)) for low, high, part in cut if low <= high for x in (low, high)})
+        points = sorted(
+            {(x, self.sign * _along(part, x)) for low, high, part in cut if low <= high for x in (low, high)}
+        )
         if not points:
             return []
         hull: list[tuple[float, float]] = []
@@ -179,7 +180,10 @@ def _chain(line: Timeline, marks: Sequence[Sequence[float]], count: int) -> tupl
             nodes += [Node(count, (0.0, 0.0), stop, i + 1), Node(count, least, stop, i + 1)]
             count += 1
     end = len(line.moves)
-    nodes += [Node(None, (-last.least[0], 1.0 - last.least[1]), places[-1], end), Node(None, (0.0, 1.0), places[-1], end)]
+    nodes += [
+        Node(None, (-last.least[0], 1.0 - last.least[1]), places[-1], end),
+        Node(None, (0.0, 1.0), places[-1], end),
+    ]
     return Chain(line, tuple(nodes)), count
 
 

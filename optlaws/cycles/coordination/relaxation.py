@@ -71,7 +71,9 @@ def relaxed(bent: Bent, box: Box, goal: Goal, period: float, pieces: int) -> Rel
     for name, stand in stands.items():
         if name not in offsets:
             line = bent.chains[name].timeline
-            positions[name] = Places(None, (line.cycle(np.minimum(times, 1.0 - 1e-15) * period) - line.low) / line.stroke)
+            positions[name] = Places(
+                None, (line.cycle(np.minimum(times, 1.0 - 1e-15) * period) - line.low) / line.stroke
+            )
             positions[name].known[-1] = stand.chain.places[-1]  # type: ignore[index]
             continue
         place = offsets[name]
@@ -116,7 +118,9 @@ class Places:
 
 def _times(chains: Mapping[str, Chain], spans: Mapping[str, tuple[Array, Array]], pieces: int) -> Array:
     """Times of the nodes, and others evenly between them where there are none near by."""
-    of_nodes = [time for first, last in spans.values() for times in (first, last, 0.5 * (first + last)) for time in times]
+    of_nodes = [
+        time for first, last in spans.values() for times in (first, last, 0.5 * (first + last)) for time in times
+    ]
     nodes = np.unique(np.clip(np.array(of_nodes), 0.0, 1.0))
     nodes = nodes[np.concatenate([[True], np.diff(nodes) > 10.0 * SAME_NODE])]
     even = np.linspace(0.0, 1.0, pieces + 1)
@@ -175,7 +179,9 @@ def _near_rests(rows: Rows, stand: Stand, place: int, times: Array, box: Box, go
         start, stop = line.ways()[move]
         sign = (1.0 if stop > start else -1.0) * (1.0 if before else -1.0)
         after = node.after[0] / period + node.after[1]
-        first, last = (after + (0.0 if node.instant is None else float(side[node.instant])) for side in (box.low, box.high))
+        first, last = (
+            after + (0.0 if node.instant is None else float(side[node.instant])) for side in (box.low, box.high)
+        )
         reach = _Reach.of(line.moves[move].limits, goal.references.get(line.name), goal.most)
         off = (first - times, last - times) if before else (times - last, times - first)
         near, far = (reach.way(np.maximum(period * side, 0.0)) / line.stroke for side in off)
@@ -201,7 +207,9 @@ class _Reach:
 
     @classmethod
     def of(cls, limits: Mapping[int, tuple[float, float]], reference: float | None, most: float) -> _Reach:
-        velocity, acceleration, jerk = (max(-low, high) for low, high in (limits.get(nu, (-inf, inf)) for nu in (1, 2, 3)))
+        velocity, acceleration, jerk = (
+            max(-low, high) for low, high in (limits.get(nu, (-inf, inf)) for nu in (1, 2, 3))
+        )
         if reference is not None:
             return cls(velocity, min(acceleration, most * reference), jerk)
         return cls(most * velocity, most * acceleration, most * jerk)

@@ -14,7 +14,7 @@ DWELL = 0.1
 
 
 def pick_and_place() -> Axes:
-    """A gripper that goes up and down twice by a cycloid, and a slide that is to pass over a box as gently as can be."""
+    """A gripper that goes up and down twice by a cycloid, and a slide that passes over a box as gently as can be."""
     up, down = Rise("80 mm", "0.2 s", law="cycloidal"), Return("80 mm", "0.2 s", law="cycloidal")
     z = [up, Dwell("0.15 s"), down, Dwell("0.1 s"), up, Dwell("0.15 s"), down, Dwell("0.1 s")]
     wait = Dwell("0.2 s", least="0 s")
@@ -30,7 +30,7 @@ def gentle() -> Any:  # noqa: ANN401 - an overlap
 
 def least_acceleration(instant: float) -> float:
     """Of a slide that begins to rest at an instant: a linear program in accelerations that are constant over parts."""
-    period, parts = 1.3, 260
+    period, parts = 1.3, 130
     step = period / parts
     times = step * np.arange(parts + 1)
     # position and velocity at knots as sums of accelerations
@@ -63,7 +63,7 @@ def least_acceleration(instant: float) -> float:
 
 
 def test_a_pick_and_place_beside_linear_programs_over_a_grid_of_instants(gentle: Any) -> None:  # noqa: ANN401
-    grid = [least_acceleration(instant) for instant in np.arange(0.4, 0.651, 0.025)]
+    grid = [least_acceleration(instant) for instant in np.arange(0.5, 0.651, 0.05)]
     known = min(grid) / pick_and_place()["x"].peak(2)
     assert known < np.inf
     # the programs know no limit of the jerk, and a grid of instants: the bound is below them, the law near by
@@ -87,7 +87,7 @@ def test_laws_that_bend_keep_their_limits_and_interlocks(gentle: Any) -> None:  
     assert not ((x > 0.05 + 1e-9) & (x < 0.25 - 1e-9) & (z < 0.04 - 1e-9)).any()
 
 
-@pytest.mark.parametrize("size", [1e-6, 1.0, 1e6])
+@pytest.mark.parametrize("size", [1e-6, pytest.param(1e6, marks=pytest.mark.long)])
 def test_the_least_time_of_one_axis_is_that_of_seven_segments(size: float) -> None:
     """In machines of all sizes, at times of seconds: two moves of jerk, acceleration, jerk, and the same back."""
     limits = {"acceleration": f"{size!r} m/s^2", "jerk": f"{2.0 * size!r} m/s^3"}
@@ -104,7 +104,7 @@ def test_the_least_time_of_one_axis_is_that_of_seven_segments(size: float) -> No
     assert best.axes["slide"].peak(3) <= 2.0 * size
 
 
-def rule(**given: Any) -> Axes:  # noqa: ANN401 - entries of an axis
+def rule(**given: Any) -> Axes:
     x: Any = {"segments": [Rise("0.1 m", "0.3 s"), Dwell("0.1 s"), Return("0.1 m", "0.3 s"), Dwell()]} | given
     y = [Dwell("0.1 s"), Rise("0.1 m", "0.3 s", law="cycloidal"), Dwell("0.2 s"), Return(law="cycloidal")]
     rules = [
@@ -120,7 +120,7 @@ def test_interlocks_that_contradict_each_other_are_named() -> None:
 
 
 def test_limits_of_another_kind_are_refused() -> None:
-    with pytest.raises(InputError, match="axis x: segment 1.*keep limits of velocity, acceleration and jerk"):
+    with pytest.raises(InputError, match=r"axis x: segment 1.*keep limits of velocity, acceleration and jerk"):
         rule(limits={"snap": "1e6 m/s^4"}).gentlest("x")
     alone: Any = {"x": [Rise("0.1 m", "0.3 s"), Dwell("0.1 s"), Return("0.1 m", "0.3 s"), Dwell()]}
     with pytest.raises(InputError, match="axis x: segment 1 needs a limit of its acceleration or its jerk"):
