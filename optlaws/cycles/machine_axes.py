@@ -491,7 +491,7 @@ class Overlap:
 def _retimed(
     cycle: Cycle, durations: Sequence[float], period: float, laws: Mapping[int, MotionLaw] | None = None
 ) -> Cycle:
-    """The cycle with its laws in other times, or with others by the numbers of segments; dwells of no time are left out."""
+    """The cycle with its laws in other times, or by others; dwells of no time are left out."""
     segments, pieces = list[CycleSegment](), {piece.start: piece for piece in cycle.pieces}
     for i, (stretch, peaks, duration) in enumerate(zip(cycle.programme.stretches, cycle.peaks, durations, strict=True)):
         segment = stretch.given

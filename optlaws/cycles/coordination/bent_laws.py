@@ -174,7 +174,7 @@ def _limited(rows: Rows, stand: Stand, cubics: _Cubics, knots: Array, reference:
                 if most < inf and reference is None:
                     rows.add([*places, last], [*(-sign * row / most), 1.0], 0.0)
                 elif most < inf:
-                    rows.add(places, -sign * row / most, -1.0)
+                    rows.add(places, [*(-sign * row / most)], -1.0)
 
 
 def _controls(chain: Chain, cubics: _Cubics | None, knots: Array, j: int, period: float) -> list[Linear]:

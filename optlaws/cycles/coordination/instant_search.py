@@ -5,7 +5,7 @@ from __future__ import annotations
 import heapq
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import count
+from itertools import count, pairwise
 from math import inf
 from typing import Any
 
@@ -14,7 +14,7 @@ import numpy as np
 from optlaws.cycles.coordination.bent_laws import BentAxis, BentLaws, bent_laws
 from optlaws.cycles.coordination.passages import Bent, Visit, bent
 from optlaws.cycles.coordination.relaxation import Box, Goal, Relaxed, relaxed
-from optlaws.cycles.coordination.timeline import timeline_of
+from optlaws.cycles.coordination.timeline import Timeline, timeline_of
 from optlaws.cycles.interlocks.interlock import Interlock
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.numbers import Array
@@ -196,7 +196,7 @@ class _Search:
             spans.append(time)
             level = profile.level(float(places[i]))
             yield profile.sign * (level - float(np.interp(time, times, y))), i, time
-        for i, (start, stop) in enumerate(zip(spans, spans[1:], strict=False)):
+        for i, (start, stop) in enumerate(pairwise(spans)):
             k = visit.between[0] + i
             for j in np.flatnonzero((times > start) & (times < stop)):
                 for slope, value in profile.edges(*sorted((float(places[k]), float(places[k + 1])))):
@@ -205,7 +205,7 @@ class _Search:
                     yield off, wider, float(times[j])
 
     def _parts(self, node: _Node) -> list[_Node] | None:
-        """The box parted, by the side of a region or at the instant that says most; None where no more is to be said."""
+        """The box parted by the side of a region, or at the instant that says most; None where none does."""
         box = node.box
         if not node.relaxed.times.size:
             widest = int(np.argmax(box.high - box.low))

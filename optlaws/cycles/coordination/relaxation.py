@@ -1,7 +1,8 @@
 """What all laws must do whose instants lie in a box: a linear program in positions at times, whose value is a bound.
 
-Divided differences of positions are means of derivatives with B-splines as weights (Curry and Schoenberg 1966), so that a
-limit of a derivative is one of them, of every law, however smooth. Where an axis surely rests, a knot counts several times.
+Divided differences of positions are means of derivatives with B-splines as weights (Curry and Schoenberg 1966), so
+that a limit of a derivative is one of them, of every law, however smooth. Where an axis surely rests a knot counts
+several times.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ import numpy as np
 
 from optlaws.cycles.coordination.passages import Bent, Visit
 from optlaws.cycles.coordination.rows_of_program import Rows, Solved
-from optlaws.cycles.coordination.timeline import Chain, Stand
+from optlaws.cycles.coordination.timeline import Stand
 from optlaws.numbers import Array
 from optlaws.tolerances import SAME_NODE
 
@@ -57,7 +58,7 @@ def relaxed(bent: Bent, box: Box, goal: Goal, period: float, pieces: int) -> Rel
     spans = {name: chain.times(box.low, box.high, period) for name, chain in bent.chains.items()}
     if any((first > last + SAME_NODE).any() for first, last in spans.values()):
         return None
-    times = _times(bent.chains, spans, pieces)
+    times = _times(spans, pieces)
     stands = {name: Stand.at(chain, *spans[name], times) for name, chain in bent.chains.items()}
     free = [name for name, chain in bent.chains.items() if chain.timeline.bends]
     offsets = {name: i * len(times) for i, name in enumerate(free)}
@@ -116,7 +117,7 @@ class Places:
         return solved.unknowns[self.first : self.first + count]
 
 
-def _times(chains: Mapping[str, Chain], spans: Mapping[str, tuple[Array, Array]], pieces: int) -> Array:
+def _times(spans: Mapping[str, tuple[Array, Array]], pieces: int) -> Array:
     """Times of the nodes, and others evenly between them where there are none near by."""
     of_nodes = [
         time for first, last in spans.values() for times in (first, last, 0.5 * (first + last)) for time in times
@@ -242,7 +243,7 @@ class _Reach:
 
     def _until(self, time: float) -> float:
         unlimited = _Reach(inf, self.acceleration, self.jerk)
-        return float(unlimited.way(np.array([time]))[0])
+        return float(unlimited.way(np.array([time])).item())
 
 
 def _beyond(

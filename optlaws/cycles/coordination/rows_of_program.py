@@ -55,7 +55,7 @@ class Rows:
             self._append(every, np.full(len(rows), self.size - 1), last / sizes)
         self._ended(sides / sizes, equal=False)
 
-    def _append(self, where: Array, places: Array, values: Array) -> None:
+    def _append(self, where: Any, places: Any, values: Array) -> None:  # noqa: ANN401 - arrays of whole numbers
         self.entries.append((where + self.count, places, values))
 
     def _ended(self, sides: Array, *, equal: bool) -> None:
@@ -64,7 +64,7 @@ class Rows:
         self.equal.append(np.full(len(sides), equal))
 
     def solve(self, goal: int) -> Solved | None:
-        """The least value of an unknown, with its bound; None where it is proven that the rows contradict each other."""
+        """The least value of an unknown, with its bound; None where rows are proven to contradict each other."""
         matrix, right, equal = self._given
         weights = np.zeros(self.size)
         weights[goal] = 1.0
@@ -87,7 +87,7 @@ class Rows:
         return np.asarray(answer.x) if answer.status == 0 else None
 
     @property
-    def _given(self) -> tuple[Any, Array, Array]:
+    def _given(self) -> tuple[Any, Array, Any]:
         """The matrix, the right sides, and which rows are equations."""
         from scipy.sparse import coo_array
 
@@ -96,7 +96,7 @@ class Rows:
         return matrix, np.concatenate(self.sides), np.concatenate(self.equal)
 
 
-def _answer(weights: Array, matrix: Any, right: Array, equal: Array | None, low: Array, high: Array) -> Any:  # noqa: ANN401
+def _answer(weights: Array, matrix: Any, right: Array, equal: Any, low: Array, high: Array) -> Any:  # noqa: ANN401
     """What HiGHS says of the least sum of weighted unknowns."""
     from scipy.optimize import linprog
 
@@ -116,7 +116,7 @@ def _answer(weights: Array, matrix: Any, right: Array, equal: Array | None, low:
 
 
 def _bounded(
-    weights: Array, matrix: Any, right: Array, equal: Array | None, low: Array, high: Array  # noqa: ANN401
+    weights: Array, matrix: Any, right: Array, equal: Any, low: Array, high: Array  # noqa: ANN401
 ) -> Solved | None:  # fmt: skip
     """The answer with the bound of its multipliers, rounding counted; None where there is none."""
     answer = _answer(weights, matrix, right, equal, low, high)
@@ -138,4 +138,5 @@ def _stacked(matrix: Any, equal: Array) -> Any:  # noqa: ANN401 - sparse arrays
     from scipy.sparse import csr_array, hstack, vstack
 
     rows = vstack([matrix, -matrix[equal]]) if equal.any() else matrix
-    return csr_array(hstack([rows, np.ones((rows.shape[0], 1))]))
+    ones: Any = np.ones((rows.shape[0], 1))
+    return csr_array(hstack([rows, ones]))

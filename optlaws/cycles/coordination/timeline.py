@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -77,7 +78,7 @@ class Timeline:
     def ways(self) -> list[tuple[float, float]]:
         """From where to where each move goes, as shares of the stroke."""
         places = [self.share(rest.position) for rest in self.rests]
-        return list(zip(places, places[1:], strict=False))
+        return list(pairwise(places))
 
 
 def timeline_of(cycle: Any, name: str, *, bends: bool) -> Timeline:  # noqa: ANN401 - a cycle

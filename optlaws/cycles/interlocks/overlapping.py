@@ -173,7 +173,7 @@ class Overlapping:
         raise InfeasibleProblem(self._contradiction(forced))
 
     def _dived(self, open_nodes: Sequence[tuple[Optimum, Choices]]) -> tuple[Optimum, Choices]:
-        """Instants that keep all interlocks, from the first open node that leads to such: the least choice, again and again."""
+        """Instants that keep all interlocks, from the first open node that leads to such by its least choices."""
         for optimum, choices in open_nodes:
             here: tuple[Optimum, Choices] | None = (optimum, choices)
             while here is not None:
@@ -363,6 +363,9 @@ def best_instants(
     )
     best = problem.best()
     if goal == "acceleration":
+        if not best.bound < 0.0:
+            labels = "; ".join(rule.label for rule in rules)
+            raise InfeasibleProblem(f"no instants keep all interlocks: {labels}: moves would have to take no time")
         return replace(best, bound=1.0 / best.bound**2)
     longer_by = 1.0 + OVERLAP_GAP
     durations = {name: [longer_by * value for value in values] for name, values in best.durations.items()}
