@@ -24,7 +24,7 @@ from optlaws.tolerances import BENT_GAP, BROKEN_RULE, NARROWEST_INSTANT, OVERLAP
 _PIECES = ((4e-3, 96), (3e-2, 64), (2.0, 32))
 _ROUGH, _FINE, _FINEST = 48, 96, 288
 _NODES = 60
-_PERIODS, _STEPS = 6, 5
+_PERIODS, _STEPS = 6, 12
 _ROUGH_NODES = 30  # where laws are looked for without one of the interlocks
 _NARROW = 2e-3  # of a period: narrower boxes in which nothing is broken say no more
 _FIRST_STEP, _LAST_STEP = 0.02, 2e-3  # of a period: by how much instants are moved to find better ones
@@ -374,18 +374,26 @@ def _polished(search: _Search, laws: BentLaws) -> BentLaws:
 
 def _met(search: _Search, pieces: int = 0) -> _Search:
     """The search in the period in which the laws at the best instants just keep the limits."""
-    best = search
+    best, low, high = search, 0.0, inf
+    feasible: _Search | None = None
     for _ in range(_STEPS):
-        assert best.best is not None  # noqa: S101 - of laws that are known
-        share = best.best.share
-        if 1.0 - 0.5 * _SAME <= share <= 1.0:
+        share = inf if best.best is None else best.best.share
+        if share <= 1.0:
+            feasible, high = best, best.period
+        else:
+            low = best.period
+        if 1.0 - 0.5 * _SAME <= share <= 1.0 or high - low <= 0.1 * BENT_GAP * high:
             break
-        period = best.period * (share * (1.0 + 0.3 * BENT_GAP)) ** 0.45
-        laws = best.at(best.best.instants, best.best.sides, period, pieces or _FINE)
-        if laws is None:
-            break
-        best = replace(best, period=period, best=laws)
-    return best
+        known = best if best.best is not None else feasible or search
+        assert known.best is not None  # noqa: S101 - of laws that are known
+        period = known.period * (known.best.share * (1.0 + 0.3 * BENT_GAP)) ** 0.45
+        if not low < period < high:
+            period = 0.5 * (low + high) if high < inf else 1.5 * low
+        laws = best.at(known.best.instants, known.best.sides, period, pieces or _FINE)
+        if laws is not None and not pieces:
+            laws = replace(best, period=period)._nearby(laws)  # noqa: SLF001
+        best = replace(best, period=period, best=laws or None)
+    return feasible or search
 
 
 def _contradiction(timelines: Mapping[str, Timeline], rules: Sequence[Interlock], known: _Search) -> str:

@@ -55,7 +55,7 @@ class Rows:
             self._append(every, np.full(len(rows), self.size - 1), last / sizes)
         self._ended(sides / sizes, equal=False)
 
-    def _append(self, where: Any, places: Any, values: Array) -> None:  # noqa: ANN401 - arrays of whole numbers
+    def _append(self, where: Any, places: Any, values: Array) -> None:  # noqa: ANN401
         self.entries.append((where + self.count, places, values))
 
     def _ended(self, sides: Array, *, equal: bool) -> None:
