@@ -140,13 +140,14 @@ def _profiles(rule: Interlock, timelines: Mapping[str, Timeline]) -> tuple[Profi
         return (Profile(rule.sign, tuple(zip(xs, xs[1:], ys, ys[1:], strict=False))),)
     if not isinstance(rule, Forbidden):
         raise InputError(f"interlock {rule.label}: only After, Clearance and Forbidden are put together anew")
-    polygon, parts = polygon_of(rule, *kinds), ([], [])  # type: tuple[Any, tuple[list[Straight], list[Straight]]]
+    polygon = polygon_of(rule, *kinds)
+    parts: tuple[list[Straight], list[Straight]] = [], []
     for low, high in pairwise(sorted({x for x, _ in polygon.corners})):
         at = low + _INNER * (high - low), high - _INNER * (high - low)
         for known, values in zip(parts, zip(*(polygon.section(x) for x in at), strict=True), strict=True):
             slope = (values[1] - values[0]) / (at[1] - at[0])
             ends = values[0] - slope * (at[0] - low), values[1] + slope * (high - at[1])
-            known.append((first.share(low), first.share(high), *(second.share(end) for end in ends)))
+            known.append((first.share(low), first.share(high), second.share(ends[0]), second.share(ends[1])))
     return Profile(1.0, tuple(parts[1])), Profile(-1.0, tuple(parts[0]))
 
 

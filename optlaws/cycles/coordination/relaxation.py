@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import factorial, inf
+from math import factorial, inf, sqrt
 from typing import Any
 
 import numpy as np
@@ -238,12 +238,13 @@ class _Reach:
             return self.velocity / self.acceleration
         ramp = self.acceleration / self.jerk
         if 0.5 * self.jerk * ramp**2 >= self.velocity:
-            return (2.0 * self.velocity / self.jerk) ** 0.5
+            return sqrt(2.0 * self.velocity / self.jerk)
         return ramp + (self.velocity - 0.5 * self.jerk * ramp**2) / self.acceleration
 
     def _until(self, time: float) -> float:
         unlimited = _Reach(inf, self.acceleration, self.jerk)
-        return float(unlimited.way(np.array([time])).item())
+        ways: Array = unlimited.way(np.array([time]))
+        return float(ways[0])
 
 
 def _beyond(
