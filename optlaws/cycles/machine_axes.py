@@ -6,11 +6,13 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal, TypeAlias, Unpack
 
+from optlaws.cycles.coordination.instant_search import best_bent
+from optlaws.cycles.coordination.timeline import bends_at
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.interchange import problem_file
 from optlaws.cycles.interlocks.interlock import Interlock, LeastClearance
 from optlaws.cycles.interlocks.interlock_kinds import checked
-from optlaws.cycles.interlocks.overlapping import best_instants
+from optlaws.cycles.interlocks.overlapping import BestInstants, best_instants
 from optlaws.cycles.specification.programme import is_optimal, period_of
 from optlaws.cycles.specification.segments import CycleSegment, Dwell
 from optlaws.echo import shortened
@@ -18,6 +20,7 @@ from optlaws.errors import InputError, located
 from optlaws.extras import needed
 from optlaws.files.reading import JsonText
 from optlaws.kept import kept_property
+from optlaws.laws import MotionLaw
 from optlaws.laws.exporting import AxesExportOptions
 from optlaws.numbers import Quantity
 from optlaws.suggest import keywords_of, unknown_key
@@ -121,9 +124,11 @@ class Axes(JsonText, Mapping[str, Cycle]):
     def fastest(self) -> Overlap:
         """The least period that the interlocks allow: moves overlap as far as they can, each in its least time.
 
-        Laws keep their shapes. A move whose axis has limits of velocity, acceleration or jerk takes the least time
-        under these; another one keeps its time, or its angle of the master. Dwells last at least as long as they were
-        given, or their `least`. The order of the segments of each axis stays, and all axes rest when the cycle begins.
+        Laws that are given keep their shapes. A move whose axis has limits of velocity, acceleration or jerk takes the
+        least time under these; another one keeps its time, or its angle of the master. Where no move has a law, all are
+        looked for together with their instants, within limits of velocity, acceleration and jerk: the law bends for
+        the interlocks. Dwells last at least as long as they were given, or their `least`. The order of the segments of
+        each axis stays, and all axes rest when the cycle begins.
 
         Returns
         -------
@@ -158,6 +163,9 @@ class Axes(JsonText, Mapping[str, Cycle]):
 
     def gentlest(self, *of: str) -> Overlap:
         """The least greatest acceleration in the same period: moves grow into the time that the interlocks leave.
+
+        Laws that are given keep their shapes. Where no move of the axes `of` has a law, theirs are looked for together
+        with the instants at which they wait; the other axes move as they did.
 
         Parameters
         ----------
@@ -196,11 +204,29 @@ class Axes(JsonText, Mapping[str, Cycle]):
         return self._overlap("acceleration", of or tuple(self))
 
     def _overlap(self, goal: str, longer: Sequence[str]) -> Overlap:
+        if all(bends_at(self[name]) for name in longer):
+            return self._bent(goal, longer)
         instants = best_instants(self, self.rules, goal, longer)
-        cycles = {name: _retimed(cycle, instants.durations[name], instants.period) for name, cycle in self.items()}
-        axes = Axes(cycles, interlocks=self.rules)
+        axes = self._at_instants(instants)
         value = instants.period if goal == "period" else 1.0 / instants.pace**2
         return Overlap(axes, goal, value, instants.bound, instants.binding, self)
+
+    def _at_instants(self, instants: BestInstants) -> Axes:
+        cycles = {name: _retimed(cycle, instants.durations[name], instants.period) for name, cycle in self.items()}
+        return Axes(cycles, interlocks=self.rules)
+
+    def _bent(self, goal: str, longer: Sequence[str]) -> Overlap:
+        try:
+            start = self._at_instants(best_instants(self, self.rules, goal, longer))
+        except InfeasibleProblem:
+            start = None  # laws that bend may do what these shapes cannot
+        best = best_bent(self, self.rules, goal, longer, start)
+        cycles = dict(self)
+        for name, axis in best.axes.items():
+            cycles[name] = _retimed(self[name], axis.durations, best.period, axis.laws)
+        axes = Axes(cycles, interlocks=self.rules)
+        value = best.period if goal == "period" else max(axes[name].peak(2) / self[name].peak(2) for name in longer)
+        return Overlap(axes, goal, value, best.bound, (), self)
 
     @kept_property
     def clearances(self) -> tuple[LeastClearance, ...]:
@@ -407,21 +433,23 @@ class Axes(JsonText, Mapping[str, Cycle]):
 
 @dataclass(frozen=True, eq=False)
 class Overlap:
-    """Axes whose moves overlap best, with the proof that no other instants of these moves are better.
+    """Axes whose moves overlap as well as was found, with the bound that no others pass.
 
     Attributes
     ----------
     axes
-        The machine with its new durations; laws and strokes are those it had.
+        The machine with its new durations; laws that were given and strokes are those it had.
     goal
         "period" or "acceleration".
     objective
         The period in seconds, or the greatest acceleration as a share of what it was.
     lower_bound
-        No instants of moves by these laws have less, in the order of the segments, with all axes at rest when the cycle
-        begins, and with each move of an axis around one rest of the other axis.
+        Nothing has less in the order of the segments, with all axes at rest when the cycle begins: of laws that are
+        given no instants, with each move of an axis around one rest of the other axis; of laws that are looked for no
+        motions from rest to rest that never turn back within a move.
     binding
-        What leaves no room where the objective is least: limits of moves, dwells and interlocks, by their names.
+        What leaves no room where the objective is least: limits of moves, dwells and interlocks, by their names; empty
+        where laws are looked for.
     given
         The machine as it was.
     """
@@ -435,9 +463,19 @@ class Overlap:
 
     @property
     def status(self) -> Status:
-        """Optimal where all interlocks are proven clear and the bound is reached; else inaccurate."""
+        """Optimal where all interlocks are proven clear and the bound is reached, local where there is a `gap`.
+
+        Inaccurate where an interlock is not proven clear.
+        """
+        if self.axes.broken:
+            return Status.INACCURATE
         near = self.objective <= self.lower_bound * (1.0 + CYCLE_OPTIMALITY)
-        return Status.OPTIMAL if near and not self.axes.broken else Status.INACCURATE
+        return Status.OPTIMAL if near else Status.LOCAL
+
+    @property
+    def gap(self) -> float:
+        """The share of the objective by which another one could be better at most."""
+        return max(1.0 - self.lower_bound / self.objective, 0.0)
 
     @property
     def gain(self) -> float:
@@ -449,14 +487,18 @@ class Overlap:
         return f"Overlap({what}, {self.gain:.4g} times better, status={self.status.value!r}, bound by {self.binding})"
 
 
-def _retimed(cycle: Cycle, durations: Sequence[float], period: float) -> Cycle:
-    """The cycle with its laws in other times; dwells of no time are left out."""
+def _retimed(
+    cycle: Cycle, durations: Sequence[float], period: float, laws: Mapping[int, MotionLaw] | None = None
+) -> Cycle:
+    """The cycle with its laws in other times, or by others; dwells of no time are left out."""
     segments, pieces = list[CycleSegment](), {piece.start: piece for piece in cycle.pieces}
-    for stretch, peaks, duration in zip(cycle.programme.stretches, cycle.peaks, durations, strict=True):
+    for i, (stretch, peaks, duration) in enumerate(zip(cycle.programme.stretches, cycle.peaks, durations, strict=True)):
         segment = stretch.given
         if isinstance(segment, Dwell) and duration <= CLOSURE * period:
             continue
-        law = {} if isinstance(segment, Dwell) or not is_optimal(segment) else {"law": pieces[peaks.start].law}
+        law: dict[str, Any] = {}
+        if not isinstance(segment, Dwell) and is_optimal(segment):
+            law["law"] = laws[i] if laws else pieces[peaks.start].law
         segments.append(replace(segment, duration=f"{duration!r} s", **law))  # type: ignore[type-var]
     minimise = "acceleration" if cycle.load is not None else cycle.minimise
     return replace(cycle, segments=segments, speed=None, period=f"{period!r} s", minimise=minimise)

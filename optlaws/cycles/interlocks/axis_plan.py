@@ -139,7 +139,7 @@ def plan_of(cycle: Any, name: str, first: int, count: int, goal: str, *, longer:
         stop = position + stretch.displacement
         limit = ""
         if law is None:
-            least, most = _dwell(stretch, where)
+            least, most = dwell_spell(stretch, where)
         else:
             if max(abs(law.b(0.0)), abs(law.b(1.0))) > INTERLOCK:
                 raise InputError(f"{where}: only moves from rest to rest and dwells are put together anew")
@@ -151,7 +151,7 @@ def plan_of(cycle: Any, name: str, first: int, count: int, goal: str, *, longer:
     return AxisPlan(name, tuple(segments), first, count)
 
 
-def _dwell(stretch: TimedSegment, where: str) -> tuple[Spell, Spell | None]:
+def dwell_spell(stretch: TimedSegment, where: str) -> tuple[Spell, Spell | None]:
     """A dwell takes at least what it was given, or the least of it that it may take; nothing where it was left out."""
     given = stretch.given
     assert isinstance(given, Dwell)  # noqa: S101 - or a move by nothing, which has a duration as well

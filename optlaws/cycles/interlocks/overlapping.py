@@ -159,6 +159,7 @@ class Overlapping:
             if broken is None:
                 return optimum, self._completed(optimum.unknowns, choices), nodes, bound
             if nodes > _NODES:
+                heapq.heappush(heap, (bound, next(number), optimum, choices))
                 break
             for option in self.options[broken]:
                 nodes += 1
@@ -167,8 +168,22 @@ class Overlapping:
                 if solved is not None:
                     heapq.heappush(heap, (max(bound, solved.bound), next(number), solved, further))
         if nodes > _NODES:
-            raise SolverFailure(f"who waits for whom has more than {_NODES} ways: give fewer moves or interlocks")
+            optimum, choices = self._dived([(node[2], node[3]) for node in sorted(heap)])
+            return optimum, choices, nodes, bound
         raise InfeasibleProblem(self._contradiction(forced))
+
+    def _dived(self, open_nodes: Sequence[tuple[Optimum, Choices]]) -> tuple[Optimum, Choices]:
+        """Instants that keep all interlocks, from the first open node that leads to such by its least choices."""
+        for optimum, choices in open_nodes:
+            here: tuple[Optimum, Choices] | None = (optimum, choices)
+            while here is not None:
+                broken = self._most_broken(here[0].unknowns, here[1])
+                if broken is None:
+                    return here[0], self._completed(here[0].unknowns, here[1])
+                ways = [{**here[1], broken: option} for option in self.options[broken]]
+                solved = [(found, way) for found, way in zip(map(self._solved, ways), ways, strict=True) if found]
+                here = min(solved, key=lambda pair: pair[0].value, default=None)
+        raise SolverFailure(f"who waits for whom has more than {_NODES} ways: give fewer moves or interlocks")
 
     def _solved(self, choices: Choices, rules: Sequence[Any] | None = None, margin: float = 0.0) -> Optimum | None:
         """The program with the rows of what is chosen; None where it has no solution."""
@@ -348,6 +363,9 @@ def best_instants(
     )
     best = problem.best()
     if goal == "acceleration":
+        if not best.bound < 0.0:
+            labels = "; ".join(rule.label for rule in rules)
+            raise InfeasibleProblem(f"no instants keep all interlocks: {labels}: moves would have to take no time")
         return replace(best, bound=1.0 / best.bound**2)
     longer_by = 1.0 + OVERLAP_GAP
     durations = {name: [longer_by * value for value in values] for name, values in best.durations.items()}
