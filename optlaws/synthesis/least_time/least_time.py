@@ -153,8 +153,8 @@ class LeastTime(JsonText):
         InputError
             If an entry is missing or wrong, or states what does not follow from the law and the proofs.
         """
-        data = of_known_format(data, cls._json_name) if isinstance(data, Mapping) else data
         entries = entries_of(data, KEYS, cls._json_name)
+        data = of_known_format(data, cls._json_name)
         torque, residual = data.get("torque"), data.get("residual")
         if len(data) > len(KEYS) + (torque is not None) + (residual is not None):
             raise InputError(f"{cls._json_name} has the entries {', '.join(KEYS)} and no other")
