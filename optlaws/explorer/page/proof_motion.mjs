@@ -10,7 +10,7 @@ const BITS = 256;
 /* By how much of itself a peak may be above the value where it is said to be. */
 const PLACE = exact(1e-7);
 /* Peaks are enclosed to this share of themselves. */
-const NARROW = new Rational(1n, 1n, -46);
+const NARROW = new Rational(1n, 1n, -80);
 /* By how much rounding may move the mirror image of a break. */
 const EVEN = new Rational(1n, 1n, -50);
 

@@ -162,8 +162,8 @@ class LeastTime(JsonText):
         InputError
             If an entry is missing or wrong, or states what does not follow from the law and the proofs.
         """
-        data = of_known_format(data, cls._json_name) if isinstance(data, Mapping) else data
         entries = entries_of(data, KEYS, cls._json_name)
+        data = of_known_format(data, cls._json_name)
         torque, residual = data.get("torque"), data.get("residual")
         ends = {name: finite(data[name], name) for name in _MOVING if name in data}
         if len(data) > len(KEYS) + (torque is not None) + (residual is not None) + len(ends):
