@@ -16,7 +16,7 @@ from optlaws.cycles.interlocks.overlapping import BestInstants, best_instants
 from optlaws.cycles.specification.programme import is_optimal, period_of
 from optlaws.cycles.specification.segments import CycleSegment, Dwell
 from optlaws.echo import shortened
-from optlaws.errors import InputError, located
+from optlaws.errors import InfeasibleProblem, InputError, located
 from optlaws.extras import needed
 from optlaws.files.reading import JsonText
 from optlaws.kept import kept_property

@@ -1,27 +1,32 @@
-"""Pictures of least times: the motion within its limits, the time over the stroke, and fronts over the time."""
+"""Pictures of moves: least times within limits, over the stroke and as fronts; cams into a cycle and out of it."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from optlaws.cycles.moves.fastest_move import AXES
+from optlaws.motion.quantities import QUANTITIES
 from optlaws.plots.cycle import UNITS
 from optlaws.plots.front import draw_time_front
-from optlaws.plots.style import BLUES, GREY, WARM, empty_figure, plot_style, titled
+from optlaws.plots.law import four
+from optlaws.plots.style import BLUES, GREY, WARM, empty_figure, new_figure, plot_style, titled
 from optlaws.synthesis.status import Status
+from optlaws.tolerances import INSIDE_PIECE
 
 if TYPE_CHECKING:
+    from matplotlib.artist import Artist
     from matplotlib.figure import Figure
 
+    from optlaws.cycles.cycle import Cycle
     from optlaws.cycles.moves.fastest_move import FastestMove
     from optlaws.cycles.moves.time_front import TimeFront
+    from optlaws.cycles.moves.transition_cam import TransitionCam
 
 _POINTS = 601
 _MS = 1e3
-_NAMES = ("position", "velocity", "acceleration", "jerk")
 _ROOM = 1.08
 #: a limit is drawn up to so many times what is used of it
 _NEAR = 2.0
@@ -39,8 +44,8 @@ def motion_figure(move: FastestMove, title: str) -> Figure:
     )
     with plot_style():
         figure = empty_figure(7.2, 6.4)
-        panels = figure.subplots(len(_NAMES), 1, sharex=True)
-        for nu, (axes, name, (low, high)) in enumerate(zip(panels, _NAMES, bounds, strict=True)):
+        panels = figure.subplots(len(QUANTITIES), 1, sharex=True)
+        for nu, (axes, name, (low, high)) in enumerate(zip(panels, QUANTITIES, bounds, strict=True)):
             unit, factor = UNITS[AXES[move.unit]][nu]
             values = factor * move.stroke / move.duration**nu * np.asarray(move.law(k, nu))
             axes.plot(_MS * move.duration * k, values, color=BLUES[-1], linewidth=1.5)
@@ -85,3 +90,59 @@ def fronts_figure(fronts: Sequence[TimeFront], title: str) -> Figure:
             if axes is not panels[-1]:
                 axes.set_xlabel("")
         return titled(figure, title)
+
+
+_COUNT = 400
+_BESIDE = 0.5  # of a turn of the cycle, and of the cam's own angle at rest, drawn beside
+_STILL = 0.2
+
+
+def transition_figure(cam: TransitionCam, cycle: Cycle, title: str) -> Figure:
+    """A run-in or run-out beside its cycle, as a figure."""
+    artists = draw_transition(cam, cycle=cycle)
+    figure: Figure = artists[0].axes.figure  # type: ignore[union-attr, assignment] # of our own
+    with plot_style():
+        figure.align_ylabels()
+        return titled(figure, title)
+
+
+def draw_transition(
+    cam: TransitionCam,
+    axes: Any = None,  # noqa: ANN401 - matplotlib's
+    *,
+    cycle: Cycle | None = None,
+    **style: Any,
+) -> list[Artist]:
+    """Draw position, velocity, acceleration and jerk over the master's angle into four axes; return the artists."""
+    if axes is None:
+        with plot_style():
+            axes = list(new_figure(8.6, 8.2).subplots(4, 1, sharex=True))
+    panels = four(list(np.ravel(np.asarray(axes, dtype=object))))
+    first, last = cam.master
+    breaks = cam.duration * np.array(cam.piece.law.breaks)
+    times = np.unique(np.concatenate([np.linspace(0.0, cam.duration, _COUNT), breaks]))
+    angles = first + (last - first) * times / cam.duration
+    still = [first - _STILL * (last - first), first] if cam.kind == "run-in" else [last, last + _STILL * (last - first)]
+    artists: list[Artist] = []
+    for nu, panel in enumerate(panels):
+        unit, size = UNITS[cam.axis][nu]
+        if cycle is not None:
+            artists += panel.plot(*_of_cycle(cam, cycle, nu, size), color=BLUES[3], label="cycle")
+        panel.plot(still, [size * cam.rest * (nu == 0)] * 2, color=GREY)
+        artists += panel.plot(angles, size * cam.piece.values(times, nu), **{"color": WARM, "label": cam.kind} | style)
+        panel.axvline(first, color=GREY, linewidth=0.7, linestyle=":")
+        panel.axvline(last, color=GREY, linewidth=0.7, linestyle=":")
+        panel.set_ylabel(f"{QUANTITIES[nu]}, {unit}")
+    panels[-1].set_xlabel("master of the cycle, deg")
+    panels[0].legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, frameon=False, fontsize=8.0)
+    return artists
+
+
+def _of_cycle(cam: TransitionCam, cycle: Cycle, nu: int, size: float) -> tuple[Any, Any]:
+    """The cycle where the cam has joined it, or has not left it yet: angles and values."""
+    at = 360.0 * cam.at / cam.period
+    ends = (at, at + 360.0 * _BESIDE) if cam.kind == "run-in" else (at - 360.0 * _BESIDE, at)
+    angles = np.linspace(*ends, _COUNT)
+    # at the joint the value of its own side
+    angles[0], angles[-1] = ends[0] + 360.0 * INSIDE_PIECE, ends[1] - 360.0 * INSIDE_PIECE
+    return angles, size * np.asarray(cycle.at_angle(angles, nu))

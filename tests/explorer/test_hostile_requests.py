@@ -33,7 +33,7 @@ SEEDS: dict[str, list[Any]] = {
     ],
     "residual": [{"laws": [OPTIMAL], "frequency": 12.0}],
 }
-ODD = [
+ODD: list[Any] = [
     None, True, 0, -1, 1e308, -1e-308, 9e15, 1e6, float("nan"), "", "x", "é\u202e", "9e15", "1e-400 mm", "inf deg", [],
     {}, [[]], {"": ""}, "peak(cos(c))", "../../etc/passwd", "0/0", "1 " * 100, 41, 12, 2.5, "sin(1e9*k)", ["1", 2],
 ]  # fmt: skip

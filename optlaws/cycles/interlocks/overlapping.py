@@ -151,7 +151,7 @@ class Overlapping:
         number, root = count(), self._solved(forced)
         if root is None:
             raise InfeasibleProblem(self._contradiction(forced))
-        heap: list[tuple[float, int, Optimum, dict[int, WaitOption]]] = [(root.bound, next(number), root, dict(forced))]
+        heap: list[tuple[float, int, Optimum, Choices]] = [(root.bound, next(number), root, dict(forced))]
         nodes = 1
         while heap:
             bound, _, optimum, choices = heapq.heappop(heap)
@@ -168,8 +168,8 @@ class Overlapping:
                 if solved is not None:
                     heapq.heappush(heap, (max(bound, solved.bound), next(number), solved, further))
         if nodes > _NODES:
-            optimum, choices = self._dived([(node[2], node[3]) for node in sorted(heap)])
-            return optimum, choices, nodes, bound
+            optimum, instants = self._dived([(node[2], node[3]) for node in sorted(heap)])
+            return optimum, dict(instants), nodes, bound
         raise InfeasibleProblem(self._contradiction(forced))
 
     def _dived(self, open_nodes: Sequence[tuple[Optimum, Choices]]) -> tuple[Optimum, Choices]:

@@ -190,7 +190,7 @@ class TransitionCam(JsonText):
         >>> artists[0].axes.get_ylabel()
         'position, mm'
         """
-        from optlaws.plots.run_in import draw_transition
+        from optlaws.plots.moves import draw_transition
 
         return draw_transition(self, ax, cycle=cycle, **style)
 

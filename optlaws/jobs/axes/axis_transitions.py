@@ -15,7 +15,7 @@ from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.files.tables import Cell, to_csv
 from optlaws.motion.quantities import QUANTITIES
 from optlaws.plots.cycle import UNITS
-from optlaws.plots.run_in import transition_figure
+from optlaws.plots.moves import transition_figure
 from optlaws.results import Page, Results
 
 TRANSITIONS = "transitions.json"
