@@ -58,7 +58,7 @@ def server(start: dict[str, Any]) -> uvicorn.Server:
         """A server that ends what it computes before it waits for answers."""
 
         async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
-            """End, at once."""
+            """End all answers at once, and the server with them."""
             workers.close()
             await super().shutdown(sockets)
 

@@ -47,7 +47,7 @@ class Worker:
 
     @classmethod
     async def begun(cls) -> Worker:
-        """A new process."""
+        """A process that waits for questions."""
         return await asyncio.get_running_loop().run_in_executor(None, cls)
 
     @property

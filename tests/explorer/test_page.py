@@ -200,7 +200,7 @@ def test_dark_and_light_are_the_readers_choice(page: Page, served: Server) -> No
 
 def saves(page: Page, kind: str) -> str:
     """The text of a file that the reader saves."""
-    page.locator("summary").click()
+    page.locator(".menu summary").click()
     with page.expect_download() as download:
         page.locator(f"[data-kind={kind}]").click()
     return Path(download.value.path()).read_text("utf-8")

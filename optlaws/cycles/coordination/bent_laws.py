@@ -12,7 +12,7 @@ from math import inf
 import numpy as np
 
 from optlaws.cycles.coordination.passages import Bent
-from optlaws.cycles.coordination.relaxation import Box, Goal
+from optlaws.cycles.coordination.relaxation import Goal, InstantBox
 from optlaws.cycles.coordination.rows_of_program import Rows
 from optlaws.cycles.coordination.timeline import Chain, Stand
 from optlaws.laws import MotionLaw
@@ -72,7 +72,7 @@ def bent_laws(
     bent: Bent, instants: Array, sides: tuple[int, ...], goal: Goal, period: float, pieces: int
 ) -> BentLaws | None:
     """The laws of least share at instants in a period; None where there are none."""
-    box = Box(instants, instants, sides)
+    box = InstantBox(instants, instants, sides)
     nodes = {name: chain.times(box.low, box.high, period)[0] for name, chain in bent.chains.items()}
     if any(_at_once(chain, nodes[name]) for name, chain in bent.chains.items()):
         return None

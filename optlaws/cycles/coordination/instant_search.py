@@ -13,12 +13,21 @@ import numpy as np
 
 from optlaws.cycles.coordination.bent_laws import BentAxis, BentLaws, bent_laws
 from optlaws.cycles.coordination.passages import Bent, Visit, bent
-from optlaws.cycles.coordination.relaxation import Box, Goal, Relaxed, relaxed
+from optlaws.cycles.coordination.relaxation import Goal, InstantBox, Relaxed, relaxed
 from optlaws.cycles.coordination.timeline import Timeline, timeline_of
 from optlaws.cycles.interlocks.interlock import Interlock
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.numbers import Array
-from optlaws.tolerances import BENT_GAP, BROKEN_RULE, NARROWEST_INSTANT, OVERLAP_GAP, SAME_NODE
+from optlaws.tolerances import (
+    BENT_GAP,
+    BROKEN_RULE,
+    LAST_STEP_OF_INSTANTS,
+    NARROW_BOX,
+    NARROWEST_INSTANT,
+    NEAR_NODE,
+    OVERLAP_GAP,
+    SAME_NODE,
+)
 
 #: pieces of the cycle by the width of the widest instant
 _PIECES = ((4e-3, 96), (3e-2, 64), (2.0, 32))
@@ -26,12 +35,10 @@ _ROUGH, _FINE, _FINEST = 48, 96, 288
 _NODES = 60
 _PERIODS, _STEPS = 6, 12
 _ROUGH_NODES = 30  # where laws are looked for without one of the interlocks
-_NARROW = 2e-3  # of a period: narrower boxes in which nothing is broken say no more
-_FIRST_STEP, _LAST_STEP = 0.02, 2e-3  # of a period: by how much instants are moved to find better ones
+_FIRST_STEP = 0.02  # of a period: by how much instants are first moved to find better ones
 _PLACES = 4001
 _TRIED_CUTS = 2
 _SAME = BENT_GAP
-_NEAR = 1e-6  # of a stroke: places that are as near to a node
 
 
 @dataclass(frozen=True)
@@ -48,14 +55,14 @@ class BestBent:
 class _Node:
     """A box, the share that no laws in it are below, and the relaxation that says so."""
 
-    box: Box
+    box: InstantBox
     bound: float
     relaxed: Relaxed
     pieces: int
 
 
 @dataclass(eq=False)
-class _Search:
+class _BoxSearch:
     """Laws of the least share, of limits or of accelerations, in a period.
 
     `enough` is a share from which on boxes are of no use.
@@ -79,7 +86,7 @@ class _Search:
         """Part boxes, that of the least bound first, and return the bound of the share over all of them."""
         number, heap, closed = count(), list[tuple[float, int, _Node]](), inf
         sides = tuple(0 if len(visit.sides) == 1 else None for visit in self.bent.visits)
-        root = self._node(Box(np.zeros(self.bent.count), np.ones(self.bent.count), sides), 0.0)
+        root = self._node(InstantBox(np.zeros(self.bent.count), np.ones(self.bent.count), sides), 0.0)
         if root is not None:
             heap.append((root.bound, next(number), root))
         while heap and heap[0][0] < self.most and self.nodes < most:
@@ -93,7 +100,7 @@ class _Search:
                 heapq.heappush(heap, (part.bound, next(number), part))
         return min([closed, self.most, *(open_[0] for open_ in heap[:1])])
 
-    def _node(self, box: Box, bound: float, pieces: int = 0) -> _Node | None:
+    def _node(self, box: InstantBox, bound: float, pieces: int = 0) -> _Node | None:
         """The box with its bound, at least that of the box it is part of; None where it has no laws."""
         self.nodes += 1
         pieces = max(pieces, next(pieces for most, pieces in _PIECES if (box.high - box.low).max(initial=0.0) <= most))
@@ -106,7 +113,10 @@ class _Search:
             return
         instants = self._suggested(node)
         sides = tuple(self._side(visit, node, i) for i, visit in enumerate(self.bent.visits))
-        if any(way == sides and np.abs(instants - known).max(initial=0.0) < _LAST_STEP for known, way in self.tried):
+        if any(
+            way == sides and np.abs(instants - known).max(initial=0.0) < LAST_STEP_OF_INSTANTS
+            for known, way in self.tried
+        ):
             return
         self.tried.append((instants, sides))
         laws = self.at(instants, sides, self.period, _ROUGH)
@@ -143,7 +153,7 @@ class _Search:
     def _nearby(self, laws: BentLaws) -> BentLaws:
         """Better laws at instants near those of given ones: each instant is moved, by less and less."""
         step = _FIRST_STEP
-        while step > _LAST_STEP:
+        while step > LAST_STEP_OF_INSTANTS:
             before = laws.share
             for i in range(self.bent.count):
                 for way in (step, -step):
@@ -227,13 +237,13 @@ class _Search:
             widest = int(np.argmax(widths)) if widths.size else -1
             if node.pieces < _FINE:
                 return self._nodes([box], node.bound, 2 * node.pieces)
-            if widest < 0 or widths[widest] <= _NARROW:
+            if widest < 0 or widths[widest] <= NARROW_BOX:
                 return None
             return self._nodes(_halved(box, widest, None), node.bound, node.pieces)
         # where the bound of the worse part is greatest, then that of the better one
         return max(cuts, key=lambda parts: sorted([*(part.bound for part in parts), inf, inf])[:2])
 
-    def _nodes(self, boxes: Iterable[Box], bound: float, pieces: int = 0) -> list[_Node]:
+    def _nodes(self, boxes: Iterable[InstantBox], bound: float, pieces: int = 0) -> list[_Node]:
         return [node for node in (self._node(box, bound, pieces) for box in boxes) if node is not None]
 
     def _late(self, node: _Node) -> Iterator[tuple[float, int, float]]:
@@ -242,7 +252,7 @@ class _Search:
             for off, place, time in self._broken(visit, self._side(visit, node, i), node):
                 yield from ((off, instant, time) for instant in self._near(visit, place, time, node.box))
 
-    def _near(self, visit: Visit, place: int, time: float, box: Box) -> list[int]:
+    def _near(self, visit: Visit, place: int, time: float, box: InstantBox) -> list[int]:
         """The instant to part where a node is reached too early or too late: of the axis, or of the other's rest."""
         known = [self.bent.chains[visit.over].nodes[place].instant]
         wide = [i for i in known if i is not None and box.high[i] - box.low[i] > NARROWEST_INSTANT]
@@ -268,7 +278,7 @@ class _Search:
                     yield off, here.instant, time
 
 
-def _halved(box: Box, instant: int, time: float | None) -> Iterator[Box]:
+def _halved(box: InstantBox, instant: int, time: float | None) -> Iterator[InstantBox]:
     """The box parted at a time of an instant, or in its middle where that is near an end."""
     low, high = float(box.low[instant]), float(box.high[instant])
     cut = 0.5 * (low + high)
@@ -277,7 +287,7 @@ def _halved(box: Box, instant: int, time: float | None) -> Iterator[Box]:
     for start, stop in ((low, cut), (cut, high)):
         lows, highs = box.low.copy(), box.high.copy()
         lows[instant], highs[instant] = start, stop
-        yield Box(lows, highs, box.sides)
+        yield InstantBox(lows, highs, box.sides)
 
 
 def _reached(positions: Array, times: Array, place: float, first: float, last: float) -> float:
@@ -287,7 +297,7 @@ def _reached(positions: Array, times: Array, place: float, first: float, last: f
     off = np.interp(at, times, positions) - place
     crossed = np.flatnonzero(off[:-1] * off[1:] <= 0.0)
     if not crossed.size:
-        near = np.abs(off) <= np.abs(off).min() + _NEAR
+        near = np.abs(off) <= np.abs(off).min() + NEAR_NODE
         return float(0.5 * (at[near][0] + at[near][-1]))
     j = int(crossed[0])
     width = abs(off[j]) + abs(off[j + 1])
@@ -321,7 +331,7 @@ def best_bent(
                 if not {2, 3} & set(move.limits):
                     raise InputError(f"axis {line.name}: {move.name} needs a limit of its acceleration or its jerk")
 
-    known = _Search(bent(timelines, rules), Goal(references), duration)
+    known = _BoxSearch(bent(timelines, rules), Goal(references), duration)
     if start is not None:
         known.begin(start)
     if goal == "period":
@@ -336,7 +346,7 @@ def best_bent(
     return best
 
 
-def _shortest(first: _Search, slowest: int) -> BestBent | None:
+def _shortest(first: _BoxSearch, slowest: int) -> BestBent | None:
     """Laws of the least period, and a bound of it; None where none were found in any.
 
     Of the instants that are known the period is shortened until the limits are met. Then all laws in a period that is
@@ -366,16 +376,16 @@ def _shortest(first: _Search, slowest: int) -> BestBent | None:
     return None
 
 
-def _polished(search: _Search, laws: BentLaws) -> BentLaws:
+def _polished(search: _BoxSearch, laws: BentLaws) -> BentLaws:
     """The laws at the same instants in more pieces."""
     finest = search.at(laws.instants, laws.sides, search.period, _FINEST)
     return laws if finest is None or finest.share > laws.share else finest
 
 
-def _met(search: _Search, pieces: int = 0) -> _Search:
+def _met(search: _BoxSearch, pieces: int = 0) -> _BoxSearch:
     """The search in the period in which the laws at the best instants just keep the limits."""
     best, low, high = search, 0.0, inf
-    feasible: _Search | None = None
+    feasible: _BoxSearch | None = None
     for _ in range(_STEPS):
         share = inf if best.best is None else best.best.share
         if share <= 1.0:
@@ -396,7 +406,7 @@ def _met(search: _Search, pieces: int = 0) -> _Search:
     return feasible or search
 
 
-def _contradiction(timelines: Mapping[str, Timeline], rules: Sequence[Interlock], known: _Search) -> str:
+def _contradiction(timelines: Mapping[str, Timeline], rules: Sequence[Interlock], known: _BoxSearch) -> str:
     """The interlocks without any of which there are laws."""
 
     def has_laws(of: Sequence[Interlock]) -> bool:

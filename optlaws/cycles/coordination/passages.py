@@ -12,12 +12,10 @@ from optlaws.cycles.interlocks.clearance import Clearance, TableBound, bound_of
 from optlaws.cycles.interlocks.forbidden_region import Forbidden, polygon_of
 from optlaws.cycles.interlocks.interlock import Interlock
 from optlaws.errors import InputError
-from optlaws.tolerances import PASS_WIDTH, STANDSTILL
+from optlaws.tolerances import INSIDE_POLYGON_PART, PASS_WIDTH, STANDSTILL
 
 #: a straight part of a bound: from where to where, and its values there
 Straight = tuple[float, float, float, float]
-
-_INNER = 1e-3  # of a part of a polygon: where its section is looked at, within the part
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,7 +59,7 @@ class Profile:
 
     @property
     def bends(self) -> list[float]:
-        """Places where it is not convex, so that one line does not hold on both sides."""
+        """InstantPlaces where it is not convex, so that one line does not hold on both sides."""
         places = []
         for (_, here, *_), (there, *_) in pairwise(self.parts):
             before, after = (part for part in self.parts if here in part[:2])
@@ -143,7 +141,7 @@ def _profiles(rule: Interlock, timelines: Mapping[str, Timeline]) -> tuple[Profi
     polygon = polygon_of(rule, *kinds)
     parts: tuple[list[Straight], list[Straight]] = [], []
     for low, high in pairwise(sorted({x for x, _ in polygon.corners})):
-        at = low + _INNER * (high - low), high - _INNER * (high - low)
+        at = low + INSIDE_POLYGON_PART * (high - low), high - INSIDE_POLYGON_PART * (high - low)
         for known, values in zip(parts, zip(*(polygon.section(x) for x in at), strict=True), strict=True):
             slope = (values[1] - values[0]) / (at[1] - at[0])
             ends = values[0] - slope * (at[0] - low), values[1] + slope * (high - at[1])

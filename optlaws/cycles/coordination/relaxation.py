@@ -24,7 +24,7 @@ _MOST_SHARE = 1e4
 
 
 @dataclass(frozen=True, eq=False)
-class Box:
+class InstantBox:
     """Between which shares of the period each instant is, and on which side of each region the other axis is."""
 
     low: Array
@@ -53,7 +53,7 @@ class Relaxed:
     bound: float
 
 
-def relaxed(bent: Bent, box: Box, goal: Goal, period: float, pieces: int) -> Relaxed | None:
+def relaxed(bent: Bent, box: InstantBox, goal: Goal, period: float, pieces: int) -> Relaxed | None:
     """The relaxation over a box in a period; None where it is proven that no laws have their instants there."""
     spans = {name: chain.times(box.low, box.high, period) for name, chain in bent.chains.items()}
     if any((first > last + SAME_NODE).any() for first, last in spans.values()):
@@ -68,17 +68,17 @@ def relaxed(bent: Bent, box: Box, goal: Goal, period: float, pieces: int) -> Rel
     instants = size - 2 - np.arange(bent.count)
     rows.low[instants], rows.high[instants] = box.low, box.high
     rows.high[-1] = _MOST_SHARE
-    positions: dict[str, Places] = {}
+    positions: dict[str, InstantPlaces] = {}
     for name, stand in stands.items():
         if name not in offsets:
             line = bent.chains[name].timeline
-            positions[name] = Places(
+            positions[name] = InstantPlaces(
                 None, (line.cycle(np.minimum(times, 1.0 - 1e-15) * period) - line.low) / line.stroke
             )
             positions[name].known[-1] = stand.chain.places[-1]  # type: ignore[index]
             continue
         place = offsets[name]
-        positions[name] = Places(place, None)
+        positions[name] = InstantPlaces(place, None)
         hulls = np.array([stand.hull(j) for j in range(len(times))])
         rows.low[place : place + len(times)], rows.high[place : place + len(times)] = hulls.T
         _ways(rows, stand, place, len(times))
@@ -96,14 +96,14 @@ def relaxed(bent: Bent, box: Box, goal: Goal, period: float, pieces: int) -> Rel
 
 
 @dataclass(frozen=True, eq=False)
-class Places:
+class InstantPlaces:
     """Where the positions of an axis stand among the unknowns, or what they are."""
 
     first: int | None
     known: Array | None
 
     def entry(self, j: int, weight: float) -> tuple[list[int], list[float], float]:
-        """Places and values of a row, and what goes to the right side, of a multiple of a position."""
+        """InstantPlaces and values of a row, and what goes to the right side, of a multiple of a position."""
         if self.first is None:
             assert self.known is not None  # noqa: S101 - one of both
             return [], [], -weight * float(self.known[j])
@@ -165,7 +165,7 @@ def _limits(rows: Rows, stand: Stand, place: int, times: Array, reference: float
                 rows.block(sign * among[limited] / most[limited, None], place, share, side)
 
 
-def _near_rests(rows: Rows, stand: Stand, place: int, times: Array, box: Box, goal: Goal, period: float) -> None:
+def _near_rests(rows: Rows, stand: Stand, place: int, times: Array, box: InstantBox, goal: Goal, period: float) -> None:
     """What an axis has left to go until it rests, or has gone since, is no more than its limits allow in the time.
 
     The greatest way from rest is convex in the time, and so below its chord over a box: linear in the instant.
@@ -251,7 +251,7 @@ def _beyond(
     rows: Rows,
     visit: Visit,
     side: int,
-    positions: Mapping[str, Places],
+    positions: Mapping[str, InstantPlaces],
     stands: Mapping[str, Stand],
     spans: Mapping[str, tuple[Array, Array]],
     times: Array,
@@ -280,6 +280,6 @@ def _beyond(
     return True
 
 
-def _add(rows: Rows, entries: Any, side: float) -> None:  # noqa: ANN401 - what `Places.entry` gives
+def _add(rows: Rows, entries: Any, side: float) -> None:  # noqa: ANN401 - what `InstantPlaces.entry` gives
     places, values = [p for entry in entries for p in entry[0]], [v for entry in entries for v in entry[1]]
     rows.add(places, values, side + sum(entry[2] for entry in entries))

@@ -181,7 +181,7 @@ class Overlapping:
                 if broken is None:
                     return here[0], self._completed(here[0].unknowns, here[1])
                 ways = [{**here[1], broken: option} for option in self.options[broken]]
-                solved = [(found, way) for found, way in zip(map(self._solved, ways), ways, strict=True) if found]
+                solved = [(best, way) for best, way in zip(map(self._solved, ways), ways, strict=True) if best]
                 here = min(solved, key=lambda pair: pair[0].value, default=None)
         raise SolverFailure(f"who waits for whom has more than {_NODES} ways: give fewer moves or interlocks")
 

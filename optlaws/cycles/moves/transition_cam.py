@@ -218,10 +218,10 @@ class TransitionCam(JsonText):
     def to_dict(self) -> dict[str, Any]:
         """Plain JSON-able dict in SI units, with the law and its proof."""
         unit = next(unit for unit, axis in AXES.items() if axis == self.axis)
-        own = {"best": self.solution.to_dict()} if self.least is None else {"least": self.least.to_dict()}
+        origin = {"best": self.solution.to_dict()} if self.least is None else {"least": self.least.to_dict()}
         numbers = {name: getattr(self, name) for name in ("period", "at", "rest", "duration")}
         entries = {"kind": self.kind, "unit": unit, **numbers, "state": list(self.state)}
-        return entries | {"best": None, "least": None} | own
+        return entries | {"best": None, "least": None} | origin
 
     def claims(self) -> dict[str, Any]:
         """The law and its proof as `optlaws verify` takes them.

@@ -64,10 +64,10 @@ def _columns_of_axes(motions: Mapping[str, Motion], request: Request) -> dict[st
     first = next(iter(motions.values()))
     headings, columns = [f"x {first.units.master}"], [next(iter(tables.values())).x.tolist()]
     for name, motion in motions.items():
-        units, own = motion.units, f"{name} " if len(motions) > 1 else ""
+        units, axis = motion.units, f"{name} " if len(motions) > 1 else ""
         derivatives = [units.slave, *(f"{units.slave}/{units.master}{power}" for power in ("", "^2", "^3"))]
         values = tables[name].values.tolist()
-        headings += [f"{own}{letter} {unit}" for letter, unit in zip("yVAJ", derivatives[: len(values)], strict=False)]
+        headings += [f"{axis}{letter} {unit}" for letter, unit in zip("yVAJ", derivatives[: len(values)], strict=False)]
         columns += values
     about = table_heading(first, "table")[0]
     if len(motions) > 1:

@@ -166,12 +166,6 @@ class MotorTorque(JsonText):
                 f"the static torque at the motor reaches {self.static:.6g} N m, and the limit of the torque is "
                 f"{most:.6g} N m: no time keeps it"
             )
-        mean = self.mean
-        if self.rms is not None and mean >= self.rms:
-            raise InputError(
-                f"the torque at the motor is {mean:.6g} N m in the mean, and the limit of the rms torque is "
-                f"{self.rms:.6g} N m: no time keeps it"
-            )
 
     @property
     def lines(self) -> tuple[tuple[float, float], ...]:
@@ -184,6 +178,20 @@ class MotorTorque(JsonText):
         load = self.load if self.gear is None else replace(self.gear, inertia=0.0, friction=0.0).text(self.load, 1.0)
         known = constant(read(load, ("a",)))
         return self.unit * (abs(known) if known is not None else peak(load).value(_PASSING))
+
+    def check_mean(self) -> None:
+        """Refuse a limit of the root mean square that the mean alone exceeds, in however long a time.
+
+        Raises
+        ------
+        InputError
+            If no time keeps the limit.
+        """
+        if self.rms is not None and self.mean >= self.rms:
+            raise InputError(
+                f"the torque at the motor is {self.mean:.6g} N m in the mean, and the limit of the rms torque is "
+                f"{self.rms:.6g} N m: no time keeps it"
+            )
 
     @property
     def mean(self) -> float:

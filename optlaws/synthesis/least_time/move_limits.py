@@ -182,6 +182,8 @@ class TimedMove:
         object.__setattr__(self, "problem", _checked(self.problem, even=even))
         if self.torque is not None and not (self.at_rest and self.problem.monotone):
             raise InputError("a torque at the motor is limited from rest to rest, by laws that never turn back")
+        if self.torque is not None:
+            self.torque.check_mean()
         if self.residual is not None and not self.at_rest:
             raise InputError("the vibration that is left is limited from rest to rest")
         if not self.at_rest and self.problem.order < max(2, self._lowest.nu):

@@ -121,7 +121,7 @@ class MoveObjective(JsonText):
         if self.torque is None:
             return True
         inertia, load = (constant(read(text, ("a",))) for text in (self.torque.inertia, self.torque.load))
-        if inertia is None or load is None:
+        if inertia is None or load is None or self.torque.gear is not None:
             return False
         if self.name == "torque":
             return self.torque.friction == 0.0 or load >= 0.0 or move.problem.order >= _SMOOTH

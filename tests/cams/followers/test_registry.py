@@ -1,4 +1,4 @@
-"""A follower is one file: nothing outside its folder asks of which kind one is."""
+"""A follower is one file: nothing else asks of which kind one is, but where the offset of a slide is sought."""
 
 import ast
 from collections.abc import Iterator
@@ -13,9 +13,12 @@ from tests.internals.cams import follower_kinds, read_follower
 
 PACKAGE = Path(optlaws.__file__).parent
 FOLDER = PACKAGE / "cams" / "followers"
-#: modules that make a follower of one kind, and ask of no other: arms with rollers, and the cam that is shown first
+#: modules that make a follower of one kind, and ask of no other: arms with rollers, slides whose offset is sought,
+#: and the cam that is shown first
 MAKERS = {
     "balancing/dwells/dwell_machine.py": {"OscillatingRoller"},
+    "cams/best_offset.py": {"TranslatingRoller"},
+    "jobs/cam_findings.py": {"TranslatingRoller"},
     "explorer/cam_view.py": {"translating roller"},
 }
 
@@ -72,6 +75,8 @@ def test_no_follower_is_told_by_its_class() -> None:
     """Outside the files of the kinds `isinstance` asks only whether there is a follower at all."""
     files = [*(PACKAGE / "cams").rglob("*.py"), *(PACKAGE / "jobs" / "cam").rglob("*.py")]
     for path in files:
+        if path.relative_to(PACKAGE).as_posix() in MAKERS:
+            continue
         for node in ast.walk(ast.parse(path.read_text("utf-8"))):
             if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "isinstance":
                 assert not kind_words().intersection(named(ast.Module([ast.Expr(node)], []))), path
