@@ -302,6 +302,7 @@ def test_what_is_no_table_is_said_to_be_none(tmp_path: Path) -> None:
             read_cycle_table(tmp_path / "cam.txt")
 
 
+@pytest.mark.long
 def test_what_is_gained_is_recomputed_from_the_laws(tmp_path: Path) -> None:
     file = tmp_path / "cam.csv"
     file.write_text(exported("csv").text)

@@ -190,6 +190,7 @@ def test_wrong_followers_are_named(changes: dict[str, Any], named: str) -> None:
         fastest(Problem(order=3), stroke="100 mm", **(given | changes))
 
 
+@pytest.mark.long
 def test_many_strokes_leave_as_much_as_one_by_one() -> None:
     limits, elastic = LIMITS | {"residual acceleration": "0.5 m/s^2"}, {"frequency": "16.7 Hz", "damping": 0.02}
     moves = fastest_moves(Problem(order=3), strokes=["140 mm", "100 mm"], limits=limits, follower=elastic)
