@@ -259,7 +259,7 @@ def _bound(function: Function, edges: Array, share: float) -> float:
 
 
 def _leap(following: Following, edges: Array, size: float) -> float:
-    """The greatest leap of the second derivative where parts meet."""
+    """The greatest jump of the second derivative where parts meet."""
     beside = 1e-9 * np.diff(edges)
     before, after = (following.at(places, 2)[1] for places in (edges[1:] - beside, edges[:-1] + beside))
     leap = float(np.abs(np.roll(after, -1) - before).max())

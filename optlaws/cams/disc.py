@@ -260,7 +260,7 @@ class FollowerCurve(PlaneCurve):
 
 
 def _check_smooth(motion: CamMotion) -> None:
-    """Refuse a motion whose velocity leaps or whose acceleration has no bound: a cam would have a corner."""
+    """Refuse a motion whose velocity jumps or whose acceleration has no bound: a cam would have a corner."""
     for stretch in motion.stretches:
         if not np.isfinite(stretch.extremes(2)).all():
             raise InputError(

@@ -261,7 +261,7 @@ class Cycle(CycleInterchange):
 
     @property
     def joints(self) -> tuple[dict[str, Any], ...]:
-        """Every joint: its time, and by how much velocity, acceleration and jerk leap there; 0 where they do not."""
+        """Every joint: its time, and by how much velocity, acceleration and jerk jump there; 0 where they do not."""
         return self._timed.jumps([self.peak(nu) for nu in (1, 2, 3)])
 
     @kept_property

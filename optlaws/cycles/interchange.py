@@ -107,7 +107,7 @@ class CycleInterchange(JsonText):
         return problem_file(title, clock, {axis: self})
 
     def to_pandas(self) -> Any:  # noqa: ANN401 - pandas is imported where it is asked for
-        """A data frame with a row for each segment: start, duration, end, peaks, leaps; SI units.
+        """A data frame with a row for each segment: start, duration, end, peaks, jumps; SI units.
 
         Needs the extra `optlaws[studies]`.
         """

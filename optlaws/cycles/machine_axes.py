@@ -336,7 +336,7 @@ class Axes(JsonText, Mapping[str, Cycle]):
         return problem_file(title, {"period": f"{self.duration!r} s"}, self, {"interlocks": interlocks})
 
     def to_pandas(self) -> Any:  # noqa: ANN401 - pandas is imported where it is asked for
-        """A data frame with a row for each segment of each axis: start, duration, peaks, leaps; SI units.
+        """A data frame with a row for each segment of each axis: start, duration, peaks, jumps; SI units.
 
         Needs the extra `optlaws[studies]`.
         """

@@ -216,7 +216,7 @@ def _broken_limits(shown: Cycle) -> dict[str, str]:
 
 
 def _facts(shown: Cycle) -> list[str]:
-    """What the drive takes, and leaps at the joints."""
+    """What the drive takes, and jumps at the joints."""
     rows = [*drive_rows(shown), *joint_rows(shown)]
     return [f"{row.name} {digits(row.value, 6)} {row.unit}" for row in rows]
 

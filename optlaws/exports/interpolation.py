@@ -15,7 +15,7 @@ Ends = Literal["clamped", "natural", "periodic"]
 
 
 def linear_powers(x: Array, y: Array) -> Array:
-    """Ascending powers of straight lines between points, a row for each piece: the velocity leaps at each point.
+    """Ascending powers of straight lines between points, a row for each piece: the velocity jumps at each point.
 
     >>> linear_powers(np.array([0.0, 1.0, 3.0]), np.array([0.0, 2.0, 0.0])).tolist()
     [[0.0, 2.0], [2.0, -1.0]]
@@ -41,7 +41,7 @@ def spline_powers(x: Array, y: Array, ends: Ends = "clamped", slopes: tuple[floa
 
 
 def akima_powers(x: Array, y: Array) -> Array:
-    """Ascending powers of Akima's cubics, as Modelica's tables take them: the acceleration leaps at each point.
+    """Ascending powers of Akima's cubics, as Modelica's tables take them: the acceleration jumps at each point.
 
     >>> x = np.linspace(0.0, 1.0, 6)
     >>> akima_powers(x, x**2)[0].round(9).tolist()

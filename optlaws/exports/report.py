@@ -1,4 +1,4 @@
-"""The report of a run beside its law: peaks, leaps, deviation, travel, and what a task of the drive makes of it."""
+"""The report of a run beside its law: peaks, jumps, deviation, travel, and what a task of the drive makes of it."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ ROUNDING = 1e-9, 2.0**-46  # leaps below these shares, of the peak and of what p
 
 @dataclass(frozen=True)
 class Characteristics:
-    """Characteristics of a cam, those that TwinCAT computes (CamCharacteristics) and its leaps beside them.
+    """Characteristics of a cam, those that TwinCAT computes (CamCharacteristics) and its jumps beside them.
 
     Slave values are by the second where it is known how fast the master goes, else by the master's unit.
 
@@ -52,7 +52,7 @@ class Characteristics:
     leaps_at_ends: tuple[float, ...]
 
     def peak(self, nu: int) -> float:
-        """The greatest magnitude of the derivative of order nu; inf where a lower one leaps inside."""
+        """The greatest magnitude of the derivative of order nu; inf where a lower one jumps inside."""
         if any(leap.value for leap in self.leaps[: max(nu - 1, 0)]):
             return inf
         return max(abs(self.least[nu].value), abs(self.greatest[nu].value))
@@ -106,7 +106,7 @@ class Report:
     bound: float
 
     def ratio(self, nu: int) -> float:
-        """Peak of the run over the law's; inf where a lower derivative of the run leaps, nan where the law has none."""
+        """Peak of the run over the law's; inf where a lower derivative of the run jumps, nan where the law has none."""
         whole = self.law.peak(nu)
         return self.run.peak(nu) / whole if whole > 0.0 and isfinite(whole) else nan
 

@@ -129,7 +129,7 @@ def _fewest(ranks: dict[int, Rank]) -> int:
 
 @dataclass(frozen=True)
 class RunRanking:
-    """The reference of runs: the motion, its peaks of velocity and acceleration, and its leaps of the latter."""
+    """The reference of runs: the motion, its peaks of velocity and acceleration, and its jumps of the latter."""
 
     motion: Motion
     velocity: float

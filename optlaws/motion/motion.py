@@ -121,7 +121,7 @@ class Motion:
         return number_or_array(values_of_pieces(self.pieces, places, nu))
 
     def sides(self, nu: int) -> Iterator[tuple[float, float, float]]:
-        """Every joint of pieces inside, and leaps within laws: the place, the value before it and the one after."""
+        """Every joint of pieces inside, and jumps within laws: the place, the value before it and the one after."""
         for before, after in pairwise(self.pieces):
             yield after.start, before.end(nu, 1), after.end(nu, 0)
         for piece in self.pieces:
@@ -143,12 +143,12 @@ class Motion:
         return self._extrema[nu]
 
     def peak(self, nu: int) -> float:
-        """The greatest magnitude of the derivative of order nu; inf where a lower one leaps, joints included."""
+        """The greatest magnitude of the derivative of order nu; inf where a lower one jumps, joints included."""
         leaps = max((self.leap(lower)[0] for lower in range(1, nu)), default=0.0)
         return inf if leaps else self._size(nu)
 
     def leap(self, nu: int) -> Place:
-        """The greatest leap of the derivative of order nu inside, and its x; what is rounding beside its peak is 0."""
+        """The greatest jump of the derivative of order nu inside, and its x; what is rounding beside its peak is 0."""
         leaps = ((abs(after - before), x) for x, before, after in self.sides(nu))
         worst = max(leaps, default=(0.0, self.start), key=_value)
         return worst if worst[0] > JUMP * self._size(nu) else (0.0, self.start)

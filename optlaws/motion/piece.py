@@ -101,7 +101,7 @@ class Piece:
         return self._ends[nu][side]
 
     def leap(self, time: float, nu: int) -> float:
-        """The leap of the derivative of order nu at a time inside."""
+        """The jump of the derivative of order nu at a time inside."""
         places = ((self.start + k * self.duration, jump) for k, jump in self.law.jumps(nu))
         near = (jump for place, jump in places if abs(place - time) <= SAME_TIME * time)
         return factor(self.stroke, self.duration, nu) * sum(near)

@@ -131,7 +131,7 @@ class PiecewiseMotion:
         return table[:, 0].copy(), _horner(table, self.lengths)
 
     def jumps(self, nu: int) -> Array:
-        """The leap of the derivative of order nu at each break inside: the value after it less the one before.
+        """The jump of the derivative of order nu at each break inside: the value after it less the one before.
 
         Examples
         --------
@@ -142,7 +142,7 @@ class PiecewiseMotion:
         return first[1:] - last[:-1]
 
     def seam(self, nu: int) -> float:
-        """The leap of the derivative of order nu where the motion begins again; for nu 0 how far it leads back.
+        """The jump of the derivative of order nu where the motion begins again; for nu 0 how far it leads back.
 
         Examples
         --------

@@ -157,7 +157,7 @@ def _figure() -> tuple[Figure, list[Axes]]:
 
 
 def _curve(axes: Axes, edges: Array, values: Values, label: str, **style: Any) -> list[Artist]:
-    """A function that may leap at edges, where its line is drawn upright."""
+    """A function that may jump at edges, where its line is drawn upright."""
     inside = [np.linspace(low, high, 120) for low, high in pairwise(edges)]
     near = [part[0] + (part - part[0]) * (1.0 - 2e-9) + 1e-9 * (part[-1] - part[0]) for part in inside]
     at = np.concatenate(near)

@@ -72,7 +72,7 @@ class Loader(JsonText):
 
     @kept_property
     def C(self) -> float:
-        """Peak acceleration over the whole interval; inf where the executive acceleration leaps at its turn."""
+        """Peak acceleration over the whole interval; inf where the executive acceleration jumps at its turn."""
         return self.law.peak(2).value
 
     @kept_property

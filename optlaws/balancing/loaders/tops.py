@@ -119,7 +119,7 @@ def _end_of_flat(law: MotionLaw, B: float, first: float) -> float:
 
 
 def _polished(law: MotionLaw, k: float, low: float, high: float) -> float:
-    """A stationary point of b by Newton's method; a peak at a break, where c leaps, stays."""
+    """A stationary point of b by Newton's method; a peak at a break, where c jumps, stays."""
     for _ in range(3):
         c, j = law.c(k), law.j(k)
         if not (isfinite(c) and isfinite(j)) or j == 0.0 or abs(c / j) > TOP_STEP:

@@ -137,7 +137,7 @@ def _runs(
     variable_name: str,
     interpolation: TableKind,
 ) -> list[Formula]:
-    """The formula, or the tables between leaps, where a place is given twice."""
+    """The formula, or the tables between jumps, where a place is given twice."""
     pairs = list(given.items()) if isinstance(given, Mapping) else given
     if not isinstance(pairs, list | tuple):
         return [formula_of(given, dimensions, name, variable=variable_name, interpolation=interpolation)]

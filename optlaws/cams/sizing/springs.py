@@ -201,7 +201,7 @@ class _SpringTask:
 
     @kept_property
     def sides(self) -> Array:
-        """Angles beside the edges at which forces may leap, on both sides of each, ever nearer to it."""
+        """Angles beside the edges at which forces may jump, on both sides of each, ever nearer to it."""
         edges = self.forces.edges
         steps = np.multiply.outer(np.geomspace(BEFORE_BREAK, _NEAR, _BESIDE), np.diff(edges))
         return np.concatenate([(edges[:-1] + steps).ravel(), (edges[1:] - steps).ravel()])

@@ -65,7 +65,7 @@ class FormatOptions:
     interpolation
         How the controller is told to interpolate, where it can be told.
     task
-        Time of the drive's task, such as "1 ms": the report then says what it hears once in each.
+        Time of the drive's task, such as "1 ms": the report gives what the drive reads in each.
     name
         Of the variable, the table or the joint.
     """

@@ -36,7 +36,7 @@ class FollowerOptions:
     duration
         In place of --speed and --rise: duration of the rise with its unit, such as "0.1 s".
     stroke
-        Stroke of the cam with its unit, such as "35 mm" or "20 deg": peaks and vibration in machine units are told too.
+        Stroke of the cam with its unit, such as "35 mm" or "20 deg": peaks and vibration in these units are shown too.
     damping
         Damping ratio of the follower.
     """

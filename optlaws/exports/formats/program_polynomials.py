@@ -74,7 +74,7 @@ def fields(**values: object) -> str:
 
 
 def leaps_of_single(run: PiecewiseMotion) -> tuple[float, ...]:
-    """The greatest leaps of velocity, acceleration and jerk where polynomials meet, for the rounding of REAL32."""
+    """The greatest jumps of velocity, acceleration and jerk where polynomials meet, for the rounding of REAL32."""
     return tuple(2.0 * bound for bound in error_bounds(run, SINGLE)[1:])
 
 
@@ -94,7 +94,7 @@ class Ends(NamedTuple):
 
 
 def ends_of(motion: Motion, run: PiecewiseMotion, orders: int) -> list[Ends]:
-    """Pieces by their ends; where nothing but rounding leaps both sides of a joint have the same values.
+    """Pieces by their ends; where nothing but rounding jumps both sides of a joint have the same values.
 
     Positions that powers end at miss by their roundings; what the next piece begins with, and the motion's own end,
     do not.
@@ -110,14 +110,14 @@ def ends_of(motion: Motion, run: PiecewiseMotion, orders: int) -> list[Ends]:
 
 
 def rounding(run: PiecewiseMotion, nu: int) -> float:
-    """The greatest leap of the derivative of order nu that is no more than rounding."""
+    """The greatest jump of the derivative of order nu that is no more than rounding."""
     size = max(abs(extreme.value) for extreme in run.extremes(nu))
     # positions are rounded, and what is left of that in a derivative grows as pieces get shorter
     return float(max(POLYNOMIAL_ROUNDING * size, 2.0**-44 * run.peak(0).value / float(run.lengths.min()) ** nu))
 
 
 def leaping(run: PiecewiseMotion, nu: int) -> float | None:
-    """The first break where the derivative of order nu leaps by more than rounding; None where there is none."""
+    """The first break where the derivative of order nu jumps by more than rounding; None where there is none."""
     small = rounding(run, nu)
     for x, leap in zip(run.breaks[1:], run.jumps(nu).tolist(), strict=False):
         if abs(leap) > small:
@@ -126,7 +126,7 @@ def leaping(run: PiecewiseMotion, nu: int) -> float | None:
 
 
 def refuse_leaps(motion: Motion, run: PiecewiseMotion, holder: str, remedy: str) -> None:
-    """Refuse polynomials whose velocity or acceleration leaps, for what holds one value of each at a point."""
+    """Refuse polynomials whose velocity or acceleration jumps, for what holds one value of each at a point."""
     for nu, quantity in ((1, "velocity"), (2, "acceleration")):
         x = leaping(run, nu)
         if x is not None:

@@ -124,7 +124,7 @@ class FourBarKinematics:
         return (share * dx - self.height * dy) / self.square, (share * dy + self.height * dx) / self.square
 
     def rocker_position(self, ends: tuple[float, float]) -> Formula | None:
-        """The rocker's angle from the frame, without a leap over a range of x; None where it turns too far."""
+        """The rocker's angle from the frame, without a jump over a range of x; None where it turns too far."""
         x = np.linspace(*ends, _LOOKS)
         ex, ey = (self.values(part, x) for part in self.rocker_direction)
         angles = np.unwrap(np.arctan2(ey, ex))
