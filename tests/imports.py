@@ -85,6 +85,7 @@ def _imports_of(name: str, path: Path, known: dict[str, Path]) -> Iterator[Impor
                 yield Import(name, target, node.lineno, id(node) in typing)
 
 
+@cache
 def declared(package: Path) -> list[tuple[str, Import]]:
     """What the tables of the package's face say in strings: a registry's subject, and its import of a module."""
     owners = {

@@ -5,6 +5,8 @@ import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
 
+import pytest
+
 from tests.explorer.talk import OPTIMAL, Server
 from tests.internals.explorer import example
 
@@ -17,6 +19,7 @@ QUESTIONS = {
 }
 
 
+@pytest.mark.long
 def test_the_first_questions_of_a_new_server_may_come_together() -> None:
     arguments = [sys.executable, "-m", "optlaws", "explore", "cycloidal", "--no-browser", "--port", "0"]
     with subprocess.Popen(arguments, stdout=subprocess.PIPE, text=True) as running:

@@ -159,7 +159,7 @@ def registered() -> Iterator[None]:
         ("dies", "worker died", "its process died 3 times: signal 9"),
         pytest.param("hangs", "time limit", "no answer within 2 s", marks=pytest.mark.long),
         pytest.param("dies_forked", "worker died", "its process died 3 times: signal 9", marks=pytest.mark.long),
-        ("hangs_forked", "time limit", "no answer within 2 s"),
+        pytest.param("hangs_forked", "time limit", "no answer within 2 s", marks=pytest.mark.long),
     ],
 )
 def test_a_point_in_trouble_is_one_row(tmp_path: Path, trouble: str, status: str, error: str) -> None:

@@ -62,6 +62,7 @@ def least_acceleration(instant: float) -> float:
     return float(answer.fun) if answer.status == 0 else np.inf
 
 
+@pytest.mark.long
 def test_a_pick_and_place_beside_linear_programs_over_a_grid_of_instants(gentle: Any) -> None:  # noqa: ANN401
     grid = [least_acceleration(instant) for instant in np.arange(0.5, 0.651, 0.05)]
     known = min(grid) / pick_and_place()["x"].peak(2)
@@ -73,6 +74,7 @@ def test_a_pick_and_place_beside_linear_programs_over_a_grid_of_instants(gentle:
     assert gentle.status == "local"
 
 
+@pytest.mark.long
 def test_laws_that_bend_keep_their_limits_and_interlocks(gentle: Any) -> None:  # noqa: ANN401
     given = pick_and_place()
     slide = gentle.axes["x"]
@@ -87,16 +89,24 @@ def test_laws_that_bend_keep_their_limits_and_interlocks(gentle: Any) -> None:  
     assert not ((x > 0.05 + 1e-9) & (x < 0.25 - 1e-9) & (z < 0.04 - 1e-9)).any()
 
 
-@pytest.mark.parametrize("size", [1e-6, pytest.param(1e6, marks=pytest.mark.long)])
-def test_the_least_time_of_one_axis_is_that_of_seven_segments(size: float) -> None:
-    """In machines of all sizes, at times of seconds: two moves of jerk, acceleration, jerk, and the same back."""
+LONG = pytest.mark.long
+
+
+@pytest.mark.parametrize(
+    ("moves", "size"), [(1, 1e-6), pytest.param(2, 1e-6, marks=LONG), pytest.param(2, 1e6, marks=LONG)]
+)
+def test_the_least_time_of_one_axis_is_that_of_seven_segments(moves: int, size: float) -> None:
+    """In machines of all sizes, at times of seconds: a move of jerk, acceleration, jerk that goes on, or comes back."""
     limits = {"acceleration": f"{size!r} m/s^2", "jerk": f"{2.0 * size!r} m/s^3"}
-    there, back = Rise(f"{size!r} m", "4 s"), Return(None, "4 s")
-    alone: Any = {"slide": {"segments": [there, Dwell("1 s"), back, Dwell("1 s")], "limits": limits}}
-    best = Axes(alone, period="10 s").fastest()
+    there, back, wait = Rise(f"{size!r} m", "4 s"), Return(None, "4 s"), Dwell("1 s")
+    slide = (
+        {"advance": f"{size!r} m", "segments": [there, wait]} if moves == 1 else {"segments": [there, wait, back, wait]}
+    )
+    alone: Any = {"slide": slide | {"limits": limits}}
+    best = Axes(alone, period=f"{5 * moves} s").fastest()
     # u (u / a + a / j) = h
     speed = 0.5 * (-0.5 + np.sqrt(0.25 + 4.0))
-    known = 2.0 * (2.0 * (speed + 0.5)) + 2.0
+    known = moves * (2.0 * (speed + 0.5) + 1.0)
     assert best.lower_bound <= known * (1.0 + 1e-9)
     assert known * (1.0 - 1e-9) <= best.objective <= known * 1.003
     assert best.gap < 6e-3

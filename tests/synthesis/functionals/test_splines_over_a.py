@@ -50,7 +50,7 @@ def _above(law: MotionLaw, place: float, k: Array) -> Array:
     [
         ("spline", 5, 0),
         ("spline", 12, 9),
-        ("spline", 50, 41),
+        pytest.param("spline", 50, 41, marks=pytest.mark.long),
         ("table", 2, 0),
         ("table", 9, 7),
     ],
