@@ -67,6 +67,7 @@ export function enclosed(motion, name) {
     return [high.sign ? square.over(high).rounded(-1) : ZERO, high];
   }
   if (name === "D") return extreme(motion.map((piece) => multiplied(of(piece, 1), of(piece, 2))), [1, -1]);
+  if (!(name in PEAKS)) throw new Unknown(`the constant ${name}`);
   const [nu, signs] = PEAKS[name];
   return extreme(motion.map((piece) => of(piece, nu)), signs);
 }
