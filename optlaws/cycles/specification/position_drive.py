@@ -15,7 +15,7 @@ from optlaws.mechanisms.linkages.dimensionless import DimensionlessMechanism
 from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.motion.piece import Piece
 from optlaws.numbers import Array
-from optlaws.tolerances import TINY
+from optlaws.tolerances import TINY, VALUE_ROUNDING
 
 
 @dataclass(frozen=True)
@@ -84,9 +84,11 @@ class PositionDrive:
         return np.asarray(self.source.torque(y, velocity, acceleration), dtype=np.float64) + process
 
     def along(self, piece: Piece, times: Array) -> Array:
-        """The torque or force at times in a piece."""
+        """The torque or force at times in a piece; where a move stands still but for rounding it is that on its way."""
         y, velocity, acceleration = (piece.values(times, nu) for nu in range(3))
-        return self._torque(y, velocity, acceleration, times)
+        still = np.abs(velocity) <= VALUE_ROUNDING * abs(piece.stroke) / piece.duration
+        moving = np.where(still, TINY * np.sign(piece.stroke), velocity)
+        return self._torque(y, moving, acceleration, times)
 
     def at_joint(self, motion: tuple[float, float, float], direction: float, time: float) -> float:
         """The torque or force where a move begins or ends, on its way in a direction."""
