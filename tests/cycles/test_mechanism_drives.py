@@ -190,3 +190,13 @@ def test_pictures_of_a_cycle_with_a_motor() -> None:
         Cycle(cycle.segments, **EACH, drive=TABLE).plot(over="speed")
     with pytest.raises(InputError, match="over"):
         cycle.plot(over="tme")  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("limit", ["700 deg/s", "800 deg/s", "1100 deg/s"])
+def test_friction_at_the_first_instant_is_that_of_the_way(limit: str) -> None:
+    """The acceleration is 0 there, and rounding decides the sign of the velocity."""
+    rubbing = Mechanism("0.8 kg m^2", coulomb="0.3 N m")
+    cycle = Cycle(STROKES, period="1 s", drive=rubbing, limits={"velocity": limit})
+    assert cycle.force(0.0) == pytest.approx(0.3, rel=1e-6)
+    assert cycle.force(0.4) == pytest.approx(-0.3, rel=1e-6)
+    assert cycle.force(0.35) == 0.0
