@@ -29,6 +29,7 @@ _METHODS = multiprocessing.get_all_start_methods()
 _KIND = "forkserver" if "forkserver" in _METHODS else "spawn"
 _OUT_OF_TIME = -signal.SIGPROF if hasattr(signal, "SIGPROF") else None
 Reply = tuple[int, bytes]
+_ENDED: Reply = FAULT, message("the process that computed this ended before its answer")
 
 
 class Worker:
@@ -57,6 +58,8 @@ class Worker:
 
     async def answer(self, name: str, body: bytes, patience: float) -> Reply:
         """The answer to a question; where the process ends before it, a sentence that says so."""
+        if self._ended:
+            return _ENDED
         return await asyncio.get_running_loop().run_in_executor(self._thread, self._exchange, name, body, patience)
 
     def _exchange(self, name: str, body: bytes, patience: float) -> Reply:
@@ -68,7 +71,7 @@ class Worker:
             in_time = self._process.exitcode != _OUT_OF_TIME
             self.end()
             if in_time:
-                return FAULT, message("the process that computed this ended before its answer")
+                return _ENDED
             return OK, late(patience)
         return reply
 
@@ -89,28 +92,34 @@ class Workers:
         self._busy = False
         self._newcomers: list[asyncio.Future[None]] = []
         self._long = asyncio.Semaphore(_LONG)
-        self._closed = False
+        self._closed = asyncio.Event()
 
     async def prepare(self) -> None:
         """Begin processes before the first question."""
-        while len(self._idle) < _IDLE and not self._closed:
+        while len(self._idle) < _IDLE and not self._closed.is_set():
             worker = await Worker.begun()
             self._all.add(worker)
             self._idle.append(worker)
+        if self._closed.is_set():  # meanwhile
+            self.close()
 
     def close(self) -> None:
         """End all processes; questions under way are answered with a sentence."""
-        self._closed = True
+        self._closed.set()
         for worker in self._all:
             worker.end()
 
     async def answer(self, name: str, body: bytes, patience: float = USUAL) -> Reply:
         """The answer to a question, which may take so many seconds; its process ends where the answer is cancelled."""
         async with self._turn():
+            if self._closed.is_set():
+                return _ENDED
             worker, reply = await self._begun(name, body, patience)
             await self._wait(worker, reply, SLICE, end=self._long.locked())
         if not reply.done():
             async with self._long:
+                if self._closed.is_set():
+                    return _ENDED
                 if not worker.alive:
                     worker, reply = await self._begun(name, body, patience)
                 await self._wait(worker, reply, _WAITED * patience, end=True)
@@ -124,7 +133,7 @@ class Workers:
         self._all = {worker for worker in self._all if worker.alive}
         self._idle = [worker for worker in self._idle if worker.alive]
         await self.prepare()
-        worker = self._idle.pop() if self._idle else next(iter(self._all))
+        worker = self._idle.pop()
         return worker, asyncio.create_task(worker.answer(name, body, patience))
 
     @staticmethod
