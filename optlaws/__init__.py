@@ -91,8 +91,8 @@ _load, __dir__, __all__ = face(
         "optlaws.synthesis.limits.drive_limits": "DriveLimit drive_limit",
         "optlaws.synthesis.limits.laws": "limit_law",
         "optlaws.synthesis.pareto": "Front pareto_front",
-        "optlaws.synthesis.problem.constants": "FUNCTIONALS B C C_minus C_plus D Functional J jounce "
-        "rms_c rms_j rms_jounce",
+        "optlaws.synthesis.problem.constants": "FUNCTIONALS B C C_minus C_plus D Functional J snap "
+        "rms_c rms_j rms_snap",
         "optlaws.synthesis.problem.expression": "Expression maximum",
         "optlaws.synthesis.problem.problem": "Problem",
         "optlaws.synthesis.problem.ranges": "Range at_least at_most between",

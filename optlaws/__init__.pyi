@@ -157,10 +157,10 @@ from optlaws.synthesis.problem.constants import C_plus as C_plus
 from optlaws.synthesis.problem.constants import D as D
 from optlaws.synthesis.problem.constants import Functional as Functional
 from optlaws.synthesis.problem.constants import J as J
-from optlaws.synthesis.problem.constants import jounce as jounce
 from optlaws.synthesis.problem.constants import rms_c as rms_c
 from optlaws.synthesis.problem.constants import rms_j as rms_j
-from optlaws.synthesis.problem.constants import rms_jounce as rms_jounce
+from optlaws.synthesis.problem.constants import rms_snap as rms_snap
+from optlaws.synthesis.problem.constants import snap as snap
 from optlaws.synthesis.problem.expression import Expression as Expression
 from optlaws.synthesis.problem.expression import maximum as maximum
 from optlaws.synthesis.problem.problem import Problem as Problem
@@ -335,7 +335,6 @@ __all__ = [
     "inertial_loader",
     "integral",
     "jerk_limited_move",
-    "jounce",
     "law_from_z",
     "law_through",
     "least_base_circle",
@@ -370,7 +369,7 @@ __all__ = [
     "rms",
     "rms_c",
     "rms_j",
-    "rms_jounce",
+    "rms_snap",
     "rocker_law",
     "run_study",
     "savin",
@@ -379,6 +378,7 @@ __all__ = [
     "shaped_law",
     "slider_crank",
     "smoothstep",
+    "snap",
     "split_table",
     "sweep",
     "synthesize",

@@ -11,7 +11,7 @@ from typing import Any, TypeVar
 from optlaws.echo import shortened
 
 #: what people call the constants of a law
-CONSTANTS = {"velocity": "B", "speed": "B", "acceleration": "C", "power": "D", "jerk": "J", "snap": "jounce"}
+CONSTANTS = {"velocity": "B", "speed": "B", "acceleration": "C", "power": "D", "jerk": "J"}
 
 _LONGEST_NAME = 100
 

@@ -16,10 +16,10 @@ from optlaws.synthesis.problem.constants import C_plus as C_plus
 from optlaws.synthesis.problem.constants import D as D
 from optlaws.synthesis.problem.constants import Functional as Functional
 from optlaws.synthesis.problem.constants import J as J
-from optlaws.synthesis.problem.constants import jounce as jounce
 from optlaws.synthesis.problem.constants import rms_c as rms_c
 from optlaws.synthesis.problem.constants import rms_j as rms_j
-from optlaws.synthesis.problem.constants import rms_jounce as rms_jounce
+from optlaws.synthesis.problem.constants import rms_snap as rms_snap
+from optlaws.synthesis.problem.constants import snap as snap
 from optlaws.synthesis.problem.expression import Expression as Expression
 from optlaws.synthesis.problem.expression import Maximum as Maximum
 from optlaws.synthesis.problem.expression import Term as Term
@@ -102,7 +102,6 @@ __all__ = [
     "basis",
     "between",
     "drive_limit",
-    "jounce",
     "law_from_z",
     "limit",
     "limit_law",
@@ -112,7 +111,8 @@ __all__ = [
     "proven_front",
     "rms_c",
     "rms_j",
-    "rms_jounce",
+    "rms_snap",
+    "snap",
     "sweep",
     "synthesize",
     "synthesize_array",

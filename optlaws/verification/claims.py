@@ -17,7 +17,7 @@ from optlaws.numbers import listed
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.limits.drive_limits import DriveLimit
 from optlaws.synthesis.limits.rounding import rounded_down, rounded_up
-from optlaws.synthesis.problem.constants import FUNCTIONALS
+from optlaws.synthesis.problem.constants import FUNCTIONALS, present_name
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
 from optlaws.synthesis.proof.data import problem_of
@@ -325,9 +325,10 @@ def _constants(entry: FileEntry) -> Iterator[Claim]:
         raise InputError("values of a front claim something of a point without a law")
     law = _law(entry.data)
     for name, value in entry.around.values.items():
-        if name not in FUNCTIONALS:
+        constant = FUNCTIONALS.get(present_name(name))
+        if constant is None:
             raise InputError(unknown_key(name, FUNCTIONALS, "constant"))
-        yield near(f"the front's {name}", value, enclosed(law.term(FUNCTIONALS[name])))
+        yield near(f"the front's {name}", value, enclosed(law.term(constant)))
 
 
 #: what an entry is, and how it is verified; the first that fits

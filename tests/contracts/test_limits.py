@@ -237,9 +237,9 @@ def test_the_limit_of_a_problem_is_below_what_is_found(asked: dict[str, Any]) ->
 @pytest.mark.parametrize(
     "asked",
     [
-        {"minimise": "jounce", "B": 1.7},
+        {"minimise": "snap", "B": 1.7},
         {"minimise": "C", "order": 1},
-        {"minimise": "C + jounce", "B": 1.7},
+        {"minimise": "C + snap", "B": 1.7},
         {"minimise": "C", "boundary": BoundaryConditions((0.0, 0.5), (1.0, 0.25))},
     ],
 )

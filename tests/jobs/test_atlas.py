@@ -124,7 +124,7 @@ def test_where_no_degree_has_a_law_the_proof_is_of_the_greatest() -> None:
     ("asked", "message"),
     [
         ({"order": 7}, "the atlas has order = 2, 3, 4, 5, not 7"),
-        ({"minimise": "jounce"}, "the atlas has minimise = C, D, J, rms_c, not jounce"),
+        ({"minimise": "snap"}, "the atlas has minimise = C, D, J, rms_c, not snap"),
         ({"B": 9.0}, "the atlas has B from 1.3 to 2.7, not 9"),
         ({"most": {"rms": 4.0}}, "did you mean 'rms_c'"),
         ({"most": {"C": 3.0}}, r"keeps C <= 3 \(the least there is 4\.\d+\)"),

@@ -100,8 +100,8 @@ def test_lists_run_together_and_multiply_with_the_rest() -> None:
 
 def test_places_in_text_bounds_and_free_constants() -> None:
     assert filled("{w}*C/4 + {1-w}*rms_c/3.5", {"w": 0.25}) == "0.25*C/4 + 0.75*rms_c/3.5"
-    base = {"order": 4, "minimise": "{w}*C/4 + {1-w}*rms_c/3.5", "B": 1.7, "bounds": {"jounce": [0, 900]}}
-    asked = entries(base, {"w": 0.25, "bounds.rms_c": 4.0, "B": "free", "bounds.jounce": "free"})
+    base = {"order": 4, "minimise": "{w}*C/4 + {1-w}*rms_c/3.5", "B": 1.7, "bounds": {"snap": [0, 900]}}
+    asked = entries(base, {"w": 0.25, "bounds.rms_c": 4.0, "B": "free", "bounds.snap": "free"})
     assert Problem.from_dict(asked) == Problem(order=4, minimise="0.25*C/4 + 0.75*rms_c/3.5", bounds={"rms_c": 4.0})
 
 
@@ -124,7 +124,7 @@ def test_upper_bounds_vary_along_spans_samples_and_lists_together() -> None:
     over = {"at_most.rms_c": {"from": 3.5, "to": 5.0}, "at_least.B": {"from": 1.5, "to": 1.6}}
     places = points(
         vary={"at_most.J": {"from": 40.0, "to": 4000.0, "steps": 3, "scale": "log"}},
-        together=[{"at_most.jounce": [900.0, 9000.0], "degree": [9, 11]}],
+        together=[{"at_most.snap": [900.0, 9000.0], "degree": [9, 11]}],
         sample=[{"kind": "sobol", "points": 4, "seed": 1, "over": over}],
     )
     problems = [Problem.from_dict(entries({"order": 4}, places.inputs(i))) for i in range(len(places))]
@@ -134,7 +134,7 @@ def test_upper_bounds_vary_along_spans_samples_and_lists_together() -> None:
         problem.bounds["rms_c"].low == 0.0 and 3.5 <= problem.bounds["rms_c"].high <= 5.0 for problem in problems
     )
     assert all(isinstance(problem.B, Range) and 1.5 <= problem.B.low <= 1.6 for problem in problems)
-    assert {problem.bounds["jounce"] for problem in problems} == {at_most(900.0), at_most(9000.0)}
+    assert {problem.bounds["snap"] for problem in problems} == {at_most(900.0), at_most(9000.0)}
 
 
 def test_a_key_depends_on_the_problem_alone() -> None:

@@ -22,10 +22,10 @@ def test_every_entry_is_read() -> None:
         degree=3,
         breaks=[0, 0.3, 0.7, 1],
         continuity=2,
-        bounds={"rms_c": [0, 4], "jounce": 900.0},
+        bounds={"rms_c": [0, 4], "snap": 900.0},
     )
     assert found == Problem(
-        order=3, basis=BSplines((0, 0.3, 0.7, 1), 3, 2), bounds={"rms_c": at_most(4), "jounce": 900.0}
+        order=3, basis=BSplines((0, 0.3, 0.7, 1), 3, 2), bounds={"rms_c": at_most(4), "snap": 900.0}
     )
     assert asked(order=3, basis="pieces", degree=4, breaks=8, bounds={"rms_c": [3.5, 4]}) == Problem(
         order=3, basis=Pieces(8, 4), bounds={"rms_c": between(3.5, 4)}

@@ -250,7 +250,7 @@ def test_directories_of_earlier_versions_are_known_by_the_hash_of_their_study() 
                 "kind": "sobol",
                 "points": 2,
                 "seed": 1,
-                "over": {"at_most.jounce": {"from": 900, "to": 9e5, "scale": "log"}},
+                "over": {"at_most.snap": {"from": 900, "to": 9e5, "scale": "log"}},
             }
         ],
         "chunk": 9,

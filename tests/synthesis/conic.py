@@ -24,7 +24,7 @@ from tests.synthesis.numpy_laws import Laws, Undecided, grid, laws_of
 
 Array = NDArray[np.float64]
 Terms = Iterable[tuple[float, Term]]
-DERIVATIVES = {"B": 1, "C": 2, "C_plus": 2, "C_minus": 2, "J": 3, "jounce": 4}
+DERIVATIVES = {"B": 1, "C": 2, "C_plus": 2, "C_minus": 2, "J": 3, "snap": 4}
 SIGNS = {"C_plus": (1.0,), "C_minus": (-1.0,)}
 
 

@@ -19,7 +19,7 @@ from optlaws.synthesis import Maximum
 from tests.synthesis.independent import polynomial
 
 HALF = Fraction(1, 2)
-ORDER = {"b": 1, "C": 2, "C_plus": 2, "C_minus": 2, "J": 3, "jounce": 4}
+ORDER = {"b": 1, "C": 2, "C_plus": 2, "C_minus": 2, "J": 3, "snap": 4}
 NORM = {"rms_c": 2, "rms_j": 3}
 
 

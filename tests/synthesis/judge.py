@@ -24,8 +24,8 @@ from tests.synthesis.independent import DENSE
 Array = NDArray[np.float64]
 
 #: constants of one derivative, by its order
-PEAKS = {"B": 1, "C": 2, "J": 3, "jounce": 4}
-SQUARES = {"rms_c": 2, "rms_j": 3, "rms_jounce": 4}
+PEAKS = {"B": 1, "C": 2, "J": 3, "snap": 4}
+SQUARES = {"rms_c": 2, "rms_j": 3, "rms_snap": 4}
 
 
 @dataclass(frozen=True)

@@ -25,7 +25,7 @@ from tests.synthesis.independent import polynomial
 CONVEX = (
     "C",
     "J",
-    "jounce",
+    "snap",
     "rms_c",
     "rms_j",
     "C_plus",

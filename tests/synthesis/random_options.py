@@ -207,10 +207,7 @@ def _residual(numbers: Numbers) -> Functional:
 
 #: by the name that text calls them by, all constants there are
 CONSTANTS: Mapping[str, Callable[[Numbers], Functional]] = {
-    **{
-        name: _named(name)
-        for name in ("B", "C", "C_plus", "C_minus", "D", "J", "jounce", "rms_c", "rms_j", "rms_jounce")
-    },
+    **{name: _named(name) for name in ("B", "C", "C_plus", "C_minus", "D", "J", "snap", "rms_c", "rms_j", "rms_snap")},
     **{f"{name}_cam": _cam(name) for name in ("B", "C", "C_plus", "C_minus", "D", "J")},
     "residual": _residual,
 }
@@ -260,8 +257,8 @@ IN_UNITS: Mapping[str, tuple[Callable[[Numbers], Functional], int, int]] = {
 NEEDS: Mapping[str, tuple[int, int]] = {
     "J": (0, 2),
     "rms_j": (0, 2),
-    "jounce": (0, 3),
-    "rms_jounce": (0, 3),
+    "snap": (0, 3),
+    "rms_snap": (0, 3),
     "residual": (4, 3),
     "J_cam": (5, 4),
     **{f"{name}_cam": (4, 3) for name in ("B", "C", "C_plus", "C_minus", "D")},

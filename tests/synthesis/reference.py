@@ -25,7 +25,7 @@ from tests.synthesis.judge import as_range
 
 Array = NDArray[np.float64]
 Terms = tuple[tuple[float, Term], ...]
-PEAKS = {"C": 2, "C_plus": 2, "C_minus": 2, "J": 3, "jounce": 4, "B": 1}
+PEAKS = {"C": 2, "C_plus": 2, "C_minus": 2, "J": 3, "snap": 4, "B": 1}
 SIGNS = {"C_plus": (1.0,), "C_minus": (-1.0,)}
 NORMS = {"rms_c": 2, "rms_j": 3}
 

@@ -44,7 +44,7 @@ FAST = Machine.from_modes([(37.2, 0.01)], duration=1.0, stroke=1.0, outputs=["de
 CASES = {
     # a root mean square that is 0 has no direction of its own
     "norm at its apex": (
-        Problem(order=1, basis=PIECES, minimise="0.24*C_plus + 0.96*rms_jounce", monotone=True, symmetric=False),
+        Problem(order=1, basis=PIECES, minimise="0.24*C_plus + 0.96*rms_snap", monotone=True, symmetric=False),
         -0.48,
     ),
     "amplitude that vanishes": (
@@ -80,20 +80,20 @@ CASES = {
         ),
         None,
     ),
-    "integral bounded, beside a flat jounce": (
+    "integral bounded, beside a flat snap": (
         Problem(
             order=5,
             basis=Pieces(
                 breaks=(0.0, 0.024, 0.184, 0.208, 0.488, 0.5, 0.512, 0.792, 0.816, 0.976, 1.0), degree=7, continuity=3
             ),
-            minimise="jounce",
+            minimise="snap",
             symmetric=False,
             bounds={"integral(0.0046*b^2 + 0.00504*c^2)": at_most(0.213875)},
         ),
         None,
     ),
     "small amplitude of a fast mode": (
-        Problem(order=5, basis=Chebyshev(1), minimise="jounce", bounds={FAST.residual(): at_most(1e-8)}),
+        Problem(order=5, basis=Chebyshev(1), minimise="snap", bounds={FAST.residual(): at_most(1e-8)}),
         None,
     ),
     "breaks on one side": (
@@ -147,7 +147,7 @@ CASES = {
         Problem(
             order=1,
             basis=Pieces(breaks=(0.0, 0.063, 0.339, 0.373, 0.486, 1.0), degree=4, continuity=3),
-            minimise="0.81*rms_jounce + 0.26*D",
+            minimise="0.81*rms_snap + 0.26*D",
             monotone=True,
             symmetric=False,
             boundary=BoundaryConditions(start=(0.0,), end=(0.4,)),
@@ -162,20 +162,20 @@ CASES = {
             order=1,
             basis=BSplines(breaks=(0.0, 0.179, 0.5, 0.821, 1.0), degree=5, continuity=3),
             minimise="max(0.2487*D, max(2.906e-09*rms(361000000*(1 + k)*c), 0.01246*J))",
-            bounds={"rms_jounce": at_most(278.79)},
+            bounds={"rms_snap": at_most(278.79)},
         ),
         0.0,
     ),
-    "jounce that jumps at a break": (
+    "snap that jumps at a break": (
         Problem(
             order=5,
             basis=Pieces(
                 breaks=(0.0, 0.042, 0.205, 0.247, 0.479, 0.5, 0.521, 0.753, 0.795, 0.958, 1.0), degree=7, continuity=3
             ),
-            minimise="max(0.11264*rms_c, 0.0014478*rms_jounce)",
+            minimise="max(0.11264*rms_c, 0.0014478*rms_snap)",
             symmetric=False,
             boundary=BoundaryConditions(start=(0.0, 0.236, 0.0, 0.0, 0.0), end=(1.0, 0.3, 0.0, 0.0, 0.0)),
-            bounds={"jounce": at_most(685.431173080242)},
+            bounds={"snap": at_most(685.431173080242)},
         ),
         None,
     ),
@@ -270,7 +270,7 @@ def test_a_law_whose_constants_are_great_keeps_its_ends() -> None:
         order=6,
         basis=Pieces(breaks=breaks, degree=8, continuity=3),
         minimise="0.0151183970856102*rms_j + 0.5*max(1.8255578093306288e-05*peak(4700*c - 2500*b, side=high), "
-        "0.0008844765342960289*rms_jounce + 1.2723214285714284e-09*rms(43600000*(1 + k)*c))",
+        "0.0008844765342960289*rms_snap + 1.2723214285714284e-09*rms(43600000*(1 + k)*c))",
         symmetric=True,
         windows=(
             Window("1.32*b - 0.61*a", high=3.097535802690766, start=0.277, stop=0.4),

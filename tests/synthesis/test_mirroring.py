@@ -19,7 +19,7 @@ KINDS: list[dict[str, Any]] = [
     {"minimise": "rms_c", "C": at_most(5.2)},
     {"B": 2.4, "monotone": True},
     {"order": 1, "B": 1.6},
-    {"minimise": "C + 0.1*jounce", "B": 6.0},
+    {"minimise": "C + 0.1*snap", "B": 6.0},
     {"minimise": "max(0.25*C, 0.03*J)", "basis": Pieces(6), "B": 1.8},
     {"basis": BSplines(6, 3), "B": between(1.5, 1.7)},
 ]

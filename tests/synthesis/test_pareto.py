@@ -141,7 +141,7 @@ def test_worse_laws_are_left_out() -> None:
         (L4, ("B",), "two or three constants"),
         (L4, ("B", "B"), "each once"),
         (L4, ("B", "X"), "'X'"),
-        (L4, ("jounce + C", "C"), "is no constant of a law but an expression"),
+        (L4, ("snap + C", "C"), "is no constant of a law but an expression"),
         (L4, ("B", 3), "over names constants"),
         (Problem(B=1.6, order=4), ("B", "C"), "B is exchanged"),
         (Problem(order=4, C=6.0), ("B", "C"), "C is exchanged"),

@@ -11,7 +11,7 @@ CASES: list[dict[str, Any]] = [
     {"B": 1.8, "symmetric": False, "inflexion": 0.4},
     {"symmetric": False, "inflexion": 0.4, "minimise": "max(C_plus, C_minus/2)"},
     {"B": 1.8, "bounds": {"rms_c": at_most(3.82)}},
-    {"B": 1.8, "bounds": {"jounce": at_most(900)}},
+    {"B": 1.8, "bounds": {"snap": at_most(900)}},
     {"symmetric": False, "bounds": {"C_minus": at_most(4)}, "minimise": "C_plus"},
 ]
 

@@ -33,7 +33,7 @@ pytest.importorskip("flint")
 DEGREE_9 = Chebyshev(9)
 KINDS = [
     Problem(B=1.5, order=1, basis=DEGREE_9),
-    Problem(B=1.9, order=6, basis=Chebyshev(11), minimise="jounce"),
+    Problem(B=1.9, order=6, basis=Chebyshev(11), minimise="snap"),
     Problem(B=1.9, order=3, basis=DEGREE_9, minimise="rms_j"),
     Problem(B=1.75, order=2, basis=DEGREE_9, minimise="C_plus"),
     Problem(B=1.75, order=3, basis=DEGREE_9, minimise="C_plus", symmetric=False),
@@ -41,7 +41,7 @@ KINDS = [
     Problem(order=3, basis=DEGREE_9, windows=(Window("b", high=1.5, start=0.2, stop=0.8),)),
     Problem(order=3, basis=DEGREE_9, minimise="J", windows=(Window("c", high=3.5, start=0.2, stop=0.8),)),
     Problem(order=3, basis=DEGREE_9, minimise="C", J=at_most(70)),
-    Problem(order=4, basis=DEGREE_9, B=between(1.5, 1.8), bounds={"jounce": at_most(3000)}),
+    Problem(order=4, basis=DEGREE_9, B=between(1.5, 1.8), bounds={"snap": at_most(3000)}),
     Problem(order=4, basis=DEGREE_9, B=at_least(2.0), minimise="max(C/4, J/32) + 0.2*rms_c"),
     Problem(order=3, basis=DEGREE_9, B=1.75, minimise="C + J/30", J=between(70, 80)),
     Problem(order=3, basis=DEGREE_9, B=1.7, symmetric=False, inflexion=0.4),

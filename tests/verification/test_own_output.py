@@ -36,10 +36,8 @@ def moving(start: tuple[float, ...], end: tuple[float, ...], minimise: str = "C"
 
 ONCE_REFUSED = {
     "zero": moving((0, 1, 0), (1, 1, 0)),
-    "zero jounce": moving((0, -0.467), (1, 0.003), "jounce"),
-    "zero maximum": Problem(
-        order=1, minimise="max(0.00038*rms_jounce, 9.8e-05*jounce)", monotone=True, basis=Chebyshev(8)
-    ),
+    "zero snap": moving((0, -0.467), (1, 0.003), "snap"),
+    "zero maximum": Problem(order=1, minimise="max(0.00038*rms_snap, 9.8e-05*snap)", monotone=True, basis=Chebyshev(8)),
     "one-sided": moving((0, 2), (1, 0), "max(C_plus, 0.1*C_minus)"),
     "below zero": moving((0, 2, -1), (1, 0, -1), "C_plus"),
     "one-sided peaks in a sum": moving((0, 1, 0), (1, 0, 0), "C_plus + 0.2*C_minus + 0.1*rms_c"),

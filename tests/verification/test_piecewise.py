@@ -51,10 +51,10 @@ FIRST = PROBLEMS[0]
 
 
 def test_a_root_mean_square_that_can_be_0_is_no_sum_of_roundings() -> None:
-    """A cubic law keeps all that is asked, and has no jounce; the sum of rows that are great said 6e-9."""
+    """A cubic law keeps all that is asked, and has no snap; the sum of rows that are great said 6e-9."""
     through = (via("c", 1.3, at=0.4),)
     solution = synthesize(
-        Problem(B=at_most(2.5), order=1, basis=BSplines(4, 5), minimise="rms_jounce", symmetric=False, windows=through)
+        Problem(B=at_most(2.5), order=1, basis=BSplines(4, 5), minimise="rms_snap", symmetric=False, windows=through)
     )
     assert solution.status == "optimal"
     assert solution.lower_bound == 0.0 <= solution.objective < 1e-8

@@ -70,9 +70,19 @@ def test_stored_proofs_hold_there_too(file: str, proofs: int, tmp_path: Path) ->
 
 def test_what_derivatives_do_not_bound_the_equations_of_pieces_do(tmp_path: Path) -> None:
     # the fourth derivative does not see the cubic that pieces begin with
-    solution = synthesize(Problem(order=3, basis=Pieces(3, 7, 3), minimise="jounce", symmetric=False))
+    solution = synthesize(Problem(order=3, basis=Pieces(3, 7, 3), minimise="snap", symmetric=False))
     (result,) = checked(solution.certificate.to_dict(), tmp_path)
     assert solution.certificate.bound <= result["bound"] <= solution.objective * (1 + 1e-12)
+
+
+def test_files_that_call_the_snap_jounce_are_read_by_both(tmp_path: Path) -> None:
+    problem = Problem(order=4, basis=Chebyshev(5), minimise="0.5*snap + rms_snap", bounds={"snap": at_most(3000)})
+    solution = synthesize(problem).to_dict()
+    former = json.loads(json.dumps(solution).replace("snap", "jounce"))
+    assert "jounce" in former["certificate"]["contacts"][0]["constraint"]
+    assert Certificate.from_dict(former["certificate"]).to_dict() == solution["certificate"]
+    assert verify(former).bound == verify(solution).bound
+    assert ended(former, tmp_path).stdout == ended(solution, tmp_path).stdout
 
 
 def test_a_newer_format_is_refused_by_both_and_the_first_is_read(tmp_path: Path) -> None:
@@ -117,7 +127,7 @@ def test_what_it_does_not_know_it_says(tmp_path: Path) -> None:
 
 def _problems(count: int, seed: int) -> Iterator[Problem]:
     rng = Random(seed)  # noqa: S311 - a sample
-    objectives = ["C", "J", "rms_c", "rms_j", "C + 0.1*J", "max(C, 0.1*J)", "C_plus", "B", "jounce", "D"]
+    objectives = ["C", "J", "rms_c", "rms_j", "C + 0.1*J", "max(C, 0.1*J)", "C_plus", "B", "snap", "D"]
     windows = [
         via("a", 0.3, at=0.4), Window("c", -5, 5, 0.2, 0.4), Window("a", 0.1, 0.9, 0.3, 0.6),
         Window("b", -1, 1.4, 0.6, 0.9), Window("j", -60, 60, 0, 0.1),

@@ -59,7 +59,7 @@ from optlaws.tolerances import AGREEMENT
 
 _DRIVEN = (FORCE, POWER, CURVE)
 _BY_DRIVE = (*_DRIVEN, *SUMS)
-_PEAKS = {1: "B", 2: "C", 3: "J", 4: "jounce"}
+_PEAKS = {1: "B", 2: "C", 3: "J", 4: "snap"}
 _SNAP = 4
 _ROUGH = 15  # degree of Z where points on the way or velocities bend the law
 
@@ -390,7 +390,7 @@ def _unit(span: LawSpan, stroke: float, nu: int) -> float:
 def _objective(span: LawSpan, objective: CycleObjective, stroke: float) -> Any:  # noqa: ANN401 - a name or a constant
     nu, mean = kind_of(objective.minimise)
     if nu > 0:
-        return {2: "rms_c", 3: "rms_j", 4: "rms_jounce"}[nu] if mean else _PEAKS[nu]
+        return {2: "rms_c", 3: "rms_j", 4: "rms_snap"}[nu] if mean else _PEAKS[nu]
     output = load_output(objective.minimise, objective.load) if nu == LOADED else None
     if output is not None:
         return _of_load(objective, *output, span)

@@ -205,7 +205,7 @@ function greatestValues(rows, claim, contradiction) {
 function meansOf(rows, most) {
   const { problem } = rows;
   const known = [];
-  for (const [name, nu] of [["C", 2], ["rms_c", 2], ["J", 3], ["rms_j", 3], ["jounce", 4], ["rms_jounce", 4]]) {
+  for (const [name, nu] of [["C", 2], ["rms_c", 2], ["J", 3], ["rms_j", 3], ["snap", 4], ["rms_snap", 4]]) {
     if (most.has(name)) known.push([nu, most.get(name)]);
   }
   const velocities = endVelocities(problem);
@@ -280,13 +280,23 @@ function worth({ moments, fixed, off, mean }, slopes) {
   return { value: scaled(total), weight: scaled(weights) };
 }
 
+/* The same file with the names of today: earlier files call the snap jounce. */
+function withPresentNames(data) {
+  const text = JSON.stringify(data);
+  return text.includes("jounce") ? JSON.parse(text.replaceAll("jounce", "snap")) : data;
+}
+
 /* Everything in a file that this program can check, each with its verdict. */
-export function fileChecked(data, path = "") {
-  if (Array.isArray(data)) return data.flatMap((entry, i) => fileChecked(entry, `${path}[${i}]`));
+export function fileChecked(data) {
+  return partsChecked(withPresentNames(data), "");
+}
+
+function partsChecked(data, path) {
+  if (Array.isArray(data)) return data.flatMap((entry, i) => partsChecked(entry, `${path}[${i}]`));
   if (data === null || typeof data !== "object") return [];
   checkFormat(data, path || "the file");
   if (isCertificate(data)) return [{ path: path || "the file", ...checked(data) }];
-  const inner = Object.entries(data).flatMap(([key, entry]) => fileChecked(entry, path ? `${path}.${key}` : key));
+  const inner = Object.entries(data).flatMap(([key, entry]) => partsChecked(entry, path ? `${path}.${key}` : key));
   const where = path || "the file";
   if (!data.law || !data.certificate || !data.problem) {
     const alone = data.law && data.constants ? lawChecked(data, where) : [];

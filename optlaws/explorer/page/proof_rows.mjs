@@ -6,9 +6,9 @@ import { ball, middle, plus, times } from "./proof_balls.mjs";
 import { Mode, Outputs, machineConstant, machineName } from "./proof_machines.mjs";
 
 const PEAKS = {
-  B: [1, [1, -1]], C: [2, [1, -1]], J: [3, [1, -1]], jounce: [4, [1, -1]], C_plus: [2, [1]], C_minus: [2, [-1]],
+  B: [1, [1, -1]], C: [2, [1, -1]], J: [3, [1, -1]], snap: [4, [1, -1]], C_plus: [2, [1]], C_minus: [2, [-1]],
 };
-const MEANS = { rms_c: 2, rms_j: 3, rms_jounce: 4 };
+const MEANS = { rms_c: 2, rms_j: 3, rms_snap: 4 };
 const ORDERS = { a: 0, b: 1, c: 2, j: 3 };
 const ROOT = "root of D";
 const NEAR = exact(1e-9);

@@ -14,7 +14,7 @@ from optlaws.numbers import finite, positive
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.least_time.follower_residual import FollowerResidual, LawSize
 from optlaws.synthesis.least_time.motor_torque import MotorTorque, TimedLimit
-from optlaws.synthesis.problem.constants import B, C, C_minus, C_plus, Functional, J, jounce
+from optlaws.synthesis.problem.constants import B, C, C_minus, C_plus, Functional, J, snap
 from optlaws.synthesis.problem.expression import Expression, maximum
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import at_most
@@ -94,7 +94,7 @@ class MoveLimits(JsonText):
             ("acceleration", C if both else C_plus, 2, self.acceleration),
             ("deceleration", C_minus, 2, None if both else self.deceleration),
             ("jerk", J, 3, self.jerk),
-            ("snap", jounce, 4, self.snap),
+            ("snap", snap, 4, self.snap),
         )
         return tuple(RateLimit(name, of, nu, limit / stroke) for name, of, nu, limit in known if limit is not None)
 
@@ -408,7 +408,7 @@ def _checked(problem: Any, *, even: bool) -> Problem:  # noqa: ANN401 - it is ch
     if not isinstance(problem, Problem):
         raise InputError(f"the least time is sought of a Problem, got {type(problem).__name__}")
     given = [name for name in ("B", "C", "D", "J") if getattr(problem, name) is not None]
-    given += [constant.name for constant in problem.bounds if constant in {C_plus, C_minus, jounce}]
+    given += [constant.name for constant in problem.bounds if constant in {C_plus, C_minus, snap}]
     if given:
         raise InputError(f"the problem of a least time leaves {', '.join(given)} free: say it in limits, with its unit")
     if problem.minimise != "C":

@@ -15,7 +15,7 @@ from optlaws.synthesis.functionals.makers import integral, peak, rms
 from optlaws.synthesis.least_time.follower_residual import RESIDUAL, FollowerResidual
 from optlaws.synthesis.least_time.motor_torque import MotorTorque, TimedLimit
 from optlaws.synthesis.least_time.move_limits import TimedMove, power
-from optlaws.synthesis.problem.constants import B, C, Functional, J, jounce, rms_c, rms_j, rms_jounce
+from optlaws.synthesis.problem.constants import B, C, Functional, J, rms_c, rms_j, rms_snap, snap
 from optlaws.synthesis.problem.problem import Problem
 
 #: of the motion: the order of the derivative, and the constant of the law
@@ -23,10 +23,10 @@ RATES: dict[str, tuple[int, Functional]] = {
     "velocity": (1, B),
     "acceleration": (2, C),
     "jerk": (3, J),
-    "snap": (4, jounce),
+    "snap": (4, snap),
     "rms acceleration": (2, rms_c),
     "rms jerk": (3, rms_j),
-    "rms snap": (4, rms_jounce),
+    "rms snap": (4, rms_snap),
 }
 #: at a motor, with the unit
 AT_MOTOR = {"torque": "N m", "rms torque": "N m", "energy": "J"}

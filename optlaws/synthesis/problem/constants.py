@@ -6,6 +6,7 @@ One more constant is one class: say how it reads off a law (`value`), which rows
 
 from __future__ import annotations
 
+import re
 import warnings
 from abc import ABC, abstractmethod
 from collections import ChainMap
@@ -300,15 +301,14 @@ C_plus = PeakConstant("C_plus", 2.0, convex=True, nu=2, signs=(1.0,))
 C_minus = PeakConstant("C_minus", 2.0, convex=True, nu=2, signs=(-1.0,))
 D = PowerConstant("D", 2.25, convex=False)
 J = PeakJerk("J", 12.0, convex=True, nu=3)
-jounce = PeakConstant("jounce", np.nan, convex=True, nu=4)
+snap = PeakConstant("snap", np.nan, convex=True, nu=4)
 rms_c = RootMeanSquare("rms_c", 12.0**0.5, convex=True, nu=2)
 rms_j = RootMeanSquare("rms_j", np.nan, convex=True, nu=3)
-rms_jounce = RootMeanSquare("rms_jounce", np.nan, convex=True, nu=4)
+rms_snap = RootMeanSquare("rms_snap", np.nan, convex=True, nu=4)
 
-FUNCTIONALS: dict[str, Functional] = {
-    f.name: f for f in (B, C, C_plus, C_minus, D, J, jounce, rms_c, rms_j, rms_jounce)
-}
-ALIASES: dict[str, Functional] = {"rms": rms_c}
+FUNCTIONALS: dict[str, Functional] = {f.name: f for f in (B, C, C_plus, C_minus, D, J, snap, rms_c, rms_j, rms_snap)}
+#: names that texts may use besides; earlier files call the snap jounce
+ALIASES: dict[str, Functional] = {"rms": rms_c, "jounce": snap, "rms_jounce": rms_snap}
 #: constants of other subjects without arguments, by their names: `C_loader`
 PLAIN: Registry[Functional] = Registry("plain constant")
 #: every constant that a name alone stands for
@@ -359,3 +359,12 @@ def warn_of_mixture(objective: Expression, order: int) -> None:
         parts = ", ".join(f"{leaf!r} {share:.3g}" for leaf, share in shares.items() if not isnan(share))
         message = f"the objective {text} is not normalised: at the constants' least values its parts are {parts}"
         warnings.warn(f"{message}; divide each constant by such a value", NotNormalised, stacklevel=3)
+
+
+def present_name(name: str) -> str:
+    """The name of a constraint as it is written today: earlier files call the snap jounce.
+
+    >>> present_name("rms_jounce at most"), present_name("C")
+    ('rms_snap at most', 'C')
+    """
+    return re.sub(r"\b(rms_)?jounce\b", r"\1snap", name)

@@ -129,7 +129,7 @@ def _named_range(low: Any, high: Any, name: str) -> Range:  # noqa: ANN401 - the
 class Bounds(Mapping[Functional, Range]):
     """What is asked of constants, by constant; frozen and hashable. Names find the known ones.
 
-    >>> Bounds({"rms_c": at_most(4), "jounce": None})
+    >>> Bounds({"rms_c": at_most(4), "snap": None})
     {'rms_c': at_most(4)}
     """
 
@@ -181,8 +181,8 @@ def _constant(key: Any) -> Functional:  # noqa: ANN401 - it is checked here
 def read_bounds(most: Sequence[str], least: Sequence[str] = ()) -> dict[str, Range]:
     """Bounds from texts such as "rms_c=4": the greatest and the least values.
 
-    >>> read_bounds(["rms_c=4", "jounce=900"], ["rms_c=3.5"])
-    {'rms_c': between(3.5, 4.0), 'jounce': at_most(900.0)}
+    >>> read_bounds(["rms_c=4", "snap=900"], ["rms_c=3.5"])
+    {'rms_c': between(3.5, 4.0), 'snap': at_most(900.0)}
     """
     sides: tuple[dict[str, float], dict[str, float]] = ({}, {})
     for texts, side in ((least, sides[0]), (most, sides[1])):

@@ -20,6 +20,7 @@ from optlaws.errors import InputError
 from optlaws.files.reading import JsonText
 from optlaws.kept import kept_property
 from optlaws.numbers import bounded
+from optlaws.synthesis.problem.constants import present_name
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, least_violation, model_of, relaxed
 from optlaws.synthesis.proof import data as stored
@@ -223,8 +224,8 @@ class Certificate(JsonText):
             return cls.of_leaf(problem, contacts, entries.equations, entries.program, entries.tangent)
         if isinstance(entries, stored.StatedBoxes):
             return cls(problem, entries.claim, tuple(map(stored.node_of, entries.steps)), points=entries.points)
-        tree = stored.tree_of_cells(entries.cells, roots_of(problem, entries.constant))
-        return cls(problem, entries.claim, tree, peak=entries.constant)
+        peak = present_name(entries.constant)
+        return cls(problem, entries.claim, stored.tree_of_cells(entries.cells, roots_of(problem, peak)), peak=peak)
 
 
 def excess(certificate: Certificate) -> float:

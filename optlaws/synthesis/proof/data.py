@@ -12,6 +12,7 @@ import msgspec
 from optlaws.errors import InputError
 from optlaws.files.problem_file import typed
 from optlaws.files.reading import of_known_format
+from optlaws.synthesis.problem.constants import present_name
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.nodes import Contact, Leaf, Node, PlaceRange, Split, Tightening
 
@@ -140,7 +141,8 @@ def problem_of(data: dict[str, Any]) -> Problem:
 
 def contacts_of(entries: Sequence[StatedContact]) -> tuple[Contact, ...]:
     """The contacts that entries of a file describe."""
-    return tuple(Contact(*msgspec.structs.astuple(contact)) for contact in entries)
+    stated = (msgspec.structs.astuple(contact) for contact in entries)
+    return tuple(Contact(present_name(constraint), *others) for constraint, *others in stated)
 
 
 def sum_of(leaf: Leaf) -> dict[str, Any]:

@@ -134,7 +134,7 @@ def means(problem: Problem, space: LawSpace, greatest: Mapping[str, float]) -> l
     """Orders of derivatives whose mean magnitude is bounded, with the bound."""
     known = [(2, greatest.get("C", inf)), (2, greatest.get("rms_c", inf)), (3, greatest.get("J", inf))]
     known += [(2, mean) for mean in _from_one_sign(problem, space, greatest)]
-    known += [(3, greatest.get("rms_j", inf)), (4, greatest.get("jounce", inf))]
+    known += [(3, greatest.get("rms_j", inf)), (4, greatest.get("snap", inf))]
     stroke = abs(space.stroke)
     if "D" in greatest and problem.order > 1 and space.start_velocity == 0.0:
         # b² <= 2 D k from rest

@@ -105,7 +105,7 @@ def means(problem: Problem, rows: ExactRows, greatest: dict[str, float]) -> dict
             size = arb(factor) * ball(max(greatest[name], 0.0))
             bounds.setdefault(nu, []).append(size + (arb(0) if extra is None else extra))
 
-    for nu, name in ((2, "C"), (2, "rms_c"), (3, "J"), (3, "rms_j"), (4, "jounce")):
+    for nu, name in ((2, "C"), (2, "rms_c"), (3, "J"), (3, "rms_j"), (4, "snap")):
         known(nu, name)
     if change is not None:
         # what is above 0 less what is below is the change, and one of them is at most the peak

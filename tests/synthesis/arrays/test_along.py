@@ -143,7 +143,7 @@ KINDS: dict[str, dict[str, Any]] = {
         "windows": map_arrays(lambda h: Window("b", high=h, start=0.2, stop=0.3), np.linspace(1.1, 1.5, COUNT)),
     },
     "most C": {"B": 1.7, "minimise": "J", "C": (None, np.linspace(4.9, 6.0, COUNT))},
-    "most B": {"B": (None, np.linspace(1.6, 2.2, COUNT)), "minimise": "jounce", "order": 3},
+    "most B": {"B": (None, np.linspace(1.6, 2.2, COUNT)), "minimise": "snap", "order": 3},
     "root mean square": {"B": np.linspace(1.45, 2.5, COUNT), "minimise": "rms_c"},
     "weights of a root mean square": {
         "B": 1.7,

@@ -297,7 +297,7 @@ def test_windows_that_no_law_keeps_are_named() -> None:
     ("problem", "named"),
     [
         (Problem(order=3, B=1.8), "leaves B free"),
-        (Problem(order=3, bounds={"jounce": (0.0, 9000.0)}), "leaves jounce free"),
+        (Problem(order=3, bounds={"snap": (0.0, 9000.0)}), "leaves snap free"),
         (Problem(order=3, minimise="J"), "minimises nothing else"),
         (Problem(order=3, bounds={"rms_c": (4.0, None)}), "rms_c is bounded from below"),
         (Problem(order=3, inflexion=0.4, symmetric=False), "no inflexion"),

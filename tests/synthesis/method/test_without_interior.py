@@ -45,7 +45,7 @@ def test_the_ends_are_met_where_hardly_any_room_is_left() -> None:
     assert law.b(1.0) == pytest.approx(0.0, abs=1e-12)
 
 
-@pytest.mark.parametrize("minimise", ["J", "jounce", "J + C"])
+@pytest.mark.parametrize("minimise", ["J", "snap", "J + C"])
 def test_uniform_motion_of_pieces_has_no_jumps(minimise: str) -> None:
     solution = synthesize(Problem(order=1, basis=Pieces(8, 5, 3), minimise=minimise))
     assert 0.0 <= solution.lower_bound <= solution.objective < 1e-9

@@ -20,8 +20,8 @@ from optlaws import (
     at_least,
     at_most,
     between,
-    jounce,
     rms_c,
+    snap,
     synthesize,
 )
 from tests.internals.synthesis import Bounds, read_bounds
@@ -30,9 +30,9 @@ from tests.synthesis.judge import Judged
 
 BOUNDED: list[dict[str, Any]] = [
     {"B": 1.8, "bounds": {"rms_c": at_most(3.82)}},
-    {"B": 1.8, "bounds": {"jounce": at_most(900)}},
+    {"B": 1.8, "bounds": {"snap": at_most(900)}},
     {"B": 1.8, "bounds": {"rms_j": at_most(28.5)}, "minimise": "rms_c"},
-    {"B": 1.8, "bounds": {"rms_c": at_most(4.2), "jounce": at_most(5000)}, "minimise": "J"},
+    {"B": 1.8, "bounds": {"rms_c": at_most(4.2), "snap": at_most(5000)}, "minimise": "J"},
     {"symmetric": False, "bounds": {"C_minus": at_most(4)}, "minimise": "C_plus", "order": 3},
     {"symmetric": False, "bounds": {"C_minus": at_most(6), "C_plus": at_most(4)}, "minimise": "J", "order": 2},
     {"B": 1.8, "bounds": {"rms_c": at_most(4)}, "basis": BSplines(8, 3), "order": 3},
@@ -74,8 +74,8 @@ def test_highs_agrees_on_one_sided_bounds(low: float, degree: int) -> None:
 
 
 @pytest.mark.parametrize("high", [900.0, 2000.0])
-def test_highs_agrees_on_a_bounded_jounce(high: float) -> None:
-    solution = synthesize(problem(order=3, minimise="C", bounds={jounce: at_most(high)}))
+def test_highs_agrees_on_a_bounded_snap(high: float) -> None:
+    solution = synthesize(problem(order=3, minimise="C", bounds={snap: at_most(high)}))
     motion = polynomials(3, 9)
     c, fourth = motion.rows(2), motion.rows(4)
     wanted = motion.least([(c, None), (-c, None), (fourth, high), (-fourth, high)])
@@ -108,11 +108,11 @@ def test_constants_of_ones_own_are_bounded_too() -> None:
         def families(self, space: Any, slack: Any, bound: float) -> Any:  # noqa: ANN401
             return (space.derivative(4, self.name, slack, bound),)
 
-    snap = Snap("snap", np.nan, convex=True)
-    own, known = (synthesize(problem(B=1.8, bounds={one: at_most(2000)})) for one in (snap, jounce))
+    own_snap = Snap("own_snap", np.nan, convex=True)
+    own, known = (synthesize(problem(B=1.8, bounds={one: at_most(2000)})) for one in (own_snap, snap))
     assert own.objective == pytest.approx(known.objective, rel=1e-11)
     assert own.status == known.status == "optimal"
-    assert "{snap: at_most(2000)}" in repr(own.problem)
+    assert "{own_snap: at_most(2000)}" in repr(own.problem)
 
 
 @pytest.mark.parametrize("ratio", [0.5, 1.5, 2.0, 3.0])
@@ -164,15 +164,15 @@ def test_bounds_that_make_no_sense_are_refused(bounds: Any, text: str) -> None: 
 
 
 def test_bounds_are_values() -> None:
-    bounds = Bounds({"rms_c": at_most(4), "jounce": at_least(3), "J": None})
-    assert dict(bounds) == {rms_c: at_most(4), FUNCTIONALS["jounce"]: at_least(3)}
+    bounds = Bounds({"rms_c": at_most(4), "snap": at_least(3), "J": None})
+    assert dict(bounds) == {rms_c: at_most(4), FUNCTIONALS["snap"]: at_least(3)}
     assert bounds["rms_c"] == bounds[rms_c] == at_most(4)
-    assert bounds == Bounds({jounce: at_least(3), rms_c: at_most(4)})
+    assert bounds == Bounds({snap: at_least(3), rms_c: at_most(4)})
     assert Bounds(eval(repr(bounds), {"at_most": at_most, "at_least": at_least})) == bounds  # noqa: S307 - a repr of our own
 
 
 def test_bounds_are_read_from_text() -> None:
-    assert read_bounds(["rms_c = 4"], ["rms_c=3", "jounce=9"]) == {"rms_c": between(3, 4), "jounce": at_least(9)}
+    assert read_bounds(["rms_c = 4"], ["rms_c=3", "snap=9"]) == {"rms_c": between(3, 4), "snap": at_least(9)}
     for wrong in ("rms_c", "rms_c=", "rms_c=4=5", "=4x"):
         with pytest.raises(InputError, match="such as rms_c=4"):
             read_bounds([wrong])

@@ -36,9 +36,9 @@ LINEAR: list[dict[str, Any]] = [
     {"minimise": "J", "B": 1.7},
     {"minimise": "J", "B": 2.6, "monotone": True, "order": 3},
     {"minimise": "J", "B": 1.5, "order": 2},
-    {"minimise": "jounce"},
-    {"minimise": "jounce", "B": 1.859, "order": 5},
-    {"minimise": "jounce", "B": between(2.3, 2.6), "inflexion": 0.5, "order": 3, "monotone": True},
+    {"minimise": "snap"},
+    {"minimise": "snap", "B": 1.859, "order": 5},
+    {"minimise": "snap", "B": between(2.3, 2.6), "inflexion": 0.5, "order": 3, "monotone": True},
     {"minimise": "C_plus", "symmetric": False, "B": 2.1},
     {"minimise": "C_plus", "symmetric": False, "C": at_most(7.0), "order": 3},
     {"minimise": "C_minus", "symmetric": False, "C": at_most(7.0), "B": 1.9, "order": 3},
@@ -50,13 +50,13 @@ LINEAR: list[dict[str, Any]] = [
     {"minimise": "C/8 + J/64"},
     {"minimise": "C/8 + J/64", "B": 1.641, "order": 3},
     {"minimise": "0.9*C/4 + 0.1*J/32", "B": 2.5, "order": 3, "monotone": True},
-    {"minimise": "C/4 + max(J/32, 0.001*jounce)", "B": 1.7},
+    {"minimise": "C/4 + max(J/32, 0.001*snap)", "B": 1.7},
     {"minimise": "2*B + C", "order": 3},
     {"minimise": "C", "J": at_most(60.0), "B": 1.7},
     {"minimise": "J", "C": at_most(5.0), "B": 1.8},
     {"minimise": "J", "C": at_most(5.0), "B": 1.8, "symmetric": False},
     {"minimise": "C", "J": at_most(50.0), "B": at_most(1.9), "monotone": True, "symmetric": False},
-    {"minimise": "jounce", "C": at_most(5.2), "J": at_most(70.0)},
+    {"minimise": "snap", "C": at_most(5.2), "J": at_most(70.0)},
     {"basis": Chebyshev(15), "minimise": "J", "B": 1.9},
     {"basis": Chebyshev(15), "B": 2.2, "order": 2},
 ]
@@ -136,7 +136,7 @@ def test_the_least_rms_of_all_is_the_parabola_of_velocity() -> None:
 
 # --- symmetry and degree, for every objective ---
 
-EVEN = ["C", "J", "jounce", "rms_c", "rms_j", "C/8 + J/64", "max(C/4, J/32)"]
+EVEN = ["C", "J", "snap", "rms_c", "rms_j", "C/8 + J/64", "max(C/4, J/32)"]
 
 
 @pytest.mark.sample(2)

@@ -20,10 +20,10 @@ from optlaws import (
     InputError,
     J,
     Problem,
-    jounce,
     maximum,
     rms_c,
     rms_j,
+    snap,
     synthesize,
 )
 from tests.internals.synthesis import parse
@@ -47,8 +47,8 @@ NAMES: dict[str, Any] = {**FUNCTIONALS, "max": maximum}
         ("max(C, D, J)", maximum(C, D, J).expression()),
         ("2*max(C, D) + J/32", 2 * maximum(C, D) + J / 32),
         ("max(C + J/8, 2*max(D, rms_c))", maximum(C + J / 8, 2 * maximum(D, rms_c)).expression()),
-        ("C_plus + C_minus + jounce + rms_j + B", C_plus + C_minus + jounce + rms_j + B),
-        ("1e-3*jounce + .5*C + 2.*D + 1E2*J", 1e-3 * jounce + 0.5 * C + 2.0 * D + 1e2 * J),
+        ("C_plus + C_minus + snap + rms_j + B", C_plus + C_minus + snap + rms_j + B),
+        ("1e-3*snap + .5*C + 2.*D + 1E2*J", 1e-3 * snap + 0.5 * C + 2.0 * D + 1e2 * J),
         ("(1 + 2)*3*C/(4*5)", 9 * C / 20),
         ("  C\n+\tD ", C + D),
         ("rms", rms_c.expression()),
@@ -164,7 +164,7 @@ def test_an_error_shows_the_text_and_points_at_the_character(text: str, message:
 
 @pytest.mark.parametrize(
     ("text", "name"),
-    [("jonce", "jounce"), ("rmsj", "rms_j"), ("C_pluss", "C_plus"), ("C_minu", "C_minus")],
+    [("snapp", "snap"), ("rmsj", "rms_j"), ("C_pluss", "C_plus"), ("C_minu", "C_minus")],
 )
 def test_an_unknown_constant_names_the_nearest(text: str, name: str) -> None:
     with pytest.raises(InputError, match=f"did you mean '{name}'"):

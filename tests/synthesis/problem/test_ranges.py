@@ -75,7 +75,7 @@ def test_wide_bounds_cost_nothing(minimise: str) -> None:
 
 
 @pytest.mark.sample(2)
-@pytest.mark.parametrize("minimise", ["C", "J", "rms_c", "jounce"])
+@pytest.mark.parametrize("minimise", ["C", "J", "rms_c", "snap"])
 def test_a_range_of_b_is_no_worse_than_any_b_in_it(minimise: str) -> None:
     best = synthesize(problem(minimise=minimise, B=between(1.6, 1.8), inflexion=0.5))
     judge(best)
@@ -90,7 +90,7 @@ def test_a_range_of_b_is_no_worse_than_any_b_in_it(minimise: str) -> None:
 
 
 @pytest.mark.sample(2)
-@pytest.mark.parametrize(("name", "other"), [("C", "J"), ("J", "C"), ("C", "rms_c"), ("J", "rms_j"), ("C", "jounce")])
+@pytest.mark.parametrize(("name", "other"), [("C", "J"), ("J", "C"), ("C", "rms_c"), ("J", "rms_j"), ("C", "snap")])
 def test_a_tight_bound_binds_and_the_price_falls_with_it(name: str, other: str) -> None:
     least = synthesize(problem(minimise=name, B=1.8)).objective
     at_the_other = Judged(synthesize(problem(minimise=other, B=1.8)).law)

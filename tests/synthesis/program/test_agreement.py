@@ -15,7 +15,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, repr=False)
 class Leap(Functional):
-    """The peak of the jounce, whose rows are those of a derivative times a factor."""
+    """The peak of the snap, whose rows are those of a derivative times a factor."""
 
     of_rows: int = 4
     factor: float = 1.0

@@ -17,9 +17,9 @@ from optlaws import (
     at_least,
     at_most,
     between,
-    jounce,
     law_from_z,
     smoothstep,
+    snap,
     via,
 )
 from tests.internals.synthesis import shortfalls, worth
@@ -132,7 +132,7 @@ def test_laws_of_other_strokes() -> None:
         ({"C": at_least(6.0 * (1.0 + 5e-9))}, {C: 6.0 * (1.0 + 5e-9)}),
         ({"C": between(7.0, 8.0), "J": at_least(13.0)}, {C: 7.0, J: 13.0}),
         ({"C": at_most(5.0), "J": at_least(11.0)}, {}),
-        ({"bounds": {"jounce": at_least(1.0)}}, {jounce: 1.0}),
+        ({"bounds": {"snap": at_least(1.0)}}, {snap: 1.0}),
         ({"B": at_most(1.6)}, {}),
         ({"B": 1.6}, {}),
         ({"symmetric": False, "B": at_least(1.6)}, {B: 1.6}),

@@ -46,7 +46,7 @@ PLAIN = [
 ]
 GENERAL = [
     Problem(B=1.7, order=4, basis=Chebyshev(7), minimise="J"),
-    Problem(B=1.859, order=5, basis=Chebyshev(7), minimise="jounce"),
+    Problem(B=1.859, order=5, basis=Chebyshev(7), minimise="snap"),
     Problem(B=1.7, order=3, basis=Chebyshev(9), minimise="C/8 + J/64"),
     Problem(order=4, basis=Chebyshev(9), minimise="max(C/4, J/32)"),
     Problem(B=between(1.5, 1.6), inflexion=0.5, order=4, basis=Chebyshev(9)),
@@ -152,10 +152,10 @@ def test_contacts_are_where_the_law_touches(problem: Problem) -> None:
     if solution.certificate.program != "objective":
         return  # its contacts are those of a program that is not as tight
     greatest = {name: getattr(law.constants, name).value for name in "CDJ"} | {"b": law.peak(1).value}
-    greatest |= {"jounce": law.peak(4).value, "C_plus": law.extrema(2)[1].value, "C_minus": -law.extrema(2)[0].value}
+    greatest |= {"snap": law.peak(4).value, "C_plus": law.extrema(2)[1].value, "C_minus": -law.extrema(2)[0].value}
     for contact in solution.certificate.contacts:
         name, k, m = contact.constraint, contact.k, contact.multiplier
-        nu = {"b": 1, "C": 2, "C_plus": 2, "C_minus": 2, "J": 3, "jounce": 4}.get(name)
+        nu = {"b": 1, "C": 2, "C_plus": 2, "C_minus": 2, "J": 3, "snap": 4}.get(name)
         assert m >= -1e-12
         if m < 1e-9:
             continue
@@ -334,7 +334,7 @@ def test_with_another_b_it_speaks_of_another_problem_truly(problem: Problem, B: 
     assert forged.bound <= true * (1 + 1e-12)
 
 
-NAMES = ["C", "C_plus", "C_minus", "J", "jounce", "D", "b", "chord", "ratio", "forward", "rms_c", "B at most"]
+NAMES = ["C", "C_plus", "C_minus", "J", "snap", "D", "b", "chord", "ratio", "forward", "rms_c", "B at most"]
 NAMES += ["B at least", "J at most", "tangent", "b / sqrt(2k)", "root of D", "part 1 of max(0.25*C, 0.03125*J)", ""]
 
 

@@ -113,7 +113,7 @@ PROBLEMS = [
     Problem(B=1.8, order=3, basis=BSplines(6, 3), symmetric=False, inflexion=0.4),
     Problem(boundary=BoundaryConditions((0, 0, 0), (1, 0.5, 0)), symmetric=False, basis=BSplines(6, 3)),
     Problem(B=1.8, order=1, basis=BSplines(4, 3)),
-    Problem(order=3, basis=BSplines(6, 4), minimise="max(C/4, J/32)", bounds={"jounce": at_most(5000)}),
+    Problem(order=3, basis=BSplines(6, 4), minimise="max(C/4, J/32)", bounds={"snap": at_most(5000)}),
 ]
 
 
@@ -183,7 +183,7 @@ def test_more_pieces_come_nearer_to_the_limit() -> None:
     assert excess[-1] < 0.04
 
 
-@pytest.mark.parametrize("minimise", ["J", "rms_j", "jounce"])
+@pytest.mark.parametrize("minimise", ["J", "rms_j", "snap"])
 def test_impulses_are_refused(minimise: str) -> None:
     with pytest.raises(InputError, match="continuity of at least"):
         synthesize(Problem(order=2, minimise=minimise, basis=BSplines(4, 3, 1)))
@@ -272,13 +272,13 @@ def test_velocities_at_the_ends_are_free_where_positions_alone_are_asked() -> No
     problem = Problem(
         order=1,
         basis=BSplines(breaks, 5),
-        minimise="jounce",
+        minimise="snap",
         symmetric=False,
         boundary=BoundaryConditions(start=(0.25,), end=(0.25,)),
         windows=through,
     )
     solution = synthesize(problem)
-    # a cubic law keeps all of it without any jounce
+    # a cubic law keeps all of it without any snap
     assert solution.status == "optimal"
     assert solution.objective < 1e-8
     assert solution.law.a([0.0, 1.0]) == pytest.approx([0.25, 0.25], abs=1e-12)

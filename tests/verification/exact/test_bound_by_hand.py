@@ -176,7 +176,7 @@ def test_a_contradiction_has_no_claim() -> None:
     ("problem", "greatest", "wanted"),
     [
         (small(), {"C": 5.0}, {2: 5.0}),
-        (small(), {"C": 5.0, "rms_c": 4.0, "J": 50.0, "jounce": 60.0}, {2: 4.0, 3: 50.0, 4: 60.0}),
+        (small(), {"C": 5.0, "rms_c": 4.0, "J": 50.0, "snap": 60.0}, {2: 4.0, 3: 50.0, 4: 60.0}),
         (small(), {"C": 5.0, "rms_j": 40.0}, {2: 5.0, 3: 40.0}),
         (small(), {"C_plus": 5.0}, {2: 10.0}),
         (small(), {"C_minus": 4.0, "C_plus": 5.0}, {2: 8.0}),
