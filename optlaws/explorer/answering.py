@@ -15,26 +15,22 @@ import msgspec
 
 from optlaws.echo import cut
 from optlaws.errors import InputError, OptlawsError
-from optlaws.explorer import cam_view, cycle_view, downloads, front_view, law_view
-from optlaws.explorer.requests import LawRequest, LawsRequest, read, ready
+from optlaws.explorer import downloads
+from optlaws.explorer.requests import Question, read, ready
+from optlaws.explorer.views import cam_view, cycle_view, front_view, law_view
 from optlaws.jobs.cam_entries import CamProblemFile
 from optlaws.jobs.cycle_entries import CycleProblemFile
 
-Answer = Callable[[Any], dict[str, Any]]
-#: by the last part of the path: what a question is read as, and what answers it
-QUESTIONS: dict[str, tuple[type[msgspec.Struct], Answer]] = {
-    "laws": (LawsRequest, law_view.answer),
-    "front": (front_view.FrontRequest, front_view.answer),
-    "nearest": (LawRequest, law_view.nearest),
-    "cam": (cam_view.CamRequest, cam_view.answer),
-    "cam-loads": (cam_view.CamRequest, cam_view.loads),
-    "cam-sizes": (cam_view.CamRequest, cam_view.sizes),
-    "cycle": (cycle_view.CycleRequest, cycle_view.answer),
-    "cycle-nearest": (cycle_view.CycleRequest, cycle_view.nearest),
-    "export": (downloads.ExportRequest, downloads.exported),
-    "save": (downloads.FileRequest, downloads.answer),
-    "residual": (law_view.ResidualRequest, law_view.residuals),
+#: by the last part of the path: what a question is read as, and what answers it; each view names its own
+QUESTIONS: dict[str, Question] = {
+    **law_view.QUESTIONS,
+    **front_view.QUESTIONS,
+    **cycle_view.QUESTIONS,
+    **cam_view.QUESTIONS,
+    **downloads.QUESTIONS,
 }
+#: by a view's name in the page: the study that it shows where none was given
+EXAMPLES: dict[str, Callable[[], dict[str, Any]]] = {"cycle": cycle_view.example, "cam": cam_view.example}
 OK, UNREADABLE, FAULT = 200, 422, 500
 #: bytes that a process may take for its data, where the system can limit it
 _MOST_DATA = 1 << 30

@@ -18,8 +18,9 @@ from starlette.responses import PlainTextResponse, Response
 from starlette.routing import Route
 
 from optlaws import catalogue
-from optlaws.explorer import cam_view, cycle_view, downloads
-from optlaws.explorer.answering import QUESTIONS, message
+from optlaws.explorer import downloads
+from optlaws.explorer.answering import EXAMPLES, QUESTIONS, message
+from optlaws.explorer.views import cam_view
 from optlaws.explorer.workers import MOST, SLICE, USUAL, Workers
 
 if TYPE_CHECKING:
@@ -38,8 +39,7 @@ def application(start: dict[str, Any], workers: Workers | None = None) -> Starle
     """The explorer as an application of ASGI; `start` is what the page shows first."""
     known = {
         "names": [*catalogue, *_MEMBERS],
-        "cycle": cycle_view.example(),
-        "cam": cam_view.example(),
+        "examples": {name: example() for name, example in EXAMPLES.items()},
         "followers": cam_view.followers(),
         "formats": downloads.formats(),
     }
@@ -62,10 +62,16 @@ def application(start: dict[str, Any], workers: Workers | None = None) -> Starle
 
 @cache
 def page() -> dict[str, bytes]:
-    """The files of the page by their names."""
+    """The files of the page by their paths."""
     folder = files("optlaws.explorer") / "page"
-    shown = [entry for entry in folder.iterdir() if f".{entry.name.rpartition('.')[2]}" in _TYPES]
-    return {entry.name: entry.read_bytes() for entry in sorted(shown, key=lambda entry: entry.name)}
+    folders = {"": folder, "views/": folder / "views"}
+    shown = [
+        (f"{path}{entry.name}", entry)
+        for path, inside in folders.items()
+        for entry in inside.iterdir()
+        if f".{entry.name.rpartition('.')[2]}" in _TYPES
+    ]
+    return {path: entry.read_bytes() for path, entry in sorted(shown, key=lambda pair: pair[0])}
 
 
 def _file(name: str) -> Callable[[Request], Response]:

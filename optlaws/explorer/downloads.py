@@ -16,9 +16,9 @@ from optlaws import Cycle, Problem, Solution
 from optlaws.cams.curves import cam_files
 from optlaws.cams.curves.file_options import Cutting
 from optlaws.errors import InputError
-from optlaws.explorer import cam_view, cycle_view
-from optlaws.explorer.law_view import digits, title
-from optlaws.explorer.requests import MOST_LAWS, LawRequest, law_of, problem_of, solved
+from optlaws.explorer.requests import MOST_LAWS, LawRequest, Question, law_of, problem_of, solved
+from optlaws.explorer.views import cam_view, cycle_view
+from optlaws.explorer.views.law_view import digits, title
 from optlaws.exports.format import FORMATS
 from optlaws.files.tables import to_toml
 from optlaws.files.writing import MARK
@@ -305,3 +305,6 @@ def _export(request: ExportRequest) -> Any:  # noqa: ANN401 - an Export
 
 def _cell(number: float | None) -> str:
     return "—" if number is None else digits(number, 6)
+
+
+QUESTIONS: dict[str, Question] = {"export": (ExportRequest, exported), "save": (FileRequest, answer)}

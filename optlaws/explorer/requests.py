@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import lru_cache
 from typing import Annotated, Any, TypeVar
@@ -22,6 +22,8 @@ UNITS = {"C": 4.0, "D": 2.25, "J": 32.0, "rms_c": 12.0**0.5}
 _FIGURES = 12
 
 Struct = TypeVar("Struct", bound=msgspec.Struct)
+#: what a question of the page is read as, and what answers it
+Question = tuple[type[msgspec.Struct], Callable[[Any], dict[str, Any]]]
 Weight = Annotated[float, msgspec.Meta(ge=0.0, le=100.0)]
 
 

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from optlaws.errors import InputError, located
+from optlaws.explorer.answering import EXAMPLES
 from optlaws.explorer.requests import MOST_LAWS, LawRequest, problem_of
 from optlaws.files import reading
 from optlaws.files.packaged import is_problem, problem_file
@@ -48,12 +49,12 @@ def _of_law_file(given: str) -> dict[str, Any]:
 def _of_problem_file(file: Path) -> dict[str, Any]:
     data = reading.toml(file)
     job = data.get("job")
-    if job in ("cycle", "cam"):
+    if job in EXAMPLES:
         return {"view": job, job: data}
     entries = data.get("problem")
     if not isinstance(entries, dict):
         raise InputError(
-            f"{file} has neither a [problem] nor job = 'cycle' or 'cam': the explorer shows these and laws"
+            f"{file} has neither a [problem] nor a job of {', '.join(EXAMPLES)}: the explorer shows these and laws"
         )
     swept: Any = data.get("sweep")
     first = {name: values[0] for entry in swept for name, values in entry.items()} if _is_sweep(swept) else {}

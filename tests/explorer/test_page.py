@@ -261,7 +261,7 @@ def test_an_export_says_what_the_controller_will_run(page: Page, served: Server)
     settle(page)
     assert "stroke" in page.locator(".report").inner_text()
     assert page.locator(".report table").count() == 0
-    page.wait_for_url("**machine=**")
+    page.wait_for_url("**controller=**")
 
 
 def test_a_cam_turns_and_is_refused_where_there_is_none(page: Page, served: Server) -> None:

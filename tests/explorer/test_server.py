@@ -5,6 +5,7 @@ import re
 import sys
 from typing import Any
 from unittest.mock import patch
+from urllib.parse import urljoin
 
 import pytest
 from hypothesis import given
@@ -57,7 +58,7 @@ def test_the_page_is_whole_and_names_nothing_beyond_it(served: Server) -> None:
         assert set(re.findall(r"https?://[\w.]+", text)) <= {"http://www.w3.org"}  # the name of SVG, asked of nobody
         for line in text.splitlines():
             if name.endswith(".js") and line.startswith("import "):
-                assert line.split('"')[1].removeprefix("./") in page()
+                assert urljoin(name, line.split('"')[1]) in page()
 
 
 @pytest.mark.parametrize(

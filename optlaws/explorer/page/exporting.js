@@ -18,9 +18,12 @@ export class Exporting {
   #save = html("button", { type: "button", text: "Save the file", disabled: true });
   #answer = null;
   #asked;
+  #motion;
 
-  constructor(study, formats) {
+  /** `motion(state)` is what the view that is shown has to export: entries of the question, or null. */
+  constructor(study, formats, motion) {
     this.#study = study;
+    this.#motion = motion;
     this.#formats = formats;
     this.#asked = new Latest("api/export", (answer) => this.#show(answer), (error) => this.#refuse(error));
     this.#format = html("select", { "aria-label": "format" }, ...formats.map(({ name, target }) => html("option", { value: name, text: `${name}: ${target}` })));
@@ -33,21 +36,22 @@ export class Exporting {
   }
 
   open() {
+    if (!this.#motion(this.#study.state)) return;
     this.show(this.#study.state);
     this.#dialog.showModal();
     this.#ask(this.#study.state);
   }
 
   show(state) {
-    const machine = { ...MACHINE, ...state.machine };
+    const machine = { ...MACHINE, ...state.controller };
     const { takes } = this.#formats.find(({ name }) => name === machine.format) ?? { takes: [] };
     this.#format.value = machine.format;
     for (const [name, field] of Object.entries(this.#fields)) {
       const value = String(machine[name] ?? "");
       if (document.activeElement !== field || field.value.trim() !== value) field.value = value;
-      field.parentElement.hidden = name in TEXTS ? state.view === "cycle" : !takes.includes(name);
+      field.parentElement.hidden = name in TEXTS ? Boolean(this.#motion(state)?.cycle) : !takes.includes(name);
     }
-    if (this.#dialog.open) this.#ask(state);
+    if (this.#dialog.open && this.#motion(state)) this.#ask(state);
   }
 
   #field(name, text) {
@@ -61,19 +65,17 @@ export class Exporting {
 
   #change(name, value) {
     this.#study.change(`export ${name}`, (state) => {
-      state.machine = { ...MACHINE, ...state.machine, [name]: value };
-      if (value === null) delete state.machine[name];
+      state.controller = { ...MACHINE, ...state.controller, [name]: value };
+      if (value === null) delete state.controller[name];
     });
   }
 
   #ask(state) {
-    const { laws, active, cycle, axis } = state;
-    const view = state.view === "cycle" ? "cycle" : "laws";
-    const { takes } = this.#formats.find(({ name }) => name === (state.machine?.format ?? MACHINE.format)) ?? { takes: [] };
-    const machine = Object.fromEntries(Object.entries({ ...MACHINE, ...state.machine }).filter(([name]) => !(name in NUMBERS) || takes.includes(name)));
+    const { takes } = this.#formats.find(({ name }) => name === (state.controller?.format ?? MACHINE.format)) ?? { takes: [] };
+    const machine = Object.fromEntries(Object.entries({ ...MACHINE, ...state.controller }).filter(([name]) => !(name in NUMBERS) || takes.includes(name)));
     this.#answer = null;
     this.#save.disabled = true;
-    this.#asked.ask({ ...machine, view, laws, active, cycle: cycle ? { study: cycle, axis } : null });
+    this.#asked.ask({ ...machine, ...this.#motion(state) });
   }
 
   #show(answer) {

@@ -20,6 +20,19 @@ function changed() {
   observer({ lost: those("lost").length > 0, slow: those("slow"), late: those("late") });
 }
 
+/** What is no question, such as a module on its way, is work too. */
+export async function during(promise) {
+  const work = { busy: true };
+  all.add(work);
+  changed();
+  try {
+    return await promise;
+  } finally {
+    all.delete(work);
+    changed();
+  }
+}
+
 class Lost extends Error {}
 
 async function ask(path, question, patience, signal) {

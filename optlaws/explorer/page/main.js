@@ -1,17 +1,13 @@
 // The page: state in, views out.
 
-import { CamView } from "./cam.js";
-import { CycleView } from "./cycle.js";
 import { Exporting } from "./exporting.js";
 import { tabs } from "./fields.js";
-import { observe } from "./latest.js";
-import { Laws } from "./laws.js";
+import { during, observe } from "./latest.js";
 import { FIRST, Study, read } from "./state.js";
 import { html } from "./svg.js";
 import { restore } from "./theme.js";
 import { Tools } from "./tools.js";
-
-const VIEWS = { laws: "Laws", cycle: "Cycle", cam: "Cam" };
+import { VIEWS } from "./views.js";
 
 restore();
 
@@ -48,36 +44,56 @@ function painted() {
   });
 }
 
+/** The element of a view; those that the page's text has none for are made. */
+function rootOf(name) {
+  const root = document.getElementById(`${name}-view`);
+  if (root) return root;
+  const made = html("main", { id: `${name}-view`, class: "view", hidden: true });
+  document.querySelector("main:last-of-type").after(made);
+  return made;
+}
+
 async function begin() {
-  const { state, names, cycle, cam, followers, formats } = await (await fetch("api/start")).json();
+  const start = await (await fetch("api/start")).json();
+  const { state, examples, formats } = start;
   const first = location.hash.length > 1 ? read(location.hash) : { ...structuredClone(FIRST), ...state };
   const views = {};
-  const examples = { cycle, cam };
   const study = new Study(first, render);
-  const choose = tabs(document.getElementById("views"), VIEWS, (key) => study.change("view", (next) => {
+  const named = (now) => (Object.hasOwn(VIEWS, now.view) ? now.view : "laws");
+  const titles = Object.fromEntries(Object.entries(VIEWS).map(([name, { title }]) => [name, title]));
+  const choose = tabs(document.getElementById("views"), titles, (key) => study.change("view", (next) => {
     next.view = key;
     if (key in examples) next[key] ??= structuredClone(examples[key]);
   }));
-  const exporting = new Exporting(study, formats);
-  const tools = new Tools(document.getElementById("tools"), study, notice, exporting);
+  const shown = () => views[named(study.state)];
+  const exporting = new Exporting(study, formats, (now) => shown()?.exported?.(now) ?? null);
+  const tools = new Tools(document.getElementById("tools"), study, notice, exporting, shown);
+
+  /** A view is loaded when it is first shown. */
+  async function load(name) {
+    views[name] = null;
+    const { View } = await VIEWS[name].load();
+    views[name] = new View(rootOf(name), study, start, painted);
+    render(study.state); // its questions begin before this work ends
+  }
 
   function render(now) {
-    const view = Object.hasOwn(VIEWS, now.view) ? now.view : "laws";
-    for (const name of Object.keys(VIEWS)) document.getElementById(`${name}-view`).hidden = name !== view;
-    choose(view);
-    tools.show(study);
-    views[view].show(now);
-    exporting.show(now);
+    const name = named(now);
+    for (const other of Object.keys(VIEWS)) rootOf(other).hidden = other !== name;
+    choose(name);
+    const view = views[name];
+    if (view) {
+      if (name in examples) now[name] ??= structuredClone(examples[name]);
+      view.show(now);
+      exporting.show(now);
+    } else if (view === undefined) during(load(name)).catch((error) => notice(error.message));
+    tools.show(study, Boolean(view?.exported?.(now)));
   }
 
   observe(work);
-  views.laws = new Laws(study, names, painted);
-  views.cycle = new CycleView(study);
-  views.cam = new CamView(study, followers);
-  if (first.view in examples) first[first.view] ??= structuredClone(examples[first.view]);
   document.querySelector(".skip").addEventListener("click", (event) => {
     event.preventDefault();
-    document.querySelector(".view:not([hidden]) :is(.handle, .picture, #motion)").focus();
+    document.querySelector(".view:not([hidden]) :is(.handle, .picture, .panels, #motion)").focus();
   });
   addEventListener("hashchange", () => study.replace(read(location.hash)));
   for (const kind of ["input", "pointermove", "keydown"]) addEventListener(kind, () => marked("input"), { capture: true, passive: true });

@@ -1,39 +1,20 @@
 // Files that the reader saves: the browser downloads them, the server writes none.
 
-const LAWS = [
-  { kind: "python", text: "Python", about: "Lines that reproduce what is seen" },
-  { kind: "problem", text: "Problem file (TOML)", about: "For optlaws run" },
-  { kind: "law", text: "Law (JSON)", about: "For optlaws law, compare and cycle; a solution with its proof for optlaws verify" },
-  { kind: "table", text: "Table of values (CSV)", about: "k, a, b, c, j and d" },
-];
-const CYCLE = [
-  { kind: "python", text: "Python", about: "Lines that reproduce what is seen" },
-  { kind: "problem", text: "Problem file (TOML)", about: "For optlaws cycle" },
-  { kind: "table", text: "Table of values (CSV)", about: "Angle, time, position, velocity, acceleration and jerk" },
-];
-const CUT = ["dxf spline", "dxf polyline", "dxf arcs", "svg", "csv", "csv polar", "g-code", "g-code arcs"];
-const CAM = [
-  { kind: "problem", text: "Problem file (TOML)", about: "For optlaws cam" },
-  ...CUT.map((format) => ({ kind: "cut", format, text: `Profile (${format})`, about: "The cam's edge, within 1 µm" })),
-];
-const VIEWS = { laws: LAWS, cycle: CYCLE, cam: CAM };
-const DRAWINGS = { laws: "#curves svg", cycle: "#motion svg", cam: "#cam-curves svg" };
 const PICTURE = { kind: "picture", text: "Picture (SVG)", about: "The curves as they are seen" };
 const DRAWN = ["fill", "stroke", "stroke-width", "stroke-dasharray", "stroke-linejoin", "opacity", "font-family", "font-size", "font-weight"];
 
-export function savings(state) {
-  return [...(VIEWS[state.view] ?? LAWS), PICTURE];
+/** What can be saved of a view. */
+export function savings(view) {
+  return [...view.files, ...(view.drawings ? [PICTURE] : [])];
 }
 
-export async function save(kind, state, format) {
-  if (kind === "picture") return download("optlaws.svg", "image/svg+xml", picture(state));
-  const { view, laws, active } = state;
-  const cycle = state.cycle ? { study: state.cycle, axis: state.axis } : null;
-  const cam = state.cam ? { study: state.cam } : null;
+/** Save a file of a view in a state. */
+export async function save(kind, view, state, format) {
+  if (kind === "picture") return download("optlaws.svg", "image/svg+xml", picture(view.drawings));
   const response = await fetch("api/save", {
     method: "POST",
     headers: { "Content-Type": "application/json" },
-    body: JSON.stringify({ kind, view, laws, active, cycle, cam, ...(format && { format }) }),
+    body: JSON.stringify({ kind, view: state.view, laws: state.laws, active: state.active, ...view.saved?.(state), ...(format && { format }) }),
   });
   const answer = await response.json();
   if (answer.error) throw new Error(answer.error);
@@ -49,9 +30,9 @@ export function download(name, type, text) {
   setTimeout(() => URL.revokeObjectURL(address), 10_000);
 }
 
-/** The drawings of the view, one below the other, with what the style sheet says of them written into them. */
-function picture(state) {
-  const drawings = [...document.querySelectorAll(DRAWINGS[state.view] ?? DRAWINGS.laws)];
+/** The drawings of a view, one below the other, with what the style sheet says of them written into them. */
+function picture(selector) {
+  const drawings = [...document.querySelectorAll(selector)];
   const whole = document.createElementNS("http://www.w3.org/2000/svg", "svg");
   let height = 0;
   for (const drawing of drawings) {

@@ -1,5 +1,7 @@
 // The study: all that the page shows follows from it, the address holds it, and every step can be undone.
 
+import { VIEWS, object } from "./views.js";
+
 const MERGED = 800; // ms within which changes of one thing are one step
 const MOST = 200;
 const WRITTEN = 120; // ms after the last change the address holds it
@@ -14,14 +16,8 @@ export const FIRST = {
   damping: 0,
 };
 
-const object = (value) => value !== null && typeof value === "object" && !Array.isArray(value);
-const motion = (value) => object(value) && Array.isArray(value.segment) && value.segment.every(object);
 /** What a link may hold, and whether the page can show it; the server says what else is wrong with it. */
-const WHOLE = {
-  cycle: (value) => object(value) && Array.isArray(value.axis) && value.axis.length > 0 && value.axis.every(motion),
-  cam: (value) => object(value) && object(value.follower) && motion(value.motion),
-  machine: object,
-};
+const WHOLE = { controller: object, ...Object.fromEntries(Object.entries(VIEWS).filter(([, { whole }]) => whole).map(([name, { whole }]) => [name, whole])) };
 const KNOWN = ["view", "active", "picture", "axis", "frequency", "damping", ...Object.keys(WHOLE)];
 
 const same = (one, other) => JSON.stringify(one) === JSON.stringify(other);

@@ -7,8 +7,10 @@ import { toggle } from "./theme.js";
 export class Tools {
   #undo;
   #redo;
+  #export;
 
-  constructor(root, study, notice, exporting) {
+  /** `shown()` is the view that is shown. */
+  constructor(root, study, notice, exporting, shown) {
     const button = (text, title, act) => html("button", { type: "button", title, text, onclick: act });
     this.#undo = button("Undo", "Undo (Ctrl Z)", () => study.undo());
     this.#redo = button("Redo", "Redo (Ctrl Shift Z)", () => study.redo());
@@ -21,11 +23,14 @@ export class Tools {
       }
       setTimeout(() => (link.textContent = "Copy link"), 1500);
     });
-    root.replaceChildren(this.#undo, this.#redo, link, button("Export", "For a controller, with what it will run", () => exporting.open()), menu(study, notice), button("◐", "Dark or light", toggle));
+    this.#export = button("Export", "For a controller, with what it will run", () => exporting.open());
+    root.replaceChildren(this.#undo, this.#redo, link, this.#export, menu(study, notice, shown), button("◐", "Dark or light", toggle));
     addEventListener("keydown", (event) => this.#key(event, study));
   }
 
-  show(study) {
+  /** `exports` is whether the view has a motion for a controller. */
+  show(study, exports) {
+    this.#export.disabled = !exports;
     this.#undo.disabled = !study.canUndo;
     this.#redo.disabled = !study.canRedo;
   }
@@ -39,16 +44,16 @@ export class Tools {
   }
 }
 
-function menu(study, notice) {
+function menu(study, notice, shown) {
   const list = html("div", { class: "list", role: "menu" });
   const details = html("details", { class: "menu" }, html("summary", { text: "Save" }), list);
   details.addEventListener("toggle", () => {
     if (!details.open) return;
-    const items = savings(study.state).map(({ kind, text, about, format }) => html("button", {
+    const items = (shown() ? savings(shown()) : []).map(({ kind, text, about, format }) => html("button", {
       type: "button", role: "menuitem", title: about, text, "data-kind": kind,
       onclick: () => {
         details.open = false;
-        save(kind, study.state, format).catch((error) => notice(error.message));
+        save(kind, shown(), study.state, format).catch((error) => notice(error.message));
       },
     }));
     list.replaceChildren(...items);

@@ -1,28 +1,46 @@
 // The view of a cycle: its programme on the left, the motion in machine units, its segments and its limits.
 
-import { Latest } from "./latest.js";
-import { Motion } from "./motion.js";
-import { Programme } from "./programme.js";
-import { html } from "./svg.js";
-import { showTrust, unanswered } from "./trust.js";
+import { Latest } from "../latest.js";
+import { Panels } from "../panels.js";
+import { Programme } from "../programme.js";
+import { html } from "../svg.js";
+import { showTrust, unanswered } from "../trust.js";
 
 const element = (id) => document.getElementById(id);
 const HEADINGS = ["segment", "from, deg", "to, deg", "takes, ms", "moves", "velocity", "acceleration", "jerk"];
 
-export class CycleView {
+const FILES = [
+  { kind: "python", text: "Python", about: "Lines that reproduce what is seen" },
+  { kind: "problem", text: "Problem file (TOML)", about: "For optlaws cycle" },
+  { kind: "table", text: "Table of values (CSV)", about: "Angle, time, position, velocity, acceleration and jerk" },
+];
+
+export class View {
+  files = FILES;
+  drawings = "#motion svg";
   #study;
   #programme;
-  #motion = new Motion(element("motion"));
+  #motion = new Panels(element("motion"));
   #answer = null;
   #ways = null;
   #cycles;
   #nearest;
 
-  constructor(study) {
+  constructor(_root, study) {
     this.#study = study;
     this.#programme = new Programme(element("programme"), study, (state) => state.cycle);
     this.#cycles = new Latest("api/cycle", (answer, question) => this.#answered(answer, question), (error, question) => this.#answered(unanswered(error), question));
     this.#nearest = new Latest("api/cycle-nearest", ({ ways }) => this.#render(this.#answer, ways), () => this.#render(this.#answer, []));
+  }
+
+  /** The part of a study that files are made of. */
+  saved({ cycle, axis }) {
+    return { cycle: { study: cycle, axis } };
+  }
+
+  /** The cycle that a controller is to run. */
+  exported({ view, laws, active, cycle, axis }) {
+    return { view, laws, active, cycle: { study: cycle, axis } };
   }
 
   show(state) {

@@ -24,8 +24,8 @@ from optlaws import (
     synthesize_array,
 )
 from optlaws.errors import InputError, OptlawsError
-from optlaws.explorer.law_view import digits, drawn, objective_title
-from optlaws.explorer.requests import LawRequest, problem_of, solved, value, without
+from optlaws.explorer.requests import LawRequest, Question, problem_of, solved, value, without
+from optlaws.explorer.views.law_view import digits, drawn, objective_title
 from optlaws.laws.savin import FAMILIES
 from optlaws.numbers import bounded
 from optlaws.synthesis.limits.of_problem import known_limit
@@ -199,3 +199,6 @@ def families(x: str, y: str) -> list[dict[str, Any]]:
         columns = [drawn(np.array([value(law, constant) for law in laws]), 5) for constant in (x, y)]
         lines.append({"name": name, "line": [list(column) for column in zip(*columns, strict=True)]})
     return lines
+
+
+QUESTIONS: dict[str, Question] = {"front": (FrontRequest, answer)}

@@ -19,8 +19,9 @@ from optlaws.cams.forces import CamForces
 from optlaws.cams.least_sizes import least_base_circle
 from optlaws.cams.summary import Labelled, named_forces
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError
-from optlaws.explorer.cycle_view import SEGMENTS, check_axis
-from optlaws.explorer.law_view import digits, drawn, refusal
+from optlaws.explorer.requests import Question
+from optlaws.explorer.views.cycle_view import SEGMENTS, check_axis
+from optlaws.explorer.views.law_view import digits, drawn, refusal
 from optlaws.files.problem_file import convert
 from optlaws.jobs.cam_entries import CamProblemFile, ForcesEntries
 from optlaws.jobs.cam_findings import FORCE, STIFFNESS, Findings
@@ -306,3 +307,10 @@ def _spring(findings: Findings) -> list[str]:
     pressed = findings.spec.spring is not None and findings.spec.spring.greatest == "contact"
     greatest = f"{digits(spring.greatest, 6)} {'N of contact' if pressed else f'{FORCE[axis]} on the follower'}"
     return [f"least spring without lift-off: {sizes}, up to {greatest}"]
+
+
+QUESTIONS: dict[str, Question] = {
+    "cam": (CamRequest, answer),
+    "cam-loads": (CamRequest, loads),
+    "cam-sizes": (CamRequest, sizes),
+}

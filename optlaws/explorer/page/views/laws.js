@@ -1,23 +1,32 @@
 // The view of laws: what is asked on the left, the plane of the constants in the middle, the curves on the right.
 
-import { askedOf, move } from "./asked.js";
-import { Controls } from "./controls.js";
-import { Curves } from "./curves.js";
-import { slider, tabs } from "./fields.js";
-import { Latest } from "./latest.js";
-import { Plane } from "./plane.js";
-import { Residual } from "./residual.js";
-import { showTable } from "./table.js";
-import { Tray } from "./tray.js";
-import { showTrust, unanswered } from "./trust.js";
-import { html } from "./svg.js";
+import { askedOf, move } from "../asked.js";
+import { Controls } from "../controls.js";
+import { Curves } from "../curves.js";
+import { slider, tabs } from "../fields.js";
+import { Latest } from "../latest.js";
+import { Plane } from "../plane.js";
+import { Residual } from "../residual.js";
+import { showTable } from "../table.js";
+import { Tray } from "../tray.js";
+import { showTrust, unanswered } from "../trust.js";
+import { html } from "../svg.js";
 
 const PICTURES = { "B-C": "C over B", "B-D": "D over B", "B-J": "J over B", "C-D": "D over C", "J-C": "C over J", residual: "residual" };
 
 const element = (id) => document.getElementById(id);
 const told = (value) => JSON.stringify(value);
 
-export class Laws {
+const FILES = [
+  { kind: "python", text: "Python", about: "Lines that reproduce what is seen" },
+  { kind: "problem", text: "Problem file (TOML)", about: "For optlaws run" },
+  { kind: "law", text: "Law (JSON)", about: "For optlaws law, compare and cycle; a solution with its proof for optlaws verify" },
+  { kind: "table", text: "Table of values (CSV)", about: "k, a, b, c, j and d" },
+];
+
+export class View {
+  files = FILES;
+  drawings = "#curves svg";
   #study;
   #state = null;
   #views = [];
@@ -39,7 +48,7 @@ export class Laws {
   #residuals;
   #drawn;
 
-  constructor(study, names, drawn) {
+  constructor(_root, study, { names }, drawn) {
     this.#study = study;
     this.#drawn = drawn;
     this.#controls = new Controls(element("ask"), study, (name) => this.#value(name));
@@ -54,6 +63,11 @@ export class Laws {
     this.#fronts = new Latest("api/front", (front) => this.#showFront(front), (error) => this.#withoutFront(error));
     this.#nearest = new Latest("api/nearest", (answer, question) => this.#near(answer, question), (_, question) => this.#near({ ways: [] }, question));
     this.#residuals = new Latest("api/residual", (answer) => this.#showResidual(answer), (error) => this.#withoutResidual(error));
+  }
+
+  /** The law that a controller is to run. */
+  exported({ laws, active }) {
+    return { view: "laws", laws, active };
   }
 
   show(state) {

@@ -20,6 +20,7 @@ from optlaws.explorer.requests import (
     MOST_LAWS,
     LawRequest,
     LawsRequest,
+    Question,
     given_law,
     law_of,
     problem_of,
@@ -322,3 +323,10 @@ def _spectrum(request: LawRequest, frequencies: Any, follower: ResidualRequest) 
     values = response_spectrum(law, frequencies, follower.damping).residual_acceleration
     here = residual_vibration(frequency=follower.frequency, damping=follower.damping).value(law)
     return {"values": drawn(values), "value": here, "text": digits(here, 6)}
+
+
+QUESTIONS: dict[str, Question] = {
+    "laws": (LawsRequest, answer),
+    "nearest": (LawRequest, nearest),
+    "residual": (ResidualRequest, residuals),
+}

@@ -1,12 +1,12 @@
 // The view of a cam: mechanism and motion on the left, the cam that turns, pressure angle and curvature on the right.
 
-import { group } from "./fields.js";
-import { Latest } from "./latest.js";
-import { Mechanism } from "./mechanism.js";
-import { Motion } from "./motion.js";
-import { Programme } from "./programme.js";
-import { html } from "./svg.js";
-import { showTrust, unanswered } from "./trust.js";
+import { group } from "../fields.js";
+import { Latest } from "../latest.js";
+import { Mechanism } from "../mechanism.js";
+import { Panels } from "../panels.js";
+import { Programme } from "../programme.js";
+import { html } from "../svg.js";
+import { showTrust, unanswered } from "../trust.js";
 
 const told = (value) => JSON.stringify(value);
 const element = (id) => document.getElementById(id);
@@ -18,12 +18,20 @@ const LOADS = {
   arm: { inertia: "none, or 0.02 kg m^2", stiffness: "none, or 20 N m/rad", preload: "none, or 3 N m" },
 };
 
-export class CamView {
+const CUT = ["dxf spline", "dxf polyline", "dxf arcs", "svg", "csv", "csv polar", "g-code", "g-code arcs"];
+const FILES = [
+  { kind: "problem", text: "Problem file (TOML)", about: "For optlaws cam" },
+  ...CUT.map((format) => ({ kind: "cut", format, text: `Profile (${format})`, about: "The cam's edge, within 1 µm" })),
+];
+
+export class View {
+  files = FILES;
+  drawings = "#cam-curves svg";
   #study;
   #followers;
   #programme;
   #mechanism = new Mechanism(element("cam-drawing"));
-  #motion = new Motion(element("cam-curves"));
+  #motion = new Panels(element("cam-curves"));
   #cams;
   #sizes;
   #loads;
@@ -34,7 +42,7 @@ export class CamView {
   #dial;
   #play;
 
-  constructor(study, followers) {
+  constructor(_root, study, { followers }) {
     this.#study = study;
     this.#followers = followers;
     this.#programme = new Programme(element("cam-programme"), study, (state) => state.cam);
@@ -47,6 +55,11 @@ export class CamView {
     this.#loads = new Latest("api/cam-loads", (loads, asked) => told(asked.study) === told(this.#study.state.cam) && this.#bear(loads), (error) => this.#bear({ panels: [], facts: [error.message] }));
     this.#sizes = new Latest("api/cam-sizes", ({ facts }, asked) => told(asked.study) === told(this.#study.state.cam) && this.#fact(facts), (error) => this.#fact([error.message]));
     this.#turning();
+  }
+
+  /** The part of a study that files are made of. */
+  saved({ cam }) {
+    return { cam: { study: cam } };
   }
 
   show(state) {

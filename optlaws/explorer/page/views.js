@@ -1,0 +1,22 @@
+// The views of the page: the name of each in a study, its title, what its part of a study must be, and its module.
+//
+// A module exports `View`: `new View(root, study, start)` fills its element; `show(state)` draws a state; `files(state)`
+// lists what can be saved as {kind, text, about, format}; `drawings` selects the pictures that are saved as one;
+// `focus` selects where "Skip to the picture" leads. `start` is what the server tells of catalogues and formats.
+
+export const object = (value) => value !== null && typeof value === "object" && !Array.isArray(value);
+export const motion = (value) => object(value) && Array.isArray(value.segment) && value.segment.every(object);
+
+export const VIEWS = {
+  laws: { title: "Laws", load: () => import("./views/laws.js") },
+  cycle: {
+    title: "Cycle",
+    whole: (value) => object(value) && Array.isArray(value.axis) && value.axis.length > 0 && value.axis.every(motion),
+    load: () => import("./views/cycle.js"),
+  },
+  cam: {
+    title: "Cam",
+    whole: (value) => object(value) && object(value.follower) && motion(value.motion),
+    load: () => import("./views/cam.js"),
+  },
+};
