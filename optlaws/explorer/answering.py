@@ -16,8 +16,8 @@ import msgspec
 from optlaws.echo import cut
 from optlaws.errors import InputError, OptlawsError
 from optlaws.explorer import downloads
-from optlaws.explorer.requests import Question, read, ready
 from optlaws.explorer.views import cam_view, cycle_view, front_view, law_view
+from optlaws.explorer.views.requests import Question, read, ready
 from optlaws.jobs.cam_entries import CamProblemFile
 from optlaws.jobs.cycle_entries import CycleProblemFile
 

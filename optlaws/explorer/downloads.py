@@ -16,9 +16,9 @@ from optlaws import Cycle, Problem, Solution
 from optlaws.cams.curves import cam_files
 from optlaws.cams.curves.file_options import Cutting
 from optlaws.errors import InputError
-from optlaws.explorer.requests import MOST_LAWS, LawRequest, Question, law_of, problem_of, solved
 from optlaws.explorer.views import cam_view, cycle_view
 from optlaws.explorer.views.law_view import digits, title
+from optlaws.explorer.views.requests import MOST_LAWS, LawRequest, Question, law_of, problem_of, solved
 from optlaws.exports.format import FORMATS
 from optlaws.files.tables import to_toml
 from optlaws.files.writing import MARK

@@ -7,7 +7,7 @@ from typing import Any
 
 from optlaws.errors import InputError, located
 from optlaws.explorer.answering import EXAMPLES
-from optlaws.explorer.requests import MOST_LAWS, LawRequest, problem_of
+from optlaws.explorer.views.requests import MOST_LAWS, LawRequest, problem_of
 from optlaws.files import reading
 from optlaws.files.packaged import is_problem, problem_file
 from optlaws.laws.catalogue.reading import is_file, is_table, read_law

@@ -4,10 +4,10 @@ from optlaws.explorer import downloads
 from optlaws.explorer.answering import QUESTIONS
 from optlaws.explorer.application import MOST_BYTES, page
 from optlaws.explorer.downloads import FileRequest
-from optlaws.explorer.requests import LawRequest, LawsRequest, given_law, law_of, problem_of, solved
 from optlaws.explorer.server import ADDRESS, opened, server
 from optlaws.explorer.start import start
 from optlaws.explorer.views import cam_view, cycle_view, front_view, law_view
 from optlaws.explorer.views.cam_view import CamRequest
 from optlaws.explorer.views.cycle_view import CycleRequest, example
 from optlaws.explorer.views.law_view import answer
+from optlaws.explorer.views.requests import LawRequest, LawsRequest, given_law, law_of, problem_of, solved

@@ -19,9 +19,9 @@ from optlaws.cams.forces import CamForces
 from optlaws.cams.least_sizes import least_base_circle
 from optlaws.cams.summary import Labelled, named_forces
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError
-from optlaws.explorer.requests import Question
 from optlaws.explorer.views.cycle_view import SEGMENTS, check_axis
 from optlaws.explorer.views.law_view import digits, drawn, refusal
+from optlaws.explorer.views.requests import Question
 from optlaws.files.problem_file import convert
 from optlaws.jobs.cam_entries import CamProblemFile, ForcesEntries
 from optlaws.jobs.cam_findings import FORCE, STIFFNESS, Findings

@@ -17,9 +17,9 @@ from optlaws.cycles.optimisation.motion_limits import LIMITS, both_sides, limits
 from optlaws.cycles.optimisation.objectives import OBJECTIVES
 from optlaws.cycles.summary import drive_rows, joint_rows, objective_unit
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
-from optlaws.explorer.picture_points import refined
-from optlaws.explorer.requests import MOST_DEGREE, MOST_ORDER, Question
 from optlaws.explorer.views.law_view import TITLES, digits, drawn, gap_text, refusal
+from optlaws.explorer.views.picture_points import refined
+from optlaws.explorer.views.requests import MOST_DEGREE, MOST_ORDER, Question
 from optlaws.files.problem_file import convert
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile, cycle_of
 from optlaws.laws.catalogue import reading

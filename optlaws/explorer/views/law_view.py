@@ -14,8 +14,8 @@ import numpy as np
 
 from optlaws import Chebyshev, MotionLaw, Peak, Problem, Solution, Status, residual_vibration, response_spectrum
 from optlaws.errors import InfeasibleProblem, OptlawsError, SolverFailure
-from optlaws.explorer.picture_points import refined
-from optlaws.explorer.requests import (
+from optlaws.explorer.views.picture_points import refined
+from optlaws.explorer.views.requests import (
     MOST_DEGREE,
     MOST_LAWS,
     LawRequest,
