@@ -7,7 +7,6 @@ from dataclasses import replace
 from math import inf, isfinite
 
 import numpy as np
-from scipy.linalg import null_space
 
 from optlaws.numbers import Array
 from optlaws.synthesis.functionals.curved_rows import columns_of
@@ -48,6 +47,9 @@ def points(model: Model) -> Iterator[Array]:
 
 def in_phase_plane(model: Model, limit: DriveLimit) -> Array:
     """The variables of the law whose velocity is nearest to the motion that is a drive's limit."""
+    # it takes as long to import as all of optlaws that a law needs
+    from scipy.linalg import null_space
+
     k, a, b = limit.motion()
     space = model.space
     share = np.sqrt(np.gradient(k))[:, None]
