@@ -72,3 +72,15 @@ def test_laws_of_least_power_on_a_line_are_found_together() -> None:
         assert items[place].objective == pytest.approx(alone.objective, rel=1e-9)
         assert items[place].status is alone.status
         assert items[place].lower_bound == pytest.approx(alone.lower_bound, rel=1e-9)
+
+
+@pytest.mark.parametrize("degree", [3, 9, 19, 39])
+@pytest.mark.parametrize("B", [1.53, 1.641, 2.203])
+def test_the_last_digit_does_not_depend_on_the_start(degree: int, B: float) -> None:
+    problem = Problem(B=B, order=4, basis=Chebyshev(degree))
+    first = synthesize(problem)
+    for near in (0.999, 1.0004):
+        again = synthesize(problem, start=synthesize(replace(problem, B=near * B)))
+        assert again.iterations == 0
+        assert again.law == first.law
+        assert again.certificate == first.certificate

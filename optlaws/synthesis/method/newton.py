@@ -3,6 +3,9 @@
 At the optimum a few contacts carry the whole program: points where a constraint binds, each at an extremum of its
 residual. Unknown are the variables x, the free positions u and the multipliers. The system is square, so convergence
 is quadratic, and fewer contacts than variables are no difficulty (the curvature of the contacts closes it).
+
+What is near the optimum is rounded to few digits, and the last steps begin there: from whatever guess an optimum was
+met, its last digit is the same.
 """
 
 from __future__ import annotations
@@ -12,14 +15,24 @@ from dataclasses import replace
 
 import numpy as np
 
-from optlaws.numbers import Array
+from optlaws.numbers import Array, power_of_two
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Program
-from optlaws.tolerances import DEPENDENT_ROWS, NEWTON_CONVERGED, NEWTON_FULFILLED, NEWTON_STALLED, NEWTON_STILL
+from optlaws.tolerances import (
+    DEPENDENT_ROWS,
+    NEWTON_CONVERGED,
+    NEWTON_FULFILLED,
+    NEWTON_NEAR,
+    NEWTON_SAME,
+    NEWTON_STALLED,
+    NEWTON_STILL,
+)
 
 _STEPS = 14
 _FAR = 1.05
 _WILD = 1e6
+#: of a state that is rounded, of 1 or of the greatest number
+_DIGITS = 2.0**20
 
 
 def newton(program: Program, start: ActiveSet, *, deficient: bool = False) -> ActiveSet | None:
@@ -27,6 +40,19 @@ def newton(program: Program, start: ActiveSet, *, deficient: bool = False) -> Ac
 
     `deficient` says that they are known to have no unique solution.
     """
+    if deficient:
+        return _iterated(program, start, deficient=True)
+    near = _iterated(program, start, enough=NEWTON_NEAR)
+    if near is None:
+        return None
+    optimum = _iterated(program, _rounded(near))
+    if optimum is not None and _distance(near, optimum) <= NEWTON_SAME:
+        return optimum
+    return _iterated(program, near)
+
+
+def _iterated(program: Program, start: ActiveSet, *, enough: float = 0.0, deficient: bool = False) -> ActiveSet | None:
+    """The state at which Newton's method stands still, or at which all that a step changes is less than enough."""
     state = start
     previous = np.inf
     for _ in range(_STEPS):
@@ -37,6 +63,8 @@ def newton(program: Program, start: ActiveSet, *, deficient: bool = False) -> Ac
         before, state = state, _moved(state, step)
         scale = max(1.0, float(np.abs(state.x).max()))
         steps, defects = np.abs(step), np.abs(defect)
+        if float(steps.max()) < enough * scale:
+            return state
         size = float(steps[: program.size].max()) / scale
         # x may stand still where the conditions do not hold: in a deficient system, or where the optimum is flat
         off = max(float(defects[: program.size].max()), float(defects[program.size :].max(initial=0.0)) / scale)
@@ -48,6 +76,33 @@ def newton(program: Program, start: ActiveSet, *, deficient: bool = False) -> Ac
             return None
         previous = size
     return None
+
+
+def _rounded(state: ActiveSet) -> ActiveSet:
+    """The state with its contacts in order, and with few digits of all that Newton's method moves."""
+    order = np.lexsort((state.s, state.u, state.family))
+    u, free = state.u[order], state.free[order]
+    multipliers = np.concatenate([state.multipliers[order], state.equality_multipliers])
+    weights = _with_few_digits(multipliers)
+    return ActiveSet(
+        x=_with_few_digits(state.x),
+        family=state.family[order],
+        u=np.where(free, np.round(u * _DIGITS) / _DIGITS, u),
+        s=state.s[order],
+        free=free,
+        multipliers=weights[: len(u)],
+        equality_multipliers=weights[len(u) :],
+    )
+
+
+def _with_few_digits(numbers: Array) -> Array:
+    grid = _DIGITS / power_of_two(float(np.abs(numbers).max(initial=1.0)))
+    return np.asarray(np.round(numbers * grid) / grid)
+
+
+def _distance(first: ActiveSet, last: ActiveSet) -> float:
+    """How far the variables of two optima are from each other, as a share of the greatest."""
+    return float(np.abs(first.x - last.x).max() / max(1.0, np.abs(first.x).max()))
 
 
 def _conditions(program: Program, state: ActiveSet) -> tuple[Array, Array]:
