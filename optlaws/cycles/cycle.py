@@ -290,7 +290,7 @@ class Cycle(CycleInterchange):
         """Force or torque and power that the drive takes."""
         if self._drive is None:
             raise InputError("the cycle has no drive: give one, such as drive={'mass': '2 kg', 'gravity': '20 N'}")
-        return effort(self._drive, self.pieces, self.duration)
+        return effort(self._along, self.duration)
 
     @kept_property
     def sheet(self) -> CycleSheet:
@@ -303,7 +303,7 @@ class Cycle(CycleInterchange):
         """
         if not isinstance(self._drive, PositionDrive):
             raise InputError("the cycle has no motor: give one, as drive=Drive(mechanism, Motor(...), ratio=20)")
-        return cycle_sheet(self._drive, self.effort, self.pieces, self.duration)
+        return cycle_sheet(self._drive, self._along, self.effort, self.duration)
 
     @kept_property
     def efforts(self) -> tuple[SegmentEffort, ...]:
@@ -326,13 +326,11 @@ class Cycle(CycleInterchange):
     @kept_property
     def smooth_times(self) -> Array:
         """Times between which force and power of the drive are smooth and of one sign, s."""
-        drive = known_drive(self._drive)
-        return np.unique(np.concatenate([PieceEffort(drive, piece).parts.edges for piece in self.pieces]))
+        return np.unique(np.concatenate([each.parts.edges for each in self._along]))
 
     def _of_drive(self, time: Any, function: Callable[[PieceEffort, Array], Array]) -> Any:  # noqa: ANN401
-        drive = known_drive(self._drive)
         places = np.mod(real_times(time), self.duration)
-        along = [partial(function, PieceEffort(drive, piece)) for piece in self.pieces]
+        along = [partial(function, each) for each in self._along]
         return number_or_array(by_pieces(self.pieces, along, places))
 
     def __call__(self, time: Any, nu: int = 0) -> Any:  # noqa: ANN401 - a number for a number, an array for arrays
@@ -500,6 +498,12 @@ class Cycle(CycleInterchange):
     @kept_property
     def _timed(self) -> TimedCycle:
         return TimedCycle(self.programme, self._layout.starts, self.pieces)
+
+    @kept_property
+    def _along(self) -> tuple[PieceEffort, ...]:
+        """What the drive does along each piece."""
+        drive = known_drive(self._drive)
+        return tuple(PieceEffort(drive, piece) for piece in self.pieces)
 
     @kept_property
     def _drive(self) -> CycleDrive | PositionDrive | None:

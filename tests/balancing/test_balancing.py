@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from optlaws import Balancing, CamForces, Cycle, DiscCam, Dwell, InputError, Loader, Return, Rise, TranslatingRoller
-from tests.internals.cycles import effort
+from tests.internals.cycles import PieceEffort, effort
 
 
 def cycle(law: str, back: str = "90 deg", **drive: str) -> Cycle:
@@ -39,7 +39,10 @@ def test_what_no_loader_balances_is_left() -> None:
     degrees = np.linspace(0.0, 359.0, 200)
     assert balancing.torque(degrees) == pytest.approx(rest.torque(degrees, balanced=False), abs=1e-9)
     assert balancing.before.peak == pytest.approx(
-        effort(balancing.load, balancing.cycle.pieces, balancing.cycle.duration).peak_power / balancing.rate
+        effort(
+            [PieceEffort(balancing.load, piece) for piece in balancing.cycle.pieces], balancing.cycle.duration
+        ).peak_power
+        / balancing.rate
     )
 
 

@@ -44,8 +44,8 @@ class CycleSheet(DriveSheet):
     _at: ClassVar[str] = "s"
 
 
-def cycle_sheet(drive: PositionDrive, effort: Effort, pieces: Sequence[Piece], period: float) -> CycleSheet:
-    """The sheet of a motor, from its effort over the pieces of a cycle.
+def cycle_sheet(drive: PositionDrive, along: Sequence[PieceEffort], effort: Effort, period: float) -> CycleSheet:
+    """The sheet of a motor, from what it does along each piece of a cycle and its effort over all.
 
     Raises
     ------
@@ -55,7 +55,7 @@ def cycle_sheet(drive: PositionDrive, effort: Effort, pieces: Sequence[Piece], p
     source = drive.source
     if not isinstance(source, Drive):
         raise InputError("the cycle has no motor: give one, as drive=Drive(mechanism, Motor(...), ratio=20)")
-    motor, along = source.motor, [PieceEffort(drive, piece) for piece in pieces]
+    motor = source.motor
     speed = _greatest(along, _speed)
     use = _greatest(along, partial(_use, motor))
     mean_speed = sum(each.parts.integral(partial(_speed, each)) for each in along) / period
@@ -69,7 +69,7 @@ def cycle_sheet(drive: PositionDrive, effort: Effort, pieces: Sequence[Piece], p
         *(speed.value, mean_speed, effort.motoring_power, effort.braking_power),
         *(effort.motoring_energy, effort.braking_energy, effort.energy),
         *((1.0 - source.regeneration) * effort.braking_energy / period, effort.rms_force**2 * drive.copper),
-        _greatest_inertia(drive, pieces) / source.ratio**2 / inertia if inertia else inf,
+        _greatest_inertia(drive, [each.piece for each in along]) / source.ratio**2 / inertia if inertia else inf,
         *((use.value, use.place) if motor.curve else (0.0, 0.0)),
         float(share_used(np.array(effort.rms_force), np.array(rated))),
         *(motor.peak_torque, rated, motor.greatest_speed),

@@ -123,12 +123,12 @@ class PieceEffort:
         rms = sqrt(self.square / (stop - start))
         return SegmentEffort(name, self.peak_force.value, rms, *self.powers, *self.energies)
 
-    @property
+    @kept_property
     def peak_force(self) -> Greatest:
         """The greatest magnitude of the force, and its time."""
         return self.parts.greatest(lambda times: np.abs(self.force(times)))
 
-    @property
+    @kept_property
     def powers(self) -> tuple[float, float]:
         """The greatest power that is given, and that is taken back, both at least 0."""
         given, taken = self.parts.greatest(self.power), self.parts.greatest(lambda times: -self.power(times))
@@ -158,16 +158,17 @@ class PieceEffort:
         return self.parts.integral(lambda times: self.force(times) ** 2)
 
 
-def effort(drive: CycleDrive | PositionDrive, pieces: Sequence[Piece], period: float) -> Effort:
-    """The force and power of a drive over pieces that make a cycle.
+def effort(along: Sequence[PieceEffort], period: float) -> Effort:
+    """The force and power of a drive over a cycle, from what it does along each piece.
 
     >>> from optlaws.laws import smoothstep
     >>> drive = CycleDrive(inertia=2.0, viscous=0.0, stiffness=0.0, constant=0.0, dry=0.0)
     >>> rise = Piece(0.0, 1.0, 0.0, 1.0, smoothstep(2))
-    >>> round(effort(drive, [rise], 1.0).peak_force, 9), round(effort(drive, [rise], 1.0).motoring_energy, 9)
+    >>> known = effort([PieceEffort(drive, rise)], 1.0)
+    >>> round(known.peak_force, 9), round(known.motoring_energy, 9)
     (12.0, 2.25)
     """
-    along = [PieceEffort(drive, piece) for piece in pieces]
+    regeneration = along[0].drive.regeneration
     peak = max((each.peak_force for each in along), key=lambda greatest: greatest.value)
     given, taken = (max(powers) for powers in zip(*(each.powers for each in along), strict=True))
     driving, braking = (sum(energies) for energies in zip(*(each.energies for each in along), strict=True))
@@ -175,7 +176,7 @@ def effort(drive: CycleDrive | PositionDrive, pieces: Sequence[Piece], period: f
     return Effort(
         *(peak.value, peak.place, sqrt(sum(each.square for each in along) / period)),
         *(power, mean if abs(mean) > VALUE_ROUNDING * power else 0.0),
-        *(given, taken, driving, braking, driving - drive.regeneration * braking),
+        *(given, taken, driving, braking, driving - regeneration * braking),
     )
 
 
