@@ -77,8 +77,11 @@ class Findings:
     def best(self) -> BestCam | BestBaseCircle | None:
         """How good the laws for the cam are, and the proof; None where they are those of the cycle."""
         spec, follower = self.spec, read_follower(self.spec.follower)
-        if spec.best != "base circle" and spec.base_radius is None:
-            raise InputError("base_radius is missing: give it, such as '60 mm', or ask for best = 'base circle'")
+        if spec.base_radius is None and (spec.best in {"laws", "offset"} or not self._limited):
+            raise InputError(
+                "base_radius is missing: give it, such as '60 mm'; or give pressure_angle or radius_of_curvature, and "
+                "the least one that keeps them is taken; or ask for best = 'base circle'"
+            )
         if spec.best == "offset":
             return None
         if spec.best == "base circle" and spec.base_radius is not None:
@@ -109,8 +112,20 @@ class Findings:
             return offset.cam
         if best is not None:
             return best.cam if isinstance(best, BestCam) else best.least.cam
+        if self.spec.base_radius is None:
+            return self._least_of_limits.cam
         turning = self.spec.limits["turning"]
-        return DiscCam(self.cycle, self.spec.base_radius or "", read_follower(self.spec.follower), turning=turning)
+        return DiscCam(self.cycle, self.spec.base_radius, read_follower(self.spec.follower), turning=turning)
+
+    @property
+    def _limited(self) -> bool:
+        """Whether there are limits that a base circle keeps."""
+        return bool(self.spec.pressure_angle or self.spec.radius_of_curvature)
+
+    @kept_property
+    def _least_of_limits(self) -> LeastBaseCircle:
+        """The least base circle of the cycle, where the file gives limits in its place."""
+        return least_base_circle(self.cycle, read_follower(self.spec.follower), **self.spec.limits)
 
     @kept_property
     def second(self) -> DiscCam | None:
@@ -140,10 +155,12 @@ class Findings:
     @kept_property
     def least(self) -> LeastBaseCircle | str | None:
         """The least base circle, why there is none, or None where no limit is given."""
-        if not (self.spec.pressure_angle or self.spec.radius_of_curvature):
+        if not self._limited:
             return None
         if isinstance(self.best, BestBaseCircle):
             return self.best.least
+        if self.spec.base_radius is None:
+            return self._least_of_limits
         cam = self.cam
         try:
             return least_base_circle(cam.motion, cam.follower, **self.spec.limits)

@@ -215,7 +215,7 @@ def _drive_pictures(cycles: Mapping[str, Cycle]) -> dict[str, list[_DrivePicture
 def table_of_motion(cycle: Cycle, rows: int, about: str) -> str:
     """Angle, time, position, velocity, acceleration and jerk at equal steps over the cycle, as CSV.
 
-    Of a mechanism with torque (or force) and power, of a motor with its speed.
+    With a drive force (or torque) and power, with a motor its speed too.
     """
     return tables.to_csv(_columns(cycle), _rows(cycle, rows), about=about)
 
@@ -302,14 +302,9 @@ def _columns(cycle: Cycle) -> list[str]:
         "master, deg",
         "time, s",
         *(f"{name}, {unit}" for name, (unit, _) in zip(QUANTITIES, UNITS[cycle.axis], strict=True)),
-        *((f"{force_name(cycle)}, {force_unit(cycle)}", "power, W") if _driven(cycle) else ()),
+        *((f"{force_name(cycle)}, {force_unit(cycle)}", "power, W") if cycle.drive is not None else ()),
         *(("motor speed, rpm",) if isinstance(cycle.drive, Drive) else ()),
     ]
-
-
-def _driven(cycle: Cycle) -> bool:
-    """Whether torque and power are in its table: of a mechanism, or of a motor."""
-    return isinstance(cycle.drive, Mechanism | Drive)
 
 
 def _rows(cycle: Cycle, count: int) -> list[list[tables.Cell]]:
@@ -320,7 +315,7 @@ def _rows(cycle: Cycle, count: int) -> list[list[tables.Cell]]:
         [_plain(value * factor, cycle.peak(nu) * factor) for value in motion[nu].tolist()]
         for nu, (_, factor) in enumerate(UNITS[cycle.axis])
     ]
-    if _driven(cycle):
+    if cycle.drive is not None:
         taken = [np.asarray(cycle.force(times)), np.asarray(cycle.power(times))]
         if isinstance(cycle.drive, Drive):
             taken.append(_RPM * cycle.drive.ratio * motion[1])

@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.summary import force_name, force_unit
 from optlaws.errors import InputError
-from optlaws.mechanisms.drives.drive_train import Drive
-from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import QUANTITIES, TURN
 from optlaws.numbers import Array, derivative
@@ -45,8 +44,8 @@ def cycle_figure(cycle: Cycle, title: str) -> Figure:
 
 
 def _panels(cycle: Cycle) -> list[Any]:
-    """New axes: four, and two more where the torque of a mechanism or a motor is to be shown."""
-    if isinstance(cycle.drive, Mechanism | Drive):
+    """New axes: four, and with a drive two more, for its force (or torque) and its power."""
+    if cycle.drive is not None:
         return list(new_figure(8.6, 11.6).subplots(6, 1, sharex=True))
     return list(new_figure(8.6, 8.2).subplots(4, 1, sharex=True))
 
@@ -54,7 +53,7 @@ def _panels(cycle: Cycle) -> list[Any]:
 def draw_cycle(cycle: Cycle, axes: Any = None, **style: Any) -> list[Artist]:  # noqa: ANN401 - matplotlib's
     """Draw position, velocity, acceleration and jerk into four axes, and return the artists.
 
-    Into six axes torque and power as well. New axes unless given: six where a mechanism or a motor is driven.
+    Into six axes force (or torque) and power as well. New axes unless given: six where the cycle has a drive.
     """
     if hasattr(axes, "plot"):
         return _draw_together(cycle, axes, style)
@@ -137,7 +136,7 @@ def _times(piece: Piece, count: int) -> Array:
 
 
 def _names_of_drive(cycle: Cycle) -> tuple[str, str]:
-    return "force, N" if cycle.axis == "length" else "torque, N m", "power, W"
+    return f"{force_name(cycle)}, {force_unit(cycle)}", "power, W"
 
 
 def mark_segments(cycle: Cycle, axes: Axes) -> None:

@@ -133,6 +133,19 @@ def test_tables_of_results_have_the_torque_of_a_motor() -> None:
     assert values[:, -2] == pytest.approx(np.asarray(cycle.power(times)), rel=1e-6, abs=1e-6)
 
 
+def test_a_drive_without_motor_has_force_and_power_in_table_and_picture() -> None:
+    cycle = Cycle([Rise("35 mm", "0.1 s", law="345"), Dwell()], period="0.3 s", advance="35 mm", drive={"mass": "2 kg"})
+    heading, *rows = [line for line in table_of_motion(cycle, 31, "").splitlines() if line and line[0] != "#"]
+    assert heading.endswith('"jerk, m/s³","force, N","power, W"')
+    acceleration, _, force, power = np.array([row.split(",")[-4:] for row in rows], dtype=float).T
+    assert force == pytest.approx(2.0 * acceleration, rel=1e-6, abs=1e-6)
+    assert power == pytest.approx(force * cycle(np.linspace(0.0, 0.3, 31), 1), rel=1e-6, abs=1e-6)
+    panels = cycle.plot()[0].figure.axes
+    assert [panel.get_ylabel() for panel in panels[4:]] == ["force, N", "power, W"]
+    drawn = panels[4].lines[0].get_ydata()
+    assert float(np.max(np.abs(drawn))) == pytest.approx(cycle.effort.peak_force, rel=1e-3)
+
+
 @pytest.mark.long
 def test_a_crank_takes_a_quarter_of_the_energy_of_the_quintic() -> None:
     """Crank 0.1 m, rod 0.4 m, slider 5 kg: 4.416 by the quintic; at most 1.196 where C is at most 12, elsewhere."""

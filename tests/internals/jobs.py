@@ -11,3 +11,4 @@ from optlaws.jobs.cycle_entries import read as read_of_cycle_entries
 from optlaws.jobs.cycle_entries import sweeps_of
 from optlaws.jobs.job import JOBS, do, run
 from optlaws.jobs.machine_laws import MachineTable, Measure
+from optlaws.jobs.starters.starter_kinds import STARTERS

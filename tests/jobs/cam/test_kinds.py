@@ -24,6 +24,7 @@ from optlaws import (
     best_offset,
     conjugate_cam,
     energy_fluctuation,
+    least_base_circle,
     least_spring,
 )
 from tests.internals.files import reading
@@ -110,6 +111,15 @@ def test_the_least_base_circle_is_that_of_the_library(tmp_path: Path) -> None:
     assert told["best"]["status"] == "optimal"
 
 
+def test_without_a_base_circle_the_least_that_keeps_the_limits_is_taken(tmp_path: Path) -> None:
+    told = told_of(tmp_path, HEAD + 'pressure_angle = "25 deg"\nradius_of_curvature = "5 mm"\n' + ROLLER + MOTION)
+    follower = TranslatingRoller("12 mm")
+    least = least_base_circle(cycle(), follower, pressure_angle="25 deg", radius_of_curvature="5 mm")
+    assert told["least_base_circle"]["radius"] == pytest.approx(least.radius, rel=1e-9)
+    assert told["greatest_pressure_angle"]["high"] == pytest.approx(np.radians(25.0), rel=1e-7)
+    assert told["undercut"]["status"] == "free"
+
+
 def test_the_best_offset_bears_a_process_a_flywheel_and_a_spring(tmp_path: Path) -> None:
     page, told, written = done(tmp_path, OFFSET)
     moves = [Rise("35 mm", "120 deg", law="3-4-5"), Dwell("90 deg"), Return(duration="100 deg", law="3-4-5"), Dwell()]
@@ -160,6 +170,7 @@ def test_a_barrel_has_its_flanks_tabled(tmp_path: Path) -> None:
     [
         (LAWS, 'pressure_angle = "25 deg"\n', "", "pressure_angle"),
         (LAWS, 'base_radius = "50 mm"\n', "", "base_radius is missing.*best = 'base circle'"),
+        (PAIR, 'base_radius = "60 mm"\n', "", "base_radius is missing.*the least one that keeps them is taken"),
         (LAWS, '"laws"', '"law"', "best"),
         (BASE, "speed", 'base_radius = "9 mm"\nspeed', "base_radius is what best = 'base circle' looks for"),
         (OFFSET, 'base_radius = "60 mm"\n', "", "base_radius is missing"),

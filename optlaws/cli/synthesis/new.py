@@ -1,0 +1,108 @@
+"""The command `optlaws new`: a commented problem file with a person's own numbers."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Literal
+
+from cyclopts import Parameter
+
+from optlaws.cli.show import show
+from optlaws.errors import InputError
+
+if TYPE_CHECKING:
+    from optlaws.jobs.starters.starter import Question, Starter
+
+Kind = Literal["cycle", "cam", "machine", "study", "law"]
+
+
+def new(
+    kind: Kind,
+    file: Path | None = None,
+    /,
+    *,
+    defaults: bool = False,
+    **answers: Annotated[str, Parameter(help="Any number of the file by its name, such as --stroke 35mm.")],
+) -> None:
+    """Begin a problem file: commented, with your numbers, ready to run. What no option gives, a terminal asks for.
+
+    The numbers, by kind; those in brackets may be left out:
+
+    cycle: stroke, rise, dwell, return, speed, [velocity, acceleration, jerk, mass]
+    cam: as cycle, roller, pressure-angle, curvature, [offset, base-radius]
+    machine: stroke, duration, frequency, damping, spread, sway
+    law: stroke, duration, minimise, order, [velocity, acceleration, jerk]
+    study: minimise, from, to, steps, degree
+
+    Parameters
+    ----------
+    kind
+        What is to be solved: a cycle of an axis, a disc cam, a move with an elastic load, a study, or a single law.
+    file
+        The file to write, which must not be there yet; KIND.toml unless given.
+    defaults
+        Ask nothing: what no option gives is an example, to be changed in the file.
+    answers
+        Any of the numbers, with its unit.
+    """
+    from optlaws.files import writing
+    from optlaws.jobs.starters.starter_kinds import STARTERS
+
+    starter = STARTERS[kind]
+    place = file or Path(f"{kind}.toml")
+    if place.suffix != ".toml":
+        raise InputError(f"a problem file's name ends in .toml, got {place}")
+    if place.exists():
+        raise InputError(f"{place} is there already, and nothing is written over it: name another file")
+    writing.check_place(place)
+    given = _named(starter, answers)
+    if not defaults and sys.stdin is not None and sys.stdin.isatty():
+        given = _asked(starter, given)
+    text = starter.text(given, place)
+    try:
+        with place.open("x", encoding="utf-8", newline="\n") as out:
+            out.write(text)
+    except FileExistsError:
+        raise InputError(f"{place} is there already, and nothing is written over it: name another file") from None
+    show(f"{place}: look at it, change what you like, then run", f"optlaws {starter.run(place)}")
+
+
+def _named(starter: Starter, answers: Mapping[str, str]) -> dict[str, str]:
+    """The options that were given, each one of this kind."""
+    from optlaws.suggest import unknown_key
+
+    names = [question.name for question in starter.questions]
+    for name in answers:
+        if name not in names:
+            raise InputError(f"{starter.kind}: {unknown_key(f'--{name}', [f'--{known}' for known in names], 'option')}")
+    return dict(answers)
+
+
+def _asked(starter: Starter, given: dict[str, str]) -> dict[str, str]:
+    """The numbers that were given, and those for which the terminal is asked; an empty answer takes the default."""
+    _say("Enter takes what stands in brackets.")
+    answers = dict(given)
+    for question in starter.questions:
+        answer = given.get(question.name) or _answer(question)
+        if answer is not None:
+            answers[question.name] = answer
+    return answers
+
+
+def _answer(question: Question) -> str | None:
+    """An answer that can be read, or None for the default; a wrong one is said to be, and asked for again."""
+    while True:
+        _say(f"{question.about.rstrip('.')} [{question.default or 'none'}]: ", end="")
+        line = sys.stdin.readline()
+        if not line.strip():
+            return None
+        try:
+            return question.read(line)
+        except InputError as error:
+            _say(str(error))
+
+
+def _say(text: str, end: str = "\n") -> None:
+    print(text, end=end, file=sys.stderr, flush=True)

@@ -1,0 +1,208 @@
+"""The kinds of problem files to begin with: what each asks for, and what follows from the answers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from math import ceil, floor, log10
+from pathlib import Path
+from typing import Any
+
+from optlaws.cams.followers.follower import read_follower
+from optlaws.errors import InputError
+from optlaws.files.problem_file import convert
+from optlaws.jobs.cam_entries import CamProblemFile
+from optlaws.jobs.cycle_entries import follower_cycle, read_given
+from optlaws.jobs.machine_laws import MachineLawsProblemFile
+from optlaws.jobs.solutions import SolutionsProblemFile
+from optlaws.jobs.starters.starter import Answers, Question, Starter
+from optlaws.laws.catalogue.catalogue import catalogue
+from optlaws.motion.quantities import either, positive_quantity, quantity
+from optlaws.studies.problem_entries import problem
+from optlaws.studies.specification import read_study
+
+_USUAL = "modified sine"
+_LENGTH, _TIME, _ANGLE = ("length",), ("time",), ("angle",)
+_EITHER = ("length", "angle")
+_DIGITS = 5
+
+_LIMITS = (
+    Question("velocity", "Greatest velocity.", None, ("velocity", "angular velocity")),
+    Question("acceleration", "Greatest acceleration.", None, ("acceleration", "angular acceleration")),
+    Question("jerk", "Greatest jerk; that of modified sine unless given.", None, ("jerk", "angular jerk")),
+)
+_CYCLE = (
+    Question("rise", "Duration of the rise: an angle of the master, or a time.", "120 deg", ("angle", "time")),
+    Question("dwell", "Duration of the dwell after the rise.", "90 deg", ("angle", "time")),
+    Question("return", "Duration of the return.", "100 deg", ("angle", "time")),
+    Question("speed", "Speed of the master.", "200 rpm", ("angular velocity",)),
+)
+_OBJECTIVE = Question(
+    "minimise", "What is least: C, D, J, rms_c, rms_j.", "C", choices=("C", "D", "J", "rms_c", "rms_j")
+)
+
+
+def _usual(constant: str) -> float:
+    return float(getattr(catalogue[_USUAL].law.constants, constant).value)
+
+
+def _at_least(value: float) -> str:
+    """A number in a few digits, not below its value."""
+    unit = 10.0 ** (floor(log10(value)) + 1 - _DIGITS)
+    return f"{ceil(value / unit) * unit:.12g}"
+
+
+def _si(answers: Answers, name: str, *dimensions: str) -> tuple[str, float]:
+    return either(answers[name], dimensions, f"--{name}")
+
+
+def _of_cycle(answers: Answers) -> Answers:
+    """The jerk that modified sine has in the shorter motion, and the names that an angle or a length asks for."""
+    axis, stroke = _si(answers, "stroke", *_EITHER)
+    speed = positive_quantity(answers["speed"], "angular velocity", "--speed")
+    durations = []
+    for name in ("rise", "return"):
+        kind, value = _si(answers, name, *_ANGLE, *_TIME)
+        durations.append(value / speed if kind == "angle" else value)
+    usual = f"{_at_least(_usual('J') * stroke / min(durations) ** 3)} {'rad' if axis == 'angle' else 'm'}/s^3"
+    more: Answers = {"modified_sine_jerk": usual, "jerk": answers["jerk"] or usual}
+    return more | {"axis": "table" if axis == "angle" else "slide", "inertia": _inertia(answers.get("mass"), axis)}
+
+
+def _inertia(mass: str | None, axis: str) -> str:
+    needed = "inertia" if axis == "angle" else "mass"
+    if mass is not None:
+        quantity(mass, "moment of inertia" if axis == "angle" else "mass", "--mass")
+    return needed
+
+
+def _of_law(answers: Answers) -> Answers:
+    """Bounds without dimension, and what makes quantities of numbers."""
+    axis, stroke = _si(answers, "stroke", *_EITHER)
+    duration = positive_quantity(answers["duration"], "time", "--duration")
+    unit, turning = ("rad", "angular ") if axis == "angle" else ("m", "")
+    bounds: Answers = {"B": None, "C": None, "J": _at_least(_usual("J"))}
+    scales: Answers = {}
+    for nu, (name, constant) in enumerate({"velocity": "B", "acceleration": "C", "jerk": "J"}.items(), 1):
+        scale = stroke / duration**nu
+        scales[f"{name}_scale"] = f"{scale:.6g} {unit}/s{'²³'[nu - 2] if nu > 1 else ''}"
+        if answers[name] is not None:
+            bounds[constant] = f"{quantity(answers[name], turning + name, f'--{name}') / scale:.10g}"
+    if bounds["B"] is not None and float(bounds["B"]) <= 1.0:
+        raise InputError(
+            f"--velocity must be above the mean velocity, {scales['velocity_scale']}, got {answers['velocity']}"
+        )
+    return bounds | scales | {"modified_sine_J": f"{_usual('J'):.5g}"}
+
+
+def _of_machine(answers: Answers) -> Answers:
+    """The numbers in SI units, without them."""
+    axis, stroke = _si(answers, "stroke", *_EITHER)
+    numbers = {
+        "stroke_number": stroke,
+        "duration_number": positive_quantity(answers["duration"], "time", "--duration"),
+        "frequency_number": positive_quantity(answers["frequency"], "frequency", "--frequency"),
+        "sway_number": positive_quantity(answers["sway"], axis, "--sway"),
+    }
+    units: Answers = {"si_unit": "rad" if axis == "angle" else "m"}
+    return units | {name: f"{value:.12g}" for name, value in numbers.items()}
+
+
+def _of_study(answers: Answers) -> Answers:
+    if not 1.0 < float(answers["from"] or 0.0) < float(answers["to"] or 0.0):
+        raise InputError(
+            f"--from and --to are peak velocities above 1, the lesser first, got {answers['from']} and {answers['to']}"
+        )
+    return {"modified_sine_J": f"{_usual('J'):.5g}", "J": None}
+
+
+def _check_cam(entries: Mapping[str, Any], file: Path) -> None:
+    spec = convert(entries, CamProblemFile, file)
+    follower_cycle(spec.motion, spec.speed, spec.period)
+    read_follower(spec.follower)
+
+
+def _check_machine(entries: Mapping[str, Any], file: Path) -> None:
+    convert(entries, MachineLawsProblemFile, file).machine.machine()
+
+
+def _check_law(entries: Mapping[str, Any], file: Path) -> None:
+    problem("problem", convert(entries, SolutionsProblemFile, file).problem.given())
+
+
+def _check_study(entries: Mapping[str, Any], _: Path) -> None:
+    read_study(entries)
+
+
+STARTERS: dict[str, Starter] = {
+    "cycle": Starter(
+        "cycle",
+        "cycle {file} --out {folder}",
+        (
+            Question("stroke", "How far the axis goes.", "35 mm", _EITHER),
+            *_CYCLE,
+            *_LIMITS,
+            Question("mass", "Mass, or moment of inertia, that the drive moves.", None, ("mass", "moment of inertia")),
+        ),
+        _of_cycle,
+        read_given,
+    ),
+    "cam": Starter(
+        "cam",
+        "cam {file} --out {folder}",
+        (
+            Question("stroke", "How far the slide goes.", "35 mm", _LENGTH),
+            *_CYCLE,
+            Question("roller", "Radius of the roller.", "12 mm", _LENGTH),
+            Question("offset", "By how much the slide's line passes the cam's centre.", None, _LENGTH),
+            Question("pressure-angle", "Greatest pressure angle.", "30 deg", _ANGLE),
+            Question("curvature", "Least radius of curvature of the profile where it bulges.", "5 mm", _LENGTH),
+            Question(
+                "base-radius", "From the cam's centre to the roller's; the least one unless given.", None, _LENGTH
+            ),
+            *_LIMITS,
+            Question("mass", "Mass that the cam moves.", None, ("mass",)),
+        ),
+        _of_cycle,
+        _check_cam,
+    ),
+    "machine": Starter(
+        "machine",
+        "run {file} --out {folder}",
+        (
+            Question("stroke", "How far the drive goes.", "300 mm", _EITHER),
+            Question("duration", "Duration of the motion.", "0.4 s", _TIME),
+            Question("frequency", "Natural frequency of the load while the drive stands.", "8.5 Hz", ("frequency",)),
+            Question("damping", "Damping ratio of the load.", "0.02"),
+            Question("spread", "Share by which the frequency may be off.", "0.1"),
+            Question("sway", "How far the load may sway after the motion.", "1 mm", _EITHER),
+        ),
+        _of_machine,
+        _check_machine,
+    ),
+    "law": Starter(
+        "law",
+        "run {file} --out {folder}",
+        (
+            Question("stroke", "How far the motion goes.", "35 mm", _EITHER),
+            Question("duration", "Duration of the motion.", "0.1 s", _TIME),
+            _OBJECTIVE,
+            Question("order", "Conditions at each end: 2, 3, 4, ...", "3", whole=True),
+            *_LIMITS,
+        ),
+        _of_law,
+        _check_law,
+    ),
+    "study": Starter(
+        "study",
+        "study {file} --out {folder}",
+        (
+            _OBJECTIVE,
+            Question("from", "Least peak velocity; 1 is the mean velocity.", "1.5"),
+            Question("to", "Greatest peak velocity.", "2"),
+            Question("steps", "How many values of it.", "11", whole=True),
+            Question("degree", "Degree of the free function Z.", "9", whole=True),
+        ),
+        _of_study,
+        _check_study,
+    ),
+}

@@ -1,0 +1,172 @@
+"""A problem file to begin with: it has the person's numbers, runs as written, and nothing is written over."""
+
+import inspect
+import re
+import shlex
+from io import StringIO
+from pathlib import Path
+
+import pytest
+
+from tests.internals.cli import exit_code, new
+from tests.internals.jobs import STARTERS
+
+Capture = pytest.CaptureFixture[str]
+
+#: numbers of a person, by kind
+OWN = {
+    "cycle": [
+        "--stroke",
+        "90 deg",
+        "--rise",
+        "0.1 s",
+        "--speed",
+        "100rpm",
+        "--mass",
+        "0.02 kg m^2",
+        "--velocity",
+        "300 rpm",
+    ],
+    "cam": ["--stroke", "20mm", "--base-radius", "70 mm", "--offset", "5 mm", "--mass", "2 kg", "--jerk", "9000 m/s^3"],
+    "machine": [
+        "--stroke",
+        "4 rad",
+        "--duration",
+        "0.1 s",
+        "--frequency",
+        "56 Hz",
+        "--sway",
+        "5e-3 rad",
+        "--damping",
+        "0",
+    ],
+    "law": ["--velocity", "0.62 m/s", "--jerk", "2431 m/s^3", "--order", "4"],
+    "study": ["--minimise", "rms_c", "--steps", "2", "--from", "1.6"],
+}
+
+
+class Terminal(StringIO):
+    """Someone who types."""
+
+    def isatty(self) -> bool:
+        return True
+
+
+@pytest.fixture(autouse=True)
+def _here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+
+
+def command_of(out: str) -> list[str]:
+    """The command that runs the file, as it was printed."""
+    name, *arguments = shlex.split(out.splitlines()[-1])
+    assert name == "optlaws"
+    return arguments
+
+
+@pytest.mark.parametrize(
+    ("kind", "options"),
+    [
+        ("law", []),
+        ("law", OWN["law"]),
+        ("machine", OWN["machine"]),
+        ("cycle", OWN["cycle"]),
+        pytest.param("cycle", [], marks=pytest.mark.long),
+        ("cam", []),
+        pytest.param("cam", OWN["cam"], marks=pytest.mark.long),
+        pytest.param("machine", [], marks=pytest.mark.long),
+        pytest.param("study", [], marks=pytest.mark.long),
+        pytest.param("study", OWN["study"], marks=pytest.mark.long),
+    ],
+)
+def test_the_file_runs_as_written(kind: str, options: list[str], capsys: Capture) -> None:
+    assert exit_code(["new", kind, "my file.toml", "--defaults", *options]) == 0
+    arguments = command_of(capsys.readouterr().out)
+    short = ["--json"] if kind in {"cycle", "cam"} else []  # as data: pictures take long
+    assert exit_code([*arguments[:2], *short] if short else arguments) == 0
+    assert "error" not in capsys.readouterr().out
+    text = Path("my file.toml").read_text("utf-8")
+    for given in options[1::2]:
+        if kind in {"cycle", "cam"}:
+            assert f'"{given}"' in text
+
+
+def test_numbers_of_a_machine_become_bounds_of_a_law(capsys: Capture) -> None:
+    assert (
+        exit_code(["new", "law", *OWN["law"], "--duration", "50 ms", "--acceleration", "98 m/s^2", "--defaults"]) == 2
+    )
+    assert "--velocity must be above the mean velocity, 0.7 m/s" in capsys.readouterr().err
+    assert exit_code(["new", "law", "--velocity", "1.4 m/s", "--duration", "50 ms", "--acceleration", "98 m/s^2"]) == 0
+    text = Path("law.toml").read_text("utf-8")
+    assert "\nB = [1, 2]\n" in text
+    assert "\nC = [0, 7]\n" in text
+    assert "c times 14 m/s²" in text
+
+
+def test_entries_left_out_are_comments_with_examples_of_the_right_kind(capsys: Capture) -> None:
+    assert exit_code(["new", "cycle", "a.toml"]) == 0
+    assert exit_code(["new", "cycle", "b.toml", "--stroke", "90 deg"]) == 0
+    straight, turning = (Path(name).read_text("utf-8") for name in ("a.toml", "b.toml"))
+    assert '\n# drive = { mass = "2.5 kg" }\n# ' not in straight
+    assert '\n# drive = { mass = "2.5 kg" }\n' in straight
+    assert '\n# drive = { inertia = "0.02 kg m^2" }\n' in turning
+    assert '\n# velocity = "200 rpm"\n' in turning
+    # every entry behind a # may be switched on
+    Path("c.toml").write_text(re.sub(r"(?m)^# (drive|velocity|law) = .*", lambda line: line[0][2:], straight), "utf-8")
+    capsys.readouterr()
+    assert exit_code(["cycle", "c.toml", "--json"]) == 0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["cycle", "--stroke", "35"], "--stroke must be a length such as '35 mm', got '35' without a unit"),
+        (["cycle", "--stroke", "35 kg"], "--stroke must be a length such as '35 mm' or an angle"),
+        (["cycle", "--stroke", "0 mm"], "--stroke must be above 0"),
+        (["cycle", "--stroke", "90 deg", "--velocity", "1 m/s"], "angular velocity"),
+        (["cycle", "--mass", "2 kg", "--stroke", "90 deg"], "--mass must be a moment of inertia"),
+        (["cycle", "--dwell", "200 deg"], "cycle.toml: axis slide: "),
+        (["cycle", "--roller", "12 mm"], "cycle: unknown option '--roller'"),
+        (["cam", "--presure-angle", "30 deg"], "did you mean '--pressure-angle'?"),
+        (["law", "--minimise", "E"], "--minimise: unknown value 'E'"),
+        (["law", "--order", "2.5"], "--order must be a whole number"),
+        (["machine", "--damping", "much"], "--damping must be a number, got 'much'"),
+        (["study", "--from", "2", "--to", "1.5"], "--from and --to are peak velocities above 1"),
+        (["cycle", "slide.txt"], "a problem file's name ends in .toml"),
+        (["lever"], "lever"),
+    ],
+)
+def test_what_cannot_be_is_refused_and_nothing_written(arguments: list[str], message: str, capsys: Capture) -> None:
+    assert exit_code(["new", *arguments]) == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert message in err
+    assert not list(Path().iterdir())
+
+
+def test_nothing_is_written_over(capsys: Capture) -> None:
+    Path("cycle.toml").write_text("mine", "utf-8")
+    assert exit_code(["new", "cycle"]) == 2
+    assert "cycle.toml is there already, and nothing is written over it" in capsys.readouterr().err
+    assert Path("cycle.toml").read_text("utf-8") == "mine"
+
+
+def test_a_terminal_is_asked_for_what_no_option_gives(monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
+    # the stroke is an option; a wrong rise is asked for again; Enter and the end of the input take the defaults
+    monkeypatch.setattr("sys.stdin", Terminal("100\n100 deg\n\n110 deg\n"))
+    assert exit_code(["new", "cycle", "--stroke", "20 mm"]) == 0
+    err = capsys.readouterr().err
+    assert err.count("Duration of the rise") == 2
+    assert "without a unit" in err
+    assert "How far" not in err
+    text = Path("cycle.toml").read_text("utf-8")
+    assert re.findall(r'^(?:by|duration|speed) = "(.*)"', text, re.MULTILINE) == [
+        "200 rpm", "20 mm", "100 deg", "90 deg", "110 deg",
+    ]  # fmt: skip
+
+
+def test_the_help_names_every_number() -> None:
+    lines = dict(re.findall(r"^ *(\w+): (.*)$", inspect.getdoc(new) or "", re.MULTILINE))
+    lines["cam"] = lines["cam"].replace("as cycle", lines["cycle"])
+    for kind, starter in STARTERS.items():
+        assert sorted(re.findall(r"[\w-]+", lines[kind])) == sorted(question.name for question in starter.questions)
