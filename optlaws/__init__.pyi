@@ -22,8 +22,8 @@ from optlaws.cams.as_manufactured import as_made as as_made
 from optlaws.cams.as_manufactured import with_profile_error as with_profile_error
 from optlaws.cams.at_shaft import cam_mechanism as cam_mechanism
 from optlaws.cams.barrel import BarrelCam as BarrelCam
-from optlaws.cams.best_laws import best_base_circle as best_base_circle
 from optlaws.cams.best_laws import best_cam as best_cam
+from optlaws.cams.best_laws import best_prime_circle as best_prime_circle
 from optlaws.cams.best_offset import best_offset as best_offset
 from optlaws.cams.conjugate import conjugate_cam as conjugate_cam
 from optlaws.cams.curves.motion_by_angle import CamMotion as CamMotion
@@ -35,7 +35,7 @@ from optlaws.cams.followers.translating_flat import TranslatingFlat as Translati
 from optlaws.cams.followers.translating_roller import TranslatingRoller as TranslatingRoller
 from optlaws.cams.forces import CamForces as CamForces
 from optlaws.cams.least_sizes import greatest_roller as greatest_roller
-from optlaws.cams.least_sizes import least_base_circle as least_base_circle
+from optlaws.cams.least_sizes import least_prime_circle as least_prime_circle
 from optlaws.cams.sizing.energy_fluctuation import EnergyFluctuation as EnergyFluctuation
 from optlaws.cams.sizing.energy_fluctuation import energy_fluctuation as energy_fluctuation
 from optlaws.cams.sizing.springs import Spring as Spring
@@ -306,10 +306,10 @@ __all__ = [
     "at_most",
     "balanced_law",
     "belt",
-    "best_base_circle",
     "best_breaks",
     "best_cam",
     "best_offset",
+    "best_prime_circle",
     "between",
     "cam_constant",
     "cam_mechanism",
@@ -337,7 +337,7 @@ __all__ = [
     "jerk_limited_move",
     "law_from_z",
     "law_through",
-    "least_base_circle",
+    "least_prime_circle",
     "least_spring",
     "limit",
     "limit_law",

@@ -7,8 +7,8 @@ from optlaws.balancing.levers.design import Span as Span
 from optlaws.cams.as_manufactured import ManufacturedFormat as ManufacturedFormat
 from optlaws.cams.barrel import Side as Side
 from optlaws.cams.barrel import SpaceCurve as SpaceCurve
-from optlaws.cams.best_laws import BestBaseCircle as BestBaseCircle
 from optlaws.cams.best_laws import BestCam as BestCam
+from optlaws.cams.best_laws import BestPrimeCircle as BestPrimeCircle
 from optlaws.cams.best_offset import BestOffset as BestOffset
 from optlaws.cams.curves.file_options import CutFormat as CutFormat
 from optlaws.cams.curves.motion_by_angle import CamStretch as CamStretch
@@ -23,7 +23,7 @@ from optlaws.cams.followers.follower import Place as Place
 from optlaws.cams.followers.rollers_and_faces import FaceContact as FaceContact
 from optlaws.cams.followers.rollers_and_faces import RollerContact as RollerContact
 from optlaws.cams.least_sizes import GreatestRoller as GreatestRoller
-from optlaws.cams.least_sizes import LeastBaseCircle as LeastBaseCircle
+from optlaws.cams.least_sizes import LeastPrimeCircle as LeastPrimeCircle
 from optlaws.cycles.interchange import PlotOver as PlotOver
 from optlaws.cycles.interlocks.enclosed_axis import Way as Way
 from optlaws.cycles.interlocks.interlock import Interlock as Interlock
@@ -124,10 +124,10 @@ __all__ = [
     "Array",
     "Asked",
     "AxesPicture",
-    "BestBaseCircle",
     "BestBreaks",
     "BestCam",
     "BestOffset",
+    "BestPrimeCircle",
     "BestRatio",
     "Bound",
     "CamFollower",
@@ -170,8 +170,8 @@ __all__ = [
     "Jumps",
     "LawSpace",
     "LazySequence",
-    "LeastBaseCircle",
     "LeastClearance",
+    "LeastPrimeCircle",
     "LeastTime",
     "LinkGeometry",
     "LoadPlace",

@@ -1,7 +1,7 @@
 """A disc cam
 ==========
 
-The profile and the way of the roller's centre, from a cycle and a base circle.
+The profile and the way of the roller's centre, from a cycle and a prime radius.
 """
 
 import numpy as np
@@ -12,7 +12,7 @@ from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.translating_roller import TranslatingRoller
 
 cycle = Cycle([Rise("35 mm", "120 deg"), Dwell("90 deg"), Return("35 mm", "100 deg"), Dwell()], speed="200 rpm")
-cam = DiscCam(cycle, base_radius="60 mm", follower=TranslatingRoller("12 mm"))
+cam = DiscCam(cycle, prime_radius="60 mm", follower=TranslatingRoller("12 mm"))
 angles = np.linspace(0.0, 2 * np.pi, 721)
 for curve, style, name in ((cam.profile, "-", "profile"), (cam.pitch_curve, "--", "roller's centre")):
     plt.plot(*(1e3 * curve(angles)).T, style, label=name)

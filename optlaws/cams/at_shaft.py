@@ -47,7 +47,7 @@ def cam_mechanism(
     inertia
         Of the cam and its shaft.
     loads
-        What acts on the follower, over its displacement from the base circle; a preload of 60 N is a force of "-60 N".
+        What acts on the follower, over its displacement from the prime circle; a preload of 60 N is a force of "-60 N".
     over
         The range of x, such as ("0 deg", "120 deg"); that of the cam's motion unless given.
 

@@ -1,4 +1,4 @@
-"""Laws that are best for their cam: least acceleration under limits of the cam, and the least base circle of all laws.
+"""Laws that are best for their cam: least acceleration under limits of the cam, and the least prime circle of all laws.
 
 Under a slide with a roller a limit of the pressure angle, |s' - e| <= tan(alpha) (height + s), is linear in the law,
 and so is rho = r0 + s + s'' under a flat face: such laws are proven optimal as all others are. For an arm with a roller
@@ -20,7 +20,7 @@ from optlaws.cams.curves.motion_by_angle import CamMotion, as_motion
 from optlaws.cams.disc import DiscCam, Turning, sense
 from optlaws.cams.followers.contact import CURVATURE, PRESSURE, FollowerContact, LinearLimit
 from optlaws.cams.followers.follower import CamFollower, Place, shown
-from optlaws.cams.least_sizes import LeastBaseCircle, least_base_circle, read_cam_limits
+from optlaws.cams.least_sizes import LeastPrimeCircle, least_prime_circle, read_cam_limits
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.optimisation.objectives import OBJECTIVES
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
@@ -76,34 +76,34 @@ class BestCam:
 
 
 @dataclass(frozen=True)
-class BestBaseCircle:
-    """The least base circle of all laws.
+class BestPrimeCircle:
+    """The least prime circle of all laws.
 
     Attributes
     ----------
     least
-        The least base circle of the laws found, proven for them.
+        The least prime circle of the laws found, proven for them.
     lower_bound
         What no laws of this order and degree in the same times can beat, m.
     solutions
         The solutions of the single motions, with their proofs.
     """
 
-    least: LeastBaseCircle
+    least: LeastPrimeCircle
     lower_bound: float
     solutions: tuple[Solution, ...]
 
 
 def best_cam(
     cycle: Cycle,
-    base_radius: Quantity,
+    prime_radius: Quantity,
     follower: CamFollower,
     *,
     pressure_angle: Quantity | None = None,
     radius_of_curvature: Quantity | None = None,
     turning: Turning = "counterclockwise",
 ) -> BestCam:
-    """The optimal laws of a cycle under limits of its cam, at a given base circle.
+    """The optimal laws of a cycle under limits of its cam, at a given prime circle.
 
     Displacements stay between those of the cycle's joints. The curvature under a roller is no convex limit of the law:
     where the best laws without it break it, laws that keep it are found, and the bound, which holds for all laws, is a
@@ -113,7 +113,7 @@ def best_cam(
     ----------
     cycle
         Its optimal motions are looked for again; what it minimises and its limits stay.
-    base_radius, follower, turning
+    prime_radius, follower, turning
         As of a `DiscCam`.
     pressure_angle, radius_of_curvature
         The limits.
@@ -138,7 +138,7 @@ def best_cam(
     (21.8838, 'optimal', 23.5665)
     """
     limits = read_cam_limits(pressure_angle, radius_of_curvature)
-    given = DiscCam(cycle, base_radius, follower, turning=turning)
+    given = DiscCam(cycle, prime_radius, follower, turning=turning)
     known = _with_solutions(cycle)
     if _are_met(given, limits):  # the best laws without the limits keep them
         bound = _bound(cycle, known)
@@ -155,17 +155,17 @@ def best_cam(
     return BestCam(cam, objective, bound, Status.OPTIMAL if proven else Status.LOCAL, solutions)
 
 
-def best_base_circle(
+def best_prime_circle(
     cycle: Cycle,
     follower: CamFollower,
     *,
     pressure_angle: Quantity | None = None,
     radius_of_curvature: Quantity | None = None,
     turning: Turning = "counterclockwise",
-) -> BestBaseCircle:
-    """The least base circle that any laws of a cycle's optimal motions allow.
+) -> BestPrimeCircle:
+    """The least prime circle that any laws of a cycle's optimal motions allow.
 
-    What a base circle needs at an angle is linear in the law, so that its greatest value is a convex objective.
+    What a prime circle needs at an angle is linear in the law, so that its greatest value is a convex objective.
 
     Parameters
     ----------
@@ -174,7 +174,7 @@ def best_base_circle(
     follower
         A roller on a slide, with a limit of the pressure angle, or a flat face on a slide, with one of the radius.
     pressure_angle, radius_of_curvature, turning
-        As of `least_base_circle`.
+        As of `least_prime_circle`.
 
     Raises
     ------
@@ -188,17 +188,17 @@ def best_base_circle(
     >>> from optlaws.cams.followers.translating_flat import TranslatingFlat
     >>> from optlaws.cycles.specification.segments import Dwell, Return, Rise
     >>> cycle = Cycle([Rise("10 mm", "70 deg"), Return("10 mm", "70 deg"), Dwell()], speed="3000 rpm")
-    >>> best = best_base_circle(cycle, TranslatingFlat(), radius_of_curvature="3 mm")
+    >>> best = best_prime_circle(cycle, TranslatingFlat(), radius_of_curvature="3 mm")
     >>> round(1e3 * best.least.radius, 4), round(1e3 * best.lower_bound, 4)
     (10.1341, 10.1341)
     """
     limits = read_cam_limits(pressure_angle, radius_of_curvature)
     limit = follower.sizing_limit
     if limit is None:
-        raise InputError("follower: the least base circle of all laws is known of rollers and flat faces on slides")
+        raise InputError("follower: the least prime circle of all laws is known of rollers and flat faces on slides")
     contact = _unit_contact(cycle, follower, sense(turning))
     if set(limits) != {limit}:
-        raise InputError(f"the least base circle of all laws under this follower takes one limit: {_NAMED[limit]}")
+        raise InputError(f"the least prime circle of all laws under this follower takes one limit: {_NAMED[limit]}")
     needs, solutions, pieces = [], [], []
     for piece, solution, _ in _with_solutions(cycle):
         excesses = [limit.excess() for limit in linear_limits(piece, contact, limits, cycle.duration, below=True)]
@@ -211,11 +211,11 @@ def best_base_circle(
         solutions.append(optimum)
         pieces.append(replace(piece, law=optimum.law))
     motion = CamMotion.of_pieces(tuple(pieces), cycle.duration, cycle.axis)
-    least = least_base_circle(
+    least = least_prime_circle(
         motion, follower, pressure_angle=pressure_angle, radius_of_curvature=radius_of_curvature, turning=turning
     )
     # the unit contact is 1 m high, and what is needed goes beyond that
-    return BestBaseCircle(least, follower.base_radius(1.0 + max(needs)), tuple(solutions))
+    return BestPrimeCircle(least, follower.prime_radius(1.0 + max(needs)), tuple(solutions))
 
 
 _NAMED = {PRESSURE: "pressure_angle='30 deg'", CURVATURE: "radius_of_curvature='5 mm'"}
@@ -224,7 +224,7 @@ _NAMED = {PRESSURE: "pressure_angle='30 deg'", CURVATURE: "radius_of_curvature='
 def _unit_contact(cycle: Cycle, follower: CamFollower, turning: float) -> FollowerContact:
     """The contact of a follower 1 m above the cam's centre."""
     motion = as_motion(cycle, follower.axis)
-    return follower.contact(Place(follower.base_radius(1.0), *motion.range, motion.slopes, turning))
+    return follower.contact(Place(follower.prime_radius(1.0), *motion.range, motion.slopes, turning))
 
 
 def linear_limits(
@@ -291,7 +291,7 @@ def _solved_with_curvature(problem: Problem, curvature: RollerCurvature) -> Solu
         known = "" if radius is None else f" (at rest the profile has {radius}, whatever the law)"
         raise SolverFailure(
             f"no law was found from {curvature.piece.start:.6g} s on that keeps the least radius of curvature{known},"
-            " and under this follower its limit is not convex in the law: make the base circle larger, the limits"
+            " and under this follower its limit is not convex in the law: make the prime circle larger, the limits"
             " wider, or the motion longer"
         ) from None
 
@@ -305,7 +305,7 @@ def _best(
         return synthesize(_problem(problem, windows, ()))
     except InfeasibleProblem as error:
         where = f"from {guide.start:.6g} s on"
-        remedy = "make the base circle larger, the limits wider, or the motion longer"
+        remedy = "make the prime circle larger, the limits wider, or the motion longer"
         if below and not contact.linear:
             raise SolverFailure(f"no law was found {where} that keeps the limits of the cam: {remedy}") from None
         raise InfeasibleProblem(
@@ -344,7 +344,7 @@ def _check_met(cam: DiscCam, limits: dict[str, float]) -> None:
         raise SolverFailure(
             f"the best laws under the other limits have a radius of curvature of "
             f"{shown(extremes.least_convex_radius.value)}, and what a dwell or a given law has no other "
-            "law can mend: make the base circle larger or drop the limit"
+            "law can mend: make the prime circle larger or drop the limit"
         )
 
 

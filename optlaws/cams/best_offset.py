@@ -28,7 +28,7 @@ _FIRST, _STEPS = 361, 30
 
 
 class _Offsets(NamedTuple):
-    """Offsets of a slide over a base circle, and the tangents of pressure angles at places with them."""
+    """Offsets of a slide over a prime circle, and the tangents of pressure angles at places with them."""
 
     radius: float
     lowest: float
@@ -79,7 +79,7 @@ class BestOffset:
 
 def best_offset(
     motion: Cycle | CamMotion,
-    base_radius: Quantity,
+    prime_radius: Quantity,
     follower: TranslatingRoller,
     *,
     turning: Turning = "counterclockwise",
@@ -90,8 +90,8 @@ def best_offset(
 
     Parameters
     ----------
-    motion, base_radius, turning
-        As of a `DiscCam`: the base circle keeps its radius.
+    motion, prime_radius, turning
+        As of a `DiscCam`: the prime circle keeps its radius.
     follower
         A roller on a slide, whose own offset does not matter.
 
@@ -109,14 +109,14 @@ def best_offset(
     """
     if not isinstance(follower, TranslatingRoller):
         raise InputError(f"follower must be a TranslatingRoller, whose slide has an offset, got {shortened(follower)}")
-    radius, course = positive(base_radius, "base_radius"), as_motion(motion, follower.axis)
+    radius, course = positive(prime_radius, "prime_radius"), as_motion(motion, follower.axis)
     offsets = _Offsets(radius, course.range[0], sense(turning))
     angles = np.unique([*np.linspace(*course.interval, _FIRST), *course.monotone_edges])
     last = np.inf
     for _ in range(_STEPS):
         s, slope = (np.asarray(term) for term in course.jet(angles, 1).terms)
         offset = _balanced(offsets, s, slope)
-        cam = DiscCam(motion, base_radius, replace(follower, offset=f"{offset!r} m"), turning=turning)
+        cam = DiscCam(motion, prime_radius, replace(follower, offset=f"{offset!r} m"), turning=turning)
         ends = cam.extremes.pressure_angles
         reached, greatest = float(np.abs(offsets.tangents(offset, s, slope)).max()), max(-ends[0].low, ends[1].high)
         if greatest <= atan(reached) * (1.0 + OFFSET_SETTLED) or abs(offset - last) <= ROUNDOFF * radius:

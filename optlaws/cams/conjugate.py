@@ -74,7 +74,7 @@ def _on_slide(cam: DiscCam, follower: CamFollower, distance: float) -> DiscCam:
             f"distance {shown(distance)} is too short: the first follower is up to {shown(distance - least)} above the"
             " shaft, and the second must be beneath it: make it longer"
         )
-    radius = follower.base_radius(least)
+    radius = follower.prime_radius(least)
     phase = quantity(cam.phase, "angle", "phase") + pi
     beneath = follower.from_beneath()
     return DiscCam(motion.reversed(), f"{radius!r} m", beneath, turning=cam.turning, phase=f"{phase!r} rad")
@@ -89,7 +89,7 @@ def _on_pivot(cam: DiscCam, follower: CamFollower, angle: float) -> DiscCam:
             f"angle {degrees(angle):.6g} deg leaves {degrees(least):.6g} deg between the second arm and the line to the"
             f" cam's centre: give more than {degrees(angle - least):.6g} deg and less than half a turn beyond"
         )
-    radius = follower.base_radius(least)
+    radius = follower.prime_radius(least)
     other = next(name for name, turning in TURNINGS.items() if turning == -cam.contact.turning)
     phase = quantity(cam.phase, "angle", "phase")
     return DiscCam(

@@ -1,4 +1,4 @@
-"""A disc cam: a motion, a base circle and a follower, and what follows from them as functions of the cam's angle."""
+"""A disc cam: a motion, a prime circle and a follower, and what follows from them as functions of the cam's angle."""
 
 from __future__ import annotations
 
@@ -48,9 +48,9 @@ class DiscCam:
     ----------
     motion
         A `Cycle`, which is a turn of the cam, or the law of a part of the turn, `CamMotion.of_law(...)`.
-    base_radius
-        Distance of the roller's centre, or of the flat face, from the cam's centre where the follower is lowest: the
-        radius of the base circle of the pitch curve, such as "80 mm".
+    prime_radius
+        Radius of the prime circle, such as "80 mm": the distance of the roller's centre, or of the flat face, from the
+        cam's centre where the follower is lowest. The base circle of the profile is smaller by the roller's radius.
     follower
         Such as `TranslatingRoller("12 mm")`: a roller or a flat face on a slide or an arm.
     turning
@@ -71,13 +71,13 @@ class DiscCam:
     >>> from optlaws.cams.followers.translating_roller import TranslatingRoller
     >>> from optlaws.cycles.specification.segments import Dwell, Return, Rise
     >>> segments = [Rise("40 mm", "120 deg", law="cycloidal"), Dwell("60 deg"), Return(law="cycloidal")]
-    >>> cam = DiscCam(Cycle(segments, speed="200 rpm"), base_radius="80 mm", follower=TranslatingRoller("12 mm"))
+    >>> cam = DiscCam(Cycle(segments, speed="200 rpm"), prime_radius="80 mm", follower=TranslatingRoller("12 mm"))
     >>> round(float(np.degrees(cam.pressure_angle(1.0))), 6), cam.profile(1.0).shape
     (21.157747, (2,))
     """
 
     motion: Cycle | CamMotion
-    base_radius: Quantity
+    prime_radius: Quantity
     follower: CamFollower
     turning: Turning = field(default="counterclockwise", kw_only=True)
     phase: Quantity = field(default="0 deg", kw_only=True)
@@ -100,8 +100,21 @@ class DiscCam:
     @kept_property
     def contact(self) -> FollowerContact:
         """How the follower touches the cam, in numbers."""
-        radius, motion = positive(self.base_radius, "base_radius"), self.displacement
+        radius, motion = positive(self.prime_radius, "prime_radius"), self.displacement
         return self.follower.contact(Place(radius, *motion.range, motion.slopes, sense(self.turning)))
+
+    @property
+    def base_radius(self) -> float:
+        """Radius of the base circle, the smallest circle that touches the profile, m.
+
+        Examples
+        --------
+        >>> from optlaws import Cycle, DiscCam, Return, Rise, TranslatingRoller
+        >>> lift = Cycle([Rise("25 mm", "150 deg", law="3-4-5"), Return(law="3-4-5")], speed="300 rpm")
+        >>> DiscCam(lift, prime_radius="50 mm", follower=TranslatingRoller("10 mm")).base_radius
+        0.04
+        """
+        return positive(self.prime_radius, "prime_radius") - self.contact.roller
 
     @kept_property
     def extremes(self) -> CamExtremes:
@@ -188,7 +201,7 @@ class DiscCam:
         >>> lift = Cycle([Rise("25 mm", "150 deg", law="3-4-5"), Return(law="3-4-5")], speed="300 rpm")
         >>> cam = DiscCam(lift, "50 mm", TranslatingRoller("10 mm"))
         >>> [(row.name, row.text(6), row.unit, row.place is None) for row in cam.summary()][:2]
-        [('undercut', 'free', '', True), ('greatest pressure angle', '16.2598', 'deg', False)]
+        [('undercut', 'free', '', True), ('radius of the prime circle', '50', 'mm', True)]
         """
         from optlaws.cams.summary import summary
 

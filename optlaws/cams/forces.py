@@ -138,7 +138,7 @@ class CamForces:
     >>> from optlaws import Cycle, Dwell, Return, Rise
     >>> from optlaws.cams.followers.translating_roller import TranslatingRoller
     >>> moves = [Rise("40 mm", "120 deg", law="3-4-5"), Dwell("60 deg"), Return(law="3-4-5")]
-    >>> cam = DiscCam(Cycle(moves, speed="200 rpm"), base_radius="80 mm", follower=TranslatingRoller("12 mm"))
+    >>> cam = DiscCam(Cycle(moves, speed="200 rpm"), prime_radius="80 mm", follower=TranslatingRoller("12 mm"))
     >>> forces = CamForces(cam, drive={"mass": "2 kg", "stiffness": "3 N/mm", "preload": "60 N"}, width="20 mm")
     >>> round(forces.contact.most, 3), round(forces.torque.most, 3), round(forces.rms_torque[1], 3)
     (180.0, 4.299, 2.05)

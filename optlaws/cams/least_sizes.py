@@ -1,8 +1,8 @@
-"""The least base circle that keeps limits of a cam, and the greatest roller for one: each with proof that no other is.
+"""The least prime circle that keeps limits of a cam, and the greatest roller for one: each with proof that no other is.
 
-Which base circles break a limit is shown from below: at the angle of the cam where a limit is broken worst, the base
+Which prime circles break a limit is shown from below: at the angle of the cam where a limit is broken worst, the prime
 circle grows until it is kept there, and this again until it is kept all around. These angles then are witnesses: over
-every range of smaller base circles one of them is proven to break its limit, with the range itself as an enclosure.
+every range of smaller prime circles one of them is proven to break its limit, with the range itself as an enclosure.
 """
 
 from __future__ import annotations
@@ -45,21 +45,21 @@ class Witness:
 
 
 @dataclass(frozen=True)
-class LeastBaseCircle:
-    """The least base circle that keeps limits.
+class LeastPrimeCircle:
+    """The least prime circle that keeps limits; with a given roller the base circle is least too.
 
     Attributes
     ----------
     radius
-        It keeps them all around, as is proven, m.
+        Radius of the prime circle, m. Its cam is proven to keep the limits all around.
     too_small
-        Every one up to this radius breaks a limit or has no such mechanism, m; 0.00000001 less, relatively.
+        Every prime circle up to this radius breaks a limit or has no such mechanism, m; 1e-8 less, relatively.
     proven
-        Whether that is proven for every one of them; if not, for this one alone.
+        Whether that is proven for every smaller prime circle; if not, for `too_small` alone.
     limit, angle
         Which limit is broken first, and at which angle of the cam, rad; "mechanism" where there is none below.
     cam
-        The cam with the base circle.
+        The cam with this prime circle; `cam.base_radius` is the radius of its base circle, m.
     """
 
     radius: float
@@ -70,15 +70,15 @@ class LeastBaseCircle:
     cam: DiscCam
 
 
-def least_base_circle(
+def least_prime_circle(
     motion: Cycle | CamMotion,
     follower: CamFollower,
     *,
     pressure_angle: Quantity | None = None,
     radius_of_curvature: Quantity | None = None,
     turning: Turning = "counterclockwise",
-) -> LeastBaseCircle:
-    """The least base circle under a pressure-angle limit, a least radius of curvature of the profile, or both.
+) -> LeastPrimeCircle:
+    """The least prime circle under a pressure-angle limit, a least radius of curvature of the profile, or both.
 
     Parameters
     ----------
@@ -94,13 +94,13 @@ def least_base_circle(
     InputError
         If neither limit is given, or one is out of range.
     InfeasibleProblem
-        If no base circle keeps them.
+        If no prime circle keeps them.
 
     Examples
     --------
     >>> from optlaws.cams.followers.translating_flat import TranslatingFlat
     >>> rise = CamMotion.of_law("cycloidal", "40 mm", "120 deg")
-    >>> least = least_base_circle(rise, TranslatingFlat(), radius_of_curvature="15 mm")
+    >>> least = least_prime_circle(rise, TranslatingFlat(), radius_of_curvature="15 mm")
     >>> round(1e3 * least.radius, 6), least.proven, least.limit
     (36.32799, True, 'radius of curvature')
     """
@@ -119,17 +119,17 @@ def least_base_circle(
             break
         radius *= 1.0 + SIZE_NUDGE
     else:
-        raise InfeasibleProblem(f"no base circle was found that keeps {_in_words(limits)}: give wider limits")
+        raise InfeasibleProblem(f"no prime circle was found that keeps {_in_words(limits)}: give wider limits")
     cam = DiscCam(motion, f"{radius!r} m", follower, turning=turning)
     last = witnesses[-1] if witnesses else Witness("mechanism", 0.0, 1.0, before=False)
     below = radius * (1.0 - SIZE_BRACKET)
     proven = not witnesses or below <= start or sizes.breaks_between(start, below, witnesses[::-1])
-    return LeastBaseCircle(radius, max(below, start), proven, last.limit, last.angle, cam)
+    return LeastPrimeCircle(radius, max(below, start), proven, last.limit, last.angle, cam)
 
 
 @dataclass(frozen=True)
 class GreatestRoller:
-    """The greatest roller for a base circle: the smaller radius is proven to be free of undercut, the larger not, m.
+    """The greatest roller for a prime circle: the smaller radius is proven to be free of undercut, the larger not, m.
 
     Attributes
     ----------
@@ -145,7 +145,7 @@ class GreatestRoller:
 
 
 def greatest_roller(cam: DiscCam, *, radius_of_curvature: Quantity = "0 mm") -> GreatestRoller:
-    """The greatest roller with which the profile of a cam keeps a radius of curvature; its base circle stays.
+    """The greatest roller with which the profile of a cam keeps a radius of curvature; its prime circle stays.
 
     Parameters
     ----------
@@ -173,7 +173,7 @@ def greatest_roller(cam: DiscCam, *, radius_of_curvature: Quantity = "0 mm") -> 
     if low <= 0.0:
         raise InputError(
             f"radius_of_curvature: the pitch curve itself has {shown(1.0 / greatest.low)} at"
-            f" {degrees(greatest.angle):.6g} deg, so that no roller leaves {shown(least)}: make the base circle larger"
+            f" {degrees(greatest.angle):.6g} deg, so that no roller leaves {shown(least)}: make the prime circle larger"
         )
     slack = 8.0 * ROUNDOFF * (1.0 / greatest.low + abs(least))
     return GreatestRoller(low - slack, high + slack, greatest.angle)
@@ -206,7 +206,7 @@ def _in_words(limits: dict[str, float]) -> str:
 
 @dataclass(frozen=True)
 class _Sizes:
-    """Cams that differ by their base circle, and the limits that they keep or break."""
+    """Cams that differ by their prime circle, and the limits that they keep or break."""
 
     motion: CamMotion
     follower: CamFollower
@@ -215,11 +215,11 @@ class _Sizes:
 
     @property
     def least(self) -> float:
-        """The least base circle with which there is such a mechanism, m."""
+        """The least prime circle with which there is such a mechanism, m."""
         rising = self._scale * np.geomspace(SMALLEST_BASE, _LARGEST, _LOOKS)
         fit = next((i for i, radius in enumerate(rising) if self._fits(radius)), None)
         if fit is None:
-            raise InfeasibleProblem("no base circle fits the follower: give it other sizes")
+            raise InfeasibleProblem("no prime circle fits the follower: give it other sizes")
         if fit == 0:
             return float(rising[0])
         return bisect(self._fits, float(rising[fit]), float(rising[fit - 1]), 100)[0] * (1.0 + 1e-9)
@@ -237,7 +237,7 @@ class _Sizes:
         return True
 
     def contact(self, radius: float) -> FollowerContact:
-        """The contact with a base circle."""
+        """The contact with a prime circle."""
         return self.follower.contact(Place(radius, *self.motion.range, self.motion.slopes, self.turning))
 
     def witnesses(self, radius: float, *, proven: bool = False) -> list[Witness]:
@@ -281,12 +281,12 @@ class _Sizes:
                 return float(brentq(excess, last, float(size), xtol=1e-16, rtol=1e-14))
             last = float(size)
         raise InfeasibleProblem(
-            f"no base circle keeps {_in_words(self.limits)}: at {degrees(witness.angle):.6g} deg of the cam the "
+            f"no prime circle keeps {_in_words(self.limits)}: at {degrees(witness.angle):.6g} deg of the cam the "
             f"{witness.limit} breaks it with every one up to {shown(last)}: give wider limits, or spread the motion"
         )
 
     def breaks_between(self, low: float, high: float, witnesses: list[Witness]) -> bool:
-        """Whether every base circle in a range is proven to break a limit at one of the witnesses' angles."""
+        """Whether every prime circle in a range is proven to break a limit at one of the witnesses' angles."""
         jets = [(witness, self._jet(witness)) for witness in witnesses]
 
         def breaks(first: float, last: float) -> bool:
@@ -308,7 +308,7 @@ class _Sizes:
 
 
 def _spanning(smaller: Kind, larger: Kind) -> Kind:
-    """A contact whose base circle is anywhere between two."""
+    """A contact whose prime circle is anywhere between two."""
     changed: dict[str, Any] = {}
     for name in (field.name for field in fields(smaller)):
         first, last = getattr(smaller, name), getattr(larger, name)

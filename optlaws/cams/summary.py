@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import degrees
 from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
 
+from optlaws.cams.followers.follower import positive
 from optlaws.cams.forces import CamForces
 from optlaws.cycles.cycle import Cycle
 from optlaws.shown.summary import Row, Summary
@@ -60,7 +61,11 @@ def named_forces(forces: CamForces) -> list[Labelled[Extremes]]:
 def summary(cam: DiscCam) -> Summary:
     """The rows of a cam: intervals enclose an extreme, places are degrees of the cam."""
     undercut = cam.extremes.undercut
-    rows = [Row("undercut", undercut.status, note=str(undercut))]
+    rows = [
+        Row("undercut", undercut.status, note=str(undercut)),
+        Row("radius of the prime circle", 1e3 * positive(cam.prime_radius, "prime_radius"), "mm"),
+        Row("radius of the base circle", 1e3 * cam.base_radius, "mm"),
+    ]
     for name, extreme, unit, factor in geometry(cam):
         ends = factor * extreme.low, factor * extreme.high
         rows.append(Row(name, ends, unit, degrees(extreme.angle)))

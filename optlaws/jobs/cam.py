@@ -11,14 +11,14 @@ from typing import Any
 import numpy as np
 
 from optlaws.cams.as_manufactured import AsMade
-from optlaws.cams.best_laws import BestBaseCircle, BestCam
+from optlaws.cams.best_laws import BestCam, BestPrimeCircle
 from optlaws.cams.best_offset import BestOffset
 from optlaws.cams.curves.extremes import UNDERCUT
 from optlaws.cams.curves.plane_curve import PlaneCurve
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.follower import positive
 from optlaws.cams.forces import CamForces
-from optlaws.cams.least_sizes import LeastBaseCircle
+from optlaws.cams.least_sizes import LeastPrimeCircle
 from optlaws.cams.sizing.springs import CONTACT, GREATEST
 from optlaws.cams.summary import named_forces
 from optlaws.cycles.summary import objective_unit
@@ -81,6 +81,8 @@ def _to_data(findings: Findings) -> dict[str, Any]:
     extremes, limits = findings.cam.extremes, findings.limits
     data: dict[str, Any] = {
         "unit": "SI",
+        "prime_radius": positive(findings.cam.prime_radius, "prime_radius"),
+        "base_radius": findings.cam.base_radius,
         **_best_data(findings),
         "greatest_pressure_angle": enclosure(extremes.greatest_pressure_angle, limits.pressure),
         "least_pressure_angle": enclosure(extremes.pressure_angles[0], limits.pressure),
@@ -90,13 +92,13 @@ def _to_data(findings: Findings) -> dict[str, Any]:
         "undercut": {"status": extremes.undercut.status, "simple": extremes.undercut.simple},
     }
     least, roller = findings.least, findings.roller
-    if isinstance(least, LeastBaseCircle):
-        data["least_base_circle"] = {
-            "radius": least.radius, "too_small": least.too_small, "proven": least.proven, "limit": least.limit,
-            "angle": findings.angle(least.angle),
+    if isinstance(least, LeastPrimeCircle):
+        data["least_prime_circle"] = {
+            "radius": least.radius, "base_radius": least.cam.base_radius, "too_small": least.too_small,
+            "proven": least.proven, "limit": least.limit, "angle": findings.angle(least.angle),
         }  # fmt: skip
     elif least is not None:
-        data["least_base_circle"] = None
+        data["least_prime_circle"] = None
     if roller is not None:
         angle = findings.angle(roller.angle)
         data["greatest_roller"] = {"radius": roller.radius, "too_large": roller.too_large, "angle": angle}
@@ -109,8 +111,8 @@ def _best_data(findings: Findings) -> dict[str, Any]:
     if best is None:
         return {}
     name, objective = (
-        ("base circle", best.least.radius)
-        if isinstance(best, BestBaseCircle)
+        ("prime circle", best.least.radius)
+        if isinstance(best, BestPrimeCircle)
         else (findings.cycle.minimise, best.objective)
     )
     bound = {"status": _status(findings), "lower_bound": best.lower_bound}
@@ -118,7 +120,7 @@ def _best_data(findings: Findings) -> dict[str, Any]:
 
 
 def _status(findings: Findings) -> str:
-    """Whether the best laws, or the least base circle, are proven optimal."""
+    """Whether the best laws, or the least prime circle, are proven optimal."""
     best = findings.best
     assert best is not None  # noqa: S101 - the callers have seen it
     if isinstance(best, BestCam):
@@ -132,7 +134,8 @@ def _pair_data(cam: DiscCam | None) -> dict[str, Any]:
         return {}
     return {
         "return_cam": {
-            "base_radius": positive(cam.base_radius, "base_radius"),
+            "prime_radius": positive(cam.prime_radius, "prime_radius"),
+            "base_radius": cam.base_radius,
             "greatest_pressure_angle": enclosure(cam.extremes.greatest_pressure_angle),
             "bulging_radius": enclosure(cam.extremes.least_convex_radius),
             "undercut": {"status": cam.extremes.undercut.status, "simple": cam.extremes.undercut.simple},
@@ -146,7 +149,7 @@ def page(findings: Findings) -> Page:
     result = Page(spec.title).text(spec.text).figure("cam", spec.title)
     if findings.best is not None:
         result.heading("Laws for the cam").table(_HEADINGS, _best_rows(findings), digits=6)
-    result.text(f"Undercut: {findings.cam.extremes.undercut}.")
+    result.text(f"{_circles(findings.cam)}\n\nUndercut: {findings.cam.extremes.undercut}.")
     result.table(EXTREMES, extreme_rows(findings.cam, findings.limits), digits=7)
     if findings.offset is not None:
         result.heading("Offset").table(_OF_OFFSET, _offset_rows(findings.offset), digits=6)
@@ -156,7 +159,7 @@ def page(findings: Findings) -> Page:
         result.text(f"{least[0].upper()}{least[1:]}.")
     if findings.second is not None:
         result.heading("Return cam").figure("pair", "Both cams on one shaft, with their followers at the start")
-        result.text(f"Undercut: {findings.second.extremes.undercut}.")
+        result.text(f"{_circles(findings.second)}\n\nUndercut: {findings.second.extremes.undercut}.")
         result.table(EXTREMES, extreme_rows(findings.second, Limits()), digits=7)
         result.text(_links(spec, _RETURN))
     _add_forces(result, findings)
@@ -174,6 +177,12 @@ def page(findings: Findings) -> Page:
     return result.heading("Files").text(_links(spec)) if spec.file else result
 
 
+def _circles(cam: DiscCam) -> str:
+    """The radii of the prime circle and of the base circle as a sentence."""
+    base, roller = _MILLI * cam.base_radius, _MILLI * cam.contact.roller
+    return f"The radius of the prime circle is {base + roller:.7g} mm, that of the base circle {base:.7g} mm."
+
+
 def _links(spec: CamProblemFile, prefix: str = "") -> str:
     return "\n".join(f"- [{prefix}{entry.name}]({prefix}{entry.name})" for entry in spec.file)
 
@@ -188,7 +197,7 @@ def _best_rows(findings: Findings) -> list[list[tables.Cell]]:
         ]
     assert best is not None  # noqa: S101 - the caller has seen it
     sizes: list[tables.Cell] = [_MILLI * best.least.radius, _MILLI * best.lower_bound, "mm", _status(findings)]
-    rows: list[list[tables.Cell]] = [["least base circle of all laws", *sizes]]
+    rows: list[list[tables.Cell]] = [["least prime circle of all laws", *sizes]]
     of_cycle = findings.least_of_cycle
     if of_cycle is not None:
         rows.append([f"of the laws of least {name}", _MILLI * of_cycle.radius, None, "mm", None])
@@ -198,8 +207,8 @@ def _best_rows(findings: Findings) -> list[list[tables.Cell]]:
 def _size_rows(findings: Findings) -> list[list[tables.Cell]]:
     least, roller = findings.least, findings.roller
     rows: list[list[tables.Cell]] = []
-    if isinstance(least, LeastBaseCircle):
-        name, at = f"least base circle, by the {least.limit}", findings.angle(degrees(least.angle))
+    if isinstance(least, LeastPrimeCircle):
+        name, at = f"least prime circle, by the {least.limit}", findings.angle(degrees(least.angle))
         rows.append([name, _MILLI * least.radius, _MILLI * least.too_small, "mm", at])
     if roller is not None:
         at = findings.angle(degrees(roller.angle))

@@ -1,4 +1,4 @@
-"""The problem file of the job "cam": the follower's cycle, the follower, the base circle and limits, with units."""
+"""The problem file of the job "cam": the follower's cycle, the follower, the prime circle and limits, with units."""
 
 from __future__ import annotations
 
@@ -96,8 +96,11 @@ class CamProblemFile(JobFile, kw_only=True, forbid_unknown_fields=True):
 
     motion: AxisEntries
     follower: FollowerEntries
+    prime_radius: str | None = None
+    #: the name that earlier files have for `prime_radius`
     base_radius: str | None = None
-    best: Literal["laws", "base circle", "offset"] | None = None
+    #: "base circle" is what earlier files call "prime circle"
+    best: Literal["laws", "prime circle", "base circle", "offset"] | None = None
     pair: PairEntries | None = None
     speed: str | None = None
     period: str | None = None
@@ -112,6 +115,10 @@ class CamProblemFile(JobFile, kw_only=True, forbid_unknown_fields=True):
     as_made: AsManufacturedEntries | None = None
     file: Annotated[list[FileEntries], msgspec.Meta(max_length=50)] = msgspec.field(default_factory=list)
     animation: bool = False
+
+    def __post_init__(self) -> None:
+        if self.best == "base circle":
+            self.best = "prime circle"
 
     @property
     def limits(self) -> dict[str, Any]:

@@ -13,15 +13,15 @@ import msgspec
 import numpy as np
 
 from optlaws.cams.as_manufactured import AsMade, UnreachedProfileError, as_made, with_profile_error
-from optlaws.cams.best_laws import BestBaseCircle, BestCam, best_base_circle, best_cam
+from optlaws.cams.best_laws import BestCam, BestPrimeCircle, best_cam, best_prime_circle
 from optlaws.cams.best_offset import BestOffset, best_offset
 from optlaws.cams.conjugate import conjugate_cam
 from optlaws.cams.curves.extremes import EnclosedExtreme
 from optlaws.cams.disc import DiscCam
-from optlaws.cams.followers.follower import read_follower
+from optlaws.cams.followers.follower import read_follower, stated_prime_radius
 from optlaws.cams.followers.translating_roller import TranslatingRoller
 from optlaws.cams.forces import CamForces
-from optlaws.cams.least_sizes import GreatestRoller, LeastBaseCircle, greatest_roller, least_base_circle
+from optlaws.cams.least_sizes import GreatestRoller, LeastPrimeCircle, greatest_roller, least_prime_circle
 from optlaws.cams.sizing.energy_fluctuation import EnergyFluctuation, energy_fluctuation
 from optlaws.cams.sizing.springs import Spring, least_spring
 from optlaws.cams.summary import geometry
@@ -74,23 +74,30 @@ class Findings:
         return follower_cycle(self.spec.motion, self.spec.speed, self.spec.period)
 
     @kept_property
-    def best(self) -> BestCam | BestBaseCircle | None:
+    def prime_radius(self) -> str:
+        """The radius of the prime circle that the file gives; empty where the least one is sought."""
+        given = stated_prime_radius(self.spec.prime_radius, self.spec.base_radius, read_follower(self.spec.follower))
+        if given is None and (self.spec.best in {"laws", "offset"} or not self._limited):
+            raise InputError(
+                "prime_radius is missing: give it, such as '60 mm'; or give pressure_angle or radius_of_curvature, and "
+                "the least one that keeps them is taken; or ask for best = 'prime circle'"
+            )
+        if self.spec.best == "prime circle" and given is not None:
+            raise InputError(
+                "prime_radius is what best = 'prime circle' looks for: leave it out, or ask for best = 'laws'"
+            )
+        return given or ""
+
+    @kept_property
+    def best(self) -> BestCam | BestPrimeCircle | None:
         """How good the laws for the cam are, and the proof; None where they are those of the cycle."""
         spec, follower = self.spec, read_follower(self.spec.follower)
-        if spec.base_radius is None and (spec.best in {"laws", "offset"} or not self._limited):
-            raise InputError(
-                "base_radius is missing: give it, such as '60 mm'; or give pressure_angle or radius_of_curvature, and "
-                "the least one that keeps them is taken; or ask for best = 'base circle'"
-            )
+        prime_radius = self.prime_radius
         if spec.best == "offset":
             return None
-        if spec.best == "base circle" and spec.base_radius is not None:
-            raise InputError(
-                "base_radius is what best = 'base circle' looks for: leave it out, or ask for best = 'laws'"
-            )
-        if spec.best == "base circle":
-            return best_base_circle(self.cycle, follower, **spec.limits)
-        return best_cam(self.cycle, spec.base_radius or "", follower, **spec.limits) if spec.best else None
+        if spec.best == "prime circle":
+            return best_prime_circle(self.cycle, follower, **spec.limits)
+        return best_cam(self.cycle, prime_radius, follower, **spec.limits) if spec.best else None
 
     @kept_property
     def offset(self) -> BestOffset | None:
@@ -102,7 +109,7 @@ class Findings:
             raise InputError("follower: offset is what best = 'offset' looks for: leave it out")
         if not isinstance(follower, TranslatingRoller):
             raise InputError(f"best = 'offset' is of a translating roller, got a {follower.kind}")
-        return best_offset(self.cycle, spec.base_radius or "", follower, turning=spec.limits["turning"])
+        return best_offset(self.cycle, self.prime_radius, follower, turning=spec.limits["turning"])
 
     @kept_property
     def cam(self) -> DiscCam:
@@ -112,20 +119,20 @@ class Findings:
             return offset.cam
         if best is not None:
             return best.cam if isinstance(best, BestCam) else best.least.cam
-        if self.spec.base_radius is None:
+        if not self.prime_radius:
             return self._least_of_limits.cam
         turning = self.spec.limits["turning"]
-        return DiscCam(self.cycle, self.spec.base_radius, read_follower(self.spec.follower), turning=turning)
+        return DiscCam(self.cycle, self.prime_radius, read_follower(self.spec.follower), turning=turning)
 
     @property
     def _limited(self) -> bool:
-        """Whether there are limits that a base circle keeps."""
+        """Whether there are limits that a prime circle keeps."""
         return bool(self.spec.pressure_angle or self.spec.radius_of_curvature)
 
     @kept_property
-    def _least_of_limits(self) -> LeastBaseCircle:
-        """The least base circle of the cycle, where the file gives limits in its place."""
-        return least_base_circle(self.cycle, read_follower(self.spec.follower), **self.spec.limits)
+    def _least_of_limits(self) -> LeastPrimeCircle:
+        """The least prime circle of the cycle, where the file gives limits in its place."""
+        return least_prime_circle(self.cycle, read_follower(self.spec.follower), **self.spec.limits)
 
     @kept_property
     def second(self) -> DiscCam | None:
@@ -153,25 +160,25 @@ class Findings:
         return angle if self.best is None else None
 
     @kept_property
-    def least(self) -> LeastBaseCircle | str | None:
-        """The least base circle, why there is none, or None where no limit is given."""
+    def least(self) -> LeastPrimeCircle | str | None:
+        """The least prime circle, why there is none, or None where no limit is given."""
         if not self._limited:
             return None
-        if isinstance(self.best, BestBaseCircle):
+        if isinstance(self.best, BestPrimeCircle):
             return self.best.least
-        if self.spec.base_radius is None:
+        if not self.prime_radius:
             return self._least_of_limits
         cam = self.cam
         try:
-            return least_base_circle(cam.motion, cam.follower, **self.spec.limits)
+            return least_prime_circle(cam.motion, cam.follower, **self.spec.limits)
         except InfeasibleProblem as error:
             return str(error)
 
     @kept_property
-    def least_of_cycle(self) -> LeastBaseCircle | None:
-        """The least base circle of the cycle's own laws; None where there is none."""
+    def least_of_cycle(self) -> LeastPrimeCircle | None:
+        """The least prime circle of the cycle's own laws; None where there is none."""
         try:
-            return least_base_circle(self.cycle, self.cam.follower, **self.spec.limits)
+            return least_prime_circle(self.cycle, self.cam.follower, **self.spec.limits)
         except InfeasibleProblem:
             return None
 

@@ -169,9 +169,7 @@ def _curve(axes: Axes, edges: Array, values: Values, label: str, **style: Any) -
 
 
 def _draw_mechanism(cam: DiscCam, axes: Axes, style: dict[str, Any]) -> list[Artist]:
-    """The profile, its pitch curve and base circle, and the follower where it is as seen from the cam."""
-    from matplotlib.patches import Circle
-
+    """The profile with its base circle, the pitch curve with its prime circle, and the follower seen from the cam."""
     first, last = cam.displacement.interval
     angles = np.linspace(first, last, _SAMPLES)
     profile = _MILLI * cam.profile(angles)
@@ -179,10 +177,9 @@ def _draw_mechanism(cam: DiscCam, axes: Axes, style: dict[str, Any]) -> list[Art
     if cam.displacement.closed:
         axes.fill(*profile.T, color=_FILL, zorder=1)
     artists: list[Artist] = list(axes.plot(*profile.T, zorder=4, label="profile", **style))
-    radius = _MILLI * float(np.hypot(*cam.pitch_curve(_lowest(cam)).T))
-    dashed: Any = {"fill": False, "edgecolor": GREY, "linewidth": 0.8, "linestyle": (0, (6, 4)), "zorder": 2}
-    axes.add_patch(Circle((0.0, 0.0), radius, label="base circle", **dashed))
+    _draw_circle(axes, cam.base_radius, "base circle", (0, (6, 4)))
     if cam.contact.roller:
+        _draw_circle(axes, cam.base_radius + cam.contact.roller, "prime circle", (0, (6, 2, 1, 2)))
         dotted: Any = {"color": GREY, "linewidth": 0.8, "linestyle": ":", "zorder": 2}
         axes.plot(*(_MILLI * cam.pitch_curve(angles)).T, label="pitch curve", **dotted)
     for i, at in enumerate(np.linspace(first, last, _SHOWN, endpoint=not cam.displacement.closed)):
@@ -190,13 +187,14 @@ def _draw_mechanism(cam: DiscCam, axes: Axes, style: dict[str, Any]) -> list[Art
     axes.plot([], [], color=WARM, linewidth=1.1, label="follower at the start")
     axes.plot([0.0], [0.0], "+", color=GREY, markersize=9.0, zorder=5)
     axes.set(xlabel="x of the cam, mm", ylabel="y of the cam, mm")
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), ncols=2)
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), ncols=3)
     return artists
 
 
-def _lowest(cam: DiscCam) -> float:
-    angles = np.linspace(*cam.displacement.interval, _SAMPLES)
-    return float(angles[int(np.argmin(cam.displacement(angles)))])
+def _draw_circle(axes: Axes, radius: float, label: str, dashes: Any) -> None:  # noqa: ANN401 - matplotlib's
+    turn = np.linspace(0.0, 2.0 * np.pi, _SAMPLES)
+    points = _MILLI * radius * np.array([np.cos(turn), np.sin(turn)])
+    axes.plot(*points, color=GREY, linewidth=0.8, linestyle=dashes, zorder=2, label=label)
 
 
 def _draw_follower(cam: DiscCam, axes: Axes, angle: float, colour: str) -> None:

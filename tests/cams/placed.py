@@ -55,7 +55,7 @@ def length(value: object) -> float:
 
 def roller_centres(cam: DiscCam, angles: Array) -> Points:
     """Where the roller's centre is, in the cam's coordinates as complex numbers; the motion starts lowest."""
-    radius, s = length(cam.base_radius), np.asarray(cam.displacement(angles))
+    radius, s = length(cam.prime_radius), np.asarray(cam.displacement(angles))
     if isinstance(cam.follower, TranslatingRoller):
         offset = length(cam.follower.offset)
         beside = offset + 1j * (sqrt(radius**2 - offset**2) + s)
@@ -70,7 +70,7 @@ def roller_centres(cam: DiscCam, angles: Array) -> Points:
 
 def face_lines(cam: DiscCam, angles: Array) -> tuple[Points, Array]:
     """Unit normals of the face, away from the cam, in its coordinates, and how far the face is from its centre."""
-    radius, s = length(cam.base_radius), cam.displacement(angles)
+    radius, s = length(cam.prime_radius), cam.displacement(angles)
     if isinstance(cam.follower, TranslatingFlat):
         normal, far = np.full(len(angles), 1j), radius + s
     elif isinstance(cam.follower, InclinedFlat):

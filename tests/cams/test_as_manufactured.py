@@ -30,7 +30,7 @@ Array = NDArray[np.float64]
 def cam() -> DiscCam:
     law = synthesize(Problem(B=1.859, order=4, basis=Chebyshev(9))).law
     moves = [Rise("40 mm", "120 deg", law=law), Dwell("60 deg"), Return(None, "120 deg", law=law), Dwell()]
-    return DiscCam(Cycle(moves, speed="200 rpm"), base_radius="80 mm", follower=TranslatingRoller("12 mm"))
+    return DiscCam(Cycle(moves, speed="200 rpm"), prime_radius="80 mm", follower=TranslatingRoller("12 mm"))
 
 
 #: points and decimals of a table of radii, and what it makes of the peak acceleration
@@ -98,7 +98,7 @@ def test_waves_of_the_profile_add_their_square(cam: DiscCam) -> None:
 
 def test_a_flat_face_is_run_as_well() -> None:
     moves = [Rise("10 mm", "120 deg", law="3-4-5"), Dwell("60 deg"), Return(None, "120 deg", law="3-4-5"), Dwell()]
-    flat = DiscCam(Cycle(moves, speed="200 rpm"), base_radius="60 mm", follower=TranslatingFlat())
+    flat = DiscCam(Cycle(moves, speed="200 rpm"), prime_radius="60 mm", follower=TranslatingFlat())
     made = as_made(flat, points=181, decimals=6)
     assert made.deviation < 1e-6
     assert made.acceleration_ratio == pytest.approx(1.0, abs=0.02)

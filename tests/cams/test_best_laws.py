@@ -21,8 +21,8 @@ from optlaws import (
     Status,
     TranslatingFlat,
     TranslatingRoller,
-    best_base_circle,
     best_cam,
+    best_prime_circle,
     smoothstep,
 )
 from tests.internals.cams import PRESSURE, SlidingRoller, SwingingRoller, curvature_of, curved_limits, linear_limits
@@ -73,20 +73,20 @@ def test_least_acceleration_under_a_pressure_angle_is_that_of_a_linear_program_o
     assert best.objective == pytest.approx(sized, rel=2e-2)
 
 
-def test_the_least_base_circle_of_all_laws_meets_its_bound() -> None:
+def test_the_least_prime_circle_of_all_laws_meets_its_bound() -> None:
     roller = TranslatingRoller("12 mm", "6 mm")
-    best = best_base_circle(PRESS, roller, pressure_angle="30 deg")
+    best = best_prime_circle(PRESS, roller, pressure_angle="30 deg")
     assert best.least.proven
     assert best.lower_bound <= best.least.radius
     assert best.least.radius == pytest.approx(best.lower_bound, rel=1e-7)
     assert best.least.radius < 0.6 * 0.0586  # that of the law of least acceleration
-    with pytest.raises(InfeasibleProblem, match="make the base circle larger") as refused:
+    with pytest.raises(InfeasibleProblem, match="make the prime circle larger") as refused:
         best_cam(PRESS, f"{0.999 * best.least.radius!r} m", roller, pressure_angle="30 deg")
     assert refused.value.proof is not None
 
 
 def test_a_flat_face_keeps_its_radius_by_a_law_made_for_it() -> None:
-    best = best_base_circle(VALVE, TranslatingFlat(), radius_of_curvature="3 mm")
+    best = best_prime_circle(VALVE, TranslatingFlat(), radius_of_curvature="3 mm")
     assert best.least.radius == pytest.approx(best.lower_bound, rel=1e-7)
     cam = best_cam(VALVE, "20 mm", TranslatingFlat(), radius_of_curvature="3 mm")
     assert cam.status is Status.OPTIMAL
@@ -104,13 +104,15 @@ def test_an_arm_has_laws_and_a_bound_near_them() -> None:
     best = best_cam(ROCKER, "65 mm", ARM, pressure_angle="26 deg")
     assert best.lower_bound <= best.objective <= 1.002 * best.lower_bound
     assert np.degrees(best.cam.extremes.greatest_pressure_angle.high) <= 26.0 + 1e-6
-    with pytest.raises(SolverFailure, match=r"no law was found .* make the base circle larger"):
+    with pytest.raises(SolverFailure, match=r"no law was found .* make the prime circle larger"):
         best_cam(ROCKER, "65 mm", ARM, pressure_angle="10 deg")
 
 
 def test_curvature_under_a_roller_is_held_against_the_laws() -> None:
     sharp = Cycle([Rise("30 mm", "70 deg"), Return("30 mm", "70 deg"), Dwell()], period="1 s")
-    with pytest.raises(SolverFailure, match=r"its limit is not convex in the law: make the base circle larger") as said:
+    with pytest.raises(
+        SolverFailure, match=r"its limit is not convex in the law: make the prime circle larger"
+    ) as said:
         best_cam(sharp, "25 mm", TranslatingRoller("8 mm"), radius_of_curvature="20 mm")
     assert "(at rest the profile has 17 mm, whatever the law)" in str(said.value)
     kept = best_cam(PRESS, "60 mm", TranslatingRoller("8 mm"), radius_of_curvature="8 mm")
@@ -200,9 +202,9 @@ def test_what_has_no_best_law_says_the_remedy() -> None:
     with pytest.raises(InputError, match="pressure_angle='30 deg'"):
         best_cam(PRESS, "50 mm", TranslatingRoller("12 mm"))
     with pytest.raises(InputError, match=r"takes one limit: radius_of_curvature='5 mm'"):
-        best_base_circle(VALVE, TranslatingFlat(), pressure_angle="30 deg")
+        best_prime_circle(VALVE, TranslatingFlat(), pressure_angle="30 deg")
     with pytest.raises(InputError, match="flat faces on slides"):
-        best_base_circle(ROCKER, OscillatingFlat("150 mm"), radius_of_curvature="3 mm")
+        best_prime_circle(ROCKER, OscillatingFlat("150 mm"), radius_of_curvature="3 mm")
 
 
 @pytest.mark.parametrize("share", [0.4, 0.9, 1.6])

@@ -74,8 +74,8 @@ def test_other_units_of_lengths(unit: float) -> None:
 def test_wrong_followers_say_why() -> None:
     with pytest.raises(InputError, match="must be a TranslatingRoller"):
         best_offset(MOTIONS["up and down"], "60 mm", OscillatingRoller("12 mm", arm="90 mm", pivot_distance="120 mm"))  # type: ignore[arg-type]
-    with pytest.raises(InputError, match="base_radius"):
+    with pytest.raises(InputError, match="prime_radius"):
         best_offset(MOTIONS["up and down"], "-60 mm", ROLLER)
-    with pytest.raises(InputError, match="not less than that of the base circle"):
+    with pytest.raises(InputError, match="not less than that of the prime circle"):
         best_offset(MOTIONS["up and down"], "9 mm", ROLLER)
     assert DiscCam(MOTIONS["up and down"], "60 mm", ROLLER).contact.roller == pytest.approx(0.012)

@@ -50,6 +50,15 @@ def test_a_face_touches_the_profile_and_never_cuts_it(kind: str, turning: str) -
     assert (heights <= far[None, :] + 1e-15).all()
 
 
+@pytest.mark.parametrize(("kind", "turning"), BOTH)
+def test_the_base_circle_touches_the_profile_from_inside(kind: str, turning: str) -> None:
+    cam = cam_of(kind, turning)
+    radii = [np.hypot(*curve(np.linspace(0.0, 2 * np.pi, 2881)).T).min() for curve in (cam.profile, cam.pitch_curve)]
+    assert radii[0] == pytest.approx(cam.base_radius, rel=1e-9)
+    if "roller" in kind:  # the prime circle touches the pitch curve likewise
+        assert radii[1] == pytest.approx(cam.base_radius + 0.012, rel=1e-9)
+
+
 @pytest.mark.parametrize(("kind", "turning"), ROLLERS)
 def test_the_pressure_angle_is_between_the_normal_and_the_way_of_the_roller(kind: str, turning: str) -> None:
     cam, step = cam_of(kind, turning), 1e-6
@@ -117,15 +126,15 @@ def test_profile_and_cutter_path_are_parallel_curves() -> None:
 @pytest.mark.parametrize(
     ("follower", "stroke", "radius", "told"),
     [
-        (TranslatingRoller("12 mm", offset="90 mm"), "30 mm", "80 mm", "offset 90 mm is beyond the base circle"),
-        (TranslatingRoller("90 mm"), "30 mm", "80 mm", "make the roller smaller or the base circle larger"),
+        (TranslatingRoller("12 mm", offset="90 mm"), "30 mm", "80 mm", "offset 90 mm is beyond the prime circle"),
+        (TranslatingRoller("90 mm"), "30 mm", "80 mm", "make the roller smaller or the prime circle larger"),
         (OscillatingRoller("5 mm", "30 mm", "120 mm"), "20 deg", "80 mm", "too short: .* make it longer than 40 mm"),
         (OscillatingRoller("5 mm", "230 mm", "120 mm"), "20 deg", "80 mm", "too long: .* shorter than 200 mm"),
         (OscillatingRoller("5 mm", "100 mm", "150 mm"), "170 deg", "80 mm", "dead centre"),
         (OscillatingFlat("50 mm"), "6 deg", "80 mm", "put it farther than 80 mm"),
         (OscillatingFlat("150 mm"), "80 deg", "80 mm", "make the swing smaller or pivot_distance greater"),
         (OscillatingFlat("150 mm"), "20 mm", "80 mm", "take a translating follower"),
-        (TranslatingFlat(), "20 mm", "0 mm", "base_radius must be above 0"),
+        (TranslatingFlat(), "20 mm", "0 mm", "prime_radius must be above 0"),
         (TranslatingFlat(), "20 mm", 80, "without a unit"),
     ],
 )

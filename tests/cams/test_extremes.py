@@ -110,7 +110,7 @@ def test_a_roller_just_too_large_is_proven_to_undercut_and_one_just_smaller_is_n
         for share in (1.0 - 1e-7, 1.0 + 1e-7)
     ]
     assert [verdict.status for verdict in verdicts] == [FREE, UNDERCUT]
-    assert "make the base circle larger or a roller smaller" in str(verdicts[1])
+    assert "make the prime circle larger or a roller smaller" in str(verdicts[1])
 
 
 def test_a_hollow_profile_tells_how_small_its_cutter_must_be() -> None:

@@ -49,7 +49,7 @@ PLACES = np.linspace(0.01, 6.27, 301)
 
 def cam(follower: CamFollower, stroke: str, **others: Any) -> DiscCam:
     moves = [Rise(stroke, "120 deg", law="3-4-5"), Dwell("60 deg"), Return(None, "120 deg", law="cycloidal"), Dwell()]
-    return DiscCam(Cycle(moves, speed="200 rpm"), base_radius="70 mm", follower=follower, **others)
+    return DiscCam(Cycle(moves, speed="200 rpm"), prime_radius="70 mm", follower=follower, **others)
 
 
 @pytest.mark.parametrize("turning", ["counterclockwise", "clockwise"])

@@ -158,7 +158,7 @@ def test_hertz_pressure_of_known_bodies() -> None:
 
 def test_wrong_entries_name_themselves_and_the_remedy() -> None:
     partial = DiscCam(
-        CamMotion.of_law("cycloidal", "40 mm", "120 deg"), base_radius="80 mm", follower=TranslatingRoller("12 mm")
+        CamMotion.of_law("cycloidal", "40 mm", "120 deg"), prime_radius="80 mm", follower=TranslatingRoller("12 mm")
     )
     for said, match in (
         ({"speed": "0 rpm"}, "speed must be above 0"),

@@ -1,4 +1,4 @@
-"""Least base circles and greatest rollers: against bisection on another footing, and against what just breaks them."""
+"""Least prime circles and greatest rollers: against bisection on another footing, and against what just breaks them."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from optlaws import (
     TranslatingFlat,
     TranslatingRoller,
     greatest_roller,
-    least_base_circle,
+    least_prime_circle,
 )
 from tests.cams.placed import cycle_of
 from tests.internals.cams import CamFollower
@@ -43,13 +43,13 @@ def keeps(cam: DiscCam, pressure: float | None, radius: float | None) -> bool:
 
 @pytest.mark.sample(3)
 @pytest.mark.parametrize(("follower", "stroke", "pressure", "radius"), CASES)
-def test_the_least_base_circle_is_that_of_a_bisection(
+def test_the_least_prime_circle_is_that_of_a_bisection(
     follower: CamFollower, stroke: str, pressure: float | None, radius: float | None
 ) -> None:
     cycle = cycle_of(stroke)
     limits: dict[str, Any] = {} if pressure is None else {"pressure_angle": f"{pressure} deg"}
     limits |= {} if radius is None else {"radius_of_curvature": f"{radius} mm"}
-    least = least_base_circle(cycle, follower, **limits)
+    least = least_prime_circle(cycle, follower, **limits)
     assert least.proven
     assert least.radius * (1 - 2e-8) < least.too_small < least.radius
     low, high = 0.9 * least.radius, 1.1 * least.radius
@@ -70,14 +70,14 @@ def test_the_least_base_circle_is_that_of_a_bisection(
 def test_a_flat_face_has_its_closed_form() -> None:
     # rho = r0 + s + s'' >= 5 mm
     cycle = cycle_of("12 mm")
-    least = least_base_circle(cycle, TranslatingFlat(), radius_of_curvature="5 mm")
+    least = least_prime_circle(cycle, TranslatingFlat(), radius_of_curvature="5 mm")
     motion = least.cam.displacement
     lowest = min(float((motion(x) + motion(x, 2)).min()) for x in (np.linspace(0.0, 2 * np.pi, 400_001),))
     assert least.radius == pytest.approx(0.005 - lowest, rel=1e-9)
 
 
 def test_a_mechanism_may_be_all_that_bounds_it() -> None:
-    least = least_base_circle(cycle_of("5 mm"), TranslatingRoller("12 mm"), pressure_angle="60 deg")
+    least = least_prime_circle(cycle_of("5 mm"), TranslatingRoller("12 mm"), pressure_angle="60 deg")
     assert least.limit == "mechanism"
     assert least.radius == pytest.approx(0.012, rel=1e-8)
 
@@ -95,14 +95,14 @@ def test_the_greatest_roller_keeps_the_radius_and_a_greater_one_breaks_it(offset
 def test_limits_that_are_missing_or_cannot_be_kept_say_the_remedy() -> None:
     cycle, arm = cycle_of("30 mm"), OscillatingRoller("12 mm", "90 mm", "120 mm")
     with pytest.raises(InputError, match="pressure_angle='30 deg'"):
-        least_base_circle(cycle, TranslatingRoller("12 mm"))
+        least_prime_circle(cycle, TranslatingRoller("12 mm"))
     with pytest.raises(InputError, match="below 90 deg"):
-        least_base_circle(cycle, TranslatingRoller("12 mm"), pressure_angle="90 deg")
+        least_prime_circle(cycle, TranslatingRoller("12 mm"), pressure_angle="90 deg")
     with pytest.raises(InputError, match="at least 0"):
-        least_base_circle(cycle, TranslatingFlat(), radius_of_curvature="-1 mm")
-    with pytest.raises(InfeasibleProblem, match=r"no base circle keeps a pressure angle of 5 deg.*spread the motion"):
-        least_base_circle(cycle_of("20 deg"), arm, pressure_angle="5 deg")
+        least_prime_circle(cycle, TranslatingFlat(), radius_of_curvature="-1 mm")
+    with pytest.raises(InfeasibleProblem, match=r"no prime circle keeps a pressure angle of 5 deg.*spread the motion"):
+        least_prime_circle(cycle_of("20 deg"), arm, pressure_angle="5 deg")
     with pytest.raises(InputError, match="a flat face has no roller"):
         greatest_roller(DiscCam(cycle, "60 mm", TranslatingFlat()))
-    with pytest.raises(InputError, match="make the base circle larger"):
+    with pytest.raises(InputError, match="make the prime circle larger"):
         greatest_roller(DiscCam(cycle, "60 mm", TranslatingRoller("2 mm")), radius_of_curvature="90 mm")

@@ -299,7 +299,7 @@ def test_the_loads_of_a_cam_are_those_of_the_library() -> None:
 
 
 def test_a_cam_beyond_its_limits_is_not_called_free_of_undercut() -> None:
-    trust = cam_view.answer(CamRequest(study=cam_view.example() | {"base_radius": "45 mm"}))["trust"]
+    trust = cam_view.answer(CamRequest(study=cam_view.example() | {"prime_radius": "45 mm"}))["trust"]
     assert (trust["status"], trust["word"]) == ("refused", "beyond a limit")
     assert "deg of 30 deg" in trust["advice"]
 
@@ -309,15 +309,15 @@ def test_a_cam_that_is_undercut_says_so_and_one_that_is_none_why() -> None:
     (told,) = cam_view.sizes(CamRequest(study=study))["facts"]
     least = float(told.split(": ")[1].split()[0])
     for radius, beyond in ((least, False), (least * 0.999, True)):
-        view = cam_view.answer(CamRequest(study=study | {"base_radius": f"{radius + 1e-5} mm"}))
+        view = cam_view.answer(CamRequest(study=study | {"prime_radius": f"{radius + 1e-5} mm"}))
         assert view["panels"][1]["beyond"] == beyond
     large = study["follower"] | {"radius": "59 mm"}
     small = cam_view.answer(CamRequest(study=study | {"follower": large}))
     assert small["trust"]["word"] == "undercut"
-    assert "base circle larger" in small["trust"]["advice"]
+    assert "prime circle larger" in small["trust"]["advice"]
     assert not small["panels"][1]["beyond"]
-    assert cam_view.answer(CamRequest(study=study | {"base_radius": "50 mm"}))["panels"][1]["beyond"]
-    for changed in ({"base_radius": "18 kg"}, {"follower": {"kind": "translating roller"}}, {"base": "18 mm"}):
+    assert cam_view.answer(CamRequest(study=study | {"prime_radius": "50 mm"}))["panels"][1]["beyond"]
+    for changed in ({"prime_radius": "18 kg"}, {"follower": {"kind": "translating roller"}}, {"base": "18 mm"}):
         assert cam_view.answer(CamRequest(study=study | changed))["refused"]["word"] == "no such cam"
 
 

@@ -292,7 +292,7 @@ def test_a_cam_turns_and_is_refused_where_there_is_none(page: Page, served: Serv
     assert "undercut at" in page.locator("#cam-trust").inner_text().lower()
     page.get_by_label("base radius").fill("18 kg")
     settle(page)
-    assert "base_radius" in page.locator("#cam-trust").inner_text()
+    assert "prime_radius" in page.locator("#cam-trust").inner_text()
     assert page.locator("#cam-drawing svg, #cam-curves .line").count() == 0
     page.get_by_label("base radius").fill("60 mm")
     page.get_by_label("kind of follower").select_option("oscillating roller")

@@ -17,7 +17,7 @@ from optlaws import (
     Rise,
     TranslatingFlat,
     TranslatingRoller,
-    least_base_circle,
+    least_prime_circle,
 )
 from tests.external.published import REFERENCE, cases, numbers
 
@@ -44,7 +44,7 @@ def leuven(request: pytest.FixtureRequest) -> tuple[dict[str, Any], DiscCam]:
     case = CAMS[request.param]
     roller = TranslatingRoller(f"{case['rof']} mm", offset=f"{case['exc']} mm")
     cycle = Cycle(_cycloids(request.param), speed=f"{case['rpm']} rpm")
-    return case, DiscCam(cycle, base_radius=f"{case['bcr'] + case['rof']} mm", follower=roller)
+    return case, DiscCam(cycle, prime_radius=f"{case['bcr'] + case['rof']} mm", follower=roller)
 
 
 def test_cams_of_matcam(leuven: tuple[dict[str, Any], DiscCam]) -> None:
@@ -87,7 +87,7 @@ def test_contact_forces_of_matcam(leuven: tuple[dict[str, Any], DiscCam]) -> Non
 
 def test_a_contact_force_below_zero_is_reported() -> None:
     roller = TranslatingRoller("40 mm", offset="2.8 mm")
-    cam = DiscCam(Cycle(_cycloids("SV"), speed="600 rpm"), base_radius="70 mm", follower=roller)
+    cam = DiscCam(Cycle(_cycloids("SV"), speed="600 rpm"), prime_radius="70 mm", follower=roller)
     forces = CamForces(cam, drive={"mass": "1.8 kg", "stiffness": "18.5 N/mm", "preload": "319.16 N"})
     assert forces.lifts_off
     assert forces.contact.least == pytest.approx(-153.1844, abs=1e-4)
@@ -105,14 +105,14 @@ def test_exercise_of_leuven() -> None:
     cycle = Cycle([*moves, Return("50 mm", "140 deg", law="3-4-5"), Dwell("10 deg")], speed="120 rpm")
     assert cycle.peak(1) == pytest.approx(0.482, abs=5e-4)
     assert cycle.peak(2) == pytest.approx(9.89, abs=5e-3)
-    extremes = DiscCam(cycle, base_radius="65 mm", follower=TranslatingRoller("15 mm")).extremes
+    extremes = DiscCam(cycle, prime_radius="65 mm", follower=TranslatingRoller("15 mm")).extremes
     rising, falling = sorted(extremes.pressure_angles, key=lambda extreme: -extreme.value)
     assert np.degrees(rising.value) == pytest.approx(21.86, abs=5e-3)
     assert np.degrees(rising.angle) == pytest.approx(146.8, abs=0.05)
     assert np.degrees(falling.value) == pytest.approx(-23.83, abs=5e-3)
     assert extremes.least_convex_radius is not None
     assert 1e3 * extremes.least_convex_radius.value + 15.0 == pytest.approx(40.6, abs=0.06)
-    least = least_base_circle(cycle, TranslatingRoller("15 mm"), pressure_angle="30 deg")
+    least = least_prime_circle(cycle, TranslatingRoller("15 mm"), pressure_angle="30 deg")
     assert np.ceil(1e3 * least.radius) == 46.0
 
 
@@ -131,7 +131,7 @@ def test_least_prime_circles_of_mechanism(case: dict[str, Any]) -> None:
     follower = TranslatingRoller(f"{case['roller']} inch") if "roller" in case else TranslatingFlat()
     units = {"pressure_angle": "deg", "radius_of_curvature": "inch"}
     limits: dict[str, Any] = {name: f"{case[name]} {unit}" for name, unit in units.items() if name in case}
-    least = least_base_circle(Cycle(inch_moves(case["cam"], case["law"]), speed="60 rpm"), follower, **limits)
+    least = least_prime_circle(Cycle(inch_moves(case["cam"], case["law"]), speed="60 rpm"), follower, **limits)
     assert least.proven
     assert 0 <= least.radius / 0.0254 - case["radius"] < 1e-4
 
@@ -141,8 +141,8 @@ def test_an_eccentric_prime_circle_of_mechanism_is_too_small() -> None:
     case = numbers()["least_circle"][0]["eccentric"]
     cycle = Cycle(inch_moves("two rises", "cycloidal"), speed="60 rpm")
     follower = TranslatingRoller(f"{case['roller']} inch", f"{case['offset']} inch")
-    theirs = DiscCam(cycle, base_radius=f"{case['radius']} inch", follower=follower)
+    theirs = DiscCam(cycle, prime_radius=f"{case['radius']} inch", follower=follower)
     steepest = np.degrees(theirs.extremes.greatest_pressure_angle.value)
     assert steepest == pytest.approx(case["true_angle"], abs=5e-4)
-    least = least_base_circle(cycle, follower, pressure_angle=f"{case['pressure_angle']} deg")
+    least = least_prime_circle(cycle, follower, pressure_angle=f"{case['pressure_angle']} deg")
     assert least.radius / 0.0254 == pytest.approx(case["true_radius"], abs=1e-6)

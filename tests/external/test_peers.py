@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from optlaws import Cycle, DiscCam, TranslatingFlat, TranslatingRoller, catalogue, least_base_circle
+from optlaws import Cycle, DiscCam, TranslatingFlat, TranslatingRoller, catalogue, least_prime_circle
 from tests.exports.moves import exported
 from tests.exports.samples import SAID, optimal
 from tests.exports.structured_text import without_comments
@@ -40,10 +40,10 @@ def test_prime_circles_beside_mechanism(name: str, kind: str) -> None:
     for roller, limit in zip(rng.uniform(0.2, 0.6, 4).tolist(), rng.uniform(15.0, 35.0, 4).tolist(), strict=True):
         answer = theirs.get_base_circle(kind=kind, follower="roller", roller_radius=roller, max_pressure_angle=limit)
         follower = TranslatingRoller(f"{roller!r} inch")
-        ours = least_base_circle(cycle, follower, pressure_angle=f"{limit!r} deg").radius / 0.0254
+        ours = least_prime_circle(cycle, follower, pressure_angle=f"{limit!r} deg").radius / 0.0254
         assert -1e-12 <= ours - (answer["Rb"] + roller) < 1e-6 * ours
     answer = theirs.get_base_circle(kind=kind, follower="flat", desired_min_rho=0.4)
-    ours = least_base_circle(cycle, TranslatingFlat(), radius_of_curvature="0.4 inch").radius / 0.0254
+    ours = least_prime_circle(cycle, TranslatingFlat(), radius_of_curvature="0.4 inch").radius / 0.0254
     assert -1e-12 <= ours - answer["Rb"] < 1e-5
 
 
@@ -55,10 +55,10 @@ def test_prime_circles_of_mechanism_with_an_offset_break_their_limit() -> None:
         limits = {"roller_radius": 1.0, "max_pressure_angle": 30.0, "eccentricity": offset}
         radius = float(theirs.get_base_circle(kind="cycloidal", follower="roller", **limits)["Rb"]) + 1.0
         follower = TranslatingRoller("1 inch", f"{offset} inch")
-        cam = DiscCam(cycle, base_radius=f"{radius!r} inch", follower=follower)
+        cam = DiscCam(cycle, prime_radius=f"{radius!r} inch", follower=follower)
         beyond.append(float(np.degrees(cam.extremes.greatest_pressure_angle.value)) - 30.0)
         # what it would be with the difference: the same root as ours
-        ours = least_base_circle(cycle, follower, pressure_angle="30 deg").radius / 0.0254
+        ours = least_prime_circle(cycle, follower, pressure_angle="30 deg").radius / 0.0254
         assert radius**2 + offset**2 == pytest.approx(ours**2 - offset**2, rel=1e-6)
     assert beyond == pytest.approx([0.036, 0.129, 0.413], abs=2e-3)
 

@@ -53,7 +53,7 @@ def cam_of(name: str) -> DiscCam:
     case = DATA["forces"][name]
     roller = TranslatingRoller(f"{case['roller']} mm", offset=f"{case['offset']} mm")
     cycle = Cycle(moves(name), speed=f"{case['rpm']} rpm")
-    return DiscCam(cycle, base_radius=f"{case['prime_circle']} mm", follower=roller)
+    return DiscCam(cycle, prime_radius=f"{case['prime_circle']} mm", follower=roller)
 
 
 def forces_of(name: str) -> CamForces:
@@ -163,7 +163,7 @@ def test_exam_notes() -> None:
     law = "3-4-5"
     segments = [Dwell("10 deg"), Rise("10 mm", "55 deg", law=law), Dwell("30 deg"), Rise("40 mm", "115 deg", law=law)]
     cycle = Cycle([*segments, Return("50 mm", "140 deg", law=law), Dwell("10 deg")], speed="120 rpm")
-    cam = DiscCam(cycle, base_radius="50 mm", follower=TranslatingRoller("15 mm"))
+    cam = DiscCam(cycle, prime_radius="50 mm", follower=TranslatingRoller("15 mm"))
     weight, stiffness = EXAM["mass"] * EXAM["gravity"], EXAM["stiffness"]
     assert weight == pytest.approx(EXAM["preload"], abs=0.05)
     times = np.linspace(0.0, 0.5, 200001)

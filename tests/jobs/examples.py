@@ -67,7 +67,7 @@ job = "cam"
 title = "Slide on a cam"
 speed = "200 rpm"
 rows = 13
-base_radius = "50 mm"
+prime_radius = "50 mm"
 cutter_radius = "20 mm"
 pressure_angle = "30 deg"
 [follower]
@@ -204,10 +204,10 @@ EXAMPLES = {
     "cam": Example(
         CAM,
         (
-            ('"6 mm"', '"66 mm"', "roller: offset 66 mm is beyond the base circle.*base circle larger"),
+            ('"6 mm"', '"66 mm"', "roller: offset 66 mm is beyond the prime circle.*prime circle larger"),
             ('"12 mm"', '"52 mm"', "roller: its radius 52 mm is not less"),
             ('offset = "6 mm"', 'arm = "6 mm"', "a translating roller takes no arm; it takes radius, offset"),
-            ('radius = "12 mm"\n', "", "base_radius|a translating roller needs its radius"),
+            ('radius = "12 mm"\n', "", "prime_radius|a translating roller needs its radius"),
             ('"translating roller"', '"translating rollr"', "kind"),
             ('by = "20 mm"', 'by = "20 deg"', "drive: unknown key 'mass'"),
             ('"profile.nc"', '"profile.igs"', "says no format"),
@@ -221,8 +221,10 @@ EXAMPLES = {
                 "[motion]\nmechanism = { kind = 'table', inertia = '1 kg' }",
                 "a cam's follower has no mechanism",
             ),
-            ('"50 mm"', '"50"', "base_radius must be a length"),
-            ('base_radius = "50 mm"', 'turning = "CLOCKWISE"\nbest = "base circle"', "did you mean 'clockwise'"),
+            ('"50 mm"', '"50"', "prime_radius must be a length"),
+            ("prime_radius =", "base_radius =", "write prime_radius = '50 mm' .* or prime_radius = '62 mm' if"),
+            ("prime_radius =", "base_radius = '38 mm'\nprime_radius =", "leave base_radius out"),
+            ('prime_radius = "50 mm"', 'turning = "CLOCKWISE"\nbest = "prime circle"', "did you mean 'clockwise'"),
         ),
     ),
     "cycle": Example(

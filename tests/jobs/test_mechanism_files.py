@@ -40,7 +40,7 @@ from tests.internals.jobs import sweep_table, sweeps_of
 LENGTHS = {"crank": "60 mm", "rod": "250 mm", "upper": "200 mm", "lower": "200 mm", "frame": "280 mm"}
 FORCE = [["0.3 m", "0 N"], ["0.31 m", "-400 N"], ["0.5 m", "-400 N"]]
 CAM = {
-    "base_radius": "60 mm",
+    "prime_radius": "60 mm",
     "follower": {"kind": "translating roller", "radius": "12 mm"},
     "moved": "2 kg",
     "segment": [
@@ -140,6 +140,14 @@ def driven(mechanism: Mapping[str, Any] | None, drive: Mapping[str, Any] | None 
 def test_a_kind_is_what_its_function_makes(kind: str) -> None:
     table, mechanism = KINDS[kind]
     assert driven({"kind": kind, **table}) == mechanism
+
+
+def test_a_cam_of_an_earlier_file_has_its_prime_circle_by_another_name() -> None:
+    flat = {"kind": "cam", **CAM, "follower": {"kind": "translating flat"}}
+    former = {name: value for name, value in flat.items() if name != "prime_radius"} | {"base_radius": "60 mm"}
+    assert driven(former) == driven(flat)
+    with pytest.raises(InputError, match="write prime_radius = '60 mm' for the same cam, or prime_radius = '72 mm'"):
+        driven(former | {"follower": CAM["follower"]})
 
 
 def test_a_motor_is_given_in_the_file_or_by_a_catalogue(tmp_path: Path) -> None:

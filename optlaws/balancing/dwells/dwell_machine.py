@@ -23,7 +23,7 @@ from optlaws.numbers import Quantity, positive
 from optlaws.suggest import keywords_of
 
 _DWELL = ("run-out", "reverse", "run-up")
-_SIZES = ("inertia", "loader_inertia", "arm", "base_radius")
+_SIZES = ("inertia", "loader_inertia", "arm", "prime_radius")
 
 
 @dataclass(frozen=True)
@@ -38,13 +38,13 @@ class DwellMachine(JsonText):
         Of the cam's shaft, rad/s.
     inertia, loader_inertia
         Of everything the executive rocker moves, and of the loader's rocker alone, kg m².
-    arm, base_radius
+    arm, prime_radius
         Length of both rockers, and least radius of both pitch curves, m.
 
     Examples
     --------
     >>> from optlaws import catalogue
-    >>> data = dict(dwell="90 deg", rise="90 deg", swing="20 deg", arm="100 mm", base_radius="35 mm", speed="100 rpm")
+    >>> data = dict(dwell="90 deg", rise="90 deg", swing="20 deg", arm="100 mm", prime_radius="35 mm", speed="100 rpm")
     >>> inertias = dict(inertia="0.05 kg m^2", loader_inertia="0.005 kg m^2")
     >>> type_1 = dwell_machine("I", law=catalogue["K"].law, **data, **inertias)
     >>> round(type_1.balanced_torque, 6), type_1.residual_torque
@@ -58,7 +58,7 @@ class DwellMachine(JsonText):
     inertia: float
     loader_inertia: float
     arm: float
-    base_radius: float
+    prime_radius: float
 
     @property
     def clutch_angle(self) -> float:
@@ -132,7 +132,7 @@ class DwellMachine(JsonText):
             If the cycle is no turn, or there is no such mechanism.
         """
         follower = OscillatingRoller(roller, arm=f"{self.arm!r} m", pivot_distance=pivot_distance)
-        radius = f"{self.base_radius!r} m"
+        radius = f"{self.prime_radius!r} m"
         return {
             "executive": DiscCam(self.executive_motion(), radius, follower),
             "loader": DiscCam(self.loader_motion(), radius, follower),
@@ -188,7 +188,7 @@ class DwellSizes(TypedDict):
     inertia: Quantity
     loader_inertia: Quantity
     arm: Quantity
-    base_radius: Quantity
+    prime_radius: Quantity
 
 
 @keywords_of(DwellSizes)
@@ -218,7 +218,7 @@ def dwell_machine(
         Angles of the upper dwell and the rise, and the executive rocker's swing, such as "90 deg".
     inertia, loader_inertia
         Moments of inertia of everything the executive rocker moves, and of the loader's rocker alone.
-    arm, base_radius
+    arm, prime_radius
         Length of both rockers, and least radius of both cams.
     clutch_time
         In which the clutch acts, such as "5 ms": t_sp of eq. (16).
@@ -234,7 +234,7 @@ def dwell_machine(
     --------
     >>> from optlaws import catalogue
     >>> K = catalogue["K"].law
-    >>> data = dict(law=K, dwell="90 deg", rise="90 deg", swing="20 deg", arm="100 mm", base_radius="35 mm")
+    >>> data = dict(law=K, dwell="90 deg", rise="90 deg", swing="20 deg", arm="100 mm", prime_radius="35 mm")
     >>> inertias = dict(inertia="0.05 kg m^2", loader_inertia="0.005 kg m^2")
     >>> slow = dwell_machine("III", speed="100 rpm", clutch_time="25 ms", **data, **inertias)
     >>> slow.mechanism, round(slow.balanced_torque, 6), round(slow.residual_torque, 6)
@@ -252,7 +252,7 @@ def dwell_machine(
         kind,
         law=law,
         clutch_angle=rate * time,
-        radius_ratio=known["base_radius"] / (turned["swing"] * known["arm"]),
+        radius_ratio=known["prime_radius"] / (turned["swing"] * known["arm"]),
         inertia_ratio=known["loader_inertia"] / known["inertia"],
         **turned,
         **(more or {}),

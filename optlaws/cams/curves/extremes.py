@@ -104,7 +104,7 @@ class Undercut:
         if self.status == UNDERCUT:
             return (
                 f"undercut at {degrees(self.margin.angle):.6g} deg: the radius of curvature of the profile would be "
-                f"{1e3 * self.margin.value:.6g} mm there: make the base circle larger"
+                f"{1e3 * self.margin.value:.6g} mm there: make the prime circle larger"
                 " or a roller smaller, or spread the motion over more of the turn"
             )
         if self.status == UNDECIDED:

@@ -125,7 +125,7 @@ class CurvatureTerms(NamedTuple):
 class FollowerContact(ABC):
     """A follower of a cam, in metres and radians, beside which the cam turns; its displacement s comes as a jet.
 
-    `turning` is 1 where the cam turns counterclockwise, else -1. At the base circle its motion has the displacement
+    `turning` is 1 where the cam turns counterclockwise, else -1. At the prime circle its motion has the displacement
     `lowest`, and it is at a `level`: a height above the cam's centre, or an angle from the line from pivot to centre.
     """
 

@@ -20,7 +20,7 @@ from optlaws.suggest import unknown_key
 
 @dataclass(frozen=True)
 class Place:
-    """The place of a follower: the base circle's radius, the range of its motion, and the sense of turning.
+    """The place of a follower: the radius of the prime circle, the range of its motion, and the sense of turning.
 
     `radius` is the distance of the roller's centre, or of the face, from the cam's centre where the follower is lowest,
     m; displacements are in m or rad, `slopes` their least and greatest derivative by the cam's angle; `turning` is 1
@@ -49,7 +49,7 @@ class CamFollower(ABC):
     examples: ClassVar[dict[str, str]]
     #: its entries that are lengths, by which its size is told
     lengths: ClassVar[tuple[str, ...]] = ()
-    #: the limit that is linear in the law and says the least base circle of all laws; None where none is
+    #: the limit that is linear in the law and says the least prime circle of all laws; None where none is
     sizing_limit: ClassVar[str | None] = None
 
     def __init_subclass__(cls, *, kind: str) -> None:
@@ -61,8 +61,8 @@ class CamFollower(ABC):
         """How it touches a cam."""
 
     @abstractmethod
-    def base_radius(self, level: float) -> float:
-        """The base circle on which the follower's contact is at a `level` when lowest, m."""
+    def prime_radius(self, level: float) -> float:
+        """The radius of the prime circle on which the follower's contact is at a `level` when lowest, m."""
 
     @property
     def size(self) -> float:
@@ -85,14 +85,43 @@ def positive(value: Any, name: str) -> float:  # noqa: ANN401 - it is checked he
 
 
 def roller_radius(value: Any, place: Place) -> float:  # noqa: ANN401 - it is checked here
-    """The radius of a roller whose centre runs on a base circle, in metres."""
+    """The radius of a roller whose centre rests on a prime circle where it is lowest, in metres."""
     radius = positive(value, "roller: radius")
     if radius >= place.radius:
         raise InputError(
-            f"roller: its radius {shown(radius)} is not less than that of the base circle, {shown(place.radius)}, on"
-            " which its centre runs: nothing is left of the cam: make the roller smaller or the base circle larger"
+            f"roller: its radius {shown(radius)} is not less than that of the prime circle, {shown(place.radius)}, on"
+            " which its centre runs: nothing is left of the cam: make the roller smaller or the prime circle larger"
         )
     return radius
+
+
+def stated_prime_radius(prime_radius: Any, base_radius: Any, follower: CamFollower) -> Any:  # noqa: ANN401 - checked later
+    """The prime radius from the entries of a file; earlier files call it `base_radius`, as it is under a flat face.
+
+    Raises
+    ------
+    InputError
+        If there is a `base_radius` beside it, or under a roller, where the two circles differ.
+
+    Examples
+    --------
+    >>> from optlaws.cams.followers.translating_flat import TranslatingFlat
+    >>> stated_prime_radius(None, "28 mm", TranslatingFlat())
+    '28 mm'
+    """
+    if base_radius is None:
+        return prime_radius
+    if prime_radius is not None:
+        raise InputError("base_radius: the prime_radius says the size of the cam: leave base_radius out")
+    roller = getattr(follower, "radius", None)
+    if roller is None:
+        return base_radius
+    prime = positive(base_radius, "base_radius") + positive(roller, "roller: radius")
+    raise InputError(
+        "base_radius: in earlier files it was the distance of the roller's centre, which is the prime circle: write"
+        f" prime_radius = {base_radius!r} for the same cam, or prime_radius = '{shown(prime)}' if the base circle of"
+        f" the profile has {base_radius}"
+    )
 
 
 def shown(length: float) -> str:

@@ -53,6 +53,6 @@ class InclinedFlat(CamFollower, kind="inclined flat"):
     def contact(self, place: Place) -> FaceContact:
         return SlidingFace(place.turning, place.lowest, place.radius / cos(self.angle), self.angle)
 
-    def base_radius(self, level: float) -> float:
+    def prime_radius(self, level: float) -> float:
         """The distance of a face that meets the slide's way at a height."""
         return level * cos(self.angle)

@@ -43,7 +43,7 @@ class OscillatingFlat(CamFollower, kind="oscillating flat"):
         offset = quantity(self.face_offset, "length", "face: face_offset")
         if abs(place.radius - offset) >= distance:
             raise InputError(
-                f"face: a pivot {shown(distance)} away is too near for a base circle of radius {shown(place.radius)}"
+                f"face: a pivot {shown(distance)} away is too near for a prime circle of radius {shown(place.radius)}"
                 f" and a face_offset of {shown(offset)}: put it farther than {shown(abs(place.radius - offset))}"
             )
         first = asin((place.radius - offset) / distance)
@@ -61,7 +61,7 @@ class OscillatingFlat(CamFollower, kind="oscillating flat"):
             )
         return SwingingFace(place.turning, place.lowest, first, distance, offset)
 
-    def base_radius(self, level: float) -> float:
+    def prime_radius(self, level: float) -> float:
         """The distance of the face at an angle."""
         offset = quantity(self.face_offset, "length", "face: face_offset")
         return positive(self.pivot_distance, "face: pivot_distance") * sin(level) + offset

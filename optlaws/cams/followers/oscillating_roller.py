@@ -69,7 +69,7 @@ class OscillatingRoller(CamFollower, kind="oscillating roller"):
             )
         return SwingingRoller(place.turning, place.lowest, first, arm, distance, radius)
 
-    def base_radius(self, level: float) -> float:
+    def prime_radius(self, level: float) -> float:
         """The way from the cam's centre to the roller's at an angle of the arm."""
         arm, pivot = positive(self.arm, "roller: arm"), positive(self.pivot_distance, "roller: pivot_distance")
         return sqrt(arm**2 + pivot**2 - 2.0 * arm * pivot * cos(level))

@@ -27,6 +27,6 @@ class TranslatingFlat(CamFollower, kind="translating flat"):
     def contact(self, place: Place) -> FaceContact:
         return SlidingFace(place.turning, place.lowest, place.radius, 0.0)
 
-    def base_radius(self, level: float) -> float:
+    def prime_radius(self, level: float) -> float:
         """The height of the face."""
         return level

@@ -45,8 +45,8 @@ class TranslatingRoller(CamFollower, kind="translating roller"):
         radius, offset = roller_radius(self.radius, place), quantity(self.offset, "length", "roller: offset")
         if abs(offset) >= place.radius:
             raise InputError(
-                f"roller: offset {shown(offset)} is beyond the base circle of radius {shown(place.radius)}: the roller"
-                " cannot touch it: make the offset less or the base circle larger"
+                f"roller: offset {shown(offset)} is beyond the prime circle of radius {shown(place.radius)}: the roller"
+                " cannot touch it: make the offset less or the prime circle larger"
             )
         return SlidingRoller(
             place.turning,
@@ -56,7 +56,7 @@ class TranslatingRoller(CamFollower, kind="translating roller"):
             radius,
         )
 
-    def base_radius(self, level: float) -> float:
+    def prime_radius(self, level: float) -> float:
         """The way from the cam's centre to the roller's at a height."""
         return hypot(level, quantity(self.offset, "length", "roller: offset"))
 

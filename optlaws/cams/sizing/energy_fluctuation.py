@@ -97,7 +97,7 @@ def energy_fluctuation(machine: CamForces | Cycle | Mechanism, speed: Quantity |
     >>> from optlaws import Cycle, DiscCam, Dwell, Return, Rise, TranslatingRoller
     >>> moves = [Rise("40 mm", "120 deg", law="3-4-5"), Dwell("60 deg"), Return(law="3-4-5")]
     >>> cycle = Cycle(moves, speed="200 rpm", drive={"mass": "2 kg", "stiffness": "3 N/mm", "preload": "60 N"})
-    >>> cam = DiscCam(cycle, base_radius="80 mm", follower=TranslatingRoller("12 mm"))
+    >>> cam = DiscCam(cycle, prime_radius="80 mm", follower=TranslatingRoller("12 mm"))
     >>> of_cam, of_cycle = energy_fluctuation(CamForces(cam)), energy_fluctuation(cycle)
     >>> round(of_cam.energy, 6), round(of_cycle.energy, 6), round(of_cam.flywheel(0.05), 6)
     (4.8, 4.8, 0.218854)

@@ -133,7 +133,7 @@ def least_spring(
     >>> from optlaws import Cycle, Dwell, Return, Rise
     >>> from optlaws.cams.followers.translating_roller import TranslatingRoller
     >>> moves = [Rise("40 mm", "120 deg", law="3-4-5"), Dwell("60 deg"), Return(law="3-4-5")]
-    >>> cam = DiscCam(Cycle(moves, speed="200 rpm"), base_radius="80 mm", follower=TranslatingRoller("12 mm"))
+    >>> cam = DiscCam(Cycle(moves, speed="200 rpm"), prime_radius="80 mm", follower=TranslatingRoller("12 mm"))
     >>> spring = least_spring(cam, drive={"mass": "2 kg"}, speeds=("0 rpm", "300 rpm"), preload="20 N")
     >>> round(spring.stiffness, 3), round(spring.margin, 6) + 0.0, round(spring.critical[0], 3)
     (2273.443, 0.0, 91.667)

@@ -31,7 +31,7 @@ def new(
     The numbers, by kind; those in brackets may be left out:
 
     cycle: stroke, rise, dwell, return, speed, [velocity, acceleration, jerk, mass]
-    cam: as cycle, roller, pressure-angle, curvature, [offset, base-radius]
+    cam: as cycle, roller, pressure-angle, curvature, [offset, prime-radius]
     machine: stroke, duration, frequency, damping, spread, sway
     law: stroke, duration, minimise, order, [velocity, acceleration, jerk]
     study: minimise, from, to, steps, degree

@@ -16,7 +16,7 @@ from optlaws.cams.curves.extremes import EnclosedExtreme
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.follower import follower_kinds
 from optlaws.cams.forces import CamForces
-from optlaws.cams.least_sizes import least_base_circle
+from optlaws.cams.least_sizes import least_prime_circle
 from optlaws.cams.summary import Labelled, named_forces
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError
 from optlaws.explorer.views.cycle_view import SEGMENTS, check_axis
@@ -34,7 +34,7 @@ _MILLI = 1e3
 _TURN = 360.0
 _STEPS = 360
 _WHERE = Path("the cam")
-_FAR = 4.0  # a radius of curvature beyond so many base circles is a straight edge
+_FAR = 4.0  # a radius of curvature beyond so many prime circles is a straight edge
 _TITLES = {"free": ("no undercut", "optimal"), "undercut": ("undercut", "refused"), "undecided": ("undecided", "local")}
 
 
@@ -122,7 +122,7 @@ def _panels(spec: CamProblemFile, cam: DiscCam, angles: Array) -> list[dict[str,
     pressure = cam.extremes.greatest_pressure_angle
     limit = None if spec.pressure_angle is None else degrees(quantity(spec.pressure_angle, "angle", "pressure_angle"))
     radius = _MILLI * np.asarray(cam.radius_of_curvature(angles))
-    far = _FAR * _MILLI * quantity(cam.base_radius, "length", "base_radius")
+    far = _FAR * _MILLI * quantity(cam.prime_radius, "length", "prime_radius")
     bulging = cam.extremes.least_convex_radius
     return [
         panel("displacement", unit, turns, factor * np.asarray(cam.displacement(angles)), []),
@@ -189,12 +189,12 @@ def _at(angle: float) -> str:
 
 
 def sizes(request: CamRequest) -> dict[str, Any]:
-    """The least base circle that keeps the limits, where some are given: it takes longer than the view.
+    """The least prime circle that keeps the limits, where some are given: it takes longer than the view.
 
     Examples
     --------
     >>> sizes(CamRequest(study=example()))["facts"]
-    ['least base circle that keeps these limits: 58.60757 mm, by the pressure angle']
+    ['least prime circle that keeps these limits: 58.60757 mm (base circle 46.60757 mm), by the pressure angle']
     """
     others = {name: value for name, value in request.study.items() if name not in {"cutter_radius", "title", "text"}}
     return {"facts": list(_least(json.dumps(others | {"title": "a cam"}, sort_keys=True)))}
@@ -207,10 +207,12 @@ def _least(question: str) -> tuple[str, ...]:
     if spec.pressure_angle is None and spec.radius_of_curvature is None:
         return ()
     try:
-        least = least_base_circle(cam.motion, cam.follower, **spec.limits)
+        least = least_prime_circle(cam.motion, cam.follower, **spec.limits)
     except InfeasibleProblem as error:
         return (str(error.args[0]),)
-    return (f"least base circle that keeps these limits: {digits(_MILLI * least.radius)} mm, by the {least.limit}",)
+    radius, base = (digits(_MILLI * length) for length in (least.radius, least.cam.base_radius))
+    inner = f" (base circle {base} mm)" if least.cam.contact.roller else ""
+    return (f"least prime circle that keeps these limits: {radius} mm{inner}, by the {least.limit}",)
 
 
 def example() -> dict[str, Any]:
@@ -219,7 +221,7 @@ def example() -> dict[str, Any]:
         "job": "cam",
         "title": "A slide on a disc cam with a roller",
         "speed": "200 rpm",
-        "base_radius": "60 mm",
+        "prime_radius": "60 mm",
         "pressure_angle": "30 deg",
         "radius_of_curvature": "15 mm",
         "follower": {"kind": "translating roller", "radius": "12 mm", "offset": "6 mm"},

@@ -10,7 +10,7 @@ from typing import Any
 
 from optlaws.cams.at_shaft import cam_mechanism
 from optlaws.cams.disc import DiscCam
-from optlaws.cams.followers.follower import read_follower
+from optlaws.cams.followers.follower import read_follower, stated_prime_radius
 from optlaws.cycles.cycle import Cycle
 from optlaws.echo import shortened
 from optlaws.errors import InputError, located
@@ -31,7 +31,7 @@ _BY_TIME = ("velocity", "start_velocity", "end_velocity")
 
 def _cam(
     *,
-    base_radius: Any,  # noqa: ANN401 - checked where they are used, as all entries below
+    prime_radius: Any,  # noqa: ANN401 - checked where they are used, as all entries below
     follower: Any,  # noqa: ANN401
     segment: Any,  # noqa: ANN401
     moved: Any,  # noqa: ANN401
@@ -43,7 +43,7 @@ def _cam(
     """The mechanism of a cam and its follower, whose motion over the cam's angle is made of segments."""
     if not isinstance(follower, Mapping):
         raise InputError(f"follower must be a table with its kind, got {shortened(follower)}")
-    cam = DiscCam(_motion(segment), base_radius, read_follower(follower), turning=turning)
+    cam = DiscCam(_motion(segment), prime_radius, read_follower(follower), turning=turning)
     return cam_mechanism(cam, moved, inertia=inertia, loads=loads, over=over)
 
 
@@ -113,6 +113,9 @@ def mechanism_of(entries: Any) -> Mechanism:  # noqa: ANN401 - it is checked her
         if not isinstance(kind, str) or kind not in MAKERS:
             raise InputError(unknown_key(kind, MAKERS, "kind"))
         given = {name: value for name, value in entries.items() if name != "kind"}
+        if kind == "cam" and isinstance(given.get("follower"), Mapping) and "base_radius" in given:  # of earlier files
+            former, follower = given.pop("base_radius"), read_follower(given["follower"])
+            given["prime_radius"] = stated_prime_radius(given.get("prime_radius"), former, follower)
         _check_names(given, kind)
         friction = {} if kind == "table" else {name: given.pop(name) for name in _FRICTION if name in given}
         for name, read in _READERS.items():

@@ -157,7 +157,7 @@ STARTERS: dict[str, Starter] = {
             Question("pressure-angle", "Greatest pressure angle.", "30 deg", _ANGLE),
             Question("curvature", "Least radius of curvature of the profile where it bulges.", "5 mm", _LENGTH),
             Question(
-                "base-radius", "From the cam's centre to the roller's; the least one unless given.", None, _LENGTH
+                "prime-radius", "From the cam's centre to the roller's; the least one unless given.", None, _LENGTH
             ),
             *_LIMITS,
             Question("mass", "Mass that the cam moves.", None, ("mass",)),

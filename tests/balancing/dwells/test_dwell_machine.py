@@ -13,7 +13,7 @@ DATA: dict[str, Any] = {
     "rise": "90 deg",
     "swing": "20 deg",
     "arm": "100 mm",
-    "base_radius": "45 mm",
+    "prime_radius": "45 mm",
     "inertia": "0.05 kg m^2",
     "loader_inertia": "0.005 kg m^2",
 }

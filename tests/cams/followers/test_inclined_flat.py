@@ -22,10 +22,10 @@ from optlaws import (
     Rise,
     TranslatingFlat,
     as_made,
-    best_base_circle,
     best_cam,
+    best_prime_circle,
     conjugate_cam,
-    least_base_circle,
+    least_prime_circle,
     least_spring,
 )
 from tests.cams.placed import TURNINGS, face_lines, points
@@ -140,13 +140,13 @@ def test_least_sizes_and_best_laws_are_those_of_the_shorter_stroke() -> None:
     cosine, turns = cos(radians(20.0)), np.linspace(0.0, 2.0 * np.pi, 200_001)
     motion = cam_of(20.0).displacement
     needed = 0.02 - cosine * float(np.min(motion(turns) + motion(turns, 2)))
-    least = least_base_circle(motion, InclinedFlat("20 deg"), radius_of_curvature="20 mm")
+    least = least_prime_circle(motion, InclinedFlat("20 deg"), radius_of_curvature="20 mm")
     assert least.radius == pytest.approx(needed, rel=1e-7)
     assert least.proven
-    with pytest.raises(InfeasibleProblem, match="no base circle keeps a pressure angle of 15 deg"):
-        least_base_circle(motion, InclinedFlat("20 deg"), pressure_angle="15 deg")
-    square = best_base_circle(VALVE, TranslatingFlat(), radius_of_curvature="3 mm")
-    inclined = best_base_circle(VALVE, InclinedFlat("20 deg"), radius_of_curvature="3 mm")
+    with pytest.raises(InfeasibleProblem, match="no prime circle keeps a pressure angle of 15 deg"):
+        least_prime_circle(motion, InclinedFlat("20 deg"), pressure_angle="15 deg")
+    square = best_prime_circle(VALVE, TranslatingFlat(), radius_of_curvature="3 mm")
+    inclined = best_prime_circle(VALVE, InclinedFlat("20 deg"), radius_of_curvature="3 mm")
     assert inclined.lower_bound == pytest.approx(0.003 + cosine * (square.lower_bound - 0.003), rel=1e-6)
     assert inclined.least.radius == pytest.approx(inclined.lower_bound, rel=1e-6)
     base = f"{1.05 * inclined.lower_bound!r} m"
@@ -178,7 +178,7 @@ FILE = """
 job = "cam"
 title = "Small"
 speed = "200 rpm"
-base_radius = "60 mm"
+prime_radius = "60 mm"
 pressure_angle = "30 deg"
 radius_of_curvature = "20 mm"
 cutter_radius = "10 mm"
@@ -224,7 +224,7 @@ def test_problem_files_take_it_with_all_that_a_cam_has(tmp_path: Path, monkeypat
     values, names = run(tmp_path, FILE)
     assert {"cam.dxf", "cam.nc", "return-cam.dxf", "pair.svg", "forces.svg", "animation.svg"} <= names
     assert tan(values["greatest_pressure_angle"]["high"]) == pytest.approx(tan(radians(10.0)), rel=1e-12)
-    assert values["least_base_circle"]["proven"]
+    assert values["least_prime_circle"]["proven"]
     assert "greatest_roller" not in values
     assert values["forces"]["contact"]["least"] > 0.0
     assert all(abs(peaks["acceleration_ratio"] - 1.0) < 0.1 for peaks in values["as_made"].values())

@@ -89,7 +89,7 @@ def test_a_kind_is_read_by_its_name_and_refused_with_the_remedy() -> None:
         entries = {key: value for key, value in given.items() if key in kind.__dataclass_fields__}  # type: ignore[attr-defined]
         follower = read_follower({"kind": name, **entries})
         assert isinstance(follower, kind)
-        assert np.isfinite(follower.base_radius(1.0))
+        assert np.isfinite(follower.prime_radius(1.0))
         assert (follower.pivot is None) == (follower.axis == "length")
     with pytest.raises(InputError, match="translating roller"):
         read_follower({"kind": "translating rollr"})

@@ -1,4 +1,4 @@
-"""Problem files of the job "cam" beside the single disc cam: best laws, least base circles, pairs, barrels."""
+"""Problem files of the job "cam" beside the single disc cam: best laws, least prime circles, pairs, barrels."""
 
 import json
 from pathlib import Path
@@ -19,12 +19,12 @@ from optlaws import (
     Rise,
     TranslatingFlat,
     TranslatingRoller,
-    best_base_circle,
     best_cam,
     best_offset,
+    best_prime_circle,
     conjugate_cam,
     energy_fluctuation,
-    least_base_circle,
+    least_prime_circle,
     least_spring,
 )
 from tests.internals.files import reading
@@ -49,16 +49,16 @@ kind = "dwell"
 """
 HEAD = 'job = "cam"\ntitle = "Small"\nspeed = "200 rpm"\nrows = 13\n'
 ROLLER = '[follower]\nkind = "translating roller"\nradius = "12 mm"\n'
-LAWS = HEAD + 'base_radius = "50 mm"\npressure_angle = "25 deg"\nbest = "laws"\n' + ROLLER + MOTION
-BASE = HEAD + 'radius_of_curvature = "3 mm"\nbest = "base circle"\n[follower]\nkind = "translating flat"\n' + MOTION
+LAWS = HEAD + 'prime_radius = "50 mm"\npressure_angle = "25 deg"\nbest = "laws"\n' + ROLLER + MOTION
+BASE = HEAD + 'radius_of_curvature = "3 mm"\nbest = "prime circle"\n[follower]\nkind = "translating flat"\n' + MOTION
 OFFSET = (
-    HEAD + 'base_radius = "60 mm"\nbest = "offset"\n[process]\nover = "master"\n'
+    HEAD + 'prime_radius = "60 mm"\nbest = "offset"\n[process]\nover = "master"\n'
     'force = [["0 deg", "0 N"], ["90 deg", "0 N"], ["90 deg", "-300 N"], ["120 deg", "0 N"], ["360 deg", "0 N"]]\n'
     '[forces]\nirregularity = 0.04\n[spring]\nspeeds = ["0 rpm", "220 rpm"]\ngreatest = "contact"\n'
     + ROLLER + MOTION.replace("degree = 5", 'drive = { mass = "2 kg", preload = "100 N" }').replace(
         '"120 deg"', '"120 deg"\nlaw = "3-4-5"').replace('"100 deg"', '"100 deg"\nlaw = "3-4-5"')
 )  # fmt: skip
-PAIR = HEAD + 'base_radius = "60 mm"\n[pair]\ndistance = "190 mm"\n' + ROLLER + MOTION
+PAIR = HEAD + 'prime_radius = "60 mm"\n[pair]\ndistance = "190 mm"\n' + ROLLER + MOTION
 BARREL = HEAD + '[barrel]\nouter_radius = "60 mm"\ndepth = "12 mm"\nroller_radius = "8 mm"\n' + MOTION
 
 
@@ -102,22 +102,32 @@ def test_best_laws_are_those_of_the_library_and_bear_forces(tmp_path: Path) -> N
     assert told["forces"]["speed"] == pytest.approx(2.0 * np.pi * 200 / 60)
 
 
-def test_the_least_base_circle_is_that_of_the_library(tmp_path: Path) -> None:
+def test_the_least_prime_circle_is_that_of_the_library(tmp_path: Path) -> None:
     page, told, _ = done(tmp_path, BASE)
     assert "of the laws of least acceleration" in page
-    best = best_base_circle(cycle(), TranslatingFlat(), radius_of_curvature="3 mm")
+    best = best_prime_circle(cycle(), TranslatingFlat(), radius_of_curvature="3 mm")
     assert told["best"]["objective"] == pytest.approx(best.least.radius, rel=1e-9)
     assert told["best"]["lower_bound"] == pytest.approx(best.lower_bound, rel=1e-9)
     assert told["best"]["status"] == "optimal"
 
 
-def test_without_a_base_circle_the_least_that_keeps_the_limits_is_taken(tmp_path: Path) -> None:
+def test_without_a_prime_circle_the_least_that_keeps_the_limits_is_taken(tmp_path: Path) -> None:
     told = told_of(tmp_path, HEAD + 'pressure_angle = "25 deg"\nradius_of_curvature = "5 mm"\n' + ROLLER + MOTION)
     follower = TranslatingRoller("12 mm")
-    least = least_base_circle(cycle(), follower, pressure_angle="25 deg", radius_of_curvature="5 mm")
-    assert told["least_base_circle"]["radius"] == pytest.approx(least.radius, rel=1e-9)
+    least = least_prime_circle(cycle(), follower, pressure_angle="25 deg", radius_of_curvature="5 mm")
+    assert told["least_prime_circle"]["radius"] == pytest.approx(least.radius, rel=1e-9)
     assert told["greatest_pressure_angle"]["high"] == pytest.approx(np.radians(25.0), rel=1e-7)
     assert told["undercut"]["status"] == "free"
+
+
+def test_files_that_call_the_prime_circle_base_circle_are_read_where_both_are_one(tmp_path: Path) -> None:
+    flat = LAWS.replace(ROLLER, '[follower]\nkind = "translating flat"\n').replace('pressure_angle = "25 deg"', "")
+    flat = flat.replace('best = "laws"\n', "")
+    now, before = (told_of(tmp_path, text) for text in (flat, flat.replace("prime_radius", "base_radius")))
+    assert before == now
+    assert now["prime_radius"] == now["base_radius"] == 0.05
+    sought = BASE.replace('"prime circle"', '"base circle"')
+    assert told_of(tmp_path, sought)["best"] == told_of(tmp_path, BASE)["best"]
 
 
 def test_the_best_offset_bears_a_process_a_flywheel_and_a_spring(tmp_path: Path) -> None:
@@ -169,11 +179,11 @@ def test_a_barrel_has_its_flanks_tabled(tmp_path: Path) -> None:
     ("text", "old", "new", "said"),
     [
         (LAWS, 'pressure_angle = "25 deg"\n', "", "pressure_angle"),
-        (LAWS, 'base_radius = "50 mm"\n', "", "base_radius is missing.*best = 'base circle'"),
-        (PAIR, 'base_radius = "60 mm"\n', "", "base_radius is missing.*the least one that keeps them is taken"),
+        (LAWS, 'prime_radius = "50 mm"\n', "", "prime_radius is missing.*best = 'prime circle'"),
+        (PAIR, 'prime_radius = "60 mm"\n', "", "prime_radius is missing.*the least one that keeps them is taken"),
         (LAWS, '"laws"', '"law"', "best"),
-        (BASE, "speed", 'base_radius = "9 mm"\nspeed', "base_radius is what best = 'base circle' looks for"),
-        (OFFSET, 'base_radius = "60 mm"\n', "", "base_radius is missing"),
+        (BASE, "speed", 'prime_radius = "9 mm"\nspeed', "prime_radius is what best = 'prime circle' looks for"),
+        (OFFSET, 'prime_radius = "60 mm"\n', "", "prime_radius is missing"),
         (OFFSET, '"12 mm"', '"12 mm"\noffset = "1 mm"', "offset is what best = 'offset' looks for"),
         (OFFSET, '"translating roller"\nradius = "12 mm"', '"translating flat"', "is of a translating roller, got a"),
         (OFFSET, "irregularity = 0.04", "irregularity = 4.0", "irregularity must be above 0 and below 2"),
@@ -215,17 +225,17 @@ def test_a_second_follower_may_be_another(tmp_path: Path) -> None:
 def test_a_cam_that_is_undercut_says_so_where_forces_are_asked_for(tmp_path: Path) -> None:
     steep = MOTION.replace("120 deg", "40 deg").replace("100 deg", "40 deg").replace("90 deg", "140 deg")
     steep = steep.replace("[[motion", 'drive = { mass = "2 kg", preload = "60 N" }\n[[motion', 1)
-    small = HEAD + 'base_radius = "20 mm"\n' + ROLLER + "[forces]\n"
+    small = HEAD + 'prime_radius = "20 mm"\n' + ROLLER + "[forces]\n"
     page, _, _ = done(tmp_path, small + steep)
     assert "Undercut: undercut at " in page
     assert "which it cannot on a cam that is undercut" in page
-    with pytest.raises(InputError, match=r"no pressure: undercut at \d.* make the base circle larger"):
+    with pytest.raises(InputError, match=r"no pressure: undercut at \d.* make the prime circle larger"):
         done(tmp_path, small + 'width = "20 mm"\n' + steep)
 
 
 @pytest.mark.parametrize(("by", "unit"), [("35 mm", "mm"), ("20 deg", "deg")])
 def test_displacements_of_a_table_are_in_the_units_of_pictures(tmp_path: Path, by: str, unit: str) -> None:
-    text = HEAD + 'base_radius = "60 mm"\n' + ROLLER + MOTION.replace("35 mm", by)
+    text = HEAD + 'prime_radius = "60 mm"\n' + ROLLER + MOTION.replace("35 mm", by)
     if unit == "deg":
         arm = '[follower]\nkind = "oscillating roller"\nradius = "12 mm"\narm = "90 mm"\npivot_distance = "120 mm"\n'
         text = text.replace(ROLLER, arm)

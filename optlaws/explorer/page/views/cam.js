@@ -10,8 +10,8 @@ import { showTrust, unanswered } from "../trust.js";
 
 const told = (value) => JSON.stringify(value);
 const element = (id) => document.getElementById(id);
-const SIZES = { base_radius: "60 mm", cutter_radius: "none", pressure_angle: "none, or 30 deg", radius_of_curvature: "none, or 15 mm" };
-const NAMES = { base_radius: "base circle", cutter_radius: "cutter", pressure_angle: "pressure ≤", radius_of_curvature: "radius ≥", pivot_distance: "pivot", face_offset: "offset" };
+const SIZES = { prime_radius: "60 mm", cutter_radius: "none", pressure_angle: "none, or 30 deg", radius_of_curvature: "none, or 15 mm" };
+const NAMES = { prime_radius: "prime circle", cutter_radius: "cutter", pressure_angle: "pressure ≤", radius_of_curvature: "radius ≥", pivot_distance: "pivot", face_offset: "offset" };
 const SPEED = 60; // degrees a second
 const LOADS = {
   slide: { mass: "none, or 2 kg", stiffness: "none, or 2 N/mm", preload: "none, or 60 N", gravity: "none, or 20 N" },
