@@ -1,27 +1,63 @@
-// Curves in panels one below the other over one variable, with red zones beyond what is allowed.
+// Curves in panels one below the other over one variable, read by one cursor, zoomed and moved together.
 //
-// An answer has {across, range, ticks, panels, segments}: the name of the variable, its range (a turn unless given), its
-// ticks, and a panel for each quantity: {name, unit, at, values, series, limits, peaks, beyond}. `values` is one curve over
-// `at`; `series` are several, each {at, values, name, law}, `law` being the number of its colour.
+// An answer has {across, range, ticks, panels, segments, active, symbol}: the name of the variable, its range (a turn unless
+// given), its ticks, its symbol, a panel for each quantity, the law whose curve is read first, and the segments of a motion,
+// {name, at: [from, to]}. A panel is {name, unit, symbol, at, values, series, limits, peaks, beyond, span, note}: `values`
+// is one curve over `at`; `series` are several, each {at, values, name, law}, `law` being the number of its colour; `limits`
+// are {from, to, value, least}, `peaks` {at, value, text}; `span` is what is in sight at least; `note` stands beside the name.
+//
+// Wheel, drag, + and - zoom and move; arrow keys move the cursor from place to place, Page keys from peak to peak.
 
-import { frame, scale, ticks } from "./axes.js";
-import { html, path, svg } from "./svg.js";
+import { label } from "./axes.js";
+import { Cursor } from "./cursor.js";
+import { FOOT, Panel } from "./panel.js";
+import { Span } from "./span.js";
+import { html } from "./svg.js";
 
-const BOX = { left: 64, right: 14, top: 20, bottom: 6 };
-const FOOT = 34;
-const LETTER = 17;
-/** The least and the greatest value of a limit; null is none, and a value alone is that of both sides. */
-const edges = ({ value, least = -value }) => [least ?? -Infinity, value ?? Infinity];
-const TURN = [0, 45, 90, 135, 180, 225, 270, 315, 360];
-const NEAR = 1.6; // limits farther out than this many peaks are out of sight
+const TURN = { range: [0, 360], ticks: [0, 45, 90, 135, 180, 225, 270, 315, 360] };
+const LEAST = 96;
+const ZOOM = 1.5;
+const CLICK = 4; // pixels within which a press is no drag
 
 export class Panels {
   #root;
+  #drawings = html("div", { class: "drawings" });
+  #dial = html("input", { type: "range", class: "dial", "aria-label": "Cursor along the curves" });
+  #value = html("output", { class: "cursor-value" });
+  #buttons = {};
   #shown = null;
+  #panels = [];
+  #span = new Span();
+  #drag = null;
+  #strip;
 
-  constructor(root) {
+  /** `strip` draws the segments above the curves: {element, show(answer, span, edges)}. */
+  constructor(root, { cursor = new Cursor(), strip = null } = {}) {
     this.#root = root;
-    new ResizeObserver(() => this.#draw()).observe(root);
+    this.#strip = strip;
+    this.cursor = cursor;
+    root.classList.add("panels");
+    root.tabIndex = -1;
+    const button = (name, text, title, act) => (this.#buttons[name] = html("button", { type: "button", text, title, "aria-label": title, onclick: act }));
+    const tools = html(
+      "div", { class: "panel-tools" }, this.#dial, this.#value,
+      button("out", "−", "Show more of the curves", () => this.#zoom(ZOOM)),
+      button("in", "+", "Show less of the curves, larger", () => this.#zoom(1 / ZOOM)),
+      button("whole", "whole", "Show the whole curves", () => this.#reset()),
+    );
+    root.replaceChildren(...(strip ? [strip.element] : []), this.#drawings, tools);
+    cursor.watch((at) => this.#read(at));
+    this.#dial.addEventListener("input", () => this.#place(Number(this.#dial.value)));
+    root.addEventListener("keydown", (event) => this.#key(event));
+    const listen = (kind, act) => this.#drawings.addEventListener(kind, (event) => act.call(this, event));
+    listen("pointermove", this.#point);
+    listen("pointerleave", () => this.cursor.point(null));
+    listen("pointerdown", this.#grasp);
+    listen("pointerup", this.#release);
+    listen("pointercancel", () => (this.#drag = null));
+    listen("dblclick", this.#reset);
+    this.#drawings.addEventListener("wheel", (event) => this.#wheel(event), { passive: false });
+    new ResizeObserver(() => this.#draw()).observe(this.#drawings);
   }
 
   show(answer) {
@@ -29,80 +65,141 @@ export class Panels {
     this.#draw();
   }
 
+  /** What the cursor reads: the name, the unit and the value of each panel. */
+  get readings() {
+    const at = this.cursor.at;
+    return at === null ? [] : this.#panels.map((panel) => panel.read(at)).filter(Boolean);
+  }
+
+  /** Show a part of the range. */
+  look([from, to]) {
+    this.#span.to(from, to);
+    this.#draw();
+  }
+
   #draw() {
-    const width = this.#root.clientWidth - 16;
+    const [width, room] = [this.#drawings.clientWidth, this.#drawings.clientHeight];
     if (!this.#shown || width < 100) return;
-    if (this.#shown.refused) {
-      const { word } = this.#shown.refused;
-      this.#root.replaceChildren(html("div", { class: "nothing" }, html("strong", { text: word }), html("span", { text: "there is nothing to draw" })));
+    const nothing = this.#shown.refused;
+    this.#root.classList.toggle("empty", Boolean(nothing));
+    this.#panels = [];
+    if (nothing) {
+      this.#drawings.replaceChildren(html("div", { class: "nothing" }, html("strong", { text: nothing.word }), html("span", { text: "there is nothing to draw" })));
       return;
     }
-    const { panels } = this.#shown;
-    const height = Math.max(96, Math.floor((this.#root.clientHeight - 16 - FOOT) / panels.length));
-    this.#root.replaceChildren(...panels.map((panel, i) => this.#panel(panel, i, width, height, i === panels.length - 1)));
+    const answer = { ...(this.#shown.range ? {} : TURN), ...this.#shown };
+    const { panels, segments } = answer;
+    this.#span.of(answer.range);
+    const { shown: span, zoomed } = this.#span;
+    const height = Math.max(LEAST, Math.floor((room - FOOT) / panels.length));
+    this.#panels = panels.map((panel, i) => new Panel(
+      panel,
+      { answer, span, zoomed, segments, active: answer.active ?? 0, name: `${this.#root.id}-${i}`, beyond: panel.beyond ?? segments?.some(({ peaks }) => peaks?.[i - 1]?.beyond) },
+      { width, height, last: i === panels.length - 1 },
+    ));
+    this.#drawings.replaceChildren(...this.#panels.map(({ element }) => element));
+    this.#strip?.show(answer, span);
+    this.#dial.min = span[0];
+    this.#dial.max = span[1];
+    this.#dial.step = "any";
+    this.#root.classList.toggle("zoomed", zoomed);
+    this.#buttons.whole.disabled = this.#buttons.out.disabled = !zoomed;
+    this.#read(this.cursor.at);
   }
 
-  #panel(panel, number, width, height, last) {
-    const box = { left: BOX.left, right: width - BOX.right, top: BOX.top, bottom: height - BOX.bottom };
-    const series = panel.series ?? [{ at: panel.at, values: panel.values, law: 0 }];
-    const known = series.flatMap(({ values }) => values.filter((value) => value !== null));
-    const most = Math.max(0, ...known.map(Math.abs));
-    const limits = (panel.limits ?? []).flatMap((limit) => edges(limit).map(Math.abs)).filter((value) => value <= NEAR * most);
-    const reach = limits.length ? Math.max(...limits) : 0;
-    const [low, high] = [Math.min(0, ...known, -reach), Math.max(0, ...known, reach)];
-    const room = ((high - low || 1) * LETTER) / (box.bottom - box.top - 2 * LETTER);
-    const { range = [0, 360], ticks: xs = this.#shown.range ? ticks(...range, 8) : TURN } = this.#shown;
-    const x = scale(range, [box.left, box.right]);
-    const y = scale([low < 0 ? low - room : low, high + room], [box.bottom, box.top]);
-    const drawing = svg("svg", { class: "curve", width, height: height + (last ? FOOT : 0), role: "img", "aria-label": told(panel, this.#shown.across) });
-    drawing.append(frame(box, x, y, { xs, ys: ticks(low, high, 4), xlabels: last, xname: last ? this.#shown.across : "" }));
-    drawing.append(svg("text", { class: "title", x: box.left, y: 13, text: titled(panel) }));
-    const drawn = series.map(({ at, values, law = 0, name }) => ({ law, name, d: path(at.map((one, i) => (values[i] === null ? null : [x(one), y(values[i])]))) }));
-    const zones = this.#zones(panel, x, y, box);
-    const name = `beyond-${this.#root.id}-${number}`;
-    const clip = svg("clipPath", { id: name }, ...zones.map((zone) => zone.cloneNode()));
-    drawing.append(clip, ...zones, ...this.#joints(x, box, number === 0));
-    for (const { law, d, name: title } of drawn.toReversed()) drawing.append(svg("path", { class: `line law-${law}${law === 0 ? " active" : ""}`, d }, title ? svg("title", { text: title }) : null));
-    if (zones.length && (panel.beyond ?? this.#shown.segments?.some(({ peaks }) => peaks?.[number - 1]?.beyond))) drawing.append(svg("path", { class: "beyond", d: drawn[0].d, "clip-path": `url(#${name})` }));
-    for (const peak of panel.peaks ?? []) drawing.append(peakOf(peak, x, y, box));
-    return drawing;
+  #read(at) {
+    if (!this.#panels.length) return;
+    const texts = this.#panels.map((panel) => panel.read(at)).filter(Boolean);
+    const here = at === null ? "" : `${this.#shown.symbol ? `${this.#shown.symbol} = ` : ""}${label(at)}`;
+    this.#value.textContent = here;
+    this.#dial.value = at ?? this.#span.shown[0];
+    this.#dial.setAttribute("aria-valuetext", at === null ? "not placed" : `${here}: ${texts.join(", ")}`);
   }
 
-  /** Where the motion must not go: above and below the limits of each segment. */
-  #zones(panel, x, y, box) {
-    const zone = ({ from, to }, top, bottom) => svg("rect", { class: "zone", x: x(from), width: x(to) - x(from), y: top, height: Math.max(0, bottom - top) });
-    return (panel.limits ?? []).flatMap((limit) => {
-      const [least, value] = edges(limit);
-      const [above, below] = [Math.max(box.top, y(value)), Math.min(box.bottom, y(least))];
-      const found = above > box.top ? [zone(limit, box.top, above)] : [];
-      return below < box.bottom ? [...found, zone(limit, below, box.bottom)] : found;
-    });
+  /** Put the cursor at the place nearest to a value. */
+  #place(value) {
+    const panel = this.#panels[0];
+    if (panel) this.cursor.place(panel.nearest(value));
   }
 
-  #joints(x, box, named) {
-    return (this.#shown.segments ?? []).flatMap(({ name, at }) => {
-      const marks = x(at[0]) > box.left ? [svg("line", { class: "cursor", x1: x(at[0]), x2: x(at[0]), y1: box.top, y2: box.bottom })] : [];
-      if (named && x(at[1]) - x(at[0]) > 7 * name.length) marks.push(svg("text", { class: "segment", x: (x(at[0]) + x(at[1])) / 2, y: 13, "text-anchor": "middle", text: name }));
-      return marks;
-    });
+  #under(event) {
+    return this.#panels.find(({ element }) => element.contains(event.target)) ?? (this.#drag && this.#panels[0]);
   }
-}
 
-function peakOf(peak, x, y, box) {
-  const at = [x(peak.at), y(peak.value)];
-  const anchor = at[0] > box.right - 60 ? "end" : at[0] < box.left + 60 ? "start" : "middle";
-  return svg(
-    "g",
-    { class: "peak law-0" },
-    svg("circle", { cx: at[0].toFixed(1), cy: at[1].toFixed(1), r: 3 }),
-    svg("text", { x: at[0].toFixed(1), y: (at[1] + (peak.value > 0 ? -7 : 16)).toFixed(1), "text-anchor": anchor, text: peak.text }),
-  );
-}
+  #within(value) {
+    const [from, to] = this.#span.shown;
+    return Math.min(to, Math.max(from, value));
+  }
 
-const titled = ({ name, unit }) => (unit ? `${name}, ${unit}` : name);
+  #point(event) {
+    const panel = this.#under(event);
+    if (!panel) return;
+    if (this.#drag && this.#span.zoomed && Math.abs(event.clientX - this.#drag.began) >= CLICK) {
+      this.#drawings.setPointerCapture(event.pointerId);
+      this.#span.move(panel.at(this.#drag.from) - panel.at(event.clientX));
+      this.#drag.from = event.clientX;
+      this.#drag.moved = true;
+      this.#draw();
+    } else this.cursor.point(panel.nearest(this.#within(panel.at(event.clientX))));
+  }
 
-/** A picture in words: what it shows, and its peaks with their places. */
-function told(panel, across) {
-  const peaks = (panel.peaks ?? []).map((peak) => `${peak.text} at ${peak.at}`);
-  return `${titled(panel)} over ${across}${peaks.length ? `: ${peaks.join(", ")}` : ""}`;
+  #grasp(event) {
+    if (event.button === 0 && this.#panels.length) this.#drag = { began: event.clientX, from: event.clientX, moved: false };
+  }
+
+  #release(event) {
+    const panel = this.#under(event);
+    const click = this.#drag && !this.#drag.moved;
+    this.#drag = null;
+    if (click && panel) this.cursor.place(panel.nearest(this.#within(panel.at(event.clientX))));
+  }
+
+  #wheel(event) {
+    const panel = this.#under(event);
+    // at the whole range the wheel scrolls the page on
+    if (!panel || (event.deltaY > 0 && !this.#span.zoomed)) return;
+    event.preventDefault();
+    if (event.shiftKey) this.#span.move((Math.sign(event.deltaY || event.deltaX) * (this.#span.shown[1] - this.#span.shown[0])) / 8);
+    else this.#span.zoom(this.#within(panel.at(event.clientX)), ZOOM ** Math.sign(event.deltaY));
+    this.#draw();
+  }
+
+  #zoom(times) {
+    const [from, to] = this.#span.shown;
+    const at = this.cursor.at;
+    this.#span.zoom(at !== null && at >= from && at <= to ? at : (from + to) / 2, times);
+    this.#draw();
+  }
+
+  #reset() {
+    this.#span.reset();
+    this.#draw();
+  }
+
+  #key(event) {
+    const [from, to] = this.#span.shown;
+    const acts = { "+": () => this.#zoom(1 / ZOOM), "-": () => this.#zoom(ZOOM), 0: () => this.#reset(), Escape: () => this.cursor.place(null) };
+    const moves = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 };
+    const onDial = event.target === this.#dial;
+    if (event.ctrlKey || event.metaKey || event.altKey || (!onDial && !Object.hasOwn(acts, event.key))) return;
+    const panel = this.#panels[0];
+    const at = this.cursor.at ?? from;
+    const go = (value) => {
+      if (value === undefined) return;
+      this.#span.reach(value);
+      this.#draw();
+      this.cursor.place(value);
+    };
+    const next = (places, by) => {
+      const sorted = [...new Set(places)].sort((one, other) => one - other);
+      return by > 0 ? sorted.filter((one) => one > at + 1e-9)[by - 1] ?? sorted.at(-1) : sorted.findLast((one) => one < at - 1e-9) === undefined ? sorted[0] : sorted.filter((one) => one < at - 1e-9).at(by);
+    };
+    if (Object.hasOwn(acts, event.key)) acts[event.key]();
+    else if (!panel) return;
+    else if (event.key in moves) go(next(panel.places, moves[event.key] * (event.shiftKey ? 10 : 1)));
+    else if (event.key === "PageUp" || event.key === "PageDown") go(next(this.#panels.flatMap(({ peaks }) => peaks), event.key === "PageUp" ? 1 : -1));
+    else if (event.key === "Home" || event.key === "End") go(event.key === "Home" ? from : to);
+    else return;
+    event.preventDefault();
+  }
 }

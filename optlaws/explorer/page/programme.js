@@ -8,7 +8,7 @@ const LIMITS = { velocity: "616 mm/s", acceleration: "20 m/s²", jerk: "2000 m/s
 const KINDS = { rise: ["by"], return: ["by"], move: ["by", "to"], dwell: [], "constant velocity": ["velocity"], free: ["by", "to"] };
 const LAWS = ["rise", "return", "move"];
 const NOTHING = ["none", "free"];
-const PLACEHOLDERS = { by: "35 mm", to: "0 mm", velocity: "300 mm/s", duration: "120 deg, or free", law: "optimal" };
+const PLACEHOLDERS = { name: "name", by: "35 mm", to: "0 mm", velocity: "300 mm/s", duration: "120 deg, or free", law: "optimal" };
 
 export class Programme {
   #root;
@@ -71,14 +71,22 @@ export class Programme {
       if (value) axis.segment[i][name] = name === "duration" && value.includes(" to ") ? value.split(" to ").map((one) => one.trim()) : value;
       else delete axis.segment[i][name];
     });
-    const kind = this.#select(`segment ${i} kind`, String(i + 1), Object.fromEntries(Object.keys(KINDS).map((one) => [one, one])), (axis) => of(axis).kind, (axis, _study, value) => {
+    const kind = this.#select(`segment ${i} kind`, "kind", Object.fromEntries(Object.keys(KINDS).map((one) => [one, one])), (axis) => of(axis).kind, (axis, _study, value) => {
       const { duration, name, by = "10 mm" } = axis.segment[i];
       axis.segment[i] = { kind: value, ...(duration && { duration }), ...(name && { name }), ...(KINDS[value].includes("by") && { by }) };
     });
-    const remove = count > 1 ? html("button", { type: "button", class: "close", "aria-label": `Take segment ${i + 1} away`, text: "×", onclick: () => this.#change(`remove segment ${i}`, (axis) => axis.segment.splice(i, 1)) }) : null;
+    const act = (text, about, alter) => html("button", { type: "button", class: "close", "aria-label": `${about} segment ${i + 1}`, title: `${about} this segment`, text, onclick: () => this.#change(`${about} ${i}`, (axis) => alter(axis.segment)) });
+    const swap = (all, one, other) => ([all[one], all[other]] = [all[other], all[one]]);
+    const head = row("name");
+    head.firstElementChild.textContent = String(i + 1);
+    const acts = html("span", { class: "acts" },
+      act("↑", "Move up", (all) => i > 0 && swap(all, i - 1, i)),
+      act("↓", "Move down", (all) => i < count - 1 && swap(all, i, i + 1)),
+      act("+", "Insert a segment after", (all) => all.splice(i + 1, 0, { kind: "dwell", duration: "30 deg" })),
+      act("×", "Take away", (all) => count > 1 && all.splice(i, 1)),
+    );
     const rows = [...(KINDS[segment.kind] ?? []).map(row), row("duration"), ...(LAWS.includes(segment.kind) ? [row("law")] : [])];
-    if (remove) kind.append(remove);
-    return html("div", { class: "segment-card" }, kind, ...rows);
+    return html("div", { class: "segment-card" }, html("div", { class: "segment-head" }, head, acts), kind, ...rows);
   }
 
   #text(what, name, placeholder, get, put) {
@@ -98,6 +106,20 @@ export class Programme {
     this.#shows.push((cycle, axis) => (field.value = get(axis, cycle)));
     return html("div", { class: "entry" }, html("span", { class: "field-name", text: name }), field);
   }
+}
+
+/** Let segment i end at an angle where `shown` says that it is; a duration in time stays one. */
+export function join(segments, shown, { i, at, turn }) {
+  if (segments.length !== shown.length) return;
+  const [before, after] = [segments[i], segments[i + 1]];
+  const angle = (value) => Number(value.toPrecision(9));
+  const written = (old, degrees) => {
+    const unit = /[\d.]\s*(m?s)$/.exec(old)?.[1];
+    const time = (degrees / 360) * turn * (unit === "s" ? 1e-3 : 1);
+    return unit ? `${Number(time.toPrecision(6))} ${unit}` : `${angle(degrees)} deg`;
+  };
+  if (before.duration || !after.duration) before.duration = written(before.duration, at - shown[i].at[0]);
+  if (after.duration) after.duration = written(after.duration, shown[i + 1].at[1] - at);
 }
 
 /** A speed as a period, or a period as a speed, where its unit is one of the usual; else an example. */

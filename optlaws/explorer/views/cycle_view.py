@@ -99,6 +99,8 @@ def _solved(question: bytes) -> Cycle:
 def _view(shown: Cycle) -> dict[str, Any]:
     return {
         "across": f"master, deg ({digits(1e3 * shown.duration)} ms a turn)",
+        "turn": 1e3 * shown.duration,
+        "symbol": "master",
         "panels": [_panel(shown, nu) for nu in range(4)],
         "segments": list(_segments(shown)),
         "trust": _trust(shown),

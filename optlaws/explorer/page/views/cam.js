@@ -41,6 +41,7 @@ export class View {
   #playing = null;
   #dial;
   #play;
+  #read = html("p", { class: "facts", id: "cam-reading", role: "status" });
 
   constructor(_root, study, { followers }) {
     this.#study = study;
@@ -55,6 +56,7 @@ export class View {
     this.#loads = new Latest("api/cam-loads", (loads, asked) => told(asked.study) === told(this.#study.state.cam) && this.#bear(loads), (error) => this.#bear({ panels: [], facts: [error.message] }));
     this.#sizes = new Latest("api/cam-sizes", ({ facts }, asked) => told(asked.study) === told(this.#study.state.cam) && this.#fact(facts), (error) => this.#fact([error.message]));
     this.#turning();
+    this.#motion.cursor.watch((at) => this.#turn(at));
   }
 
   /** The part of a study that files are made of. */
@@ -149,9 +151,19 @@ export class View {
 
   #turning() {
     this.#dial = html("input", { type: "range", min: 0, max: 360, step: 1, value: 0, "aria-label": "Angle of the cam, degrees" });
-    this.#dial.addEventListener("input", () => this.#mechanism.turn(Number(this.#dial.value)));
+    this.#dial.addEventListener("input", () => this.#motion.cursor.place(Number(this.#dial.value)));
     this.#play = html("button", { type: "button", text: "Play", onclick: () => (this.#playing === null ? this.#start() : this.#stop()) });
     element("cam-turning").replaceChildren(this.#play, this.#dial);
+    element("cam-turning").after(this.#read);
+  }
+
+  /** The cam, its dial and what is read of it are where the cursor of the curves is. */
+  #turn(at) {
+    if (at === null) return;
+    this.#mechanism.turn(at);
+    this.#dial.value = at;
+    this.#dial.setAttribute("aria-valuetext", `${Math.round(at)} degrees`);
+    this.#read.textContent = [`at ${Math.round(at)} deg`, ...this.#motion.readings].join(" · ");
   }
 
   #start() {
@@ -161,8 +173,7 @@ export class View {
     const step = (now) => {
       angle = (angle + (SPEED * (now - last)) / 1000) % 360;
       last = now;
-      this.#dial.value = Math.round(angle);
-      this.#mechanism.turn(angle);
+      this.#motion.cursor.place(Math.round(angle) % 360);
       this.#playing = document.getElementById("cam-view").hidden ? this.#stop() : requestAnimationFrame(step);
     };
     this.#playing = requestAnimationFrame(step);

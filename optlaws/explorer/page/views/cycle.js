@@ -2,7 +2,8 @@
 
 import { Latest } from "../latest.js";
 import { Panels } from "../panels.js";
-import { Programme } from "../programme.js";
+import { Programme, join } from "../programme.js";
+import { Strip } from "../strip.js";
 import { html } from "../svg.js";
 import { showTrust, unanswered } from "../trust.js";
 
@@ -20,7 +21,7 @@ export class View {
   drawings = "#motion svg";
   #study;
   #programme;
-  #motion = new Panels(element("motion"));
+  #motion;
   #answer = null;
   #ways = null;
   #cycles;
@@ -28,6 +29,9 @@ export class View {
 
   constructor(_root, study) {
     this.#study = study;
+    const strip = new Strip({ moved: (i, at) => this.#join(i, at), rested: () => study.rest(), chosen: (i) => this.#motion.look(this.#answer.segments[i].at) });
+    this.#motion = new Panels(element("motion"), { strip });
+    this.#motion.cursor.watch((at) => this.#mark(at));
     this.#programme = new Programme(element("programme"), study, (state) => state.cycle);
     this.#cycles = new Latest("api/cycle", (answer, question) => this.#answered(answer, question), (error, question) => this.#answered(unanswered(error), question));
     this.#nearest = new Latest("api/cycle-nearest", ({ ways }) => this.#render(this.#answer, ways), () => this.#render(this.#answer, []));
@@ -60,6 +64,18 @@ export class View {
     if (answer.facts) element("cycle-trust").append(html("p", { class: "facts", text: answer.facts.join(" · ") }));
     this.#motion.show(answer);
     element("segments").replaceChildren(...(answer.refused ? [] : [table(answer)]));
+  }
+
+  /** Let a segment end at an angle, and the next one begin there. */
+  #join(i, at) {
+    const { segments, turn } = this.#answer;
+    this.#study.change(`joint ${i}`, (state) => join(state.cycle.axis[state.axis].segment, segments, { i, at, turn }));
+  }
+
+  /** The segment that the cursor is in stands out in the table. */
+  #mark(at) {
+    const within = at === null ? -1 : (this.#answer?.segments ?? []).findIndex(({ at: [from, to] }) => at >= from && at <= to);
+    element("segments").querySelectorAll("tbody tr").forEach((row, i) => (i === within ? row.setAttribute("aria-current", "true") : row.removeAttribute("aria-current")));
   }
 
   #back({ entry, value }) {

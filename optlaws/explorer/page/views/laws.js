@@ -2,17 +2,18 @@
 
 import { askedOf, move } from "../asked.js";
 import { Controls } from "../controls.js";
-import { Curves } from "../curves.js";
 import { slider, tabs } from "../fields.js";
 import { Latest } from "../latest.js";
+import { Panels } from "../panels.js";
 import { Plane } from "../plane.js";
-import { Residual } from "../residual.js";
 import { showTable } from "../table.js";
 import { Tray } from "../tray.js";
 import { showTrust, unanswered } from "../trust.js";
 import { html } from "../svg.js";
 
 const PICTURES = { "B-C": "C over B", "B-D": "D over B", "B-J": "J over B", "C-D": "D over C", "J-C": "C over J", residual: "residual" };
+
+const CURVES = { a: "displacement", b: "velocity", c: "acceleration", d: "power", j: "jerk" };
 
 const element = (id) => document.getElementById(id);
 const told = (value) => JSON.stringify(value);
@@ -39,7 +40,7 @@ export class View {
   #tray;
   #plane;
   #residual;
-  #curves = new Curves(element("curves"));
+  #curves = new Panels(element("curves"));
   #chooses;
   #follower;
   #laws;
@@ -53,10 +54,11 @@ export class View {
     this.#drawn = drawn;
     this.#controls = new Controls(element("ask"), study, (name) => this.#value(name));
     this.#tray = new Tray(element("tray"), study, names);
-    const [plane, residual] = [html("div", { class: "fill" }), html("div", { class: "fill" })];
+    const [plane, residual] = [html("div", { class: "fill" }), html("div", { class: "fill", id: "residual" })];
     element("plane").append(plane, residual);
     this.#plane = new Plane(plane, (x) => askedOf(study.state.laws[study.state.active], x), (value, x, y) => this.#move(value, x, y), (name) => this.#tray.add(name));
-    this.#residual = new Residual(residual);
+    this.#residual = new Panels(residual);
+    this.#residual.cursor.watch((at, placed) => placed && at !== null && at !== study.state.frequency && study.change("frequency", (state) => (state.frequency = Number(at.toPrecision(4)))));
     this.#chooses = tabs(element("pictures"), PICTURES, (key) => study.change("picture", (state) => (state.picture = key)));
     this.#follower = this.#followerFields();
     this.#laws = new Latest("api/laws", (answer, question) => this.#answered(answer, question), (error, question) => this.#answered({ laws: question.laws.map(() => unanswered(error)) }, question));
@@ -119,7 +121,8 @@ export class View {
   }
 
   #showResidual(answer) {
-    this.#residual.show(answer, this.#state.active);
+    this.#residual.show(residualOf(answer, this.#views, this.#state.active));
+    if (this.#residual.cursor.at !== answer.at) this.#residual.cursor.place(answer.at);
     this.#left = `residual acceleration at ν = ${answer.at}: ${answer.laws.map((law, i) => `${"ABCD"[i]} ${law?.text ?? "—"}`).join(", ")}`;
     this.#render();
   }
@@ -151,7 +154,7 @@ export class View {
     const x = picture.split("-")[0];
     const views = laws.map((_, i) => this.#views[i]);
     this.#tray.show(laws, views, active);
-    this.#curves.show(views, active);
+    this.#curves.show(curvesOf(views, active));
     this.#plane.showLaws(laws.map((law, i) => ({ view: views[i], asked: askedOf(law, x), movable: Boolean(law.problem) })), active);
     showTrust(element("trust"), views[active], this.#ways, (way) => this.#back(way));
     showTable(element("table"), views, active);
@@ -190,4 +193,33 @@ export class View {
       damping.set(state.damping);
     };
   }
+}
+
+/** The curves of laws, one panel for each of a, b, c, d and j; or why there is nothing to draw. */
+function curvesOf(views, active) {
+  const drawn = views.map((view, law) => ({ view, law })).filter(({ view }) => view?.curves);
+  const own = views[active];
+  if (!drawn.length && own?.refused) return { refused: own.refused };
+  const unbounded = own?.constants?.some(({ name, value }) => name === "J" && value === null);
+  const panels = Object.entries(CURVES).map(([letter, name]) => ({
+    name: `${name} ${letter}`,
+    symbol: letter,
+    series: drawn.map(({ view, law }) => ({ at: view.curves.k, values: view.curves[letter], law, name: view.title })),
+    peaks: (own?.peaks?.[letter] ?? []).map(({ k, value, text }) => ({ at: k, value, text })),
+    span: letter === "a" ? [0, 1] : null,
+    note: letter === "j" && unbounded ? "without bound: c jumps" : "",
+  }));
+  return { across: "dimensionless time k", symbol: "k", range: [0, 1], ticks: [0, 0.25, 0.5, 0.75, 1], active, panels };
+}
+
+/** What laws leave in a follower over its frequency, as one panel. */
+function residualOf({ frequencies, laws, at }, views, active) {
+  const place = frequencies.findIndex((one) => one > at);
+  const within = (values, value) => (place < 0 ? values : values.toSpliced(place, 0, value));
+  const series = laws.flatMap((law, i) => (law ? [{ at: within(frequencies, at), values: within(law.values, law.value), law: i, name: views[i]?.title }] : []));
+  return {
+    across: "frequency ν of the follower, radians of its vibration in the motion", symbol: "ν", active,
+    range: [frequencies[0], frequencies.at(-1)],
+    panels: [{ name: "residual acceleration (envelope)", unit: "in units of a″", symbol: "residual acceleration", series, span: [0, 1] }],
+  };
 }
