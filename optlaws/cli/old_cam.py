@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from cyclopts import Parameter
 
-from optlaws.cli.options import TableOptions, check_files
+from optlaws.cli.options import Plot, TableOptions, check_files, save_figure
 from optlaws.cli.show import busy, print_json, show, table
 from optlaws.echo import shortened
 from optlaws.errors import InputError
@@ -40,8 +40,6 @@ class OldCamOptions:
         A format of `optlaws export --list`: the cycle is written in it, modernised where --modernise is given.
     save
         Write the cycle as a problem file (.toml), its laws beside it.
-    plot
-        Draw the points and the laws, with --modernise the old and the new ones, into this file, PNG or SVG.
     """
 
     unit: str | None = None
@@ -51,18 +49,19 @@ class OldCamOptions:
     modernise: str | None = None
     export: str | None = None
     save: Path | None = None
-    plot: Path | None = None
 
 
 NO_OLD_CAM = OldCamOptions()
 
 
-def old_cam(file: Path, options: OldCamOptions, points: TableOptions, out: Path | None, *, as_json: bool) -> None:
+def old_cam(
+    file: Path, options: OldCamOptions, points: TableOptions, out: Path | None, plot: Plot, *, as_json: bool
+) -> None:
     """Answer for the table of an old cam."""
     from optlaws.cycles.old_tables.table import read_cycle_table
     from optlaws.exports.format import format_of
 
-    check_files(options.save, plot=options.plot)
+    check_files(options.save, plot=plot)
     if options.save is not None and options.save.suffix != ".toml":
         raise InputError(f"--save takes a problem file, whose name ends in .toml, got {options.save}")
     chosen = None if options.export is None else format_of(options.export)
@@ -85,8 +84,8 @@ def old_cam(file: Path, options: OldCamOptions, points: TableOptions, out: Path 
         place = (out or Path()) / f"{file.stem}_{chosen.name}{chosen.extension}"
         check_files(place)
         written["exported"] = str(export.write(place))
-    if options.plot is not None:
-        written["picture"] = str(_draw(old, new, options.plot))
+    if plot is not None:
+        written["picture"] = str(_draw(old, new, plot))
     if as_json:
         print_json(_facts(file, old, new) | written)
         return
@@ -136,12 +135,11 @@ def _save(latest: OldTable, place: Path, source: Path, speed: str | None) -> Pat
 
 
 def _draw(old: OldTable, new: OldTable | None, place: Path) -> Path:
-    from optlaws.files.writing import write
-    from optlaws.plots.style import plot_style, rendered
+    from optlaws.plots.style import plot_style
 
     with plot_style():
-        figure = old.plot(new=new)[0].get_figure(root=True)
-        return write(place, rendered(figure, place.suffix[1:]))
+        save_figure(place, old.plot(new=new)[0].get_figure(root=True))
+    return place
 
 
 def _show(old: OldTable, new: OldTable | None) -> None:

@@ -6,13 +6,16 @@ import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import Parameter, Token
 
 import optlaws
 from optlaws.echo import shortened
 from optlaws.errors import InputError
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 
 def _whole(_: object, tokens: Sequence[Token]) -> int:
@@ -45,6 +48,8 @@ Whole = Annotated[int, Parameter(converter=_whole)]
 #: how long a motion takes, which older scripts call its time
 Duration = Annotated[str | None, Parameter(name=("--duration", "--time"))]
 AsJson = Annotated[bool, Parameter(name="--json")]
+#: where a command draws what it has found
+Plot = Annotated[Path | None, Parameter(name="--plot")]
 
 
 @Parameter(name="*")
@@ -128,9 +133,20 @@ def save(file: Path, data: Mapping[str, Any]) -> None:
 
 def save_picture(file: Path, value: Any) -> None:  # noqa: ANN401 - whatever has a plot
     """Draw what --plot asks for into its file."""
-    from optlaws.files.writing import write
-    from optlaws.plots.style import plot_style, rendered
+    from optlaws.plots.style import plot_style
 
     with plot_style():
-        figure = value.plot()[0].get_figure(root=True)
-        write(file, rendered(figure, file.suffix[1:]))
+        save_figure(file, value.plot()[0].get_figure(root=True))
+
+
+def save_figure(file: Path, figure: Figure) -> None:
+    """Write a figure into the file of --plot, in the format that its ending says."""
+    from optlaws.files.writing import write
+    from optlaws.plots.style import rendered
+
+    write(file, rendered(figure, file.suffix[1:]))
+
+
+def save_laws(file: Path, laws: Mapping[str, optlaws.MotionLaw]) -> None:
+    """Draw laws by their names, one over the other, into the file of --plot."""
+    save_picture(file, optlaws.Comparison(dict(laws)))

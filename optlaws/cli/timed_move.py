@@ -9,7 +9,7 @@ from typing import Annotated, Any
 from cyclopts import Parameter
 
 import optlaws
-from optlaws.cli.options import save
+from optlaws.cli.options import save, save_figure
 from optlaws.cli.show import print_json, show, table
 from optlaws.echo import shortened
 from optlaws.errors import InputError
@@ -55,13 +55,19 @@ class MoveOptions:
 WITHOUT_MOVE = MoveOptions()
 
 
-def answer(problem: optlaws.Problem, move: MoveOptions, *, as_json: bool, output: Path | None) -> None:
-    """Print the least time, and write law and proof into a file."""
+def answer(
+    problem: optlaws.Problem, move: MoveOptions, *, as_json: bool, output: Path | None, plot: Path | None
+) -> None:
+    """Print the least time, write law and proof into a file, and draw the motion into another."""
     given = {name: value for name, value in asdict(move).items() if name != "fastest"}
     result = optlaws.fastest(problem, **given | {"limits": _limits(move.limits or [])})
     whole = result.to_dict()
     if output is not None:
         save(output, whole)
+    if plot is not None:
+        from optlaws.plots.moves import motion_figure
+
+        save_figure(plot, motion_figure(result, f"{move.stroke} in {result.duration:.6g} s"))
     if as_json:
         rest = {"none_below": result.none_below, "binding": list(result.binding), "gains": result.gains()}
         print_json({name: whole[name] for name in ("unit", "stroke", "limits", "duration", "limit")} | rest)

@@ -82,6 +82,22 @@ class Export:
         """Write the file, whole or not at all; one that is there and says something else is kept as NAME.orig."""
         return writing.write_any(Path(file), self.text)
 
+    def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
+        """Draw the motion and what the controller runs over the master, down to the jerk; return the artists.
+
+        `ax` are four axes of matplotlib, new ones unless given; `style` is what `Axes.plot` takes, for the run.
+
+        Examples
+        --------
+        >>> from optlaws.laws import smoothstep
+        >>> export = smoothstep(3).export("codesys-xy", stroke="35 mm", master="120 deg", duration="0.1 s", points=9)
+        >>> [artist.get_label() for artist in export.plot()[:2]]
+        ['as designed', 'as run']
+        """
+        from optlaws.plots.moves import draw_export
+
+        return draw_export(self, ax, **style)
+
     def results(self) -> dict[str, Any]:
         """The export as plain data: everything but the text."""
         written = self.written

@@ -1,4 +1,4 @@
-"""Pictures of moves: least times within limits, over the stroke and as fronts; cams into a cycle and out of it."""
+"""Pictures of moves: least times within limits, cams into a cycle and out of it, and what a controller runs."""
 
 from __future__ import annotations
 
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from optlaws.cycles.moves.fastest_move import FastestMove
     from optlaws.cycles.moves.time_front import TimeFront
     from optlaws.cycles.moves.transition_cam import TransitionCam
+    from optlaws.exports.export import Export
 
 _POINTS = 601
 _MS = 1e3
@@ -146,3 +147,29 @@ def _of_cycle(cam: TransitionCam, cycle: Cycle, nu: int, size: float) -> tuple[A
     # at the joint the value of its own side
     angles[0], angles[-1] = ends[0] + 360.0 * INSIDE_PIECE, ends[1] - 360.0 * INSIDE_PIECE
     return angles, size * np.asarray(cycle.at_angle(angles, nu))
+
+
+_INSIDE_RUN = 25
+
+
+def draw_export(export: Export, axes: Any = None, **style: Any) -> list[Artist]:  # noqa: ANN401 - matplotlib's
+    """Draw the exported motion and what the controller runs over the master into four axes; return the artists."""
+    if axes is None:
+        with plot_style():
+            axes = list(new_figure(8.6, 8.2).subplots(4, 1, sharex=True))
+    panels = four(axes)
+    motion, run, units = export.motion, export.run, export.motion.units
+    rate, by = (1.0, units.master) if units.rate is None else (units.rate, "s")
+    joints = np.unique(np.clip([*run.breaks, *motion.breaks], motion.start, motion.stop))
+    # a piece with its ends as seen from inside, so that a jump is upright
+    shares = np.linspace(INSIDE_PIECE, 1.0 - INSIDE_PIECE, _INSIDE_RUN)
+    places = (joints[:-1, None] + np.diff(joints)[:, None] * shares).ravel()
+    looks: Any = ({"color": GREY, "label": "as designed"}, {"color": BLUES[3], "label": "as run"} | style)
+    artists: list[Artist] = []
+    for nu, panel in enumerate(panels):
+        for values, look in zip((motion(places, nu), run(places, nu)), looks, strict=True):
+            artists += panel.plot(places, rate**nu * values, **look)
+        panel.set_ylabel(f"{QUANTITIES[nu]}, {units.slave}" + (f"/{by}{('', '²', '³')[nu - 1]}" if nu else ""))
+    panels[-1].set_xlabel(f"master, {units.master}")
+    panels[0].legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, frameon=False, fontsize=8.0)
+    return artists

@@ -34,6 +34,7 @@ CALLS = {
     "ledger": f"optimal --kind figure --file {ROOT}/problems/ledger.toml",
     "lever": "--beta 0.75 --lam 1 --swing 60",
     "loader": "0050",
+    "new": "law law.toml --defaults",
     "run": "problem.toml",
     "solve": "--order 2 --degree 3 --basis pieces --breaks 4 --continuity 1 --peak-velocity 1.8",
     "study": "study.toml --workers 1",
@@ -41,7 +42,7 @@ CALLS = {
 }
 COMMANDS: Table = commands()
 NUMBERS = {"int": "2.5", "float": "fast", "list[float]": "fast", "tuple[float, float]": "1 fast", "bool": "maybe"}
-FILES = {"--output": "answer.json", "--csv": "front.csv", "--plot": "picture.svg --spectrum 5 9", "--out": "results"}
+FILES = {"--output": "answer.json", "--csv": "front.csv", "--plot": "picture.svg", "--out": "results"}
 WRONG = [
     (command, option, NUMBERS[kind])
     for command, options in COMMANDS.items()
@@ -105,6 +106,17 @@ def test_json_is_strict_and_alone(command: str, capsys: Capture) -> None:
     assert json.loads(out, parse_constant=refuse)
 
 
+@pytest.mark.parametrize("command", [one for one, options in COMMANDS.items() if "--plot" in options and one != "cam"])
+def test_a_picture_is_drawn_of_what_was_found(command: str, capsys: Capture) -> None:
+    alone = command == "cycle"  # as cam, whose picture takes long: what writes nothing but JSON draws nothing
+    assert exit_code([*call(command), "--plot", "picture.svg", *(() if alone else ("--json",))]) == 0
+    capsys.readouterr()
+    assert "<svg" in Path("picture.svg").read_text("utf-8")
+    assert "--plot" in refused(capsys, [*call(command), "--plot", "picture.pdf"])
+    if alone:
+        assert "leave out --plot" in refused(capsys, [*call(command), "--plot", "picture.svg", "--json"])
+
+
 @pytest.mark.parametrize(("command", "option", "value"), WRONG)
 def test_a_wrong_value_is_refused_by_its_option(command: str, option: str, value: str, capsys: Capture) -> None:
     assert option in refused(capsys, call(command, **{option[2:]: value}))
@@ -117,8 +129,8 @@ def test_an_unknown_option_is_refused_by_its_name(command: str, capsys: Capture)
 
 @pytest.mark.parametrize(("command", "option"), WRITTEN)
 def test_a_file_that_cannot_be_written_is_refused(command: str, option: str, capsys: Capture) -> None:
-    file, *others = FILES[option].split()
-    arguments = [*call(command), option, f"file/{file}", *(others if command == "follower" else [])]
+    file = FILES[option]
+    arguments = [*call(command), option, f"file/{file}"]
     # by the user's own name, and before anything is computed
     with (
         patch("optlaws.synthesize", side_effect=AssertionError),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import optlaws
-from optlaws.cli.options import AsJson, Duration, Frequencies, check_files, save_picture
+from optlaws.cli.options import AsJson, Duration, Frequencies, Plot, check_files, save_picture
 from optlaws.cli.show import number, print_json, show, table
 from optlaws.errors import InputError
 from optlaws.tolerances import VALUE_ROUNDING
@@ -19,7 +19,7 @@ def compare(
     duration: Duration = None,
     frequency: Frequencies | None = None,
     damping: float = 0.0,
-    plot: Path | None = None,
+    plot: Plot = None,
     csv: Path | None = None,
     as_json: AsJson = False,
 ) -> None:

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from importlib import import_module
 from pathlib import Path
+from typing import Any
 
 from optlaws.cli.app import NotProven
 from optlaws.cli.old_cam import NO_OLD_CAM, OldCamOptions, old_cam, refuse_options
-from optlaws.cli.options import WHOLE_TABLE, AsJson, TableOptions
+from optlaws.cli.options import WHOLE_TABLE, AsJson, Plot, TableOptions, check_files, save_figure
 from optlaws.cli.show import busy, print_json, show
-from optlaws.cli.synthesis.run import run
+from optlaws.cli.synthesis.run import done
 from optlaws.errors import InputError
 from optlaws.synthesis.status import Status
 
@@ -20,6 +22,7 @@ def cycle(
     *,
     out: Path | None = None,
     fastest: bool = False,
+    plot: Plot = None,
     cam: OldCamOptions = NO_OLD_CAM,
     points: TableOptions = WHOLE_TABLE,
     as_json: AsJson = False,
@@ -38,22 +41,25 @@ def cycle(
         The greatest speed of the master at which every axis keeps its limits, what binds there, and the proof: a table,
         and with `--out` all results at that speed with fastest.json for `optlaws verify`. The exit code is 1 where none
         faster is not proven to be impossible.
+    plot
+        Draw all axes, the points and laws of an old cam, or with `--fastest` the motion at that speed, into this file,
+        PNG or SVG.
     as_json
         Print one JSON object on stdout and write nothing.
     """
     if file.suffix and file.suffix.lower() != ".toml":
         if fastest:
             raise InputError("--fastest is of a problem file: --save makes one of the table, whose limits you enter")
-        old_cam(file, cam, points, out, as_json=as_json)
+        old_cam(file, cam, points, out, plot, as_json=as_json)
         return
     refuse_options(cam, points)
     if fastest:
-        _greatest_speed(file, out, as_json=as_json)
+        _greatest_speed(file, out, plot, as_json=as_json)
     else:
-        do_job("cycle", file, out, as_json=as_json)
+        do_job("cycle", file, out, plot, as_json=as_json)
 
 
-def _greatest_speed(file: Path, out: Path | None, *, as_json: bool) -> None:
+def _greatest_speed(file: Path, out: Path | None, plot: Path | None, *, as_json: bool) -> None:
     """The greatest speed of each axis of a problem file."""
     from optlaws.files.packaged import problem_of_job
     from optlaws.jobs import cycle as job
@@ -61,6 +67,7 @@ def _greatest_speed(file: Path, out: Path | None, *, as_json: bool) -> None:
     from optlaws.jobs.cycle_entries import read
     from optlaws.results import Results
 
+    check_files(plot=plot)
     source, _, entries = problem_of_job(file, "cycle")
     with busy(f"{file}"):
         spec, cycles = read(entries, source)
@@ -70,6 +77,12 @@ def _greatest_speed(file: Path, out: Path | None, *, as_json: bool) -> None:
             results.entries["fastest"] = True
             job.run(results)
             results.write(out)
+    if plot is not None:
+        from optlaws.plots.cycle import axes_figure, cycle_figure
+
+        at_best = {name: speed.cycle for name, speed in speeds.items()}
+        alone = next(iter(at_best.values())) if len(at_best) == 1 else None
+        save_figure(plot, axes_figure(at_best, spec.title) if alone is None else cycle_figure(alone, spec.title))
     if as_json:
         print_json({name: fastest_facts(speed) for name, speed in speeds.items()})
     else:
@@ -79,14 +92,33 @@ def _greatest_speed(file: Path, out: Path | None, *, as_json: bool) -> None:
         raise NotProven(f"axis {', '.join(unproven)}: that no law is faster is not proven")
 
 
-def do_job(job: str, file: Path, out: Path | None, *, as_json: bool) -> None:
-    """The job of a problem file, or its data for programs."""
+def do_job(job: str, file: Path, out: Path | None, plot: Path | None, *, as_json: bool) -> None:
+    """The job of a problem file, with its main picture in the file of --plot too; or its data for programs."""
+    from optlaws.files import writing
     from optlaws.files.packaged import problem_of_job
 
+    check_files(plot=plot)
+    if as_json and plot is not None:
+        raise InputError("--json writes nothing: leave out --plot")
     source, folder, entries = problem_of_job(file, job)
     if not as_json:
-        run(source, out=out or folder)
+        if out is not None or folder is not None:
+            writing.check_place((out or folder or Path()) / "results.md")
+        written = done(source, out=out or folder)
+        if plot is not None:
+            drawn = next(path for path in written if path.name == f"{_main_picture(job, entries)}{plot.suffix}")
+            writing.write(plot, drawn.read_bytes())
         return
     with busy(f"{file}"):
         data = import_module(f"optlaws.jobs.{job}").answer(entries, source)
     print_json(data)
+
+
+def _main_picture(job: str, entries: Mapping[str, Any]) -> str:
+    """The name of the picture of a job that shows most: the cam, the one axis, or all axes."""
+    from optlaws.jobs.cycle import TOGETHER, plain_name
+
+    if job != "cycle":
+        return job
+    names = [plain_name(axis["name"]) for axis in entries["axis"]]
+    return names[0] if len(names) == 1 else TOGETHER

@@ -9,7 +9,17 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import Parameter
 
-from optlaws.cli.options import WHOLE_TABLE, AsJson, Duration, TableOptions, Whole, check_files, read_law
+from optlaws.cli.options import (
+    WHOLE_TABLE,
+    AsJson,
+    Duration,
+    Plot,
+    TableOptions,
+    Whole,
+    check_files,
+    read_law,
+    save_picture,
+)
 from optlaws.cli.show import print_json, show, table
 from optlaws.errors import InputError
 
@@ -68,6 +78,8 @@ class FormatOptions:
         Time of the drive's task, such as "1 ms": the report gives what the drive reads in each.
     name
         Of the variable, the table or the joint.
+    plot
+        Draw the motion and what the controller runs into this file, PNG or SVG.
     """
 
     points: str | None = None
@@ -77,6 +89,7 @@ class FormatOptions:
     interpolation: str | None = None
     task: str | None = None
     name: str | None = None
+    plot: Plot = None
 
 
 _MOTION, _FORMAT = MotionOptions(), FormatOptions()
@@ -114,7 +127,7 @@ def export(
     if listed:
         _list(as_json=as_json)
         return
-    check_files(output)
+    check_files(output, plot=options.plot)
     if law is None or to is None:
         raise InputError("say what is exported and to which format: optlaws export LAW --to FORMAT; --list lists them")
     from optlaws.exports.export import export_motion
@@ -122,9 +135,11 @@ def export(
 
     chosen = format_of(to)
     request: dict[str, Any] = {**asdict(options), "points": _points(options.points)}
-    task = request.pop("task")
+    task, plot = request.pop("task"), request.pop("plot")
     chosen.request(**request)
     written = export_motion(_motion(law, motion, points), to, task=task, **request)
+    if plot is not None:
+        save_picture(plot, written)
     _answer(written, output, as_json=as_json)
 
 

@@ -9,7 +9,16 @@ from typing import Any
 from cyclopts import Parameter
 
 import optlaws
-from optlaws.cli.options import AsJson, Duration, FollowerFrequency, check_files, read_law
+from optlaws.cli.options import (
+    AsJson,
+    Duration,
+    FollowerFrequency,
+    Plot,
+    check_files,
+    read_law,
+    save_figure,
+    save_picture,
+)
 from optlaws.cli.show import print_json, show, table
 from optlaws.errors import InputError
 
@@ -70,7 +79,7 @@ def follower(
     design_frequency: float | None = None,
     design_damping: float | None = None,
     spectrum: tuple[float, float] | None = None,
-    plot: Path | None = None,
+    plot: Plot = None,
     as_json: AsJson = False,
 ) -> None:
     """Response of an elastic follower's mass: peaks, dynamic factor, residual vibration, and the same off design.
@@ -87,15 +96,15 @@ def follower(
     design_damping
         Damping ratio for which the cam is cut; that of the follower unless given.
     spectrum
-        Range of frequencies for --plot.
+        Range of frequencies: --plot draws the response spectrum over it.
     plot
-        Draw the response spectrum into this file, PNG or SVG.
+        Draw the motion of the mass, or with --spectrum the response spectrum, into this file, PNG or SVG.
     as_json
         Print one JSON object on stdout and nothing else.
     """
     check_files(plot=plot)
-    if (plot is None) != (spectrum is None):
-        raise InputError("--spectrum LOW HIGH gives the range of frequencies for --plot FILE: name both or neither")
+    if plot is None and spectrum is not None:
+        raise InputError("--spectrum LOW HIGH gives the range of frequencies for --plot FILE: name the file too")
     mass, machine = _follower_and_machine(options)
     reference = read_law(law, alpha, by="--alpha")
     if design_frequency is None and design_damping is not None:
@@ -104,7 +113,9 @@ def follower(
     if design_frequency is not None:
         cam = optlaws.polydyne(reference, design_frequency, mass.damping if design_damping is None else design_damping)
     response = mass.response(cam)
-    if plot is not None and spectrum is not None:
+    if plot is not None and spectrum is None:
+        save_picture(plot, response)
+    elif plot is not None and spectrum is not None:
         _draw(cam, reference, mass.damping, spectrum, plot)
     summary = _summary(mass, cam, reference, response)
     if machine is not None:
@@ -193,9 +204,8 @@ def _draw(
 ) -> None:
     import numpy as np
 
-    from optlaws.files import writing
     from optlaws.plots.machine import draw_spectrum
-    from optlaws.plots.style import BLUES, WARM, empty_figure, plot_style, rendered
+    from optlaws.plots.style import BLUES, WARM, empty_figure, plot_style
 
     if not 0.0 < span[0] < span[1]:
         raise InputError(
@@ -210,4 +220,4 @@ def _draw(
         draw_spectrum(spectrum, axes, over=C, color=WARM, linestyle="--", label="free vibration after it")
         axes.set(xlim=span, ylim=(0.0, None), ylabel="acceleration of the mass / C")
         axes.legend()
-        writing.write(file, rendered(figure, file.suffix[1:]))
+        save_figure(file, figure)

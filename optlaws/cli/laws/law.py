@@ -10,7 +10,7 @@ from cyclopts import Parameter
 
 import optlaws
 from optlaws.cli.laws.catalogue import continuous
-from optlaws.cli.options import WHOLE_TABLE, AsJson, TableOptions, Whole, check_files, read_law, save_picture
+from optlaws.cli.options import WHOLE_TABLE, AsJson, Plot, TableOptions, Whole, check_files, read_law, save_picture
 from optlaws.cli.show import constants_table, number, print_json, show, table
 from optlaws.errors import InputError
 
@@ -41,7 +41,7 @@ def law(
     *,
     member: MemberOptions = _NO_MEMBER,
     at: list[float] | None = None,
-    plot: Path | None = None,
+    plot: Plot = None,
     csv: Path | None = None,
     samples: Whole | None = None,
     points: TableOptions = WHOLE_TABLE,

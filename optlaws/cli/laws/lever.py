@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from cyclopts import Parameter
 
 import optlaws
-from optlaws.cli.options import AsJson, check_files, save
+from optlaws.cli.options import AsJson, Plot, check_files, save, save_laws
 from optlaws.cli.show import print_json, show, table
 from optlaws.errors import InputError
 
@@ -107,6 +107,7 @@ def lever(
     options: LeverOptions,
     target: list[str] | None = None,
     bars: BarOptions = _BARS,
+    plot: Plot = None,
     as_json: AsJson = False,
     output: Path | None = None,
 ) -> None:
@@ -117,17 +118,21 @@ def lever(
     target
         A constant of the exact motion, such as B1/B3=0.99 or T=6.1, for which the length not given is sought; twice for
         two of them and both lengths.
+    plot
+        Draw the exact law of the stroke into this file, PNG or SVG.
     as_json
         Print one JSON object on stdout and nothing else; angles in radians.
     output
         Write the exact law of the stroke to this JSON file.
     """
-    check_files(output)
+    check_files(output, plot=plot)
     bars.check()
     levers = _levers(options, target or [])
     machines = [_machine(lever.exact, bars, lever.xi) for lever in levers]
     if output is not None:
         _save(output, levers)
+    if plot is not None:
+        save_laws(plot, {f"beta {lever.beta:.6g}, lambda {lever.lam:.6g}": lever.law() for lever in levers})
     if as_json:
         plain = [_plain(lever) | machine for lever, machine in zip(levers, machines, strict=True)]
         print_json(plain[0] if target is None else {"levers": plain})

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import optlaws
-from optlaws.cli.options import AsJson, check_files, read_law, save
+from optlaws.cli.options import AsJson, Plot, check_files, read_law, save, save_laws
 from optlaws.cli.show import print_json, show, table
 from optlaws.errors import InputError
 
@@ -18,6 +18,7 @@ def loader(
     executive_stroke: float | None = None,
     mass: float | None = None,
     stroke: float | None = None,
+    plot: Plot = None,
     as_json: AsJson = False,
     output: Path | None = None,
 ) -> None:
@@ -35,16 +36,20 @@ def loader(
         Mass of the loader, for which its stroke is sought.
     stroke
         Stroke of the loader, for which its mass is sought.
+    plot
+        Draw the laws of the executive link and of the loader into this file, PNG or SVG.
     as_json
         Print one JSON object on stdout and nothing else.
     output
         Write the loader's law to this JSON file.
     """
-    check_files(output)
+    check_files(output, plot=plot)
     balancer = optlaws.inertial_loader(read_law(name))
     machine = _machine(balancer, executive_mass, executive_stroke, mass, stroke)
     if output is not None:
         save(output, {"law": balancer.law.to_dict()})
+    if plot is not None:
+        save_laws(plot, {"executive link": balancer.executive, "loader": balancer.law})
     if as_json:
         print_json(balancer.to_dict() | machine)
     else:

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import optlaws
-from optlaws.cli.options import AsJson
+from optlaws.cli.options import AsJson, Plot, check_files, save_picture
 from optlaws.cli.problem_options import asks_for_a_problem
 from optlaws.cli.show import print_json, show, table
 from optlaws.errors import InputError
@@ -22,6 +22,7 @@ def atlas(
     entries: dict[str, Any],
     *,
     file: Path = Path("results/atlas/atlas.csv"),
+    plot: Plot = None,
     as_json: AsJson = False,
 ) -> None:
     """Look a law up in the atlas: the nearest point that keeps what is asked, then the law as asked.
@@ -30,12 +31,15 @@ def atlas(
     ----------
     file
         The atlas; where it is not there the one that comes with optlaws.
+    plot
+        Draw the law as asked into this file, PNG or SVG.
     as_json
         Print one JSON object on stdout and nothing else.
     """
     from optlaws.files.packaged import or_packaged
     from optlaws.jobs.atlas import best_law, look_up
 
+    check_files(plot=plot)
     query: dict[str, Any] = {name: entries[name] for name in ("minimise", "order")}
     query |= {"B": entries.get("B"), "most": _greatest(entries)}
     table_of_laws = or_packaged(file)
@@ -43,6 +47,8 @@ def atlas(
     solution = best_law(table_of_laws, **query)
     exact = {name: getattr(solution.constants, name).value for name in ("B", "C", "D", "J")}
     exact["rms_c"] = solution.constants.rms_c
+    if plot is not None:
+        save_picture(plot, solution)
     if as_json:
         near = {"minimise": point.minimise, "B": point.B, "degree": point.degree, "constants": dict(point.constants)}
         law = solution.law.to_dict()

@@ -10,7 +10,7 @@ from typing import Any, Literal
 from cyclopts import Parameter
 
 import optlaws
-from optlaws.cli.options import AsJson, Whole, check_files, save_picture
+from optlaws.cli.options import AsJson, Plot, Whole, check_files, save_picture
 from optlaws.cli.problem_options import asks_for_a_problem
 from optlaws.cli.show import busy, print_json, show, table
 from optlaws.errors import InputError
@@ -64,7 +64,7 @@ class FileOptions:
     """
 
     csv: Path | None = None
-    plot: Path | None = None
+    plot: Plot = None
     to: Literal["c99", "iec-st"] | None = None
     within: float = 1e-3
     name: str = "Front"

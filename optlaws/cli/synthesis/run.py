@@ -21,7 +21,6 @@ def run(*files: Path, out: Path | None = None) -> None:
     """
     from optlaws.files import writing
     from optlaws.files.packaged import problem_file, problem_names
-    from optlaws.jobs import job
 
     if not files:
         raise InputError(f"name at least one problem file, or one of those packaged: {', '.join(problem_names())}")
@@ -32,13 +31,21 @@ def run(*files: Path, out: Path | None = None) -> None:
         if place is not None:
             writing.check_place(place / "results.md")
     for file, folder in sources:
-        with busy(f"{file}"):
-            written = job.run(file, out or folder)
-        for text in (w for w in written if w.suffix == ".md"):
-            lines = text.read_text(encoding="utf-8").splitlines()
-            show(*(line for line in lines if not line.startswith("<!--")))
-        for result in written:
-            print(_near(result))
+        done(file, out or folder)
+
+
+def done(file: Path, out: Path | None) -> list[Path]:
+    """Do the job of a problem file, print its tables and what was written, and return that."""
+    from optlaws.jobs import job
+
+    with busy(f"{file}"):
+        written = job.run(file, out)
+    for text in (w for w in written if w.suffix == ".md"):
+        lines = text.read_text(encoding="utf-8").splitlines()
+        show(*(line for line in lines if not line.startswith("<!--")))
+    for result in written:
+        print(_near(result))
+    return written
 
 
 def _near(file: Path) -> Path:

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 import optlaws
-from optlaws.cli.options import AsJson, check_files, save
+from optlaws.cli.options import AsJson, Plot, check_files, save, save_picture
 from optlaws.cli.problem_options import asks_for_a_problem
 from optlaws.cli.show import constants_table, print_json, show, table
 from optlaws.cli.timed_move import WITHOUT_MOVE, MoveOptions, answer
@@ -21,6 +21,7 @@ def solve(
     *,
     bound: Literal["quick", "tight"] = "quick",
     move: MoveOptions = WITHOUT_MOVE,
+    plot: Plot = None,
     as_json: AsJson = False,
     output: Path | None = None,
 ) -> None:
@@ -32,19 +33,23 @@ def solve(
         Where D is in the problem: tight searches all laws, for a bound that usually meets the objective.
     move
         What --fastest asks for.
+    plot
+        Draw the law with its bounds, or the fastest move with its limits, into this file, PNG or SVG.
     as_json
         Print one JSON object on stdout and nothing else.
     output
         Write the whole solution, with its problem and certificate, to this JSON file.
     """
-    check_files(output)
+    check_files(output, plot=plot)
     move.check()
     if move.fastest:
-        answer(optlaws.Problem.from_dict(entries), move, as_json=as_json, output=output)
+        answer(optlaws.Problem.from_dict(entries), move, as_json=as_json, output=output, plot=plot)
         return
     solution = optlaws.synthesize(optlaws.Problem.from_dict(entries), bound=bound)
     if output is not None:
         save(output, solution.to_dict())
+    if plot is not None:
+        save_picture(plot, solution)
     if as_json:
         print_json(_summary(solution))
     else:

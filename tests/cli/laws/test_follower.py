@@ -107,7 +107,7 @@ def test_the_spectrum_is_drawn(capsys: Capture, tmp_path: Path) -> None:
         (["cycloidal", "--frequency", "20", "--damping", "-1"], "damping must be at least 0"),
         (["cycloidal", "--frequency", "20", "--design-damping", "0.1"], "--design-damping needs --design-frequency"),
         (["cycloidal", "--frequency", "20", "--plot", "x.pdf", "--spectrum", "1", "2"], "ends in .png or .svg"),
-        (["cycloidal", "--frequency", "20", "--plot", "x.png"], "name both or neither"),
+        (["cycloidal", "--frequency", "20", "--spectrum", "2", "9"], "name the file too"),
         (["cycloidal", "--frequency", "20", "--plot", "x.png", "--spectrum", "9", "2"], "two rising numbers above 0"),
         (["missing.json", "--frequency", "20"], "missing.json"),
         (["cycloidal", "--frequencye", "20"], "--frequency"),
