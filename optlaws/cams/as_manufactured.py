@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from math import inf, pi, tau
 from typing import Any, Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
 from optlaws.cams.curves.arcs_and_chords import Arcs, arcs
 from optlaws.cams.curves.cam_files import polar
@@ -22,7 +23,7 @@ from optlaws.kept import kept_property
 from optlaws.laws.storage import PlainNumbers
 from optlaws.motion.quantities import positive_quantity, quantity
 from optlaws.numbers import Array, Quantity, whole
-from optlaws.numerics.branch_and_bound import Function, extremes
+from optlaws.numerics.branch_and_bound import FunctionOfEach, extremes_of_each
 from optlaws.numerics.interval import Interval
 from optlaws.numerics.taylor import Jet, Pair, turned, variable
 from optlaws.suggest import unknown_key
@@ -80,11 +81,14 @@ class ArcChain(CurveByJets):
 
 @dataclass(frozen=True)
 class WavyCurve(CurveAlongNormals):
-    """A curve with an error along its normals: a wave of so many periods a turn, amplitude in m, shift in rad."""
+    """A curve with an error along its normals: a wave of so many periods a turn, amplitude in m, shift in rad.
+
+    Shifts may be those of each place at which several such curves are looked at together.
+    """
 
     amplitude: float
     waves: int
-    shift: float
+    shift: float | Array
 
     @property
     def breaks(self) -> tuple[float, ...]:
@@ -93,10 +97,23 @@ class WavyCurve(CurveAlongNormals):
         return tuple(np.unique(np.concatenate([self.base.breaks, waves])).tolist())
 
     def jets(self, angle: Array | Interval, order: int, *, before: bool = False) -> Pair:
-        x, y = self.base.jets(angle, order, before=before)
-        along_x, along_y = self.base.normal_jets(angle, order, before=before)
+        (x, y), (along_x, along_y) = self._frame(angle, order, before=before)
         _, wave = (variable(angle, order) * float(self.waves) + self.shift).waves()
         return x + along_x * wave * self.amplitude, y + along_y * wave * self.amplitude
+
+    def _frame(self, angle: Array | Interval, order: int, *, before: bool) -> tuple[Pair, Pair]:
+        """Points and normals of the curve without the error, of places that are looked at for several shifts once."""
+        if isinstance(self.shift, float) or not isinstance(angle, Interval):
+            return self.base.frame_jets(angle, order, before=before)
+        _, first, back = np.unique(angle.middle + 1j * angle.radius, return_index=True, return_inverse=True)
+        point, normal = self.base.frame_jets(angle[first], order, before=before)
+        return _at(point, back), _at(normal, back)
+
+
+def _at(pair: Pair, which: NDArray[np.intp]) -> Pair:
+    """A pair of jets at some of its places, in some order."""
+    x, y = (Jet(tuple(term[which] for term in jet.terms)) for jet in pair)
+    return x, y
 
 
 def spline_through(points: Array) -> PiecewiseCurve:
@@ -132,16 +149,13 @@ class Following:
     curve: Outline
     phase: float = 0.0
     outside: float = 0.0
+    #: 1 where the curve runs counterclockwise, so that outward is to its right, else -1; by the curve unless given
+    outward: Any = None
 
-    @kept_property
-    def outward(self) -> float:
-        """1 where the curve runs counterclockwise, so that outward is to its right, else -1."""
-        places = np.linspace(self.curve.breaks[0], self.curve.breaks[-1], _SAMPLES)
-        x, y = self.curve(places).T
-        area = float(np.sum(x[:-1] * y[1:] - x[1:] * y[:-1]))
-        if area == 0.0:
-            raise InputError("the curve encloses nothing: no follower runs on it")
-        return 1.0 if area > 0.0 else -1.0
+    def __post_init__(self) -> None:
+        """See which side is outward."""
+        if self.outward is None:
+            object.__setattr__(self, "outward", _outward(self.curve))
 
     def at(self, places: Array, nu: int) -> tuple[Array, Array]:
         """The cam's angle at places of the curve, rad, and the derivative of order nu of the displacement by it."""
@@ -165,6 +179,14 @@ class Following:
         profile = shifted((point[0].cut(order), point[1].cut(order)), normal, -self.outside)
         state = self.contact.state(profile, normal)
         return (state.direction + self.phase - state.in_cam) * self.contact.turning, state.displacement
+
+
+def _outward(curve: Outline) -> float:
+    x, y = curve(np.linspace(curve.breaks[0], curve.breaks[-1], _SAMPLES)).T
+    area = float(np.sum(x[:-1] * y[1:] - x[1:] * y[:-1]))
+    if area == 0.0:
+        raise InputError("the curve encloses nothing: no follower runs on it")
+    return 1.0 if area > 0.0 else -1.0
 
 
 CURVES = ("profile", "pitch")
@@ -221,41 +243,58 @@ def run_against(cam: DiscCam, curve: Outline, outside: float = 0.0, *, leaps: bo
 
     With `leaps` those of the acceleration make the jerk infinite; without, it is the greatest between them.
     """
+    following = _following(cam, curve, outside)
+    _check_hollows(following)
+    return _runs(cam, [following], lambda _: following, leaps=leaps)[0]
+
+
+def _following(cam: DiscCam, curve: Outline, outside: float = 0.0) -> Following:
     if not cam.displacement.closed:
         raise InputError("a cam as made is run over a whole turn: make it of a Cycle, with dwells and the way back")
-    following = Following(cam.contact, curve, quantity(cam.phase, "angle", "phase"), outside)
-    edges = np.array(curve.breaks)
+    return Following(cam.contact, curve, quantity(cam.phase, "angle", "phase"), outside)
 
-    def off(places: Interval, order: int) -> Jet:
-        angle, displacement = following.derivative(places, 0, order)
+
+def _runs(
+    cam: DiscCam, followings: Sequence[Following], at: Callable[[NDArray[np.intp]], Following], *, leaps: bool
+) -> list[AsMade]:
+    """The motions of a cam's follower on curves that are alike; `at` is that of each place, by which curve it is of."""
+    edges = [np.array(following.curve.breaks) for following in followings]
+
+    def off(places: Interval, order: int, which: NDArray[np.intp]) -> Jet:
+        angle, displacement = at(which).derivative(places, 0, order)
         return displacement - cam.displacement.along(angle)
 
-    _check_hollows(following, edges)
-    deviation = _bound(off, edges, DEVIATIONS)
-    acceleration = _peak(following, edges, 2)
-    leap = _leap(following, edges, acceleration)
-    jerk = inf if leap and leaps else _peak(following, edges, 3)
-    return AsMade(deviation, acceleration, jerk, leap, acceleration / _meant(cam, 2), jerk / _meant(cam, 3))
+    def peaks(nu: int) -> list[float]:
+        return _bounds(
+            lambda places, order, which: at(which).derivative(places, nu, order)[1], edges, MANUFACTURED_PEAKS
+        )
+
+    deviations, accelerations = _bounds(off, edges, DEVIATIONS), peaks(2)
+    leaping = [_leap(*each) for each in zip(followings, edges, accelerations, strict=True)]
+    jerks = [inf] * len(edges) if leaps and any(leaping) else peaks(3)
+    means = [_meant(cam, nu) for nu in (2, 3)]
+    return [
+        AsMade(deviation, acceleration, jerk, leap, acceleration / means[0], jerk / means[1])
+        for deviation, acceleration, jerk, leap in zip(deviations, accelerations, jerks, leaping, strict=True)
+    ]
 
 
-def _check_hollows(following: Following, edges: Array) -> None:
+def _check_hollows(following: Following) -> None:
     """Refuse a curve along which the follower would turn back, as a roller does in hollows narrower than itself."""
+    edges = np.array(following.curve.breaks)
     places = edges[:-1, None] + np.multiply.outer(np.diff(edges), np.linspace(0.1, 0.9, 5))
     rates = np.asarray(following.jets(places, 1)[0].terms[1])
     if rates.min() * rates.max() <= 0.0:
         raise UnreachedProfileError(_UNREACHED)
 
 
-def _peak(following: Following, edges: Array, nu: int) -> float:
-    return _bound(lambda places, order: following.derivative(places, nu, order)[1], edges, MANUFACTURED_PEAKS)
-
-
-def _bound(function: Function, edges: Array, share: float) -> float:
-    """The greatest magnitude, as it is proven."""
-    bound = extremes(function, edges, share=share, parts=max(1, _CELLS // len(edges)), magnitude=True).bound
-    if bound == inf:
+def _bounds(functions: FunctionOfEach, edges: Sequence[Array], share: float) -> list[float]:
+    """The greatest magnitude of each function, as it is proven."""
+    parts = max(1, _CELLS // len(edges[0]))
+    bounds = [each.bound for each in extremes_of_each(functions, edges, share=share, parts=parts, magnitude=True)]
+    if inf in bounds:
         raise UnreachedProfileError(_UNREACHED)
-    return bound
+    return bounds
 
 
 def _leap(following: Following, edges: Array, size: float) -> float:
@@ -355,7 +394,16 @@ def with_profile_error(cam: DiscCam, error: Quantity, waves: Any) -> AsMade:  # 
     1.002
     """
     amplitude, count = positive_quantity(error, "length", "error"), whole(waves, "waves", least=1, most=_MOST_WAVES)
-    cases = [run_against(cam, WavyCurve(cam.profile, amplitude, count, shift), leaps=False) for shift in _SHIFTS]
+    curves = [WavyCurve(cam.profile, amplitude, count, shift) for shift in _SHIFTS]
+    followings = [_following(cam, curve) for curve in curves]
+    for following in followings:
+        _check_hollows(following)
+    shifts, outward = np.array(_SHIFTS), np.array([following.outward for following in followings])
+
+    def at(which: NDArray[np.intp]) -> Following:
+        return replace(followings[0], curve=replace(curves[0], shift=shifts[which]), outward=outward[which])
+
+    cases = _runs(cam, followings, at, leaps=False)
     return AsMade(*(max(getattr(case, name) for case in cases) for name in AsMade.__dataclass_fields__))
 
 

@@ -8,9 +8,9 @@ vanishes. So nothing rests on samples: a function comes as a map from intervals 
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Generator, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple, TypeAlias
+from typing import Any, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,8 +34,15 @@ from optlaws.tolerances import (
 #: of places, as intervals, and of an order: the Taylor terms of a function anywhere in each, up to that order
 Function: TypeAlias = Callable[[Interval, int], Jet]
 
+#: the same of several functions: of places, an order, and of which function each place is one
+FunctionOfEach: TypeAlias = Callable[[Interval, int, NDArray[np.intp]], Jet]
+
 #: a value and where it is
 Valued: TypeAlias = tuple[float, float]
+
+_Found = TypeVar("_Found")
+#: what asks for terms of a function, at places and up to an order, until it has found something
+_Asking: TypeAlias = Generator[tuple[Interval, int], Jet, _Found]
 
 _ROUNDS = 80
 _STEPS = 2
@@ -115,24 +122,95 @@ def extremes(
     >>> round(enclosure.most, 9), round(enclosure.most_at, 6), 0.0 <= enclosure.high - enclosure.most < 1e-8
     (1.0, 1.570796, True)
     """
-    search = _Search(function, np.asarray(edges, dtype=np.float64), order)
-    low, high = search.first(parts)
+    options = _Options(share, parts, order, enough, magnitude=magnitude)
+    return _answered(_found(np.asarray(edges, dtype=np.float64), options), function)
+
+
+def extremes_of_each(
+    function: FunctionOfEach,
+    edges: Sequence[Any],
+    *,
+    share: float = 1e-9,
+    parts: int = 1,
+    magnitude: bool = False,
+) -> list[Extremes]:
+    """The extremes of several functions that are alike, each by its own cells, which are looked at in one go.
+
+    What `extremes` finds of each function alone, to the last digit; `edges` are those of each.
+
+    Examples
+    --------
+    >>> from optlaws.numerics.taylor import variable
+    >>> def waves(x, order, which):
+    ...     return (variable(x, order) * np.array([1.0, 2.0])[which]).waves()[0]
+    >>> [round(each.most_at, 6) for each in extremes_of_each(waves, [[0.0, 2.0], [0.0, 2.0]])]
+    [1.570796, 0.785398]
+    """
+    options = _Options(share, parts, magnitude=magnitude)
+    asking = [_found(np.asarray(each, dtype=np.float64), options) for each in edges]
+    requests = {i: next(search) for i, search in enumerate(asking)}
+    found: dict[int, Extremes] = {}
+    while requests:
+        order = next(iter(requests.values()))[1]
+        together = {i: places for i, (places, asked) in requests.items() if asked == order}
+        counts = [len(places.middle) for places in together.values()]
+        places = Interval(*(np.concatenate(ends) for ends in zip(*map(_ends, together.values()), strict=True)))
+        terms = function(places, order, np.repeat(list(together), counts)).terms
+        known = [_as_interval(term, sum(counts)) for term in terms]
+        stop = 0
+        for i, count in zip(together, counts, strict=True):
+            start, stop = stop, stop + count
+            try:
+                requests[i] = asking[i].send(Jet(tuple(term[start:stop] for term in known)))
+            except StopIteration as done:
+                del requests[i]
+                found[i] = done.value
+    return [found[i] for i in range(len(edges))]
+
+
+def _answered(asking: _Asking[_Found], function: Function) -> _Found:
+    request = next(asking)
+    while True:
+        try:
+            request = asking.send(function(*request))
+        except StopIteration as done:
+            found: _Found = done.value
+            return found
+
+
+def _ends(places: Interval) -> tuple[Array, Array]:
+    return places.middle, places.radius
+
+
+class _Options(NamedTuple):
+    """What `extremes` is asked for, by the names there."""
+
+    share: float
+    parts: int
+    order: int = 2
+    enough: float = np.inf
+    magnitude: bool = False
+
+
+def _found(edges: Array, options: _Options) -> _Asking[Extremes]:
+    search = _Search(edges, options.order)
+    low, high = search.first(options.parts)
     for _ in range(_ROUNDS):
-        cells = search.look(low, high)
-        slack = max(share * max(_finite(search.least), _finite(search.most)), SMALLEST_SIZE) + cells.rounding
+        cells = yield from search.look(low, high)
+        slack = max(options.share * max(_finite(search.least), _finite(search.most)), SMALLEST_SIZE) + cells.rounding
         least, most = search.least, search.most
-        if magnitude:
+        if options.magnitude:
             least, most = min(least, -most), max(most, -least)
         beyond = (cells.top > most + slack) | (cells.bottom < least - slack)
         beyond &= cells.half > SMALLEST_CELL * (np.abs(cells.middle) + cells.half)
         search.take(cells, ~beyond)
         low, high = search.split(cells, beyond)
-        if not 0 < len(low) <= _MOST or max(-search.least, search.most) > enough:
+        if not 0 < len(low) <= _MOST or max(-search.least, search.most) > options.enough:
             break
     if len(low):
-        cells = search.look(low, high)
+        cells = yield from search.look(low, high)
         search.take(cells, np.ones(len(low), dtype=bool))
-    return search.result(polished=enough == np.inf and not magnitude)
+    return (yield from search.result(polished=options.enough == np.inf and not options.magnitude))
 
 
 @dataclass(frozen=True)
@@ -153,8 +231,8 @@ class _Cells:
 class _Search:
     """The state of a search: the extremes that are reached, and bounds from the cells that are done with."""
 
-    def __init__(self, function: Function, edges: Array, order: int) -> None:
-        self.function, self.edges, self.order = function, edges, order
+    def __init__(self, edges: Array, order: int) -> None:
+        self.edges, self.order = edges, order
         self.least, self.most = np.inf, -np.inf
         self.bottom, self.top = np.inf, -np.inf
         self.lows: list[tuple[Array, Array]] = []
@@ -167,12 +245,12 @@ class _Search:
         low, high = places[:, :-1].ravel(), places[:, 1:].ravel()
         return low[high > low], high[high > low]
 
-    def look(self, low: Array, high: Array) -> _Cells:
+    def look(self, low: Array, high: Array) -> _Asking[_Cells]:
         """The bounds of the function in cells; extremes that it reaches in them are stored."""
         count, middle = len(low), 0.5 * (low + high)
         half = np.maximum(high - middle, middle - low) * (1.0 + 4.0 * ROUNDOFF)
         places = Interval(np.concatenate([middle, middle]), np.concatenate([np.zeros(count), half]))
-        terms = [_as_interval(term, 2 * count) for term in self.function(places, self.order).terms]
+        terms = [_as_interval(term, 2 * count) for term in (yield places, self.order).terms]
         value, rate, at, slope = terms[0], terms[1], terms[0][:count], terms[1][:count]
         bend, swing = _bends([term[:count] for term in terms[2:-1]] + [terms[-1][count:]], half)
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
@@ -234,47 +312,50 @@ class _Search:
         real = others > some
         return some[real], others[real]
 
-    def result(self, *, polished: bool) -> Extremes:
+    def result(self, *, polished: bool) -> _Asking[Extremes]:
         """The extremes and their bounds when the search ends."""
         if not np.isfinite([self.least, self.most]).all():
             raise SolverFailure(
                 "a function has no finite value where it is looked at: nothing is known of its extremes"
             )
-        known = self._lowest(TIE)
-        least, most = self._first_of_equals(known) if polished else known
+        known = yield from self._lowest(TIE)
+        least, most = (yield from self._first_of_equals(known)) if polished else known
         return Extremes(*least, min(self.bottom, least[0]), -most[0], most[1], max(self.top, -most[0]))
 
-    def _first_of_equals(self, known: tuple[Valued, Valued]) -> tuple[Valued, Valued]:
+    def _first_of_equals(self, known: tuple[Valued, Valued]) -> _Asking[tuple[Valued, Valued]]:
         """The extremes by Newton's steps; of those as good as one another the first, however near a sample came."""
-        early, late = self._lowest(NEAR_TIE), self._polished(known)
+        early = yield from self._lowest(NEAR_TIE)
+        late = yield from self._polished(known)
         if early == known:
             return late
         allowed = EQUAL_EXTREMES * max(abs(self.least), abs(self.most))
-        pairs = zip(self._polished(early), late, strict=True)
+        pairs = zip((yield from self._polished(early)), late, strict=True)
         least, most = (first if first[0] <= best[0] + allowed else best for first, best in pairs)
         return least, most
 
-    def _lowest(self, tie: float) -> tuple[Valued, Valued]:
+    def _lowest(self, tie: float) -> _Asking[tuple[Valued, Valued]]:
         """The first of the least values, and of the greatest with the opposite sign, and where they are."""
         whole, tie = float(self.edges[-1] - self.edges[0]), tie * max(abs(self.least), abs(self.most))
         lowest = _first(self.lows, self.least + tie, whole), _first(self.highs, -self.most + tie, whole)
-        return self._on_edge(lowest[0], 1.0), self._on_edge(lowest[1], -1.0)
+        least = yield from self._on_edge(lowest[0], 1.0)
+        return least, (yield from self._on_edge(lowest[1], -1.0))
 
-    def _on_edge(self, lowest: Valued, sign: float) -> Valued:
+    def _on_edge(self, lowest: Valued, sign: float) -> _Asking[Valued]:
         """The first edge beside a lowest value that is as good: from there on a function may be flat."""
         edges = self.edges[np.abs(self.edges - lowest[1]) <= EXTREME_WIDTH * float(self.edges[-1] - self.edges[0])]
         if not edges.size:
             return lowest
-        value = _as_interval(self.function(Interval(edges, np.zeros(edges.shape)), 0).terms[0], len(edges)) * sign
+        terms = (yield Interval(edges, np.zeros(edges.shape)), 0).terms
+        value = _as_interval(terms[0], len(edges)) * sign
         good = np.flatnonzero(value.high <= lowest[0] + EQUAL_EXTREMES * max(abs(self.least), abs(self.most)))
         return (float(value.high[good[0]]), float(edges[good[0]])) if good.size else lowest
 
-    def _polished(self, known: tuple[Valued, Valued]) -> tuple[Valued, Valued]:
+    def _polished(self, known: tuple[Valued, Valued]) -> _Asking[tuple[Valued, Valued]]:
         """A place nearer to where the slope vanishes, where the value is no worse there."""
         least, most = known
         for _ in range(_STEPS):
             places = np.array([least[1], most[1]])
-            terms = self.function(Interval(places, np.zeros(2)), 2).terms
+            terms = (yield Interval(places, np.zeros(2)), 2).terms
             slope, bend = (_as_interval(term, 2).middle for term in terms[1:3])
             with np.errstate(divide="ignore", invalid="ignore"):
                 moved = places - 0.5 * slope / bend
@@ -284,7 +365,7 @@ class _Search:
             if not inside.any():
                 break
             places = np.where(inside, moved, 0.5 * (self.edges[part] + self.edges[part + 1]))
-            value = _as_interval(self.function(Interval(places, np.zeros(2)), 0).terms[0], 2)
+            value = _as_interval((yield Interval(places, np.zeros(2)), 0).terms[0], 2)
             if inside[0] and value.high[0] <= least[0]:
                 least = float(value.high[0]), float(places[0])
             if inside[1] and -value.low[1] <= most[0]:

@@ -197,6 +197,10 @@ class PlaneCurve(CurveByAngle):
         length = (x * x + y * y).root()
         return y / length * -self.turning, x / length * self.turning
 
+    def frame_jets(self, angle: Array | Interval, order: int, *, before: bool = False) -> tuple[Pair, Pair]:
+        """Points and unit normals with their derivatives up to an order."""
+        return self.jets(angle, order, before=before), self.normal_jets(angle, order, before=before)
+
 
 @dataclass(frozen=True)
 class CurveAlongNormals(PlaneCurve):
@@ -227,14 +231,18 @@ class OffsetCurve(CurveAlongNormals):
     distance: float
 
     def jets(self, angle: Array | Interval, order: int, *, before: bool = False) -> Pair:
-        x, y = self.base.jets(angle, order, before=before)
         if self.distance == 0.0:
-            return x, y
-        along_x, along_y = self.normal_jets(angle, order, before=before)
-        return x + along_x * self.distance, y + along_y * self.distance
+            return self.base.jets(angle, order, before=before)
+        return self.frame_jets(angle, order, before=before)[0]
 
     def normal_jets(self, angle: Array | Interval, order: int, *, before: bool = False) -> Pair:
         return self.base.normal_jets(angle, order, before=before)
+
+    def frame_jets(self, angle: Array | Interval, order: int, *, before: bool = False) -> tuple[Pair, Pair]:
+        (x, y), normal = self.base.frame_jets(angle, order, before=before)
+        if self.distance == 0.0:
+            return (x, y), normal
+        return (x + normal[0] * self.distance, y + normal[1] * self.distance), normal
 
     def offset(self, distance: float) -> OffsetCurve:
         return OffsetCurve(self.base, self.distance + finite(distance, "distance"))

@@ -5,8 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from math import exp, log, sqrt
 
-from scipy.optimize import brentq
-
 from optlaws.synthesis.least_time.fastest_law import law_in_time, unsettled
 from optlaws.synthesis.least_time.least_time import LeastTime, limit_of_all_laws
 from optlaws.synthesis.least_time.move_limits import TimedMove
@@ -50,6 +48,8 @@ class _Trials:
     def root(self, low: float, high: float) -> float:
         """The least time tried in which a law keeps the limits, once it is bracketed, by logarithms."""
         if low < high:
+            from scipy.optimize import brentq
+
             brentq(self.excess, low, high, xtol=0.1 * LEAST_TIME_MET)
         return min(time for time, solution in self.solutions.items() if solution.objective <= 1.0 + FEASIBILITY)
 
