@@ -75,6 +75,33 @@ TURN = 2.0 * pi
 #: the displacement of a motion and its derivatives, as tables and pictures call them
 QUANTITIES = ("position", "velocity", "acceleration", "jerk")
 
+#: usual units by what they measure, and how many of SI they are: they are read without pint, which takes long to load
+_USUAL: dict[str, dict[str, float]] = {
+    "length": {"m": 1.0, "cm": 0.01, "mm": 0.001, "um": 1e-6, "µm": 1e-6, "in": 0.0254},
+    "angle": {"rad": 1.0, "deg": pi / 180, "°": pi / 180, "turn": TURN, "rev": TURN},
+    "time": {"s": 1.0, "ms": 0.001, "min": 60.0},
+    "frequency": {"Hz": 1.0, "1/s": 1.0},
+    "velocity": {"m/s": 1.0, "mm/s": 0.001},
+    "angular velocity": {"rad/s": 1.0, "deg/s": pi / 180, "rpm": TURN / 60, "rev/s": TURN},
+    "acceleration": {"m/s^2": 1.0, "mm/s^2": 0.001},
+    "angular acceleration": {"rad/s^2": 1.0, "deg/s^2": pi / 180},
+    "jerk": {"m/s^3": 1.0, "mm/s^3": 0.001},
+    "angular jerk": {"rad/s^3": 1.0},
+    "mass": {"kg": 1.0, "g": 0.001},
+    "moment of inertia": {"kg m^2": 1.0},
+    "force": {"N": 1.0, "kN": 1000.0},
+    "torque": {"N m": 1.0, "Nm": 1.0},
+    "power": {"W": 1.0, "kW": 1000.0},
+    "pressure": {"MPa": 1e6, "GPa": 1e9},
+    "stiffness": {"N/m": 1.0, "N/mm": 1000.0},
+    "torsional stiffness": {"N m/rad": 1.0},
+    "viscous friction": {"N s/m": 1.0},
+    "rotary viscous friction": {"N m s/rad": 1.0},
+}
+USUAL_UNITS = {unit: (dimension, factor) for dimension, units in _USUAL.items() for unit, factor in units.items()}
+#: the dimensions of one unit, between which nothing but what is meant decides
+_WORK = {"torque", "energy"}
+
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?)(?:/([1-9]\d{0,8})(?!\d))?\s*(.*)")
 _UNIT = re.compile(r"[A-Za-zµ°_]+(?:\s*(?:\^|\*\*)\s*-?[1-4])?")
 _LONGEST = 60
@@ -277,7 +304,7 @@ def _parts(value: Any, dimension: str, name: str) -> tuple[float, str]:  # noqa:
     number, unit = _number(match), match[3].strip()
     if not isfinite(number):
         raise InputError(f"{name} must be finite, got {shortened(value)}")
-    if _known_unit(unit) is None:
+    if unit not in USUAL_UNITS and _known_unit(unit) is None:
         raise InputError(f"{_asks(dimension, name)}, but the unit of {shortened(value)} is not known")
     return number, unit
 
@@ -303,6 +330,9 @@ def _number(match: re.Match[str]) -> float:
 @lru_cache(maxsize=256)
 def _si_factor(unit: str, dimension: str) -> float | None:
     """How many units of SI a known unit is, None where it is of another dimension; 1/min of a speed counts turns."""
+    if unit in USUAL_UNITS:
+        of, factor = USUAL_UNITS[unit]
+        return factor if of == dimension or {of, dimension} == _WORK else None
     si, meant = _registry().parse_units(DIMENSIONS[dimension][0]), _known_unit(unit)
     if dimension == "angular velocity" and meant == _registry().parse_units("1 / minute"):
         meant *= _registry().parse_units("turn")

@@ -31,7 +31,7 @@ from optlaws import (
 )
 from tests.internals.files import reading
 from tests.internals.jobs import read_of_cycle_entries as read
-from tests.internals.motion import DIMENSIONS, either, quantity
+from tests.internals.motion import DIMENSIONS, USUAL_UNITS, either, quantity
 
 
 @pytest.mark.parametrize(
@@ -60,6 +60,21 @@ from tests.internals.motion import DIMENSIONS, either, quantity
 )
 def test_quantities_in_si_units(text: str, dimension: str, value: float) -> None:
     assert quantity(text, dimension, "it") == pytest.approx(value, rel=1e-14)
+
+
+@pytest.mark.parametrize("unit", sorted(USUAL_UNITS))
+def test_usual_units_are_what_pint_says(unit: str) -> None:
+    """The units that are read without pint are of the same dimensions and size as it has them, to the last digit."""
+
+    def read_as(text: str, dimension: str) -> float | None:
+        try:
+            return quantity(text, dimension, "it")
+        except InputError:
+            return None
+
+    # with a second over a second beside it no unit is a usual one
+    for dimension in DIMENSIONS:
+        assert read_as(f"1 {unit}", dimension) == read_as(f"1 {unit} * s / s", dimension)
 
 
 def test_every_example_of_an_error_is_of_its_dimension() -> None:
