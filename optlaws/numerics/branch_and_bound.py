@@ -40,9 +40,9 @@ FunctionOfEach: TypeAlias = Callable[[Interval, int, NDArray[np.intp]], Jet]
 #: a value and where it is
 Valued: TypeAlias = tuple[float, float]
 
-_Found = TypeVar("_Found")
-#: what asks for terms of a function, at places and up to an order, until it has found something
-_Asking: TypeAlias = Generator[tuple[Interval, int], Jet, _Found]
+_Result = TypeVar("_Result")
+#: what asks for terms of a function, at places and up to an order, until it has a result
+_Asking: TypeAlias = Generator[tuple[Interval, int], Jet, _Result]
 
 _ROUNDS = 80
 _STEPS = 2
@@ -123,7 +123,7 @@ def extremes(
     (1.0, 1.570796, True)
     """
     options = _Options(share, parts, order, enough, magnitude=magnitude)
-    return _answered(_found(np.asarray(edges, dtype=np.float64), options), function)
+    return _answered(_enclosing(np.asarray(edges, dtype=np.float64), options), function)
 
 
 def extremes_of_each(
@@ -147,12 +147,12 @@ def extremes_of_each(
     [1.570796, 0.785398]
     """
     options = _Options(share, parts, magnitude=magnitude)
-    asking = [_found(np.asarray(each, dtype=np.float64), options) for each in edges]
-    requests = {i: next(search) for i, search in enumerate(asking)}
-    found: dict[int, Extremes] = {}
+    searches = [_enclosing(np.asarray(each, dtype=np.float64), options) for each in edges]
+    requests = {i: next(search) for i, search in enumerate(searches)}
+    results: dict[int, Extremes] = {}
     while requests:
         order = next(iter(requests.values()))[1]
-        together = {i: places for i, (places, asked) in requests.items() if asked == order}
+        together = {i: places for i, (places, its_order) in requests.items() if its_order == order}
         counts = [len(places.middle) for places in together.values()]
         places = Interval(*(np.concatenate(ends) for ends in zip(*map(_ends, together.values()), strict=True)))
         terms = function(places, order, np.repeat(list(together), counts)).terms
@@ -161,21 +161,21 @@ def extremes_of_each(
         for i, count in zip(together, counts, strict=True):
             start, stop = stop, stop + count
             try:
-                requests[i] = asking[i].send(Jet(tuple(term[start:stop] for term in known)))
+                requests[i] = searches[i].send(Jet(tuple(term[start:stop] for term in known)))
             except StopIteration as done:
                 del requests[i]
-                found[i] = done.value
-    return [found[i] for i in range(len(edges))]
+                results[i] = done.value
+    return [results[i] for i in range(len(edges))]
 
 
-def _answered(asking: _Asking[_Found], function: Function) -> _Found:
-    request = next(asking)
+def _answered(search: _Asking[_Result], function: Function) -> _Result:
+    request = next(search)
     while True:
         try:
-            request = asking.send(function(*request))
+            request = search.send(function(*request))
         except StopIteration as done:
-            found: _Found = done.value
-            return found
+            result: _Result = done.value
+            return result
 
 
 def _ends(places: Interval) -> tuple[Array, Array]:
@@ -192,7 +192,7 @@ class _Options(NamedTuple):
     magnitude: bool = False
 
 
-def _found(edges: Array, options: _Options) -> _Asking[Extremes]:
+def _enclosing(edges: Array, options: _Options) -> _Asking[Extremes]:
     search = _Search(edges, options.order)
     low, high = search.first(options.parts)
     for _ in range(_ROUNDS):
