@@ -13,6 +13,7 @@ import msgspec
 from starlette.applications import Starlette
 from starlette.datastructures import Headers, MutableHeaders
 from starlette.middleware import Middleware
+from starlette.middleware.gzip import GZipMiddleware
 from starlette.requests import Request
 from starlette.responses import PlainTextResponse, Response
 from starlette.routing import Route
@@ -52,10 +53,11 @@ def application(start: dict[str, Any], workers: Workers | None = None) -> Starle
         yield
         answering.close()
 
+    packed = [Middleware(GZipMiddleware)]
     routes = [
-        Route("/api/start", lambda _: _json(first)),
+        Route("/api/start", lambda _: _json(first), middleware=packed),
         *(Route(f"/api/{name}", _asking(name, answering), methods=["POST"]) for name in QUESTIONS),
-        *(Route("/" if name == "index.html" else f"/{name}", _file(name)) for name in page()),
+        *(Route("/" if name == "index.html" else f"/{name}", _file(name), middleware=packed) for name in page()),
     ]
     return Starlette(routes=routes, middleware=[Middleware(Guard)], lifespan=ready)
 

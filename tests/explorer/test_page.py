@@ -290,11 +290,11 @@ def test_a_cam_turns_and_is_refused_where_there_is_none(page: Page, served: Serv
     page.get_by_label("radius", exact=True).fill("59 mm")
     settle(page)
     assert "undercut at" in page.locator("#cam-trust").inner_text().lower()
-    page.get_by_label("base radius").fill("18 kg")
+    page.get_by_label("prime radius").fill("18 kg")
     settle(page)
     assert "prime_radius" in page.locator("#cam-trust").inner_text()
     assert page.locator("#cam-drawing svg, #cam-curves .line").count() == 0
-    page.get_by_label("base radius").fill("60 mm")
+    page.get_by_label("prime radius").fill("60 mm")
     page.get_by_label("kind of follower").select_option("oscillating roller")
     settle(page)
     assert page.locator(".arm").count() == 1

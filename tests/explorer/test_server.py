@@ -119,3 +119,13 @@ def test_without_the_extra_the_remedy_is_told() -> None:
         pytest.raises(InputError, match=r"pip install 'optlaws\[explore\]'"),
     ):
         server({})
+
+
+def test_the_first_page_is_small_where_it_is_packed(served: Server) -> None:
+    first = [name for name in page() if not name.startswith(("proof", "check_proof"))]
+    packed = 0
+    for path in ("api/start", *(name.replace("index.html", "") for name in first)):
+        response, said = served.send("GET", f"/{path}", Accept_Encoding="gzip")
+        packed += len(said)
+        assert response.headers["Content-Encoding"] == "gzip" or len(said) < 500
+    assert packed < 100_000

@@ -1,8 +1,13 @@
-// The cam and its follower as they turn: profile, pitch curve, cutter path, roller or face, arm or slide.
+// The cam and its follower as they turn: profile, pitch curve, cutter path, roller or face, arm or slide; with their
+// dimensions, and the force at the contact where it is known.
 
+import { label } from "./axes.js";
 import { path, svg } from "./svg.js";
 
 const ROOM = 1.12;
+const CIRCLES = { "prime circle": -50, "base circle": -130 }; // where each is named, degrees
+const LONGEST = 0.4; // of the cam's size, the arrow of the greatest force
+const LINE = 14;
 
 export class Mechanism {
   #root;
@@ -10,6 +15,11 @@ export class Mechanism {
   #angle = 0;
   #cam = null;
   #follower = null;
+  #drawing = null;
+  #written = svg("g", { class: "dimensions", "aria-hidden": "true" });
+  #force = null;
+  #place = null;
+  measured = true;
 
   constructor(root) {
     this.#root = root;
@@ -18,6 +28,19 @@ export class Mechanism {
 
   show(answer) {
     this.#shown = answer.refused ? null : answer;
+    this.#force = null;
+    this.#draw();
+  }
+
+  /** The force at the contact over the turn: a panel of its values. */
+  bear(force) {
+    this.#force = force;
+    this.turn(this.#angle);
+  }
+
+  /** With or without dimensions. */
+  measure(measured) {
+    this.measured = measured;
     this.#draw();
   }
 
@@ -27,6 +50,55 @@ export class Mechanism {
     if (!this.#shown || !this.#cam) return;
     this.#cam.setAttribute("transform", `rotate(${this.#shown.turning * angle})`);
     this.#follower.replaceChildren(...this.#parts());
+    this.#written.replaceChildren(...this.#dimensions(), ...this.#arrow());
+    const sizes = this.#shown.dimensions.map(({ name, text }) => `${name} ${text}`);
+    const force = this.#forceHere;
+    this.#drawing.setAttribute("aria-label", `The cam and its follower at ${label(Math.round(angle))} deg: ${[...sizes, ...(force === null ? [] : [`contact force ${label(force)} N`])].join(", ")}`);
+  }
+
+  get #step() {
+    return Math.round(this.#angle) % (this.#shown.frames.centre.length - 1);
+  }
+
+  get #forceHere() {
+    return this.#force?.values[this.#step] ?? null;
+  }
+
+  /** Circles with their radii, and the other sizes in a corner. */
+  #dimensions() {
+    if (!this.measured) return [];
+    const { dimensions } = this.#shown;
+    const [x, y] = this.#place([0, 0]);
+    const circles = dimensions.filter(({ name }) => name in CIRCLES).flatMap(({ name, value, text }) => {
+      const way = (CIRCLES[name] * Math.PI) / 180;
+      const at = this.#place([value * Math.cos(way), value * Math.sin(way)]);
+      const end = at[0] > x ? "start" : "end";
+      const far = [at[0] + (end === "start" ? 22 : -22), at[1] + 26];
+      return [
+        svg("circle", { class: "dimension", cx: x, cy: y, r: Math.hypot(at[0] - x, at[1] - y) }),
+        svg("path", { class: "dimension leader", d: path([[x, y], at, far]) }),
+        svg("text", { x: far[0] + (end === "start" ? 4 : -4), y: far[1] + 4, "text-anchor": end, text: `${name} R ${text}` }),
+      ];
+    });
+    const others = dimensions.filter(({ name }) => !(name in CIRCLES)).map(({ name, text }, i) => svg("text", { x: 4, y: 14 + LINE * i, text: `${name} ${text}` }));
+    return [...circles, ...others];
+  }
+
+  /** The force of the cam on the follower, along the normal at the contact. */
+  #arrow() {
+    const force = this.#forceHere;
+    if (force === null) return [];
+    const { frames, follower, curves } = this.#shown;
+    const most = Math.max(...this.#force.values.map((value) => Math.abs(value ?? 0)));
+    const size = Math.max(...curves.profile.map(([x, y]) => Math.hypot(x, y)));
+    const [contact, [ex, ey], centre] = [frames.contact[this.#step], frames.edge[this.#step], frames.centre[this.#step]];
+    const outward = follower.roller === null ? contact : [centre[0] - contact[0], centre[1] - contact[1]];
+    const sign = Math.sign(-ey * outward[0] + ex * outward[1]) || 1;
+    const length = (LONGEST * size * force) / (most || 1);
+    const [from, to] = [contact, [contact[0] - sign * ey * length, contact[1] + sign * ex * length]].map((one) => this.#place(one));
+    const way = Math.atan2(to[1] - from[1], to[0] - from[0]);
+    const barb = (turn) => [to[0] - 9 * Math.cos(way + turn), to[1] - 9 * Math.sin(way + turn)];
+    return [svg("path", { class: "force", d: path([from, to, null, barb(0.4), to, barb(-0.4)]) }), svg("text", { class: "force-value", x: to[0] + 8, y: to[1], text: `${label(Number(force.toPrecision(4)))} N` })];
   }
 
   #draw() {
@@ -43,15 +115,18 @@ export class Mechanism {
     const scale = Math.min(width / (2 * reach), height / (high - low));
     this.#cam = svg("g", {}, ...Object.entries(curves).map(([name, points]) => svg("path", { class: `cam-${name}`, d: `${path(points, 4)}Z` })), svg("circle", { class: "shaft", r: 0.06 * reach }), svg("line", { class: "key", x1: 0, y1: 0, x2: 0.06 * reach, y2: 0 }));
     this.#follower = svg("g", { class: "follower" });
+    const [middle, ground] = [width / 2, (height + scale * (high + low)) / 2];
+    this.#place = ([x, y]) => [middle + scale * x, ground - scale * y];
     // y upward, as in drawings of machines
-    const world = svg("g", { transform: `translate(${width / 2} ${(height + scale * (high + low)) / 2}) scale(${scale} ${-scale})` }, this.#cam, this.#follower);
-    this.#root.replaceChildren(svg("svg", { width, height, role: "img", "aria-label": "The cam and its follower" }, world));
+    const world = svg("g", { transform: `translate(${middle} ${ground}) scale(${scale} ${-scale})` }, this.#cam, this.#follower);
+    this.#drawing = svg("svg", { width, height, viewBox: `0 0 ${width} ${height}`, role: "img" }, world, this.#written);
+    this.#root.replaceChildren(this.#drawing);
     this.turn(this.#angle);
   }
 
   #parts() {
     const { frames, follower, curves } = this.#shown;
-    const at = Math.round(this.#angle) % (frames.centre.length - 1);
+    const at = this.#step;
     const [centre, contact, edge] = [frames.centre[at], frames.contact[at], frames.edge[at]];
     const size = Math.max(...curves.profile.map(([x, y]) => Math.hypot(x, y)));
     const line = (name, [x1, y1], [x2, y2]) => svg("line", { class: name, x1, y1, x2, y2 });

@@ -77,6 +77,7 @@ def _view(findings: Findings) -> dict[str, Any]:
         "frames": _frames(cam, angles),
         "turning": cam.contact.turning,
         "follower": _follower(cam),
+        "dimensions": _dimensions(spec, cam),
         "panels": _panels(spec, cam, angles),
         "across": "angle of the cam, deg",
         "segments": [],
@@ -114,6 +115,25 @@ def _follower(cam: DiscCam) -> dict[str, Any]:
         "roller": _MILLI * roller if roller else None,
         "pivot": None if pivot is None else _MILLI * pivot,
     }
+
+
+def _dimensions(spec: CamProblemFile, cam: DiscCam) -> list[dict[str, Any]]:
+    """Circles of the drawing and lengths of the follower, mm, each with its text."""
+    prime = quantity(cam.prime_radius, "length", "prime_radius")
+    lengths = {"prime circle": prime, "base circle": cam.base_radius} if cam.contact.roller else {"base circle": prime}
+    lengths |= {"roller": cam.contact.roller} if cam.contact.roller else {}
+    if spec.cutter_radius is not None:
+        lengths["cutter"] = quantity(spec.cutter_radius, "length", "cutter_radius")
+    if cam.contact.pivot is not None:
+        lengths["pivot"] = cam.contact.pivot
+    for name in ("offset", "arm", "face_offset"):
+        given = getattr(cam.follower, name, None)
+        if given is not None and quantity(given, "length", name):
+            lengths[name.replace("_", " ")] = quantity(given, "length", name)
+    return [
+        {"name": name, "value": _MILLI * length, "text": f"{digits(_MILLI * length, 6)} mm"}
+        for name, length in lengths.items()
+    ]
 
 
 def _panels(spec: CamProblemFile, cam: DiscCam, angles: Array) -> list[dict[str, Any]]:

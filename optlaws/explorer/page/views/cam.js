@@ -90,6 +90,7 @@ export class View {
   #bear({ panels, facts }) {
     element("cam-trust").querySelector(".loads")?.remove();
     if (facts.length) element("cam-trust").querySelector(".sizes")?.before(html("p", { class: "facts loads", text: facts.join(" · ") }));
+    this.#mechanism.bear(panels.find(({ name }) => name === "contact force") ?? null);
     if (this.#answer && !this.#answer.refused) this.#motion.show({ ...this.#answer, panels: [...this.#answer.panels, ...panels] });
   }
 
@@ -153,7 +154,9 @@ export class View {
     this.#dial = html("input", { type: "range", min: 0, max: 360, step: 1, value: 0, "aria-label": "Angle of the cam, degrees" });
     this.#dial.addEventListener("input", () => this.#motion.cursor.place(Number(this.#dial.value)));
     this.#play = html("button", { type: "button", text: "Play", onclick: () => (this.#playing === null ? this.#start() : this.#stop()) });
-    element("cam-turning").replaceChildren(this.#play, this.#dial);
+    const measure = html("input", { type: "checkbox", checked: true });
+    measure.addEventListener("change", () => this.#mechanism.measure(measure.checked));
+    element("cam-turning").replaceChildren(this.#play, this.#dial, html("label", { class: "switch" }, measure, "dimensions"));
     element("cam-turning").after(this.#read);
   }
 

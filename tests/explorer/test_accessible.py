@@ -1,0 +1,64 @@
+"""Every view of the page against WCAG 2.2 AA, as axe-core reads it, light and dark."""
+
+from __future__ import annotations
+
+from functools import cache
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+from tests.explorer.conftest import without_browser
+from tests.explorer.talk import OPTIMAL, Server
+from tests.explorer.test_page import go, settle
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
+
+RULES = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa"]
+RUN = "rules => axe.run(document, {runOnly: {type: 'tag', values: rules}, resultTypes: ['violations']})"
+LAWS = [OPTIMAL, {"name": "modified sine"}]
+
+
+@cache
+def axe() -> str:
+    """The text of axe-core."""
+    found = find_spec("axe_playwright_python")
+    if found is None or found.origin is None:
+        without_browser("no axe-core: axe-playwright-python is not installed")
+    return (Path(found.origin).parent / "axe.min.js").read_text("utf-8")
+
+
+def violations(page: Page) -> list[str]:
+    """What axe-core finds, one line each: the rule, and the elements that break it."""
+    page.evaluate(axe())
+    found: list[dict[str, Any]] = page.evaluate(RUN, RULES)["violations"]
+    return [f"{one['id']}: {node['html'][:160]} {node['failureSummary']}" for one in found for node in one["nodes"]]
+
+
+def views(page: Page) -> list[str]:
+    """The views that are registered."""
+    names: list[str] = page.evaluate("() => import('/views.js').then(({ VIEWS }) => Object.keys(VIEWS))")
+    return names
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_every_view_keeps_wcag(page: Page, served: Server, scheme: Any) -> None:  # noqa: ANN401 - a literal of playwright
+    page.emulate_media(color_scheme=scheme)
+    go(page, f"http://{served.host}/")
+    for view in views(page):
+        page.locator(f"#views [data-key={view}]").click()
+        settle(page)
+        assert violations(page) == [], view
+
+
+def test_pictures_say_their_numbers(page: Page, served: Server) -> None:
+    go(page, f"http://{served.host}/")
+    for view in views(page):
+        page.locator(f"#views [data-key={view}]").click()
+        settle(page)
+        for picture in page.locator(f"#{view}-view svg[role=img]").all():
+            if picture.is_visible():
+                label = picture.get_attribute("aria-label") or ""
+                assert any(letter.isdigit() for letter in label), (view, label)
