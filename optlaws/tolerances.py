@@ -130,7 +130,7 @@ SIZE_MET = 1e-7  # of a radius: a size that is proven to so much is the least on
 SIZE_MARGIN = 1e-10  # of a radius: by how much more than needed it grows at last
 SIZE_NUDGE = 1e-9  # of a radius: a step to where a limit is proven to be kept
 SMALLEST_BASE = 1e-6  # of the greatest length of a mechanism: the smallest prime circle that is looked at
-MANUFACTURED_LEAP = 1e-6  # of a derivative's greatest value: a smaller leap of a motion as manufactured is none
+MANUFACTURED_JUMP = 1e-6  # of a derivative's greatest value: a smaller jump of a motion as manufactured is none
 CAM_GAIN = 1e-4  # of an objective: a round that gains less is the last
 PLANE_GAIN = 2e-4  # of a bound: planes that say no more than this are left out
 PLANE_SLACK = 1e-9  # of a bound: by so much a formula lies within its planes
@@ -148,7 +148,7 @@ PEAK_BRACKET = 1e-11  # of a peak: where a limit is met
 # --- old tables -----------------------------------------------------------------------------------------------------
 NOISE_ROOM = 4.0  # of the standard deviation of a table's noise: points that are farther from a law speak against it
 STANDARD_LAW_ROOM = 1e-7  # of the stroke of a table with all digits: by how much a standard law may be off its points
-TABLE_LEAP = 1e-6  # of the positions: by how much pieces of a file may be apart where they meet, as REAL32 leaves them
+TABLE_JUMP = 1e-6  # of the positions: by how much pieces of a file may be apart where they meet, as REAL32 leaves them
 TABLE_MASTER = 1e-9  # of the master's length: places of a table that are nearer are one
 TABLE_RATE = (
     0.25  # velocities of a table that are so near the slopes of its positions are by the master, not the second

@@ -27,7 +27,7 @@ from optlaws.numerics.branch_and_bound import FunctionOfEach, extremes_of_each
 from optlaws.numerics.interval import Interval
 from optlaws.numerics.taylor import Jet, Pair, turned, variable
 from optlaws.suggest import unknown_key
-from optlaws.tolerances import DEVIATIONS, MANUFACTURED_LEAP, MANUFACTURED_PEAKS
+from optlaws.tolerances import DEVIATIONS, MANUFACTURED_JUMP, MANUFACTURED_PEAKS
 
 
 @dataclass(frozen=True, eq=False)
@@ -209,7 +209,7 @@ class AsMade(PlainNumbers):
     """The motion of a follower on a cam as it is made, over the whole turn.
 
     Deviation, acceleration and jerk are enclosed, and no less than the greatest: by 1e-3 of it the first, by 1e-6 the
-    others. Splines are taken as the polynomials between their knots; a leap is what it is next to where parts meet.
+    others. Splines are taken as the polynomials between their knots; a jump is what it is next to where parts meet.
 
     Attributes
     ----------
@@ -218,9 +218,9 @@ class AsMade(PlainNumbers):
     acceleration, jerk
         Greatest second and third derivative of the displacement by the cam's angle, m or rad; at w rad/s they are
         multiplied by w² and w³.
-        The jerk is infinite where the acceleration leaps.
-    leap
-        Greatest leap of the second derivative, m or rad; 0 where it is continuous.
+        The jerk is infinite where the acceleration jumps.
+    jump
+        Greatest jump of the second derivative, m or rad; 0 where it is continuous.
     acceleration_ratio, jerk_ratio
         Those of the second and third derivative over those of the motion that was meant.
 
@@ -233,19 +233,19 @@ class AsMade(PlainNumbers):
     deviation: float
     acceleration: float
     jerk: float
-    leap: float
+    jump: float
     acceleration_ratio: float
     jerk_ratio: float
 
 
-def run_against(cam: DiscCam, curve: Outline, outside: float = 0.0, *, leaps: bool = True) -> AsMade:
+def run_against(cam: DiscCam, curve: Outline, outside: float = 0.0, *, jumps: bool = True) -> AsMade:
     """The motion of a cam's follower on a closed curve of any parameter, `outside` of the profile, m, in its place.
 
-    With `leaps` those of the acceleration make the jerk infinite; without, it is the greatest between them.
+    With `jumps` those of the acceleration make the jerk infinite; without, it is the greatest between them.
     """
     following = _following(cam, curve, outside)
     _check_hollows(following)
-    return _runs(cam, [following], lambda _: following, leaps=leaps)[0]
+    return _runs(cam, [following], lambda _: following, jumps=jumps)[0]
 
 
 def _following(cam: DiscCam, curve: Outline, outside: float = 0.0) -> Following:
@@ -255,7 +255,7 @@ def _following(cam: DiscCam, curve: Outline, outside: float = 0.0) -> Following:
 
 
 def _runs(
-    cam: DiscCam, followings: Sequence[Following], at: Callable[[NDArray[np.intp]], Following], *, leaps: bool
+    cam: DiscCam, followings: Sequence[Following], at: Callable[[NDArray[np.intp]], Following], *, jumps: bool
 ) -> list[AsMade]:
     """The motions of a cam's follower on curves that are alike; `at` is that of each place, by which curve it is of."""
     edges = [np.array(following.curve.breaks) for following in followings]
@@ -270,12 +270,12 @@ def _runs(
         )
 
     deviations, accelerations = _bounds(off, edges, DEVIATIONS), peaks(2)
-    leaping = [_leap(*each) for each in zip(followings, edges, accelerations, strict=True)]
-    jerks = [inf] * len(edges) if leaps and any(leaping) else peaks(3)
+    jumping = [_jump(*each) for each in zip(followings, edges, accelerations, strict=True)]
+    jerks = [inf] * len(edges) if jumps and any(jumping) else peaks(3)
     means = [_meant(cam, nu) for nu in (2, 3)]
     return [
-        AsMade(deviation, acceleration, jerk, leap, acceleration / means[0], jerk / means[1])
-        for deviation, acceleration, jerk, leap in zip(deviations, accelerations, jerks, leaping, strict=True)
+        AsMade(deviation, acceleration, jerk, jump, acceleration / means[0], jerk / means[1])
+        for deviation, acceleration, jerk, jump in zip(deviations, accelerations, jerks, jumping, strict=True)
     ]
 
 
@@ -297,12 +297,12 @@ def _bounds(functions: FunctionOfEach, edges: Sequence[Array], share: float) -> 
     return bounds
 
 
-def _leap(following: Following, edges: Array, size: float) -> float:
+def _jump(following: Following, edges: Array, size: float) -> float:
     """The greatest jump of the second derivative where parts meet."""
     beside = 1e-9 * np.diff(edges)
     before, after = (following.at(places, 2)[1] for places in (edges[1:] - beside, edges[:-1] + beside))
-    leap = float(np.abs(np.roll(after, -1) - before).max())
-    return leap if leap > MANUFACTURED_LEAP * size else 0.0
+    jump = float(np.abs(np.roll(after, -1) - before).max())
+    return jump if jump > MANUFACTURED_JUMP * size else 0.0
 
 
 def _meant(cam: DiscCam, nu: int) -> float:
@@ -323,7 +323,7 @@ def as_made(
 
     Points of a table are joined by the cubic spline with continuous curvature that drawing programs draw, radii of a
     polar table by such a spline over the angle. A spline is cut as it is in the file, and so are arcs, under which the
-    acceleration leaps from arc to arc.
+    acceleration jumps from arc to arc.
 
     Parameters
     ----------
@@ -341,7 +341,7 @@ def as_made(
     Raises
     ------
     InputError
-        If the format is unknown or makes corners, where a follower's velocity leaps.
+        If the format is unknown or makes corners, where a follower's velocity jumps.
 
     Examples
     --------
@@ -356,7 +356,7 @@ def as_made(
         raise InputError(unknown_key(curve, CURVES, "curve"))
     if form not in _CURVES_OF:
         raise InputError(
-            f"{unknown_key(form, _CURVES_OF, 'format')}; polygons have corners, where the follower's velocity leaps"
+            f"{unknown_key(form, _CURVES_OF, 'format')}; polygons have corners, where the follower's velocity jumps"
         )
     outline = cam.profile if curve == "profile" else cam.pitch_curve
     outside = 0.0 if curve == "profile" else cam.contact.roller
@@ -368,7 +368,7 @@ def with_profile_error(cam: DiscCam, error: Quantity, waves: Any) -> AsMade:  # 
 
     Of four phases of the wave, the greatest values. A wave with n periods in a turn adds about n² times its amplitude
     to the second derivative by the cam's angle, and n³ times to the third. The jerk is the greatest between places
-    where the cam's own leaps, at which the error makes the acceleration leap a little.
+    where the cam's own jumps, at which the error makes the acceleration jump a little.
 
     Parameters
     ----------
@@ -403,7 +403,7 @@ def with_profile_error(cam: DiscCam, error: Quantity, waves: Any) -> AsMade:  # 
     def at(which: NDArray[np.intp]) -> Following:
         return replace(followings[0], curve=replace(curves[0], shift=shifts[which]), outward=outward[which])
 
-    cases = _runs(cam, followings, at, leaps=False)
+    cases = _runs(cam, followings, at, jumps=False)
     return AsMade(*(max(getattr(case, name) for case in cases) for name in AsMade.__dataclass_fields__))
 
 

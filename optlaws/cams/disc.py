@@ -288,10 +288,10 @@ def _check_smooth(motion: CamMotion) -> None:
     before = np.asarray(motion.jet(inner, 1, before=True).terms[1])
     if motion.closed:  # what is before the start is at the end, and what is after the end at the start
         before[0], after[-1] = before[-1], after[0]
-    leaps = np.abs(after - before)
-    if leaps.max() > 1e-9 * max(abs(slope) for slope in motion.slopes):
-        place = degrees(inner[int(np.argmax(leaps))])
+    jumps = np.abs(after - before)
+    if jumps.max() > 1e-9 * max(abs(slope) for slope in motion.slopes):
+        place = degrees(inner[int(np.argmax(jumps))])
         raise InputError(
-            f"motion: its velocity leaps at {place:.6g} deg of the cam, where the cam would have a corner: take laws"
+            f"motion: its velocity jumps at {place:.6g} deg of the cam, where the cam would have a corner: take laws"
             " whose velocities meet"
         )

@@ -126,7 +126,7 @@ class CamForces:
         The force of a process on the follower, with the entries of a cycle's: `{"force": [("0 deg", "0 N"), ("90 deg",
         "-300 N"), ("360 deg", "0 N")], "over": "master"}`, above 0 where it pushes to greater displacements; over the
         "time" t, the "master", which is the cam's angle m, or the displacement s of the "driven" follower. A table over
-        time or angle leaps where a place is given twice.
+        time or angle jumps where a place is given twice.
 
     Raises
     ------

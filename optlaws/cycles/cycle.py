@@ -12,6 +12,7 @@ import numpy as np
 
 from optlaws.cycles.fastest_cycle import FastestCycle, fastest_cycle
 from optlaws.cycles.interchange import CycleInterchange
+from optlaws.cycles.jerk_comparison import jerk_limit, usual_jerk
 from optlaws.cycles.kinematics import SegmentPeaks, TimedCycle
 from optlaws.cycles.moves.transition_cam import TransitionCam, TransitionKind
 from optlaws.cycles.moves.transitions import transition_cam
@@ -258,6 +259,46 @@ class Cycle(CycleInterchange):
         if nu > 3:
             raise InputError(f"nu must be at most 3, the jerk, got {nu}")
         return max(peak.peak(nu) for peak in self.peaks)
+
+    @kept_property
+    def modified_sine_jerk(self) -> float | None:
+        """The greatest peak jerk that modified sine has in the same optimal motions, in SI units.
+
+        A law of least acceleration has some four to five times as much. None unless the acceleration is minimised, no
+        limit bounds the jerk or the snap, and every optimal motion goes from rest to rest.
+
+        Examples
+        --------
+        >>> from optlaws.cycles.specification.segments import Dwell, Return, Rise
+        >>> cycle = Cycle([Rise("35 mm", "120 deg"), Dwell("90 deg"), Return(), Dwell("50 deg")], speed="200 rpm")
+        >>> round(cycle.modified_sine_jerk, 3), round(cycle.peak(3) / cycle.modified_sine_jerk, 6)
+        (4201.325, 4.145892)
+        """
+        return usual_jerk(self._layout.spans, self._cycle_objective, self.axis)
+
+    def with_modified_sine_jerk(self) -> Cycle:
+        """The cycle of least acceleration among those whose jerk is at most that of modified sine.
+
+        Raises
+        ------
+        InputError
+            If there is no such jerk: see `modified_sine_jerk`.
+
+        Examples
+        --------
+        >>> from optlaws.cycles.specification.segments import Dwell, Return, Rise
+        >>> cycle = Cycle([Rise("35 mm", "120 deg"), Dwell("90 deg"), Return(), Dwell("50 deg")], speed="200 rpm")
+        >>> gentle = cycle.with_modified_sine_jerk()
+        >>> gentle.limits, [round(each.objective, 3) for each in (cycle, gentle)]
+        ({'jerk': '4201.33 m/s^3'}, [21.884, 24.766])
+        """
+        if self.modified_sine_jerk is None:
+            raise InputError(
+                "modified sine's jerk is that of motions from rest to rest whose acceleration is minimised without a"
+                " limit of the jerk or the snap: give the cycle such motions, or limits={'jerk': ...} of your own"
+            )
+        limit = jerk_limit(self.modified_sine_jerk, self.axis)
+        return replace(self, limits={**self.limits, "jerk": limit})
 
     @property
     def joints(self) -> tuple[dict[str, Any], ...]:

@@ -118,7 +118,7 @@ class CycleInterchange(JsonText):
         for peaks, joint in zip(cycle.peaks, cycle.joints, strict=True):
             row = {"segment": peaks.name, "start, s": peaks.start, "duration, s": peaks.duration}
             row |= {f"peak {name}, {units[name]}": peaks.peak(nu) for nu, name in enumerate(QUANTITIES)}
-            rows.append(row | {f"leap of {name}, {units[name]}": joint[name] for name in QUANTITIES[1:3]})
+            rows.append(row | {f"jump of {name}, {units[name]}": joint[name] for name in QUANTITIES[1:3]})
         for row, taken in zip(rows, cycle.efforts if cycle.drive is not None else (), strict=False):
             name, unit = ("force", "N") if cycle.axis == "length" else ("torque", "N m")
             row |= {f"peak {name}, {unit}": taken.peak_force, f"RMS {name}, {unit}": taken.rms_force}

@@ -90,7 +90,7 @@ class TimedCycle:
         for i, piece in enumerate(self.pieces):
             if piece.start == start:
                 return piece.end(nu, 0) - self.pieces[i - 1].end(nu, 1)
-        return next(piece.leap(start, nu) for piece in self.pieces if piece.start < start < piece.stop)
+        return next(piece.jump(start, nu) for piece in self.pieces if piece.start < start < piece.stop)
 
     def at_speed(self, share: float) -> list[CycleSegment]:
         """The segments at another speed: laws as they are, durations `share` times as long, joint laws in parts."""

@@ -12,7 +12,7 @@ from optlaws.cycles.optimisation.motion_limits import FORCE, POWER
 from optlaws.cycles.optimisation.objectives import LOADED, SUMS, kind_of
 from optlaws.cycles.specification.load import LOAD, read_load
 from optlaws.cycles.specification.process import is_process
-from optlaws.errors import OptlawsError
+from optlaws.errors import InfeasibleProblem, OptlawsError, SolverFailure
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.motion.piece import unit_of
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from optlaws.cycles.cycle import Cycle
 
 _SAMPLES = 241
+_ACCELERATION, _JERK = 2, 3
 _LOAD_UNITS = {
     "length": "m",
     "angle": "rad",
@@ -75,6 +76,36 @@ def peak_rows(cycle: Cycle) -> list[Row]:
     return rows
 
 
+def jerk_rows(cycle: Cycle) -> list[Row]:
+    """The jerk of a cycle of least acceleration over modified sine's, and the least acceleration with no more jerk.
+
+    Nothing where the comparison says nothing: see `Cycle.modified_sine_jerk`.
+
+    Examples
+    --------
+    >>> from optlaws import Cycle, Return, Rise
+    >>> cycle = Cycle([Rise("35 mm", "0.1 s"), Return()], period="0.25 s")
+    >>> for row in jerk_rows(cycle):
+    ...     print(row.name, row.text(4), row.unit, row.note, sep="; ")
+    peak jerk over that of modified sine; 4.146; ; modified sine has 2431.32 m/s³ in these motions
+    least acceleration with no more jerk than modified sine; 17.2; m/s²; limits={"jerk": "2431.325 m/s^3"}
+    """
+    usual = cycle.modified_sine_jerk
+    if usual is None or cycle.peak(_JERK) <= usual:
+        return []
+    unit = unit_of(cycle.axis, _JERK)
+    note = f"modified sine has {usual:.6g} {unit} in these motions"
+    rows = [Row("peak jerk over that of modified sine", cycle.peak(_JERK) / usual, note=note)]
+    name = "least acceleration with no more jerk than modified sine"
+    gentle = cycle.with_modified_sine_jerk()
+    try:
+        least = gentle.objective
+    except (InfeasibleProblem, SolverFailure):
+        return [*rows, Row(name, "none was found within the other limits")]
+    offer = f'limits={{"jerk": "{gentle.limits["jerk"]}"}}'
+    return [*rows, Row(name, least, unit_of(cycle.axis, _ACCELERATION), note=offer)]
+
+
 def drive_rows(cycle: Cycle) -> list[Row]:
     """The effort of the drive and the peaks of its load; nothing where there is no drive."""
     rows = []
@@ -107,7 +138,7 @@ def joint_rows(cycle: Cycle) -> list[Row]:
     """The greatest jumps of velocity and acceleration where segments meet."""
     return [
         Row(
-            f"greatest leap of the {name} at a joint",
+            f"greatest jump of the {name} at a joint",
             max(abs(joint[name]) for joint in cycle.joints),
             unit_of(cycle.axis, nu),
         )
@@ -118,7 +149,15 @@ def joint_rows(cycle: Cycle) -> list[Row]:
 def summary(cycle: Cycle) -> Summary:
     """All of these rows; places are times in seconds."""
     return Summary(
-        [*proof_rows(cycle), *peak_rows(cycle), *limit_rows(cycle), *drive_rows(cycle), *joint_rows(cycle)], at="s"
+        [
+            *proof_rows(cycle),
+            *peak_rows(cycle),
+            *jerk_rows(cycle),
+            *limit_rows(cycle),
+            *drive_rows(cycle),
+            *joint_rows(cycle),
+        ],
+        at="s",
     )
 
 

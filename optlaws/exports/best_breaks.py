@@ -79,7 +79,7 @@ def best_breaks(law: MotionLaw, degree: int = 7, most: int = MOST) -> BestBreaks
     Raises
     ------
     InputError
-        If so many do not do, or a derivative that the pieces share at their breaks leaps within the law.
+        If so many do not do, or a derivative that the pieces share at their breaks jumps within the law.
 
     Examples
     --------
@@ -96,7 +96,7 @@ def best_breaks(law: MotionLaw, degree: int = 7, most: int = MOST) -> BestBreaks
 
 @lru_cache(maxsize=32)
 def _best_breaks(law: MotionLaw, orders: int, most: int) -> BestBreaks:
-    _refuse_leaps(law, orders)
+    _refuse_jumps(law, orders)
     return BreakSearch(LawSection(law, (0.0, 1.0)), orders, law.constants.C.value).fewest(most)
 
 
@@ -179,11 +179,11 @@ class BreakSearch:
         return bool(np.abs(c + c[::-1]).max() <= AGREEMENT * self.peak)
 
 
-def _refuse_leaps(law: MotionLaw, orders: int) -> None:
+def _refuse_jumps(law: MotionLaw, orders: int) -> None:
     for nu in range(1, orders):
         if law.jumps(nu) or not np.isfinite(law.peak(nu).value):
             raise InputError(
-                f"the derivative of order {nu} of the law leaps, and pieces of degree {2 * orders - 1} share it at "
+                f"the derivative of order {nu} of the law jumps, and pieces of degree {2 * orders - 1} share it at "
                 "their breaks: take a lower degree, or the law's own breaks (points not 'best')"
             )
 

@@ -43,7 +43,7 @@ class Export:
     written
         The text, and the motion as the controller interpolates it.
     report
-        Peaks, leaps and deviation of that motion, beside the law's.
+        Peaks, jumps and deviation of that motion, beside the law's.
     task
         The run as the drive samples it, where the time of a task is given.
 
@@ -127,8 +127,8 @@ class Export:
             *((f"peak of {name}", nu, run.peak(nu), law.peak(nu), self.report.ratio(nu)) for nu, name in moving),
             ("effective acceleration", 2, *effective, _ratio(*effective)),
             ("mean absolute velocity", 1, *means, _ratio(*means)),
-            *((f"leap of {q} inside", n, run.leaps[n - 1].value, law.leaps[n - 1].value, None) for n, q in moving),
-            *((f"leap of {q} {where}", n, run.leaps_at_ends[n - 1], law.leaps_at_ends[n - 1], None) for n, q in moving),
+            *((f"jump of {q} inside", n, run.jumps[n - 1].value, law.jumps[n - 1].value, None) for n, q in moving),
+            *((f"jump of {q} {where}", n, run.jumps_at_ends[n - 1], law.jumps_at_ends[n - 1], None) for n, q in moving),
             *(
                 (f"greatest deviation of {QUANTITIES[n]}", n, d.value, None, None)
                 for n, d in enumerate(self.report.deviation)

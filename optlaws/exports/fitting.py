@@ -106,7 +106,7 @@ def fitted(
     open_parts = [part for part in parts if part.stretch.exact_powers is None]
     peak = motion.peak(2) if open_parts else 0.0
     if not np.isfinite(peak):
-        raise InputError("the acceleration of the motion has no bound, as where the velocity leaps: smooth it first")
+        raise InputError("the acceleration of the motion has no bound, as where the velocity jumps: smooth it first")
     for part in open_parts:
         if laid is None:
             part.split(orders, peak, near)

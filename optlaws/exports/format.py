@@ -91,7 +91,7 @@ class Written:
     notes
         What else there is to say.
     roundings
-        Leaps of velocity, acceleration and jerk by the master up to which they are roundings of the numbers that the
+        Jumps of velocity, acceleration and jerk by the master up to which they are roundings of the numbers that the
         target holds, where these are not doubles.
     """
 

@@ -20,7 +20,7 @@ from optlaws.numerics.roots import bisect_each
 
 _NAMES = ("Position", "Velocity", "Acceleration", "Jerk")
 ORDERS = range(4)
-ROUNDING = 1e-9, 2.0**-46  # leaps below these shares, of the peak and of what positions leave, are rounding
+ROUNDING = 1e-9, 2.0**-46  # jumps below these shares, of the peak and of what positions leave, are rounding
 
 
 @dataclass(frozen=True)
@@ -34,11 +34,11 @@ class Characteristics:
     start, end
         Position, velocity, acceleration and jerk at both ends, inside the motion.
     least, greatest
-        Of each of the four, with the master's position; no impulses: `leaps` tells where there are any.
+        Of each of the four, with the master's position; no impulses: `jumps` tells where there are any.
     mean_absolute_velocity, effective_acceleration
         Mean magnitude of the velocity; root mean square of the acceleration.
-    leaps, leaps_at_ends
-        The greatest leaps of velocity, acceleration and jerk: inside; and where the motion begins again or, if it does
+    jumps, jumps_at_ends
+        The greatest jumps of velocity, acceleration and jerk: inside; and where the motion begins again or, if it does
         not, where rest comes before and after it.
     """
 
@@ -48,12 +48,12 @@ class Characteristics:
     greatest: tuple[Extreme, ...]
     mean_absolute_velocity: float
     effective_acceleration: float
-    leaps: tuple[Extreme, ...]
-    leaps_at_ends: tuple[float, ...]
+    jumps: tuple[Extreme, ...]
+    jumps_at_ends: tuple[float, ...]
 
     def peak(self, nu: int) -> float:
         """The greatest magnitude of the derivative of order nu; inf where a lower one jumps inside."""
-        if any(leap.value for leap in self.leaps[: max(nu - 1, 0)]):
+        if any(jump.value for jump in self.jumps[: max(nu - 1, 0)]):
             return inf
         return max(abs(self.least[nu].value), abs(self.greatest[nu].value))
 
@@ -65,9 +65,9 @@ class Characteristics:
                 data[f"PointAt{side}Slave{name}"] = {"MasterPosition": extreme.x, f"Slave{name}": _known(extreme.value)}
         data["SlaveMeanAbsoluteVelocity"] = self.mean_absolute_velocity
         data["SlaveEffectiveAcceleration"] = _known(self.effective_acceleration)
-        for name, extreme, end in zip(_NAMES[1:], self.leaps, self.leaps_at_ends, strict=True):
-            data[f"Leap{name}"] = {"MasterPosition": extreme.x, f"Slave{name}": _known(extreme.value)}
-            data[f"LeapAtEnds{name}"] = _known(end)
+        for name, extreme, end in zip(_NAMES[1:], self.jumps, self.jumps_at_ends, strict=True):
+            data[f"Jump{name}"] = {"MasterPosition": extreme.x, f"Slave{name}": _known(extreme.value)}
+            data[f"JumpAtEnds{name}"] = _known(end)
         return data
 
 
@@ -95,7 +95,7 @@ class Report:
     >>> motion = motion_of_law(smoothstep(3), stroke="35 mm", duration="0.1 s")
     >>> x = np.linspace(0.0, 0.1, 13)
     >>> report = as_run(PiecewiseMotion(x, spline_powers(x, motion(x))), motion)
-    >>> round(report.ratio(2), 4), round(report.deviation[0].value, 6), round(report.run.leaps_at_ends[1], 3)
+    >>> round(report.ratio(2), 4), round(report.deviation[0].value, 6), round(report.run.jumps_at_ends[1], 3)
     (0.9923, 0.00154, 701.101)
     """
 
@@ -128,7 +128,7 @@ class Report:
 def as_run(run: PiecewiseMotion, motion: Motion, bound: float = 0.0, roundings: tuple[float, ...] = ()) -> Report:
     """The report of a run by the master: every number is an extreme over the whole motion, none is one of a grid.
 
-    Roundings may add `bound` to the acceleration; leaps of velocity, acceleration and jerk up to `roundings` are such.
+    Roundings may add `bound` to the acceleration; jumps of velocity, acceleration and jerk up to `roundings` are such.
     """
     rate = motion.units.rate or 1.0
     law = _of_law(motion, rate)
@@ -157,8 +157,8 @@ def _of_run(run: PiecewiseMotion, motion: Motion, rate: float, roundings: tuple[
         tuple(low for low, _ in extremes),
         tuple(high for _, high in extremes),
         rate * travel_of_run(run) / (run.stop - run.start),
-        rate**2 * run.rms(2) if _leap(run, 1, rate, small[1]).value == 0.0 else inf,
-        tuple(_leap(run, nu, rate, small[nu]) for nu in ORDERS[1:]),
+        rate**2 * run.rms(2) if _jump(run, 1, rate, small[1]).value == 0.0 else inf,
+        tuple(_jump(run, nu, rate, small[nu]) for nu in ORDERS[1:]),
         _at_ends(start, end, motion, small),
     )
 
@@ -167,32 +167,32 @@ def _of_law(motion: Motion, rate: float) -> Characteristics:
     extremes = [tuple(_sized(Extreme(*pair), rate**nu) for pair in motion.extrema(nu)) for nu in ORDERS]
     start, end = (tuple(rate**nu * motion.ends(nu)[side] for nu in ORDERS) for side in (0, 1))
     small = tuple(ROUNDING[0] * max(abs(low.value), abs(high.value)) for low, high in extremes)
-    leaps = tuple(_sized(Extreme(*motion.leap(nu)), rate**nu) for nu in ORDERS[1:])
+    jumps = tuple(_sized(Extreme(*motion.jump(nu)), rate**nu) for nu in ORDERS[1:])
     return Characteristics(
         start,
         end,
         tuple(low for low, _ in extremes),
         tuple(high for _, high in extremes),
         rate * travel_of_law(motion) / motion.length,
-        inf if leaps[0].value else rate**2 * motion.rms(2),
-        leaps,
+        inf if jumps[0].value else rate**2 * motion.rms(2),
+        jumps,
         _at_ends(start, end, motion, small),
     )
 
 
-def _leap(run: PiecewiseMotion, nu: int, rate: float, small: float) -> Extreme:
-    leaps = np.abs(run.jumps(nu)) * rate**nu
-    if not leaps.size or leaps.max() <= small:
+def _jump(run: PiecewiseMotion, nu: int, rate: float, small: float) -> Extreme:
+    jumps = np.abs(run.jumps(nu)) * rate**nu
+    if not jumps.size or jumps.max() <= small:
         return Extreme(0.0, run.start)
-    return Extreme(float(leaps.max()), run.breaks[1 + int(leaps.argmax())])
+    return Extreme(float(jumps.max()), run.breaks[1 + int(jumps.argmax())])
 
 
 def _at_ends(
     start: tuple[float, ...], end: tuple[float, ...], motion: Motion, small: tuple[float, ...]
 ) -> tuple[float, ...]:
     pairs = zip(start[1:], end[1:], small[1:], strict=True)
-    leaps = ((abs(b - a) if motion.repeats else max(abs(a), abs(b)), least) for a, b, least in pairs)
-    return tuple(leap if leap > least else 0.0 for leap, least in leaps)
+    jumps = ((abs(b - a) if motion.repeats else max(abs(a), abs(b)), least) for a, b, least in pairs)
+    return tuple(jump if jump > least else 0.0 for jump, least in jumps)
 
 
 def _deviation(run: PiecewiseMotion, motion: Motion, nu: int, rate: float, *, has: bool) -> Extreme:

@@ -87,8 +87,8 @@ def best(motion: Motion, make: Callable[[int], PointTable], least: int, most: in
     """The table with the number of points whose run is best, tried up to 64 one by one, then over the range.
 
     Runs count that are within 1e-4 of the stroke of the law, or within the resolution, or as near as any. The best of
-    them has the least peak of the acceleration (where straight lines leap in velocity, the least leap); what is below
-    the law's own peak is no gain. Among numbers as good to a thousandth those count whose acceleration leaps
+    them has the least peak of the acceleration (where straight lines jump in velocity, the least jump); what is below
+    the law's own peak is no gain. Among numbers as good to a thousandth those count whose acceleration jumps
     least further than the law's, at points and at the ends, to a thousandth of the peak, and of these the least.
     """
     judge, tried = RunRanking.of(motion), dict[int, tuple[Rank, PointTable]]()
@@ -109,12 +109,12 @@ def best(motion: Motion, make: Callable[[int], PointTable], least: int, most: in
 class Rank(NamedTuple):
     """How good a run is, all at least what the law itself has.
 
-    How far it is off, over what it may be; its peak over the law's; what it leaps further, over the law's peak.
+    How far it is off, over what it may be; its peak over the law's; what it jumps further, over the law's peak.
     """
 
     off: float
     peak: float
-    leap: float
+    jump: float
 
 
 def _fewest(ranks: dict[int, Rank]) -> int:
@@ -122,9 +122,9 @@ def _fewest(ranks: dict[int, Rank]) -> int:
     nearest = min(rank.off for rank in ranks.values()) * (1.0 + AS_GOOD)
     near = {count: rank for count, rank in ranks.items() if rank.off <= nearest}
     lowest = min(rank.peak for rank in near.values()) * (1.0 + AS_GOOD)
-    low = {count: rank.leap for count, rank in near.items() if rank.peak <= lowest}
+    low = {count: rank.jump for count, rank in near.items() if rank.peak <= lowest}
     smoothest = min(low.values()) + AS_GOOD
-    return min(count for count, leap in low.items() if leap <= smoothest)
+    return min(count for count, jump in low.items() if jump <= smoothest)
 
 
 @dataclass(frozen=True)
@@ -134,15 +134,15 @@ class RunRanking:
     motion: Motion
     velocity: float
     acceleration: float
-    leap: float
-    leap_at_ends: float
+    jump: float
+    jump_at_ends: float
 
     @classmethod
     def of(cls, motion: Motion) -> RunRanking:
         """The judge of runs of a motion."""
         first, last = motion.ends(2)
         ends = abs(last - first) if motion.repeats else max(abs(first), abs(last))
-        return cls(motion, motion.peak(1), motion.peak(2), motion.leap(2)[0], ends)
+        return cls(motion, motion.peak(1), motion.peak(2), motion.jump(2)[0], ends)
 
     def rank(self, table: PointTable) -> Rank:
         """How good polynomials are."""
@@ -151,12 +151,12 @@ class RunRanking:
         if self.acceleration in {0.0, inf} or powers.shape[1] == 2:
             first, last = _ends(powers, steps, 1)
             edges = np.array([first[0] - last[-1]] if self.motion.repeats else [first[0], last[-1]])
-            leaps = np.abs(np.concatenate([first[1:] - last[:-1], edges]))
-            return Rank(off, 1.0 + float(leaps.max()) / self.velocity, 0.0)
+            jumps = np.abs(np.concatenate([first[1:] - last[:-1], edges]))
+            return Rank(off, 1.0 + float(jumps.max()) / self.velocity, 0.0)
         first, last = _ends(powers, steps, 2)
         ends = abs(last[-1] - first[0]) if self.motion.repeats else max(abs(first[0]), abs(last[-1]))
-        leap = float(np.abs(first[1:] - last[:-1]).max(initial=0.0))
-        beyond = max(leap - self.leap, 0.0) + max(float(ends) - self.leap_at_ends, 0.0)
+        jump = float(np.abs(first[1:] - last[:-1]).max(initial=0.0))
+        beyond = max(jump - self.jump, 0.0) + max(float(ends) - self.jump_at_ends, 0.0)
         peak = max(_peak(powers, steps, first, last) / self.acceleration, 1.0)
         return Rank(off, peak, beyond / self.acceleration)
 

@@ -17,7 +17,7 @@ from optlaws.cycles.limit_rows import limit_rows
 from optlaws.cycles.machine_axes import Axes, Overlap
 from optlaws.cycles.moves.transition_cam import TransitionCam, TransitionKind
 from optlaws.cycles.specification.process import is_process
-from optlaws.cycles.summary import drive_rows, force_name, force_unit, joint_rows, proof_rows
+from optlaws.cycles.summary import drive_rows, force_name, force_unit, jerk_rows, joint_rows, proof_rows
 from optlaws.errors import InputError, located
 from optlaws.exports.export import Export, export_cycle
 from optlaws.exports.format import FORMATS, format_of
@@ -138,7 +138,7 @@ def _file_name(axis: str, entry: ExportEntries) -> str:
 
 def _export_row(name: str, export: Export) -> list[tables.Cell]:
     ratios = [export.report.ratio(nu) for nu in (1, 2, 3)]
-    shown = [f"{ratio:.7g}" if abs(ratio) < float("inf") else "leaps" for ratio in ratios]
+    shown = [f"{ratio:.7g}" if abs(ratio) < float("inf") else "jumps" for ratio in ratios]
     deviation = f"{export.report.deviation[0].value:.3g} {export.motion.units.slave}"
     return [name, export.format.name, export.points, *shown, deviation]
 
@@ -253,7 +253,7 @@ def page(spec: CycleProblemFile, axes: Axes, exports: Exports, sought: CycleSear
         if name in sought.fastest:
             result.table(FASTEST_HEADINGS, fastest_rows(sought.fastest[name]), digits=9)
         result.table(_headings(cycle), [*_segment_rows(cycle), _whole_row(cycle)], digits=7)
-        rows = [*proof_rows(cycle), *limit_rows(cycle), *drive_rows(cycle), *joint_rows(cycle)]
+        rows = [*proof_rows(cycle), *jerk_rows(cycle), *limit_rows(cycle), *drive_rows(cycle), *joint_rows(cycle)]
         cells = [[row.name, row.value, row.unit or None, row.note or None] for row in rows]
         noted = any(row.note for row in rows)
         result.table(("what", "value", "unit", "note")[: 3 + noted], [row[: 3 + noted] for row in cells], digits=9)
@@ -351,6 +351,7 @@ def _facts(cycle: Cycle) -> dict[str, Any]:
         "lower_bound": cycle.lower_bound if cycle.solutions else None,
         "search_space": cycle.search_space,
         "remarks": list(cycle.remarks),
+        "modified_sine_jerk": cycle.modified_sine_jerk,
         "segments": [
             {"name": peak.name, "start": peak.start, "duration": peak.duration}
             | {name: peak.peak(nu) for nu, name in enumerate(QUANTITIES) if nu}

@@ -176,13 +176,13 @@ class MotionLaw(Curve, LawExport, StoredLaw):
         inner = self.breaks[1:-1]
         left, right = self._before_breaks(nu), self._derivative(np.array(inner), nu)
         rounding = JUMP * self._size(nu)
-        leaps = tuple(
+        jumps = tuple(
             (k, after - before)
             for k, before, after in zip(inner, left.tolist(), right.tolist(), strict=True)
             if before != after and not abs(after - before) <= rounding
         )
-        unseen = max((JUMP_OF_LOWER * self._size(lower) for lower in range(1, nu)), default=0.0) if leaps else 0.0
-        return tuple((k, height) for k, height in leaps if not abs(height) <= unseen)
+        unseen = max((JUMP_OF_LOWER * self._size(lower) for lower in range(1, nu)), default=0.0) if jumps else 0.0
+        return tuple((k, height) for k, height in jumps if not abs(height) <= unseen)
 
     def _size(self, nu: int) -> float:
         """The greatest finite magnitude of a derivative at nine places of every piece."""
@@ -199,16 +199,16 @@ class MotionLaw(Curve, LawExport, StoredLaw):
     def _impulses(self, nu: int) -> Sides:
         if len(self.breaks) == 2:
             return super()._impulses(nu)
-        leaps = [(place, height * inf) for place, height in self.jumps(nu - 1)] if nu > 1 else []
+        jumps = [(place, height * inf) for place, height in self.jumps(nu - 1)] if nu > 1 else []
         # the derivative of an impulse has both signs
-        leaps += [(place, side) for lower in range(1, nu - 1) for place, _ in self.jumps(lower) for side in (inf, -inf)]
-        places, heights = np.array(leaps).reshape(-1, 2).T
+        jumps += [(place, side) for lower in range(1, nu - 1) for place, _ in self.jumps(lower) for side in (inf, -inf)]
+        places, heights = np.array(jumps).reshape(-1, 2).T
         return places, heights
 
     def _whole_power(self) -> Sides:
         k, values = self._power_sides()
-        leaps = [place for place, _ in self.jumps(1)]
-        return (np.append(k, leaps), np.append(values, np.full(len(leaps), inf))) if leaps else (k, values)
+        jumps = [place for place, _ in self.jumps(1)]
+        return (np.append(k, jumps), np.append(values, np.full(len(jumps), inf))) if jumps else (k, values)
 
     @abstractmethod
     def _summary(self) -> str:

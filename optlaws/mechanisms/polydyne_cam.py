@@ -158,8 +158,8 @@ def check_mass_law(law: MotionLaw) -> None:
                     f"the mass law has {name} {letter}({k:g}) = {value:.6g}, so the {cam} of the cam would jump there; "
                     f"{_REMEDY}"
                 )
-        if leaps := law.jumps(order):
-            k, height = leaps[0]
+        if jumps := law.jumps(order):
+            k, height = jumps[0]
             raise InputError(
                 f"the mass law has a jump of its {name} {letter} by {height:.6g} at k = {k:.6g}, so the {cam} of the "
                 f"cam would jump there; {_REMEDY}"

@@ -126,9 +126,9 @@ class Motion:
             yield after.start, before.end(nu, 1), after.end(nu, 0)
         for piece in self.pieces:
             size = factor(piece.stroke, piece.duration, nu)
-            for k, leap in piece.law.jumps(nu) if piece.stroke else ():
+            for k, jump in piece.law.jumps(nu) if piece.stroke else ():
                 value = size * float(piece.law(k, nu))
-                yield piece.start + k * piece.duration, value - size * leap, value
+                yield piece.start + k * piece.duration, value - size * jump, value
 
     def ends(self, nu: int) -> tuple[float, float]:
         """The derivative of order nu at the start and at the end."""
@@ -144,13 +144,13 @@ class Motion:
 
     def peak(self, nu: int) -> float:
         """The greatest magnitude of the derivative of order nu; inf where a lower one jumps, joints included."""
-        leaps = max((self.leap(lower)[0] for lower in range(1, nu)), default=0.0)
-        return inf if leaps else self._size(nu)
+        jumps = max((self.jump(lower)[0] for lower in range(1, nu)), default=0.0)
+        return inf if jumps else self._size(nu)
 
-    def leap(self, nu: int) -> Place:
+    def jump(self, nu: int) -> Place:
         """The greatest jump of the derivative of order nu inside, and its x; what is rounding beside its peak is 0."""
-        leaps = ((abs(after - before), x) for x, before, after in self.sides(nu))
-        worst = max(leaps, default=(0.0, self.start), key=_value)
+        jumps = ((abs(after - before), x) for x, before, after in self.sides(nu))
+        worst = max(jumps, default=(0.0, self.start), key=_value)
         return worst if worst[0] > JUMP * self._size(nu) else (0.0, self.start)
 
     def rms(self, nu: int) -> float:

@@ -56,7 +56,7 @@ def _read(given: Any) -> MotionLaw:  # noqa: ANN401
     return read_law(given) if is_file(given) else _of_name(given)
 
 
-_LEAPS = 2
+_JUMPS = 2
 
 
 def factor(stroke: float, duration: float, nu: int) -> float:
@@ -100,7 +100,7 @@ class Piece:
             self._ends[nu] = first, last
         return self._ends[nu][side]
 
-    def leap(self, time: float, nu: int) -> float:
+    def jump(self, time: float, nu: int) -> float:
         """The jump of the derivative of order nu at a time inside."""
         places = ((self.start + k * self.duration, jump) for k, jump in self.law.jumps(nu))
         near = (jump for place, jump in places if abs(place - time) <= SAME_TIME * time)
@@ -109,8 +109,8 @@ class Piece:
     def extremes(self, nu: int, first: float, last: float) -> tuple[tuple[float, float], tuple[float, float]]:
         """Least and greatest value with their times, over the whole of the stretch from `first` to `last`."""
         low, high = (float(place) for place in self.places(np.array([first, last])))
-        if nu >= _LEAPS:
-            # what leaps where a segment ends has the value of the segment, not of its neighbour
+        if nu >= _JUMPS:
+            # what jumps where a segment ends has the value of the segment, not of its neighbour
             low, high = low + INSIDE_PIECE * (low > 0.0), high - INSIDE_PIECE * (high < 1.0)
         extremes = self.law.extrema(nu, within=(low, high))
         base = self._origin if nu == 0 else 0.0

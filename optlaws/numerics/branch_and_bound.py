@@ -98,7 +98,7 @@ def extremes(
         Of an `Interval` of places, each within two neighbouring edges, and an order: a `Jet` of intervals that hold
         its Taylor terms everywhere there.
     edges
-        Increasing, shape (n + 1,). At an inner edge the function may leap.
+        Increasing, shape (n + 1,). At an inner edge the function may jump.
     share
         How near bounds come to values reached, relative to the greatest magnitude.
     parts

@@ -26,7 +26,7 @@ def integral(function: Function, edges: Any, *, share: float = 1e-9) -> tuple[fl
     function
         As for `extremes`: Taylor terms in intervals of places.
     edges
-        Increasing, shape (n + 1,); at inner ones it may leap.
+        Increasing, shape (n + 1,); at inner ones it may jump.
     share
         By how much cells may be off, relative to the mean magnitude.
 
@@ -57,7 +57,7 @@ def integral(function: Function, edges: Any, *, share: float = 1e-9) -> tuple[fl
         low, high = np.append(low, middle), np.append(middle, high)
         if len(low) > _MOST:
             break
-    raise SolverFailure("a function to be integrated has no bound between the places where it may leap")
+    raise SolverFailure("a function to be integrated has no bound between the places where it may jump")
 
 
 def _of_cells(function: Function, low: Array, high: Array) -> tuple[Interval, Array]:

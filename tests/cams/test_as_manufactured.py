@@ -69,7 +69,7 @@ def test_a_dxf_gives_the_motion_back_to_its_digits(cam: DiscCam, tmp_path: Path)
         curve = readers.dxf_spline(write_outline(cam.profile, tmp_path / f"{degree}.dxf", "dxf spline", **asked))  # type: ignore[arg-type]
         made = run_against(cam, Spline(degree, curve.t, 1e-3 * curve.c, 0.0))
         assert made.deviation < 1.2e-8
-        assert made.leap == 0.0
+        assert made.jump == 0.0
         assert made.acceleration_ratio == pytest.approx(1.0, abs=near)
         assert made.jerk_ratio == pytest.approx(1.0, abs=0.02)
 
@@ -80,11 +80,11 @@ def test_a_table_read_back_moves_the_follower_as_was_foretold(cam: DiscCam, tmp_
     assert made.acceleration == pytest.approx(as_made(cam, points=361, decimals=4).acceleration, rel=1e-9)
 
 
-def test_under_arcs_the_acceleration_leaps_and_is_nearly_kept(cam: DiscCam) -> None:
+def test_under_arcs_the_acceleration_jumps_and_is_nearly_kept(cam: DiscCam) -> None:
     made = as_made(cam, "dxf arcs", tolerance="1 um")
     assert made.jerk == np.inf
     assert made.to_dict()["jerk"] is None
-    assert 0.1 < made.leap / made.acceleration < 0.5
+    assert 0.1 < made.jump / made.acceleration < 0.5
     assert 1.0 < made.acceleration_ratio < 1.06
     assert made.deviation < 1.1e-6
 

@@ -153,7 +153,7 @@ def test_wrong_motions_and_words_are_refused() -> None:
         DiscCam(cycle_of("20 mm"), "80 mm", wrong)
     with pytest.raises(InputError, match=r"CamMotion\.of_law"):
         DiscCam(wrong, "80 mm", roller)
-    with pytest.raises(InputError, match="velocity leaps at 40 deg"):
+    with pytest.raises(InputError, match="velocity jumps at 40 deg"):
         DiscCam(CamMotion.of_law(kinked, "20 mm", "80 deg"), "80 mm", roller)
     with pytest.raises(InputError, match="direction"):
         CamMotion.of_law("cycloidal", "20 mm", "90 deg", "down")  # type: ignore[arg-type]

@@ -71,7 +71,7 @@ def test_a_follower_does_on_its_profile_what_was_meant(follower: CamFollower, st
 def test_peaks_as_made_are_enclosed_and_near(follower: CamFollower, stroke: str, form: str) -> None:
     disc = cam(follower, stroke)
     curve = CURVES[form](disc.profile)
-    made, following = run_against(disc, curve, leaps=False), Following(disc.contact, curve)
+    made, following = run_against(disc, curve, jumps=False), Following(disc.contact, curve)
     edges = np.array(curve.breaks)
     places = (edges[:-1] + np.diff(edges) * np.linspace(1e-9, 1.0 - 1e-9, 101)[:, None]).ravel()
     angle, displacement = following.at(places, 0)

@@ -261,7 +261,7 @@ def test_contacts_at_breaks_stay_where_they_are_and_no_others(family: Constraint
         assert not family.pinned(inside(family)).any()
     pieces = name.endswith(("splines", "pieces")) and not name.startswith(("norm", "vibration"))
     breaks = 1.0 - 2.0 * np.array(PIECES.breaks if name.endswith("pieces") else SPLINES.breaks)[1:-1]
-    # where the function leaps, the places are beside the break
+    # where the function jumps, the places are beside the break
     beside = [family.pinned(breaks + way) for way in (-BESIDE, 0.0, BESIDE)]
     there = (breaks >= low) & (breaks <= high) & (low < high)
     assert (np.any(beside, axis=0)[there] == pieces).all()

@@ -104,7 +104,7 @@ def integral(law: MotionLaw, nu: int, end: float) -> float:
     return sum(float(weights @ law(k, nu)) for k, weights in panels(law, end))
 
 
-def leaps(law: MotionLaw, nu: int, end: float = 1.0) -> float:
+def jumps(law: MotionLaw, nu: int, end: float = 1.0) -> float:
     """What the jumps of a derivative up to `end` add to it."""
     return sum(height for k, height in law.jumps(nu) if k <= end)
 
@@ -131,7 +131,7 @@ def size(law: MotionLaw, nu: int) -> float:
 def test_each_derivative_integrates_the_next(law: MotionLaw, nu: int) -> None:
     room = 1e-12 * size(law, nu + 1)
     for end in (0.1, 0.5, 0.83, 1.0):
-        change = integral(law, nu + 1, end) + leaps(law, nu, end)
+        change = integral(law, nu + 1, end) + jumps(law, nu, end)
         assert law(end, nu) - law(0.0, nu) == pytest.approx(change, abs=room)
 
 

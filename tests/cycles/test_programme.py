@@ -122,7 +122,7 @@ def test_derivatives_are_those_of_differences() -> None:
         assert moved == pytest.approx(course(times, nu), rel=1e-5, abs=1e-5 * course.peak(nu))
 
 
-def test_joints_tell_what_leaps() -> None:
+def test_joints_tell_what_jumps() -> None:
     course = cycle(Rise("35 mm", "120 deg", law="constant acceleration"), Dwell(), Return(duration="100 deg", law=SINE))
     rise, dwell = course.joints[0], course.joints[1]
     assert rise["acceleration"] == pytest.approx(4 * 3.5)

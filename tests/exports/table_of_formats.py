@@ -30,7 +30,7 @@ def row(name: str) -> list[str]:
         f"`{name}`",
         str(made.points),
         f"{ratio:.5f}" if isfinite(ratio) else "straight lines",
-        f"{made.report.run.leaps_at_ends[1] / made.report.law.peak(2):.1g}" if isfinite(ratio) else "",
+        f"{made.report.run.jumps_at_ends[1] / made.report.law.peak(2):.1g}" if isfinite(ratio) else "",
         f"{made.report.deviation[0].value:.1e}",
         BY.get(name, "own parser, CubicSpline"),
         f"{max(apart, 1e-16):.0e}",

@@ -24,7 +24,7 @@ def test_deviations_that_are_stated_are_the_greatest(name: str, degree: int) -> 
     assert np.abs(made.run.jumps(1)).max(initial=0.0) <= 1e-10 * motion.peak(1)
 
 
-def test_each_side_of_a_leap_keeps_its_own_derivatives() -> None:
+def test_each_side_of_a_jump_keeps_its_own_derivatives() -> None:
     motion = motion_of_law(scca(0.25, 0.5, 0.25), **SAID)
     made = fitted(motion, 7, 50)
     assert made.run.peak(3).value == pytest.approx(motion.peak(3), rel=1e-3)
@@ -59,7 +59,7 @@ def test_few_pieces_with_the_best_breaks_run_with_the_peak_of_the_law(degree: in
 def test_the_search_says_what_it_cannot_do() -> None:
     with pytest.raises(InputError, match="degree must be odd"):
         best_breaks(smoothstep(4), 6)
-    with pytest.raises(InputError, match=r"the derivative of order 2 of the law leaps"):
+    with pytest.raises(InputError, match=r"the derivative of order 2 of the law jumps"):
         best_breaks(catalogue["constant acceleration"].law, 5)
     with pytest.raises(InputError, match=r"1 pieces of degree 5 do not bring C within 0.1%"):
         best_breaks(smoothstep(6), 5, most=1)

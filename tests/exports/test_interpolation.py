@@ -39,8 +39,8 @@ def test_the_table_of_peaks_as_run(row: dict[str, str]) -> None:
         found = {"C": 1000.0 * float(np.abs(run.jumps(1)).max()) / constants.C.value}
     else:
         found = {"C": run.peak(2).value / constants.C.value, "J": run.peak(3).value / constants.J.value}
-        found["leap"] = float(np.abs(run.jumps(2)).max()) / constants.C.value
-    for name in ("C", "J", "leap"):
+        found["jump"] = float(np.abs(run.jumps(2)).max()) / constants.C.value
+    for name in ("C", "J", "jump"):
         if row[name]:
             digits = len(row[name].partition(".")[2])
             slack = 0.5 * 10.0**-digits if digits else 0.03 * float(row[name])
@@ -83,7 +83,7 @@ def test_a_periodic_spline_ends_where_it_begins() -> None:
         cubic_spline(x, x, "periodic")
 
 
-def test_straight_lines_leap() -> None:
+def test_straight_lines_jump() -> None:
     law = smoothstep(2)
     run = linear(np.linspace(0.0, 1.0, 5), law(np.linspace(0.0, 1.0, 5)))
     assert run.peak(1).value == pytest.approx(4.0 * (law(0.5) - law(0.25)))

@@ -14,9 +14,9 @@ def test_the_page_says_what_is_computed() -> None:
         for line in lines[start + 2 :]
         if line.startswith("|") and (cells := [cell.strip() for cell in line.strip("|").split("|")])
     }
-    for name, points, ratio, leap, deviation, by, apart in rows():
+    for name, points, ratio, jump, deviation, by, apart in rows():
         said = told[name]
-        assert said[:3] == [points, ratio, leap], name
+        assert said[:3] == [points, ratio, jump], name
         assert float(said[3]) == float(deviation)
         assert said[4] == by
         assert float(apart) <= 1e-12

@@ -184,20 +184,20 @@ def test_counts_make_many_points_worse() -> None:
     assert best.points < 60
 
 
-def test_a_leap_at_the_dwell_is_told() -> None:
+def test_a_jump_at_the_dwell_is_told() -> None:
     few = export_motion(one_shot(), "csv", points=13).report
-    assert few.law.leaps_at_ends[1] == 0.0
-    assert few.run.leaps_at_ends[1] == pytest.approx(max(abs(few.run.start[2]), abs(few.run.end[2])))
-    assert few.run.leaps_at_ends[1] > 0.01 * few.law.peak(2)
+    assert few.law.jumps_at_ends[1] == 0.0
+    assert few.run.jumps_at_ends[1] == pytest.approx(max(abs(few.run.start[2]), abs(few.run.end[2])))
+    assert few.run.jumps_at_ends[1] > 0.01 * few.law.peak(2)
     cubic = export_motion(one_shot(), "sew", points=25).report
-    assert cubic.run.leaps[1].value / cubic.law.peak(2) == pytest.approx(0.0493, abs=1e-3)
+    assert cubic.run.jumps[1].value / cubic.law.peak(2) == pytest.approx(0.0493, abs=1e-3)
 
 
-def test_a_law_whose_acceleration_leaps_keeps_its_leaps() -> None:
+def test_a_law_whose_acceleration_jumps_keeps_its_jumps() -> None:
     made = motion_of_law(catalogue["parabolic"].law, **SAID)
     report = export_motion(made, "csv", points=241).report
-    assert report.law.leaps[1].value == pytest.approx(2.0 * report.law.peak(2))
-    assert report.law.leaps_at_ends[1] == pytest.approx(report.law.peak(2))
+    assert report.law.jumps[1].value == pytest.approx(2.0 * report.law.peak(2))
+    assert report.law.jumps_at_ends[1] == pytest.approx(report.law.peak(2))
     assert report.results()["law"]["PointAtMaxSlaveJerk"]["SlaveJerk"] == 0.0
     assert export_motion(made, "csv", points=241).rows()[2][2] is None
 

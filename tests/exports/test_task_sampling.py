@@ -30,7 +30,7 @@ def test_smooth_runs_are_heard_as_they_are() -> None:
 
 @pytest.mark.parametrize("cycle", [press(), turning()])
 def test_a_cycle_goes_on_with_itself(cycle: object) -> None:
-    """Nothing is heard at the seam that is not in the motion: no leap by which a cycle advances or returns."""
+    """Nothing is heard at the seam that is not in the motion: no jump by which a cycle advances or returns."""
     made = cycle.export("codesys-xyva", task="0.7 ms")  # type: ignore[attr-defined]
     assert made.task.acceleration == pytest.approx(made.report.run.peak(2), rel=0.02)
 

@@ -70,10 +70,10 @@ def assignment() -> CamForces:
 @pytest.mark.parametrize("name", DATA["forces"])
 def test_contact_forces_under_a_process(name: str) -> None:
     case, forces = DATA["forces"][name], forces_of(name)
-    # at a leap the program takes the later value or the earlier one, as its loads were typed
+    # at a jump the program takes the later value or the earlier one, as its loads were typed
     places = [place for place, _ in case["process"]]
-    leaps = [place for place in places if places.count(place) == 2]
-    smooth = ~np.isin(case["deg"], leaps)
+    jumps = [place for place in places if places.count(place) == 2]
+    smooth = ~np.isin(case["deg"], jumps)
     ours = np.asarray(forces.contact_force(np.radians(case["deg"])))
     assert_allclose(ours[smooth], np.array(case["normal_force"])[smooth], rtol=1e-11)
     contact = forces.contact
@@ -120,7 +120,7 @@ def test_mean_power_work_above_the_mean_and_flywheel(assignment: CamForces) -> N
     assert degrees(energy.fastest_at) == pytest.approx(PRINT["fastest_at"], abs=0.05)
     assert degrees(energy.slowest_at) == pytest.approx(PRINT["slowest_at"], abs=0.05)
     assert energy.flywheel(PRINT["irregularity"]) == pytest.approx(PRINT["flywheel"], abs=0.05)
-    # the print adds samples, and counts half a sample too much of each leap
+    # the print adds samples, and counts half a sample too much of each jump
     samples = np.radians(np.arange(36000) / 100)
     torque = np.asarray(assignment.shaft_torque(samples))
     torque[24000] = assignment.shaft_torque(radians(240.0) - 1e-9)

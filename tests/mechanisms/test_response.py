@@ -126,7 +126,7 @@ def test_no_value_exceeds_the_extrema(seed: int, nu: float, damping: float, orde
     size = float(np.abs(values).max())
     assert low.value <= values.min() + 1e-10 * size
     assert high.value >= values.max() - 1e-10 * size
-    # where the motion leaps, the law has its right-hand value, and the extreme may be the left-hand one
+    # where the motion jumps, the law has its right-hand value, and the extreme may be the left-hand one
     for extreme in (low, high):
         sides = follower(np.array([max(extreme.k - 1e-13, 0.0), extreme.k]), order)
         assert np.abs(sides - extreme.value).min() <= 1e-9 * size + 1e-12

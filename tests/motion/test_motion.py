@@ -51,16 +51,16 @@ def test_time_is_a_master_too(cycle: Motion) -> None:
     assert seconds.over_time() is seconds
 
 
-def test_leaps_are_told_at_joints_and_within_laws() -> None:
+def test_jumps_are_told_at_joints_and_within_laws() -> None:
     motion = press("parabolic").motion()
     size = 4.0 * 35.0 / 120.0**2
     found = {round(x, 9): after - before for x, before, after in motion.sides(2)}
     assert found[60.0] == pytest.approx(-2.0 * size)
     assert found[120.0] == pytest.approx(size)
-    assert motion.leap(1) == (0.0, 0.0)
+    assert motion.jump(1) == (0.0, 0.0)
     assert isinf(motion.peak(3))
     uniform = motion_of_law(smoothstep(1), stroke="1 m", duration="1 s")
-    assert (uniform.leap(1)[0], uniform.peak(1), uniform.peak(2)) == (0.0, 1.0, 0.0)
+    assert (uniform.jump(1)[0], uniform.peak(1), uniform.peak(2)) == (0.0, 1.0, 0.0)
 
 
 def test_breaks_are_those_of_joints_and_laws() -> None:

@@ -74,12 +74,12 @@ def test_extremes_and_integrals_of_random_functions_are_enclosed() -> None:
         assert high - low < 1e-7
 
 
-def test_leaps_at_edges_are_seen_from_both_sides() -> None:
-    def leaping(x: Interval, order: int) -> Jet:
+def test_jumps_at_edges_are_seen_from_both_sides() -> None:
+    def jumping(x: Interval, order: int) -> Jet:
         place = variable(x, order)
         return place * np.where(x.middle < 1.0, 1.0, -1.0) + np.where(x.middle < 1.0, 1.0, 0.0)
 
-    enclosure = extremes(leaping, np.array([0.0, 1.0, 2.0]))
+    enclosure = extremes(jumping, np.array([0.0, 1.0, 2.0]))
     assert (enclosure.least, enclosure.most) == pytest.approx((-2.0, 2.0))
     assert enclosure.bound == pytest.approx(2.0)
     assert (enclosure.least_at, enclosure.most_at) == (2.0, 1.0)

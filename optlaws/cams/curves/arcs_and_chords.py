@@ -97,7 +97,7 @@ def arcs(outline: Outline, tolerance: float) -> Arcs:
     """Tangent arcs from which no place of an outline is farther than a tolerance in metres.
 
     Between two places of the outline with its directions there stands a pair of arcs that touch each other, so that
-    the chain has no corner; the curvature leaps from arc to arc.
+    the chain has no corner; the curvature jumps from arc to arc.
     """
 
     def density(angles: Array) -> Array:

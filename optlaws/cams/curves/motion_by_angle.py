@@ -175,7 +175,7 @@ class CamMotion:
     def along(self, angle: Jet) -> Jet:
         """The displacement where the cam's angle is itself a function, up to its second Taylor term.
 
-        Intervals of angles may hold breaks, as their acceleration may leap there: then all that it is on both sides.
+        Intervals of angles may hold breaks, as their acceleration may jump there: then all that it is on both sides.
         """
         s = self._over(angle.terms[0], angle.order).terms
         if angle.order == 0:

@@ -1,6 +1,6 @@
 """A process force on a cam's follower, over the cam's angle, the time or the follower's way: smooth between its edges.
 
-Its tables may leap where a place is given twice, as where a tool strikes. Between two edges each table is a polynomial,
+Its tables may jump where a place is given twice, as where a tool strikes. Between two edges each table is a polynomial,
 so that forces are enclosed there as those of inertia and spring are.
 """
 
@@ -89,7 +89,7 @@ def read_process_by_angle(given: Mapping[str, Any] | None, motion: CamMotion, ra
 
     `force`, or `torque` on a follower that swings, is a table, a formula or a quantity, above 0 where it pushes to
     greater displacements; `over` the "time" t from the beginning of the motion, the "master", which is the cam's angle
-    m, or the displacement s of the "driven" follower. Over time and angle a table leaps where a place is given twice.
+    m, or the displacement s of the "driven" follower. Over time and angle a table jumps where a place is given twice.
 
     Parameters
     ----------

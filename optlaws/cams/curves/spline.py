@@ -105,7 +105,7 @@ def _clamped(outline: Outline, angles: Array, degree: int) -> tuple[Array, Array
     points = outline(angles)
     if degree == 3:
         points[-1] = points[0]
-        # given its direction at the seam, a clamped spline is the closed one, whose curvature does not leap there
+        # given its direction at the seam, a clamped spline is the closed one, whose curvature does not jump there
         seam = make_interp_spline(angles, points, k=3, bc_type="periodic")(angles[:1], 1)[0]
         ends = ([(1, seam)], [(1, seam)])
     else:

@@ -254,5 +254,5 @@ def sign(jet: Jet) -> Jet:
     if not isinstance(first, Interval):
         return Jet((np.sign(first), *(np.zeros(np.shape(first)),) * jet.order))
     signs: Array = np.where(first.low > 0.0, 1.0, np.where(first.high < 0.0, -1.0, 0.0))
-    leap = Interval(np.zeros(signs.shape), np.where(signs == 0.0, np.inf, 0.0))
-    return Jet((Interval(signs, np.where(signs == 0.0, 1.0, 0.0)), *(leap,) * jet.order))
+    jump = Interval(np.zeros(signs.shape), np.where(signs == 0.0, np.inf, 0.0))
+    return Jet((Interval(signs, np.where(signs == 0.0, 1.0, 0.0)), *(jump,) * jet.order))

@@ -77,7 +77,7 @@ class EnergyFluctuation(PlainNumbers):
 def energy_fluctuation(machine: CamForces | Cycle | Mechanism, speed: Quantity | None = None) -> EnergyFluctuation:
     """Mean power, mean torque and the work above the mean of a shaft that turns once a cycle at an even speed.
 
-    The torque is integrated by Gauss's rule between the angles at which it has kinks or leaps, or crosses its mean.
+    The torque is integrated by Gauss's rule between the angles at which it has kinks or jumps, or crosses its mean.
 
     Parameters
     ----------

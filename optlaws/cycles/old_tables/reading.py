@@ -18,7 +18,7 @@ from optlaws.files import reading
 from optlaws.laws.catalogue.reading import LARGEST_TABLE, TablePoints, points_of, resolution_of
 from optlaws.motion.quantities import either
 from optlaws.numbers import Array
-from optlaws.tolerances import TABLE_LEAP, TABLE_MASTER, TABLE_RATE, TABLE_SLOPE, WHOLE_TURN
+from optlaws.tolerances import TABLE_JUMP, TABLE_MASTER, TABLE_RATE, TABLE_SLOPE, WHOLE_TURN
 
 #: how many places of pieces stand for them
 _PLACES = 721
@@ -179,7 +179,7 @@ def sampled(pieces: Sequence[CurvePiece]) -> tuple[Array, Array]:
     Raises
     ------
     InputError
-        If a piece does not begin where the one before it ends, or the position leaps there.
+        If a piece does not begin where the one before it ends, or the position jumps there.
 
     Examples
     --------
@@ -193,7 +193,7 @@ def sampled(pieces: Sequence[CurvePiece]) -> tuple[Array, Array]:
     for piece in pieces:
         low, high = piece.position(np.array([0.0, piece.stop - piece.start])).tolist()
         size = max(size, abs(low), abs(high))
-        if at is not None and not (at[0] == piece.start and abs(at[1] - low) <= TABLE_LEAP * size):
+        if at is not None and not (at[0] == piece.start and abs(at[1] - low) <= TABLE_JUMP * size):
             raise InputError(
                 f"a piece ends at {at[0]:.9g} with the position {at[1]:.9g} and the next begins at {piece.start:.9g} "
                 f"with {low:.9g}: the pieces do not follow each other"

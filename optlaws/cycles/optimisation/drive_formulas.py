@@ -81,7 +81,7 @@ def driven_formula(
     known = known_drive(drive)
     if known.dry > 0.0 and may_turn(span):
         raise InputError(
-            f"drive: dry: {span.where} may turn back, where dry friction leaps and a peak of force or power is not "
+            f"drive: dry: {span.where} may turn back, where dry friction jumps and a peak of force or power is not "
             "proven: leave it out of what is minimised or bounded, take moves between rests, or minimise or bound the "
             "rms force"
         )

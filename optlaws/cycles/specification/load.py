@@ -44,12 +44,12 @@ class Load:
 
     def motion(self, pieces: Sequence[Piece]) -> RepeatedMotion:
         """The steady outputs of the load under pieces that make a cycle, over time in seconds."""
-        drives_of_pieces, leaps = [], list[tuple[float, float]]()
+        drives_of_pieces, at_breaks = [], list[tuple[float, float]]()
         for piece in pieces:
             drives_of_pieces += drives.of_law(piece.law, piece.start, piece.duration, piece.offset, piece.stroke)
             size = factor(piece.stroke, piece.duration, 1)
-            leaps += [(piece.start + k * piece.duration, size * leap) for k, leap in jumps(piece.law)]
-        return RepeatedMotion(self.machine, tuple(drives_of_pieces), tuple(leaps))
+            at_breaks += [(piece.start + k * piece.duration, size * jump) for k, jump in jumps(piece.law)]
+        return RepeatedMotion(self.machine, tuple(drives_of_pieces), tuple(at_breaks))
 
     def limit(self, value: Any, output: str, name: str) -> float:  # noqa: ANN401 - it is checked here
         """A limit of an output in SI units: with its unit where that is known, else a number."""

@@ -7,7 +7,7 @@ from fractions import Fraction
 from optlaws.errors import InputError
 from optlaws.exports.error_bounds import SINGLE, as_stored
 from optlaws.exports.format import Request, Written, file_format
-from optlaws.exports.formats.program_polynomials import iec_heading, leaps_in_words, leaps_of_single, polynomials_for
+from optlaws.exports.formats.program_polynomials import iec_heading, jumps_in_words, jumps_of_single, polynomials_for
 from optlaws.exports.text import iec_name, real
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion
@@ -36,10 +36,10 @@ def _write(motion: Motion, request: Request) -> Written:
     slave = _period(scale * motion.advance, "slave", motion.units.slave, least=-LARGEST)
     fit = polynomials_for(motion, request, DEGREE, MOST)
     profile = _profile(fit.run, scale, master, slave)
-    run, roundings = _as_run(profile, fit.run, scale), leaps_of_single(fit.run)
+    run, roundings = _as_run(profile, fit.run, scale), jumps_of_single(fit.run)
     notes = (
         fit.in_words(motion.units.slave),
-        leaps_in_words(motion, roundings),
+        jumps_in_words(motion, roundings),
         "powers of each polynomial count from where it begins, x is where it ends: compare a point before use",
         *(() if request.counts is None else (f"slave in increments, {request.counts} over the stroke",)),
     )

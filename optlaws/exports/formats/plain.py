@@ -93,7 +93,7 @@ def _csv(motion: Motion, request: Request) -> Written:
 @_plain_format(
     "sew",
     target="SEW MOVI-C, list of points",
-    model="cubics whose acceleration leaps at every point, or straight lines",
+    model="cubics whose acceleration jumps at every point, or straight lines",
     extension=".csv",
     takes=(*_TEXT, "interpolation"),
 )
@@ -110,7 +110,7 @@ def _sew(motion: Motion, request: Request) -> Written:
 
     table = chosen(motion, request, make, least=2, most=MOST_POINTS)
     lines = [str(len(table.x)), *_rows(_x_and_y(table), request, ";")]
-    model = {"linear": "straight lines", "c1": "cubics whose acceleration leaps at every point, here with the law's V"}
+    model = {"linear": "straight lines", "c1": "cubics whose acceleration jumps at every point, here with the law's V"}
     return table.written(_lines(lines), model[interpolation])
 
 

@@ -73,16 +73,16 @@ def fields(**values: object) -> str:
     return ", ".join(f"{name} := {text}" for name, text in texts)
 
 
-def leaps_of_single(run: PiecewiseMotion) -> tuple[float, ...]:
+def jumps_of_single(run: PiecewiseMotion) -> tuple[float, ...]:
     """The greatest jumps of velocity, acceleration and jerk where polynomials meet, for the rounding of REAL32."""
     return tuple(2.0 * bound for bound in error_bounds(run, SINGLE)[1:])
 
 
-def leaps_in_words(motion: Motion, leaps: tuple[float, ...]) -> str:
+def jumps_in_words(motion: Motion, jumps: tuple[float, ...]) -> str:
     """The jumps of a motion in words."""
     units = labels_of(motion)
-    words = ", ".join(f"{rounded_up(leap)} {units.unit(nu)}" for nu, leap in enumerate(leaps, start=1))
-    return f"leaps at joints by at most {words} are roundings of REAL32"
+    words = ", ".join(f"{rounded_up(jump)} {units.unit(nu)}" for nu, jump in enumerate(jumps, start=1))
+    return f"jumps at joints by at most {words} are roundings of REAL32"
 
 
 class Ends(NamedTuple):
@@ -116,19 +116,19 @@ def rounding(run: PiecewiseMotion, nu: int) -> float:
     return float(max(POLYNOMIAL_ROUNDING * size, 2.0**-44 * run.peak(0).value / float(run.lengths.min()) ** nu))
 
 
-def leaping(run: PiecewiseMotion, nu: int) -> float | None:
+def jumping(run: PiecewiseMotion, nu: int) -> float | None:
     """The first break where the derivative of order nu jumps by more than rounding; None where there is none."""
     small = rounding(run, nu)
-    for x, leap in zip(run.breaks[1:], run.jumps(nu).tolist(), strict=False):
-        if abs(leap) > small:
+    for x, jump in zip(run.breaks[1:], run.jumps(nu).tolist(), strict=False):
+        if abs(jump) > small:
             return x
     return None
 
 
-def refuse_leaps(motion: Motion, run: PiecewiseMotion, holder: str, remedy: str) -> None:
+def refuse_jumps(motion: Motion, run: PiecewiseMotion, holder: str, remedy: str) -> None:
     """Refuse polynomials whose velocity or acceleration jumps, for what holds one value of each at a point."""
     for nu, quantity in ((1, "velocity"), (2, "acceleration")):
-        x = leaping(run, nu)
+        x = jumping(run, nu)
         if x is not None:
             place = f"x = {x:.9g} {motion.units.master}"
-            raise InputError(f"the {quantity} leaps at {place}, and {holder} holds one value of it: {remedy}")
+            raise InputError(f"the {quantity} jumps at {place}, and {holder} holds one value of it: {remedy}")

@@ -14,7 +14,7 @@ from optlaws.exports.formats.program_polynomials import (
     fields,
     iec_heading,
     polynomials_for,
-    refuse_leaps,
+    refuse_jumps,
 )
 from optlaws.exports.interpolation import hermite_powers
 from optlaws.exports.text import iec_name
@@ -116,7 +116,7 @@ def _sixth(ends: Ends) -> list[float]:
 def _write_points(motion: Motion, request: Request) -> Written:
     name = iec_name(request.name, "SIMATIC AX")
     fit = polynomials_for(motion, request, 5, SEGMENTS, points=True)
-    refuse_leaps(motion, fit.run, "a basic point", _REMEDY)
+    refuse_jumps(motion, fit.run, "a basic point", _REMEDY)
     ends = ends_of(motion, fit.run, 3)
     values = np.array([*(end.first for end in ends), ends[-1].last]).T
     run = PiecewiseMotion(fit.run.breaks, hermite_powers(np.array(fit.run.breaks), values))

@@ -9,9 +9,9 @@ from optlaws.exports.format import Request, Written, file_format
 from optlaws.exports.formats.program_polynomials import (
     SOURCE_MODEL,
     SOURCE_PIECES,
+    jumps_in_words,
+    jumps_of_single,
     labels_of,
-    leaps_in_words,
-    leaps_of_single,
     source_polynomials,
 )
 from optlaws.exports.text import Labels, iec_name, program_heading, real, safe, wrapped
@@ -127,8 +127,8 @@ def _write(motion: Motion, request: Request, *, single: bool) -> Written:
     text = function_block(fit.run, request.name, labels_of(motion, notes), single=single)
     if not single:
         return Written(text, fit.run, "polynomials in LREAL", fit.count, "segments", notes=notes)
-    roundings = leaps_of_single(fit.run)
-    notes = (*notes, leaps_in_words(motion, roundings))
+    roundings = jumps_of_single(fit.run)
+    notes = (*notes, jumps_in_words(motion, roundings))
     run = _single(fit.run)
     return Written(text, run, "polynomials in REAL", fit.count, "segments", notes=notes, roundings=roundings)
 

@@ -14,9 +14,9 @@ from optlaws.exports.formats.program_polynomials import (
     ends_of,
     fields,
     iec_heading,
-    leaping,
+    jumping,
     polynomials_for,
-    refuse_leaps,
+    refuse_jumps,
 )
 from optlaws.exports.interpolation import hermite_powers
 from optlaws.exports.spacing import PointTable, chosen
@@ -112,8 +112,8 @@ def _motion_function(motion: Motion, request: Request, *, third: bool) -> Writte
 def _shared(motion: Motion, request: Request) -> Fitted:
     """Polynomials whose neighbours share what a point holds: velocity, acceleration, and the jerk where one is used."""
     fit = polynomials_for(motion, request, DEGREE, MOST_POINTS - 1, points=True)
-    refuse_leaps(motion, fit.run, "a point of TwinCAT", _REMEDY)
-    if fit.run.degree > 5 and leaping(fit.run, 3) is not None:
+    refuse_jumps(motion, fit.run, "a point of TwinCAT", _REMEDY)
+    if fit.run.degree > 5 and jumping(fit.run, 3) is not None:
         return polynomials_for(motion, request, 5, MOST_POINTS - 1, points=True)
     return fit
 

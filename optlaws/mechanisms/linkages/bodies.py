@@ -157,7 +157,7 @@ NO_LOADS = Loads()
 class DrivenLink:
     """A link that does the work: its name, its position and velocity by the input, and whether it slides or turns.
 
-    The position of one that turns very far has no formula without a leap.
+    The position of one that turns very far has no formula without a jump.
     """
 
     name: str

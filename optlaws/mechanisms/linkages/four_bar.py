@@ -33,7 +33,7 @@ from optlaws.suggest import unknown_key
 
 FourBarBranch = Literal["open", "crossed"]
 SIDES: dict[FourBarBranch, float] = {"open": 1.0, "crossed": -1.0}
-#: rad from the middle of its swing: beyond it the angle of a rocker has no formula without a leap
+#: rad from the middle of its swing: beyond it the angle of a rocker has no formula without a jump
 _MOST_SWING = 0.9 * pi
 _LOOKS = 2881
 

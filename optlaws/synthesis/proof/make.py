@@ -1,6 +1,6 @@
 """From an optimum's multipliers to a certificate, and the best bound that can be proven.
 
-At a law in which a formula with kinks vanishes along a stretch, or nearly does, the slope of its integral leaps: one
+At a law in which a formula with kinks vanishes along a stretch, or nearly does, the slope of its integral jumps: one
 tangent leaves a slope that rounding, or a kink, hides. Tangents on all sides of the law, weighted by a linear program,
 have the slope that the optimum asks for, exactly.
 """

@@ -31,7 +31,7 @@ def printed_moment(one: TorsionLever, chi: mpmath.mpf) -> mpmath.mpf:
     side = 1 if mpmath.sin(psi) >= 0 else -1
     turned = mpmath.pi - side * mpmath.acos((alpha - one.beta * mpmath.cos(psi)) / mpmath.sqrt(f2)) - rest
     turned -= mpmath.acos((f2 + 1 - mpmath.mpf(one.lam) ** 2) / (2 * mpmath.sqrt(f2)))
-    # from one side of psi = 0 to the other the first arc leaps by a whole turn, the rocker does not
+    # from one side of psi = 0 to the other the first arc jumps by a whole turn, the rocker does not
     turned -= 2 * mpmath.pi * mpmath.nint(turned / (2 * mpmath.pi))
     gamma = rest + turned
     end = one.beta * mpmath.expjpi(psi / mpmath.pi) - alpha - mpmath.expjpi(gamma / mpmath.pi)

@@ -1,4 +1,4 @@
-"""Process forces on followers: against forces by hand, over angle, time and way, with leaps, in any unit."""
+"""Process forces on followers: against forces by hand, over angle, time and way, with jumps, in any unit."""
 
 from math import pi
 from typing import Any
@@ -35,7 +35,7 @@ def stepped(places: np.ndarray) -> np.ndarray:
     return np.select([places < 40.0, places < 150.0, places < 222.0], ramps, 0.0)
 
 
-def test_tables_over_the_angle_and_the_time_leap_where_a_place_stands_twice() -> None:
+def test_tables_over_the_angle_and_the_time_jump_where_a_place_stands_twice() -> None:
     by_angle = taken({"force": lines(TABLE), "over": "master"})
     assert by_angle == pytest.approx(stepped(np.degrees(ANGLES)), abs=1e-9)
     seconds = [(f"{place / 180.0!r} s", f"{value!r} N") for place, value in TABLE]
@@ -70,7 +70,7 @@ def test_a_force_over_the_way_and_a_spline() -> None:
         {"force": [("0 mm", "0 N"), ("9 mm", "-30 N"), ("30 mm", "-90 N")], "over": "driven"},
         {"force": "60*cos(2*m) - abs(40*sin(m))", "over": "master"},
     ],
-    ids=["leaps", "way", "kinks"],
+    ids=["jumps", "way", "kinks"],
 )
 def test_forces_are_enclosed_over_the_turn(process: dict[str, Any]) -> None:
     friction = {"contact": 0.01, "guide": 0.1, "overhang": "60 mm", "length": "80 mm"}

@@ -29,7 +29,7 @@ def test_a_file_is_written_and_never_lost(tmp_path: Path, capsys: Capture) -> No
     file = tmp_path / "cam.csv"
     file.write_text("mine\n", "utf-8")
     assert exit_code(["export", *LAW, "--to", "sew", "--points", "13", "--output", str(file)]) == 0
-    assert "cubics whose acceleration leaps" in capsys.readouterr().out
+    assert "cubics whose acceleration jumps" in capsys.readouterr().out
     assert (tmp_path / "cam.csv.orig").read_text("utf-8") == "mine\n"
     written = file.read_bytes()
     assert exit_code(["export", *LAW, "--to", "sew", "--points", "13", "--output", str(file)]) == 0

@@ -244,3 +244,46 @@ def test_limits_that_cannot_be_kept_name_the_segment() -> None:
 def test_richer_laws_are_better() -> None:
     assert Cycle(FIVE, speed="200 rpm", degree=15).objective < Cycle(FIVE, speed="200 rpm").objective
     assert Cycle(FIVE, speed="200 rpm").solutions[0].problem.basis == Chebyshev(9)
+
+
+def test_a_cycle_within_modified_sines_jerk_has_less_acceleration_than_modified_sine() -> None:
+    def programme(law: str) -> list[Any]:
+        return [Rise("35 mm", "120 deg", law=law), Dwell("90 deg"), Return(duration="100 deg", law=law), Dwell()]
+
+    cycle, usual = (Cycle(programme(law), speed="200 rpm") for law in ("optimal", "modified sine"))
+    gentle = cycle.with_modified_sine_jerk()
+    assert cycle.modified_sine_jerk == pytest.approx(usual.peak(3), rel=1e-12)
+    assert gentle.status == "optimal"
+    assert usual.peak(3) <= gentle.peak(3) * (1 + 1e-12) <= usual.peak(3) * (1 + 2e-6)
+    assert cycle.objective < gentle.objective < 0.9 * usual.peak(2)
+    rows = {row.name: row for row in cycle.summary()}
+    assert rows["peak jerk over that of modified sine"].value == cycle.peak(3) / usual.peak(3)
+    offered = rows["least acceleration with no more jerk than modified sine"]
+    assert offered.value == gentle.objective
+    assert offered.note == f'limits={{"jerk": "{gentle.limits["jerk"]}"}}'
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        {"limits": {"jerk": "9000 m/s^3"}},
+        {"limits": {"snap": "9e6 m/s^4"}, "order": 4},
+        {"minimise": "jerk"},
+        {"segments": [ConstantVelocity("1.5 m/s", "80 ms"), Return()]},
+    ],
+)
+def test_modified_sines_jerk_stands_beside_free_jerks_between_rests_alone(given: dict[str, Any]) -> None:
+    segments = [Rise("35 mm", "120 deg"), Dwell("90 deg"), Return(duration="100 deg"), Dwell()]
+    cycle = Cycle(**{"segments": segments, "period": "0.3 s", **given})
+    assert cycle.modified_sine_jerk is None
+    with pytest.raises(InputError, match=r"limits=\{.jerk."):
+        cycle.with_modified_sine_jerk()
+
+
+def test_a_cycle_whose_limits_leave_no_law_within_that_jerk_says_so() -> None:
+    segments = [Rise("35 mm", "120 deg"), Dwell("90 deg"), Return(duration="100 deg"), Dwell()]
+    rows = {row.name: row for row in Cycle(segments, speed="200 rpm", limits={"velocity": "480 mm/s"}).summary()}
+    assert (
+        rows["least acceleration with no more jerk than modified sine"].value
+        == "none was found within the other limits"
+    )

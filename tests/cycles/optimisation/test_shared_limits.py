@@ -130,7 +130,7 @@ def test_the_bound_of_the_power_by_energy_is_below_what_any_law_takes(drive: dic
         ({"segments": [Rise("9 deg", limits={"rms torque": "1 N m"}), Return()]}, InputError, "is of the whole cycle"),
         ({"drive": None, "limits": {"rms torque": "1 N m"}}, InputError, "are of a drive: give one"),
         ({"drive": None, "minimise": "power"}, InputError, "are of a drive: give one"),
-        ({"segments": WAYS, "minimise": "power"}, InputError, "may turn back, where dry friction leaps"),
+        ({"segments": WAYS, "minimise": "power"}, InputError, "may turn back, where dry friction jumps"),
         ({"segments": WAYS, "minimise": "rms torque", "drive": MOTOR | {"gravity": "1 N m"}}, InputError,
          "without stiffness, preload and gravity"),
     ],

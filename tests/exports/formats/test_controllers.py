@@ -169,14 +169,14 @@ def test_ends_are_those_of_the_motion_and_joints_close() -> None:
         assert " := 35.0, " in export_motion(motion, name).text
         cyclic = export_motion(repeating(), name)
         assert not cyclic.run.jumps(0).any() or np.abs(cyclic.run.jumps(0)).max() <= 1e-13
-    leaps = export_motion(motion, "br-acp10").written.roundings
-    assert leaps[1] <= 1e-3 * motion.peak(2)
+    jumps = export_motion(motion, "br-acp10").written.roundings
+    assert jumps[1] <= 1e-3 * motion.peak(2)
 
 
-def test_points_that_hold_one_value_refuse_leaps_and_pieces_do_not() -> None:
+def test_points_that_hold_one_value_refuse_jumps_and_pieces_do_not() -> None:
     motion = one_shot("constant acceleration")
     for name in ("twincat-nc2", "twincat-mc3", "siemens-points"):
-        with pytest.raises(InputError, match=r"acceleration leaps at x = 60 deg, and a .* one value of it: take"):
+        with pytest.raises(InputError, match=r"acceleration jumps at x = 60 deg, and a .* one value of it: take"):
             export_motion(motion, name)
     for name in ("codesys-cambuilder", "siemens-elements", "siemens-polynomials"):
         made = export_motion(motion, name)

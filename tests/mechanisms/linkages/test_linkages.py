@@ -218,7 +218,7 @@ def test_a_traced_function_is_the_slider_crank() -> None:
 
 
 def test_four_bars_that_turn_far() -> None:
-    # with the shortest link as frame both pivoted links turn fully: the rocker's angle would leap
+    # with the shortest link as frame both pivoted links turn fully: the rocker's angle would jump
     lengths = (0.3, 0.35, 0.4, 0.1)
     bodies = {"rocker": "0.05 kg m^2"}
     dragged = four_bar(*lengths, bodies=bodies, loads=Loads("2 N m"))

@@ -14,7 +14,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, repr=False)
-class Leap(Functional):
+class Jump(Functional):
     """The peak of the snap, whose rows are those of a derivative times a factor."""
 
     of_rows: int = 4
@@ -33,16 +33,16 @@ class Leap(Functional):
 @pytest.mark.parametrize(("of_rows", "factor"), [(5, 1.0), (3, 1.0), (4, 2.0), (4, 0.5)])
 @pytest.mark.parametrize("bounded", [False, True])
 def test_rows_and_values_that_contradict_each_other_are_refused(of_rows: int, factor: float, *, bounded: bool) -> None:
-    leap = Leap("leap", float("nan"), convex=True, of_rows=of_rows, factor=factor)
-    problem = Problem(order=5, bounds={leap: (None, 9e9)}) if bounded else Problem(order=5, minimise=leap)
+    jump = Jump("jump", float("nan"), convex=True, of_rows=of_rows, factor=factor)
+    problem = Problem(order=5, bounds={jump: (None, 9e9)}) if bounded else Problem(order=5, minimise=jump)
     with pytest.raises(
-        InputError, match=r"Leap\.families and Leap\.value contradict each other: of a law the rows ask"
+        InputError, match=r"Jump\.families and Jump\.value contradict each other: of a law the rows ask"
     ):
         synthesize(problem)
 
 
 def test_those_that_agree_are_taken() -> None:
-    assert synthesize(Problem(order=5, minimise=Leap("leap", float("nan"), convex=True))).status == "optimal"
+    assert synthesize(Problem(order=5, minimise=Jump("jump", float("nan"), convex=True))).status == "optimal"
 
 
 @pytest.mark.parametrize("factor", [1.0, 2.0])
