@@ -15,8 +15,8 @@ import msgspec
 
 from optlaws.echo import cut
 from optlaws.errors import InputError, OptlawsError
-from optlaws.explorer import downloads
-from optlaws.explorer.views import cam_view, cycle_view, front_view, law_view
+from optlaws.explorer import downloads, start
+from optlaws.explorer.views import cam_view, cycle_view, front_view, law_view, study_view
 from optlaws.explorer.views.requests import Question, read, ready
 from optlaws.jobs.cam_entries import CamProblemFile
 from optlaws.jobs.cycle_entries import CycleProblemFile
@@ -27,10 +27,16 @@ QUESTIONS: dict[str, Question] = {
     **front_view.QUESTIONS,
     **cycle_view.QUESTIONS,
     **cam_view.QUESTIONS,
+    **study_view.QUESTIONS,
+    **start.QUESTIONS,
     **downloads.QUESTIONS,
 }
 #: by a view's name in the page: the study that it shows where none was given
-EXAMPLES: dict[str, Callable[[], dict[str, Any]]] = {"cycle": cycle_view.example, "cam": cam_view.example}
+EXAMPLES: dict[str, Callable[[], dict[str, Any]]] = {
+    "cycle": cycle_view.example,
+    "cam": cam_view.example,
+    "study": study_view.example,
+}
 OK, UNREADABLE, FAULT = 200, 422, 500
 #: bytes that a process may take for its data, where the system can limit it
 _MOST_DATA = 1 << 30

@@ -19,6 +19,7 @@ from optlaws.errors import InputError
 from optlaws.explorer.views import cam_view, cycle_view
 from optlaws.explorer.views.law_view import digits, title
 from optlaws.explorer.views.requests import MOST_LAWS, LawRequest, Question, law_of, problem_of, solved
+from optlaws.explorer.views.study_view import StudyRequest
 from optlaws.exports.format import FORMATS
 from optlaws.files.tables import to_toml
 from optlaws.files.writing import MARK
@@ -58,8 +59,9 @@ class FileRequest(SeenRequest, kw_only=True, forbid_unknown_fields=True):
     """A file of what is seen."""
 
     kind: Literal["python", "problem", "law", "table", "cut"]
-    view: Literal["laws", "cycle", "cam"] = "laws"
+    view: Literal["laws", "cycle", "cam", "study"] = "laws"
     cam: cam_view.CamRequest | None = None
+    study: StudyRequest | None = None
     format: Annotated[str, msgspec.Meta(max_length=40)] = "dxf spline"
 
 
@@ -69,6 +71,10 @@ def answer(request: FileRequest) -> File:
         return _of_cycle(request)
     if request.view == "cam":
         return _of_cam(request)
+    if request.view == "study" and request.kind == "problem":
+        if request.study is None:
+            raise InputError("there is no study to save")
+        return _file("study.toml", "application/toml", to_toml(_bounds(request.study.study)))
     law = request.law
     makers: Mapping[str, Callable[[], File]] = {
         "python": lambda: _file("study.py", "text/x-python", python(request.laws)),
@@ -188,6 +194,8 @@ def _bounds(value: Any) -> Any:  # noqa: ANN401 - an entry
     """A range without an upper end has none in JSON, but an infinite one in a file."""
     if isinstance(value, list) and len(value) == 2 and value[1] is None:
         return [value[0], float("inf")]
+    if isinstance(value, list):
+        return [_bounds(entry) for entry in value]
     return {name: _bounds(entry) for name, entry in value.items()} if isinstance(value, dict) else value
 
 
@@ -202,7 +210,6 @@ def _of_cycle(request: FileRequest) -> File:
     if request.cycle is None:
         raise InputError("there is no cycle to save")
     if request.kind == "problem":
-        cycle_view.read(request.cycle)
         return _file("cycle.toml", "application/toml", to_toml(request.cycle.study))
     spec, axis = cycle_view.read(request.cycle)
     cycle = cycle_view.cycle(request.cycle)
@@ -218,9 +225,9 @@ def _of_cycle(request: FileRequest) -> File:
 def _of_cam(request: FileRequest) -> File:
     if request.cam is None:
         raise InputError("there is no cam to save")
-    findings = cam_view.findings_of(request.cam)
     if request.kind == "problem":
         return _file("cam.toml", "application/toml", to_toml(request.cam.study))
+    findings = cam_view.findings_of(request.cam)
     if request.kind != "cut":
         raise InputError("a cam is saved as a problem file or as a file that cuts it")
     if request.format not in cam_files.FORMATS:

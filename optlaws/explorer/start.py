@@ -1,18 +1,26 @@
-"""What the explorer shows first: what the command was given, as the page keeps its state."""
+"""What the explorer shows of a file: what the command was given, or the reader opened, as the page keeps its state."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
+import msgspec
+
+from optlaws import MotionLaw
 from optlaws.errors import InputError, located
-from optlaws.explorer.answering import EXAMPLES
-from optlaws.explorer.views.requests import MOST_LAWS, LawRequest, problem_of
+from optlaws.explorer.views.requests import MOST_LAWS, LawRequest, Question, problem_of
+from optlaws.explorer.views.study_view import law_entries, rows_of
 from optlaws.files import reading
 from optlaws.files.packaged import is_problem, problem_file
-from optlaws.laws.catalogue.reading import is_file, is_table, read_law
+from optlaws.laws.catalogue.reading import is_file, is_table, law_of_points, read_law
+from optlaws.studies.problem_entries import problem
 
 _FIRST = {"order": 4, "degree": 9, "B": 1.7}
+#: jobs with a view of their own name
+_SHOWN = frozenset({"cam", "cycle"})
+#: jobs of which a file with one problem is shown as its law
+_OF_ONE = (None, "solutions")
 
 
 def start(given: str | None) -> dict[str, Any]:
@@ -26,7 +34,8 @@ def start(given: str | None) -> dict[str, Any]:
     if given is None:
         return _laws({"problem": dict(_FIRST), "weights": {"C": 1.0}})
     if is_problem(given):
-        return _of_problem_file(problem_file(Path(given))[0])
+        file = problem_file(Path(given))[0]
+        return _of_problem_file(reading.toml(file), str(file))
     if is_file(given):
         return _of_law_file(given)
     read_law(given)
@@ -38,40 +47,70 @@ def _laws(*laws: dict[str, Any]) -> dict[str, Any]:
 
 
 def _of_law_file(given: str) -> dict[str, Any]:
+    if is_table(given):
+        return _laws({"law": read_law(given).to_dict(), "title": _stem(given)})
+    return _of_stored(reading.json_file(Path(given)), given)
+
+
+def _of_stored(data: Any, name: str) -> dict[str, Any]:  # noqa: ANN401 - of a file
     """The problem of a solution, so that it can be changed; else the law."""
-    file = Path(given)
-    data = None if is_table(given) else reading.json_file(file)
     if isinstance(data, dict) and isinstance(data.get("problem"), dict):
-        return _laws(_problem(data["problem"], file))
-    return _laws({"law": read_law(given).to_dict(), "title": file.stem[:60]})
+        return _laws(_problem(data["problem"], name))
+    if isinstance(data, dict) and "kind" not in data and "law" in data:
+        data = data["law"]
+    with located(name):
+        return _laws({"law": MotionLaw.from_dict(data).to_dict(), "title": _stem(name)})
 
 
-def _of_problem_file(file: Path) -> dict[str, Any]:
-    data = reading.toml(file)
+def _stem(name: str) -> str:
+    return Path(name).stem[:60]
+
+
+def _of_problem_file(data: dict[str, Any], name: str) -> dict[str, Any]:
+    """The view of a job; rows of problems with the law of the first, and where there is but one that law alone."""
     job = data.get("job")
-    if job in EXAMPLES:
+    if job in _SHOWN:
         return {"view": job, job: data}
-    entries = data.get("problem")
-    if not isinstance(entries, dict):
-        raise InputError(
-            f"{file} has neither a [problem] nor a job of {', '.join(EXAMPLES)}: the explorer shows these and laws"
-        )
-    swept: Any = data.get("sweep")
-    first = {name: values[0] for entry in swept for name, values in entry.items()} if _is_sweep(swept) else {}
-    return _laws(_problem({name: value for name, value in (entries | first).items() if value != "free"}, file))
+    with located(name):
+        count, rows = rows_of(data)
+    if not count and not isinstance(data.get("problem"), dict):
+        return {"view": "study", "study": data}
+    stated = next(rows)[1] if count else problem(name, data["problem"])
+    laws = _laws(law_entries(stated))
+    return laws if count <= 1 and job in _OF_ONE else laws | {"view": "study", "study": data}
 
 
-def _is_sweep(swept: Any) -> bool:  # noqa: ANN401 - of a file
-    return isinstance(swept, list) and all(
-        isinstance(entry, dict) and all(isinstance(values, list) and values for values in entry.values())
-        for entry in swept
+class OpenRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """A file that the reader opened: its name and its text."""
+
+    name: Annotated[str, msgspec.Meta(max_length=255)]
+    text: str
+
+
+def opened(request: OpenRequest) -> dict[str, Any]:
+    r"""The state that shows a file; no file of this machine is read for it.
+
+    Examples
+    --------
+    >>> opened(OpenRequest(name="one.toml", text="[problem]\norder = 4\nB = 1.7"))["state"]["laws"][0]["weights"]
+    {'C': 1.0}
+    """
+    name, ending = Path(request.name).name, Path(request.name).suffix.lower()
+    if ending == ".toml":
+        return {"state": _of_problem_file(reading.toml_text(request.text, name), name)}
+    if ending == ".json":
+        return {"state": _of_stored(reading.json_text(request.text, name), name)}
+    if is_table(name):
+        law = law_of_points(Path(name), content=request.text)
+        return {"state": _laws({"law": law.to_dict(), "title": _stem(name)})}
+    raise InputError(
+        f"{name}: the page opens problem files (.toml), laws and solutions (.json) and tables of points (.csv)"
     )
 
 
-def _problem(entries: dict[str, Any], file: Path) -> dict[str, Any]:
-    """A problem as the page keeps it: with weights where one constant is minimised."""
-    with located(str(file)):
-        plain = problem_of(LawRequest(problem=entries)).to_dict()
-    if plain.get("minimise") in {"C", "D", "J", "rms_c"}:
-        return {"weights": {plain.pop("minimise"): 1.0}, "problem": plain}
-    return {"problem": plain}
+def _problem(entries: dict[str, Any], name: str) -> dict[str, Any]:
+    with located(name):
+        return law_entries(problem_of(LawRequest(problem=entries)))
+
+
+QUESTIONS: dict[str, Question] = {"open": (OpenRequest, opened)}

@@ -77,16 +77,20 @@ def _named(file: Path) -> str:
 
 def toml(file: Path) -> dict[str, Any]:
     """The contents of a TOML file."""
+    return toml_text(text(file, LARGEST_TOML), str(file))
+
+
+def toml_text(content: str, name: str) -> dict[str, Any]:
+    """The contents of a TOML text; `name` is what an error calls it."""
     import tomllib
 
-    content = text(file, LARGEST_TOML)
     try:
         data: dict[str, Any] = tomllib.loads(content)
     except RecursionError:
-        raise InputError(f"{file} is nested more than {DEEPEST} deep") from None
+        raise InputError(f"{name} is nested more than {DEEPEST} deep") from None
     except ValueError as error:
-        raise InputError(f"{file} is not TOML: {error}") from None
-    checked(data, str(file))
+        raise InputError(f"{name} is not TOML: {error}") from None
+    checked(data, name)
     return data
 
 

@@ -71,7 +71,7 @@ def run(results: Results) -> None:
     for name in [*spec.columns, *(name for compared in spec.compare for name in compared.columns)]:
         if name not in COLUMNS:
             raise InputError(unknown_key(name, COLUMNS, "column"))
-    entries = list(_entries(spec))
+    entries = list(swept_entries(spec))
     beside = _beside(spec, results.file, entries)
     problems = [_problems(spec, i, entry) for i, entry in enumerate(entries, 1)]
     rows = [_solved(spec, entry, *stated) for entry, stated in zip(entries, problems, strict=True)]
@@ -81,7 +81,7 @@ def run(results: Results) -> None:
     results.text("laws.json", _laws(results.about, rows))
 
 
-def _entries(spec: SolutionsProblemFile) -> Iterator[dict[str, Any]]:
+def swept_entries(spec: SolutionsProblemFile) -> Iterator[dict[str, Any]]:
     """The swept entries of each row; the last table of `sweep` varies fastest."""
     parts = []
     names: list[str] = []

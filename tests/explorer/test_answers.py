@@ -8,6 +8,7 @@ from math import degrees, hypot
 from pathlib import Path
 from typing import Any
 
+import msgspec
 import numpy as np
 import pytest
 
@@ -21,6 +22,7 @@ from tests.internals.explorer import (
     FileRequest,
     LawRequest,
     LawsRequest,
+    OpenRequest,
     cam_view,
     cycle_view,
     downloads,
@@ -29,9 +31,11 @@ from tests.internals.explorer import (
     given_law,
     law_of,
     law_view,
+    opened_file,
     problem_of,
     solved,
     start,
+    study_view,
 )
 from tests.internals.files import to_toml
 
@@ -172,11 +176,42 @@ def test_a_solution_is_shown_as_its_problem_and_a_law_as_itself(tmp_path: Path) 
 
 @pytest.mark.parametrize(
     ("given", "message"),
-    [("nobody", "nobody"), ("none.toml", "none.toml"), ("{ROOT}/problems/lever_nomogram.toml", "explorer shows")],
+    [("nobody", "nobody"), ("none.toml", "none.toml"), ("{ROOT}/README.md", "README.md")],
 )
 def test_what_cannot_be_shown_is_refused_by_its_name(given: str, message: str) -> None:
     with pytest.raises((InputError, OSError), match=message):
         start(given.format(ROOT=ROOT))
+
+
+@pytest.mark.parametrize("file", sorted((ROOT / "problems").glob("*.toml")), ids=lambda file: file.stem)
+def test_every_problem_file_is_opened_and_written(file: Path) -> None:
+    text = file.read_text("utf-8")
+    state = opened_file(OpenRequest(name=file.name, text=text))["state"]
+    view, data = state["view"], tomllib.loads(text)
+    assert state[view] == data
+    asked = {"kind": "problem", "view": view, "laws": [STORED], view: {"study": state[view]}}
+    assert tomllib.loads(downloads.answer(msgspec.convert(asked, FileRequest))["text"]) == data
+
+
+def test_rows_of_a_study_are_the_problems_that_its_job_solves() -> None:
+    data = tomllib.loads((ROOT / "problems" / "orders.toml").read_text("utf-8"))
+    shown = study_view.answer(study_view.StudyRequest(study=data))
+    assert len(shown["rows"]) == 48
+    assert shown["names"] == ["minimise", "B", "order", "degree"]
+    assert problem_of(law(shown["rows"][-1]["law"])) == Problem(order=5, minimise="D", basis=Chebyshev(21))
+    atlas = tomllib.loads((ROOT / "problems" / "atlas.toml").read_text("utf-8"))
+    assert study_view.answer(study_view.StudyRequest(study=atlas))["note"] == "The first 400 of 2736 problems."
+
+
+def test_a_file_that_is_opened_is_refused_in_words() -> None:
+    for name, text, message in (
+        ("a.toml", "= 3", "a.toml is not TOML"),
+        ("a.json", "{", "a.json"),
+        ("a.pdf", "", "the page opens"),
+        ("../../etc/x.csv", "a;b", "x.csv"),
+    ):
+        with pytest.raises(InputError, match=message):
+            opened_file(OpenRequest(name=name, text=text))
 
 
 # --- files ---

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from tests.explorer.talk import OPTIMAL, Server
-from tests.internals.explorer import QUESTIONS, cam_view, example
+from tests.internals.explorer import QUESTIONS, cam_view, example, study_view
 
 CYCLE = {"study": example()}
 CAM = {"study": cam_view.example()}
@@ -17,6 +17,7 @@ LAWS = [
     {"name": "modified sine"},
     {"problem": {"start": [0, 0], "end": [1, 0.5], "degree": 7, "symmetric": False}},
 ]
+TOML = '[problem]\norder = 4\n[[sweep]]\nB = [1.6, "free"]\n'
 SEEDS: dict[str, list[Any]] = {
     "laws": [{"laws": LAWS}],
     "front": [{"law": OPTIMAL, "over": ["B", "C"]}],
@@ -31,6 +32,8 @@ SEEDS: dict[str, list[Any]] = {
         {"kind": "python", "laws": [OPTIMAL]},
         {"kind": "problem", "view": "cycle", "laws": [OPTIMAL], "cycle": CYCLE},
     ],
+    "study": [{"study": study_view.example()}, {"study": {"problem": {"order": 4}, "vary": {"B": [1.6, 1.7]}}}],
+    "open": [{"name": "a.toml", "text": TOML}, {"name": "a.csv", "text": "0;0\n1;0.2\n2;0.7\n3;1\n"}],
     "residual": [{"laws": [OPTIMAL], "frequency": 12.0}],
 }
 ODD: list[Any] = [

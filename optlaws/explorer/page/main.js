@@ -1,9 +1,11 @@
 // The page: state in, views out.
 
+import { Documents, begun } from "./documents.js";
 import { Exporting } from "./exporting.js";
 import { tabs } from "./fields.js";
 import { during, observe } from "./latest.js";
-import { FIRST, Study, read } from "./state.js";
+import { Opening } from "./opening.js";
+import { Study, read } from "./state.js";
 import { html } from "./svg.js";
 import { restore } from "./theme.js";
 import { Tools } from "./tools.js";
@@ -56,9 +58,9 @@ function rootOf(name) {
 async function begin() {
   const start = await (await fetch("api/start")).json();
   const { state, examples, formats } = start;
-  const first = location.hash.length > 1 ? read(location.hash) : { ...structuredClone(FIRST), ...state };
+  const first = begun(location.hash, state);
   const views = {};
-  const study = new Study(first, render);
+  const study = new Study(first.state, render, (address) => documents.keep(address));
   const named = (now) => (Object.hasOwn(VIEWS, now.view) ? now.view : "laws");
   const titles = Object.fromEntries(Object.entries(VIEWS).map(([name, { title }]) => [name, title]));
   const choose = tabs(document.getElementById("views"), titles, (key) => study.change("view", (next) => {
@@ -68,6 +70,8 @@ async function begin() {
   const shown = () => views[named(study.state)];
   const exporting = new Exporting(study, formats, (now) => shown()?.exported?.(now) ?? null);
   const tools = new Tools(document.getElementById("tools"), study, notice, exporting, shown);
+  const opening = new Opening((next) => documents.add(next), notice, shown);
+  const documents = new Documents(document.getElementById("documents"), study, { id: first.id, notice, open: () => opening.choose() });
 
   /** A view is loaded when it is first shown. */
   async function load(name) {
@@ -88,6 +92,7 @@ async function begin() {
       exporting.show(now);
     } else if (view === undefined) during(load(name)).catch((error) => notice(error.message));
     tools.show(study, Boolean(view?.exported?.(now)));
+    documents.show(now);
   }
 
   observe(work);
@@ -95,9 +100,9 @@ async function begin() {
     event.preventDefault();
     document.querySelector(".view:not([hidden]) :is(.handle, .picture, .panels, #motion)").focus();
   });
-  addEventListener("hashchange", () => study.replace(read(location.hash)));
+  addEventListener("hashchange", () => documents.add(read(location.hash)));
   for (const kind of ["input", "pointermove", "keydown"]) addEventListener(kind, () => marked("input"), { capture: true, passive: true });
-  render(first);
+  render(first.state);
 }
 
 begin().catch((error) => notice(error instanceof TypeError ? "The server does not answer: start `optlaws explore` again; the address keeps the study." : error.message));

@@ -15,7 +15,7 @@ import { Span } from "./span.js";
 import { html } from "./svg.js";
 
 const TURN = { range: [0, 360], ticks: [0, 45, 90, 135, 180, 225, 270, 315, 360] };
-const LEAST = 96;
+const LEAST = 84;
 const ZOOM = 1.5;
 const CLICK = 4; // pixels within which a press is no drag
 
@@ -98,6 +98,9 @@ export class Panels {
       { width, height, last: i === panels.length - 1 },
     ));
     this.#drawings.replaceChildren(...this.#panels.map(({ element }) => element));
+    // what is scrolled is reached by keys too
+    if (this.#drawings.scrollHeight > this.#drawings.clientHeight + 1) this.#drawings.tabIndex = 0;
+    else this.#drawings.removeAttribute("tabindex");
     this.#strip?.show(answer, span);
     this.#dial.min = span[0];
     this.#dial.max = span[1];

@@ -1,16 +1,20 @@
 // Files that the reader saves: the browser downloads them, the server writes none.
 
+import { DOCUMENT } from "./opening.js";
+
 const PICTURE = { kind: "picture", text: "Picture (SVG)", about: "The curves as they are seen" };
+const WHOLE = { kind: "document", text: "Document (JSON)", about: "The name, the notes and all that is set, to open again here" };
 const DRAWN = ["fill", "stroke", "stroke-width", "stroke-dasharray", "stroke-linejoin", "opacity", "font-family", "font-size", "font-weight"];
 
 /** What can be saved of a view. */
 export function savings(view) {
-  return [...view.files, ...(view.drawings ? [PICTURE] : [])];
+  return [...view.files, ...(view.drawings ? [PICTURE] : []), WHOLE];
 }
 
 /** Save a file of a view in a state. */
 export async function save(kind, view, state, format) {
   if (kind === "picture") return download("optlaws.svg", "image/svg+xml", picture(view.drawings));
+  if (kind === "document") return download("optlaws.json", "application/json", JSON.stringify({ about: DOCUMENT, state }, null, 1));
   const response = await fetch("api/save", {
     method: "POST",
     headers: { "Content-Type": "application/json" },

@@ -7,18 +7,21 @@ const MOST = 200;
 const WRITTEN = 120; // ms after the last change the address holds it
 
 export const FIRST = {
+  name: "",
+  notes: "",
   view: "laws",
   laws: [{ problem: { order: 4, degree: 9, B: 1.7 }, weights: { C: 1 } }],
   active: 0,
   picture: "B-C",
   axis: 0,
+  row: 0,
   frequency: 20,
   damping: 0,
 };
 
 /** What a link may hold, and whether the page can show it; the server says what else is wrong with it. */
 const WHOLE = { controller: object, ...Object.fromEntries(Object.entries(VIEWS).filter(([, { whole }]) => whole).map(([name, { whole }]) => [name, whole])) };
-const KNOWN = ["view", "active", "picture", "axis", "frequency", "damping", ...Object.keys(WHOLE)];
+const KNOWN = ["name", "notes", "view", "active", "picture", "axis", "row", "frequency", "damping", ...Object.keys(WHOLE)];
 
 const same = (one, other) => JSON.stringify(one) === JSON.stringify(other);
 
@@ -50,8 +53,8 @@ export function read(fragment) {
     if (KNOWN.includes(name) && value !== undefined && value !== null) state[name] = value;
   }
   if (!Number.isInteger(state.active) || state.active < 0 || state.active >= state.laws.length) state.active = 0;
-  for (const name of ["frequency", "damping", "axis"]) if (typeof state[name] !== "number") state[name] = FIRST[name];
-  for (const name of ["view", "picture"]) if (typeof state[name] !== "string") state[name] = FIRST[name];
+  for (const name of ["frequency", "damping", "axis", "row"]) if (typeof state[name] !== "number") state[name] = FIRST[name];
+  for (const name of ["name", "notes", "view", "picture"]) if (typeof state[name] !== "string") state[name] = FIRST[name];
   for (const [name, whole] of Object.entries(WHOLE)) if (name in state && !whole(state[name])) delete state[name];
   return state;
 }
@@ -61,11 +64,34 @@ export class Study {
   #future = [];
   #last = { what: null, at: 0 };
   #changed;
+  #kept;
   #writing = null;
 
-  constructor(state, changed) {
+  /** `changed(state)` draws a state; `kept(address)` keeps it. */
+  constructor(state, changed, kept) {
     this.state = state;
     this.#changed = changed;
+    this.#kept = kept;
+  }
+
+  /** Another study in the place of this one, with its own steps; returns this one. */
+  exchange({ state, past = [], future = [] }) {
+    this.keep();
+    const before = { state: this.state, past: this.#past, future: this.#future };
+    [this.#past, this.#future] = [past, future];
+    this.rest();
+    this.#show(state);
+    return before;
+  }
+
+  /** Write the address now. */
+  keep() {
+    if (this.#writing === null) return;
+    clearTimeout(this.#writing);
+    this.#writing = null;
+    const address = written(this.state);
+    history.replaceState(null, "", address);
+    this.#kept(address);
   }
 
   get canUndo() {
@@ -109,20 +135,11 @@ export class Study {
     this.#last = { what: null, at: 0 };
   }
 
-  /** Another study, of a link. */
-  replace(state) {
-    if (same(state, this.state)) return;
-    this.#past.push(this.state);
-    this.#future = [];
-    this.rest();
-    this.#show(state);
-  }
-
   #show(state) {
     this.state = state;
     // browsers take a few addresses a second, a drag makes more
     clearTimeout(this.#writing);
-    this.#writing = setTimeout(() => history.replaceState(null, "", written(this.state)), WRITTEN);
+    this.#writing = setTimeout(() => this.keep(), WRITTEN);
     this.#changed(state);
   }
 }

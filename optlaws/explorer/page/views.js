@@ -2,6 +2,7 @@
 //
 // A module exports `View`: `new View(root, study, start)` fills its element; `show(state)` draws a state; `files(state)`
 // lists what can be saved as {kind, text, about, format}; `drawings` selects the pictures that are saved as one;
+// `dropped(file)` says whether the view takes a file that is dropped while it is shown; other files are opened.
 // `focus` selects where "Skip to the picture" leads. `start` is what the server tells of catalogues and formats.
 
 export const object = (value) => value !== null && typeof value === "object" && !Array.isArray(value);
@@ -19,4 +20,5 @@ export const VIEWS = {
     whole: (value) => object(value) && object(value.follower) && motion(value.motion),
     load: () => import("./views/cam.js"),
   },
+  study: { title: "Study", whole: object, load: () => import("./views/study.js") },
 };

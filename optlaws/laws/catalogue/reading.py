@@ -119,7 +119,13 @@ def points_of(
     return TablePoints(places, heights, digit, lines, tuple(derivatives), (headings[0], headings[1]))
 
 
-def law_of_points(file: Path, tolerance: float | None = None, columns: Sequence[Column] | None = None) -> MotionLaw:
+def law_of_points(
+    file: Path,
+    tolerance: float | None = None,
+    columns: Sequence[Column] | None = None,
+    *,
+    content: str | None = None,
+) -> MotionLaw:
     """The law of a table of points: as near as its last digit, or as its noise lets it be.
 
     Numbers stand between commas, semicolons, tabs or blanks, with points, or commas where these do not part them, and
@@ -135,13 +141,15 @@ def law_of_points(file: Path, tolerance: float | None = None, columns: Sequence[
     columns
         Which hold the time or angle and the displacement, by their headings or by numbers from 1; where a table has
         just two, or is of optlaws, it need not be said.
+    content
+        The text of the file where it has been read.
 
     Raises
     ------
     InputError
         If the file cannot be read, has more columns and none are chosen, a line is no point, or no law keeps to them.
     """
-    points = points_of(file, columns)
+    points = points_of(file, columns, content=content)
     k, a, unit, stroke = points.places, points.heights, points.digit, abs(points.heights[-1] - points.heights[0])
     if unit > _COARSEST * stroke > 0.0:
         raise InputError(f"{file}: the displacements have too few digits, {unit:g} of a stroke of {stroke:g}")

@@ -4,6 +4,7 @@ import { askedOf, move } from "../asked.js";
 import { Controls } from "../controls.js";
 import { slider, tabs } from "../fields.js";
 import { Latest } from "../latest.js";
+import { curvesOf } from "../law_curves.js";
 import { Panels } from "../panels.js";
 import { Plane } from "../plane.js";
 import { showTable } from "../table.js";
@@ -12,8 +13,6 @@ import { showTrust, unanswered } from "../trust.js";
 import { html } from "../svg.js";
 
 const PICTURES = { "B-C": "C over B", "B-D": "D over B", "B-J": "J over B", "C-D": "D over C", "J-C": "C over J", residual: "residual" };
-
-const CURVES = { a: "displacement", b: "velocity", c: "acceleration", d: "power", j: "jerk" };
 
 const element = (id) => document.getElementById(id);
 const told = (value) => JSON.stringify(value);
@@ -193,23 +192,6 @@ export class View {
       damping.set(state.damping);
     };
   }
-}
-
-/** The curves of laws, one panel for each of a, b, c, d and j; or why there is nothing to draw. */
-function curvesOf(views, active) {
-  const drawn = views.map((view, law) => ({ view, law })).filter(({ view }) => view?.curves);
-  const own = views[active];
-  if (!drawn.length && own?.refused) return { refused: own.refused };
-  const unbounded = own?.constants?.some(({ name, value }) => name === "J" && value === null);
-  const panels = Object.entries(CURVES).map(([letter, name]) => ({
-    name: `${name} ${letter}`,
-    symbol: letter,
-    series: drawn.map(({ view, law }) => ({ at: view.curves.k, values: view.curves[letter], law, name: view.title })),
-    peaks: (own?.peaks?.[letter] ?? []).map(({ k, value, text }) => ({ at: k, value, text })),
-    span: letter === "a" ? [0, 1] : null,
-    note: letter === "j" && unbounded ? "without bound: c jumps" : "",
-  }));
-  return { across: "dimensionless time k", symbol: "k", range: [0, 1], ticks: [0, 0.25, 0.5, 0.75, 1], active, panels };
 }
 
 /** What laws leave in a follower over its frequency, as one panel. */

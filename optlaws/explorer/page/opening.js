@@ -1,0 +1,66 @@
+// Files that the reader opens, from a dialog or dropped onto the page: the server reads problem files, laws and tables.
+
+import { FIRST, read, written } from "./state.js";
+import { html } from "./svg.js";
+
+const TAKEN = ".toml,.json,.csv,.txt,.tsv,.tab,.dat";
+const LARGEST = 380_000; // a question's
+export const DOCUMENT = "optlaws document";
+
+/** `opened(state)` shows what a file holds; `view()` is the view that is shown, which may take files of its own. */
+export class Opening {
+  #opened;
+  #notice;
+  #view;
+  #field = html("input", { type: "file", accept: TAKEN, multiple: true, hidden: true, "aria-label": "Files to open" });
+
+  constructor(opened, notice, view) {
+    this.#opened = opened;
+    this.#notice = notice;
+    this.#view = view;
+    document.body.append(this.#field);
+    this.#field.addEventListener("change", () => this.#all([...this.#field.files]));
+    const files = (event) => event.dataTransfer?.types.includes("Files");
+    addEventListener("dragover", (event) => {
+      if (!files(event)) return;
+      event.preventDefault();
+      document.body.classList.add("dropping");
+    });
+    addEventListener("dragleave", (event) => event.relatedTarget === null && document.body.classList.remove("dropping"));
+    addEventListener("drop", (event) => {
+      document.body.classList.remove("dropping");
+      if (!files(event) || event.defaultPrevented) return;
+      event.preventDefault();
+      this.#all([...event.dataTransfer.files]);
+    });
+  }
+
+  choose() {
+    this.#field.value = "";
+    this.#field.click();
+  }
+
+  async #all(files) {
+    for (const file of files) {
+      try {
+        if (!(await this.#view()?.dropped?.(file))) this.#opened(await stateOf(file));
+        this.#notice("");
+      } catch (error) {
+        this.#notice(error.message);
+      }
+    }
+  }
+}
+
+async function stateOf(file) {
+  if (file.size > LARGEST) throw new Error(`${file.name} is larger than ${LARGEST / 1000} kB: start \`optlaws explore\` with it`);
+  const text = await file.text();
+  if (file.name.toLowerCase().endsWith(".json") && text.includes(DOCUMENT)) {
+    const { state } = JSON.parse(text);
+    return read(written({ ...structuredClone(FIRST), ...state }));
+  }
+  const response = await fetch("api/open", { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify({ name: file.name.slice(-200), text }) });
+  const answer = await response.json();
+  if (answer.error) throw new Error(answer.error);
+  return { ...structuredClone(FIRST), ...answer.state };
+}

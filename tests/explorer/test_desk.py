@@ -1,0 +1,118 @@
+"""Documents in tabs, files that are opened and written, rows of a study, in a real browser."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from tests.documents import ROOT
+from tests.explorer.talk import OPTIMAL, Server
+from tests.explorer.test_page import at_velocity, go, saves, settle, texts, told, velocity
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
+
+
+def opens(page: Page, *files: Path) -> None:
+    page.locator("input[type=file]").first.set_input_files(files)
+    page.locator("#documents .document").nth(len(files)).wait_for()
+    settle(page)
+
+
+def tabs(page: Page) -> list[str]:
+    return [text.strip() for text in page.locator("#documents .open").all_inner_texts()]
+
+
+def test_documents_are_kept_named_closed_and_opened_again(page: Page, served: Server) -> None:
+    go(page, f"http://{served.host}/")
+    page.get_by_label("Peak velocity B, number").fill("1.8")
+    settle(page)
+    page.get_by_label("New document").click()
+    settle(page)
+    assert velocity(page) == 1.7
+    page.get_by_label("Name, notes and closed documents").click()
+    page.get_by_label("Name of the document").fill("Feeder")
+    page.get_by_label("Notes", exact=True).fill("first shift")
+    page.get_by_role("button", name="Done").click()
+    assert tabs(page) == ["Laws", "Feeder"]
+    page.get_by_role("button", name="Laws", exact=True).click()
+    settle(page)
+    assert velocity(page) == 1.8
+    page.get_by_role("button", name="Undo").click()  # each document has its own steps
+    assert velocity(page) == 1.7
+    page.wait_for_timeout(200)
+    # another day: nothing is lost
+    page.goto("about:blank")
+    go(page, f"http://{served.host}/")
+    assert tabs(page) == ["Laws", "Feeder"]
+    page.get_by_label("Close Feeder").click()
+    assert tabs(page) == ["Laws"]
+    page.get_by_label("Name, notes and closed documents").click()
+    page.get_by_label("Open Feeder again").click()
+    settle(page)
+    assert tabs(page) == ["Laws", "Feeder"]
+    assert page.locator(".document[aria-current]").inner_text().startswith("Feeder")
+
+
+def test_a_link_opens_a_document_of_its_own(page: Page, served: Server) -> None:
+    go(page, f"http://{served.host}/")
+    page.evaluate("hash => (location.hash = hash)", served.link(laws=[at_velocity(1.9)]).partition("#")[2])
+    page.locator("#documents .document").nth(1).wait_for()
+    settle(page)
+    assert velocity(page) == 1.9
+    page.locator("#documents .open").first.click()
+    settle(page)
+    assert velocity(page) == 1.7
+
+
+def test_two_windows_with_one_document_keep_both_changes(page: Page, served: Server) -> None:
+    go(page, f"http://{served.host}/")
+    other = page.context.new_page()
+    go(other, f"http://{served.host}/")
+    for window, value in ((page, "1.81"), (other, "1.92")):
+        window.get_by_label("Peak velocity B, number").fill(value)
+        settle(window)
+        window.wait_for_timeout(300)
+    kept = page.evaluate("() => Object.values(localStorage).join()")
+    assert "1.81" in kept
+    assert "1.92" in kept
+
+
+def test_problem_files_are_opened_and_rows_show_their_laws(page: Page, served: Server) -> None:
+    go(page, f"http://{served.host}/")
+    opens(page, ROOT / "problems" / "cam_rocker.toml", ROOT / "problems" / "mixed.toml")
+    rows = page.locator("#study-rows tbody tr")
+    assert rows.count() == 25
+    rows.nth(5).locator("td").first.click()
+    settle(page)
+    row = {"problem": {"order": 4, "degree": 9, "B": 1.641, "minimise": "C/4"}}
+    assert rows.nth(5).locator("td").all_inner_texts()[2:7] == told(served, row)
+    assert page.locator("#study-curves .line").count() == 5
+    page.get_by_role("button", name="Change this law").click()
+    settle(page)
+    assert texts(page) == told(served, row)
+    page.locator("#documents .open").nth(1).click()
+    settle(page)
+    assert page.locator("#cam-curves .line").count() >= 3
+
+
+def test_a_document_is_written_and_opened_again(page: Page, served: Server, tmp_path: Path) -> None:
+    go(page, served.link(laws=[at_velocity(1.859)], picture="residual", name="Feeder", notes="first shift"))
+    text = saves(page, "document")
+    assert json.loads(text)["state"]["notes"] == "first shift"
+    file = tmp_path / "feeder.json"
+    file.write_text(text, "utf-8")
+    go(page, served.link(laws=[OPTIMAL]))
+    page.locator("input[type=file]").first.set_input_files(file)
+    page.get_by_role("button", name="Feeder").nth(1).wait_for()
+    settle(page)
+    assert velocity(page) == 1.859
+
+
+def test_a_file_that_cannot_be_opened_says_why(page: Page, served: Server, tmp_path: Path) -> None:
+    go(page, served.link(laws=[OPTIMAL], picture="residual"))
+    file = tmp_path / "wrong.toml"
+    file.write_text("[problem]\nordre = 4\n", "utf-8")
+    page.locator("input[type=file]").first.set_input_files(file)
+    page.locator("#notice", has_text="ordre").wait_for()
