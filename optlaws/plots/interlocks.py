@@ -8,7 +8,7 @@ import numpy as np
 
 from optlaws.cycles.interlocks.after import After
 from optlaws.cycles.interlocks.clearance import Clearance, bound_of
-from optlaws.cycles.interlocks.forbidden_region import Forbidden, polygon_of
+from optlaws.cycles.interlocks.forbidden_region import Forbidden, corners_of
 from optlaws.cycles.interlocks.interlock import SMALL_UNITS
 from optlaws.cycles.machine_axes import AxesPicture
 from optlaws.cycles.specification.segments import Dwell
@@ -154,7 +154,7 @@ def _plane(
     if axes is None:
         with plot_style():
             axes = new_figure(6.4, 4.6).subplots()
-    across, up = _plane_axes(rule)
+    across, up = plane_axes(rule)
     times = np.linspace(0.0, cycles[across].duration, _COUNT)
     sizes = [UNITS[cycles[name].axis][0] for name in (across, up)]
     x, y = (size * cycles[name](times) for name, (_, size) in zip((across, up), sizes, strict=True))
@@ -176,8 +176,8 @@ def _plane(
     return artists
 
 
-def _plane_axes(rule: Interlock) -> tuple[str, str]:
-    """Which axis goes to the right, and which up."""
+def plane_axes(rule: Interlock) -> tuple[str, str]:
+    """Which axis of an interlock goes to the right in its plane, and which up."""
     if isinstance(rule, Clearance):
         return rule.over, rule.axis
     return rule.axes
@@ -187,28 +187,47 @@ def _forbidden(
     axes: Axes, cycles: Mapping[str, Cycle], rule: Interlock, plane: tuple[str, str], limits: Sequence[Any]
 ) -> list[Artist]:
     """Regions that an interlock forbids, in the units of the picture."""
-    sizes = [UNITS[cycles[name].axis][0][1] for name in plane]
-    look: Any = {"color": WARM, "alpha": 0.25, "linewidth": 0.0}
-    turned = rule.axes[0] != plane[0]
-    if isinstance(rule, Forbidden):
-        polygon = polygon_of(rule, *(cycles[name].axis for name in rule.axes))
-        corners = np.array([corner[::-1] if turned else corner for corner in polygon.corners]) * sizes
-        return list(axes.fill(*corners.T, **look))
-    if isinstance(rule, Clearance):
-        bound = bound_of(rule, *(cycles[name].axis for name in rule.axes))
-        start, stop = limits[0 if turned else 1]
-        places = np.linspace(start, stop, _COUNT)
-        edge = bound(places / sizes[0 if turned else 1]) * sizes[1 if turned else 0]
-        side = limits[1 if turned else 0][0 if rule.sign > 0.0 else 1]
-        if turned:
-            return [axes.fill_between(places, edge, side, **look)]
-        return [axes.fill_betweenx(places, edge, side, **look)]
+    region = forbidden_region(cycles, rule, plane, limits)
+    if region is not None:
+        look: Any = {"color": WARM, "alpha": 0.25, "linewidth": 0.0}
+        return list(axes.fill(*region.T, **look))
     if isinstance(rule, After):
-        position, level = rule.positions(cycles)
-        pair = (position, level) if not turned else (level, position)
-        marks = [size * place for place, size in zip(pair, sizes, strict=True)]
+        marks = passed_and_level(cycles, rule, plane)
         return [axes.axvline(marks[0], color=WARM, linestyle=":"), axes.axhline(marks[1], color=WARM, linestyle=":")]
     return []
+
+
+def forbidden_region(
+    cycles: Mapping[str, Cycle], rule: Interlock, plane: tuple[str, str], limits: Sequence[tuple[float, float]]
+) -> Array | None:
+    """The corners of what an interlock forbids in a plane of two axes, of shape (n, 2), in small units; None of others.
+
+    `limits` are the least and the greatest position to the right and up, up to which the forbidden side of a bound
+    reaches.
+    """
+    sizes = [UNITS[cycles[name].axis][0][1] for name in plane]
+    turned = rule.axes[0] != plane[0]
+    if isinstance(rule, Forbidden):
+        corners = corners_of(rule, *(cycles[name].axis for name in rule.axes))
+        return np.array([corner[::-1] if turned else corner for corner in corners]) * sizes
+    if not isinstance(rule, Clearance):
+        return None
+    bound = bound_of(rule, *(cycles[name].axis for name in rule.axes))
+    along, across = (0, 1) if turned else (1, 0)
+    places = np.linspace(*limits[along], _COUNT)
+    edge = bound(places / sizes[along]) * sizes[across]
+    side = limits[across][0 if rule.sign > 0.0 else 1]
+    region = np.empty((_COUNT + 2, 2))
+    region[:, along] = [*places, places[-1], places[0]]
+    region[:, across] = [*edge, side, side]
+    return region
+
+
+def passed_and_level(cycles: Mapping[str, Cycle], rule: After, plane: tuple[str, str]) -> tuple[float, float]:
+    """Where an `After` is in a plane of two axes, in small units: to the right, and up."""
+    pair = rule.positions(cycles) if rule.axes[0] == plane[0] else rule.positions(cycles)[::-1]
+    x, y = (UNITS[cycles[name].axis][0][1] * place for name, place in zip(plane, pair, strict=True))
+    return x, y
 
 
 def _wider(low: float, high: float) -> tuple[float, float]:

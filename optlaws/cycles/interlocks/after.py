@@ -96,6 +96,10 @@ class After(Interlock):
         """Refuse axes that are not there and positions that they do not pass."""
         self.positions(cycles)
 
+    def unit(self, kind: str, other: str) -> str:  # noqa: ARG002 - whatever waits
+        """The unit of the axis that is to be beyond a position."""
+        return unit_of(other)
+
     def room(self, cycles: Mapping[str, Any], times: Array) -> Array:
         """How far the other axis is beyond its position."""
         _, level = self.positions(cycles)
@@ -136,7 +140,7 @@ class After(Interlock):
             known.append((bound, self.sign * (float(second.cycle(time)) - level), time))
         bound, clearance, time = min(known)
         margin = self._margin(second, level, time, clearance)
-        unit = unit_of(second.cycle.axis)
+        unit = self.unit(first.cycle.axis, second.cycle.axis)
         return self._least(clearance, bound, unit, time, first.duration, size=second.stroke, margin=margin)
 
     def _margin(self, second: EnclosedAxis, level: float, time: float, clearance: float) -> float | None:

@@ -16,7 +16,6 @@ from optlaws.errors import InputError
 from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.formulas.reading import read
 from optlaws.formulas.tree import Formula, Table
-from optlaws.motion.piece import unit_of
 from optlaws.motion.quantities import quantity
 from optlaws.numbers import Array
 from optlaws.numerics.interval import Interval
@@ -126,7 +125,7 @@ class Clearance(Interlock):
             return difference if self.sign > 0.0 else -difference
 
         known = least(room, (first, second), CLEARANCE_SHARE)
-        unit = unit_of(first.cycle.axis)
+        unit = self.unit(first.cycle.axis, second.cycle.axis)
         return self._least(known.least, known.low, unit, known.least_at, first.duration, size=first.stroke)
 
     def formula(self) -> Formula:

@@ -84,6 +84,10 @@ class Forbidden(Interlock):
         first, second = self._checked_axes(cycles)
         polygon_of(self, first.axis, second.axis)
 
+    def unit(self, kind: str, other: str) -> str:
+        """Of distances in the plane; strokes where one axis is a slide and the other a table."""
+        return unit_of(kind) if kind == other else "strokes"
+
     def room(self, cycles: Mapping[str, Any], times: Array) -> Array:
         """The distance of the path from the polygon, below 0 within it."""
         enclosed = [EnclosedAxis(cycles[name]) for name in self.axes]
@@ -95,7 +99,6 @@ class Forbidden(Interlock):
 
     def _least_clearance(self, first: EnclosedAxis, second: EnclosedAxis) -> LeastClearance:
         """The distance of the path from the polygon where it is nearest; below 0 how deep the path enters it."""
-        same = first.cycle.axis == second.cycle.axis
         sizes = _sizes(first, second)
         polygon = polygon_of(self, first.cycle.axis, second.cycle.axis).scaled(*sizes)
 
@@ -110,7 +113,7 @@ class Forbidden(Interlock):
             # beyond a corner the distance is more than that from the lines that meet there
             far = least(lambda at, order: polygon.square(*path(at, order)), (first, second), SQUARED_CLEARANCE)
             clearance, bound, time = sqrt(max(far.least, 0.0)), max(bound, sqrt(max(far.low, 0.0))), far.least_at
-        unit = unit_of(first.cycle.axis) if same else "strokes"
+        unit = self.unit(first.cycle.axis, second.cycle.axis)
         return self._least(clearance, bound, unit, time, first.duration, size=size)
 
 
@@ -121,12 +124,16 @@ def _sizes(first: EnclosedAxis, second: EnclosedAxis) -> tuple[float, float]:
 
 def polygon_of(rule: Forbidden, kind: str, across: str) -> SimplePolygon:
     """The polygon in SI units, where its axes are lengths or angles."""
+    try:
+        return SimplePolygon.through(corners_of(rule, kind, across))
+    except InputError as error:
+        raise InputError(f"interlock {rule.label}: {error}") from None
+
+
+def corners_of(rule: Forbidden, kind: str, across: str) -> list[tuple[float, float]]:
+    """The corners in SI units as they were given, where the axes are lengths or angles."""
     where = f"interlock {rule.label}"
-    corners = [
+    return [
         (quantity(x, kind, f"{where}: {rule.axis}"), quantity(y, across, f"{where}: {rule.across}"))
         for x, y in rule.corners
     ]
-    try:
-        return SimplePolygon.through(corners)
-    except InputError as error:
-        raise InputError(f"{where}: {error}") from None

@@ -12,6 +12,7 @@ from optlaws.cycles.specification.segments import Dwell, Move
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.files.reading import JsonText
+from optlaws.motion.piece import unit_of
 from optlaws.motion.quantities import TURN, either, in_small_units, quantity, written
 from optlaws.numbers import Array
 from optlaws.suggest import unknown_key
@@ -120,6 +121,10 @@ class Interlock(JsonText, ABC):
         """The least clearance over the whole cycle that cycles by the names of their axes leave it."""
         first, second = (EnclosedAxis(cycles[name]) for name in self.axes)
         return self._least_clearance(first, second)
+
+    def unit(self, kind: str, other: str) -> str:  # noqa: ARG002 - of the other one where a heir says so
+        """The SI unit of its clearance, of axes that are lengths or angles: that of the first, unless a heir says."""
+        return unit_of(kind)
 
     @abstractmethod
     def room(self, cycles: Mapping[str, Any], times: Array) -> Array:

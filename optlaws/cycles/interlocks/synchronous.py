@@ -94,6 +94,10 @@ class Synchronous(Interlock):
         self.window(first.duration)
         self._tolerance(first)
 
+    def unit(self, kind: str, other: str) -> str:  # noqa: ARG002 - both are of one kind
+        """The unit of velocities."""
+        return unit_of(kind, 1)
+
     def room(self, cycles: Mapping[str, Any], times: Array) -> Array:
         """The tolerance less the difference of the velocities, in the window."""
         first, second = (cycles[name] for name in self.axes)
@@ -111,7 +115,7 @@ class Synchronous(Interlock):
         known = least(difference, (first, second), CLEARANCE_SHARE, window)
         low, high = known.least < -known.most, known.peak
         time = known.least_at if low else known.most_at
-        unit = unit_of(first.cycle.axis, 1)
+        unit = self.unit(first.cycle.axis, second.cycle.axis)
         return self._least(tolerance - high, tolerance - known.bound, unit, time, first.duration, size=tolerance)
 
     def _tolerance(self, cycle: ClockedMotion) -> float:
