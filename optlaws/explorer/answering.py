@@ -16,7 +16,7 @@ import msgspec
 from optlaws.echo import cut
 from optlaws.errors import InputError, OptlawsError
 from optlaws.explorer import downloads, start
-from optlaws.explorer.views import cam_view, cycle_view, front_view, law_view, study_view
+from optlaws.explorer.views import axes_view, cam_view, cycle_view, front_view, law_view, study_view
 from optlaws.explorer.views.requests import Question, read, ready
 from optlaws.jobs.cam_entries import CamProblemFile
 from optlaws.jobs.cycle_entries import CycleProblemFile
@@ -29,6 +29,7 @@ QUESTIONS: dict[str, Question] = {
     **cam_view.QUESTIONS,
     **study_view.QUESTIONS,
     **start.QUESTIONS,
+    **axes_view.QUESTIONS,
     **downloads.QUESTIONS,
 }
 #: by a view's name in the page: the study that it shows where none was given
@@ -36,6 +37,7 @@ EXAMPLES: dict[str, Callable[[], dict[str, Any]]] = {
     "cycle": cycle_view.example,
     "cam": cam_view.example,
     "study": study_view.example,
+    "axes": axes_view.example,
 }
 OK, UNREADABLE, FAULT = 200, 422, 500
 #: bytes that a process may take for its data, where the system can limit it

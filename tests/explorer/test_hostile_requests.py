@@ -8,10 +8,11 @@ from typing import Any
 import pytest
 
 from tests.explorer.talk import OPTIMAL, Server
-from tests.internals.explorer import QUESTIONS, cam_view, example, study_view
+from tests.internals.explorer import QUESTIONS, axes_view, cam_view, example, study_view
 
 CYCLE = {"study": example()}
 CAM = {"study": cam_view.example()}
+AXES = {"study": axes_view.example()}
 LAWS = [
     OPTIMAL,
     {"name": "modified sine"},
@@ -22,6 +23,9 @@ SEEDS: dict[str, list[Any]] = {
     "laws": [{"laws": LAWS}],
     "front": [{"law": OPTIMAL, "over": ["B", "C"]}],
     "nearest": [{"problem": {"order": 4, "degree": 9, "B": 1.7, "J": [0, 20]}, "weights": {"C": 1.0}}],
+    "axes": [AXES],
+    "axes-clearances": [AXES],
+    "axes-together": [{"study": axes_view.example() | {"overlap": {"goal": "acceleration", "of": ["die"]}}}],
     "cam": [CAM],
     "cam-loads": [{"study": cam_view.example() | {"forces": {"width": "20 mm"}}}],
     "cam-sizes": [CAM],

@@ -15,13 +15,14 @@ export const FIRST = {
   picture: "B-C",
   axis: 0,
   row: 0,
+  plane: 0,
   frequency: 20,
   damping: 0,
 };
 
 /** What a link may hold, and whether the page can show it; the server says what else is wrong with it. */
 const WHOLE = { controller: object, ...Object.fromEntries(Object.entries(VIEWS).filter(([, { whole }]) => whole).map(([name, { whole }]) => [name, whole])) };
-const KNOWN = ["name", "notes", "view", "active", "picture", "axis", "row", "frequency", "damping", ...Object.keys(WHOLE)];
+const KNOWN = ["name", "notes", "view", "active", "picture", "axis", "row", "plane", "frequency", "damping", ...Object.keys(WHOLE)];
 
 const same = (one, other) => JSON.stringify(one) === JSON.stringify(other);
 
@@ -53,7 +54,7 @@ export function read(fragment) {
     if (KNOWN.includes(name) && value !== undefined && value !== null) state[name] = value;
   }
   if (!Number.isInteger(state.active) || state.active < 0 || state.active >= state.laws.length) state.active = 0;
-  for (const name of ["frequency", "damping", "axis", "row"]) if (typeof state[name] !== "number") state[name] = FIRST[name];
+  for (const name of ["frequency", "damping", "axis", "row", "plane"]) if (typeof state[name] !== "number") state[name] = FIRST[name];
   for (const name of ["name", "notes", "view", "picture"]) if (typeof state[name] !== "string") state[name] = FIRST[name];
   for (const [name, whole] of Object.entries(WHOLE)) if (name in state && !whole(state[name])) delete state[name];
   return state;

@@ -15,6 +15,11 @@ export const VIEWS = {
     whole: (value) => object(value) && Array.isArray(value.axis) && value.axis.length > 0 && value.axis.every(motion),
     load: () => import("./views/cycle.js"),
   },
+  axes: {
+    title: "Axes",
+    whole: (value) => VIEWS.cycle.whole(value) && (value.interlocks === undefined || (Array.isArray(value.interlocks) && value.interlocks.every(object))),
+    load: () => import("./views/axes.js"),
+  },
   cam: {
     title: "Cam",
     whole: (value) => object(value) && object(value.follower) && motion(value.motion),

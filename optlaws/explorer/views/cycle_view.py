@@ -81,10 +81,11 @@ def check_axis(axis: AxisEntries) -> None:
 
 def cycle(request: CycleRequest) -> Cycle:
     """The cycle of the axis that is shown."""
-    return _stored(*read(request))
+    return stored(*read(request))
 
 
-def _stored(spec: CycleProblemFile, axis: AxisEntries) -> Cycle:
+def stored(spec: CycleProblemFile, axis: AxisEntries) -> Cycle:
+    """The cycle of an axis, which is computed once."""
     return _solved(msgspec.json.encode((axis, spec.speed, spec.period)))
 
 
@@ -183,7 +184,7 @@ def _plain(value: float, size: float) -> str:
 
 def _trust(shown: Cycle) -> dict[str, Any] | None:
     if not shown.solutions:
-        broken = _broken_limits(shown)
+        broken = broken_limits(shown)
         return {"gap": "", "facts": []} | broken if broken else None
     unit = objective_unit(shown)
     facts = [f"least {shown.minimise} = {digits(shown.objective)} {unit}"]
@@ -201,10 +202,10 @@ def _trust(shown: Cycle) -> dict[str, Any] | None:
         "gap": gap,
         "facts": facts,
     }
-    return trust | _broken_limits(shown)
+    return trust | broken_limits(shown)
 
 
-def _broken_limits(shown: Cycle) -> dict[str, str]:
+def broken_limits(shown: Cycle) -> dict[str, str]:
     """A verdict on limits that segments go beyond, which no optimum makes good; nothing where none does."""
     broken = [
         f"{peak.name} ({QUANTITIES[nu]})"
@@ -230,10 +231,10 @@ def _ways(spec: CycleProblemFile, axis: AxisEntries) -> Iterator[dict[str, Any]]
         others = {other: value for other, value in axis.limits.items() if other != name}
         freed = msgspec.structs.replace(axis, limits=others, minimise=name, follower=None)
         try:
-            least = _stored(spec, freed).objective
+            least = stored(spec, freed).objective
         except (InfeasibleProblem, SolverFailure):
             continue
-        order, cycle = LIMITS[name], _stored(spec, freed)
+        order, cycle = LIMITS[name], stored(spec, freed)
         # in the unit of its limit, of which so many make one of SI
         unit, factor = UNITS[cycle.axis][order] if order > 0 else (objective_unit(cycle), 1.0)
         text = f"{least * factor * (1.0 + BOUND_SLACK):.6g} {unit}"

@@ -1,0 +1,211 @@
+// The view of several axes: their timing diagram with interlocks, the plane of two positions, clearances, a run.
+
+import { label } from "../axes.js";
+import { Cursor } from "../cursor.js";
+import { group } from "../fields.js";
+import { Interlocks } from "../interlocks.js";
+import { Latest } from "../latest.js";
+import { Panels } from "../panels.js";
+import { Positions } from "../positions.js";
+import { Programme } from "../programme.js";
+import { Run } from "../run.js";
+import { html, renew } from "../svg.js";
+import { Timing, valueAt } from "../timing.js";
+import { showTrust, unanswered } from "../trust.js";
+
+const told = (value) => JSON.stringify(value);
+const GOALS = { "": "as they are given", acceleration: "least acceleration", period: "least period" };
+const FILES = [
+  { kind: "problem", text: "Problem file (TOML)", about: "For optlaws cycle" },
+  { kind: "table", text: "Table of values of this axis (CSV)", about: "Angle, time, position, velocity, acceleration and jerk" },
+];
+
+export class View {
+  files = FILES;
+  drawings = "#axes-timing svg, #axes-plane svg, #axes-rooms svg";
+  #study;
+  #programme;
+  #interlocks;
+  #timing;
+  #positions;
+  #rooms;
+  #cursor = new Cursor();
+  #parts;
+  #answers;
+  #clearances;
+  #together;
+  #answer = null;
+  #asked = null;
+  #known = null;
+  #shape = "";
+
+  constructor(root, study) {
+    this.#study = study;
+    const panel = (id, attributes = {}, ...children) => html("div", { id, class: "panel", ...attributes }, ...children);
+    const part = (id) => html("div", { id });
+    this.#parts = {
+      programme: part("axes-programme"), interlocks: part("axes-interlocks"), together: part("axes-together"),
+      trust: panel("axes-trust", { role: "status", "aria-live": "polite" }), timing: html("div", { id: "axes-timing", class: "picture" }),
+      run: html("div", { id: "axes-run" }), read: html("p", { class: "facts", id: "axes-reading" }), plane: html("div", { id: "axes-plane", class: "picture" }), choice: html("select", { "aria-label": "plane of two positions" }),
+      rooms: panel("axes-rooms"), table: panel("axes-table"),
+    };
+    const { programme, interlocks, together, trust, timing, run, read, plane, choice, rooms, table } = this.#parts;
+    root.append(
+      html("aside", { id: "axes-ask", "aria-label": "Axes, their segments and interlocks" }, together, interlocks, programme),
+      html("section", { id: "axes-middle", "aria-label": "Timing diagram and positions" }, trust, html("div", { class: "panel" }, timing, run, read), html("div", { class: "panel" }, html("div", { class: "panel-head" }, html("span", { class: "quiet", text: "positions" }), choice), plane)),
+      html("section", { id: "axes-right", "aria-label": "Clearances" }, rooms, table),
+    );
+    const held = (state) => state.axes;
+    this.#programme = new Programme(programme, study, held);
+    this.#interlocks = new Interlocks(interlocks, study, held);
+    this.#timing = new Timing(timing, (row, segments) => this.#moved(row, segments));
+    this.#positions = new Positions(plane, (rule, corner, place) => this.#cornered(rule, corner, place));
+    this.#rooms = new Panels(rooms, { cursor: this.#cursor });
+    new Run(run, "the master", this.#cursor);
+    this.#cursor.watch((at) => this.#turn(at));
+    choice.addEventListener("change", () => study.change("plane", (state) => (state.plane = Number(choice.value))));
+    this.#answers = new Latest("api/axes", (answer, question) => this.#answered(answer, question), (error, question) => this.#answered(unanswered(error), question));
+    this.#clearances = new Latest("api/axes-clearances", (known, question) => told(question) === told(this.#asked) && this.#know(known), (error) => this.#know({ rows: [], trust: null, ...unanswered(error) }));
+    this.#together = new Latest("api/axes-together", (answer, question) => this.#put(answer, question), (error) => this.#say([error.message]));
+  }
+
+  /** The part of a study that files are made of. */
+  saved({ axes, axis }) {
+    return { view: "cycle", cycle: { study: axes, axis } };
+  }
+
+  /** The axis of the programme is the one that a controller is to run. */
+  exported({ laws, active, axes, axis }) {
+    return { view: "cycle", laws, active, cycle: { study: axes, axis } };
+  }
+
+  show(state) {
+    this.#programme.show(state);
+    this.#interlocks.show(state);
+    this.#goal(state.axes);
+    this.#answers.ask({ study: state.axes });
+    if (this.#answer) this.#draw();
+  }
+
+  #answered(answer, question) {
+    this.#answer = answer;
+    this.#asked = question;
+    if (answer.refused) this.#know({ rows: [], trust: null, refused: answer.refused });
+    else {
+      this.#clearances.ask(question);
+      this.#draw();
+      this.#facts();
+    }
+  }
+
+  /** What is proven of the answer that is drawn. */
+  #know(known) {
+    this.#known = { ...known, of: told(this.#asked) };
+    showTrust(this.#parts.trust, known, [], () => {});
+    this.#draw();
+    this.#facts();
+  }
+
+  #draw() {
+    const known = this.#known?.of === told(this.#asked) ? this.#known.rows : [];
+    const { study } = this.#asked;
+    this.#timing.show(this.#answer, study, known.map(({ status }) => status), told(study) === told(this.#study.state.axes));
+    this.#positions.show(this.#answer, this.#study.state.plane ?? 0, known);
+    const { refused, panels = [], across, planes = [] } = this.#answer;
+    const marked = panels.map((panel, i) => (known[i] ? withPeak(panel, known[i]) : panel));
+    this.#rooms.show(refused ? this.#answer : { across, panels: marked, segments: [] });
+    const { choice } = this.#parts;
+    const names = planes.map(({ axes }) => axes.join(" and "));
+    if (told(names) !== told([...choice.options].map(({ text }) => text))) choice.replaceChildren(...names.map((text, value) => html("option", { value, text })));
+    choice.hidden = names.length < 2;
+    choice.value = String(Math.min(this.#study.state.plane ?? 0, names.length - 1));
+  }
+
+  /** Where all axes are at an angle of the master. */
+  #turn(at) {
+    this.#timing.turn(at);
+    this.#positions.turn(at);
+    const rows = at === null || this.#answer?.refused ? [] : this.#answer?.rows ?? [];
+    const places = rows.map(({ name, values, unit }) => `${name} ${label(Number(valueAt(this.#answer.at, values, at).toPrecision(4)))} ${unit}`);
+    this.#parts.read.textContent = at === null ? "" : [`at ${label(Number(at.toFixed(1)))} deg`, ...places].join(" · ");
+  }
+
+  #facts() {
+    const rows = this.#answer.refused ? [] : this.#answer.rows;
+    const known = this.#known?.of === told(this.#asked) ? this.#known.rows : [];
+    const cells = ({ cells: texts, status }) => [html("td", {}, html("span", { class: `word ${{ clear: "good", broken: "bad" }[status] ?? "warn"}`, text: status })), ...texts.map((text) => html("td", { class: "number", text }))];
+    const least = table("Least clearances of the interlocks", ["interlock", "", "clearance", "proven", "at, deg", "early, ms"], known.map((one) => [one.name, cells(one)]));
+    const axes = table("Axes with their peaks", ["axis", "stroke", "velocity", "acceleration", "jerk", "laws"], rows.map((row) => [row.name, [row.stroke, ...row.peaks, row.law].map((text) => html("td", { class: "number", text }))]));
+    this.#parts.table.replaceChildren(...(known.length ? [least] : []), ...(rows.length ? [axes] : []));
+  }
+
+  /** A bar of an axis was moved, or taken or let go. */
+  #moved(row, segments) {
+    this.#study.change(`bar ${row}`, (state) => {
+      state.axis = row;
+      if (segments) state.axes.axis[row].segment = segments;
+    });
+    if (!segments) this.#study.rest();
+  }
+
+  #cornered(rule, corner, place) {
+    if (!place) return this.#study.rest();
+    const { axes, units } = this.#answer.planes.find(({ regions }) => regions.some((one) => one.rule === rule));
+    return this.#study.change(`corner ${rule} ${corner}`, (state) => {
+      const { axis, across, corners } = state.axes.interlocks[rule];
+      corners[corner] = place.map((value, i) => `${value} ${units[axes.indexOf([axis, across][i])]}`);
+    });
+  }
+
+  /** For what the moves are put together, and of which axes an acceleration is to be least. */
+  #goal({ overlap, axis }) {
+    const names = axis.map(({ name }) => name);
+    const shape = told([names, overlap]);
+    if (shape === this.#shape) return;
+    this.#shape = shape;
+    const goal = html("select", { "aria-label": "put the moves together for" }, ...Object.entries(GOALS).map(([value, text]) => html("option", { value, text })));
+    goal.value = overlap?.goal ?? "";
+    goal.addEventListener("change", () => this.#study.change("overlap", (state) => {
+      if (goal.value) state.axes.overlap = { goal: goal.value, ...(goal.value === "acceleration" && { of: [names[state.axis] ?? names[0]] }) };
+      else delete state.axes.overlap;
+    }));
+    const chosen = overlap?.of ?? [];
+    const boxes = overlap?.goal !== "acceleration" ? [] : names.map((name) => {
+      const box = html("input", { type: "checkbox", checked: chosen.includes(name), onchange: () => this.#study.change(`overlap of ${name}`, (state) => {
+        state.axes.overlap.of = names.filter((one) => (one === name ? box.checked : chosen.includes(one)));
+      }) });
+      return html("label", { class: "switch" }, box, `of ${name}`);
+    });
+    const press = overlap ? [html("button", { type: "button", text: "Put the moves together", onclick: () => this.#together.ask({ study: this.#study.state.axes }) })] : [];
+    this.#parts.facts ??= html("div", { role: "status", "aria-live": "polite" });
+    renew(this.#parts.together, group("Overlap", goal, ...boxes, ...press, this.#parts.facts));
+  }
+
+  #put({ refused, facts, study: made }, { study }) {
+    if (refused) return this.#say([`${refused.word}: ${refused.reason}`], true);
+    if (made && told(study) === told(this.#study.state.axes)) {
+      this.#study.change("together", (state) => (state.axes = made));
+      this.#study.rest();
+    }
+    return this.#say(facts);
+  }
+
+  #say(facts, none = false) {
+    this.#parts.facts?.replaceChildren(html("p", { class: none ? "reason" : "facts", text: facts.join(" · ") }));
+  }
+}
+
+/** A panel with its least clearance as a mark that lies on the curve. */
+function withPeak(panel, { value, at, cells, status }) {
+  const next = panel.at.findIndex((place) => place > at);
+  const k = next < 0 ? panel.at.length : next;
+  const there = panel.at[k - 1] === at;
+  const put = (list, one) => (there ? list : [...list.slice(0, k), one, ...list.slice(k)]);
+  return { ...panel, at: put(panel.at, at), values: put(panel.values, value), peaks: [{ at, value, text: cells[0] }], beyond: status === "broken" };
+}
+
+function table(name, headings, rows) {
+  const head = html("tr", {}, ...headings.map((text, i) => html("th", { scope: "col", class: i > 1 ? "number" : null, text })));
+  const body = rows.map(([title, cells]) => html("tr", {}, html("th", { scope: "row", title, text: title }), ...cells));
+  return html("table", { "aria-label": name }, html("thead", {}, head), html("tbody", {}, ...body));
+}

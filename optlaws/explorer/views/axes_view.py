@@ -1,0 +1,394 @@
+"""Axes as the page shows them: bars over the master, interlocks between them, planes of two positions, clearances."""
+
+from __future__ import annotations
+
+import json
+import tomllib
+from collections.abc import Iterator, Sequence
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import numpy as np
+
+from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.interlocks.after import After
+from optlaws.cycles.interlocks.forbidden_region import Forbidden
+from optlaws.cycles.interlocks.interlock import SMALL_UNITS, Interlock, LeastClearance
+from optlaws.cycles.interlocks.synchronous import Synchronous
+from optlaws.cycles.machine_axes import Axes
+from optlaws.cycles.specification.programme import is_optimal
+from optlaws.cycles.specification.segments import Dwell
+from optlaws.errors import InputError, OptlawsError
+from optlaws.explorer.views import cycle_view
+from optlaws.explorer.views.law_view import TITLES, digits, drawn, refusal
+from optlaws.explorer.views.picture_points import refined
+from optlaws.explorer.views.requests import Question
+from optlaws.files.problem_file import convert
+from optlaws.jobs.axes.segment_entries import given
+from optlaws.jobs.cycle_entries import CycleProblemFile, overlap_of
+from optlaws.numbers import Array
+from optlaws.plots.cycle import UNITS
+from optlaws.plots.interlocks import forbidden_region, passed_and_level, plane_axes
+
+_TURN = 360.0
+_PLACES = 241
+_WHERE = Path("the machine")
+_ROOM = 0.06  # of the range of a plane, beside the path
+_PASS = 0.75  # degrees to either side of a pass, in which a clearance is to be above 0
+_WORDS = {
+    "clear": ("optimal", "interlocks clear", "Every clearance is proven over the whole cycle, as the table says."),
+    "open": ("local", "interlocks open", "Nearer than the enclosures, so that neither is proven: "),
+    "broken": ("refused", "interlock broken", "Broken: "),
+}
+_FIGURES = 12  # of durations that are put into a study
+
+
+class AxesRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """Axes with their interlocks as a problem file of the job "cycle" says them."""
+
+    study: dict[str, Any]
+
+
+def answer(request: AxesRequest) -> dict[str, Any]:
+    """The bars of every axis, what interlocks say in the timing diagram and in planes; or why there is none."""
+    try:
+        return _view(axes_of(request.study))
+    except OptlawsError as error:
+        return {"refused": refusal(error)}
+
+
+def axes_of(study: dict[str, Any]) -> Axes:
+    """The axes of a study.
+
+    Raises
+    ------
+    InputError
+        If an entry is unknown or wrong, or larger than the explorer takes, or a law is named by a file.
+    """
+    return _read(json.dumps(study, sort_keys=True))
+
+
+@lru_cache(maxsize=64)
+def _read(question: str) -> Axes:
+    spec = convert(json.loads(question), CycleProblemFile, _WHERE)
+    cycles: dict[str, Cycle] = {}
+    for axis in spec.axis:
+        if axis.name in cycles:
+            raise InputError(f"two axes are called {axis.name}: give each a name of its own")
+        cycle_view.check_axis(axis)
+        cycles[axis.name] = cycle_view.stored(spec, axis)
+    return Axes(cycles, interlocks=[given(entries) for entries in spec.interlocks])
+
+
+def _view(axes: Axes) -> dict[str, Any]:
+    times, positions = _positions(axes)
+    degrees = drawn(_TURN / axes.duration * times, 4)
+    return {
+        "across": f"master, deg ({digits(1e3 * axes.duration)} ms a turn)",
+        "period": axes.duration,
+        "at": degrees,
+        "rows": [_row(name, cycle, values) for (name, cycle), values in zip(axes.items(), positions, strict=True)],
+        "arrows": [arrow for number, rule in enumerate(axes.rules) for arrow in _arrows(axes, number, rule)],
+        "planes": list(_planes(axes, dict(zip(axes, positions, strict=True)))),
+        "panels": [_room(axes, rule, times) for rule in axes.rules],
+    }
+
+
+def _positions(axes: Axes) -> tuple[Array, list[Array]]:
+    """Times at which all paths are drawn, and the positions of each axis there in small units."""
+    joints = [peaks.start for cycle in axes.values() for peaks in cycle.peaks]
+    times = np.unique([*np.linspace(0.0, axes.duration, _PLACES), *joints])
+    curves = [_position_of(cycle) for cycle in axes.values()]
+    return refined(times, [curve(times) for curve in curves], curves, np.empty(0))
+
+
+def _position_of(cycle: Cycle) -> Any:  # noqa: ANN401 - a function of times
+    size = UNITS[cycle.axis][0][1]
+    return lambda times: size * np.asarray(cycle(times))
+
+
+def _row(name: str, cycle: Cycle, values: Array) -> dict[str, Any]:
+    scale, units = _TURN / cycle.duration, UNITS[cycle.axis]
+    return {
+        "name": name,
+        "unit": units[0][0],
+        "values": drawn(values, 5),
+        "bars": [
+            {
+                "name": peaks.name,
+                "moves": not isinstance(segment, Dwell),
+                "from": round(scale * peaks.start, 9),
+                "to": round(scale * (peaks.start + peaks.duration), 9),
+            }
+            for segment, peaks in zip(cycle.segments, cycle.peaks, strict=True)
+        ],
+        "stroke": _with_unit(float(np.ptp(values)), units[0][0]),
+        "peaks": [_with_unit(cycle.peak(nu) * size, unit) for nu, (unit, size) in enumerate(units) if nu > 0],
+        "law": "given" if not cycle.solutions else TITLES[cycle.status],
+    }
+
+
+def _arrows(axes: Axes, number: int, rule: Interlock) -> Iterator[dict[str, Any]]:
+    """From when the other axis comes beyond its position to when this one passes its own; or a window of both."""
+    scale, names = _TURN / axes.duration, list(axes)
+    rows = [names.index(name) for name in rule.axes]
+    if isinstance(rule, Synchronous):
+        yield {
+            "rule": number,
+            "name": rule.label,
+            "rows": rows,
+            "window": [scale * at for at in rule.window(axes.duration)],
+        }
+    if not isinstance(rule, After):
+        return
+    position, level = (
+        UNITS[axes[name].axis][0][1] * place for name, place in zip(rule.axes, rule.positions(axes), strict=True)
+    )
+    for time, entry, clear in rule.events(axes):
+        yield {
+            "rule": number,
+            "name": rule.label,
+            "rows": rows,
+            "to": [round(scale * time, 6), position],
+            "from": None if entry is None else [round(scale * entry, 6), level],
+            "clear": clear,
+        }
+
+
+def _planes(axes: Axes, positions: dict[str, Array]) -> Iterator[dict[str, Any]]:
+    """A plane for each pair of axes that interlocks are of, with what they forbid in it."""
+    planes: dict[frozenset[str], tuple[str, str]] = {}
+    for rule in axes.rules:
+        if not isinstance(rule, Synchronous):
+            planes.setdefault(frozenset(rule.axes), plane_axes(rule))
+    for pair, plane in planes.items():
+        rules = [(number, rule) for number, rule in enumerate(axes.rules) if set(rule.axes) == pair]
+        corners = [
+            forbidden_region(axes, rule, plane, ((0.0, 0.0), (0.0, 0.0)))
+            for _, rule in rules
+            if isinstance(rule, Forbidden)
+        ]
+        limits = [
+            _wider([positions[name], *(corner[:, i] for corner in corners if corner is not None)])
+            for i, name in enumerate(plane)
+        ]
+        yield {
+            "axes": list(plane),
+            "units": [UNITS[axes[name].axis][0][0] for name in plane],
+            "ranges": limits,
+            "regions": [shown for number, rule in rules for shown in _region(axes, number, rule, plane, limits)],
+        }
+
+
+def _wider(values: Sequence[Array]) -> tuple[float, float]:
+    low, high = min(float(each.min()) for each in values), max(float(each.max()) for each in values)
+    room = _ROOM * ((high - low) or 1.0)
+    return low - room, high + room
+
+
+def _region(
+    axes: Axes, number: int, rule: Interlock, plane: tuple[str, str], limits: Sequence[tuple[float, float]]
+) -> Iterator[dict[str, Any]]:
+    """What an interlock forbids in a plane: the corners of a region, or a wall that is not passed."""
+    shown: dict[str, Any] = {"rule": number, "name": rule.label}
+    if isinstance(rule, After):
+        x, y = passed_and_level(axes, rule, plane)
+        turned = rule.axes[0] != plane[0]
+        passed, level = (y, x) if turned else (x, y)
+        far = limits[0 if turned else 1][0 if rule.sign > 0.0 else 1]
+        wall = [[passed, level], [passed, far]]
+        yield shown | {"wall": [point[::-1] for point in wall] if turned else wall}
+        return
+    region = forbidden_region(axes, rule, plane, limits)
+    if region is not None:
+        turned = rule.axes[0] != plane[0]
+        yield shown | {
+            "corners": [drawn(point, 5) for point in region],
+            "free": isinstance(rule, Forbidden),
+            "turned": turned,
+        }
+
+
+def _room(axes: Axes, rule: Interlock, times: Array) -> dict[str, Any]:
+    """The clearance of an interlock over the master, as a panel."""
+    unit, size = _unit(rule.unit(*(axes[name].axis for name in rule.axes)))
+    scale = _TURN / axes.duration
+
+    def room(at: Array) -> Array:
+        return size * rule.room(axes, at)
+
+    ends = np.array(rule.window(axes.duration)) if isinstance(rule, Synchronous) else np.empty(0)
+    passes = [scale * time for time, _, _ in rule.events(axes)] if isinstance(rule, After) else None
+    at, (values,) = refined(times, [room(times)], [room], ends)
+    spans = [(0.0, _TURN)] if passes is None else [(at - _PASS, at + _PASS) for at in passes]
+    limits = [{"from": max(0.0, start), "to": min(_TURN, stop), "value": None, "least": 0.0} for start, stop in spans]
+    curve = {"at": drawn(scale * at, 4), "values": drawn(values)}
+    return {"name": rule.label, "unit": unit, **curve, "limits": limits, "peaks": []}
+
+
+def _unit(of: str) -> tuple[str, float]:
+    return SMALL_UNITS.get(of, (of, 1.0))
+
+
+def clearances(request: AxesRequest) -> dict[str, Any]:
+    """What is proven of the interlocks over the whole cycle, and of the limits of each axis.
+
+    Examples
+    --------
+    >>> clearances(AxesRequest(study=example()))["trust"]["word"]
+    'interlocks clear'
+    """
+    try:
+        axes = axes_of(request.study)
+        return {"rows": [_clearance(least) for least in axes.clearances], "trust": _trust(axes)}
+    except OptlawsError as error:
+        return {"rows": [], "trust": None, "refused": refusal(error)}
+
+
+def _clearance(least: LeastClearance) -> dict[str, Any]:
+    unit, size = _unit(least.unit)
+    return {
+        "name": least.interlock.label,
+        "status": least.status,
+        "value": size * least.clearance,
+        "at": least.angle,
+        "cells": [
+            _with_unit(size * least.clearance, unit),
+            _with_unit(size * least.bound, unit),
+            digits(least.angle, 6),
+            "" if least.margin is None else digits(_read_of(1e3 * least.margin), 6),
+        ],
+    }
+
+
+def _with_unit(value: float, unit: str) -> str:
+    return f"{digits(_read_of(value), 6)} {unit}"
+
+
+def _read_of(value: float) -> float:
+    """A value to a millionth, as it is read."""
+    return round(value, 6) + 0.0
+
+
+def _trust(axes: Axes) -> dict[str, Any]:
+    facts = [f"{least.interlock.label}: {least.text}" for least in axes.clearances]
+    facts += [
+        f"{name}: least {cycle.minimise} for its times, {TITLES[cycle.status]}"
+        for name, cycle in axes.items()
+        if cycle.solutions
+    ]
+    worst = next((word for word in ("broken", "open") if any(each.status == word for each in axes.broken)), "clear")
+    status, word, advice = _WORDS[worst]
+    named = "; ".join(each.interlock.label for each in axes.broken if each.status == worst)
+    if not axes.rules:
+        status, word, advice = "given", "no interlocks", "Nothing is asked of two axes at a time."
+    limits = [
+        f"{name}: {broken['advice']}" for name, cycle in axes.items() if (broken := cycle_view.broken_limits(cycle))
+    ]
+    if limits:
+        status, word = "refused", "beyond a limit" if worst == "clear" else f"{word}, beyond a limit"
+    text = " ".join([f"{advice}{named}{'.' if named else ''}", *limits])
+    return {"status": status, "word": word, "advice": text, "gap": "", "facts": facts}
+
+
+def together(request: AxesRequest) -> dict[str, Any]:
+    """The study with its moves put together as its overlap says, and what that gains; or why not.
+
+    Examples
+    --------
+    >>> answered = together(AxesRequest(study=example() | {"overlap": {"goal": "acceleration", "of": ["die"]}}))
+    >>> answered["facts"][0]
+    'greatest acceleration 0.193894 of the given one, 5.157 times lower'
+    """
+    try:
+        return _together(request.study)
+    except OptlawsError as error:
+        return {"refused": refusal(error)}
+
+
+def _together(study: dict[str, Any]) -> dict[str, Any]:
+    spec, axes = convert(study, CycleProblemFile, _WHERE), axes_of(study)
+    if spec.overlap is None:
+        raise InputError("say what the moves are to be put together for: the least period or the least acceleration")
+    overlap = overlap_of(spec, axes, _WHERE)
+    assert overlap is not None  # noqa: S101 - there is one since the study has its entries
+    period = overlap.goal == "period"
+    value = f"least period {digits(1e3 * overlap.objective, 6)} ms" if period else (
+        f"greatest acceleration {digits(overlap.objective, 6)} of the given one"
+    )  # fmt: skip
+    facts = [f"{value}, {digits(overlap.gain, 4)} times {'as fast' if period else 'lower'}"]
+    facts.append(f"{TITLES[overlap.status]}; none below {digits((1e3 if period else 1.0) * overlap.lower_bound, 6)}")
+    if overlap.binding:
+        facts.append(f"bound by {', '.join(overlap.binding)}")
+    free = [
+        is_optimal(segment) for cycle in axes.values() for segment in cycle.segments if not isinstance(segment, Dwell)
+    ]
+    if any(free):
+        facts.append("laws that bend are no part of a study: `optlaws cycle` with this problem file keeps them")
+    return {"facts": facts, "study": None if any(free) else _timed(study, overlap.axes)}
+
+
+def _timed(study: dict[str, Any], axes: Axes) -> dict[str, Any]:
+    """The study with the durations that its axes have now, in the unit of its clock."""
+    clock = "period" if "period" in study else "speed"
+    turn = f"{axes.duration:.{_FIGURES}g} s" if clock == "period" else f"{60.0 / axes.duration:.{_FIGURES}g} rpm"
+    timed = {axis["name"]: axis["segment"] for axis in tomllib.loads(axes.to_toml())["axis"]}
+    for segments in timed.values():
+        for segment in segments:
+            seconds = float(segment["duration"].split()[0])
+            size, unit = (1.0, "s") if clock == "period" else (_TURN / axes.duration, "deg")
+            segment["duration"] = f"{size * seconds:.{_FIGURES}g} {unit}"
+    changed = [axis | {"segment": timed[axis["name"]]} for axis in study["axis"]]
+    same = abs(axes.duration - axes_of(study).duration) == 0.0
+    return study | ({} if same else {clock: turn}) | {"axis": changed}
+
+
+def example() -> dict[str, Any]:
+    """The axes that the page shows where none were given: a table that indexes, and a die that waits for it."""
+    return {
+        "job": "cycle",
+        "title": "A die and its table",
+        "speed": "60 rpm",
+        "interlocks": [
+            {"kind": "after", "name": "index", "axis": "table", "position": "0.65 mm", "of": "die", "above": "31 mm"},
+            {
+                "kind": "after",
+                "name": "close",
+                "axis": "die",
+                "position": "31 mm",
+                "way": "down",
+                "of": "table",
+                "above": "99.35 mm",
+            },
+        ],
+        "axis": [
+            {
+                "name": "table",
+                "advance": "100 mm",
+                "segment": [
+                    {"kind": "dwell", "duration": "105 deg"},
+                    {"kind": "rise", "name": "index", "by": "100 mm", "duration": "150 deg", "law": "cycloidal"},
+                    {"kind": "dwell"},
+                ],
+            },
+            {
+                "name": "die",
+                "segment": [
+                    {"kind": "dwell", "duration": "50 deg"},
+                    {"kind": "rise", "name": "open", "by": "50 mm", "duration": "55 deg", "law": "cycloidal"},
+                    {"kind": "dwell"},
+                    {"kind": "return", "name": "close", "by": "50 mm", "duration": "55 deg", "law": "cycloidal"},
+                    {"kind": "dwell", "duration": "50 deg"},
+                ],
+            },
+        ],
+    }
+
+
+QUESTIONS: dict[str, Question] = {
+    "axes": (AxesRequest, answer),
+    "axes-clearances": (AxesRequest, clearances),
+    "axes-together": (AxesRequest, together),
+}

@@ -1,0 +1,173 @@
+"""Several axes in the page: bars that are dragged, interlocks that are proven, moves that are put together."""
+
+from __future__ import annotations
+
+import tomllib
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+
+from tests.documents import ROOT
+from tests.explorer.talk import OPTIMAL, Server
+from tests.explorer.test_page import go, settle
+from tests.internals.explorer import axes_view, start
+from tests.internals.jobs import read_given
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
+
+    from optlaws import Axes
+
+FILE = ROOT / "problems" / "cycle_die_and_table.toml"
+BOX = {
+    "kind": "forbidden",
+    "name": "box",
+    "axis": "x",
+    "across": "z",
+    "corners": [["20 mm", "0 mm"], ["280 mm", "0 mm"], ["280 mm", "30 mm"], ["20 mm", "30 mm"]],
+}
+LIMITS = {"acceleration": "20 m/s^2"}
+ACROSS = [
+    {"kind": "dwell", "duration": "0.2 s"},
+    {"kind": "rise", "by": "300 mm", "duration": "0.4 s", "law": "cycloidal"},
+    {"kind": "dwell", "duration": "0.4 s"},
+    {"kind": "return", "by": "300 mm", "duration": "0.4 s", "law": "cycloidal"},
+    {"kind": "dwell"},
+]
+LIFT = [
+    {"kind": "rise", "by": "80 mm", "duration": "0.2 s", "law": "cycloidal"},
+    {"kind": "dwell"},
+    {"kind": "return", "by": "80 mm", "duration": "0.2 s", "law": "cycloidal"},
+]
+
+
+def robot() -> dict[str, Any]:
+    axes = [{"name": "x", "limits": LIMITS, "segment": ACROSS}, {"name": "z", "limits": LIMITS, "segment": LIFT}]
+    return {"job": "cycle", "title": "A robot", "period": "1.6 s", "interlocks": [BOX], "axis": axes}
+
+
+def axes_of(study: dict[str, Any]) -> Axes:
+    return read_given(study, Path("study"))[1]
+
+
+@pytest.mark.parametrize("study", [axes_view.example(), robot()])
+def test_what_is_drawn_and_proven_of_axes_is_the_library_s(served: Server, study: dict[str, Any]) -> None:
+    axes = axes_of(study)
+    shown = served.ask("axes", {"study": study})
+    seconds = np.array(shown["at"]) * axes.duration / 360.0
+    for row, (name, cycle) in zip(shown["rows"], axes.items(), strict=True):
+        assert row["name"] == name
+        assert row["values"] == pytest.approx(1e3 * cycle(seconds), abs=1e-3)
+        assert [bar["from"] for bar in row["bars"]] == pytest.approx(
+            [360.0 * peaks.start / axes.duration for peaks in cycle.peaks]
+        )
+        assert float(row["peaks"][1].split()[0]) == pytest.approx(cycle.peak(2), rel=1e-5)
+    for panel, rule in zip(shown["panels"], axes.rules, strict=True):
+        rooms = 1e3 * rule.room(axes, np.array(panel["at"]) * axes.duration / 360.0)
+        assert panel["values"] == pytest.approx(rooms, abs=2e-3)
+    proven = served.ask("axes-clearances", {"study": study})
+    for told, least in zip(proven["rows"], axes.clearances, strict=True):
+        assert (told["status"], told["value"], told["at"]) == (least.status, 1e3 * least.clearance, least.angle)
+    assert proven["trust"]["word"].startswith("interlocks clear" if not axes.broken else "interlock broken")
+
+
+def test_moves_are_put_together_as_the_library_does(served: Server) -> None:
+    study = axes_view.example() | {"overlap": {"goal": "acceleration", "of": ["die"]}}
+    best = axes_of(study).gentlest("die")
+    made = served.ask("axes-together", {"study": study})
+    assert f"{best.objective:.6g}" in made["facts"][0]
+    again = axes_of(made["study"])
+    assert again.broken == ()
+    assert again["die"].peak(2) == pytest.approx(best.axes["die"].peak(2), rel=1e-9)
+    quick = robot() | {"overlap": {"goal": "period"}}
+    period = served.ask("axes-together", {"study": quick})["study"]["period"]
+    assert float(period.split()[0]) == pytest.approx(axes_of(quick).fastest().objective, rel=1e-9)
+    assert "say what" in served.ask("axes-together", {"study": robot()})["refused"]["reason"]
+
+
+def test_axes_open_and_save_as_a_problem_file(served: Server) -> None:
+    found = start(str(FILE))
+    assert found["view"] == "axes"
+    asked = {"kind": "problem", "view": "cycle", "laws": [OPTIMAL], "cycle": {"study": found["axes"]}}
+    assert tomllib.loads(served.ask("save", asked)["text"]) == tomllib.loads(FILE.read_text("utf-8"))
+
+
+@pytest.mark.parametrize(
+    ("change", "reason"),
+    [
+        (lambda study: study["axis"][1].update(name="table"), "two axes are called table"),
+        (lambda study: study["interlocks"][0].update(of="dye"), "unknown axis 'dye'"),
+        (lambda study: study["axis"][1].update(mechanism={"kind": "rack"}), "mechanism"),
+        (lambda study: study["axis"][1]["segment"][1].update(law="x.json"), "x.json names a file"),
+    ],
+)
+def test_axes_that_are_none_say_why(served: Server, change: Any, reason: str) -> None:  # noqa: ANN401 - a function
+    study = axes_view.example()
+    change(study)
+    for name in ("axes", "axes-clearances", "axes-together"):
+        assert reason in served.ask(name, {"study": study})["refused"]["reason"]
+
+
+# --- in the browser ---
+
+
+def drag(page: Page, key: str, by: float) -> None:
+    """Drag a bar by so many degrees of the master."""
+    box = page.locator(f'[data-key="{key}"]').bounding_box()
+    frame = page.locator("#axes-timing .grid").first.bounding_box()
+    last = page.locator("#axes-timing .grid").nth(8).bounding_box()
+    assert box is not None
+    assert frame is not None
+    assert last is not None
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] - 10
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + by * (last["x"] - frame["x"]) / 360.0, y, steps=12)
+    page.mouse.up()
+    settle(page)
+
+
+def test_bars_are_dragged_until_an_interlock_breaks(page: Page, served: Server) -> None:
+    go(page, f"http://{served.host}/")
+    page.get_by_role("tab", name="Axes").click()
+    settle(page)
+    bar = page.locator('[data-key="bar 1 0"]')
+    assert bar.get_attribute("aria-valuetext") == "from 50° to 105°"
+    drag(page, "bar 1 0", 45.0)
+    assert bar.get_attribute("aria-valuetext") == "from 95° to 150°"
+    assert "interlock broken" in page.locator("#axes-trust").inner_text()
+    assert page.locator("#axes-timing .interlock.broken").count() > 0
+    page.get_by_role("button", name="Undo").click()
+    settle(page)
+    assert bar.get_attribute("aria-valuetext") == "from 50° to 105°"
+    bar.focus()
+    for key in ("ArrowRight", "ArrowRight", "Shift+ArrowUp"):
+        page.keyboard.press(key)
+    settle(page)
+    assert bar.get_attribute("aria-valuetext") == "from 52° to 117°"
+    assert page.evaluate("() => document.activeElement.dataset.key") == "bar 1 0"
+    page.get_by_label("put the moves together for").select_option("acceleration")
+    page.get_by_role("checkbox", name="of table").uncheck()
+    page.get_by_role("checkbox", name="of die").check()
+    page.get_by_role("button", name="Put the moves together").click()
+    settle(page)
+    assert "interlocks clear" in page.locator("#axes-trust").inner_text()
+    page.get_by_role("button", name="Run").click()
+    page.wait_for_function("() => Number(document.querySelector('#axes-run input').value) > 2")
+    page.get_by_role("button", name="Pause").click()
+    assert "die" in page.locator("#axes-reading").inner_text()
+
+
+def test_the_corner_of_a_forbidden_region_is_moved(page: Page, served: Server) -> None:
+    go(page, served.link(view="axes", axes=robot()))
+    corner = page.get_by_label("box: corner 3")
+    corner.focus()
+    page.keyboard.press("Shift+ArrowUp")
+    settle(page)
+    assert page.get_by_label("interlock 0 corners").input_value().split("; ")[2] == "280 mm, 31 mm"
+    changed = robot()
+    changed["interlocks"] = [BOX | {"corners": [*BOX["corners"][:2], ["280 mm", "31 mm"], BOX["corners"][3]]}]
+    (told,) = served.ask("axes-clearances", {"study": changed})["rows"]
+    assert told["cells"][0] in page.locator("#axes-table").inner_text()
