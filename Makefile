@@ -24,7 +24,7 @@ endif
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help table test test-long test-random mutants lint format docs bench results check-results check-proofs constraints clean
+.PHONY: help table test test-long test-random wheel check-wheel mutants lint format docs bench results check-results check-proofs constraints clean
 
 help: ## list the targets
 	@sed -nE 's/^([a-z-]+):[^#]*## (.*)/  make \1|\2/p' Makefile | awk -F'|' '{ printf "%-22s %s\n", $$1, $$2 }'
@@ -40,6 +40,12 @@ test-long: $(DEV) ## run the tests that take long, and those of random examples 
 
 test-random: $(DEV) ## run the tests and the doctests in a random order (SEED=1)
 	$(BIN)/python -m pytest -n 2 -p randomly --randomly-seed=$(or $(SEED),1) tests optlaws
+
+wheel: $(DEV) ## build the wheel into dist
+	$(BIN)/python -m hatchling build --target wheel --directory dist
+
+check-wheel: $(DEV) ## run the first page from a wheel in new environments (PYTHONS="3.11 3.12", LOWEST=1)
+	$(BIN)/python -m tests.check_wheel $(if $(LOWEST),--lowest) $(PYTHONS)
 
 mutants: $(DEV) ## change the core here and there and see whether the tests notice (some 15 minutes)
 	$(BIN)/python -m tests.mutants

@@ -44,6 +44,7 @@ _load, __dir__, __all__ = face(
         "optlaws.cycles.specification.segments": "ConstantVelocity Dwell Free Move Return Rise",
         "optlaws.cycles.machine_follower": "MachineFollower machine_follower",
         "optlaws.errors": "InfeasibleProblem InputError NoisyTable NotNormalised OptlawsError SolverFailure",
+        "optlaws.files.schemas": "json_schema",
         "optlaws.exports.best_breaks": "best_breaks",
         "optlaws.exports.run_time.seven_segments": "jerk_limited_move",
         "optlaws.motion.polynomials": "PiecewiseMotion",

@@ -76,6 +76,7 @@ from optlaws.errors import OptlawsError as OptlawsError
 from optlaws.errors import SolverFailure as SolverFailure
 from optlaws.exports.best_breaks import best_breaks as best_breaks
 from optlaws.exports.run_time.seven_segments import jerk_limited_move as jerk_limited_move
+from optlaws.files.schemas import json_schema as json_schema
 from optlaws.laws.catalogue.catalogue import catalogue as catalogue
 from optlaws.laws.catalogue.reading import read_law as read_law
 from optlaws.laws.constants import Constants as Constants
@@ -335,6 +336,7 @@ __all__ = [
     "inertial_loader",
     "integral",
     "jerk_limited_move",
+    "json_schema",
     "law_from_z",
     "law_through",
     "least_prime_circle",

@@ -1,4 +1,4 @@
-"""Libraries that only an extra of optlaws brings: what is said where one is missing."""
+"""Libraries that an extra of optlaws brings, or that a user has left out: what is said where one is missing."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from optlaws.errors import InputError
 
 
 class NotInstalled(InputError, ImportError):  # noqa: N818 - as SolverFailure
-    """A library is missing that an extra of optlaws brings.
+    """A library is missing that an extra of optlaws brings, or that was left out of an installation.
 
     Examples
     --------

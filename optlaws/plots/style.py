@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from optlaws.extras import NotInstalled
 from optlaws.files import writing
 from optlaws.files.writing import MARK
 
@@ -50,8 +51,10 @@ STYLE: Any = {  # matplotlib's type lists every key there is
 @contextmanager
 def plot_style() -> Iterator[None]:
     """The style of every picture of the project, for the time of a `with` block."""
-    import matplotlib as mpl
-
+    try:
+        import matplotlib as mpl
+    except ImportError:
+        raise NotInstalled("drawing needs matplotlib: pip install matplotlib") from None
     with mpl.rc_context(STYLE):
         yield
 

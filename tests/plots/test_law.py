@@ -1,5 +1,8 @@
 """What is drawn of laws, solutions and fronts."""
 
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
@@ -10,6 +13,18 @@ from tests.internals.plots import broken
 
 def axes(count: int) -> np.ndarray:
     return np.ravel(Figure().subplots(1, count))
+
+
+def test_without_matplotlib_drawing_says_what_is_missing_and_all_else_works() -> None:
+    script = (
+        "import sys\nsys.modules['matplotlib'] = None\nimport optlaws\n"
+        "cycle = optlaws.Cycle([optlaws.Rise('35 mm', law='cycloidal'), optlaws.Return()], period='1 s')\n"
+        "cycle.export('csv', points=9)\n"
+        "try:\n    optlaws.smoothstep(3).plot()\n"
+        "except optlaws.InputError as error:\n    print(error)\n"
+    )
+    done = subprocess.run([sys.executable, "-c", script], check=True, capture_output=True, text=True)
+    assert done.stdout == "drawing needs matplotlib: pip install matplotlib\n"
 
 
 def test_a_law_is_drawn_as_it_is_with_its_peaks_marked() -> None:
