@@ -79,7 +79,7 @@ def declare(subject: str, modules: Mapping[str, str]) -> None:
 
 
 class Registry(MutableMapping[str, T]):
-    """What the names of a subject stand for; those that were declared are imported when they are asked for.
+    """Registry of the names of a subject; declared names are imported when they are first used.
 
     Examples
     --------

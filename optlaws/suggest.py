@@ -1,4 +1,4 @@
-"""What to say of a name that is not known."""
+"""Messages for unknown names, with the nearest known one."""
 
 from __future__ import annotations
 

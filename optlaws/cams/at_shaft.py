@@ -117,7 +117,7 @@ def _smooth(cam: DiscCam, first: float, last: float) -> tuple[Formula, Formula]:
 
 
 def _through_breaks(cam: DiscCam, breaks: list[float]) -> tuple[Formula, Formula]:
-    """Displacement and velocity as splines, whose places crowd at the breaks of the motion."""
+    """Displacement and velocity as splines whose knots are denser near breaks of the motion."""
     count = min(_MOST_IN_STRETCH, _MOST_PLACES // (len(breaks) - 1))
     if count < 4:
         raise InputError(f"the cam's motion has {len(breaks) - 2} breaks in this range: take a shorter one in over=")

@@ -35,12 +35,12 @@ class _Offsets(NamedTuple):
     turning: float
 
     def tangents(self, offset: float, s: Array, slope: Array) -> Array:
-        """Where the follower is at s and goes with a slope."""
+        """The tangents of the pressure angle at offsets, where the follower has a displacement and a slope."""
         level = sqrt((self.radius - abs(offset)) * (self.radius + abs(offset)))
         return np.asarray((slope - self.turning * offset) / (level + s - self.lowest))
 
     def beyond(self, tangent: float, s: Interval, slope: Interval, low: float, high: float) -> bool:
-        """Whether every offset in a range is proven to have more than a tangent, of either sign, at some place."""
+        """Whether every offset in a range is proven to exceed a tangent of the pressure angle somewhere."""
         least, most = (0.0 if low <= 0.0 <= high else min(abs(low), abs(high))), max(abs(low), abs(high))
         levels = (sqrt((self.radius - size) * (self.radius + size)) for size in (most, least))
         lower, upper = (level * (1.0 + way * 8.0 * ROUNDOFF) for level, way in zip(levels, (-1.0, 1.0), strict=True))

@@ -102,7 +102,7 @@ class RollerCurvature:
         return None
 
     def planes(self, k: Sequence[float], a: Sequence[Pair], b: Sequence[Pair]) -> list[Window]:
-        """In each part of the time a plane that is nowhere above G where a and b are between their values there."""
+        """Planes nowhere above G, one for each part of the time, while a and b are within their ranges there."""
         low, high = np.array([a, b])[:, :, 0], np.array([a, b])[:, :, 1]
         at, reach = 0.5 * (low + high), 0.5 * (high - low)
         values = dict(zip("ab", at, strict=True))
@@ -182,7 +182,7 @@ def _most_acceleration(problem: Problem, most: float) -> float | None:
 
 
 def _tube(problem: Problem, greatest: float, ends: Pair) -> tuple[list[float], list[Pair], list[Pair]]:
-    """Ends of parts of the time, and between which values a and b of all laws of a problem are in each."""
+    """Ends of parts of the time, and the ranges of a and b in all laws of a problem in each part."""
     k = np.linspace(0.0, 1.0, _PARTS + 1).tolist()
     b = [(ends[0],) * 2, *(_range_at(problem, "b", place) for place in k[1:-1]), (ends[1],) * 2]
     width = 1.0 / _PARTS

@@ -209,7 +209,7 @@ class CamForces:
 
     @property
     def lifts_off(self) -> bool:
-        """Whether the follower leaves the cam somewhere, by more than the contact force is enclosed to."""
+        """Whether the contact force is below 0 somewhere, by more than the width of its enclosure."""
         return self.contact.low < -FORCE_EXTREMES * self.contact.peak
 
     @kept_property

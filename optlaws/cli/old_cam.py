@@ -1,4 +1,4 @@
-"""What `optlaws cycle` does with the table of an old cam: its moves, better ones, files for controllers, a picture."""
+"""`optlaws cycle` for the table of an old cam: its moves, better ones, files for controllers, a picture."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What several commands take alike: whole numbers, laws by name or file, --json, files to write."""
+"""Options shared by several commands: whole numbers, laws by name or file, --json, files to write."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ Plot = Annotated[Path | None, Parameter(name="--plot")]
 @Parameter(name="*")
 @dataclass(frozen=True, kw_only=True)
 class TableOptions:
-    """How a table of points is read.
+    """Options for reading a table of points.
 
     Parameters
     ----------

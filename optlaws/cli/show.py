@@ -91,7 +91,7 @@ def number(value: float, size: float, form: str = ".10g") -> str:
 
 
 def progress() -> Console:
-    """Where progress is shown, so that stdout holds the answer alone."""
+    """The stream for progress bars, so that stdout has the answer alone."""
     from rich.console import Console
 
     return Console(stderr=True)
@@ -111,6 +111,6 @@ def busy(text: str) -> Iterator[None]:
 
 
 def constants_table(constants: optlaws.Constants) -> Table:
-    """Constants with their places."""
+    """A table of constants with the places where they are reached."""
     headings, *rows = constants.summary().cells()
     return table("constant", *headings[1:], rows=rows)

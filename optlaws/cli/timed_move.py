@@ -20,7 +20,7 @@ _OPTIONS = {"limits": "--limit", "stroke": "--stroke", "start_velocity": "--star
 @Parameter(name="*")
 @dataclass(frozen=True, kw_only=True)
 class MoveOptions:
-    """What the least time is sought of.
+    """Options of a move whose least time is computed.
 
     Parameters
     ----------
@@ -77,7 +77,7 @@ def answer(
 
 
 def _limits(texts: list[str]) -> dict[str, Any]:
-    """Limits by name from texts such as "velocity=1 m/s"; two quantities are parted by a comma."""
+    """Limits by name from texts such as "velocity=1 m/s"; a comma separates a least and a greatest value."""
     limits: dict[str, Any] = {}
     for text in texts:
         name, equals, value = (part.strip() for part in text.partition("="))

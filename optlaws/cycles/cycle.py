@@ -542,7 +542,7 @@ class Cycle(CycleInterchange):
 
     @kept_property
     def _along(self) -> tuple[PieceEffort, ...]:
-        """What the drive does along each piece."""
+        """The effort of the drive along each piece."""
         drive = known_drive(self._drive)
         return tuple(PieceEffort(drive, piece) for piece in self.pieces)
 

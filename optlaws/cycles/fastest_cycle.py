@@ -57,7 +57,7 @@ class LeastDuration:
 
 @dataclass(frozen=True)
 class LimitGain:
-    """What a tenth more of a limit would give.
+    """The gain in speed from a tenth more of a limit.
 
     Attributes
     ----------
@@ -141,7 +141,7 @@ class FastestCycle:
 
     @kept_property
     def gains(self) -> tuple[LimitGain, ...]:
-        """What a tenth more of each binding limit would give, in all segments that have it; sought again.
+        """The gain in speed from a tenth more of each active limit, in all segments that have it; solved again.
 
         Examples
         --------

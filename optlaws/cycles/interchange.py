@@ -65,7 +65,7 @@ class CycleInterchange(JsonText):
 
     @classmethod
     def from_dict(cls, data: Any) -> Self:  # noqa: ANN401 - it is checked here
-        """Read what `to_dict` gave."""
+        """The cycle that `to_dict` wrote."""
         if not isinstance(data, Mapping) or not isinstance(data.get("segments"), list):
             raise InputError("a stored cycle is a table with a list of segments, as Cycle.to_dict gives it")
         if data.get("format", FORMAT) != FORMAT:

@@ -145,7 +145,7 @@ def compare_laws(
     frequency: float | tuple[float, float] | None = None,
     damping: float = 0.0,
 ) -> Comparison:
-    """Laws side by side.
+    """Constants and machine values of several laws beside each other.
 
     Parameters
     ----------

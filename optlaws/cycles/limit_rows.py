@@ -24,7 +24,7 @@ _SNAP = 4
 
 
 class _Taken(NamedTuple):
-    """What a segment takes of a limit: the share, the row's name, and the row."""
+    """The use of a limit by a segment: the share, the row's name, and the row."""
 
     share: float
     name: str
@@ -32,7 +32,7 @@ class _Taken(NamedTuple):
 
 
 def limit_rows(cycle: Cycle) -> list[Row]:
-    """Of each such limit the value in the segment that takes most of it, with its time and the limit.
+    """Rows of limits: the value in the segment that uses most of the limit, with its time and the limit.
 
     Examples
     --------
@@ -63,7 +63,7 @@ def _of_segments(cycle: Cycle) -> Iterator[_Taken]:
 
 
 def _greatest(cycle: Cycle, number: int, key: LimitKey) -> tuple[float, float]:
-    """The greatest magnitude on the side of a limit in a segment, and its time."""
+    """The greatest magnitude in a segment on the side that a limit bounds, and its time."""
     peaks = cycle.peaks[number]
     nu = key if isinstance(key, int) else key.nu
     piece = next(piece for piece in reversed(cycle.pieces) if piece.start <= peaks.start)

@@ -118,7 +118,7 @@ class Axes(JsonText, Mapping[str, Cycle]):
         return max((cycle.status for cycle in self.values()), key=ranks.index)
 
     def at(self, speed: Quantity) -> Axes:
-        """The same motions at another speed of the master, as `Cycle.at` has them."""
+        """The same motions at another speed of the master, as in `Cycle.at`."""
         return Axes({name: cycle.at(speed) for name, cycle in self.items()}, interlocks=self.interlocks)
 
     def fastest(self) -> Overlap:
@@ -305,7 +305,7 @@ class Axes(JsonText, Mapping[str, Cycle]):
 
     @classmethod
     def from_dict(cls, data: Any) -> Axes:  # noqa: ANN401 - it is checked here
-        """Read what `to_dict` gave."""
+        """The axes that `to_dict` wrote."""
         stored = data.get("axes") if isinstance(data, Mapping) else None
         if not isinstance(stored, Mapping) or data.get("format", FORMAT) != FORMAT:
             raise InputError(f"stored axes have format {FORMAT!r} and a table of axes, got {shortened(data)}")
@@ -406,7 +406,7 @@ class Axes(JsonText, Mapping[str, Cycle]):
 
     @property
     def rules(self) -> tuple[Interlock, ...]:
-        """The interlocks as values."""
+        """The interlocks of the axes as values."""
         return self.interlocks  # type: ignore[return-value] # values since the axes were checked
 
     @kept_property

@@ -99,7 +99,7 @@ class MachineAnswer:
 
     @property
     def residual_acceleration(self) -> float:
-        """Amplitude of its acceleration."""
+        """Amplitude of the residual vibration's acceleration."""
         return self._sized(self.response.residual_acceleration, 2)
 
     def results(self) -> dict[str, Any]:

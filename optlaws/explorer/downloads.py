@@ -43,7 +43,7 @@ File = dict[str, str]
 
 
 class SeenRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """What is seen on the page: laws, of which one is active, and a cycle."""
+    """Content of the page: laws, of which one is active, and a cycle."""
 
     laws: Annotated[list[LawRequest], msgspec.Meta(min_length=1, max_length=MOST_LAWS)]
     active: Annotated[int, msgspec.Meta(ge=0, lt=MOST_LAWS)] = 0

@@ -1,4 +1,4 @@
-"""Where few polynomials have their breaks best: the fewest whose peak of the acceleration is the law's."""
+"""Best breaks for few polynomials: the fewest pieces whose peak of the acceleration is that of the law."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ class BestBreaks:
 
 
 class _Enough(Exception):  # noqa: N818 - no error: the search has what it looked for
-    """The search may stop."""
+    """Raised to end the search when the result is good enough."""
 
 
 def best_breaks(law: MotionLaw, degree: int = 7, most: int = MOST) -> BestBreaks:
@@ -124,7 +124,7 @@ class BreakSearch:
         )
 
     def run(self, breaks: Array) -> PiecewiseMotion:
-        """The polynomials between breaks."""
+        """The executed polynomials between the breaks."""
         return self.stretch.hermite(breaks, self.orders)
 
     def ratio(self, breaks: Array) -> float:

@@ -1,4 +1,4 @@
-"""By how much a motion evaluated in floating point may miss its exact polynomials: a bound that is proven."""
+"""Proven bounds of the error of a motion that is evaluated in floating point."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a format of exports is, and the one door to them: who takes it, its fields, its limits, and what writes it."""
+"""Formats of exports and their registry: recipients, fields, limits, and the function that writes each."""
 
 from __future__ import annotations
 

@@ -41,7 +41,7 @@ def spline_powers(x: Array, y: Array, ends: Ends = "clamped", slopes: tuple[floa
 
 
 def akima_powers(x: Array, y: Array) -> Array:
-    """Ascending powers of Akima's cubics, as Modelica's tables take them: the acceleration jumps at each point.
+    """Akima's cubics in ascending powers, as in Modelica's tables: the acceleration jumps at each point.
 
     >>> x = np.linspace(0.0, 1.0, 6)
     >>> akima_powers(x, x**2)[0].round(9).tolist()

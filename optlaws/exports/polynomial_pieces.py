@@ -163,7 +163,7 @@ def _at_its_place(motion: PiecewiseMotion, piece: Piece) -> PiecewiseMotion:
 
 
 def _near(stretch: LawSection, tolerance: float) -> PiecewiseMotion:
-    """So many of Hermite's polynomials of degree 7 on a stretch, each time twice as many, that they are near enough."""
+    """Hermite's polynomials of degree 7 on a stretch; their number is doubled until they are near enough."""
     count = 1
     while count <= _MOST:
         run = stretch.hermite(np.linspace(*stretch.ends, count + 1), _ORDERS)

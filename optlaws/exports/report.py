@@ -223,7 +223,7 @@ _CUTS = 9  # in eight: the way is of second order in the length that is left
 
 
 def travel_of_run(run: PiecewiseMotion) -> float:
-    """The way of polynomials."""
+    """The total travel of a motion of polynomials."""
     first, last = run.ends(0)
     moved = np.abs(last - first)
     table = run.powers(1)

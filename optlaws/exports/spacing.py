@@ -1,4 +1,4 @@
-"""Where tables have their points, and how many: the fewest whose run is as good as that of any number tried."""
+"""Points of tables: their places, and the fewest whose executed motion is as good as that of any number tried."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class PointTable:
 
 
 def places(motion: Motion, count: int, *, straight: bool = False) -> Array:
-    """So many points with equal steps between the breaks of a motion, which are points themselves.
+    """A given number of points with equal steps between the breaks of a motion, which are points themselves.
 
     With `straight` dwells and uniform motions need no point inside, as where the controller is told V and A.
     """
@@ -145,7 +145,7 @@ class RunRanking:
         return cls(motion, motion.peak(1), motion.peak(2), motion.jump(2)[0], ends)
 
     def rank(self, table: PointTable) -> Rank:
-        """How good polynomials are."""
+        """Ranks of polynomials by deviation, peak and jump."""
         x, powers, off = table.x, table.powers, self._off(table)
         steps = np.diff(x)
         if self.acceleration in {0.0, inf} or powers.shape[1] == 2:

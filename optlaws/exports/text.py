@@ -201,7 +201,7 @@ def iec_name(name: Any, target: str) -> str:  # noqa: ANN401 - it is checked her
 
 
 def variable_names(names: Iterable[str]) -> dict[str, str]:
-    """For each name one that every target takes for a variable, and no two alike whatever the case of letters.
+    """Variable names that every target accepts, all different whatever the case of letters.
 
     >>> variable_names(["weld head", "Weld_head", "string", "2nd table"])
     {'weld head': 'weld_head', 'Weld_head': 'Weld_head_2', 'string': 'Cam_string', '2nd table': 'Cam_2nd_table'}

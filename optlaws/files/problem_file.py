@@ -44,7 +44,7 @@ def convert(data: Mapping[str, Any], spec: type[Spec], file: Path) -> Spec:
 
 
 def _remedy(error: str) -> str:
-    """What to do where a bare number stands for a text: most of these are quantities."""
+    """The remedy for a bare number in place of a text, which is mostly a quantity."""
     if not re.match(r"Expected `str.*`, got `(int|float)`", error):
         return ""
     return '; a number with a unit is written as text, such as "35 mm", "120 deg" or "200 rpm"'

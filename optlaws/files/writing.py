@@ -98,7 +98,7 @@ def is_own(file: Path) -> bool:
 
 
 def _content(file: Path) -> bytes:
-    """What a file holds; nothing where there is none."""
+    """Content of a file; empty if there is no such file."""
     try:
         return file.read_bytes() if file.is_file() else b""
     except FileNotFoundError:
@@ -223,7 +223,7 @@ def _keep(file: Path) -> None:
 
 
 def _keep_copy(file: Path) -> None:
-    """The same where a file can have one name only."""
+    """A copy of the user's file where a file cannot have two names."""
     content = file.read_bytes()
     if is_sealed(content):
         return

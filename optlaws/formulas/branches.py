@@ -126,7 +126,7 @@ def branches_at(formula: Formula, names: Mapping[str, Array], count: int) -> lis
 
 
 def _choice(part: Formula, values: Sequence[Array]) -> NDArray[np.intp]:
-    """Which of the smooth formulas a part with a kink is, where its parts have these values."""
+    """The smooth formula that a part with a kink equals for given values of its parts."""
     if isinstance(part, Table):
         return np.clip(np.searchsorted(part.places, values[0], side="right") - 1, 0, len(part.places) - 2)
     if len(values) == 1:

@@ -89,7 +89,7 @@ class Formula:
 
     @property
     def data(self) -> Any:  # noqa: ANN401 - whatever a kind of formula has
-        """What it is beside its parts: two of one kind with equal parts that have this in common are equal."""
+        """Data of a part other than its parts; two parts of one kind with equal data and parts are equal."""
         return None
 
     @kept_property

@@ -1,1 +1,1 @@
-"""What `optlaws run` does: a problem file names its job."""
+"""Jobs of `optlaws run`; a problem file names its job."""

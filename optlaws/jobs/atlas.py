@@ -92,7 +92,7 @@ _ROOM = 2.5
 
 
 def draw(points: Sequence[StudyPoint]) -> dict[str, Figure]:
-    """The figures by name."""
+    """Figures of the atlas by their names."""
     return {
         f"least-{constant.lower()}": _draw_least(
             [point for point in points if point.inputs["minimise"] == constant], constant, word
@@ -216,7 +216,7 @@ def _problem(degree: int, minimise: str, order: int, B: float | None, most: Mapp
 
 
 def read(file: Path) -> list[AtlasPoint]:
-    """The points of an atlas that have a law."""
+    """The stored points of an atlas that have a law."""
     if not file.exists():
         raise InputError(f"there is no atlas {file}; `optlaws run problems/atlas.toml` makes one")
     lines = [line for line in reading.text(file).splitlines() if not line.startswith("#")]

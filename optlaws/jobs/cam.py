@@ -144,7 +144,7 @@ def _pair_data(cam: DiscCam | None) -> dict[str, Any]:
 
 
 def page(findings: Findings) -> Page:
-    """The page of results."""
+    """The page of the cam's results."""
     spec, least = findings.spec, findings.least
     result = Page(spec.title).text(spec.text).figure("cam", spec.title)
     if findings.best is not None:

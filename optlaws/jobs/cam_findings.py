@@ -1,4 +1,4 @@
-"""What the job "cam" finds beside the cams: extremes, least sizes, forces, a spring, peaks as manufactured."""
+"""Results of the job "cam" beside the cams: extremes, least sizes, forces, a spring, peaks as manufactured."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ class Findings:
 
     @classmethod
     def read(cls, data: Mapping[str, Any], file: Path) -> Self:
-        """What the entries of a file ask for, checked; an error names the file."""
+        """Results that the entries of a file ask for, checked; an error names the file."""
         spec = convert(data, CamProblemFile, file)
         findings = cls(spec)
         with located(str(file)):

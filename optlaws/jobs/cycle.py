@@ -233,7 +233,7 @@ def answer(entries: Mapping[str, Any], file: Path) -> dict[str, Any]:
 
 @dataclass(frozen=True)
 class CycleSearches:
-    """What a file seeks beside its cycles: sweeps, greatest speeds, how moves overlap, run-ins and run-outs."""
+    """Results beside the cycles: sweeps, greatest speeds, overlapping moves, run-ins and run-outs."""
 
     sweeps: Sequence[list[SweptCycle]] = ()
     fastest: Mapping[str, FastestCycle] = field(default_factory=dict)
@@ -242,7 +242,7 @@ class CycleSearches:
 
 
 def page(spec: CycleProblemFile, axes: Axes, exports: Exports, sought: CycleSearches) -> Page:
-    """The page of results."""
+    """The page of the cycles' results."""
     result = slowest(Page(spec.title).text(spec.text), sought.fastest)
     if len(axes) > 1:
         result.figure(TOGETHER, f"{spec.title}: all axes over one time")

@@ -149,7 +149,7 @@ def _shown(solution: Solution, unit: float) -> float:
 
 
 def draw(title: str, cases: Mapping[str, tuple[CaseTorque, Laws]]) -> Figure:
-    """The torque of every law over k, one panel a case."""
+    """A figure of the torque of every law over k, with a panel for each case."""
     with plot_style():
         figure = empty_figure(9.2, 3.2 * len(cases) + 0.6)
         panels = figure.subplots(len(cases), 1, sharex=True, squeeze=False)[:, 0]

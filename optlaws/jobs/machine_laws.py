@@ -132,7 +132,7 @@ _POINTS = 401
 
 
 class Vibration(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """In which output what is left of which modes counts, and by how much frequencies may be off."""
+    """The output in which residual vibration counts, its modes, and the spread of their frequencies."""
 
     output: Text
     modes: Annotated[list[int], msgspec.Meta(min_length=1, max_length=4)] = msgspec.field(default_factory=lambda: [1])
@@ -176,7 +176,7 @@ class Compared:
     solution: Solution | None = None
 
     def left(self, number: int, factors: Array) -> Array:
-        """Amplitudes that a mode is left with where all frequencies are so many times as high."""
+        """Residual amplitudes of a mode when all frequencies are multiplied by given factors."""
         assert self.law is not None  # noqa: S101 - only laws that are there are asked
         vibration = self.machine.residual(number, self.vibration.output)
         roots = np.asarray(mode(self.machine, number).root * factors, dtype=np.complex128)
@@ -186,7 +186,7 @@ class Compared:
 
     @kept_property
     def residuals(self) -> list[float]:
-        """Those of every mode that is asked: too slow, as it should be, too fast; and the greatest in between."""
+        """Residuals of each chosen mode at a low, the nominal and a high frequency, and the greatest in between."""
         spread = self.vibration.spread
         residuals = []
         for number in self.vibration.modes:
@@ -281,7 +281,7 @@ def _laws(about: str, laws: Sequence[Compared]) -> str:
 
 
 def _about(spec: MachineLawsProblemFile) -> str:
-    """What the columns of the laws' table are, in words."""
+    """Explanations of the columns of the laws' table."""
     unit = f" ({spec.units[spec.vibration.output]})" if spec.vibration.output in spec.units else ""
     return (
         f"{_in_machine_units(spec.machine)} "

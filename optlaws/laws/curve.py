@@ -1,4 +1,4 @@
-"""What laws of motion and motions of a mass have in common: values, derivatives, peaks with places, samples."""
+"""Base class of laws of motion and motions of a mass: values, derivatives, peaks with places, samples."""
 
 from __future__ import annotations
 
@@ -92,7 +92,7 @@ class Curve(ABC):
     @overload
     def b(self, k: Many) -> Array: ...
     def b(self, k: float | Many) -> float | Array:
-        """Velocity a' at k."""
+        """The velocity a' at k, dimensionless."""
         return number_or_array(self._derivative(self._times(k), 1))
 
     @overload
@@ -100,7 +100,7 @@ class Curve(ABC):
     @overload
     def c(self, k: Many) -> Array: ...
     def c(self, k: float | Many) -> float | Array:
-        """Acceleration a'' at k."""
+        """The acceleration a'' at k, dimensionless."""
         return number_or_array(self._derivative(self._times(k), 2))
 
     @overload
@@ -108,7 +108,7 @@ class Curve(ABC):
     @overload
     def j(self, k: Many) -> Array: ...
     def j(self, k: float | Many) -> float | Array:
-        """Jerk a''' at k."""
+        """The jerk a''' at k, dimensionless."""
         return number_or_array(self._derivative(self._times(k), 3))
 
     @overload

@@ -1,4 +1,4 @@
-"""What a motion law is: an immutable value with displacement a and its derivatives on [0, 1]."""
+"""Motion laws: immutable values with a displacement a and its derivatives on [0, 1]."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What laws do in machines: elastic followers, their response spectra and the cams made for them; linear machines."""
+"""Laws in machines: elastic followers, their response spectra and cams; linear machines."""
 
 from optlaws.lazy import face
 

@@ -125,7 +125,7 @@ class MassChain:
         return total / sum(stretch.length for stretch in self.stretches)
 
     def _square(self, i: int, length: float, nu: int) -> float:
-        """Integral over a stretch, halved until the product of its series is known to rounding."""
+        """The integral over a stretch, halved until the series of the product is accurate to rounding."""
         negligible = STRETCH_RESOLVED * float(np.abs(self._values(i, length * SAMPLES, nu)).max())
         panels, series = self._resolved(lambda s: self._values(i, s, nu), length, negligible)
         pieces = zip(np.diff(panels.edges).tolist(), series.T, strict=True)

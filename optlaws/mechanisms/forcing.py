@@ -45,7 +45,7 @@ class PolynomialMotion:
 
 @dataclass(frozen=True, eq=False)
 class Forcing:
-    """Displacement a over one stretch of time, s = time - start in [0, length]: a polynomial and sines.
+    """Displacement of the base over one stretch of time, s = time - start in [0, length]: a polynomial and sines.
 
     Times are in durations of the rise. `acceleration` is the Chebyshev series, in 2 s/length - 1, of what is no sine in
     c.
@@ -147,7 +147,7 @@ class _Frame:
 
 
 class RiseReturnCycle:
-    """What repeats: a rise, a dwell, the return and a rest, in durations of the rise; a base of motions over it."""
+    """A repeating motion of rise, dwell, return and rest, in durations of the rise, with a base motion."""
 
     rise: MotionLaw
     fall: MotionLaw

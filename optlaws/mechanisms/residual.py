@@ -173,7 +173,7 @@ class Residual(Functional):
 
     @property
     def part_names(self) -> tuple[str, ...]:
-        """What a certificate calls each part."""
+        """Names of the parts in certificates."""
         return (self.name, *(f"{self.name}, part {i + 1}" for i in range(1, len(self.parts))))
 
     def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConeFamily, ...]:
@@ -202,7 +202,7 @@ class Residual(Functional):
         return f"frequency = {self.frequency(k):.5g}"
 
     def frequency(self, place: float) -> float:
-        """The frequency of a certificate's contact in the first part, which stands there as a number k from 0 to 1."""
+        """The frequency that a certificate's contact of the first part refers to by a number k from 0 to 1."""
         return float(_frequencies(self.parts[0], np.array([2.0 * place - 1.0]))[0])
 
     def _phasors(self, law: MotionLaw, part: WeightPart, frequencies: Array) -> Complex:

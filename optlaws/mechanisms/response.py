@@ -1,4 +1,4 @@
-"""What the mass of a follower does: after one rise with its dwell, and over a cycle that repeats."""
+"""Response of a follower's mass: after one rise with its dwell, and over a cycle that repeats."""
 
 from __future__ import annotations
 
@@ -247,7 +247,7 @@ class CycleResponse(RiseReturnCycle, MassMotion):
 
     @kept_property
     def _initial(self) -> tuple[float, float]:
-        """State that comes back after one period."""
+        """The state at the start that recurs after one period."""
         oscillator = Oscillator(self.frequency, self.damping)
         low = float(self.rise.a(0.0))
         forced = MassChain(oscillator, self._forcings, (low, 0.0)).end

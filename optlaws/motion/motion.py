@@ -159,7 +159,7 @@ class Motion:
         return float(np.sqrt(squares / self.length))
 
     def over_time(self) -> Motion:
-        """The same motion over time in seconds.
+        """The same motion as a function of time in seconds.
 
         Raises
         ------

@@ -295,7 +295,7 @@ class PiecewiseMotion:
         return np.unique(np.concatenate([breaks_here, others[apart > SAME_TIME * (self.stop - self.start)]]))
 
     def _cut(self, breaks: Array) -> Array:
-        """Powers on finer pieces."""
+        """Coefficients of the same polynomials on finer pieces."""
         table = self.powers()
         which = np.searchsorted(self.breaks[1:-1], breaks[:-1], side="right")
         moved, by = table[which], breaks[:-1] - np.array(self.breaks)[which]

@@ -127,7 +127,7 @@ def _polished(function: RealFunction, low: Array, high: Array) -> Greatest:
 
 
 def _crossings(function: RealFunction, places: Array) -> Array:
-    """Where a function changes its sign between places, by more than its rounding."""
+    """Places between samples where a function changes its sign by more than its rounding."""
     lengths = np.diff(places)
     low, high = places[:-1] + BEFORE_BREAK * lengths, places[1:] - BEFORE_BREAK * lengths
     first, last = np.asarray(function(low)), np.asarray(function(high))

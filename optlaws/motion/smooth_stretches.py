@@ -26,7 +26,7 @@ PartT = TypeVar("PartT", bound="Started")
 
 
 class Started(Protocol):
-    """What has a place from which on it holds."""
+    """Protocol of values that hold from a place on."""
 
     @property
     def start(self) -> float:

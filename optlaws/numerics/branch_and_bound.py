@@ -71,7 +71,7 @@ class Extremes(NamedTuple):
 
     @property
     def peak(self) -> float:
-        """The greatest magnitude that it reaches."""
+        """The greatest magnitude that the function reaches."""
         return max(abs(self.least), abs(self.most))
 
     @property
@@ -183,7 +183,7 @@ def _ends(places: Interval) -> tuple[Array, Array]:
 
 
 class _Options(NamedTuple):
-    """What `extremes` is asked for, by the names there."""
+    """Options of `extremes`, by the names there."""
 
     share: float
     parts: int
@@ -215,7 +215,7 @@ def _enclosing(edges: Array, options: _Options) -> _Asking[Extremes]:
 
 @dataclass(frozen=True)
 class _Cells:
-    """Cells, what their function is between in each, and what is known of its slope."""
+    """Cells with bounds of the function and of its slope in each."""
 
     low: Array
     high: Array

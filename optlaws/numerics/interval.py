@@ -139,7 +139,7 @@ def bearing(y: Interval, x: Interval) -> Interval:
 
 
 def dot(first: Sequence[Any], second: Sequence[Any]) -> Any:  # noqa: ANN401 - numbers, arrays or intervals
-    """The sum of products, of as many as the shorter of two has.
+    """The sum of products of two sequences, up to the length of the shorter one.
 
     >>> dot([1.0, 2.0], [3.0, 4.0])
     11.0

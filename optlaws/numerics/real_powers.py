@@ -44,7 +44,7 @@ def value(powers: Sum, v: Array) -> Array:
 
 
 def derivative(powers: Sum) -> dict[float, float]:
-    """Derivative with respect to v.
+    """The derivative of the power with respect to v.
 
     >>> derivative({0.0: 1.0, 1.5: 2.0})
     {0.5: 3.0}

@@ -165,7 +165,7 @@ def sign_changes(functions: Callable[[Array], Array], edges: Sequence[float], co
 
 
 def _turning_points(places: Array, values: Array) -> Array:
-    """Where parabolas through three values of one sign come near 0 or beyond."""
+    """Places where parabolas through three values of one sign come near 0 or cross it."""
     x, y, z = places[:-2], places[1:-1], places[2:]
     f, g, h = values[:, :-2], values[:, 1:-1], values[:, 2:]
     rise, fall = (g - f) / (y - x), (h - g) / (z - y)
@@ -218,7 +218,7 @@ def bracketed_roots(
 
 
 def _changes(function: Callable[[Array], Array], places: Array) -> list[float]:
-    """Those of the inner places at which a function that is more than rounding changes its sign."""
+    """Inner places at which a function changes its sign by more than rounding."""
     values = function((places[1:] + places[:-1]) / 2.0)
     plain = np.flatnonzero(np.abs(values) > VALUE_ROUNDING * np.abs(values).max())
     turns = np.sign(values[plain[1:]]) != np.sign(values[plain[:-1]])

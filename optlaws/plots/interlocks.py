@@ -137,7 +137,7 @@ def _arrows(axes: Axes, cycles: Mapping[str, Cycle], rule: After, rows: Mapping[
 
 
 def _height(cycle: Cycle, position: float, row: float) -> float:
-    """Where a position is in the bar of a row."""
+    """The height of a position within the bar of a row."""
     values = samples(cycle, 0, 60)[1]
     low, high = float(values.min()), float(values.max())
     return row - _HALF + 2.0 * _HALF * (position - low) / ((high - low) or 1.0)

@@ -81,7 +81,7 @@ def strokes_figure(moves: Sequence[FastestMove], title: str) -> Figure:
 
 
 def fronts_figure(fronts: Sequence[TimeFront], title: str) -> Figure:
-    """What is least over the time of a move, a panel for each objective."""
+    """A figure of least objectives over the time of a move, with a panel for each objective."""
     with plot_style():
         figure = empty_figure(7.2, 0.9 + 2.3 * len(fronts))
         panels = figure.subplots(len(fronts), 1, sharex=True, squeeze=False)[:, 0]

@@ -1,1 +1,1 @@
-"""What people see of long work and of values: bars, and small pages in notebooks."""
+"""Progress bars for long work, and small HTML pages of values in notebooks."""

@@ -63,7 +63,7 @@ def facts(named: Mapping[str, object]) -> str:
 
 
 def table(headings: Iterable[object], rows: Iterable[Iterable[object]]) -> str:
-    """A table with headings."""
+    """An HTML table with headings."""
     head = "".join(f"<th>{cell(heading)}</th>" for heading in headings)
     body = "".join(f"<tr>{''.join(f'<td>{cell(entry)}</td>' for entry in row)}</tr>" for row in rows)
     return f"<table><tr>{head}</tr>{body}</table>"

@@ -40,7 +40,7 @@ def said_otherwise() -> Iterator[None]:
 
 
 class Steps:
-    """So many steps of one piece of work; a bar appears on stderr if it takes longer than `PATIENCE`.
+    """Progress of one piece of work; a bar appears on stderr if it takes longer than `PATIENCE`.
 
     Examples
     --------
@@ -56,7 +56,7 @@ class Steps:
         self._bar: tuple[Progress, TaskID] | None = None
 
     def reach(self, done: int) -> None:
-        """So many steps are done."""
+        """Set the number of steps that are done."""
         if self._bar is None and done < self._total and monotonic() - self._began >= PATIENCE and watched():
             self._bar = self._started()
         if self._bar is not None:

@@ -76,7 +76,7 @@ class Summary(tuple[Row, ...]):  # noqa: SLOT001 - what places are is kept besid
     at: str
 
     def __new__(cls, rows: Iterable[Row], at: str = "") -> Self:
-        """A summary of rows."""
+        """Build a summary from its rows."""
         summary = super().__new__(cls, rows)
         summary.at = at
         return summary

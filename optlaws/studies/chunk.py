@@ -89,7 +89,7 @@ def _in_turn(task: Task, run: Run) -> Iterator[list[bytes]]:
 
 
 def _solve(task: Task, inputs: Inputs, previous: Solution | None) -> tuple[dict[str, Any], Solution | None]:
-    """What came out at one point, and the solution that the next one starts from."""
+    """The result at one point, and the solution that the next point starts from."""
     began = perf_counter()
     solution = None
     try:
@@ -198,7 +198,7 @@ def _of_solutions(laws: SolutionArray) -> list[dict[str, Any]]:
 
 
 def along_B(base: Mapping[str, Any], run: Run) -> bool:
-    """Whether the points of a run differ in the number B alone, and no text has places for it.
+    """Whether the points of a run differ in B alone, and no text of the problem contains a placeholder.
 
     Examples
     --------

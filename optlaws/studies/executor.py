@@ -1,4 +1,4 @@
-"""Where chunks are solved: watched processes of this machine unless another executor is given.
+"""Executors of chunks: watched processes of this machine unless another executor is given.
 
 Any executor may run `solve_chunk`, in processes or in threads, on this machine or on others: the solver, which holds
 the interpreter's lock, works in processes of its own. One that dies or takes too long costs one point, never the study.

@@ -55,7 +55,7 @@ def axes(study: StudyFile) -> list[StudyAxis]:
 
 
 def kind_of(name: str) -> Kind:
-    """What the values of whatever varies are: of an entry, of a bound ("at_most.NAME"), or of a place in text.
+    """The kind of a varying quantity's values: of an entry, of a bound ("at_most.NAME"), or of a placeholder in text.
 
     Examples
     --------
@@ -125,7 +125,7 @@ def _sampled(sample: Sample) -> dict[str, _Lazy]:
 
 
 def _spread(name: str, span: SampleSpan, shares: NDArray[np.float64]) -> _Lazy:
-    """The values at shares of a span; each whole number of it has the same share."""
+    """Values at shares of a span; each whole number of the span has the same share."""
     if kind_of(name) is not Kind.WHOLE:
         return _Lazy(len(shares), lambda place: scaled(span, float(shares[place])))
     low, high = int(span.low), int(span.high)
@@ -243,7 +243,7 @@ class StudyPoints:
         return ceil(len(self) / self.chunk)
 
     def of_chunk(self, number: int) -> dict[int, dict[str, Any]]:
-        """What varies at the points of a chunk, by their indices, in the order in which they are solved."""
+        """Varying quantities at the points of a chunk, by index, in the order of solution."""
         begin = number * self.chunk
         digits = self._snake(np.arange(begin, min(begin + self.chunk, len(self))))
         indices: list[int] = np.ravel_multi_index(tuple(digits), self.shape).tolist()
@@ -277,7 +277,7 @@ class StudyPoints:
         return positions // self.chunk
 
     def inputs(self, index: int) -> dict[str, Any]:
-        """What varies, at one point."""
+        """Values of the varying quantities at one point."""
         inputs: dict[str, Any] = {}
         for axis in reversed(self.axes):
             index, place = divmod(index, len(axis))
@@ -292,7 +292,7 @@ def _only_numbers(name: str) -> bool:
 
 
 def key(problem: Mapping[str, Any]) -> str:
-    """What identifies a point whatever its study: a hash of the entries of its problem."""
+    """The key of a point, independent of its study: a hash of the entries of its problem."""
     return _hash(json.dumps(problem, sort_keys=True))
 
 

@@ -123,7 +123,7 @@ def gap(solution: Solution) -> str:
 
 
 def record(solution: Solution) -> dict[str, Any]:
-    """What results keep of a solution: nothing that differs from run to run."""
+    """Data of a solution that results store: nothing that differs from run to run."""
     names = ["status", "objective", "lower_bound", "limit", "constants", "z", "law", "problem", "certificate"]
     proofs = {
         "power_certificate": solution.power_certificate,

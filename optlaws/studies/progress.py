@@ -15,13 +15,13 @@ _SECONDS = 10.0
 
 
 class Watch(Protocol):
-    """What is told of a study's progress: points done by status, at the beginning, now and then, and at the end."""
+    """Reports of a study's progress: points done by status, at the beginning, now and then, and at the end."""
 
     def begin(self, total: int, counts: Mapping[str, int]) -> None:
         """A run begins; so many points are done already."""
 
     def advance(self, counts: Mapping[str, int]) -> None:
-        """So many points are done, and safe."""
+        """Set the number of points that are done and stored."""
 
     def end(self, counts: Mapping[str, int]) -> None:
         """The run ends, finished or not."""

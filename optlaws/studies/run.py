@@ -153,7 +153,7 @@ def _solve(study: StudyFile, points: StudyPoints, chunks: Chunks, pool: WorkerPo
 
 
 def _failure(future: Future[list[bytes]]) -> BaseException | None:
-    """What a chunk ended with; an executor that is closed under a study cancels its chunks."""
+    """The failure of a chunk; an executor that is closed during a study cancels its chunks."""
     if future.cancelled():
         return SolverFailure("the executor gave it up: it was closed, or its scheduler is gone")
     return future.exception()

@@ -136,7 +136,7 @@ class Chunks:
 
 
 class _About(msgspec.Struct):
-    """What `study.json` has at least."""
+    """Required entries of `study.json`."""
 
     title: str
     hash: str

@@ -60,7 +60,7 @@ class Study:
 
     @kept_property
     def _points(self) -> StudyPoints:
-        """The points, by index."""
+        """The points of the study by index."""
         points = StudyPoints.of(self.file, self._about["chunk"])
         if len(points) != len(self):
             raise InputError(
@@ -70,7 +70,7 @@ class Study:
 
     @property
     def counts(self) -> dict[Status, int]:
-        """How many points are done, by status."""
+        """Numbers of solved points by status."""
         if self._tabled:
             counts = Counter(self._parquet().read(columns=["status"])["status"].to_pylist())
         else:

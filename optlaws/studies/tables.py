@@ -112,7 +112,7 @@ def column(name: str) -> str:
 
 
 def _kind(name: str, values: Sequence[Any]) -> str:
-    """What the values of an entry are; numbers among texts, or pairs, are text too: JSON."""
+    """The type of a column: mixed numbers and texts, or pairs, become text (JSON)."""
     numbers = not isinstance(values, list) or all(isinstance(value, float) for value in values)
     return _COLUMNS.get(kind_of(name), "float64" if numbers else "string")
 

@@ -89,7 +89,7 @@ class Front(JsonText):
 
     @property
     def headings(self) -> tuple[str, ...]:
-        """What the rows have: B, C, D and J, what else is exchanged, and how good each point is."""
+        """Headings of `rows`: B, C, D and J, the other constants exchanged, and the quality of each point."""
         return (*map(title_of, self._columns), *_OF_POINTS)
 
     @property
@@ -98,7 +98,7 @@ class Front(JsonText):
 
     @property
     def rows(self) -> list[list[float | str | None]]:
-        """What `headings` name, a row for each point."""
+        """Values of the columns that `headings` name, with a row for each point."""
         return self.rows_of(self._columns)
 
     def rows_of(self, columns: Sequence[str]) -> list[list[float | str | None]]:
@@ -227,7 +227,7 @@ def named_or_refused(name: object) -> str:
 
 
 def undominated(solutions: Sequence[Solution], over: Sequence[str], values: Array | None = None) -> list[Solution]:
-    """Those than which no other is better in one constant and as good in all, by ascending constants.
+    """Points that no other dominates, by ascending constants.
 
     Values of the constants, a row for each solution, are computed from the laws unless they are known.
 
@@ -249,7 +249,7 @@ def undominated(solutions: Sequence[Solution], over: Sequence[str], values: Arra
 
 
 def _beaten(values: Array) -> NDArray[np.bool_]:
-    """Which rows another is better than in one constant, and no worse in all."""
+    """A mask of points that another one dominates."""
     beaten = np.zeros(len(values), dtype=np.bool_)
     for begin in range(0, len(values), _BLOCK):
         some = values[begin : begin + _BLOCK]
@@ -353,7 +353,7 @@ def pareto_front(
 
 
 def where_it_pays(problem: Problem, over: tuple[str, str]) -> tuple[float, float]:
-    """From the least value of the first constant that has a law, nearly, to the value that the best law has."""
+    """The range of the first constant: from about the least value that has a law to the value at the best law."""
     points = _Curve(problem, _checked(problem, over, None), None).points
     return points[0][0], points[-1][0]
 
@@ -455,7 +455,7 @@ class _Curve:
         return _at_most(self.problem, self.over[0], value)
 
     def _first(self, low: float, pays: float) -> tuple[float, Solution]:
-        """At the least value of the first constant, or at `low` where that can be had; of one that can be 0 near it."""
+        """The first end of the front: the least value of the first constant, or `low` if that is possible."""
         if low > (1.0 if self.over[0] == "B" else 0.0):
             with suppress(InfeasibleProblem):
                 return low, self._best(self._problem(low))
@@ -473,7 +473,7 @@ class _Curve:
         return value, solution
 
     def _last(self, best: Solution, pays: float, high: float) -> tuple[float, Solution]:
-        """At the least value of the last constant, or at `high`; a problem of the same kind as the others."""
+        """The last end of the front: the least value of the last constant, or `high`."""
         value = min(pays if self.over[0] == "B" else pays * (1.0 + AGREEMENT), high)
         try:
             return value, self._best(self._problem(value))

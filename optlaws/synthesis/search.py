@@ -60,7 +60,7 @@ class Candidate:
 
 @dataclass(eq=False)
 class LawSearch:
-    """What is known of the best law of a problem so far."""
+    """The search state of a problem: its best law so far, and its proofs."""
 
     model: Model
     tight: bool = False  #: whether to search for a tight bound where the problem is not convex
@@ -115,7 +115,7 @@ class LawSearch:
                 return
 
     def _try_drive(self) -> Candidate | None:
-        """Where the motion leads that is the limit of a drive."""
+        """Try the motion that attains the limit of a drive as a start."""
         limit = None if self.problem.convex else limit_beside(self.problem)
         return None if limit is None else self._try(None, starts.in_phase_plane(self.model, limit), near=True)
 
@@ -322,7 +322,7 @@ def _agree(first: Candidate | None, last: Candidate | None) -> bool:
 def attempt(
     model: Model, warm: ActiveSet | None, point: Array | None, *, near: bool = False
 ) -> tuple[Outcome, Candidate | None]:
-    """Where a neighbour's optimum or a start leads, which may be near the optimum."""
+    """The local optimum reached from a neighbour's optimum or a start."""
     claim, laws = model.program.objective * model.unit, _Laws(model)
 
     def holds(x: Array) -> bool:

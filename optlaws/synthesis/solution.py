@@ -1,4 +1,4 @@
-"""What a synthesis returns."""
+"""The result of a synthesis: an optimal law with its proof."""
 
 from __future__ import annotations
 
@@ -136,7 +136,7 @@ class Solution(LawExport, JsonText):
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What a person should know of the problem that was solved.
+        """Remarks on the problem that was solved.
 
         Examples
         --------
@@ -154,7 +154,7 @@ class Solution(LawExport, JsonText):
         return (*notes, f"laws need not be symmetric: {names} {says} another thing of a law than of its mirror image")
 
     def summary(self) -> Summary:
-        """What was found and is proven, with the constants of the law, as rows.
+        """Rows with the status, the proven bounds and the constants of the law.
 
         Examples
         --------
@@ -246,7 +246,7 @@ class Solution(LawExport, JsonText):
         return cls(**read_row(data))
 
     def claims(self) -> dict[str, Any]:
-        """What `to_dict` says but for `state`, which says no more of the law: what can be verified, and how it went."""
+        """The data of `to_dict` without `state`: what can be verified, and how the search went."""
         beside = {"peak_certificate": self.peak_certificate, "drive_limit": self.drive_limit}
         placed = {name: proof.to_dict() for name, proof in beside.items() if proof is not None}
         return placed | {

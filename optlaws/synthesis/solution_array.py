@@ -1,4 +1,4 @@
-"""What a synthesis of many problems returns: one value of arrays, that becomes an ordinary solution at an index."""
+"""The result of a synthesis of many problems: arrays, from which an index gives a solution."""
 
 from __future__ import annotations
 
@@ -99,7 +99,7 @@ class SolvedPart:
 
     @property
     def contacts(self) -> dict[str, NDArray[Any]]:
-        """Where rows bind, as columns of the laws' contacts."""
+        """Contacts of the laws as columns."""
         laws, families = self.optima, self.model.program.families
         names = np.array([*(family.name for family in families), ""], dtype=object)
         none = laws.family == NO_CONTACT
@@ -153,7 +153,7 @@ def constant_of(law: MotionLaw, name: str) -> float:
 
 
 def stored_laws(space: LawSpace, coordinates: Array) -> list[dict[str, Any]]:
-    """What `law.to_dict()` of each law is; coordinates have a row for each law."""
+    """The data of `law.to_dict()` for each law; coordinates have a row for each law."""
     if not isinstance(space, PolynomialSpace) or not len(coordinates):
         return [space.law(row).to_dict() for row in coordinates]
     first = space.law(coordinates[0]).to_dict()
@@ -230,7 +230,7 @@ class SolutionArray(JsonText):
 
     @property
     def size(self) -> int:
-        """The number of problems."""
+        """The number of problems in the array."""
         return self.problems.size
 
     def __len__(self) -> int:
@@ -271,7 +271,7 @@ class SolutionArray(JsonText):
 
     @kept_property
     def lower_bound(self) -> Array:
-        """What is proven that no law of each problem is below."""
+        """Proven lower bounds of the objective, one for each problem."""
         return self._gathered(lambda part: part.optima.bound, lambda solution: solution.lower_bound)
 
     @kept_property
@@ -300,7 +300,7 @@ class SolutionArray(JsonText):
 
     @kept_property
     def limit(self) -> Array:
-        """What no law of the problem's order and bounds can beat, of any degree; NaN where it is not known."""
+        """Limits for laws of the problem's order and bounds of any degree; NaN if not known."""
         limits = np.full(self.size, np.nan)
         for place in np.flatnonzero(~np.isnan(self.objective.reshape(-1))).tolist():
             known = known_limit(self.problems.problem(place))
@@ -337,7 +337,7 @@ class SolutionArray(JsonText):
 
     @kept_property
     def contacts(self) -> dict[str, NDArray[Any]]:
-        """Where rows bind in the certificates, contacts along the last axis: "constraint", "sign", "k", "multiplier".
+        """Contacts of the certificates along the last axis: "constraint", "sign", "k", "multiplier".
 
         Laws with fewer contacts than others have "" and NaN beyond their end.
         """
@@ -529,5 +529,5 @@ def _axes(problems: ProblemArray) -> tuple[list[str], dict[str, Any]]:
 
 
 def _heading(name: str) -> str:
-    """What a column of an entry's values is called beside the numbers of the laws."""
+    """The heading of a column of an entry's values beside the numbers of the laws."""
     return f"{name} asked" if name in NUMBERS else name

@@ -47,7 +47,7 @@ Result = Solution | OptlawsError
 
 
 def solved(problems: ProblemArray, *, bound: Bound = "quick") -> SolutionArray:
-    """What `synthesize_array` returns, of checked arguments."""
+    """The solutions of an array, for checked arguments."""
     began = perf_counter()
     parts: list[SolvedPart] = []
     others: dict[int, Result] = {}
@@ -73,7 +73,7 @@ def completed(
     *,
     bound: Bound = "quick",
 ) -> SolutionArray:
-    """What is known of some of the problems, with the rest solved one by one, each begun at the law before it."""
+    """Known solutions, completed by solving the other problems one by one, each from the law before it."""
     known = np.concatenate([np.array(list(others), dtype=np.intp), *(part.places for part in parts)])
     rest = _others(problems, np.setdiff1d(np.arange(problems.size), known), bound)
     return SolutionArray(problems, tuple(parts), {**others, **rest}, perf_counter() - began)
@@ -151,7 +151,7 @@ def _valid(problems: ProblemArray, place: int) -> Problem | None:
 
 
 def _others(problems: ProblemArray, places: NDArray[np.intp], bound: Bound) -> dict[int, Result]:
-    """What is solved one by one, each begun at the law before it."""
+    """Results of the problems at these places, solved one by one, each from the law before it."""
     others: dict[int, Result] = {}
     previous: Solution | None = None
     with Steps("laws", len(places)) as steps:
@@ -201,7 +201,7 @@ class SolvedLine:
         return ProblemArray(**{**entries, "B": values})
 
     def at(self, values: Array) -> SolutionArray:
-        """What is solved at values of the number; few at a time are as quick as many."""
+        """Solutions at values of the number; a few at a time are as quick as many."""
         began, problems = perf_counter(), self._problems(values)
         if self._path is None:
             return solved(problems)
@@ -264,7 +264,7 @@ def synthesize_array(problems: ProblemArray, *, bound: Bound = "quick") -> Solut
 
 
 def synthesize_chunks(problems: ProblemArray, *, size: int = _CHUNK, bound: Bound = "quick") -> Iterator[SolutionArray]:
-    """The same piece by piece, in the order of the flattened array: memory is that of one piece.
+    """Solve an array piece by piece, in the order of the flattened array: memory is that of one piece.
 
     Parameters
     ----------

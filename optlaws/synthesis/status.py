@@ -17,7 +17,7 @@ def measure(objective: float, scale: float) -> float: ...
 @overload
 def measure(objective: NDArray[np.float64], scale: float | NDArray[np.float64]) -> NDArray[np.float64]: ...
 def measure(objective: float | NDArray[np.float64], scale: float | NDArray[np.float64]) -> float | NDArray[np.float64]:
-    """What gaps of objectives are shares of: these themselves or, where they are 0 but for rounding, their scale.
+    """The measure of gaps: the objective itself or, where it is 0 up to rounding, its scale.
 
     Examples
     --------
@@ -71,7 +71,7 @@ class Status(StrEnum):
 
     @property
     def advice(self) -> str:
-        """What the status means for the user."""
+        """Meaning of the status and a remedy, for the user."""
         return {
             Status.OPTIMAL: "The lower bound meets the objective: no law of this problem is better.",
             Status.LOCAL: "No better law was found from any start; the gap says how much better one could be.",

@@ -39,7 +39,7 @@ Kind = TypeVar("Kind")
 
 
 class StatedActiveSet(msgspec.Struct, forbid_unknown_fields=True):
-    """What an `ActiveSet` holds."""
+    """The stored form of an `ActiveSet`."""
 
     x: list[float]
     family: list[int]
@@ -51,7 +51,7 @@ class StatedActiveSet(msgspec.Struct, forbid_unknown_fields=True):
 
 
 class StatedState(msgspec.Struct, forbid_unknown_fields=True):
-    """What the claims of a law that was found alone do not say."""
+    """The stored state of a law solved by itself, beyond its claims."""
 
     z_series: list[float]
     active_set: StatedActiveSet
@@ -104,7 +104,7 @@ def plain_error(error: OptlawsError) -> Plain:
 
 
 def plain_state(z_series: Sequence[float], state: ActiveSet) -> Plain:
-    """What is kept of a law that was found alone beside its claims: Z's series, and where a neighbour is begun."""
+    """Data of a law solved by itself beside its claims: the series of Z, and a start for neighbours."""
     return {
         "z_series": list(z_series),
         "active_set": {field.name: getattr(state, field.name).tolist() for field in fields(state)},
@@ -186,7 +186,7 @@ def check_numbers(row: StatedSolution, problem: Problem, law: MotionLaw) -> None
 
 
 def _proven(row: StatedSolution, problem: Problem) -> Iterator[float]:
-    """What the row's proofs prove of its problem in doubles."""
+    """Bounds that the row's proofs prove of its problem in double precision."""
     for data in (row.certificate, row.power_certificate, row.peak_certificate):
         proof = _read(Certificate.from_dict, data)
         if proof is not None and proof.problem != problem:
@@ -249,7 +249,7 @@ def _z(basis: PolynomialBasis | PiecewiseBasis, series: NDArray[np.float64], k: 
 
 
 def _active_set(entries: StatedActiveSet, program: Program) -> ActiveSet:
-    """Where a neighbouring problem may begin: any numbers will do that are of the program's shape."""
+    """A start for a neighbouring problem: any numbers of the program's shape will do."""
     state = ActiveSet.of_columns(**msgspec.structs.asdict(entries))
     counts = {len(part) for part in (state.family, state.u, state.s, state.free, state.multipliers)}
     finite = all(np.isfinite(getattr(state, field.name)).all() for field in fields(state))
@@ -315,7 +315,7 @@ def _read(read: Callable[[Plain], Kind], data: Plain | None) -> Kind | None:
 
 
 def at(name: str, read: Callable[[], Kind]) -> Kind:
-    """What is read at a place, which an error names."""
+    """A value read at a place, which errors name."""
     try:
         return read()
     except InputError as error:
@@ -323,7 +323,7 @@ def at(name: str, read: Callable[[], Kind]) -> Kind:
 
 
 def plainly(read: Callable[[], Kind], name: str) -> Kind:
-    """What is read of data that may be anything."""
+    """A value read from data of any kind."""
     try:
         return read()
     except InputError:

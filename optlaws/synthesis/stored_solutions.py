@@ -43,7 +43,7 @@ from optlaws.synthesis.stored_rows import (
 
 
 class StatedOptima(msgspec.Struct, forbid_unknown_fields=True):
-    """What `SolvedBatch.to_dict` writes; objectives and excesses, which older files have, are recomputed."""
+    """The data of `SolvedBatch.to_dict`; objectives and excesses, which older files have, are recomputed."""
 
     x: list[list[float]]
     family: list[list[int]]
@@ -79,7 +79,7 @@ class StatedSolutions(msgspec.Struct, forbid_unknown_fields=True):
 
 @dataclass(frozen=True, eq=False)
 class StoredSolutions:
-    """What was stored: the problems, the optima found together by place and program, and all that was found alone.
+    """Stored solutions: the problems, optima found together by place and program, and those found singly.
 
     `statuses` has the status that each row states.
     """
@@ -120,7 +120,7 @@ class _Reading:
     shape: tuple[int, ...]
 
     def stored(self) -> StoredSolutions:
-        """All of it, checked."""
+        """The stored solutions, checked."""
         entries = self.entries
         rows = [_row(row, f"solutions[{place}]") for place, row in enumerate(entries.solutions)]
         problems = self._problems()

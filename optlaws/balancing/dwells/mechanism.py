@@ -299,7 +299,7 @@ class _DwellData(TypedDict):
 
 
 class DwellEntries(_DwellData, total=False):
-    """What a mechanism of any type is made of; `dwell_mechanism` says what each is."""
+    """Arguments of `dwell_mechanism` that are common to all types; `dwell_mechanism` defines each."""
 
     clutch_angle: NumberOrQuantity
     law_1: MotionLaw | None

@@ -118,7 +118,7 @@ class LeverCam:
 
     @kept_property
     def cycle(self) -> Cycle:
-        """The rocker's motion as a cycle for a cam: forth, rest, back, rest; the two rests are alike."""
+        """The rocker's motion as a cycle for a cam: swing, dwell, swing back, dwell; both dwells are equally long."""
         exact, linkage = self.lever.exact, self.lever.linkage
         swing = float(linkage.rocker(exact.chi01) - linkage.rocker(exact.chi02))
         turn, rest = f"{self.angle!r} rad", f"{0.5 * (TURN - 2.0 * self.angle)!r} rad"

@@ -75,7 +75,7 @@ class LeverMotion:
 
     @property
     def swing(self) -> float:
-        """The swing between the extremes, chi01 - chi02, radians."""
+        """The swing between both extremes, chi01 - chi02, radians."""
         return self.chi01 - self.chi02
 
     @kept_property

@@ -1,4 +1,4 @@
-"""What sizes a torsion lever: limits of its linkage, and the asymptotic formulas, eq. (3), (9), (12), (13)."""
+"""Sizing of a torsion lever: limits of its linkage, and the asymptotic formulas, eq. (3), (9), (12), (13)."""
 
 from __future__ import annotations
 

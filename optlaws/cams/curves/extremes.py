@@ -91,7 +91,7 @@ class Undercut:
 
     @classmethod
     def of(cls, margin: EnclosedExtreme, *, simple: bool) -> Undercut:
-        """What the least radius of curvature proves; `simple` counts where there is no undercut."""
+        """The verdict on undercut by the least radius of curvature; `simple` counts where there is no undercut."""
         status = FREE if margin.low > 0.0 else UNDERCUT if margin.high < 0.0 else UNDECIDED
         return cls(status, simple and status == FREE, margin)
 

@@ -1,4 +1,4 @@
-"""What a follower does as a function of the cam's angle: smooth stretches of laws, with derivatives by the angle."""
+"""The follower's motion as a function of the cam's angle: smooth stretches of laws, with derivatives by the angle."""
 
 from __future__ import annotations
 
@@ -236,7 +236,7 @@ class CamMotion:
 
 
 def as_motion(given: Any, axis: str) -> CamMotion:  # noqa: ANN401 - it is checked here
-    """The motion that a cycle or a motion by angle says, which must be a length or an angle as the follower asks."""
+    """A cycle or a motion by angle as a `CamMotion`, which must be a length or an angle as the follower requires."""
     if isinstance(given, Cycle):
         motion = CamMotion.of_cycle(given)
     elif isinstance(given, CamMotion):

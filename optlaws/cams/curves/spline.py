@@ -49,7 +49,7 @@ class Spline(CurveByJets):
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """The knots of the spline, each once, by which it is an outline itself."""
+        """The knots of the spline, each listed once, as an outline needs them."""
         return self._pieces.breaks
 
 

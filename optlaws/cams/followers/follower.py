@@ -1,4 +1,4 @@
-"""What every follower of a disc cam is: lengths with units that become a contact in numbers, and kinds by name."""
+"""Base class of the followers of disc cams: lengths with units that become a contact in numbers, and kinds by name."""
 
 from __future__ import annotations
 

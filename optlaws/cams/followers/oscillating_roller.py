@@ -175,7 +175,7 @@ class _Sine:
     cosine: float
 
     def value(self, psi: Array) -> Array:
-        """The values of G at angles of the arm."""
+        """The limit G of the slope at angles of the arm."""
         return np.asarray(self.sine * np.sin(psi) + self.cosine * np.cos(psi))
 
     def slope(self, psi: float) -> float:
@@ -192,7 +192,7 @@ class _Sine:
         return bool((self.value(np.linspace(low, high, _LOOKS)) >= 0.0).all())
 
     def shift(self, slope: float, low: float, high: float, *, below: bool) -> float:
-        """The shift with which a line of a slope lies below it, or above it, between two angles."""
+        """The offset of a line of given slope that lies below the limit, or above it, between two angles."""
         looks = np.linspace(low, high, _LOOKS)
         off = self.value(looks) - slope * looks
         # between two looks it goes beyond these by less than this

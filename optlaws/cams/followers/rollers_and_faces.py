@@ -66,12 +66,12 @@ class RollerContact(FollowerContact):
         return (square * self.rate(s) + turned) / (square * square.root())
 
     def profile_curvature(self, s: Jet) -> Jet:
-        """That of the parallel curve which is the roller's radius inward."""
+        """Curvature of the profile, the parallel curve of the pitch curve at the roller's radius inward."""
         curvature = self.curvature(s)
         return curvature / (curvature * -self.roller + 1.0)
 
     def radius_of_curvature(self, s: Jet) -> Term:
-        """That of the pitch curve less the roller's; infinite where it is straight."""
+        """Radius of curvature of the pitch curve less that of the roller; infinite where it is straight."""
         with np.errstate(divide="ignore"):
             return 1.0 / self.curvature(s).terms[0] - self.roller
 
@@ -160,10 +160,10 @@ class FaceContact(FollowerContact):
 
     @abstractmethod
     def radius(self, s: Jet) -> Jet:
-        """The radius of curvature of the profile, by which it is free of undercut where it is above 0."""
+        """Radius of curvature of the profile; there is no undercut where it is above 0."""
 
     def profile_curvature(self, s: Jet) -> Jet:
-        """One over the radius."""
+        """Curvature of the profile: one over its radius of curvature."""
         return 1.0 / self.radius(s)
 
     def radius_of_curvature(self, s: Jet) -> Term:

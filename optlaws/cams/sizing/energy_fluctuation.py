@@ -127,7 +127,7 @@ def energy_fluctuation(machine: CamForces | Cycle | Mechanism, speed: Quantity |
 
 
 def _of_torque(torque: RealFunction, edges: Array, speed: float) -> EnergyFluctuation:
-    """What a torque is beside its mean, from the first to the last of the edges between which it is smooth."""
+    """Mean and fluctuation of a torque, from the first to the last of the edges between which it is smooth."""
     start, stop = float(edges[0]), float(edges[-1])
     even = SmoothParts.between(start, stop, breaks=edges).halved(torque)
     mean = even.integral(torque) / (stop - start)

@@ -148,7 +148,7 @@ def least_spring(
 
 @dataclass(frozen=True)
 class _KnownSpring:
-    """The given preload and stiffness of a spring."""
+    """Preload and stiffness of a spring, as far as they are given."""
 
     preload: float | None
     stiffness: float | None

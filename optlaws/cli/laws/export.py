@@ -59,7 +59,7 @@ class MotionOptions:
 @Parameter(name="*")
 @dataclass(frozen=True, kw_only=True)
 class FormatOptions:
-    """What formats take, each some of it.
+    """Options of exports; each format accepts some of them.
 
     Parameters
     ----------

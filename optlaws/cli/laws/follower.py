@@ -61,7 +61,7 @@ class FollowerOptions:
 
     @property
     def quantities(self) -> dict[str, str | None]:
-        """What is given with a unit, beside the stroke."""
+        """Options of the follower that are quantities with units, beside the stroke."""
         return {
             name: getattr(self, name) for name in ("natural_frequency", "natural_period", "speed", "rise", "duration")
         }

@@ -56,7 +56,7 @@ class LeverOptions:
 
     @property
     def given(self) -> dict[str, float]:
-        """What `TorsionLever` takes beside the lengths.
+        """Arguments of `TorsionLever` other than the lengths.
 
         Raises
         ------

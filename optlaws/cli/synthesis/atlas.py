@@ -60,7 +60,7 @@ def atlas(
 
 
 def _greatest(entries: Mapping[str, Any]) -> dict[str, float]:
-    """The greatest values that are asked, by constant."""
+    """Greatest values that the options allow, by constant."""
     bounds: Mapping[str, optlaws.Range] = entries.get("bounds", {})
     greatest = {name: entries[name].high for name in CONSTANTS if name in entries and name != "B"}
     for name, bound in bounds.items():

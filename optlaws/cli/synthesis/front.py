@@ -44,7 +44,7 @@ class ProofOptions:
 @Parameter(name="*")
 @dataclass(frozen=True, kw_only=True)
 class FileOptions:
-    """What is written of a front: a table, a picture, or functions of a controller, which choose a law while it runs.
+    """Files to write of a front: a table, a picture, or functions of a controller, which choose a law at run time.
 
     Parameters
     ----------

@@ -78,7 +78,7 @@ def _show(solution: optlaws.Solution) -> None:
 
 
 def _remarks(solution: optlaws.Solution) -> list[str]:
-    """What the least C alone costs, where nothing else was asked: far above the law that most would take."""
+    """Remarks on a law of least C without other bounds, whose jerk is far above that of modified sine."""
     problem = solution.problem
     if str(problem.minimise) != "C" or problem.bounded or problem.boundary is not None:
         return []

@@ -1,4 +1,4 @@
-"""The command `optlaws verify`."""
+"""The command `optlaws verify`: proofs in files, checked with exact arithmetic."""
 
 from __future__ import annotations
 

@@ -39,7 +39,7 @@ class BentAxis:
 
 @dataclass(frozen=True)
 class BentLaws:
-    """The greatest share of limits or of accelerations as the program has it, and what the axes do."""
+    """The greatest share of limits or of accelerations in the program, and the motions of the axes."""
 
     share: float
     axes: Mapping[str, BentAxis]

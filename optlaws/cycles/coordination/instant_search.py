@@ -43,7 +43,7 @@ _SAME = BENT_GAP
 
 @dataclass(frozen=True)
 class BestBent:
-    """What the axes do by the laws found, the period, the bound of the objective, and how many boxes were looked at."""
+    """Motions of the axes found, their period, the bound of the objective, and the number of boxes examined."""
 
     axes: Mapping[str, BentAxis]
     period: float
@@ -195,7 +195,7 @@ class _BoxSearch:
         return int(np.argmin(off))
 
     def _broken(self, visit: Visit, side: int, node: _Node) -> Iterator[tuple[float, int, float]]:
-        """By how much the positions of the relaxation break a visit when each node is reached, and between nodes."""
+        """The amount by which positions of the relaxation violate a visit, at nodes and between them."""
         times, profile = node.relaxed.times, visit.sides[side]
         x, y = (node.relaxed.positions[name] for name in (visit.over, visit.axis))
         chain = self.bent.chains[visit.over]
@@ -247,7 +247,7 @@ class _BoxSearch:
         return [node for node in (self._node(box, bound, pieces) for box in boxes) if node is not None]
 
     def _late(self, node: _Node) -> Iterator[tuple[float, int, float]]:
-        """By how much visits are broken, with the instant to part."""
+        """The amounts by which visits are violated, with the instant at which to split the box."""
         for i, visit in enumerate(self.bent.visits):
             for off, place, time in self._broken(visit, self._side(visit, node, i), node):
                 yield from ((off, instant, time) for instant in self._near(visit, place, time, node.box))
@@ -263,7 +263,7 @@ class _BoxSearch:
         return sorted(wide, key=lambda i: abs(0.5 * (box.low[i] + box.high[i]) - time))[:1]
 
     def _restless(self, node: _Node) -> Iterator[tuple[float, int, float]]:
-        """By how much the positions of the relaxation miss each rest, or do not stay there."""
+        """The amount by which positions of the relaxation miss each dwell, or leave it too early."""
         times, period = node.relaxed.times, self.period
         for name, chain in self.bent.chains.items():
             positions = node.relaxed.positions[name]

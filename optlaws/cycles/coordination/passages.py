@@ -59,7 +59,7 @@ class Profile:
 
     @property
     def bends(self) -> list[float]:
-        """InstantPlaces where it is not convex, so that one line does not hold on both sides."""
+        """Instants at which the chain is not convex, so that one line does not bound both sides."""
         places = []
         for (_, here, *_), (there, *_) in pairwise(self.parts):
             before, after = (part for part in self.parts if here in part[:2])
@@ -93,7 +93,7 @@ class Bent:
 
 
 def bent(timelines: Mapping[str, Timeline], rules: Sequence[Interlock]) -> Bent:
-    """The chains of axes with a node wherever an interlock needs an instant.
+    """The chains of axes, with a node wherever an interlock refers to an instant.
 
     Raises
     ------
@@ -150,7 +150,7 @@ def _profiles(rule: Interlock, timelines: Mapping[str, Timeline]) -> tuple[Profi
 
 
 def _places(rule: Interlock, sides: Sequence[Profile], start: float, stop: float) -> list[float]:
-    """Where a move needs a node: at places that it passes; of a region also where it leaves a rest at its edge."""
+    """Nodes of a move: positions that it passes, and for a region its edge if the move leaves a dwell there."""
     low, high = min(start, stop), max(start, stop)
     if isinstance(rule, After):
         place = sides[0].parts[0][0]

@@ -1,4 +1,4 @@
-"""What all laws must do whose instants lie in a box: a linear program in positions at times, whose value is a bound.
+"""A relaxation of all laws whose instants lie in a box: a linear program in positions at times; its value is a bound.
 
 Divided differences of positions are means of derivatives with B-splines as weights (Curry and Schoenberg 1966), so
 that a limit of a derivative is one of them, of every law, however smooth. Where an axis surely rests a knot counts
@@ -34,7 +34,7 @@ class InstantBox:
 
 @dataclass(frozen=True)
 class Goal:
-    """What is least: the greatest share of all limits, or the accelerations of axes as shares of those they had.
+    """The objective: the greatest share of all limits, or the accelerations of axes as shares of their former values.
 
     `references` are these accelerations in SI units, none where the share is of the limits; greater shares than `most`
     are of no use.
@@ -97,7 +97,7 @@ def relaxed(bent: Bent, box: InstantBox, goal: Goal, period: float, pieces: int)
 
 @dataclass(frozen=True, eq=False)
 class InstantPlaces:
-    """Where the positions of an axis stand among the unknowns, or what they are."""
+    """Indices of an axis's positions among the unknowns, or their values where they are known."""
 
     first: int | None
     known: Array | None
@@ -166,7 +166,7 @@ def _limits(rows: Rows, stand: Stand, place: int, times: Array, reference: float
 
 
 def _near_rests(rows: Rows, stand: Stand, place: int, times: Array, box: InstantBox, goal: Goal, period: float) -> None:
-    """What an axis has left to go until it rests, or has gone since, is no more than its limits allow in the time.
+    """Rows that limit the way left to a dwell, or gone since one, by what the limits allow in the time.
 
     The greatest way from rest is convex in the time, and so below its chord over a box: linear in the instant.
     """

@@ -97,7 +97,7 @@ class Rows:
 
 
 def _answer(weights: Array, matrix: Any, right: Array, equal: Any, low: Array, high: Array) -> Any:  # noqa: ANN401
-    """What HiGHS says of the least sum of weighted unknowns."""
+    """The solution of HiGHS for the least weighted sum of unknowns."""
     from scipy.optimize import linprog
 
     solve: Any = linprog

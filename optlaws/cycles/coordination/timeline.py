@@ -76,7 +76,7 @@ class Timeline:
         return (position - self.low) / self.stroke
 
     def ways(self) -> list[tuple[float, float]]:
-        """From where to where each move goes, as shares of the stroke."""
+        """Start and end of each move, as shares of the stroke."""
         places = [self.share(rest.position) for rest in self.rests]
         return list(pairwise(places))
 
@@ -184,7 +184,7 @@ class Stand:
 
     @classmethod
     def at(cls, chain: Chain, first: Array, last: Array, times: Array) -> Stand:
-        """Where the axis is at times, where nodes are at the earliest and at the latest at others."""
+        """Positions of the axis at given times, with nodes at their earliest and at their latest."""
         after = np.searchsorted(last, times + SAME_NODE, side="right") - 1
         before = np.searchsorted(first, times - SAME_NODE, side="left")
         return cls(chain, np.clip(after, 0, len(first) - 1), np.clip(before, 0, len(first) - 1))

@@ -60,7 +60,7 @@ class DrivenLimit:
         return plain and drive.dry > 0.0 and (drive.viscous == 0.0 or static >= 0.0)
 
     def driven(self, scale: float) -> Driven:
-        """What the drive takes of the law at a scale of the time."""
+        """The limited quantity of the drive as a formula of the law, at a scale of the time."""
         span = slower(self.span, scale)
         if self.key == CURVE:
             return driven_curve(span, self.drive, self.stroke)
@@ -72,12 +72,12 @@ class DrivenLimit:
         return driven.constants[self.part], driven.unit / self.most
 
     def share(self, law: MotionLaw, scale: float) -> float:
-        """What a law takes of the limit at a scale of the time."""
+        """The share of the limit that a law uses, at a scale of the time."""
         constant, weight = self.term(scale)
         return constant.value(law) * weight
 
     def slope(self, law: MotionLaw, scale: float) -> float:
-        """By which power of the scale the share of a law falls, by differences."""
+        """The exponent with which the share of a law falls with the scale, by differences."""
         before, after = (
             max(self.share(law, scale * (1.0 + sign * DURATION_STEP)), LEAST_SHARE) for sign in (-1.0, 1.0)
         )
@@ -141,7 +141,7 @@ def _torque_scales(drive: PositionDrive, key: int, *, resting: bool) -> bool:
 
 
 def static_force(span: LawSpan, drive: CycleDrive | PositionDrive) -> tuple[float, float]:
-    """Where a motion takes most force at the slowest speed, and how much: of spring, weight and dry friction."""
+    """The greatest static force of a motion, and its position: spring, weight and dry friction."""
     direction = -1.0 if span.displacement < 0.0 else 1.0
     ends = [span.offset, *(position for _, position in span.via), span.offset + span.displacement]
     if isinstance(drive, PositionDrive):

@@ -50,7 +50,7 @@ class TimedSpan:
 
     @property
     def needed(self) -> float:
-        """The least duration in seconds."""
+        """The least duration that the motion needs, in seconds."""
         return self.duration * self.least.scale
 
 
@@ -75,7 +75,7 @@ class FastestSearch:
 
     @kept_property
     def ranges(self) -> tuple[DurationRange, ...]:
-        """What is said of the durations of the segments."""
+        """Ranges of the durations of the segments."""
         return duration_ranges([stretch.given for stretch in self.programme.stretches])
 
     @property
@@ -85,7 +85,7 @@ class FastestSearch:
 
     @kept_property
     def spans(self) -> tuple[TimedSpan, ...]:
-        """The motions that limits bound, each with its least time."""
+        """The motions that have limits, each with its least time."""
         spans = [*(self._of_piece(piece) for piece in self._layout.pieces), *map(self._of_span, self._layout.spans)]
         for span in spans:
             self._check(span)
@@ -343,7 +343,7 @@ class FastestSearch:
 
 
 def _of_what(proof: Certificate) -> str:
-    """What a certificate bounds, unless it is a contradiction."""
+    """The quantity that a certificate bounds; None for a contradiction."""
     return "" if proof.program == VIOLATION else ", least power"
 
 

@@ -51,7 +51,7 @@ class ForceRating:
 
     @kept_property
     def drive(self) -> CycleDrive | PositionDrive:
-        """What drives the motion."""
+        """The drive of the motion."""
         if self.objective.drive is None:
             raise InputError("limits: an rms force or torque is of a drive: give one, such as drive={'mass': '2 kg'}")
         return self.objective.drive

@@ -20,7 +20,7 @@ class Extent(NamedTuple):
     time: float
 
     def at(self, period: float) -> float:
-        """The duration in seconds."""
+        """The duration at a period, in seconds."""
         return self.share * period + self.time
 
 
@@ -42,7 +42,7 @@ class DurationRange(NamedTuple):
 
 
 def duration_ranges(segments: Sequence[CycleSegment]) -> tuple[DurationRange, ...]:
-    """What is said of the durations; the only free one turns with the master where all others do.
+    """Ranges of the durations; a single free duration turns with the master if all others do.
 
     >>> from optlaws import Dwell, Return, Rise
     >>> [given.least.share for given in duration_ranges([Rise("35 mm", "90 deg"), Dwell("180 deg"), Return()])]
@@ -100,7 +100,7 @@ def least_period(ranges: Sequence[DurationRange], needed: Sequence[float]) -> fl
 
 
 def _binding(given: DurationRange, needed: float, period: float) -> Extent:
-    """What a segment takes of a period at least."""
+    """The least share of a period that a segment needs."""
     if given.fixed or given.least.at(period) > needed:
         return given.least
     return Extent(0.0, needed)

@@ -36,13 +36,13 @@ class SpanLimit(Protocol):
 
     @property
     def scales(self) -> bool:
-        """Whether a law that keeps it keeps it at every lower speed."""
+        """Whether a law that satisfies the limit satisfies it at every lower speed."""
 
     def term(self, scale: float) -> tuple[Functional, float]:
         """The limited constant of the law, and the share that one of it is, at a scale of the time."""
 
     def slope(self, law: MotionLaw, scale: float) -> float:
-        """By which power of the scale the share of a law falls."""
+        """The exponent with which the share of a law falls with the scale."""
 
     def least_scale(self, law: MotionLaw) -> float:
         """The least scale of the time at which a law keeps it."""
@@ -84,7 +84,7 @@ class DerivativeLimit:
 def limits_of_span(
     span: LawSpan, limits: Sequence[Limits], objective: CycleObjective, stroke: float, axis: str
 ) -> list[SpanLimit]:
-    """The limits of a span, whose stretches have these each."""
+    """The limits of a span, from the limits of each of its segments."""
     parts = list(_parts(span, limits))
     rows: list[SpanLimit] = []
     for key in dict.fromkeys(key for _, of_part in parts for key in of_part):

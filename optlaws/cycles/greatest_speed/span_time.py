@@ -52,7 +52,7 @@ class SpanTime:
 
     @kept_property
     def proof(self) -> Certificate | None:
-        """That no law keeps the limits in `FASTER` less of the time; None of a law that is given or if none is known.
+        """Proof that no law satisfies the limits in `FASTER` less time; None for a given law, or if no proof is known.
 
         It is a contradiction or, of the power of an inertia, a bound of the least power that is above its limit.
         """
@@ -146,20 +146,20 @@ def limited(base: Problem, rows: Sequence[SpanLimit], scale: float) -> Problem:
 
 
 def _proof(base: Problem, rows: Sequence[SpanLimit], scale: float, solution: Solution) -> Certificate | None:
-    """That no law keeps the limits at a scale, by the multipliers of the least share at another."""
+    """Proof that no law satisfies the limits at a scale, by the multipliers of the least share at another scale."""
     contacts = [contact for contact in solution.certificate.contacts if not _PART.match(contact.constraint)]
     proof = Certificate.of_leaf(limited(base, rows, scale), contacts, solution.certificate.equations, VIOLATION)
     return proof if proof.proves_infeasible else None
 
 
 def _allowed_power(rows: Sequence[SpanLimit], scale: float) -> float | None:
-    """What the limits of the power of an inertia allow of D at a scale; None where there are none."""
+    """The greatest D that limits of the power of an inertia allow at a scale; None without such limits."""
     terms = (row.term(scale) for row in rows)
     return min((1.0 / weight for constant, weight in terms if constant == D), default=None)
 
 
 def _proof_of_power(base: Problem, rows: Sequence[SpanLimit], scale: float, allowed: float) -> Certificate | None:
-    """That no law within the other limits takes as little power as is allowed, or that none keeps these."""
+    """Proof that no law within the other limits has as little power as is allowed, or that no law satisfies these."""
     within = limited(base, rows, scale)
     others = {constant: bound for constant, bound in within.bounds.items() if constant != D}
     try:

@@ -71,12 +71,12 @@ class After(Interlock):
 
     @property
     def axes(self) -> tuple[str, str]:
-        """What waits, and the axis for which it does."""
+        """The axis that waits, and the axis for which it waits."""
         return self.axis, self.of
 
     @property
     def words(self) -> str:
-        """The condition in words."""
+        """The condition of the interlock in words."""
         way = "" if self.way is None else f" on its way {self.way}"
         side = f"above {self.above}" if self.below is None else f"below {self.below}"
         return f"{self.axis} passes {self.position}{way} after {self.of} is {side}"
@@ -93,7 +93,7 @@ class After(Interlock):
         return self._position(self.position, first, self.axis), self._position(level, second, self.of, rest=True)
 
     def check(self, cycles: Mapping[str, Any]) -> None:
-        """Refuse axes that are not there and positions that they do not pass."""
+        """Refuse unknown axes, and positions that the axes do not pass."""
         self.positions(cycles)
 
     def unit(self, kind: str, other: str) -> str:  # noqa: ARG002 - whatever waits

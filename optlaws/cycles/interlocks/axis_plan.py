@@ -101,7 +101,7 @@ class AxisPlan:
         return sign * (self.positions[joint] - level) >= -INTERLOCK * self.stroke
 
     def window(self, joint: int, level: float, sign: float) -> tuple[Array | None, Array | None]:
-        """From when to when around a joint the axis stays beyond a level; None where it does up to an end."""
+        """Times around a joint between which the axis stays beyond a level; None for an end up to which it does."""
         return self._edge(joint, level, sign, -1), self._edge(joint, level, sign, 1)
 
     def _edge(self, joint: int, level: float, sign: float, way: int) -> Array | None:

@@ -93,12 +93,12 @@ class Clearance(Interlock):
 
     @property
     def axes(self) -> tuple[str, str]:
-        """What is bounded, and the axis on which the bound depends."""
+        """The axis that is bounded, and the axis on which the bound depends."""
         return self.axis, self.over
 
     @property
     def words(self) -> str:
-        """The condition in words."""
+        """The clearance condition in words."""
         side = "at least" if self.sign > 0.0 else "at most"
         if isinstance(self.given, str):
             return f"{self.axis} is {side} {self.given} of {self.over} ({', '.join(self.units or ())})"
@@ -159,7 +159,7 @@ class TableBound:
 
 @dataclass(frozen=True)
 class FormulaBound:
-    """A formula of x in a unit of its own, with a value in one; `size` and `scale` are these units in SI."""
+    """A formula of x with units: `size` is the unit of its value and `scale` that of x, both in SI."""
 
     formula: Formula
     size: float

@@ -24,7 +24,7 @@ _ROUNDS = 60
 
 
 class ClockedMotion(Protocol):
-    """What is to be known of a cycle: laws in their places over its duration, in SI units."""
+    """Protocol of a cycle with a clock: laws in their places over its duration, in SI units."""
 
     @property
     def axis(self) -> str:
@@ -32,11 +32,11 @@ class ClockedMotion(Protocol):
 
     @property
     def duration(self) -> float:
-        """Of the cycle, in seconds."""
+        """Duration of the cycle, in seconds."""
 
     @property
     def programme(self) -> Programme:
-        """The cycle as numbers."""
+        """The programme of the cycle as numbers in SI units."""
 
     @property
     def pieces(self) -> tuple[Piece, ...]:

@@ -76,7 +76,7 @@ class Forbidden(Interlock):
 
     @property
     def words(self) -> str:
-        """The condition in words."""
+        """The forbidden region in words."""
         return f"{self.axis} and {self.across} stay out of a polygon of {len(self.corners)} corners"
 
     def check(self, cycles: Mapping[str, Any]) -> None:
@@ -118,7 +118,7 @@ class Forbidden(Interlock):
 
 
 def _sizes(first: EnclosedAxis, second: EnclosedAxis) -> tuple[float, float]:
-    """By what positions are divided: by their strokes where one is a length and the other an angle."""
+    """Scales of the positions: the strokes if one position is a length and the other an angle."""
     return (1.0, 1.0) if first.cycle.axis == second.cycle.axis else (first.stroke or 1.0, second.stroke or 1.0)
 
 

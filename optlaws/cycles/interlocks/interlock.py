@@ -1,4 +1,4 @@
-"""What an interlock is: a condition on the positions of two axes, with the least clearance that a cycle leaves it."""
+"""Base class of interlocks: a condition on the positions of two axes, with the least clearance in a cycle."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ class LeastClearance:
 
     @property
     def text(self) -> str:
-        """It in words, in millimetres or degrees."""
+        """The condition as text, in millimetres or degrees."""
         unit, small = SMALL_UNITS.get(self.unit, (self.unit, 1.0))
         early = "" if self.margin is None else f", {1e3 * self.margin:.6g} ms early"
         return f"{round(small * self.clearance, 6) + 0.0:.6g} {unit} at {self.angle:.6g} deg{early}"
@@ -106,7 +106,7 @@ class Interlock(JsonText, ABC):
     @property
     @abstractmethod
     def words(self) -> str:
-        """The condition in words."""
+        """The condition of the interlock in words."""
 
     @property
     def label(self) -> str:
@@ -143,7 +143,7 @@ class Interlock(JsonText, ABC):
 
     @classmethod
     def from_dict(cls, data: Any) -> Self:  # noqa: ANN401 - it is checked here
-        """Read what `to_dict` gave."""
+        """The interlock that `to_dict` wrote."""
         given = dict(data) if isinstance(data, Mapping) else {}
         if given.pop("kind", None) != cls.kind or not cls.kind:
             raise InputError(f"an interlock of the kind {cls.kind!r} is a table with this kind, got {shortened(data)}")

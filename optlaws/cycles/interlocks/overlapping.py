@@ -241,12 +241,12 @@ class Overlapping:
         return most
 
     def _broken_by(self, i: int, option: WaitOption, unknowns: Array) -> float:
-        """By how long an option is broken at the places that are looked at."""
+        """The time by which an option is violated at the sampled places."""
         rows = [row for share in self.cuts[i] for row in self._rows_of(i, option, share)]
         return max((-float(row @ unknowns) for row in rows), default=0.0)
 
     def _most_broken(self, unknowns: Array, choices: Choices) -> int | None:
-        """Of requirements without a choice the one whose best option is broken most; None where none is."""
+        """The requirement without alternatives whose best option is violated most; None if there is none."""
         worst, which = BROKEN_INSTANT * float(unknowns[-2]), None
         for i, options in enumerate(self.options):
             if i not in choices:

@@ -1,4 +1,4 @@
-"""What interlocks demand of instants: while a segment of one axis passes, another axis is beyond a level."""
+"""Requirements of interlocks on instants: while a segment of one axis passes, another axis is beyond a level."""
 
 from __future__ import annotations
 

@@ -75,12 +75,12 @@ class Synchronous(Interlock):
 
     @property
     def words(self) -> str:
-        """The condition in words."""
+        """The condition of synchronous motion in words."""
         times = "" if self.ratio == 1.0 else f" at {self.ratio:g} times its velocity"
         return f"{self.axis} runs with {self.to}{times} from {self.during[0]} to {self.during[1]} within {self.within}"
 
     def window(self, period: float) -> tuple[float, float]:
-        """From when to when, in seconds."""
+        """Begin and end of the window, in seconds."""
         start, stop = (time_of(place, period, f"interlock {self.label}: during") for place in self.during)
         if not 0.0 <= start < stop <= period:
             raise InputError(f"interlock {self.label}: during is two places of one cycle, the earlier one first")
@@ -99,7 +99,7 @@ class Synchronous(Interlock):
         return unit_of(kind, 1)
 
     def room(self, cycles: Mapping[str, Any], times: Array) -> Array:
-        """The tolerance less the difference of the velocities, in the window."""
+        """The tolerance minus the difference of the velocities, in the window."""
         first, second = (cycles[name] for name in self.axes)
         start, stop = self.window(first.duration)
         difference = np.abs(first(times, 1) - self.ratio * second(times, 1))

@@ -56,7 +56,7 @@ class FastestMove(LawExport, JsonText):
 
     @property
     def duration(self) -> float:
-        """The least time, s."""
+        """The least time of the move, s."""
         return self.least.duration
 
     @property
@@ -95,7 +95,7 @@ class FastestMove(LawExport, JsonText):
 
     @property
     def price(self) -> float | None:
-        """By which share the laws of the problem's space are slower than all laws; None without a limit."""
+        """The share by which laws of the problem's space are slower than all laws; None without a limit."""
         return self.least.price
 
     @property
@@ -105,7 +105,7 @@ class FastestMove(LawExport, JsonText):
 
     @property
     def gap(self) -> float:
-        """By which share of itself the least time is above the longest that is proven to be too short."""
+        """The relative difference between the least time and the longest time that is proven to be too short."""
         return self.least.gap
 
     @property
@@ -158,7 +158,7 @@ class FastestMove(LawExport, JsonText):
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Which limits bind, and what a tenth more of each would save, in words."""
+        """The active limits, and the time that a tenth more of each would save, in words."""
         gains = self.gains()
         return tuple(
             f"{name}: 10 % more saves about {100.0 * gains[name]:.2g} % of the time"
@@ -251,7 +251,7 @@ class FastestMove(LawExport, JsonText):
 
     @property
     def _proven(self) -> str:
-        """What is proven of all laws of the space."""
+        """The statement on all laws of the space that is proven."""
         return f"none of {_space(self.least.move.problem)} takes {self.none_below:.9g} s or less"
 
     def to_dict(self) -> dict[str, Any]:

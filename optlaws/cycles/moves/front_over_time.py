@@ -39,7 +39,7 @@ def time_front(
     start: NumberOrQuantity = 0.0,
     follower: Mapping[str, Any] | None = None,
 ) -> TimeFront:
-    """What is least in each time of a move within its limits: the price of speed, with a law and a proof at each point.
+    """The least objective of a move over its time within limits, with a law and a proof at each point.
 
     Parameters
     ----------
@@ -109,7 +109,7 @@ def _least_in(move: FastestMove, objective: MoveObjective, duration: float) -> S
 def _objective(
     name: str, move: FastestMove, drive: Drive | None, start: NumberOrQuantity, follower: Mapping[str, Any] | None
 ) -> MoveObjective:
-    """What is least in a move; drive and follower are the move's unless given."""
+    """The objective of a move; drive and follower are those of the move unless given."""
     if name not in OBJECTIVES:
         raise InputError(f"minimise: {unknown_key(name, OBJECTIVES, 'objective of a move')}")
     if drive is not None and name not in AT_MOTOR:

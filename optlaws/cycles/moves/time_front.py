@@ -57,7 +57,7 @@ class TimePoint(NamedTuple):
 
 @dataclass(frozen=True, repr=False)
 class TimeFront(JsonText):
-    """What is least in each time of a move within its limits, from its least time on: a law and a proof at each point.
+    """Least objectives of a move over its time within limits, from its least time on, with laws and proofs.
 
     Where a longer time never needs more, calling it with a time between the points gives a law and a bound there too.
 
@@ -120,12 +120,12 @@ class TimeFront(JsonText):
 
     @property
     def values(self) -> tuple[float, ...]:
-        """What is least at each point, recomputed from its law, in SI units."""
+        """The least objective at each point, recomputed from its law, in SI units."""
         return tuple(point.value for point in self)
 
     @property
     def lower_bounds(self) -> tuple[float, ...]:
-        """What no law of the space takes less than at each point, in SI units."""
+        """Lower bounds of the objective for all laws of the space, at each point, in SI units."""
         return tuple(point.lower_bound for point in self)
 
     @property
@@ -201,19 +201,19 @@ class TimeFront(JsonText):
 
     @property
     def headings(self) -> tuple[str, ...]:
-        """What the rows have."""
+        """Headings of the columns of `rows`."""
         return ("time, s", f"{self.minimise}, {self.unit}", f"lower bound, {self.unit}", "gap", "status")
 
     @property
     def rows(self) -> list[list[float | str]]:
-        """What `headings` name, a row for each point."""
+        """Values of the columns that `headings` name, with a row for each point."""
         return [
             [point.duration, point.value, point.lower_bound, point.gap, solution.status.value]
             for point, solution in zip(self, self.solutions, strict=True)
         ]
 
     def to_csv(self) -> str:
-        """The rows as CSV."""
+        """The rows and their headings as CSV."""
         from optlaws.files.tables import to_csv
 
         return to_csv(self.headings, self.rows, about=f"least {self.minimise} over the time of a move", digits=12)

@@ -139,7 +139,7 @@ def fastest_moves(
 
 
 class _Machine(NamedTuple):
-    """What moves of one machine have in common: the velocities at their ends, the motor and what vibrates."""
+    """Data shared by the moves of one machine: the velocities at their ends, the motor and the elastic follower."""
 
     ends: tuple[Quantity | None, Quantity | None]
     drive: Drive | None
@@ -190,7 +190,7 @@ class _Read(NamedTuple):
 
 
 def _read_limits(given: Any, angular: str) -> _Read:  # noqa: ANN401 - it is checked here
-    """Limits in SI units."""
+    """Limits of the move in SI units."""
     entries = table(given, "limits", _EXAMPLE)
     _check_names(entries)
     read: dict[str, float] = {}

@@ -1,4 +1,4 @@
-"""What a motor allows of a move: the torque of its drive over the stroke, with its limits."""
+"""Limits of a motor for a move: the torque of its drive over the stroke."""
 
 from __future__ import annotations
 

@@ -81,7 +81,7 @@ class TransitionCam(JsonText):
 
     @property
     def status(self) -> Status:
-        """Of the law: proven to be the best in its time, or to take the least time."""
+        """Status of the law: proven to be the best in its time, or to take the least time."""
         return self.solution.status if self.least is None else self.least.status
 
     @property
@@ -120,7 +120,7 @@ class TransitionCam(JsonText):
 
     @property
     def jumps(self) -> dict[str, float]:
-        """By how much position, velocity, acceleration and jerk jump where cam and cycle meet; 0 where rounding."""
+        """Jumps of position, velocity, acceleration and jerk where cam and cycle meet; 0 if they are rounding."""
         side = 1 if self.kind == "run-in" else 0
         jumps = {}
         for nu, name in enumerate(QUANTITIES):
@@ -195,7 +195,7 @@ class TransitionCam(JsonText):
         return draw_transition(self, ax, cycle=cycle, **style)
 
     def summary(self) -> Summary:
-        """Where it runs, how long it takes, its peaks and how it meets the cycle, as rows in SI units.
+        """Rows with the place, the duration, the peaks and the jumps of the cam, in SI units.
 
         Examples
         --------

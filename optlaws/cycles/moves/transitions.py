@@ -35,7 +35,7 @@ _NAMES = {1: "velocity", 3: "jerk", 4: "snap"}
 
 @dataclass(frozen=True)
 class Meeting:
-    """Where a cam meets its cycle: the kind of cam, the time and angle in the cycle, and the motion of the cycle."""
+    """The joint of a cam and its cycle: kind of cam, time and angle in the cycle, and the cycle's motion there."""
 
     kind: TransitionKind
     at: float

@@ -1,4 +1,4 @@
-"""What a move may leave vibrating in an elastic follower, from quantities of its machine."""
+"""Limits of the residual vibration of an elastic follower after a move, from quantities of its machine."""
 
 from __future__ import annotations
 

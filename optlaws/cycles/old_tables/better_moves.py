@@ -27,7 +27,7 @@ _PLACES = (81, 161)
 
 
 class MoveGain(NamedTuple):
-    """What a move has in place of an old one, in units of the table.
+    """The gain of a move over an old one, in units of the table.
 
     Attributes
     ----------
@@ -54,7 +54,7 @@ class MoveGain(NamedTuple):
     deviation: float
 
     def share(self, nu: int) -> float:
-        """The change of the peak of order nu, 1 to 3, as a share of the old one; nan where that is infinite."""
+        """The relative change of the peak of order nu, 1 to 3; nan if the old one is infinite."""
         old, new = self.old[nu - 1], self.new[nu - 1]
         return new / old - 1.0 if isfinite(old) else float("nan")
 
@@ -77,7 +77,7 @@ def better(part: Stretch, room: float, order: int, degree: int) -> Stretch:
 
 
 def least_distance(old: MotionLaw, order: int, degree: int) -> float:
-    """What no law of an order and a degree is nearer to another at every k: the rms of the nearest by least squares.
+    """A lower bound of the greatest distance of laws of an order and degree from a law: the rms of the nearest one.
 
     The greatest difference at places is at least the rms over them, which no law makes less than that of least squares.
 
@@ -107,7 +107,7 @@ def _nearby(old: MotionLaw, share: float, places: int, order: int, degree: int) 
 
 
 def gain(new: Stretch, old: Stretch) -> MoveGain:
-    """What a move has in place of an old one at the same place."""
+    """The gain of a move over an old one at the same place."""
     laws = law_of_move(new), law_of_move(old)
     size, length = abs(old.stroke), old.stop - old.start
     peaks = (

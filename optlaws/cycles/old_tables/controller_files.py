@@ -40,7 +40,7 @@ _KINDS_OF_CAM = ("CAM", "CAM_EXTENDED", "CAM_PROFILE")
 
 @dataclass(frozen=True)
 class Decoded:
-    """What a file of a controller says: points, or pieces between them.
+    """Content of a controller's file: points, or pieces between them.
 
     Parameters
     ----------
@@ -65,7 +65,7 @@ class _Value(NamedTuple):
     line: int
 
     def number(self) -> float:
-        """It as a number."""
+        """The field as a number."""
         try:
             value = float(_TYPED.sub("", self.text).replace("_", ""))
         except ValueError:
@@ -79,7 +79,7 @@ _Record = dict[str, _Value]
 
 
 def decoded(content: str, cam: str | None = None) -> Decoded | None:
-    """What a program or a project holds; None where it is neither, as of columns of numbers.
+    """Content of a program or a project; None for other files, such as columns of numbers.
 
     Parameters
     ----------
@@ -335,7 +335,7 @@ def _of_rows(text: str, rows: list[list[_Value]]) -> Decoded | None:
 
 
 def _closed(text: str, start: int) -> int | None:
-    """Where the bracket that opens at a place is closed."""
+    """The index of the closing bracket for an opening one."""
     depth = 0
     for match in re.compile(r"[\[\]]").finditer(text, start):
         depth += 1 if match[0] == "[" else -1
@@ -368,7 +368,7 @@ def _pairs(head: str, flat: list[_Value]) -> list[list[_Value]]:
 
 
 def _used(rows: list[list[_Value]]) -> list[list[_Value]]:
-    """Rows without those at the end that repeat the last one, or hold nothing but 0."""
+    """The rows without repetitions of the last one at the end, and without rows of zeros."""
     texts = [[cell.text for cell in row] for row in rows]
     count = len(rows)
     while count > 2 and all(text.strip("0.") == "" for text in texts[count - 1]):

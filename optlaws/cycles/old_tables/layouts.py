@@ -28,7 +28,7 @@ class FieldLayout:
 
     @cached_property
     def roles(self) -> dict[str, str]:
-        """What fields hold, by their names in small letters."""
+        """Meanings of fields by their names in lower case."""
         pairs = (field.split("=") for field in self.fields.split())
         return {name.lower(): role for role, name in pairs}
 

@@ -283,7 +283,7 @@ def _sized(text: str, dimensions: tuple[str, ...], name: str) -> tuple[float, st
 
 
 def _unit_in(heading: str, dimensions: tuple[str, ...]) -> str | None:
-    """The unit that a heading names, the last word that is one."""
+    """The unit in a heading, the last word of it that is one."""
     for word in reversed(_WORD.findall(heading)):
         unit = _UNITS.get(word.lower(), word)
         if len(unit) == 1 and unit not in {"m", "s"}:

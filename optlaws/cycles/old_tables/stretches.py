@@ -76,7 +76,7 @@ def of_standard_laws(places: Array, heights: Array, room: float) -> tuple[Stretc
 
 
 def seam_of(heights: Array, room: float) -> float:
-    """By how much the last position differs from the first one; 0 within the room."""
+    """The difference between the last position and the first one; 0 within the tolerance."""
     seam = float(heights[-1] - heights[0])
     return seam if abs(seam) > room else 0.0
 

@@ -129,7 +129,7 @@ class OldTable:
         return replace(self, stretches=tuple(better(part, room, order, degree) for part in self.stretches))
 
     def gains(self, old: OldTable) -> tuple[MoveGain, ...]:
-        """What each move has in place of that of an older table with the same moves: peaks, and how far it is off.
+        """Gains of each move over the moves of an older table: peaks, and the deviation.
 
         Raises
         ------
@@ -207,7 +207,7 @@ class OldTable:
 
     @property
     def moves(self) -> tuple[Stretch, ...]:
-        """Its rises and returns."""
+        """The rises and returns of the table."""
         return tuple(part for part in self.stretches if part.law is not None)
 
     def _cycle(self, laws: Sequence[str | MotionLaw | None], speed: Quantity | None, period: Quantity | None) -> Cycle:

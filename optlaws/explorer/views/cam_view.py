@@ -90,7 +90,7 @@ def _points(metres: Array) -> list[list[float | None]]:
 
 
 def _frames(cam: DiscCam, angles: Array) -> dict[str, Any]:
-    """Where the follower is while the cam has turned by each angle: its roller's centre, where it touches, its face."""
+    """Positions of the follower at each angle of the cam: its roller's centre, its point of contact, its face."""
     return {
         "centre": _points(_as_seen(cam, angles, np.asarray(cam.pitch_curve(angles)))),
         "contact": _points(_as_seen(cam, angles, np.asarray(cam.profile(angles)))),
@@ -170,7 +170,7 @@ def _mark(extreme: EnclosedExtreme, factor: float, signed_by: DiscCam | None = N
 
 
 def _trust(cam: DiscCam) -> dict[str, Any]:
-    """What is proven of the cam, in words; extremes are enclosed over the whole turn."""
+    """Proven properties of the cam in words; extremes are enclosed over the whole turn."""
     extremes = cam.extremes
     word, status = _TITLES[extremes.undercut.status]
     facts = [
@@ -302,7 +302,7 @@ def _load_panel(force: Labelled[Extremes], values: Callable[[Array], Any]) -> di
 
 
 def _load_facts(forces: CamForces) -> list[str]:
-    """What is enclosed over the whole turn, in words."""
+    """Enclosed contact forces and torques over the whole turn, in words."""
     contact, torque = forces.contact, forces.torque
     lifted = f"the follower lifts off at {_at(contact.least_at)} deg: " if forces.lifts_off else ""
     turned = f"torque at the shaft {digits(torque.least, 6)} to {digits(torque.most, 6)} N m"

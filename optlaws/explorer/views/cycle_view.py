@@ -219,7 +219,7 @@ def broken_limits(shown: Cycle) -> dict[str, str]:
 
 
 def _facts(shown: Cycle) -> list[str]:
-    """What the drive takes, and jumps at the joints."""
+    """Effort of the drive, and jumps at the joints."""
     rows = [*drive_rows(shown), *joint_rows(shown)]
     return [f"{row.name} {digits(row.value, 6)} {row.unit}" for row in rows]
 

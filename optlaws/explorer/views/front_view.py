@@ -132,12 +132,12 @@ def _places(laws: SolutionArray, x: str, y: str) -> list[Place]:
 
 
 def _proven(laws: SolutionArray) -> bool:
-    """Whether every law of the line is."""
+    """Whether every law of the line is proven to be optimal."""
     return set(laws.status[~np.isnan(laws.objective)].tolist()) == {Status.OPTIMAL.value}
 
 
 def _room(laws: SolutionArray) -> str:
-    """By how much better a law could be at most, where a bound is known at every point."""
+    """The greatest gap of the front, if a bound is known at every point."""
     there = ~np.isnan(laws.objective)
     room = 1.0 - laws.lower_bound[there] / laws.objective[there]
     return f": no law is below them by more than {100.0 * room.max():.2g} %" if np.isfinite(room).all() else ""
@@ -150,7 +150,7 @@ def _words(problem: Problem, x: str, laws: SolutionArray) -> str:
 
 
 def _limits(problem: Problem, x: str, y: str) -> list[Place]:
-    """What no law of the problem's order can beat, of any degree, where y alone is minimised over B."""
+    """Limits for laws of any degree, where y alone is minimised over B."""
     if x != "B" or str(problem.minimise) != y:
         return []
     values = [B for B in np.linspace(*RANGES[x], _LIMITS).tolist() if _jerk_allows(problem, B)]

@@ -76,7 +76,7 @@ def _optimal(request: LawRequest) -> dict[str, Any]:
 
 
 def title(problem: Problem) -> str:
-    """What a problem asks, in a few words.
+    """A short title of a problem.
 
     Examples
     --------
@@ -89,7 +89,7 @@ def title(problem: Problem) -> str:
 
 
 def objective_title(problem: Problem) -> str:
-    """What a problem minimises, with numbers that can be read.
+    """The objective of a problem, with numbers rounded for reading.
 
     Examples
     --------
@@ -223,7 +223,7 @@ _STEPS = (2, 4, 8)
 
 
 def nearest(request: LawRequest) -> dict[str, Any]:
-    """What to change, and to what, so that there is a law again: one change at a time, the others left as they are."""
+    """Single changes of the problem after which a law exists, with the new values."""
     problem = problem_of(request)
     return {"ways": [] if isinstance(solved(problem), Solution) else list(ways(problem))}
 

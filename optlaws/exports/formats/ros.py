@@ -77,7 +77,7 @@ def _at(motion: Motion, places: Array, orders: int) -> PointTable:
 
 
 def _in_si(motion: Motion) -> Motion:
-    """In m or rad, as ROS has them."""
+    """The motion in m or rad, the units of ROS."""
     dimension, unit = ("angle", "rad") if _is_angle(motion.units.slave) else ("length", "m")
     size = quantity(f"1 {motion.units.slave}", dimension, "slave")
     pieces = tuple(replace(piece, offset=size * piece.offset, stroke=size * piece.stroke) for piece in motion.pieces)

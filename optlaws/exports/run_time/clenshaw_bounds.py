@@ -1,4 +1,4 @@
-"""By how much Chebyshev series and their derivatives, summed in floating point, may miss the exact ones: proven."""
+"""Proven bounds of the error of Chebyshev series and their derivatives summed in floating point."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def summation_bounds(magnitudes: Array, scale: float) -> tuple[tuple[float, ...]
 
 
 def _changes(rounded: Array, first_kind: Array) -> Array:
-    """By how much each step of each order may be rounded, shape (orders, n); the last sum is the step of n = 0."""
+    """Rounding bounds of each step of each order, shape (orders, n); the last sum is the step of n = 0."""
     count = len(rounded)
     changes, terms = np.zeros((ORDERS, count)), np.zeros((ORDERS, count + 2))
     # U_n is the derivative of T_(n+1), divided by n + 1

@@ -65,7 +65,7 @@ class FrontExport:
 
     @property
     def size(self) -> int:
-        """Bytes of the table."""
+        """Size of the table in bytes."""
         return self.table.size
 
     @property

@@ -177,7 +177,7 @@ def _errors(
 
 
 def _slack(peaks: Array, errors: tuple[float, ...]) -> float:
-    """What roundings may add to velocity, acceleration and jerk, and what a rounded weight may: twice the greatest.
+    """Twice the greatest rounding of velocity, acceleration and jerk, and the effect of a rounded weight.
 
     A weight that is off by the rounding of B moves C and J by as much, times their logarithmic slopes along the front.
     """

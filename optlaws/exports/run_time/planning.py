@@ -1,4 +1,4 @@
-"""Which law of a front a move takes, and how long: the formulas that a controller evaluates, in Python."""
+"""Selection of a move's law from a front, and its duration: the formulas of a controller, in Python."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from optlaws.tolerances import RUN_TIME_RANGE
 
 
 class MoveStatus(IntEnum):
-    """What a function block at run time says of a move, as it is numbered there.
+    """Status codes of a function block at run time.
 
     Attributes
     ----------

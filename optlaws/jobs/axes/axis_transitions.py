@@ -42,7 +42,7 @@ class AxisTransition(NamedTuple):
 
     @property
     def title(self) -> str:
-        """What pages and pictures call it."""
+        """Title on pages and pictures."""
         first, last = self.cam.master
         return f"{self.axis}, {self.cam.kind} from {first:.6g} to {last:.6g} deg"
 
@@ -99,7 +99,7 @@ def write_transitions(results: Results, title: str, transitions: Sequence[AxisTr
 
 
 def transition_facts(transitions: Sequence[AxisTransition]) -> dict[str, Any]:
-    """What is known of run-ins and run-outs for programs, in SI units; nothing where there are none."""
+    """Data of run-ins and run-outs for programs, in SI units; empty if there are none."""
     known = {name: _facts(cam) for name, _, _, cam in transitions}
     return {"transitions": known} if known else {}
 

@@ -31,7 +31,7 @@ class MotorDriveEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True
 def drive_of(
     mechanism: Mapping[str, Any] | None, drive: Mapping[str, Any] | None, folder: Path
 ) -> Mapping[str, Any] | Mechanism | Drive | None:
-    """What drives a cycle, as `Cycle` takes it: the constants of a table, a mechanism, or a motor before one.
+    """The drive of a cycle as an argument of `Cycle`: constants of a table, a mechanism, or a motor with one.
 
     Parameters
     ----------

@@ -116,7 +116,7 @@ def sweep_table(sweep: SweepEntries, rows: Sequence[SweptCycle]) -> tuple[list[s
 
 
 def _columns(cycle: Cycle) -> dict[str, Callable[[Cycle], Cell]]:
-    """What is tabled of cycles like this one, by the headings."""
+    """Table columns for cycles of this kind, by their headings."""
     columns: dict[str, Callable[[Cycle], Cell]] = {}
     if cycle.solutions:
         columns[f"least {cycle.minimise}, {objective_unit(cycle)}"] = lambda each: each.objective

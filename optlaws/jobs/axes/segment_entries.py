@@ -32,7 +32,7 @@ class SegmentEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 
 
 def given(entries: msgspec.Struct) -> dict[str, Any]:
-    """Entries that were given."""
+    """Entries of a segment that the file gives."""
     return {name: value for name, value in msgspec.structs.asdict(entries).items() if value is not None}
 
 

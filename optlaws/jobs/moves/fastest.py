@@ -85,7 +85,7 @@ def _fill(page: Page, each: SoughtMove) -> None:
 
 
 def _in_words(front: TimeFront) -> str:
-    """What a tenth more time saves, in words."""
+    """The saving from a tenth more time, in words."""
     first, last = front[0], front[-1]
     later = next((point for point in front if point.duration >= 1.1 * first.duration), last)
     saved = 1.0 - later.value / first.value if first.value else 0.0
@@ -141,6 +141,6 @@ def _front(front: TimeFront) -> dict[str, Any]:
 
 
 def _solution(solution: Solution) -> dict[str, Any]:
-    """What is read again of a solution, but for how it went."""
+    """The parts of a solution that its stored form has, without how it was found."""
     whole = replace(solution, seconds=0.0, iterations=0).to_dict()
     return {name: whole[name] for name in whole if name != "versions"}

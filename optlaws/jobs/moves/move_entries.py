@@ -34,7 +34,7 @@ class FrontOverTimeEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=T
 
 
 class VibratingEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """What a move drives elastically: its natural frequency, or the least and the greatest, and its damping ratio."""
+    """Elastic load of a move: its natural frequency, or the least and the greatest, and its damping ratio."""
 
     frequency: str | list[str]
     damping: float = 0.0

@@ -1,4 +1,4 @@
-"""What a problem file to begin with asks a person for, and its text with the answers."""
+"""Starter problem files: their questions, and their text with the answers."""
 
 from __future__ import annotations
 
@@ -142,7 +142,7 @@ class Starter:
         return f"# {filled}" if left_out and not line.startswith("#") else filled
 
     def _example(self, name: str, answers: Answers) -> str:
-        """What may stand in an entry that is left out: of the dimension that belongs to the stroke."""
+        """An example value for an optional entry, of the dimension of the stroke."""
         dimensions = next(question.dimensions for question in self.questions if question.name == name)
         turns = len(dimensions) > 1 and either(answers["stroke"], ("length", "angle"), "--stroke")[0] == "angle"
         return DIMENSIONS[dimensions[turns]][1]

@@ -157,7 +157,7 @@ def _scaled_powers(law: MotionLaw, count: int) -> list[list[Fraction]]:
 
 
 def _combined(powers: Sequence[Sequence[Fraction]], weights: Array) -> list[Fraction]:
-    """The sum of scaled powers with weights of which the first is what the others leave of 1."""
+    """A sum of scaled powers; their weights add up to 1, and the first one is what the others leave."""
     first = 1 - sum(map(Fraction, weights), start=Fraction(0))
     total = [Fraction(0)] * len(powers[-1])
     for weight, power in zip((first, *map(Fraction, weights)), powers, strict=True):

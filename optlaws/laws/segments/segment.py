@@ -1,4 +1,4 @@
-"""What a segment of a piecewise law is, and the kind that all others may become: polynomials."""
+"""Base class of the segments of piecewise laws, and polynomial segments, into which all others can be converted."""
 
 from __future__ import annotations
 

@@ -257,7 +257,7 @@ class Drive(JsonText):
         limits: Mapping[str, Any] | None = None,
         heat: float = 0.0,
     ) -> MoveLimit:
-        """What no motion from rest to rest that never turns back can beat at the motor, proven, in SI units.
+        """A proven lower bound at the motor for motions from rest to rest that never turn back, in SI units.
 
         It is the limit within the motor's greatest speed, peak torque and curve; for the peak torque within its speed.
         A curve that is not concave counts by its concave hull. What the gear loses is in it.

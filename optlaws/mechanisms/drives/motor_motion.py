@@ -1,4 +1,4 @@
-"""What a motor does during a move: its speed, torque and power at places k of the law, and integrals over it."""
+"""Motion of a motor during a move: speed, torque and power at places k of the law, and integrals of them."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from optlaws.tolerances import VALUE_ROUNDING
 
 
 class Train(NamedTuple):
-    """What is between the motor and the mechanism, in SI units.
+    """The transmission between motor and mechanism, in SI units.
 
     Attributes
     ----------
@@ -50,7 +50,7 @@ class MotorMotion:
     duration: float
 
     def with_ratio(self, ratio: float) -> MotorMotion:
-        """The same move with another ratio."""
+        """The same move with another ratio of the gear."""
         return replace(self, ratio=ratio)
 
     def speed(self, k: Array) -> Array:
@@ -87,7 +87,7 @@ class MotorMotion:
         return self.motor_torque(k) + self.through_gear(k) / self.ratio
 
     def power(self, k: Array) -> Array:
-        """The motor's power, W."""
+        """Power of the motor at places k, W."""
         return self.torque(k) * self.speed(k)
 
     @staticmethod

@@ -43,7 +43,7 @@ class Margin(NamedTuple):
 
 @dataclass(frozen=True)
 class DriveSheet(PlainNumbers):
-    """What a move asks of a motor, in SI units; torques are above 0 in the direction of the stroke.
+    """Requirements of a move on a motor, in SI units; torques are above 0 in the direction of the stroke.
 
     Attributes
     ----------
@@ -111,7 +111,7 @@ class DriveSheet(PlainNumbers):
 
     @property
     def fits(self) -> bool:
-        """Whether the motor has what the move asks."""
+        """Whether the motor satisfies all requirements of the move."""
         return all(margin.use <= 1.0 for margin in self.margins)
 
     def summary(self) -> Summary:

@@ -1,4 +1,4 @@
-"""Where a four-bar can be assembled: Grashof's rule, dead centres, and the range that its crank reaches."""
+"""Assembly of a four-bar: Grashof's rule, dead centres, and the range of its crank."""
 
 from __future__ import annotations
 

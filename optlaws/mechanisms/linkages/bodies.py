@@ -80,7 +80,7 @@ class Body:
 
 @dataclass(frozen=True)
 class Loads:
-    """What acts on a mechanism: a process force and a spring on its driven link, and gravity on all its links.
+    """Loads on a mechanism: a process force and a spring on its driven link, and gravity on all its links.
 
     Parameters
     ----------

@@ -115,7 +115,7 @@ class FourBarKinematics:
         return self._combined(self.share - self.square, self.base)
 
     def rocker_along(self, direction: float) -> tuple[Traced, Traced]:
-        """The same in coordinates along a direction, rad from the frame, and across it."""
+        """The rocker's joint in coordinates along a direction, rad from the frame, and across it."""
         (dx, dy), (c, s) = self.base, (cos(direction), sin(direction))
         return self._combined(self.share - self.square, (c * dx + s * dy, c * dy - s * dx))
 
@@ -139,11 +139,11 @@ class FourBarKinematics:
 
     @staticmethod
     def values(part: Traced, x: Any) -> Any:  # noqa: ANN401 - an array for an array
-        """What a part of the four-bar is at some angles of the crank."""
+        """Values of a part of the four-bar at angles of the crank."""
         return evaluate(part.formula, {"x": x}, NUMPY) + 0.0 * x
 
     def coupler_moving(self, body: Body, gravity: tuple[float, float]) -> tuple[list[Formula], list[Formula]]:
-        """What a body on the coupler adds to the inertia and to the load at the crank."""
+        """Contribution of a body on the coupler to the inertia and the load at the crank."""
         if body == Body():
             return [], []
         (sine, cosine), turning, (p, q) = self.waves, self.coupler_velocity, body.centre
@@ -178,7 +178,7 @@ class FourBarKinematics:
 
     @property
     def chains(self) -> tuple[tuple[tuple[Formula, Formula], ...], ...]:
-        """What a picture draws: pivots and links."""
+        """Pivots and links as a picture draws them."""
         zero, pivot = Number(0.0), (number(self.frame), Number(0.0))
         sine, cosine = self.waves
         ex, ey = self.rocker_direction

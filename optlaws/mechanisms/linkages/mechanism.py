@@ -53,7 +53,7 @@ _ENTRIES = ("format", "name", "axis", "over", "inertia", "load", "coulomb", "vis
 
 @dataclass(frozen=True)
 class LinkGeometry(JsonText):
-    """What is known of a mechanism's links beyond inertia and load.
+    """Geometry of a mechanism's links beyond inertia and load.
 
     Attributes
     ----------
@@ -67,7 +67,7 @@ class LinkGeometry(JsonText):
     chains: tuple[tuple[tuple[Formula, Formula], ...], ...] = ()
 
     def to_dict(self) -> dict[str, Any]:
-        """The formulas as texts."""
+        """The mechanism as plain data, with its formulas as texts."""
         return {
             "driven": {name: str(formula) for name, formula in self.driven},
             "chains": [[[str(x), str(y)] for x, y in chain] for chain in self.chains],
@@ -328,7 +328,7 @@ class Mechanism(JsonText):
         recovered: float = 0.0,
         heat: float = 0.0,
     ) -> MoveLimit:
-        """What no motion from rest to rest that never turns back can beat at the input, proven, in SI units.
+        """A proven lower bound at the input for motions from rest to rest that never turn back, in SI units.
 
         Parameters
         ----------
@@ -448,7 +448,7 @@ class Mechanism(JsonText):
 
 
 def _range(formulas: Mapping[str, Formula], ends: tuple[float, float] | None, axis: InputAxis) -> tuple[float, float]:
-    """The range of x, which the tables over x must cover."""
+    """The range of x, which all tables over x must cover."""
     tables = [
         (what, part)
         for what, formula in formulas.items()
@@ -470,7 +470,7 @@ def _range(formulas: Mapping[str, Formula], ends: tuple[float, float] | None, ax
 
 
 def _axis_and_ends(over: Any, axis: Any) -> tuple[InputAxis, tuple[float, float] | None]:  # noqa: ANN401
-    """What the input's position is, and the ends of its range if there are any."""
+    """The kind of the input's position, and the ends of its range if there are any."""
     if axis is not None and axis not in tuple(DIMENSIONS):
         raise InputError(unknown_key(axis, DIMENSIONS, "axis"))
     if over is None:

@@ -1,4 +1,4 @@
-"""What no motion of a mechanism over one stroke can beat, in SI units, with its certificate."""
+"""Lower bounds for motions of a mechanism over one stroke, in SI units, with certificates."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _PART = 3
 
 @dataclass(frozen=True)
 class MoveLimit(JsonText):
-    """What no motion from rest to rest that never turns back can beat over one stroke, in SI units.
+    """A lower bound for motions over one stroke, from rest to rest, that never turn back; in SI units.
 
     Attributes
     ----------
@@ -52,7 +52,7 @@ class MoveLimit(JsonText):
 
     @property
     def minimise(self) -> DriveObjective:
-        """Of what it is the limit."""
+        """The quantity that is minimised."""
         return self.drive_limit.minimise
 
     @property
@@ -62,12 +62,12 @@ class MoveLimit(JsonText):
 
     @property
     def attained(self) -> float:
-        """What the motion takes that was found; not proven."""
+        """The value of the motion that was found, which is not proven."""
         return self.drive_limit.attained * self.unit
 
     @property
     def gap(self) -> float:
-        """By how much of the value the motion that was found is above it."""
+        """The relative difference between the motion that was found and the bound."""
         return self.drive_limit.gap
 
     def __str__(self) -> str:
@@ -167,7 +167,7 @@ class MoveBounds(NamedTuple):
 
 
 class MoveScales(NamedTuple):
-    """What the numbers of a dimensionless move mean: torque and energy, the input's mean velocity, and the time.
+    """Scales of a dimensionless move: torque and energy, the input's mean velocity, and the time.
 
     The dimension is that of the torque, or force: "N m" or "N".
     """
@@ -185,7 +185,7 @@ class MoveScales(NamedTuple):
 
 
 class MoveCosts(NamedTuple):
-    """What of a move's energy counts: the share of the braking power that is recovered, and copper heat.
+    """Weights of a move's energy: the share of braking power that is recovered, and copper heat.
 
     The heat is in W a squared N m, or N, of the torque.
     """

@@ -130,7 +130,7 @@ class _Knee:
         return self.along + self.height
 
     def moving(self, lower: Body, ram: Body, gravity: tuple[float, float]) -> tuple[list[Formula], list[Formula]]:
-        """What the lower link and the ram add to inertia and load at the crank."""
+        """Contribution of the lower link and the ram to the inertia and the load at the crank."""
         c, s = cos(self.direction), sin(self.direction)
         gravity_along = gravity[0] * c + gravity[1] * s, gravity[1] * c - gravity[0] * s
         parts = [Moving(ram.mass, self.velocity).inertia] if ram.mass else []
@@ -148,7 +148,7 @@ class _Knee:
 
     @property
     def chain(self) -> tuple[tuple[Formula, Formula], ...]:
-        """What a picture draws: from the knee to the ram."""
+        """Links from the knee to the ram as a picture draws them."""
         ex, ey = self.linkage.rocker_direction
         c, s = cos(self.direction), sin(self.direction)
         frame = self.linkage.frame

@@ -233,7 +233,7 @@ class _Group:
 
 
 def _alike(lengths: Sequence[float]) -> list[list[int]]:
-    """Which of some lengths are the same but for rounding."""
+    """Groups of lengths that are equal up to rounding."""
     groups = dict[float, list[int]]()
     for j, length in enumerate(lengths):
         same = next((known for known in groups if abs(known - length) <= SAME_TIME * length), length)
@@ -284,7 +284,7 @@ def solutions(root: complex, load: Complex) -> Complex:
 
 
 def _steep(step: Complex, right: Complex) -> Complex:
-    """The same where the exponential is over at once: the last coefficient is free, and the others follow from it."""
+    """Coefficients for a fast exponential: the last one is free, and the others follow from it."""
     from scipy.linalg import solve_banded
 
     count, columns = right.shape

@@ -222,7 +222,7 @@ class Machine(StateSpace):
         )
 
     def at_speed(self, factor: float) -> Self:
-        """The same machine run `factor` times as fast: the rise takes 1/factor of its duration.
+        """The same machine running `factor` times as fast: the rise takes 1/factor of its duration.
 
         Examples
         --------

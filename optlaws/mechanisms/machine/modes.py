@@ -96,7 +96,7 @@ def _mode(number: int, group: Complex) -> Mode:
 
 @dataclass(frozen=True, eq=False)
 class ModalModel(MachineModel):
-    """Vibrations by circular frequency, damping ratio and participation: rigid motion and what each mode adds to it."""
+    """Modes by circular frequency, damping ratio and participation: the rigid motion, and what each mode adds."""
 
     what = "these modes"
 

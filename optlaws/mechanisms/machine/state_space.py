@@ -138,7 +138,7 @@ class StateSpace(JsonText):
         return np.array(self.C[place]) @ self.dynamics.out_of, self.direct[place]
 
     def place(self, output: str | None) -> int:
-        """Which output a name is; the first where none is named."""
+        """The index of an output by its name; the first output if there is no name."""
         if output is None:
             return 0
         if output not in self.outputs:

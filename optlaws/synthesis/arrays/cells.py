@@ -40,7 +40,7 @@ _STEPS = 8
 
 @dataclass(frozen=True, eq=False)
 class Cells:
-    """The columns of some families on cells of their domains, as Chebyshev series in each cell's own coordinate.
+    """Columns of families on cells of their domains, as Chebyshev series in each cell's own coordinate.
 
     Families whose rows hold with both signs come first; the others are turned so that they hold upward.
     """
@@ -59,7 +59,7 @@ class Cells:
 
     @kept_property
     def blocks(self) -> list[slice]:
-        """Which cells are each family's, in their order."""
+        """Index ranges of the cells of each family, in order."""
         ends = np.cumsum([0] + [len(edges) - 1 for edges in self.edges]).tolist()
         return [slice(low, high) for low, high in pairwise(ends)]
 
@@ -75,7 +75,7 @@ class Cells:
 
     @kept_property
     def begins(self) -> Flags:
-        """Which cells have no neighbour before them."""
+        """A mask of cells that have no neighbour before them."""
         broken = np.zeros(len(self.family), dtype=np.bool_)
         broken[[block.start for block in self.blocks]] = True
         return broken
@@ -107,7 +107,7 @@ class Cells:
 
     @kept_property
     def rest(self) -> tuple[Array, Array]:
-        """By variable, what all other terms can add to the value and to the second derivative on a cell."""
+        """Bounds, by variable, of all other terms of the value and of the second derivative on a cell."""
         sizes = np.abs(self.series[_WEIGHED:])
         return sizes.sum(axis=0), np.einsum("n,nci->ci", _bends(len(self.series))[_WEIGHED:], sizes)
 
@@ -151,7 +151,7 @@ class Residuals:
     touching: Sequence[Array]
 
     def excess(self) -> Array:
-        """By how much each law may break rows anywhere, relative to the right side or 1; 0 where none."""
+        """The greatest violation of rows by each law, relative to the right side or 1; 0 where there is none."""
         shortfalls = np.zeros(len(self.point))
         law, cell, sign = self._doubtful()
         if len(law):
@@ -197,7 +197,7 @@ class Residuals:
         return above
 
     def _rest(self) -> tuple[Array, Array]:
-        """What the terms that are not weighed can add on each cell in any of the laws: in their mean, and beside it."""
+        """Bounds of the terms without weights on each cell, over all laws: their mean, and the rest."""
         value, bend = self.cells.rest
         mean = self.point.mean(axis=0)
         away = np.abs(self.point - mean).max(axis=0)
@@ -206,7 +206,7 @@ class Residuals:
         return of_mean.sum(axis=0) + value @ away, bends @ of_mean + bend @ away
 
     def _joined(self, law: NDArray[np.intp], cell: NDArray[np.intp], convex: Flags) -> Flags:
-        """Which of some laws' cells have a contact and a residual that is convex, or are joined to such by others."""
+        """A mask of cells with a contact and a convex residual, and of cells joined to these."""
         shape = (len(self.point), len(self.cells.family))
         bent, marked = np.zeros(shape, dtype=np.bool_), np.zeros(shape, dtype=np.bool_)
         bent[law[convex], cell[convex]] = True

@@ -49,13 +49,13 @@ class Certification:
 
     @property
     def sound(self) -> NDArray[np.bool_]:
-        """Which are laws, and proven optimal, or locally so where the problem is not convex."""
+        """A mask of states that are proven optimal, or locally optimal if the problem is not convex."""
         meets = self.gap <= (GREAT_MULTIPLIERS if self.affine else FIRST_CERTIFIED_GAP)
         return np.asarray(meets & (self.excess <= CERTIFIED_EXCESS) & (self.pull <= CERTIFIED_PULL) & self.best)
 
     @property
     def sharp(self) -> NDArray[np.bool_]:
-        """Which are proven so nearly that Newton's method has nothing left to do."""
+        """A mask of states whose gap is so small that Newton's method cannot reduce it."""
         return np.asarray(self.sound & (self.gap <= FIRST_CERTIFIED_GAP))
 
     @property
@@ -77,7 +77,7 @@ class Certification:
 
 
 def certification_of(path: Path, structure: Structure, numbers: Numbers, states: States) -> Certification:
-    """What states of one structure are worth; NaN and infinities are no laws."""
+    """Certification of states of one structure; NaN and infinities are no laws."""
     program, checks = path.model.program, row_checks_of(path.model)
     value, slope, _ = structure.jets(states.x, states.u)
     value[:, :, :-1] -= structure.slack
@@ -114,13 +114,13 @@ def certification_of(path: Path, structure: Structure, numbers: Numbers, states:
 
 @dataclass(frozen=True, eq=False)
 class RowChecks:
-    """What shows whether laws keep the rows of families, whatever the laws."""
+    """Checks of the rows of families for any laws."""
 
     families: Sequence[BatchFamily]
 
     @kept_property
     def proving(self) -> bool:
-        """Whether multipliers prove bounds."""
+        """Whether multipliers prove bounds of the objective in this program."""
         return all(family.proving for family in self.families)
 
     @kept_property
@@ -142,7 +142,7 @@ class RowChecks:
         return shortfalls
 
     def excess(self, point: Array, room: Array, touching: Sequence[Array]) -> Array:
-        """By how much each law may break the rows of any family, relative to the right side or 1."""
+        """The greatest violation of the rows of any family by each law, relative to the right side or 1."""
         shortfalls = np.zeros(len(point))
         if self._wide:
             wide = room[:, list(self._wide)], [touching[i] for i in self._wide]
@@ -157,7 +157,7 @@ class RowChecks:
 
 
 def row_checks_of(model: Model) -> RowChecks:
-    """What checks laws of a program, kept for programs of the same rows."""
+    """The row checks of a program, cached for programs with the same rows."""
     families = batch_families(model)
     key = tuple(
         (type(family), id(family.series), family.domain, family.signs) if isinstance(family, LinearFamily) else family

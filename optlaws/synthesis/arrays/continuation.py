@@ -80,7 +80,7 @@ class StructureSegment:
         return replace(states, u=np.where(self.structure.free, states.u, known.u))
 
     def _weights(self, t: float) -> Array:
-        """What each known state counts for at t: the nearest, and others that are not too near to each other."""
+        """Weights of known states at t: the nearest one, and others that are not too near to each other."""
         known = self.t.tolist()
         order = np.argsort(np.abs(self.t - t)).tolist()
         least = _APART * abs(known[order[0]] - t)
@@ -271,7 +271,7 @@ def _on_ends(structure: Structure, u: Array) -> Array:
 
 
 def _probes(good: float, bad: float, stride: float, broken: list[tuple[float, float]]) -> Array:
-    """Where to look next beyond a law that holds: around where what is broken begins to be, or some strides on."""
+    """Next parameters beyond a valid law: around the first violation, or some steps further on."""
     probes = good + stride * _STRIDES
     if len(broken) > 1:
         near, event = broken[0][0], _event(broken)
@@ -291,7 +291,7 @@ def _probes(good: float, bad: float, stride: float, broken: list[tuple[float, fl
 
 
 def _event(broken: list[tuple[float, float]]) -> float | None:
-    """Where what is broken begins to be, by the polynomial through t of what is broken; None where it does not grow."""
+    """The parameter at which a violation begins, by the polynomial through it; None if it does not grow."""
     t, off = zip(*broken, strict=True)
     count = len(off)
     while count > 1 and not all(more > less > 0.0 for less, more in pairwise(off[:count])):

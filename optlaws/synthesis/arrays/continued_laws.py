@@ -124,7 +124,7 @@ class _LawsOfStructure:
     def entered(
         self, states: States, known: NDArray[np.intp], proven: Callable[[Certification], NDArray[np.bool_]]
     ) -> NDArray[np.intp]:
-        """Enter those of the known states that are proven optimal; which are left."""
+        """Store the known states that are proven optimal, and return the problems that are left."""
         left = np.ones(len(states), dtype=np.bool_)
         if len(known):
             solved = clipped(self.structure, states.taken(known))
@@ -139,7 +139,7 @@ class _LawsOfStructure:
 def _guesses(
     path: Path, segment: StructureSegment, t: Array, ends: tuple[float, float], depth: int = 0
 ) -> Iterator[tuple[NDArray[np.intp], States]]:
-    """Which of some t, with states near to theirs: interpolated on pieces of a segment as short as they need to be."""
+    """States interpolated at parameters t, on pieces of the segment as short as they need to be."""
     begin, end = ends
     within = np.flatnonzero((t <= end) & ((t > begin) | (begin == segment.begin)))
     if not len(within):

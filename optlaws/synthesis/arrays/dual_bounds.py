@@ -1,4 +1,4 @@
-"""What contacts and multipliers prove of many objectives at once, as certificates reckon it, rounded outward."""
+"""Bounds that contacts and multipliers prove of many objectives at once, as certificates do, rounded outward."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ AprioriBounds = tuple[dict[str, float], dict[str, float], list[tuple[Array, Arra
 
 
 def lower_bounds(path: Path, structure: Structure, numbers: Numbers, states: States, value: Array) -> Array:
-    """What no law of each problem is below; negative multipliers count as zero.
+    """Lower bounds of the objectives; negative multipliers count as zero.
 
     Parameters
     ----------
@@ -56,7 +56,7 @@ def lower_bounds(path: Path, structure: Structure, numbers: Numbers, states: Sta
 
 
 def sharp_bounds(path: Path, structure: Structure, numbers: Numbers, states: States) -> Array:
-    """The same of programs of affine rows, whose sums are rounded once: less is lost where multipliers are great."""
+    """Lower bounds of programs with affine rows, whose sums are rounded once: less is lost with great multipliers."""
     program = path.model.program
     rows = _with_right_sides(structure, numbers, states)
     sides = np.broadcast_to(program.equalities, (len(rows), *program.equalities.shape))
@@ -129,7 +129,7 @@ def bounds_below(model: Model, greatest: dict[str, float]) -> AprioriBounds:
 
 
 def _below(path: Path, claim: float) -> AprioriBounds:
-    """What is known of laws of the path below the claim, or one that is a little above it."""
+    """Bounds of constants in laws of the path below the claim, or below one slightly above it."""
     step = ceil(log(claim) / log(_CLAIMS)) if claim > 0.0 else None
     if step not in path.bounds_below_claim:
         greatest: dict[str, float] = {}
@@ -143,7 +143,7 @@ def _below(path: Path, claim: float) -> AprioriBounds:
 
 
 def sums_of_rows(start: Array, weights: Array, rows: Array) -> Array:
-    """What a start and the weighted rows of each law add up to, rounded once but for the square of what that is off.
+    """Sums of a start and each law's weighted rows, rounded once but for the square of the error.
 
     Parameters
     ----------

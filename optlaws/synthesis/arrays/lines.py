@@ -36,7 +36,7 @@ class ProblemLine:
 
 @dataclass(frozen=True, eq=False)
 class Form:
-    """What a problem is but for its numbers, and the numbers; None for `key` where nothing is known of them."""
+    """The form of a problem without its numbers, and the numbers; `key` is None for unknown forms."""
 
     key: Hashable
     numbers: tuple[float, ...]
@@ -57,7 +57,7 @@ def along_velocities(
 
 
 def least_count(problem: Problem) -> int:
-    """With fewer problems on a line the walk along it takes longer than each alone."""
+    """The number of problems below which continuation along a line takes longer than single solutions."""
     if not problem.convex:
         return _LEAST_OF_POWER
     if all(isinstance(constant, RootMeanSquare) for constant in problem.constants):

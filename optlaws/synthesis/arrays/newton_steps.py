@@ -27,7 +27,7 @@ _FAR = 1.05
 
 @dataclass(frozen=True, eq=False)
 class Structure:
-    """Which constraints bind in many laws: the family and the sign of each contact, and whether it may move."""
+    """Active constraints shared by many laws: the family and the sign of each contact, and whether it may move."""
 
     model: Model  #: the program, but for its numbers
     #: family, sign, free: of the contacts, by family
@@ -37,12 +37,12 @@ class Structure:
 
     @property
     def count(self) -> int:
-        """The number of contacts."""
+        """The number of contacts in the structure."""
         return len(self.family)
 
     @property
     def signature(self) -> tuple[tuple[int, float, bool], ...]:
-        """What two structures have in common that are the same."""
+        """A key that equal structures share."""
         return tuple(zip(self.family.tolist(), self.sign.tolist(), self.free.tolist(), strict=True))
 
     @property
@@ -72,16 +72,16 @@ class Structure:
 
     @kept_property
     def moving(self) -> NDArray[np.intp]:
-        """Which contacts may move."""
+        """A mask of the contacts that may move."""
         return np.flatnonzero(self.free)
 
     @kept_property
     def at_end(self) -> NDArray[np.bool_]:
-        """Which contacts are held at an end off which they could move."""
+        """A mask of contacts fixed at an end of the interval off which they could move."""
         return np.asarray(~self.free & (self.domains[:, 0] != self.domains[:, 1]))
 
     def rounding_errors(self, x: Array, u: Array, weights: Array) -> Array:
-        """What rounding may hide of each entry of the sum of weights times rows, (laws, variables + 1)."""
+        """Rounding bounds of each entry of the sum of weights times rows, (laws, variables + 1)."""
         point = with_one(x)
         errors = np.zeros(point.shape)
         for family, contacts in self._own:
@@ -90,7 +90,7 @@ class Structure:
 
     @kept_property
     def of_families(self) -> list[slice]:
-        """Which contacts are those of each family; none of some."""
+        """Index ranges of the contacts of each family; some may be empty."""
         ends = np.searchsorted(self.family, np.arange(len(self.model.program.families) + 1)).tolist()
         return [slice(low, high) for low, high in pairwise(ends)]
 
@@ -139,7 +139,7 @@ def with_one(x: Array) -> Array:
 
 
 def product(planes: Array, point: Array) -> Array:
-    """What planes of each law are at its variables and 1, shape (laws, planes)."""
+    """Values of planes of each law at its variables and 1, shape (laws, planes)."""
     return np.asarray(np.matmul(planes, point[:, :, None])[:, :, 0])
 
 
@@ -250,7 +250,7 @@ def _system(structure: Structure, states: States, jets: _Jets, pull: Array) -> A
 
 
 def locally_optimal(structure: Structure, states: States) -> NDArray[np.bool_]:
-    """Where no law beside a state that meets the optimality conditions is better, of second order.
+    """A mask of states that satisfy the second-order optimality conditions.
 
     Along what the rows leave free the objective bends upward if and only if the conditions' matrix has as many
     negative eigenvalues as there are rows.

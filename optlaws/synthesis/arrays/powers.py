@@ -46,7 +46,7 @@ def least_power(problem: Problem) -> bool:
 def on_global_branch(
     laws: SolvedBatch, places: NDArray[np.intp], sought: Callable[[int], float | None]
 ) -> NDArray[np.bool_]:
-    """Which laws of a path lie between two for which a search from all starts found no other.
+    """A mask of laws of a path between two laws for which a search from all starts found no other.
 
     Parameters
     ----------
@@ -68,7 +68,7 @@ def on_global_branch(
 
 
 def _looked_at(known: NDArray[np.intp]) -> NDArray[np.intp]:
-    """Rows at which laws are compared: both ends and some between."""
+    """Indices of rows at which laws are compared: both ends and some between."""
     if not len(known):
         return known
     count = int(np.clip(len(known) // _EACH, _LEAST, _MOST))
@@ -100,7 +100,7 @@ def with_quick_bounds(path: Path, t: Array, laws: SolvedBatch, limits: Array) ->
 
 
 def _weights(path: Path, t: Array) -> Array:
-    """What D weighs in the objective."""
+    """The weight of D in the objective."""
     return np.asarray(path.model.unit * path.numbers(t).cost[:, path.model.places[D.name]])
 
 
@@ -125,7 +125,7 @@ def _needed_roots(path: Path, laws: SolvedBatch) -> Array:
 
 
 def _least_roots(path: Path, t: Array) -> Array:
-    """What the root of D of no law on the path is below, at ascending t, by the relaxed program; NaN where unproven.
+    """Lower bounds of the root of D along the path, at ascending t, by the relaxed program; NaN if unproven.
 
     With D >= 2 s r - s² for any s the program's bound says the same of r, whatever the s.
     """

@@ -114,12 +114,12 @@ class ProblemArray:
 
     @property
     def size(self) -> int:
-        """The number of problems."""
+        """The number of problems in the array."""
         return prod(self._shape)
 
     @property
     def entries(self) -> dict[str, Any]:
-        """What was given, arrays as they were."""
+        """The given entries, with arrays unchanged."""
         return dict(self._entries)
 
     @kept_property

@@ -22,7 +22,7 @@ from optlaws.tolerances import UNITS_ROUNDING
 
 @dataclass(frozen=True, eq=False)
 class Numbers:
-    """What a stack of programs does not share."""
+    """The numbers that differ between the programs of a stack."""
 
     right: Array  #: right sides of the equations, shape (programs, equations)
     bounds: Array  #: bounds of the families, shape (programs, families)
@@ -166,7 +166,7 @@ class SolvedBatch(JsonText):
 
     @property
     def solved(self) -> NDArray[np.bool_]:
-        """Which programs have an optimum here."""
+        """A mask of programs that have an optimum in this result."""
         return ~np.isnan(self.objective)
 
     def active_set(self, place: int) -> ActiveSet:
@@ -183,11 +183,11 @@ class SolvedBatch(JsonText):
         )
 
     def taken(self, places: NDArray[np.intp]) -> SolvedBatch:
-        """Some of the rows."""
+        """The optima of the programs at these places."""
         return SolvedBatch(**{entry.name: getattr(self, entry.name)[places] for entry in fields(self)})
 
     def only(self, chosen: NDArray[np.bool_]) -> Self:
-        """The same without the objectives of the others, so that they count as not solved."""
+        """The result for some programs only; the others count as not solved."""
         return replace(self, objective=np.where(chosen, self.objective, np.nan))
 
     def frozen(self) -> Self:

@@ -1,4 +1,4 @@
-"""Which constraints bind, where, and with what multipliers: an optimum, or a guess of one."""
+"""Active sets: active constraints with their places and multipliers, of an optimum or of a guess."""
 
 from __future__ import annotations
 
@@ -41,16 +41,16 @@ class ActiveSet:
         return cls.of_columns(x=x, **known, equality_multipliers=equality_multipliers)
 
     def at(self, x: Array) -> ActiveSet:
-        """With other variables; the same object for the same ones."""
+        """The active set with other variables; the same object for equal ones."""
         return self if x is self.x else replace(self, x=x)
 
     def moved(self, contact: int, u: float) -> ActiveSet:
-        """With one contact let go from its end to u."""
+        """The active set with one contact released from its end and moved to u."""
         here = np.arange(len(self.u)) == contact
         return replace(self, u=np.where(here, u, self.u), free=self.free | here)
 
     def joined(self, family: int, u: float, s: float, *, free: bool) -> ActiveSet:
-        """With one more contact, without weight yet."""
+        """The active set with one more contact, whose multiplier is 0."""
         return replace(
             self,
             family=np.append(self.family, family),
@@ -61,7 +61,7 @@ class ActiveSet:
         )
 
     def merged(self, near: float) -> ActiveSet:
-        """With contacts of one row that are nearer than this to each other as one: an extremum may show as two."""
+        """The active set with contacts of one row merged that are nearer than a distance."""
         if not len(self.u):
             return self
         order = np.lexsort((self.u, self.s, self.family))

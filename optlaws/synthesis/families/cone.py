@@ -35,7 +35,7 @@ class ConeFamily(SeriesFamily, NonlinearFamily):
         return 2.0 * k - 1.0
 
     def nodes(self) -> Array | None:
-        """As many places as the series needs to be known, nearly."""
+        """Chebyshev points, as many as determine the series up to rounding."""
         if self.domain[0] == self.domain[1]:
             return None
         sizes = np.abs(self.series).max(axis=1)
@@ -55,12 +55,12 @@ class ConeFamily(SeriesFamily, NonlinearFamily):
 
     @last_result
     def _jets(self, u: Array, point: Array) -> tuple[Complex, Complex]:
-        """The columns with two derivatives by the place, and what they are in each law."""
+        """Columns with two derivatives with respect to the place, and their values in each law."""
         columns: Complex = self.columns(u.reshape(-1)).reshape(3, *u.shape, -1)
         return columns, (columns @ point[:, :, None])[..., 0]
 
     def planes(self, u: Array, point: Array) -> tuple[Array, Array, Array]:
-        """What the direction of each law shows of the magnitude; no law's is less."""
+        """Planes by the direction of each law; the magnitude of no law is below them."""
         (f0, f1, _), (p0, p1, p2) = self._jets(u, point)
         size = np.maximum(np.abs(p0), TINY)
         slope = (p0.conj() * p1).real / size

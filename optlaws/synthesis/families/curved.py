@@ -45,7 +45,7 @@ def between(bend: Array, rows: Array) -> Array:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class FormulaFamily(NonlinearFamily):
-    """What families of formulas that are not affine have in common: a formula of derivatives of the law and of k."""
+    """Base class of families of non-affine formulas: a formula of derivatives of the law and of k."""
 
     formula: Formula
 
@@ -55,11 +55,11 @@ class FormulaFamily(NonlinearFamily):
         return False
 
     def squares(self, u: float) -> SumOfSquares:
-        """What f is at a place, where it is `quadratic`."""
+        """The quadratic form of f at a place, where f is `quadratic`."""
         raise TypeError(f"{self.formula} is not quadratic at {u:g}")
 
     def scaled_down(self, by: float) -> Self:
-        """The same rows, divided by a power of 2: so is the formula."""
+        """The same family divided by a power of 2, the formula included."""
         return self if by == 1.0 else self._divided(by, scaled(self.formula, 1.0 / by))
 
     def _divided(self, by: float, formula: Formula) -> Self:
@@ -67,7 +67,7 @@ class FormulaFamily(NonlinearFamily):
 
     @abstractmethod
     def touching(self, x: Array, u: float) -> tuple[float, ...]:
-        """Where in the names of the formula a tangent touches it in a law."""
+        """Values of the formula's names at which a tangent touches it in a law."""
 
     @abstractmethod
     def tangent_row(self, u: float, sign: float, point: tuple[float, ...]) -> Array | None:
@@ -92,7 +92,7 @@ class CurvedFamily(FormulaFamily):
 
     @kept_property
     def slopes(self) -> Slopes:
-        """With its derivatives by the parts, and by k last."""
+        """The formula with its derivatives with respect to the parts, and to k last."""
         return Slopes(self.formula, (*self.names, "k"))
 
     def in_units(self, units: Array, unit: float) -> Self:  # noqa: ARG002 - a formula is in its own units
@@ -108,7 +108,7 @@ class CurvedFamily(FormulaFamily):
         return {**dict(zip(self.names, values, strict=True)), "k": self.k(u)}
 
     def touching(self, x: Array, u: float) -> tuple[float, ...]:
-        """What the parts are at a place in a law."""
+        """Values of the parts at a place in a law."""
         return tuple((self.columns(np.array([u]))[:, 0, 0] @ np.append(x, 1.0)).tolist())
 
     def tangent_row(self, u: float, sign: float, point: tuple[float, ...]) -> Array | None:
@@ -186,7 +186,7 @@ class CurvedFamily(FormulaFamily):
         return between(bend[:-1, :-1] * weights, columns[:, 0, ..., :-1])
 
     def rounding_errors(self, weights: Array, u: Array, point: Array) -> Array:
-        """What rounding hides of the parts' rows, by the slopes of the formula at each place."""
+        """Rounding bounds of the parts' rows, by the slopes of the formula at each place."""
         columns, _, _, gradient, _ = self._expansion(u, point)
         shares = np.abs(gradient[:-1]) * weights
         of_parts = np.array([part.rounding for _, part in self.parts])
@@ -255,7 +255,7 @@ class CurvedFamily(FormulaFamily):
 
     @kept_property
     def _knots(self) -> Together:
-        """What vanishes where a law passes a knot of a spline."""
+        """A function that vanishes where a law passes a knot of a spline."""
         return Together(tuple(switches(self.formula, self.names)))
 
     def _cut_at_knots(self, x: Array, ends: tuple[float, float]) -> list[float]:
@@ -319,7 +319,7 @@ class IntegralFamily(WholeLawFamily, FormulaFamily):
 
     @property
     def proving(self) -> bool:
-        """Whether it is convex."""
+        """Whether the formula is convex, so that its tangents prove bounds."""
         return self.convex
 
     @kept_property
@@ -337,7 +337,7 @@ class IntegralFamily(WholeLawFamily, FormulaFamily):
         return {**dict(zip(self.names, values, strict=True)), "k": np.broadcast_to(self.places, values.shape[1:])}
 
     def touching(self, x: Array, u: float) -> tuple[float, ...]:  # noqa: ARG002 - it has no place
-        """What the names are at the nodes in a law, one name after the other."""
+        """Values of the names at the nodes in a law, one name after the other."""
         return tuple((self.columns @ np.append(x, 1.0)).ravel().tolist())
 
     def tangent_row(self, u: float, sign: float, point: tuple[float, ...]) -> Array | None:  # noqa: ARG002
@@ -355,14 +355,14 @@ class IntegralFamily(WholeLawFamily, FormulaFamily):
         return row if np.isfinite(row).all() else None
 
     def outer(self, total: Array) -> tuple[Array, Array]:
-        """What f is where the sum over the nodes is this, and its derivative by the sum."""
+        """The value of f for a sum over the nodes, and its derivative with respect to the sum."""
         if not self.root:
             return total, np.ones_like(total)
         size = np.sqrt(np.maximum(total, LEAST_ENERGY**2))
         return size, 0.5 / size
 
     def touched(self, total: Array) -> tuple[Array, Array]:
-        """What a tangent is where the sum over the nodes is this, and its slope by the sum; f is nowhere below it.
+        """The tangent at a sum over the nodes, and its slope with respect to the sum; f is nowhere below it.
 
         Near 0, where the slope of a root is kept finite, the rest of the tangent is one of slope 0.
         """
@@ -373,7 +373,7 @@ class IntegralFamily(WholeLawFamily, FormulaFamily):
         return self._at((self.columns @ point.T).swapaxes(1, 2))
 
     def _planes(self, names: dict[str, Array]) -> tuple[Array, Array, Array]:
-        """What a tangent is in each law, its slope by the sum over the nodes, and the sum's rows with 1 last."""
+        """The tangent in each law, its slope with respect to the sum over the nodes, and the sum's rows with 1 last."""
         weighted = self.slopes.gradient(names) * self.weights
         height, share = self.touched(self.slopes.value(names) @ self.weights)
         return height, share, np.asarray((weighted @ self.columns).sum(axis=0))
@@ -398,7 +398,7 @@ class IntegralFamily(WholeLawFamily, FormulaFamily):
         return np.asarray(moved * weights.sum(axis=1)[:, None, None])
 
     def rounding_errors(self, weights: Array, u: Array, point: Array) -> Array:  # noqa: ARG002 - it has no place
-        """What rounding hides of the names' rows, by the slopes of the formula at each node."""
+        """Rounding bounds of the names' rows, by the slopes of the formula at each node."""
         names = self._at_nodes(point)
         sizes = np.abs(self.slopes.gradient(names)) * self.weights
         rows = np.einsum("imp,ipn->mn", sizes, np.abs(self.columns))

@@ -61,7 +61,7 @@ class Energy:
         return float(self._integral(x).value[0])
 
     def majorant(self, x: Array) -> Array:
-        """An affine function, the constant last, that the integral is nowhere above: its tangent at x, or nearly.
+        """An affine function above the integral, its constant last: the tangent at x, up to rounding.
 
         By the means of two positive numbers sqrt(q r) <= (m q + r/m)/2 whatever the function m > 0 is. The integral of
         that is what Gauss's rule gives, but for rounding, if m is smooth: so the law is blended with a plain one,
@@ -127,7 +127,7 @@ class Taylor:
         )
 
     def scaled(self, factor: float) -> Taylor:
-        """The same energy times a number."""
+        """The energy family scaled by a number."""
         return Taylor(factor * self.value, factor * self.gradient, factor * self.curvature)
 
     def raised(self, least: Array) -> Taylor:
@@ -170,7 +170,7 @@ class EnergyFamily(ConstraintFamily):
         return self
 
     def in_units(self, units: Array, unit: float) -> Self:
-        """The same of laws in other units: the other body's peaks do not depend on them."""
+        """The energy family for laws in other units; the other body's peaks do not depend on these."""
         return replace(
             self,
             factors=tuple(factor.in_units(units, unit) for factor in self.factors),
@@ -195,7 +195,7 @@ class EnergyFamily(ConstraintFamily):
         return np.asarray(0.5 * (high + low) + 0.5 * (high - low) * local)
 
     def jet(self, x: Array, u: Array, s: Array) -> RowJet:
-        """Residuals with their derivatives."""
+        """Residuals of the energy with their derivatives."""
         peak = self._taylor(x, u)
         return RowJet(
             s * peak.value - self.right_side(x),

@@ -79,16 +79,16 @@ class ConstraintFamily(ABC):
 
     @abstractmethod
     def in_units(self, units: Array, unit: float) -> Self:
-        """The same rows for variables x / units, divided by `unit`, which is what coordinates are divided by."""
+        """The family for variables x / units, divided by `unit`; coordinates are divided by `unit` too."""
 
     def scaled_down(self, by: float) -> Self:
-        """The same rows, divided by a power of 2; the variables stay."""
+        """The family divided by a power of 2, with the same variables."""
         if by == 1.0:
             return self
         return replace(self.in_units(np.ones(len(self.slack)), by), unit=self.unit * by)
 
     def nodes(self) -> Array | None:
-        """Where to hold the family first; None leaves the choice to the exchange."""
+        """First points of the family; None leaves the choice to the exchange method."""
         return None
 
     def pinned(self, u: Array) -> NDArray[np.bool_]:
@@ -151,7 +151,7 @@ class BatchFamily(ConstraintFamily):
 
     @abstractmethod
     def rounding_errors(self, weights: Array, u: Array, point: Array) -> Array:
-        """What rounding may hide of each entry of the sum of weights times planes, (laws, variables + 1)."""
+        """Rounding bounds of each entry of the sum of weights times planes, (laws, variables + 1)."""
 
 
 def last_result(method: Callable[..., Result]) -> Callable[..., Result]:
@@ -237,7 +237,7 @@ class LinearFamily(SeriesFamily):
         return columns[:, :-1] - self.slack, self.bound - columns[:, -1]
 
     def jet(self, x: Array, u: Array, s: Array) -> RowJet:
-        """Residuals with their derivatives."""
+        """Residuals of the rows with their derivatives."""
         columns = self.columns(u) * s[:, None]
         columns[0, :, :-1] -= self.slack
         value, slope, curvature = columns @ np.append(x, 1.0)
@@ -245,7 +245,7 @@ class LinearFamily(SeriesFamily):
 
     @kept_property
     def _parts(self) -> tuple[tuple[NDArray[np.intp], Array], ...]:
-        """For f and its first two derivatives: which polynomials they are made of, and with what coefficients."""
+        """Polynomials of f and of its first two derivatives, with their coefficients."""
         parts = [(np.flatnonzero(series.any(axis=1)), series) for series in np.hsplit(self._jet, 3)]
         return tuple((counted, np.ascontiguousarray(series[counted])) for counted, series in parts)
 
@@ -261,16 +261,16 @@ class LinearFamily(SeriesFamily):
         return value, slope, bend
 
     def hessian(self, x: Array, u: Array, weights: Array) -> Array | None:  # noqa: ARG002
-        """None, for f is affine."""
+        """No Hessian (None), because f is affine."""
         return None
 
     @kept_property
     def rounding(self) -> Array:
-        """What rounding may hide of each entry of a row."""
+        """Rounding bounds of each entry of a row."""
         return np.asarray(ROW_ROUNDING * np.abs(self.series).sum(axis=0))
 
     def rounding_errors(self, weights: Array, u: Array, point: Array) -> Array:  # noqa: ARG002 - the same everywhere
-        """What rounding may hide of rows, whatever the place."""
+        """Rounding bounds of rows at any place."""
         return np.asarray(weights.sum(axis=1)[:, None] * self.rounding)
 
     def value(self, x: Array, u: Array) -> Array:
@@ -293,7 +293,7 @@ class EvenFamily(LinearFamily):
         return (1.0 - np.sqrt(np.maximum(u + 1.0, 0.0) / 2.0)) / 2.0
 
     def u(self, k: Array) -> Array:
-        """2 (1-2k)² - 1."""
+        """The parameter u = 2 (1-2k)² - 1 of a place k."""
         return 2.0 * (1.0 - 2.0 * k) ** 2 - 1.0
 
 
@@ -328,7 +328,7 @@ class MirroredFamily(RootFamily):
     """A root family written from the end of the interval: u = 2k - 1."""
 
     def k(self, u: Array) -> Array:
-        """The k that belongs to u = 2k - 1."""
+        """The place k of a parameter u = 2k - 1."""
         return 0.5 * (1.0 + u)
 
     def u(self, k: Array) -> Array:
@@ -370,7 +370,7 @@ class ProductFamily(NonlinearFamily):
     second: LinearFamily
 
     def scaled_down(self, by: float) -> Self:
-        """The same rows, divided by a power of 2."""
+        """The family divided by a power of 2."""
         first = self.first.scaled_down(by)
         return replace(self, first=first, slack=self.slack / by, bound=self.bound / by, unit=self.unit * by)
 
@@ -407,7 +407,7 @@ class ProductFamily(NonlinearFamily):
         return np.asarray(half + half.transpose(0, 2, 1))
 
     def rounding_errors(self, weights: Array, u: Array, point: Array) -> Array:
-        """The rounding that the rows of both factors hide."""
+        """Rounding bounds of the rows of both factors."""
         return np.asarray(sum(factor.rounding_errors(weights, u, point) for factor in (self.first, self.second)))
 
     def greatest(self, point: Array) -> Array:
@@ -433,7 +433,7 @@ class WholeLawFamily(NonlinearFamily):
     domain: tuple[float, float] = (1.0, 1.0)
 
     def value(self, x: Array, u: Array) -> Array:
-        """f, whatever the points."""
+        """The value of f for any points."""
         return np.full(len(u), self.greatest(np.append(x, 1.0)[None])[0])
 
     def stationary(self, x: Array) -> Array:  # noqa: ARG002
@@ -453,7 +453,7 @@ class NormFamily(WholeLawFamily):
         return replace(self, matrix=matrix, slack=self.slack * units / unit, bound=self.bound / unit)
 
     def planes(self, u: Array, point: Array) -> tuple[Array, Array, Array]:
-        """What the direction of each law shows of the norm; no law's norm is less."""
+        """Planes by the direction of each law; the norm of no law is below them."""
         planes = self._touching(point)[1][:, None, :].repeat(u.shape[1], axis=1)
         return planes, np.zeros(planes.shape), np.zeros(u.shape)
 
@@ -489,7 +489,7 @@ class Points:
     s: Array
 
     def joined(self, other: Points) -> Points:
-        """These points and others."""
+        """The union of these points and others."""
         return Points(np.concatenate([self.u, other.u]), np.concatenate([self.s, other.s]))
 
 
@@ -529,7 +529,7 @@ class Program:
         return not all(isinstance(family, LinearFamily) for family in self.families)
 
     def objective_at(self, x: Array) -> float:
-        """The objective at x."""
+        """The objective at the variables x."""
         return float(self.objective @ x)
 
     def violation(self, x: Array) -> float:

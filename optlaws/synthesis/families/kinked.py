@@ -41,7 +41,7 @@ class SmoothStretch:
 
 @dataclass(frozen=True, eq=False)
 class KinkSplit:
-    """What the stretches of a law make of the integral: its sum, and its slope as a row."""
+    """The integral over the stretches of a law: its sum, and its slope as a row."""
 
     stretches: list[SmoothStretch]
     total: float
@@ -149,7 +149,7 @@ class KinkedIntegralFamily(IntegralFamily):
             return np.array([np.broadcast_to(value, k.shape) for value in formulas.values(names, NUMPY)])
 
     def _with_factors(self, names: dict[str, Array]) -> dict[str, Array]:
-        """What the names are, and those for factors of the position."""
+        """Values of the names, and of factors that depend on the position."""
         tables = self._tabulated[-1]
         return names if tables is None else {**names, **tables.by_name(names["a"])}
 
@@ -191,7 +191,7 @@ class KinkedIntegralFamily(IntegralFamily):
         return np.asarray(matrix * float(weights.sum()))
 
     def _moved(self, split: KinkSplit, point: Array) -> Array:
-        """What it adds that the kinks between stretches move: each is where the formulas beside it have one value."""
+        """The effect of moving kinks between stretches: at each, the formulas beside it have one value."""
         k = np.array([right.low for right in split.stretches[1:]])
         columns, turns = self.columns_at(k), self.columns_at(k, 1)
         names, matrix = self._names(point, k, columns), np.zeros((len(point) - 1,) * 2)

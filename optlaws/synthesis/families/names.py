@@ -13,7 +13,7 @@ class _Name(StrEnum):
 
 
 class RowName(_Name):
-    """What rows are called that do not belong to one constant, and those of power certificates."""
+    """Names of rows that belong to no constant, and of rows of power certificates."""
 
     VELOCITY = "b"
     BELOW_PEAK = "chord"
@@ -28,7 +28,7 @@ class RowName(_Name):
 
 
 class VariableName(_Name):
-    """What variables are called that stand for no constant of the objective."""
+    """Names of variables other than constants of the objective."""
 
     POWER_ROOT = "root of D"
     VIOLATION = "t"
@@ -49,12 +49,12 @@ def at_least(constant: str) -> str:
 
 
 def maximum_part(number: int, maximum: str) -> str:
-    """That a maximum is at least its part of this number, counted from 1."""
+    """The name of the row that a maximum is at least its part of this number, counted from 1."""
     return f"part {number} of {maximum}"
 
 
 def part_number(name: str) -> int | None:
-    """Which part of a maximum a row is of, counted from 1; None of other rows.
+    """The number of the part that a row of a maximum refers to, counted from 1; None for other rows.
 
     >>> part_number(maximum_part(2, "max(B, C)")), part_number("C")
     (2, None)
@@ -80,7 +80,7 @@ def plane(number: int, name: str) -> str:
 
 
 def mirrored(name: str) -> str:
-    """The same rows for the mirror image: of symmetric laws they speak of the other half."""
+    """The name of the mirrored rows: for symmetric laws they refer to the other half."""
     return f"{name} mirrored"
 
 
@@ -90,7 +90,7 @@ def window(number: int) -> str:
 
 
 def window_side(name: str, sign: float) -> str:
-    """What a window's rows hold down (sign 1) or up (-1): "window 2 mirrored, below"."""
+    """The name of a window's rows that bound above (sign 1) or below (-1): "window 2 mirrored, below"."""
     return f"{name}, {_SIDES[sign]}"
 
 

@@ -29,7 +29,7 @@ _PLACES = 7
 
 @dataclass(frozen=True)
 class Side:
-    """What rows say of a formula on the part of the interval of a space's rows."""
+    """A formula on the part of the interval that a space's rows cover."""
 
     name: str
     motion: MotionFormula
@@ -37,7 +37,7 @@ class Side:
 
 
 def sides(motion: MotionFormula, name: str, signs: tuple[float, ...], *, symmetric: bool) -> list[Side]:
-    """What rows say of a formula: as it is, or of symmetric laws each half on the first one.
+    """Formulas for the rows: the formula itself, or for symmetric laws each half on the first one.
 
     Where the second half says the same as the first, or its opposite, one side says both.
     """

@@ -1,4 +1,4 @@
-"""What a formula is along a law: its extremes and its integrals over the whole of a part of the interval."""
+"""A formula along a law: its extremes and its integrals over a part of the interval."""
 
 from __future__ import annotations
 
@@ -94,7 +94,7 @@ def _count(motion: MotionFormula, law: MotionLaw, ends: tuple[float, float]) -> 
 
 
 def _candidates(motion: MotionFormula, law: MotionLaw, ends: tuple[float, float]) -> tuple[Array, Array]:
-    """Where the formula may be extreme on a piece, and its values there."""
+    """Candidates for extremes of the formula on a piece, and its values there."""
     inner = candidates(_inside(motion, law, *ends), ends, _count(motion, law, ends))
     return _on(motion, law, ends, np.concatenate([np.array(ends), inner]))
 
@@ -108,7 +108,7 @@ class _Integral:
 
     @kept_property
     def size(self) -> float:
-        """What it is without signs, nearly."""
+        """The approximate size of the formula when no terms cancel."""
         return sum(abs(self._by_rule(ends, _DENSE, sizes=True)) for ends in self.pieces)
 
     def over(self, ends: tuple[float, float]) -> float:

@@ -51,7 +51,7 @@ class OfFormula(Functional):
 
     @property
     def scale(self) -> float:
-        """Of the formula; a power of 2."""
+        """The scale of the formula, a power of 2."""
         return self.motion.scale
 
     @property
@@ -61,7 +61,7 @@ class OfFormula(Functional):
 
     @property
     def remarks(self) -> tuple[str, ...]:
-        """Where the formula has no value or no slope, of what laws may bring it to."""
+        """Remarks on places where the formula has no value or no slope in some law."""
         return tuple(pitfalls(self.motion))
 
     @kept_property
@@ -151,7 +151,7 @@ class FormulaPeak(OfFormula):
 
     @property
     def of_magnitude(self) -> bool:
-        """Whether both signs count."""
+        """Whether both signs of the formula count."""
         return len(self.signs) == 2
 
     @property
@@ -170,7 +170,7 @@ class FormulaPeak(OfFormula):
         return max(greatest_along(self.motion, sign, law) for sign in self.counted)
 
     def _size(self, space: LawSpace) -> SizeBound | None:
-        """Of a peak of one sign only if some mean of the formula is the same in every law, or it is convex."""
+        """A priori bounds of laws; of a one-sided peak only if some mean is known or the formula is convex."""
         if self.motion.start == self.motion.stop:
             return None
         if not self.affine:
@@ -181,7 +181,7 @@ class FormulaPeak(OfFormula):
         return size.by_peak() if self.of_magnitude else size.by_one_sign(self.signs[0])
 
     def _by_mean(self, space: LawSpace) -> SizeBound | None:
-        """By the mean of a convex formula, which is at most its peak."""
+        """A priori bounds by the mean of a convex formula, which is at most its peak."""
         signed = {1.0: self.motion, -1.0: replace(self.motion, formula=opposite(self.motion.formula))}
         for sign in self.counted:
             size = by_integral(space, signed[sign]) if signed[sign].curvature.convex else None
@@ -224,7 +224,7 @@ class FormulaRms(OfFormula):
 
     @property
     def of_magnitude(self) -> bool:
-        """Whether the formula is that of a magnitude: here it is squared."""
+        """Whether the formula is a magnitude; in a mean square it is squared."""
         return True
 
     @property
@@ -245,7 +245,7 @@ class FormulaRms(OfFormula):
         return (NormFamily(self.name, slack, bound, matrix=space.widened(matrix, len(slack))),)
 
     def _size(self, space: LawSpace) -> SizeBound | None:
-        """By Cauchy's inequality, or by tangents."""
+        """A priori bounds of laws by Cauchy's inequality, or by tangents."""
         root = float(np.sqrt(self.length))
         if self.affine:
             values = reach(space, self.parts(symmetric=space.symmetric))
@@ -269,15 +269,15 @@ class FormulaIntegral(OfFormula):
 
     @property
     def scale(self) -> float:
-        """Of the formula times the part's length; a power of 2."""
+        """The scale of the formula times the length of its part, a power of 2."""
         return power_of_two(self.motion.scale * (self.motion.stop - self.motion.start))
 
     def value(self, law: MotionLaw) -> float:
-        """By Gauss's rule, exact where the formula is a polynomial of k."""
+        """The integral by Gauss's rule, exact if the formula is a polynomial of k."""
         return integral_along(self.motion, law)
 
     def _size(self, space: LawSpace) -> SizeBound | None:
-        """Of a convex formula."""
+        """A priori bounds of laws by the integral of a convex formula."""
         return by_integral(space, self.motion) if self.convex and not self.affine else None
 
     def _families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConstraintFamily, ...]:

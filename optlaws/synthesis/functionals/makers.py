@@ -1,4 +1,4 @@
-"""What makes constants of formulas: `peak("c + 0.2*b")`, `rms(...)`, and the formula of what drives a machine."""
+"""Constants made from formulas: `peak("c + 0.2*b")`, `rms(...)`, and the torque of a drive."""
 
 from __future__ import annotations
 

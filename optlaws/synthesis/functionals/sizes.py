@@ -1,4 +1,4 @@
-"""What bounds a law in which a formula is small, and what a formula is at least whatever the law.
+"""A priori bounds of laws in which a formula is small, and lower bounds of formulas in all laws.
 
 Enough values of a formula that is affine in the law determine the law. A convex formula is nowhere below its tangents,
 one that is made of straight ones nowhere below a mean of these whose shares change from cell to cell. Added up with
@@ -70,7 +70,7 @@ class SizeBound(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Reach:
-    """By how much values of a formula at places move the mean of |c|: sum of pulls times |f| plus the offset."""
+    """A bound of the mean of |c|: the sum of pulls times |f| at places, plus an offset."""
 
     pulls: Array  #: one for each place
     offset: float  #: what is there without the formula
@@ -107,7 +107,7 @@ def reach(space: LawSpace, parts: tuple[MotionFormula, ...]) -> Reach | None:
 
 
 def reach_of(space: LawSpace, values: Array, weights: Array) -> Reach | None:
-    """The same of anything that is affine in the law, by its columns at places and the weights of these."""
+    """A bound of the mean of |c| by any affine function of the law, from its columns and weights at places."""
     unit = power_of_two(float(np.abs(values).max(initial=0.0)))
     near = _reach_of(space, values / unit, weights)
     if near is None:
@@ -133,7 +133,7 @@ def _reach_of(space: LawSpace, values: Array, weights: Array) -> Reach | None:
 
 
 def by_norm(space: LawSpace, rows: Array) -> tuple[SizeBound, ...]:
-    """What the RMS of c is at most in laws of a space, by the norm of rows; nothing where they do not determine c.
+    """A bound of the RMS of c in laws of a space by the norm of rows; nothing if they do not determine c.
 
     The factor is the inverse of the least singular value of the map from c to the rows.
     """
@@ -153,7 +153,7 @@ def by_norm(space: LawSpace, rows: Array) -> tuple[SizeBound, ...]:
 
 
 def by_squares(space: LawSpace, square: SumOfSquares) -> SizeBound | None:
-    """What the RMS of c is at most in laws of a space, by a sum of squares of what is affine in them.
+    """A bound of the RMS of c in laws of a space, by a sum of squares of affine functions.
 
     Those in which it is at most t are an ellipsoid about the law in which it is least, whose size grows with the root
     of t: that is at most its tangent where t is twice the least. None where the sum does not determine the law.
@@ -210,7 +210,7 @@ def _balanced(rows: Array, weights: Array, near: Array) -> Array:
 
 
 def _evenly(rows: Array, weights: Array) -> Array | None:
-    """Of the weights that no law moves those whose least share of the rule's own is greatest; None if there are none.
+    """Weights in the null space whose least share of the rule's weights is greatest; None if there are none.
 
     They are above 0 wherever no direction lowers f at every place.
     """
@@ -227,7 +227,7 @@ def _evenly(rows: Array, weights: Array) -> Array | None:
 
 
 def by_integral(space: LawSpace, motion: MotionFormula) -> SizeBound | None:
-    """What bounds the laws in which the integral of a convex formula is small."""
+    """A priori bounds of laws in which the integral of a convex formula is small."""
     return by_straight_formulas(space, motion) or by_tangents(space, motion, root=False)
 
 
@@ -274,7 +274,7 @@ def _rows(space: LawSpace, motion: MotionFormula, straight: list[MotionFormula],
 
 
 def _reaches(slopes: Array, heights: Array) -> tuple[float, float] | None:
-    """Of all coordinates together: by how many times the integral they are bounded, and how much more."""
+    """Bounds of all coordinates: a factor times the integral, plus an offset."""
     from scipy.optimize import linprog
 
     cells, formulas, count = slopes.shape
@@ -356,7 +356,7 @@ def _hessian(family: IntegralFamily, x: Array) -> Array:
 
 
 def _lowest(family: IntegralFamily, x: Array, free: Array) -> Array:
-    """Nearly where the integral is least, by Newton's method with steps that are halved."""
+    """An approximate minimiser of the integral, by Newton's method with halved steps."""
     value = _value(family, x)
     for _ in range(_STEPS):
         bend, slope = free.T @ _hessian(family, x) @ free, free.T @ family.jet(x, np.ones(1), np.ones(1)).gradient[0]
@@ -401,7 +401,7 @@ def _shares(slopes: Array) -> Array | None:
 
 
 def known_values(motion: MotionFormula, conditions: BoundaryConditions) -> list[tuple[float, float]]:
-    """What the end conditions say a formula is at an end, or in the mean; each with a size that its rounding has.
+    """Values of a formula at the ends or in the mean that follow from the end conditions, with rounding sizes.
 
     Examples
     --------
@@ -420,7 +420,7 @@ def known_values(motion: MotionFormula, conditions: BoundaryConditions) -> list[
 
 
 def _mean_terms(motion: MotionFormula, conditions: BoundaryConditions) -> list[float] | None:
-    """What adds up to the mean over the whole interval of a formula whose factors are numbers; None of others."""
+    """Terms of the mean of a formula with constant factors; None for other formulas."""
     plain = motion.constant_weights()
     known = range(1, len(conditions.start) + 1)
     whole = motion.affine is not None and (motion.start, motion.stop) == (0.0, 1.0)

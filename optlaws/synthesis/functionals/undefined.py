@@ -1,4 +1,4 @@
-"""Where formulas have no value: where the end conditions or all laws bring them, and where laws may."""
+"""Places where formulas have no value: in all laws, by the end conditions, or in some laws."""
 
 from __future__ import annotations
 
@@ -101,7 +101,7 @@ def _between(formula: Formula, motion: MotionFormula) -> tuple[float, float]:
 
 
 def _nowhere(part: Formula, names: Mapping[str, Array]) -> NDArray[np.bool_]:
-    """At which of ascending values a part has none, or none before the next."""
+    """Ascending values at which a part has no value, or none before the next one."""
     nowhere = ~np.isfinite(MotionFormula(part).values(names))
     divisor = _divisor(part)
     if divisor is not None:

@@ -74,7 +74,7 @@ class LeastTime(JsonText):
 
     @property
     def gap(self) -> float:
-        """By which share of itself the least time is above the longest that is proven to be too short."""
+        """The relative difference between the least time and the longest time that is proven to be too short."""
         return 1.0 - self.none_below / self.duration
 
     @property
@@ -99,12 +99,12 @@ class LeastTime(JsonText):
 
     @property
     def price(self) -> float | None:
-        """By which share the space of the problem is slower than all laws; None without a limit."""
+        """The share by which laws of the problem's space are slower than all laws; None without a limit."""
         return None if self.limit is None else self.duration / self.limit - 1.0
 
     @kept_property
     def used(self) -> dict[str, float]:
-        """Which share of each limit the law uses, 1 where it reaches it."""
+        """The share of each limit that the law uses, 1 where it reaches it."""
         limits = self.move.limits_in(self.duration)
         return {limit.name: limit.constant.value(self.law) / limit.bound for limit in limits}
 
@@ -201,7 +201,7 @@ class LeastTime(JsonText):
 
     @property
     def contradiction(self) -> str:
-        """What the law and the proofs are not, though the value says so; empty where they are all that."""
+        """Contradictions between the stored values and the law or its proofs; empty if there are none."""
         if self.solution.problem != self.move.shares(self.duration):
             return f"the law is not of the move in {self.duration!r} s"
         if not self.solution.objective <= 1.0 + BOUND_FEASIBILITY:

@@ -64,7 +64,7 @@ class LossyGear(JsonText):
         return " + ".join([*self._motor(duration), f"max({self.to_load!r}*({load}), {self.back!r}*({load}))"])
 
     def branches(self, load: str, duration: float) -> tuple[str, str]:
-        """The same where power flows to the load, and where it flows back: the torque is the greater of both."""
+        """The torque for power that flows to the load, and for power that flows back: the greater of both."""
         first, last = (
             " + ".join([*self._motor(duration), f"{share!r}*({load})"]) for share in (self.to_load, self.back)
         )
@@ -79,7 +79,7 @@ class LossyGear(JsonText):
         return [f"{size!r}{name}" for size, name in parts if size]
 
     def to_dict(self) -> dict[str, float]:
-        """The numbers by name."""
+        """The numbers of the torque by their names."""
         return {name: getattr(self, name) for name in _GEAR_KEYS}
 
     @classmethod
@@ -195,13 +195,13 @@ class MotorTorque(JsonText):
 
     @property
     def mean(self) -> float:
-        """What the mean of the torque over a move is at least, N m; 0 where the inertia or the load is not constant."""
+        """A lower bound of the mean torque over a move, N m; 0 unless inertia and load are constant."""
         load = constant(read(self.load, ("a",)))
         return 0.0 if load is None or self._inertia is None or self.gear is not None else self.unit * max(load, 0.0)
 
     @property
     def _inertia(self) -> float | None:
-        """That of the load or of all, where it is constant."""
+        """The inertia of the load or of the whole drive, if it is constant."""
         return constant(read(self.inertia, ("a",)))
 
     @property
@@ -241,7 +241,7 @@ class MotorTorque(JsonText):
         return load if self.gear is None else self.gear.text(load, duration)
 
     def _behind(self, duration: float) -> str:
-        """The same of the load behind a gear with losses, of all without one."""
+        """The torque of the load behind a gear with losses, or of the whole drive without one."""
         load = read(self.load, ("a",))
         weighed = "0" if constant(load) == 0.0 else f"{duration * duration!r}*({self.load})"
         return drive_torque(inertia=self.inertia, friction=repr(self.friction * duration), load=weighed)

@@ -1,4 +1,4 @@
-"""What is least in a move of a given time: a rate of its motion, what its motor takes, or what is left vibrating."""
+"""Objectives of a move of given time: a rate of its motion, its motor's effort, or its residual vibration."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ _SMOOTH = 3
 
 @dataclass(frozen=True)
 class MoveObjective(JsonText):
-    """What is least in a move of a given time.
+    """An objective of a move of given time.
 
     Attributes
     ----------

@@ -50,7 +50,7 @@ class LimitSegments:
 
     @property
     def duration(self) -> float:
-        """The least time, s."""
+        """The least time of the segments, s."""
         return sum(self.times)
 
     @property

@@ -53,7 +53,7 @@ class TimeProof(JsonText):
     _json_name = "a proof of a least time"
 
     def stands(self, move: TimedMove) -> bool:
-        """Whether the multipliers prove it of the move, by numpy alone."""
+        """Whether the multipliers prove the stated time of the move, with numpy alone."""
         certificates = self.certificates(move)
         return bool(certificates) and all(proof.proves_infeasible for proof in certificates)
 
@@ -100,7 +100,7 @@ class TimeProof(JsonText):
 
 @dataclass(frozen=True)
 class Multipliers:
-    """What the multipliers of one optimum say of all times.
+    """Bounds for all times by the multipliers of one optimum.
 
     Attributes
     ----------
@@ -119,7 +119,7 @@ class Multipliers:
 
     @classmethod
     def of(cls, move: TimedMove, duration: float, solution: Solution) -> Multipliers:
-        """Those of the least greatest share of the limits in a time."""
+        """The multipliers of the least greatest share of the limits in a time."""
         proof, bound, powers = solution.certificate, solution.lower_bound, powers_of(duration)
         weights = _weights(move, duration, proof.contacts)
         ends, constant = [], bound
@@ -132,7 +132,7 @@ class Multipliers:
         return cls(proof, weights, constant, tuple(ends))
 
     def of_stroke(self, ratio: float) -> Multipliers:
-        """The same multipliers for a stroke that is so many times as long, from rest to rest: the limits weigh less."""
+        """These multipliers for a longer or shorter stroke, from rest to rest: the limits weigh accordingly."""
         return replace(self, weights=tuple((nu, weight / ratio) for nu, weight in self.weights))
 
     def above(self, duration: float) -> float:
@@ -176,7 +176,7 @@ class Multipliers:
         return self._crossing(duration, low)
 
     def _roots(self, duration: float, sign: float) -> list[float]:
-        """Where f may cross 0 beyond a time (sign 1) or before it (-1), the nearest first; of f that is not concave."""
+        """Where f, if not concave, may cross 0 after a time (sign 1) or before it (-1), the nearest first."""
         if all(nu < 2 for nu, _ in self.ends):
             return []
         series = [self.constant, *(self.steepness.get(nu, 0.0) * power(duration, nu) for nu in range(1, 5))]
@@ -185,7 +185,7 @@ class Multipliers:
         return sorted((root for root in beyond if self.above(root) <= 0.0), key=lambda root: sign * root)
 
     def _crossing(self, inside: float, outside: float) -> float:
-        """The last time at which f is above 0, between one at which it is and one at which it is not."""
+        """The last time at which f is above 0, between a time where it is and one where it is not."""
         while (middle := 0.5 * (inside + outside)) not in {inside, outside}:
             inside, outside = (middle, outside) if self.above(middle) > 0.0 else (inside, middle)
         return inside
@@ -254,7 +254,7 @@ def _in_parts(multipliers: Multipliers, move: TimedMove, shortest: float, longes
 
 
 def _weights(move: TimedMove, duration: float, contacts: Sequence[Contact]) -> tuple[tuple[int, float], ...]:
-    """What the limits weigh: the multipliers of the parts of the greatest share, over the powers of the time."""
+    """Weights of the limits: multipliers of the greatest share's parts, over powers of the time."""
     rates = move.rates
     if len(rates) == 1:
         return ((rates[0].nu, 1.0 / power(duration, rates[0].nu)),)

@@ -1,4 +1,4 @@
-"""What no law from rest to rest can beat, of any degree, in closed form, and the laws that attain it."""
+"""Limits for laws from rest to rest of any degree, in closed form, and the laws that attain them."""
 
 from optlaws.lazy import face
 

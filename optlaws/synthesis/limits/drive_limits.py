@@ -1,4 +1,4 @@
-"""What no drive of a mechanism can beat: the least peak or RMS torque, energy or time, with a certificate."""
+"""Limits of drives of a mechanism: the least peak or RMS torque, energy or time, with a certificate."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ _FINER = 6
 
 @dataclass(frozen=True)
 class DriveLimit(JsonText):
-    """What no law from rest to rest that never turns back can beat, whatever its degree and kind.
+    """A limit for laws from rest to rest that never turn back, of any degree and kind.
 
     Attributes
     ----------
@@ -82,7 +82,7 @@ class DriveLimit(JsonText):
 
     @property
     def gap(self) -> float:
-        """By how much of the value the motion that was found is above it."""
+        """The relative difference between the motion that was found and the limit."""
         return (self.attained - self.value) / self.value if self.value > 0.0 else inf
 
     @kept_property
@@ -95,7 +95,7 @@ class DriveLimit(JsonText):
         return plane_of(problem) == (self.plane, self.minimise, self.unit)
 
     def velocity(self, a: Any) -> Array:  # noqa: ANN401 - numbers of any shape
-        """The velocity at positions of the motion that was found, dimensionless.
+        """The velocity of the motion found at positions, dimensionless.
 
         Examples
         --------
@@ -319,12 +319,12 @@ def _bound(limit: DriveLimit) -> float:
 
 
 def _in_units(value: float, minimise: DriveObjective, unit: float, towards: float) -> float:
-    """What is minimised in its own unit, the root of a mean square rounded towards a side; units are powers of 2."""
+    """The value of the objective in its own unit, with roots rounded to a side; units are powers of 2."""
     return unit * (nextafter(sqrt(value), towards) if minimise == "rms torque" else value)
 
 
 def _check(limit: DriveLimit) -> None:
-    """That the parts of a certificate fit each other."""
+    """Refuse a certificate whose parts do not fit each other."""
     edges, rows = limit.edges, limit.potential
     ascending = len(edges) > 1 and all(low < high for low, high in pairwise(edges))
     if not ascending or edges[0] != 0.0 or edges[-1] != 1.0:

@@ -37,7 +37,7 @@ def known_limit(problem: Problem) -> float | None:
 
 
 def limited_laws(problem: Problem) -> str:
-    """Which laws the limit of a problem holds for, in words.
+    """The set of laws for which the limit of a problem holds, in words.
 
     >>> limited_laws(Problem(B=1.5, order=3)), limited_laws(Problem(order=4))
     ('law of order 3 with this B', 'law of order 4')
@@ -92,7 +92,7 @@ def _of_constant(problem: Problem, constant: str) -> Fraction | None:
 
 
 def _uneven(problem: Problem, constant: str) -> Fraction | None:
-    """Of laws whose peak velocity need not be in the middle: the least at any B, and what B and the place ask of C, D.
+    """The limit for laws with the peak velocity anywhere: the least at any B, and what B and the place add to C, D.
 
     The middle is the place that asks least of them.
     """

@@ -95,7 +95,7 @@ def _check_window(start: float, stop: float) -> None:
 
 @dataclass(frozen=True)
 class PhasePlane(JsonText):
-    """What is minimised over all motions from rest to rest that never turn back, and within which bounds.
+    """An objective with bounds over all motions from rest to rest that never turn back.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What a potential proves of all motions in a phase plane, with every rounding counted.
+"""Bounds that a potential proves of all motions in a phase plane, with every rounding counted.
 
 For any potential q(a), any weight of the time, and prices of torques and accelerations with 2 q = the sum of price
 times inertia,
@@ -41,7 +41,7 @@ _PARTS, _DEEPEST, _MOST_WEAK = 4, 6, 60
 
 
 def proven_bound(plane: PhasePlane, potential: Potential, weight: float, guess: Guess) -> float:
-    """What no motion of a phase plane can beat, by a potential.
+    """A lower bound for all motions of a phase plane, by a potential.
 
     Parameters
     ----------
@@ -68,7 +68,7 @@ def proven_bound(plane: PhasePlane, potential: Potential, weight: float, guess: 
 
 
 def _sums(plane: PhasePlane, potential: Potential, weight: float, guess: Guess) -> tuple[float, float]:
-    """What the integral of the inner minimum is at least, of a peak that is guessed and without its price."""
+    """A lower bound of the integral of the inner minimum, for a guessed peak and without its price."""
     first, *others = (ProofCells(plane, side, potential, weight, guess) for side in range(len(plane.branches)))
     piece, low, high = _whole(potential)
     sums, free = list[float](), list[float]()
@@ -91,7 +91,7 @@ def _sums(plane: PhasePlane, potential: Potential, weight: float, guess: Guess) 
 
 
 def _jumps(plane: PhasePlane, potential: Potential) -> float:
-    """What jumps of the potential take at most: each times the greatest squared velocity there, if it rises."""
+    """The greatest cost of jumps of the potential: each times the greatest squared velocity there, if it rises."""
     rises = exact(potential.coefficients[1:, 0]) - potential.coefficients[:-1, -1]
     places = np.flatnonzero(rises.high > ROUNDOFF * SMALLEST_SIZE)
     places = places[potential.coefficients[1:, 0][places] != potential.coefficients[:-1, -1][places]]
@@ -135,7 +135,7 @@ def _divided(piece: NDArray[np.intp], low: Array, high: Array) -> tuple[NDArray[
 
 
 def _proven(first: ProofCells, other: ProofCells | None) -> CellBounds:
-    """What is proven of the inner minimum in cells, in both directions of the power."""
+    """Bounds of the inner minimum in cells, in both directions of the power."""
     known = first.bounds()
     open_ones = ~known.shared | first.beside
     if other is None or not open_ones.any():
@@ -160,7 +160,7 @@ def _proven(first: ProofCells, other: ProofCells | None) -> CellBounds:
 
 
 def _lower_of(driving: CellBounds, braking: CellBounds, cells: ProofCells) -> tuple[Array, Array]:
-    """What the mean of the lower of two inner minima is at least, and by how much more may be lost than is little."""
+    """A lower bound of the mean of the lower of two inner minima, and of how much more may be lost."""
     at, over = (first - second for first, second in zip(driving.below, braking.below, strict=True))
     with np.errstate(invalid="ignore"):
         more = exact(braking.loss) - driving.loss

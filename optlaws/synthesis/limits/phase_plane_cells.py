@@ -77,7 +77,7 @@ class Potential:
 
 
 class Guess(NamedTuple):
-    """Where inner minima are looked for; a bad guess weakens what is proven, and proves nothing false."""
+    """Starting values for inner minima; a bad guess weakens the bound, and proves nothing false."""
 
     s: Array  #: places within (0, 1), ascending
     b: Array  #: velocities there
@@ -85,7 +85,7 @@ class Guess(NamedTuple):
 
 
 class _Terms(NamedTuple):
-    """What the integrand is made of, as jets in s."""
+    """Terms of the integrand as jets in s."""
 
     s: Jet
     sine: Jet
@@ -115,7 +115,7 @@ class _Integrand(NamedTuple):
 
 
 class CellBounds(NamedTuple):
-    """What is proven of the inner minimum in every cell, a peak that is minimised being the one that is guessed."""
+    """Bounds of the inner minimum in every cell, for a guessed value of a minimised peak."""
 
     mean: Array  #: what the mean is at least, by a function that the minimum is nowhere below
     floor: Array  #: what it is at least everywhere
@@ -128,17 +128,17 @@ class CellBounds(NamedTuple):
 
     @property
     def least(self) -> Array:
-        """What the mean is at least."""
+        """A lower bound of the mean."""
         return np.fmax(self.mean, self.floor)
 
     def only(self, cells: NDArray[np.bool_]) -> CellBounds:
-        """What is proven in some cells."""
+        """The bounds in some of the cells."""
         jets = (Jet(tuple(term[cells] for term in jet.terms)) for jet in self.below)
         known = {name: getattr(self, name)[cells] for name in self._fields if name != "below"}
         return self._replace(below=(next(jets), next(jets)), **known)
 
     def where(self, cells: NDArray[np.bool_], other: CellBounds) -> CellBounds:
-        """What is proven in some cells, and what is proven otherwise in all others."""
+        """The bounds of this in some cells, and other bounds in all others."""
         jets = [
             Jet(tuple(chosen(cells, left, right) for left, right in zip(first.terms, second.terms, strict=True)))
             for first, second in zip(self.below, other.below, strict=True)
@@ -224,7 +224,7 @@ class ProofCells:
                 self.follows = np.where((self.follows == i) & ~inside, last, self.follows)
 
     def bounds(self) -> CellBounds:
-        """What is proven of the inner minimum in every cell."""
+        """Bounds of the inner minimum in every cell."""
         known, last = self._in_cells(), len(self.entries) - 1
         squared = [i for i, entry in enumerate(self.entries) if entry.role == "squared" and len(self.plane.limits) > 1]
         for i in dict.fromkeys([*squared, last]):
@@ -237,7 +237,7 @@ class ProofCells:
         return known
 
     def _paid(self, terms: _Terms, prices: _Prices) -> Array:
-        """What the reference takes in the middles of cells, if it is bounded."""
+        """The cost of the reference in the middles of cells, if it is bounded."""
         entry = self.entries[-1]
         if entry.role != "bound":
             return np.zeros_like(self.half)
@@ -245,7 +245,7 @@ class ProofCells:
         return np.asarray(price * entry.at_rest)
 
     def weakness(self, lost: Array, size: Array) -> Array:
-        """By how much more may be lost in cells than is little."""
+        """The loss in cells beyond what is negligible."""
         more = lost - WEAK_CELL * size * np.maximum(self.half, SHORT_CELL)
         return np.where(np.isnan(more), inf, more)
 
@@ -287,7 +287,7 @@ class ProofCells:
         return around
 
     def _loss(self, at: _Integrand, over: _Integrand, z: Jet, z_over: Jet, ranges: list[Interval]) -> Array:
-        """By how much the inner minimum may be below its value at z; infinite where that is not known."""
+        """The greatest difference of the inner minimum from its value at z; infinite if it is not known."""
         first, second = (f.B1 + f.C2 * x * 2.0 - f.L / (x * x) for f, x in ((at, z), (over, z_over)))
         K = self.range(at.L / (z * z), over.L / (z_over * z_over))
         E, C2, far = self.range(first, second), ranges[2], np.minimum(_FAR * z_over.terms[0].high, self.most)
@@ -301,7 +301,7 @@ class ProofCells:
         return np.where((above == 0.0) & (beyond >= 0.0) & (K.low > 0.0), 0.0, np.where(known, loss, inf))
 
     def _terms(self, places: Interval, order: int) -> _Terms:
-        """What the integrand is made of, up to an order."""
+        """Terms of the integrand up to an order."""
         s = variable(places, order + 1)
         sine, cosine = (s * PI).waves()
         a = (1.0 - cosine) * 0.5
@@ -346,7 +346,7 @@ class ProofCells:
         return _Prices(prices, shared)
 
     def _ratio(self, rest: Jet, terms: _Terms, torque: PhaseTorque) -> Jet:
-        """What is left of 2 q over an inertia; where nothing else has a price, without a division by it."""
+        """The remainder of 2 q over an inertia; without a division if nothing else has a price."""
         if len(self.entries) == 1 and not self.maxima:
             return self.potential.jet(self.piece, terms.s.terms[0], terms.s.order) * terms.inverse * 2.0
         return rest / terms.torques[torque][0]
@@ -369,7 +369,7 @@ class ProofCells:
         return lines
 
     def _within(self, prices: _Prices, around: _Prices) -> NDArray[np.bool_]:
-        """Where all shares of maxima are surely from 0 to 1."""
+        """A mask of cells in which all shares of maxima are certainly from 0 to 1."""
         within = np.ones(len(self.half), dtype=bool)
         for (share, _), (over_cell, _) in zip(prices.shares, around.shares, strict=True):
             ends, bend = self._ends(share, over_cell)
@@ -380,12 +380,12 @@ class ProofCells:
         return within
 
     def _positive(self, at: Jet, over: Jet, sign: float = 1.0) -> NDArray[np.bool_]:
-        """Where a function times a sign is surely at least 0 in the whole of a cell."""
+        """A mask of cells in which a function times a sign is certainly at least 0."""
         ends, bend = self._ends(at * sign, over * sign)
         return np.asarray(np.all([end.low >= bend for end in ends], axis=0))
 
     def _shared(self, prices: _Prices, around: _Prices) -> NDArray[np.bool_]:
-        """Where the prices, that of the load changed by all others, are prices of the other direction of the power."""
+        """A mask of cells whose prices, with the load's changed by all others, suit the other direction of power."""
         if not self.spreads:
             return np.zeros(len(self.half), dtype=bool)
         changed = []
@@ -432,7 +432,7 @@ def positions(s: Interval) -> tuple[Array, Array]:
 
 
 def _least(factors: list[Array], near: Array, most: Array) -> Array:
-    """What A + B1 x + C2 x² + L/x is at least where 0 < x <= most; minus infinity where that is not known."""
+    """A lower bound of A + B1 x + C2 x² + L/x for 0 < x <= most; minus infinity if none is known."""
     A, B1, C2, L = factors
     with np.errstate(all="ignore"):
         z = np.minimum(near.mean(axis=0), most)
@@ -457,7 +457,7 @@ def _least(factors: list[Array], near: Array, most: Array) -> Array:
 
 
 def _spreads(plane: PhasePlane, side: int) -> list[float]:
-    """By how much the load's price changes with one of every torque in the other direction; empty without a gear.
+    """The change of the load's price per unit of every torque in the other direction; empty without a gear.
 
     It has the sign of its side, here taken above 0. In the order of the prices of a branch: the load, all other
     torques, and those of maxima.

@@ -126,7 +126,7 @@ def _first(plane: PhasePlane, edges: Array) -> PhaseOptimum:
 
 
 def _driven(plane: PhasePlane, solved: PhaseOptimum) -> _Driven:
-    """Where power flows to the load of a motor that brakes: the places where that changes, and what it does between."""
+    """Places where the power of a braking motor changes its direction, and the intervals between them."""
     if plane.gear_load is None:
         return solved.driven
     torque = next(torque for torque in plane.torques if isinstance(torque, GearTorque))
@@ -246,7 +246,7 @@ class _Program:
         return csc_matrix((shares, (rows, np.concatenate([column[others], parts.ravel()]))), shape=(tests, len(others)))
 
     def _write_jumps(self) -> None:
-        """What of w is left where the functions of neighbours are not the same: its value there is a variable."""
+        """Jumps of w between neighbouring functions, each with a variable."""
         for i, edge in enumerate(self.jumps):
             s = self.edges[edge : edge + 1]
             size = self.plane.reference.values(np.sin(np.pi * s / 2.0) ** 2)[0] / np.sin(np.pi * s)
@@ -315,7 +315,7 @@ class _Program:
         self._cost(slack, size)
 
     def _bound_jumps(self) -> None:
-        """That w is within its bounds where the potential may jump."""
+        """Rows that keep w within its bounds where the potential may jump."""
         import clarabel
 
         count = len(self.jumps)
@@ -334,7 +334,7 @@ class _Program:
         return {_SQUARE: square / size, _ACCELERATION: inertia / size, _VELOCITY: drag / size}, load / size, size
 
     def _sides(self, torque: AnyTorque) -> tuple[list[tuple[_Parts, Array]], float]:
-        """Torques, divided by a size, of which the greatest is the magnitude of a torque, with their loads."""
+        """Torques, divided by a scale, whose greatest one is the magnitude of a torque, with their loads."""
         branches = [self._torque(branch) for branch in torque.branches]
         size = branches[0][2]
         scaled = [
@@ -359,7 +359,7 @@ class _Program:
         self._close(right[at], [clarabel.NonnegativeConeT(len(at))])
 
     def _cone(self, *sides: tuple[_Parts, Array]) -> None:
-        """That the first side is at least the size of the two others, at every place."""
+        """Rows for a cone: the first side is at least the norm of the two others, at every place."""
         import clarabel
 
         for i, (parts, _) in enumerate(sides):
@@ -415,7 +415,7 @@ def _along(torque: AnyTorque, solved: PhaseOptimum) -> Array:
 
 
 def _active(plane: PhasePlane, solved: PhaseOptimum) -> Array:
-    """Which bounds are active at every place, one row a bound and sign."""
+    """A mask of active bounds at every place, with a row for each bound and sign."""
     near, a = 1.0 - PHASE_ACTIVE, np.sin(np.pi * solved.s / 2.0) ** 2
     rows = [solved.b > near * np.minimum(plane.B, plane.velocity_bound(a, a))]
     bounds = []

@@ -186,12 +186,12 @@ class InnerMinimum:
                 prices[i], prices[j] = np.where(both, price, prices[i]), np.where(both, beside, prices[j])
 
     def _rate(self, entry: PricedTorque, b: Array, sign: Array | float) -> Array:
-        """By how much a bounded torque rises with the velocity, measured at its bound."""
+        """The slope of a bounded torque with respect to the velocity, at its bound."""
         _, square, drag, _ = self.factors[entry.torque]
         return np.asarray(2.0 * square * b + drag + sign * entry.fall)
 
     def _beyond(self, entry: PricedTorque, b: Array, c: Array) -> Array:
-        """By how much a torque is beyond its bound of one side."""
+        """The excess of a torque over its bound on one side."""
         return np.asarray(entry.side * self._torque(entry.torque, b, c) - entry.at_rest + entry.fall * b)
 
     def _torque(self, torque: PhaseTorque, b: Array, c: Array) -> Array:

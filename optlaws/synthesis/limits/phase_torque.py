@@ -120,7 +120,7 @@ class PhaseTorque:
 
     @kept_property
     def size(self) -> float:
-        """About how great the torque is along smooth laws: a power of 2."""
+        """The approximate size of the torque in smooth laws, a power of 2."""
         inertia, square, drag, load = self.values(np.linspace(0.0, 1.0, 65))
         return power_of_two(
             float(np.max(4.0 * np.abs(inertia) + 4.0 * np.abs(square) + 2.0 * np.abs(drag) + np.abs(load)))
@@ -137,7 +137,7 @@ class PhaseTorque:
         return PhaseTorque(*(added([first, _shared(second, share)]) for first, second in pairs))
 
     def to_data(self) -> list[str]:
-        """The factors as texts."""
+        """The factors of the torque as texts."""
         return [str(factor) for factor in self.factors]
 
 
@@ -199,7 +199,7 @@ class GearTorque:
         return self.motor.plus(self.load, self.to_load), self.motor.plus(self.load, self.back)
 
     def scaled(self, by: float) -> GearTorque | PhaseTorque:
-        """The torque times a factor; the load stays, for whose sign no factor counts."""
+        """The torque times a factor; the load is unchanged, because only its sign matters."""
         if by == 0.0:
             return PhaseTorque(_ZERO)
         return GearTorque(self.motor.scaled(by), self.load, by * self.to_load, by * self.back)

@@ -22,7 +22,7 @@ def rounded_down(value: Fraction) -> float:
 
 
 def ratio_rounded_down(numerator: int, denominator: int) -> float:
-    """The same of a ratio of whole numbers, of which the lower one is above 0; quicker than by fractions.
+    """A double just below a ratio of whole numbers with positive denominator; quicker than by fractions.
 
     >>> ratio_rounded_down(9, 4), Fraction(ratio_rounded_down(2, 3)) <= Fraction(2, 3)
     (2.25, True)

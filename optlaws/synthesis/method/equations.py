@@ -44,7 +44,7 @@ def contradiction(rows: Array, right: Array) -> Array | None:
 
 
 def independent(rows: Array) -> NDArray[np.bool_]:
-    """Which rows say something new, the earlier ones first: the others depend on them.
+    """Indices of independent rows, the earlier ones first; the other rows depend on them.
 
     Examples
     --------

@@ -44,7 +44,7 @@ class Outcome:
     tried: tuple[ActiveSet, ...] = ()
 
     def mapped(self, change: Callable[[ActiveSet], ActiveSet]) -> Outcome:
-        """The same outcome of a program in other variables or equations."""
+        """The same outcome for a program in other variables or equations."""
         optimum = None if self.optimum is None else change(self.optimum)
         return replace(self, optimum=optimum, tried=tuple(change(answer) for answer in self.tried))
 

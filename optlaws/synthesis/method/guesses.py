@@ -1,4 +1,4 @@
-"""Where a curved program is begun without a neighbour: laws that need no solver, and a start that leaves room."""
+"""Starts of curved programs without a neighbour: laws that need no solver, and an interior start."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def vanishing(program: Program) -> ActiveSet | None:
 
 
 def of_variables(program: Program, x: Array) -> ActiveSet:
-    """Variables without any contact."""
+    """An active set of these variables without any contact."""
     return ActiveSet.of_contacts(x, (), np.zeros(len(program.right)))
 
 

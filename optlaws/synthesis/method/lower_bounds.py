@@ -205,7 +205,7 @@ def _stayed(
 def _let_go(
     program: Program, family: ConstraintFamily, state: ActiveSet, low: float
 ) -> tuple[Program, ActiveSet] | None:
-    """With the peak at the best place nearby; None where Newton's method does not find it, or where none is asked."""
+    """The solution with the peak at the best place nearby; None if Newton's method fails or no place is free."""
     last = state.family == len(program.families)
     if last.sum() != 1 or not _shows_contacts(program, state):
         return None
@@ -222,7 +222,7 @@ def _rested(program: Program, family: ConstraintFamily, state: ActiveSet, low: f
 
 
 def _turned(state: ActiveSet, last: NDArray[np.bool_], *, free: bool) -> ActiveSet:
-    """The same with the last family's row written from the other side: s f = low, or -s f <= -low."""
+    """The active set with the contact of the last family reversed: s f = low becomes -s f <= -low."""
     return replace(
         state,
         s=np.where(last, -state.s, state.s),
@@ -311,7 +311,7 @@ def _at_places(problem: Problem, other: Model, family: ConstraintFamily, low: fl
 
 
 def _without(problem: Problem, constant: Functional) -> Problem:
-    """The same laws with nothing asked of the constant; what is minimised makes them smooth."""
+    """The problem without the bound of the constant, with an objective that keeps laws smooth."""
     bounds = {bounded: limits for bounded, limits in problem.bounded if bounded != constant}
     # a norm is held up by linear rows: what is minimised beside it had better be linear too
     minimise = "C" if isinstance(constant, RootMeanSquare) else _SMOOTH.get(constant.name, "rms_c")

@@ -48,7 +48,7 @@ def along_directions(
 
 
 def _directions(family: NormFamily, plain: ActiveSet) -> Iterator[Array]:
-    """Where the norm points without the bound, and where it grows soonest with the coordinates, either way."""
+    """Directions of the norm without the bound, and those in which it grows most with the coordinates."""
     image = _image(family, plain.x)
     if np.linalg.norm(image) > FLAT_DIRECTION:
         yield image / np.linalg.norm(image)

@@ -1,4 +1,4 @@
-"""Where to begin when a problem is not convex: a few starts, the same at every run."""
+"""Starts for problems that are not convex: a few laws, the same at every run."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ def _from_symmetric(model: Model) -> list[Array]:
 
 
 def _completed(model: Model, coordinates: Array) -> Array:
-    """With room enough for the variables beyond the coordinates."""
+    """The start completed with values of the variables beyond the coordinates that leave slack."""
     x = np.zeros(model.program.size)
     x[: model.space.terms] = coordinates
     law = model.space.law(coordinates)

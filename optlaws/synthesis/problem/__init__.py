@@ -1,1 +1,1 @@
-"""What is asked: constants, their ranges and mixtures, windows; the problem made of them."""
+"""Specification of laws: constants, their ranges and mixtures, windows, and the problem."""

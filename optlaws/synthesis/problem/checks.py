@@ -34,7 +34,7 @@ def constant(value: Any, name: str) -> float | Range | None:  # noqa: ANN401 - i
 
 
 def constant_of_bounds(value: Any, limits: Range, name: str) -> float | Range | None:  # noqa: ANN401
-    """What `bounds` ask of a constant that has an entry of its own, where that asks nothing."""
+    """The bound that `bounds` give of a constant with an entry of its own, if that entry is free."""
     plain = limits.high if limits.fixed else limits
     if value is not None:
         raise InputError(f"{name} is given twice: as {value!r} and in bounds as {plain!r}")
@@ -88,7 +88,7 @@ class NotGiven(int):
 
 
 class AsItFits(int):
-    """What nobody asked of symmetry: symmetric laws where they may be best, equal to True."""
+    """The default of `symmetric`: symmetric laws wherever they may be best; equal to True."""
 
     def __repr__(self) -> str:
         return repr(bool(self))
@@ -139,7 +139,7 @@ def switch(given: Any, name: str) -> bool:  # noqa: ANN401 - it is checked here
 
 
 def objective(minimise: Any) -> str | Expression:  # noqa: ANN401 - it is checked here
-    """What is minimised: text where every constant of it has a name, else an expression."""
+    """The objective as text if every constant of it has a name, else as an expression."""
     if isinstance(minimise, str):
         terms = expression(minimise)
     elif isinstance(minimise, Term | Expression):

@@ -28,7 +28,7 @@ class Combined(Functional):
 
     @abstractmethod
     def value(self, law: MotionLaw) -> float:
-        """The peak over the whole interval."""
+        """The peak of the combination over the whole interval."""
 
     @abstractmethod
     def check(self, space: LawSpace) -> None:
@@ -45,7 +45,7 @@ class CombinedPeak(Combined):
 
     @kept_property
     def scale(self) -> float:
-        """By how much its parts exceed the lowest derivative in smooth laws, where each next one is some times it."""
+        """The ratio of the parts to the lowest derivative in smooth laws, which grows from derivative to derivative."""
         return power_of_two(sum(abs(float(weight)) * _STEEPER**i for i, weight in enumerate(self.weights)))
 
     def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConstraintFamily, ...]:

@@ -1,4 +1,4 @@
-"""What can be minimised or bounded: constants of a law, each with its NLP form and its exact value.
+"""Constants of a law that can be minimised or bounded, each with its NLP form and its exact value.
 
 One more constant is one class: say how it reads off a law (`value`), which rows make a variable at least as great
 (`families`), and, if known, what no law can beat (`limit`).
@@ -37,11 +37,11 @@ _NO_ACCELERATION = 3  # the order from which laws begin and end without accelera
 
 
 class Asked(Protocol):
-    """What a problem says of its laws, as far as a constant may need to know it."""
+    """Protocol of a problem, as far as a constant may need to know it."""
 
     @property
     def B(self) -> object:
-        """What is asked of the peak velocity."""
+        """The bound or value of the peak velocity."""
 
     @property
     def symmetric(self) -> bool:
@@ -53,7 +53,7 @@ class Asked(Protocol):
 
     @property
     def peak_at(self) -> float | None:
-        """Where b is greatest, if that is asked."""
+        """The place of the peak velocity, if it is given."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -98,19 +98,19 @@ class Functional(Term, ABC):
         return ()
 
     def sizes(self, space: LawSpace) -> tuple[tuple[int, float, float], ...]:  # noqa: ARG002 - some depend on it
-        """The same with an offset, in every law of a space: at most factor times the constant plus the offset.
+        """Bounds of means in every law of a space: at most factor times the constant plus the offset.
 
         A constant below 0, as a peak of one side may be, counts as 0.
         """
         return tuple((nu, factor, 0.0) for nu, factor in self.curbs())
 
     def floor(self, conditions: BoundaryConditions) -> float:  # noqa: ARG002 - a constant may depend on them
-        """What it is at least in every law with these end conditions; minus infinity where nothing is known."""
+        """A lower bound in every law with these end conditions; minus infinity if nothing is known."""
         return 0.0
 
     @kept_property
     def scale(self) -> float:
-        """Of what size it is in smooth laws: a power of 2, never 0, that rows are divided by and gaps compared with.
+        """The size of the constant in smooth laws, a power of 2, never 0, by which rows and gaps are divided.
 
         Examples
         --------
@@ -129,12 +129,12 @@ class Functional(Term, ABC):
 
     @property
     def remarks(self) -> tuple[str, ...]:
-        """What a person should know of it whose problem found no law."""
+        """Remarks for users whose problem with this constant has no law."""
         return ()
 
     @property
     def title(self) -> str:
-        """What messages and tables call it: its name, or a few words where that is long.
+        """Title in messages and tables: the name, or a few words if the name is long.
 
         Examples
         --------
@@ -160,14 +160,14 @@ class Functional(Term, ABC):
         return f"{'convex' if self.convex else 'not known to be convex'}: {self.why}"
 
     def where(self, k: float) -> str:
-        """What a certificate's place says, in words."""
+        """The place of a certificate's contact in words."""
         return f"k = {k:.4g}"
 
     def check_problem(self, problem: Asked) -> None:
         """Refuse a problem among whose laws the constant cannot be sought; the error says what helps."""
 
     def limit(self, problem: Asked) -> Fraction | None:  # noqa: ARG002 - what it is may depend on it
-        """What no law of the problem is below, of whatever degree, if the constant knows more than its least value."""
+        """A limit for laws of the problem of any degree, if it is more than the constant's least value."""
         return None
 
     def convex_families(
@@ -229,7 +229,7 @@ class PeakConstant(_InUnitsOfLaws):
         return highest.value if self.signs[0] > 0 else -lowest.value
 
     def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConstraintFamily, ...]:
-        """The derivative's own family."""
+        """The family of rows of the derivative."""
         # over the whole interval one sign of a derivative that is odd about k = 1/2 is both over the half
         signs = (1.0, -1.0) if space.symmetric and self.nu % 2 == 0 else self.signs
         return (space.derivative(self.nu, self.name, slack, bound, signs),)

@@ -17,7 +17,7 @@ _GREATEST_WEIGHT = 1e3
 
 
 class Term:
-    """What a sum is made of: a constant of a law or a maximum. Numbers scale terms, terms add up.
+    """A term of a sum: a constant of a law or a maximum. Numbers scale terms, and terms can be added.
 
     Examples
     --------
@@ -28,7 +28,7 @@ class Term:
 
     @property
     def scale(self) -> float:
-        """Of what size it is in smooth laws: a power of 2."""
+        """The size of the term in smooth laws, a power of 2."""
         return 1.0
 
     def expression(self) -> Expression:
@@ -91,7 +91,7 @@ class Expression:
 
     @property
     def scale(self) -> float:
-        """Of what size the sum is in smooth laws: a power of 2, never 0, with which gaps are compared.
+        """The size of the sum in smooth laws, a power of 2, never 0, with which gaps are compared.
 
         Examples
         --------
@@ -170,7 +170,7 @@ class Maximum(Term):
 
     @property
     def scale(self) -> float:
-        """Of the greatest part."""
+        """The size of the greatest part, a power of 2."""
         return max(part.scale for part in self.parts)
 
     def __repr__(self) -> str:

@@ -1,4 +1,4 @@
-"""The table of a problem's entries, from which every door to problems derives: files, studies, sweeps, commands."""
+"""The table of a problem's entries, from which files, studies, sweeps and commands derive their entries."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 
 
 class Kind(Enum):
-    """What the values of an entry are; each door knows how it reads and writes a kind.
+    """The type of an entry's values; each reader and writer handles it in its own way.
 
     >>> ENTRIES["degree"].kind
     <Kind.WHOLE: 'a whole number'>

@@ -170,7 +170,7 @@ class _Reader(Scanner):
             self.refuse(f"{token.text} does not take the arguments {', '.join(given)}", token.place)
 
     def _formula(self) -> tuple[int, str]:
-        """Where the formula that comes next begins, and its text; it may be in quotes."""
+        """The start of the next formula, and its text, which may be in quotes."""
         quote = self.take().text if self.token.text in {'"', "'"} else ""
         begin = self.token.place
         parse_formula(self, VOCABULARY)
@@ -182,7 +182,7 @@ class _Reader(Scanner):
         return begin, self.text[begin:end].rstrip()
 
     def _arguments(self, token: Token) -> dict[str, Argument]:
-        """What is given by name, up to the bracket that closes."""
+        """Named arguments up to the closing bracket."""
         given: dict[str, Argument] = {}
         while self.token.text != ")":
             self.take()
@@ -269,7 +269,7 @@ def named(text: str) -> Functional:
 
 
 def title_of(name: str) -> str:
-    """What messages and tables call the constant of a name.
+    """Title in messages and tables of a constant, by its name.
 
     >>> title_of("rms_c"), title_of("peak(c + 3*b)")
     ('rms_c', 'peak(c + 3*b)')
@@ -301,7 +301,7 @@ def is_named(term: Term) -> bool:
 
 
 def apart(text: str) -> list[str]:
-    """What stands between the commas that are in no bracket.
+    """Parts of a text between commas outside brackets.
 
     >>> apart("residual(frequency=(18, 22)), C")
     ['residual(frequency=(18, 22))', 'C']

@@ -65,7 +65,7 @@ def _plain_array(values: NDArray[Any]) -> dict[str, Any]:
 
 
 def _plain_object(value: Any) -> Any:  # noqa: ANN401
-    """What stands at one place of an array of objects, of which each is read back as it was."""
+    """An object at one place of an array, each read back as it was written."""
     if isinstance(value, Range):
         return {"range": [value.low, bounded(value.high)]}
     if isinstance(value, Window):

@@ -107,7 +107,7 @@ class Problem(JsonText):
         self.basis.check(symmetric=self.symmetric)
 
     def _give_bounds_their_entries(self) -> None:
-        """What `bounds` ask of B, C, D and J belongs to the entries of these names."""
+        """Move bounds of B, C, D and J to the entries of these names."""
         for constant in _NAMED:
             if constant in self.bounds:
                 limits = constant_of_bounds(getattr(self, constant.name), self.bounds[constant], constant.name)
@@ -165,7 +165,7 @@ class Problem(JsonText):
         return not self.symmetric if limits.fixed else limits.low > 0.0 and self.peak_at is not None
 
     def range(self, name: str) -> Range | None:
-        """What is asked of a constant, by its name."""
+        """The range of a constant, by its name."""
         return self._ranges.get(name)
 
     @kept_property

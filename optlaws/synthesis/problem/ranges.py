@@ -1,4 +1,4 @@
-"""What a problem says of a constant: fixed, bounded or free."""
+"""Ranges of constants in a problem: fixed, bounded or free."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def _bound(value: Any) -> float:  # noqa: ANN401 - it is checked here
 
 
 def between(low: float, high: float) -> Range:
-    """At least `low` and at most `high`.
+    """A range of at least `low` and at most `high`.
 
     Raises
     ------
@@ -127,7 +127,7 @@ def _named_range(low: Any, high: Any, name: str) -> Range:  # noqa: ANN401 - the
 
 
 class Bounds(Mapping[Functional, Range]):
-    """What is asked of constants, by constant; frozen and hashable. Names find the known ones.
+    """Ranges of constants by constant; frozen and hashable. Known constants may be given by name.
 
     >>> Bounds({"rms_c": at_most(4), "snap": None})
     {'rms_c': at_most(4)}

@@ -118,12 +118,12 @@ class Window(JsonText):
 
     @property
     def scale(self) -> float:
-        """Of what size its quantity is in smooth laws: a power of 2, and 1 for a, b, c and j alone."""
+        """The size of the quantity in smooth laws, a power of 2, and 1 for a, b, c and j alone."""
         return 1.0 if self.motion is None else self.motion.scale
 
     @property
     def nu(self) -> int:
-        """Order of the derivative."""
+        """The order of the window's derivative."""
         return QUANTITIES[self.quantity]
 
     @property
@@ -137,7 +137,7 @@ class Window(JsonText):
         return self.point and self.low == self.high
 
     def mirrored(self) -> Window:
-        """What it asks of a symmetric law on the other side: a(k) + a(1-k) = 1, b and j even, c odd about 1/2."""
+        """The window mirrored for symmetric laws: a(k) + a(1-k) = 1, b and j even, c odd about 1/2."""
         low, high = self.low, self.high
         if self.nu == 0:
             low, high = 1.0 - high, 1.0 - low

@@ -1,4 +1,4 @@
-"""What a law is worth to a problem, recomputed from the law, and whether rows agree with such values."""
+"""Evaluation of a law for a problem, recomputed from the law, and agreement of rows with such values."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _LAWS = 3
 
 @dataclass(frozen=True)
 class Worth:
-    """The objective of a law, and by how much it breaks a constraint, relative to the constraint's bound."""
+    """The objective of a law, and its greatest violation of a constraint, relative to the constraint's bound."""
 
     objective: float
     excess: float
@@ -53,7 +53,7 @@ def worth(problem: Problem, law: MotionLaw) -> Worth:
 
 
 def _window_excess(window: Window, law: MotionLaw) -> tuple[float, float]:
-    """By how much a law is above and below a window, in units of its scale."""
+    """Excess of a law above and below a window, in units of its scale."""
     if window.motion is None:
         lowest, highest = law.extrema(window.nu, within=(window.start, window.stop))
         return highest.value - window.high, window.low - lowest.value

@@ -46,12 +46,12 @@ class Model:
 
     @property
     def unit(self) -> float:
-        """What the program's objective is times to be the problem's."""
+        """The factor from the program's objective to that of the problem."""
         return self.program.unit
 
     @property
     def variable_scales(self) -> Array:
-        """What the program's variables have been divided by."""
+        """Units of the program's variables."""
         scales = np.ones(self.program.size)
         for name, place in self.places.items():
             scales[place] = self.scales.get(name, 1.0)
@@ -190,7 +190,7 @@ class _Writer:
         self.equations: list[_Equation] = []
 
     def scale(self, of: Term | Expression | Window) -> float:
-        """What rows and variables are divided by."""
+        """Units of rows and variables."""
         return of.scale if self.scaled else 1.0
 
     def unit(self, name: str, weight: float = 1.0) -> Array:
@@ -243,7 +243,7 @@ class _Writer:
                 self._window(name, part)
 
     def _peak(self) -> None:
-        """What makes b greatest at one k, and B its value there."""
+        """Equations that put the peak of b at one k, with B its value there."""
         problem, peak = self.problem, self.problem.peak_at
         velocity = problem.range("B")
         given = velocity.high if velocity is not None and velocity.fixed else None
@@ -277,7 +277,7 @@ class _Writer:
             self.row(names.at_least("B"), -self.unit("B"), -velocity.low)
 
     def _widened(self, coefficients: Array) -> Array:
-        """A row over all variables, from that over the coordinates."""
+        """A row over all variables, from a row over the coordinates."""
         return np.append(coefficients, np.zeros(self.size - self.space.terms))
 
     def _derivative(self, nu: int, k: float) -> tuple[Array, float]:

@@ -119,7 +119,7 @@ class Certificate(JsonText):
 
     @property
     def program(self) -> str:
-        """Which program's rows a leaf adds up: "objective", "relaxed" or "violation"."""
+        """The program whose rows a leaf adds up: "objective", "relaxed" or "violation"."""
         return VIOLATION if self.claim == inf else OBJECTIVE if self.tangent is None else RELAXED
 
     @property
@@ -255,7 +255,7 @@ def _model(certificate: Certificate) -> Model:
 
 
 def _contradiction(certificate: Certificate, model: Model) -> float:
-    """The same for a contradiction, with the multipliers corrected where nothing bounds the law."""
+    """The bound of a contradiction, with the multipliers corrected where nothing bounds the law."""
     program = model.program
     rows, right, multipliers = [], [], []
     for contact in certificate.contacts:

@@ -151,7 +151,7 @@ def sum_of(leaf: Leaf) -> dict[str, Any]:
 
 
 def brief_sum_of(leaf: Leaf) -> dict[str, Any]:
-    """The same without directions of contacts that have none."""
+    """The sum of a leaf as plain data, without empty directions of contacts."""
     plain = sum_of(leaf)
     contacts = [{name: value for name, value in contact.items() if value != ()} for contact in plain["contacts"]]
     return {**plain, "contacts": contacts}

@@ -87,7 +87,7 @@ def _on_equations(program: Program, coordinates: Array) -> Array:
 
 
 def sum_of_rows(model: Model, lines: list[Line], claim: float | None = None) -> float:
-    """What the program's objective cannot be below by weighted rows, in laws of an objective up to the claim.
+    """A lower bound of the program's objective by weighted rows, in laws with an objective up to the claim.
 
     Parameters
     ----------
@@ -170,7 +170,7 @@ def rounding_error_bound(model: Model, total: RowSum, claim: float) -> float:
 
 
 def _paid_by_variables(model: Model, total: RowSum, least: Mapping[str, float]) -> float:
-    """The same of the slope by the coordinates, where the sum leaves a variable enough that bounds the law by itself.
+    """The cost of the slope with respect to the coordinates, where a variable with positive slope bounds the law.
 
     Where laws may be as great as they like, so is the constant, and what the sum leaves of it outweighs the rounding.
     """

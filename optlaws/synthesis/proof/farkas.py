@@ -19,7 +19,7 @@ _ROUNDS = 3
 
 
 def farkas_margin(rows: Array, right: Array, multipliers: Array, count: int) -> float:
-    """By how much rows . x <= right contradict each other, weighed by multipliers; not above 0 if that is not shown.
+    """The margin by which rows . x <= right contradict each other, with multipliers; not above 0 if not shown.
 
     Parameters
     ----------

@@ -127,7 +127,7 @@ def _out_of_reach(problem: Problem, elastic: Model) -> Certificate | None:
 
 
 def _why(problem: Problem, proof: Certificate, elastic: Model) -> str:
-    """Which constraints contradict each other: those with a multiplier in the proof."""
+    """Constraints that contradict each other: those with a multiplier in the proof."""
     acting = [_named(problem, contact.constraint) for contact in proof.contacts if contact.multiplier > 0.0]
     acting += _equations(problem, proof, elastic)
     demands = " and ".join(dict.fromkeys(reversed(acting)))
@@ -161,7 +161,7 @@ def _at_vertices(elastic: Model) -> Certificate | None:
 
 @dataclass(frozen=True)
 class _Contradicting(Strategy[list[Points], Certificate]):
-    """Vertices of the least violation, whose rows may contradict each other before they are all that bind."""
+    """Vertices of least violation; their rows may contradict each other before all active ones are known."""
 
     elastic: Model
     rounds: int = _ROUNDS
@@ -232,7 +232,7 @@ def possible_velocities(problem: Problem) -> tuple[float | None, float | None]:
 
 
 def _possible(problem: Problem) -> str:
-    """Which B this order and degree can have."""
+    """The range of B that this order and degree can have, in words."""
     if not isinstance(problem.B, float):
         return ""
     low, high = possible_velocities(problem)

@@ -1,4 +1,4 @@
-"""From an optimum's multipliers to a certificate, and the best bound that can be proven.
+"""Certificates from an optimum's multipliers, with the best bound that can be proven.
 
 At a law in which a formula with kinks vanishes along a stretch, or nearly does, the slope of its integral jumps: one
 tangent leaves a slope that rounding, or a kink, hides. Tangents on all sides of the law, weighted by a linear program,
@@ -150,7 +150,7 @@ def _shifted(model: Model, optimum: ActiveSet, proof: Certificate) -> Certificat
 
 
 def _shifts(model: Model, optimum: ActiveSet, contact: Contact) -> Array:
-    """What each parameter of a contact's tangent changes of its row, shape (parameters, variables)."""
+    """Derivatives of a contact's row by the parameters of its tangent, shape (parameters, variables)."""
     program = model.program
     wide = np.zeros((0, program.size))
     image = _image(model, contact)
@@ -345,7 +345,7 @@ def _balanced(model: Model, proof: Certificate) -> Certificate:
 
 
 def _image(model: Model, contact: Contact) -> Array | None:
-    """What each component of a contact's direction stands for, in the coordinates; None where it has no direction."""
+    """The matrix from a contact's direction to the coordinates; None if it has no direction."""
     terms = model.space.terms
     for family in model.program.families:
         if family.name == contact.constraint and contact.multiplier > 0.0:
@@ -359,7 +359,7 @@ def _image(model: Model, contact: Contact) -> Array | None:
 
 
 def _slope(model: Model, proof: Certificate) -> Array:
-    """What is left of the objective's slope and the contacts' in the coordinates."""
+    """The remainder of the slopes of objective and contacts with respect to the coordinates."""
     slope = model.program.objective.copy()
     for contact in proof.contacts:
         slope += max(contact.multiplier, 0.0) * row_of(model.program, contact)[0]

@@ -1,4 +1,4 @@
-"""Which proofs show that a problem has no law, whichever problem they were first made for."""
+"""Proofs that a problem has no law, whichever problem they were first made for."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ def least_of(problem: Problem, constant: Functional) -> Problem:
 
 
 def ground_of(problem: Problem, proof: Certificate) -> Ground | None:
-    """What a proof of this kind would have to show of a problem; None where it can show nothing."""
+    """The statement that a proof of this kind must show of a problem; None if it can show nothing."""
     if proof.program == VIOLATION:
         return Ground(convex_part(problem), None)
     return next(
@@ -94,7 +94,7 @@ def proof_of_no_law(problem: Problem, proof: object) -> Certificate | None:
 
 
 def beyond_limit(problem: Problem) -> str:
-    """Which constant is asked to be below what no law of any degree can beat; empty if none is.
+    """The constant whose bound is below the limit of all laws; empty if there is none.
 
     >>> beyond_limit(Problem(B=1.7, order=4, C=(0.0, 3.0)))
     'no law of any degree has C <= 3 with the other constraints: its limit is 4.128571 (optlaws.limit). ...'

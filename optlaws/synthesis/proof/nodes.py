@@ -135,5 +135,5 @@ class PlaceRange(NamedTuple):
         return inside and self.sign == other.sign and (self.low == self.high) == (other.low == other.high)
 
     def parts(self, at: float) -> list[PlaceRange]:
-        """What is above a place, then what is below it."""
+        """The part of the range above a place, then the part below it."""
         return [self._replace(low=at), self._replace(high=at)]

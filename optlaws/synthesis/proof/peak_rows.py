@@ -51,7 +51,7 @@ def roots_of(problem: Problem, name: str) -> list[PlaceRange]:
 
 
 class PeakRows:
-    """What laws below a claim can have as the values of a derivative."""
+    """Rows for the values of a derivative in laws below a claim."""
 
     def __init__(self, problem: Problem, peak: PeakConstant, claim: float) -> None:
         self.problem, self.peak, self.claim = problem, peak, claim

@@ -24,7 +24,7 @@ _ACCELERATION = 2
 
 
 def asked_or_claimed(model: Model, claim: float) -> dict[str, float]:
-    """What the constants of the objective, and those that are bounded, are at most in laws below the claim."""
+    """Upper bounds of the objective's constants, and of bounded ones, in laws below the claim."""
     problem = model.problem
     bounds: dict[str, float] = {}
     if VariableName.VIOLATION not in model.places:
@@ -71,7 +71,7 @@ def moments(model: Model, greatest: Mapping[str, float]) -> list[tuple[Array, Ar
 
 
 def means_by(model: Model, name: str) -> list[tuple[Array, Array, float]]:
-    """What the means of derivatives are at most by the variable of a constant, whatever its size.
+    """Bounds of means of derivatives by the variable of a constant, for any size.
 
     For each derivative whose mean the constant bounds in proportion: bounds of its moments where the constant is 0,
     but for the base law, the matrix of `moments`, and by how much the bounds grow with the variable.
@@ -107,7 +107,7 @@ def spread(expression: Expression, claim: float, bounds: dict[str, float], least
 
 
 def least_values(problem: Problem, space: LawSpace) -> dict[str, float]:
-    """What the constants and maxima of the objective are at least: 0, but for peaks of one sign.
+    """Lower bounds of the objective's constants and maxima: 0, except for one-sided peaks.
 
     The mean of c is the change of the velocity, which c exceeds somewhere, and is below somewhere; where the order
     leaves it free, what is positive at a change of either sign is at least 0.
@@ -121,7 +121,7 @@ def least_values(problem: Problem, space: LawSpace) -> dict[str, float]:
 
 
 def _at_least(term: Term, change: float, ends: BoundaryConditions) -> float:
-    """What a term is at least where the velocity changes by `change`."""
+    """A lower bound of a term in laws whose velocity changes by `change`."""
     if isinstance(term, Maximum):
         sums = (sum(weight * _at_least(inner, change, ends) for weight, inner in part.terms) for part in term.parts)
         return max(sums)

@@ -141,7 +141,7 @@ class FrontPoint(JsonText):
 
 
 class StatedPoint(msgspec.Struct, forbid_unknown_fields=True):
-    """What a proven front writes of one of its certified laws."""
+    """The stored form of a certified law of a proven front."""
 
     at: float
     law: dict[str, Any]
@@ -226,7 +226,7 @@ class ProvenFront(JsonText):
 
     @property
     def problem(self) -> Problem:
-        """What else is asked."""
+        """The problem apart from the number that varies."""
         return self.number.problem
 
     @property
@@ -241,7 +241,7 @@ class ProvenFront(JsonText):
 
     @kept_property
     def sides(self) -> Array:
-        """At each certified law what is known above and below the least objective, and the slope from there."""
+        """Upper and lower values of the least objective at each certified law, with the slope there."""
         problems = [proof.problem for proof in self.certificates]
         tops = np.array([worth(problem, law).objective for problem, law in zip(problems, self.laws, strict=True)])
         slopes = np.array([weighted_value(self.number, law) for law in self.laws]) if self.number.concave else None
@@ -268,7 +268,7 @@ class ProvenFront(JsonText):
 
     @property
     def curve(self) -> tuple[Array, Array]:
-        """Where the upper side turns, and its values there: it is straight in between."""
+        """Corners of the upper bound and its values there; it is piecewise linear."""
         t, (top, _, slopes) = np.array(self.values), self.sides.T
         if not self.number.concave:
             return t, top
@@ -280,11 +280,11 @@ class ProvenFront(JsonText):
         return places, self.upper(places)
 
     def upper(self, values: float | Many) -> Array:
-        """What the objective is at most at values of the number; shape as that of the values."""
+        """Upper bounds of the least objective at values of the number, in the shape of the values."""
         return self._bounds(values)[1]
 
     def lower(self, values: float | Many) -> Array:
-        """What the least objective is at least at values of the number; shape as that of the values."""
+        """Lower bounds of the least objective at values of the number, in the shape of the values."""
         return self._bounds(values)[0]
 
     def _bounds(self, values: float | Many) -> tuple[Array, Array]:
@@ -459,5 +459,5 @@ def front_of(stated_front: StatedFront) -> ProvenFront:
 
 
 def weighted_value(number: SweptParameter, law: MotionLaw) -> float:
-    """What the term whose weight runs is of a law, before it is weighted."""
+    """The value in a law of the term whose weight varies, before it is weighted."""
     return worth(replace(number.problem, minimise=number.weighted), law).objective

@@ -187,7 +187,7 @@ class _Refined:
             ) from error
 
     def _known(self, value: float, law: _Law) -> tuple[float, float, float]:
-        """What is known of the least objective: above and below, and the slope of the line that goes on from there."""
+        """Bounds of the least objective, above and below, and the slope of the line from there."""
         assert isinstance(law, Solution)  # noqa: S101 - as it came from `_alone`
         top, claim, slope = worth(law.problem, law.law).objective, -inf, 0.0
         if self.number.concave:

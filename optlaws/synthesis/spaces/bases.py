@@ -78,7 +78,7 @@ def read_breaks(text: str) -> int | list[float]:
 
 
 class Basis(JsonText, ABC):
-    """In what a law is sought; subclasses are frozen values. `name` calls it in problem files.
+    """Base class of bases of the free function Z; subclasses are frozen values, named `name` in problem files.
 
     Examples
     --------
@@ -310,7 +310,7 @@ class Pieces(Basis):
 
     @property
     def mirrored(self) -> bool:
-        """Where the breaks are symmetric about 1/2 and 1/2 is among them."""
+        """Whether the breaks are symmetric about 1/2 and include 1/2."""
         return 0.5 in self.breaks and mirrored(self.breaks)
 
     def check(self, *, symmetric: bool) -> None:

@@ -1,4 +1,4 @@
-"""Which space of laws belongs to a basis: one line for each kind."""
+"""The space of laws of each kind of basis, one line for each kind."""
 
 from __future__ import annotations
 

@@ -59,7 +59,7 @@ def below_peak(acceleration: PieceSeries, jerk: PieceSeries, centre: float, *, s
 
 
 def _unit(breaks: Array, piece: int, centre: float, power: int, at: float) -> float:
-    """What b - b0 was divided by on a piece at one of its ends."""
+    """The divisor of b - b0 on a piece at one of its ends."""
     low, high = breaks[piece + 1], breaks[piece]
     if low <= centre <= high:
         return float(abs(at - centre) ** power)
@@ -99,11 +99,11 @@ class PieceRootFamily(RootFamily, PieceFamily):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class PieceMirroredFamily(MirroredFamily, PieceRootFamily):
-    """The same written from the end of the interval: u = 2k - 1."""
+    """A family of pieces written from the end of the interval: u = 2k - 1."""
 
 
 def mirrored(pieces: PieceSeries) -> PieceSeries:
-    """The same functions of -u.
+    """The functions mirrored: of -u.
 
     >>> series = PieceSeries(np.array([1.0, 0.5, -1.0]), np.arange(4.0).reshape(2, 2, 1))
     >>> bool(np.allclose(mirrored(series).values(np.array([0.7, -0.7])), series.values(np.array([-0.7, 0.7]))))

@@ -131,7 +131,7 @@ class PolynomialSpace(LawSpace):
 
     @kept_property
     def scale(self) -> Array:
-        """What makes each free function's peak acceleration 1."""
+        """Scales that make the peak acceleration of each free function 1."""
         return np.asarray(1.0 / np.abs(self._shapes[2]).max(axis=1))
 
     def series(self, nu: int) -> Array:

@@ -1,4 +1,4 @@
-"""What a set of laws must offer so that a program can be written over it: affine functions of k for coordinates."""
+"""Base class of sets of laws, over which programs are written: affine functions of k for coordinates."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ class LawSpace(ABC):
         self._kept: dict[Hashable, Array] = {}
 
     def cached(self, key: Hashable, make: Callable[[], Array]) -> Array:
-        """What `make` gives, kept for the keys that came last."""
+        """The value of `make`, cached for the latest keys."""
         known = self._kept.get(key)
         if known is None:
             known = make()
@@ -122,7 +122,7 @@ class LawSpace(ABC):
 
     @abstractmethod
     def given(self, series: Any, size: int, *, jumps: bool = False) -> dict[str, Any]:  # noqa: ANN401 - of pieces or of the whole
-        """What families over `size` variables take for series of a function, which may jump at edges."""
+        """Columns of families over `size` variables for series of a function, which may jump at edges."""
 
     @abstractmethod
     def turned(self, series: Any) -> Any:  # noqa: ANN401 - of pieces or of the whole

@@ -149,7 +149,7 @@ def spline_space(boundary: BoundaryConditions, basis: PiecewiseBasis, *, symmetr
 
 
 def _odd(functions: Array) -> Array:
-    """Which combinations of the functions are odd about 1/2; orthonormal columns."""
+    """Combinations of the functions that are odd about 1/2, as orthonormal columns."""
     mirrored = functions[:, ::-1] * (-1.0) ** np.arange(functions.shape[2])
     _, sizes, combinations = np.linalg.svd((functions + mirrored).reshape(len(functions), -1).T)
     even = int((sizes > EVEN_PART * sizes.max()).sum())

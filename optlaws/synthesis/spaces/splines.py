@@ -56,7 +56,7 @@ class PiecewiseBasis(Basis):
     @property
     @abstractmethod
     def size(self) -> int:
-        """Number of basis functions."""
+        """The number of basis functions of Z."""
 
     @abstractmethod
     def pieces(self, z: Sequence[Any]) -> list[list[Any]]:
@@ -119,7 +119,7 @@ class BSplines(PiecewiseBasis):
 
     @property
     def mirrored(self) -> bool:
-        """Where the breaks are symmetric about 1/2."""
+        """Whether the breaks are symmetric about 1/2."""
         return mirrored(self.breaks)
 
     @property

@@ -63,7 +63,7 @@ class _Block:
         return np.asarray(np.maximum((duals.reshape(self.shares.shape) * self.shares).sum(axis=1), 0.0))
 
     def near(self, x: Array) -> _Block:
-        """The same for the difference from x, magnified.
+        """The program for the difference from x, magnified.
 
         A cone's boundary is nearly straight where s is: of s the part along the ray through it and the one across that
         ray are p and q with p q at least the square of the rest, and p is magnified, q is not, the rest by the root.

@@ -149,13 +149,13 @@ KINDS = (
 
 
 def order_of(family: ConstraintFamily) -> int:
-    """Where the rows of a family stand among those of all kinds; 0 for affine ones."""
+    """The rank of a family's rows among those of all kinds; 0 for affine ones."""
     return next((i for i, kind in enumerate(KINDS, 1) if isinstance(family, kind.family)), 0)
 
 
 @dataclass(frozen=True)
 class RowShape:
-    """What the rows of a family are but for their numbers: how many, their kind, the matrices' sizes, and more."""
+    """The shape of a family's rows without their numbers: how many, their kind, the sizes of matrices, and more."""
 
     count: int
     kind: RowKind
@@ -163,7 +163,7 @@ class RowShape:
     detail: Hashable
 
     def symbols(self) -> list[Any]:
-        """Symbols for the numbers."""
+        """Symbols that stand for the numbers of the rows."""
         import casadi as ca
 
         return [ca.MX.sym("numbers", *size) for size in self.sizes]

@@ -1,4 +1,4 @@
-"""Where families are held: first at few points, then at the true extrema of the answer too."""
+"""Grids of the families: first few points, then the true extrema of the solution too."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from optlaws.tolerances import NEARLY_BINDING
 
 
 def first_points(program: Program) -> list[Points]:
-    """As many points for each family as show IPOPT where its contacts are."""
+    """First points of each family, enough for IPOPT's solution to show the contacts."""
     # with no peak to hold them, the velocity constraints need points enough by themselves
     share = 0.75 if any(len(family.signs) > 1 for family in program.families) else 1.5
     return [_points(family, program.size, share) for family in program.families]
 
 
 def _points(family: ConstraintFamily, size: int, even_share: float) -> Points:
-    """As many points as make IPOPT quick and the contacts plain; the rarer sign of a magnitude gets half as many."""
+    """Points of a family, few enough for IPOPT to be quick; the rarer sign of a magnitude gets half as many."""
     low, high = family.domain
     if low == high:
         return Points(np.repeat([low], len(family.signs)), np.array(family.signs))

@@ -60,7 +60,7 @@ _solvers: dict[_Shapes, Any] = {}
 
 @dataclass(frozen=True, eq=False)
 class Answer:
-    """What IPOPT returned: never reported, only a start for the exact active set.
+    """IPOPT's solution: never reported, only a start for the exact active set.
 
     `multipliers` has an array for each family, in the order of its points, and the equations' last.
     """
@@ -130,7 +130,7 @@ def solve_on_points(program: Program, points: list[Points], start: Array | None,
 
 
 def _least_of_variables(families: list[ConstraintFamily], size: int) -> Array:
-    """What variables must not be below for the right sides of cones to be no less than 0, where one decides that."""
+    """Lower bounds of variables that keep the right sides of cones at least 0, if a single variable decides that."""
     least = np.full(size, -np.inf)
     for family in families:
         if isinstance(family, ConeFamily) and np.count_nonzero(family.slack) == 1:
@@ -149,7 +149,7 @@ def _split(weights: Array, points: list[Points], order: list[int], shapes: list[
 
 @dataclass(frozen=True, eq=False)
 class _Result:
-    """What a solver gave, as numbers of our own: nothing of CasADi's leaves its lock."""
+    """A solver's result as plain numbers; no object of CasADi leaves its lock."""
 
     x: Array
     weights: Array

@@ -136,7 +136,7 @@ class LinearTable:
         return (changed, scaled / self.equation_length) if sound and not (changed < 0.0).any() else None
 
     def sharp(self, vertex: Answer, points: list[Points]) -> Answer:
-        """A vertex with multipliers that balance the objective exactly; as it is where there are none."""
+        """A vertex whose multipliers balance the objective exactly; unchanged if there are none."""
         weights = np.concatenate(vertex.multipliers[:-1]) * self.length
         binding = weights > 0.0
         balanced = self.balanced(binding, weights, vertex.multipliers[-1])

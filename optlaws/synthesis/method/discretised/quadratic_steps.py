@@ -61,7 +61,7 @@ class _Step:
 def stepwise_on_points(
     program: Program, points: list[Points], start: Array, settled: float = STEP_SETTLED
 ) -> Answer | None:
-    """Where quadratic programs lead from a start, with the families held at the points only; None if nowhere.
+    """The end of a sequence of quadratic programs from a start, with rows at the points only; None if they fail.
 
     Parameters
     ----------
@@ -155,7 +155,7 @@ class _Descent:
     def _tried(
         self, x: Array, rows: _Rows, step: _Step, bend: Array, damping: float
     ) -> tuple[tuple[Array, _Rows], float | None]:
-        """Where a step leads, corrected by what its rows bend where that is better, and what share of its promise.
+        """The result of a step, with a second-order correction if that is better, and its share of the predicted gain.
 
         None where it promises nothing.
         """
@@ -202,7 +202,7 @@ class _Descent:
         return x, _Rows(residual, np.vstack(gradients))
 
     def _bend(self, x: Array, multipliers: Array) -> Array:
-        """Of the Lagrangian, without what bends down."""
+        """The convex part of the Lagrangian's Hessian."""
         total, begin = np.zeros((len(x), len(x))), 0
         for family, grid in self.pairs:
             weights = multipliers[begin : begin + len(grid.u)]

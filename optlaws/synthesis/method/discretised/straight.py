@@ -111,7 +111,7 @@ def straight_step(program: Program, points: list[Points], x: Array, reach: float
 
 
 def _rows(family: ConstraintFamily, points: Points) -> _LinearRows | None:
-    """What a family holds the variables to; None where it is not linear but for such kinks."""
+    """Linear rows of a family; None if it is not linear apart from kinks."""
     from scipy import sparse
 
     if isinstance(family, KinkedIntegralFamily):

@@ -1,4 +1,4 @@
-"""From an answer on points to the optimum: its multipliers show which constraints bind."""
+"""From a solution on points to the optimum: its multipliers show which constraints are active."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def of_vertex(points: list[Points], answer: Answer) -> ActiveSet:
 
 
 def _contacts(points: list[Points], answer: Answer, least: list[float]) -> ActiveSet:
-    """Those points of each family as contacts whose multipliers exceed the least for it; none may move."""
+    """Points of each family whose multipliers exceed the family's least one, as fixed contacts."""
     weights, equations = answer.multipliers[:-1], answer.multipliers[-1]
     active = [np.flatnonzero(w > low) for w, low in zip(weights, least, strict=True)]
     return ActiveSet(

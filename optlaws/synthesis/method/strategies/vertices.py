@@ -125,7 +125,7 @@ def _excess(program: Program, x: Array) -> float:
 def _exact(program: Program, points: list[Points], vertex: Answer, excess: float) -> tuple[Answer, float]:
     """The vertex with what binds and the equations held, and the multipliers balanced, as exactly as numbers do.
 
-    The solver's tolerance is one of rows of length 1: in a snap it is far from what the law needs.
+    The solver's tolerance is that of rows of length 1, which for a snap is far from what the law needs.
     """
     table = LinearTable(program, points)
     binding = np.concatenate(vertex.multipliers[:-1]) > 0.0

@@ -32,7 +32,7 @@ class Box:
     high: Array
 
     def cut(self, variable: int, side: int, value: float) -> Box:
-        """With one side moved: from below (side 1) or from above (-1)."""
+        """The box with one side moved: from below (side 1) or from above (-1)."""
         name = "low" if side > 0 else "high"
         values = getattr(self, name).copy()
         values[variable] = value
@@ -104,7 +104,7 @@ class BoxRows(ABC):
 
     @abstractmethod
     def places(self, k: Array) -> Places:
-        """What the curved rows at places k are made of."""
+        """Coefficients of the curved rows at places k."""
 
     @abstractmethod
     def kinds(self, box: Box) -> list[tuple[str, float]]:
@@ -156,7 +156,7 @@ class BoxRows(ABC):
 
     @kept_property
     def _map(self) -> tuple[Array, Array]:
-        """What makes coordinates of velocities at the points, and those of velocities 0 with their sign changed."""
+        """The matrix from velocities at the points to coordinates, and the negative coordinates of zero velocities."""
         columns = self.rows(1, self.points)[:, [*range(self.terms), -1]]
         inverse: Array = np.linalg.inv(columns[:, :-1]).astype(np.float64)
         return inverse, inverse @ columns[:, -1]
@@ -219,7 +219,7 @@ class BoxRows(ABC):
         return self.moved(box, node)
 
     def moved(self, box: Box, node: Leaf) -> list[Box]:
-        """The box after a sum of rows moved its side; none where it is empty.
+        """The box after a sum of rows has moved its side; None if it is empty.
 
         Rows that the problem does not ask for, and negative multipliers of rows, count as zero.
         """
@@ -233,7 +233,7 @@ class BoxRows(ABC):
         return [box.cut(node.variable, node.side, side)] if low < side < high else [box]
 
     def least_sum(self, box: Box, node: Leaf) -> float:
-        """What side times the variable is at least in the box: the sum of the rows is at most 0, so it can join."""
+        """A lower bound of side times the variable in the box, by the sum of the rows, which is at most 0."""
         equations = self.equations()[: len(node.equations)]
         joined = np.vstack([self.of_contacts(node.contacts, box), equations, self.objective()])
         multipliers = [max(contact.multiplier, 0.0) for contact in node.contacts]

@@ -96,7 +96,7 @@ def _own_sides(model: Model, claim: float) -> Array:
 
 @dataclass(frozen=True, eq=False)
 class Plane:
-    """Where planes touch that sign times a family's formula is nowhere below, less what is taken from them."""
+    """Tangent planes that underestimate sign times a family's formula, less the curvature allowance."""
 
     #: family, sign: the rows of a formula
     family: CurvedFamily
@@ -110,7 +110,7 @@ class Plane:
         return np.where(np.array(self.way)[:, None] > 0, high, low)
 
     def taken(self, low: Array, high: Array, k: Array) -> Array:
-        """What second derivatives can take from the plane within the ranges."""
+        """The greatest curvature term within the ranges, by which the plane is lowered."""
         taken = np.zeros(k.shape)
         if self.sign in self.family.tangents:
             return taken
@@ -166,7 +166,7 @@ class FormulaRows(BoxRows):
 
     @kept_property
     def integrals(self) -> dict[str, ConvexUnderestimator]:
-        """What integrals are nowhere below, by the names of their rows."""
+        """Underestimators of integrals, by the names of their rows."""
         formulas = {
             constant.name: constant
             for constant in self.problem.constants
@@ -214,7 +214,7 @@ class FormulaRows(BoxRows):
         return [(contact, self.row_beside(box, contact)) for contact in contacts]
 
     def worth(self, box: Box) -> Array | None:
-        """By what the planes of integrals lose, where these are all that bounds do not know."""
+        """Loss of the planes of integrals by each velocity's range, if bounds depend on these planes alone."""
         if not self.integrals or self.families:
             return None
         lost = np.zeros(self.size)
@@ -239,7 +239,7 @@ class FormulaRows(BoxRows):
 
     @kept_property
     def _planes(self) -> dict[tuple[str, float], Plane]:
-        """By the names and the signs of their rows."""
+        """Planes by the names and the signs of their rows."""
         planes = {}
         for family in self.families:
             ways: list[Way] = [None]
@@ -265,7 +265,7 @@ class FormulaRows(BoxRows):
         return Places(k, tuple(rows))
 
     def curved(self, box: Box, places: Places, name: str, signs: Array) -> Array:
-        """The planes of a name; zeros outside the formula's part and where it has no value."""
+        """Planes of a name; zeros outside the formula's part and where it has no value."""
         rows = dict(zip(self._orders, places.rows, strict=True))
         curved = np.zeros((len(places.k), self.size + 1))
         for sign in np.unique(signs).tolist():

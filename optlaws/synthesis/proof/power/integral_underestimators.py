@@ -35,7 +35,7 @@ _CELLS = 32
 
 @dataclass(frozen=True, eq=False)
 class CurvatureBound:
-    """What bounds the second derivatives of an integral in a box."""
+    """Bounds of the second derivatives of an integral in a box."""
 
     #: low, high: least and greatest values of the derivatives on the cells
     low: Array
@@ -55,7 +55,7 @@ class CurvatureBound:
         return np.maximum(blur - sizes, 0.0), np.abs(self.free @ turned).T
 
     def taken(self, at: Array, form: Array) -> float:
-        """What a form can take from the plane that touches at a law of the box; infinite where it is not known."""
+        """The greatest amount by which a quadratic form is below the tangent plane; infinite if not known."""
         if not np.isfinite(form).all():
             return np.inf
         off = np.where(self.half > 0.0, 1.0 + np.abs(at - self.middle) / np.maximum(self.half, TINY), 0.0)
@@ -76,7 +76,7 @@ class ConvexUnderestimator:
 
     @kept_property
     def _series(self) -> list[Array]:
-        """For each name powers of what runs from -1 to 1 over the cells: shape (powers, cells, variables + 1)."""
+        """Powers of each name's local coordinate over the cells, shape (powers, cells, variables + 1)."""
         return [self._taylor(ORDERS[name]) for name in self.family.names]
 
     def _taylor(self, nu: int) -> Array:
@@ -117,7 +117,7 @@ class ConvexUnderestimator:
         return np.array(lows) - blur, np.array(highs) + blur
 
     def least(self, box: Box, limits: Mapping[str, float]) -> float:
-        """What the integral is at least in a box whatever else holds."""
+        """A lower bound of the integral in a box, independent of all other rows."""
         low, high = self.ranges(replace(box, low=self._lawful(box.low), high=self._lawful(box.high)), limits)
         within = self._intervals(low, high)
         least = np.broadcast_to(enclosed(self.motion.formula, within).low, self.middle.shape)
@@ -207,7 +207,7 @@ class ConvexUnderestimator:
         return np.concatenate([at, np.zeros(self.rows.size - len(at)), [1.0]])
 
     def _bend(self, box: Box, limits: Mapping[str, float]) -> CurvatureBound | None:
-        """What the second derivatives in a box can take; None where they have no bounds."""
+        """The curvature allowance in a box; None without bounds of the second derivatives."""
         terms = self.rows.terms
         low, high = self.ranges(box, limits)
         middle, half = (box.low + box.high)[:terms] / 2.0, (box.high - box.low)[:terms] / 2.0
@@ -247,7 +247,7 @@ class ConvexUnderestimator:
         return row - (self._square(box, room) if self.family.root else room)
 
     def lost(self, box: Box, limits: Mapping[str, float]) -> Array:
-        """What each velocity's range costs planes that touch in the middle."""
+        """The loss of planes that touch in the middle, for each velocity's range."""
         bend = self._bend_of(box, limits)
         if bend is None:
             return np.asarray((box.high - box.low)[: self.rows.terms])

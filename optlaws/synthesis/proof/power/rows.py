@@ -59,7 +59,7 @@ class PowerRows(BoxRows):
 
     @property
     def names(self) -> tuple[str, ...]:
-        """From the greatest D of a box, and from its least."""
+        """Names of the rows by the greatest and by the least D of a box."""
         return POWER_ROWS
 
     @property

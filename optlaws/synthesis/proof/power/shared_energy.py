@@ -98,7 +98,7 @@ def _root(B: float, square: Array, q: Array) -> Array:
 
 
 def _turn(B: float, square: Array, slope: Array) -> Array:
-    """Where h has a slope, on the side of small q, on which it is concave; inf where nowhere."""
+    """The end of the range of small q on which h is concave; inf if there is none."""
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         eta = 1.0 / (B * slope) ** 2
         kappa = square * eta
