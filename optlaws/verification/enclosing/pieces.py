@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from fractions import Fraction
 from math import prod
-from typing import Any, TypeVar
+from typing import TypeVar
 
 from flint import acb, arb, arb_series, fmpq, fmpq_poly, fmpz_poly
 
@@ -13,6 +13,7 @@ from optlaws.laws.segments.constant_power import PowerSegment
 from optlaws.laws.segments.segment import PolynomialSegment
 from optlaws.laws.segments.sine import SineSegment
 from optlaws.verification.enclosing.balls import Extremes, at, ball, rational
+from optlaws.verification.enclosing.isolated_roots import real_roots
 from optlaws.verification.enclosing.taylor_models import extremes
 
 
@@ -114,7 +115,7 @@ def between(polynomial: fmpq_poly, start: fmpq, stop: fmpq) -> Extremes:
     """Balls that hold the least and the greatest value of a polynomial between two places."""
     ends = [ball(start), ball(stop)]
     values = [at(polynomial, x) for x in ends]
-    for x in real_roots(polynomial.derivative()):
+    for x in real_roots(polynomial.derivative(), start, stop):
         if x < ends[0] or x > ends[1]:
             continue
         value = at(polynomial, x)
@@ -124,30 +125,6 @@ def between(polynomial: fmpq_poly, start: fmpq, stop: fmpq) -> Extremes:
                 value = value.union(value_there)
         values.append(value)
     return least_and_greatest(values)
-
-
-def real_roots(polynomial: fmpq_poly) -> list[arb]:
-    """Balls that hold all real roots of a polynomial, perhaps among others; an even or odd one is one of y²."""
-    numerator = polynomial.numer()
-    first, *others = [n for n, value in enumerate(numerator.coeffs()) if value != 0] or [0]
-    if not others:
-        return [arb(0)] if first else []
-    roots = [arb(0)] if first else []
-    if any((n - first) % 2 for n in others):
-        return roots + _real(fmpz_poly(numerator.coeffs()[first:]))
-    for square in _real(fmpz_poly(numerator.coeffs()[first::2])):
-        if square > 0:
-            root = square.sqrt()
-            roots += [-root, root]
-        elif not square < 0:
-            roots.append(arb(0, (abs(square)).upper().sqrt().upper()))
-    return roots
-
-
-def _real(polynomial: fmpz_poly) -> list[arb]:
-    """Balls that hold the real roots of a polynomial that does not vanish at 0."""
-    roots: Any = polynomial.complex_roots()
-    return [acb(root).real for root, _ in roots if acb(root).imag.contains(0)]
 
 
 def least_and_greatest(balls: list[arb]) -> Extremes:

@@ -215,6 +215,8 @@ class _System:
         """The best proof, and whether a higher precision could hardly better it."""
         best = self._corrected([], 1.0)
         claim = self._claim()
+        if best is not None and self._is_whole(best[0], claim):
+            return best
         joining = list(self._helpers(claim)) if isfinite(claim) else []
         for readiness in _READINESS:
             for helpers in joining:
@@ -222,6 +224,12 @@ class _System:
                 if corrected is not None and (best is None or _better(corrected[0], best[0], self.unit)):
                     best = corrected
         return best if best is not None else (Proof(None, 0.0, 0.0, self.negative, self.unknown), False)
+
+    def _is_whole(self, proof: Proof, claim: float) -> bool:
+        """Whether a proof without helpers is all that they could prove, with multipliers changed by rounding alone."""
+        if self.along is not None or proof.value is None or proof.correction > ROUNDED_MULTIPLIER:
+            return False
+        return isfinite(claim) and proof.value >= Fraction(claim) - _SAME * max(self.unit, abs(proof.value))
 
     def _claim(self) -> float:
         if self.along is not None:
