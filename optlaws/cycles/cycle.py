@@ -16,7 +16,7 @@ from optlaws.cycles.jerk_comparison import jerk_limit, usual_jerk
 from optlaws.cycles.kinematics import SegmentPeaks, TimedCycle
 from optlaws.cycles.moves.transition_cam import TransitionCam, TransitionKind
 from optlaws.cycles.moves.transitions import transition_cam
-from optlaws.cycles.optimisation.bounds import is_exact
+from optlaws.cycles.optimisation.bounds import bound_of, is_exact
 from optlaws.cycles.optimisation.drive_formulas import known_drive
 from optlaws.cycles.optimisation.durations import durations
 from optlaws.cycles.optimisation.joint_limits import check_limits_at_joints
@@ -191,16 +191,34 @@ class Cycle(CycleInterchange):
     @kept_property
     def objective(self) -> float:
         """The value of the objective over the whole cycle, in SI units; recomputed from the laws."""
-        nu, mean = kind_of(self.minimise)
+        return self.value(self.minimise)
+
+    def value(self, name: str) -> float:
+        """The value of whatever may be minimised over the whole cycle, in SI units; recomputed from the laws.
+
+        Raises
+        ------
+        InputError
+            If nothing of this name can be minimised, or it is of a drive or load that is not there.
+
+        Examples
+        --------
+        >>> from optlaws.cycles.specification.segments import Return, Rise
+        >>> cycle = Cycle([Rise("35 mm", "0.1 s", law="cycloidal"), Return(law="cycloidal")], period="0.3 s")
+        >>> round(cycle.value("acceleration"), 6), round(cycle.value("rms acceleration"), 6)
+        (21.991149, 9.522447)
+        """
+        check_objective(name, self._load)
+        nu, mean = kind_of(name)
         if nu == LOADED:
-            output = self.minimise.removeprefix("rms ").removeprefix(LOAD)
+            output = name.removeprefix("rms ").removeprefix(LOAD)
             return self.load_motion.rms(output) if mean else self.load_motion.peak(output).value
         if nu == POWER:
             return self.effort.peak_power
         if nu == FORCE:
             return self.effort.rms_force if mean else self.effort.peak_force
         if nu in SUMS:
-            return total(self.pieces, nu, self._drive)
+            return total(self.pieces, nu, known_drive(self._drive))
         if not mean:
             return max(peak.peak(nu) for peak in self.peaks)
         return sqrt(sum(piece.duration * piece.mean_square(nu) for piece in self.pieces) / self.duration)
@@ -399,6 +417,42 @@ class Cycle(CycleInterchange):
         # laws that are known leave nothing of a load to look for
         minimise = "acceleration" if kind_of(self.minimise)[0] == LOADED else self.minimise
         return replace(self, segments=segments, speed=None, period=f"{period!r} s", minimise=minimise, limits={})
+
+    def with_solutions(self, solutions: Sequence[Solution]) -> Cycle:
+        """The same cycle with other solutions of its motions, such as ones of problems that are bounded further.
+
+        Objective, bound and status are recomputed from them.
+
+        Parameters
+        ----------
+        solutions
+            One in the place of each of `solutions`.
+
+        Raises
+        ------
+        InputError
+            If they are more or fewer.
+
+        Examples
+        --------
+        >>> from optlaws import Return, Rise, at_most, synthesize
+        >>> cycle = Cycle([Rise("35 mm", "0.1 s"), Return(law="cycloidal")], period="0.3 s")
+        >>> (solution,) = cycle.solutions
+        >>> smooth = cycle.with_solutions([synthesize(replace(solution.problem, J=at_most(60)))])
+        >>> [[round(each.peaks[0].peak(nu), 3) for nu in (2, 3)] for each in (cycle, smooth)]
+        [[14.537, 20353.531], [17.073, 2100.0]]
+        """
+        laws = self._best.laws
+        if len(solutions) != len(laws):
+            raise InputError(f"the cycle has {len(laws)} motions that are looked for, got {len(solutions)} solutions")
+        placed = tuple(
+            (replace(piece, law=solution.law), solution) for (piece, _), solution in zip(laws, solutions, strict=True)
+        )
+        objective = self._cycle_objective
+        bound = None if objective.shares else bound_of(self._layout, placed, objective, self.duration)
+        other = replace(self)
+        vars(other).update(durations=self.durations, _layout=self._layout, _best=Best(placed, (), bound))
+        return other
 
     def fastest(self) -> FastestCycle:
         """The greatest speed at which the cycle keeps all its limits, with the proof that none is greater.
