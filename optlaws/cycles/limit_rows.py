@@ -1,11 +1,14 @@
-"""Rows that say how much a cycle takes of limits that its peaks do not show: of one side, slowing down, the snap."""
+"""How much a cycle takes of its limits, whatever its laws; and rows of those limits that its peaks do not show."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
 from optlaws.cycles.optimisation.motion_limits import (
+    FORCE,
+    FORCES,
+    POWER,
     LimitKey,
     OneSided,
     amount,
@@ -13,22 +16,78 @@ from optlaws.cycles.optimisation.motion_limits import (
     name_of,
     read_limits,
 )
+from optlaws.cycles.optimisation.motor_limits import MOTOR
+from optlaws.cycles.optimisation.objectives import read_energy, read_load_limits, read_mean_force
+from optlaws.cycles.specification.load import read_load
+from optlaws.cycles.specification.process import is_process
 from optlaws.cycles.specification.programme import is_optimal
+from optlaws.cycles.specification.segments import Free, Move
 from optlaws.motion.piece import unit_of
 from optlaws.shown.summary import Row
+from optlaws.tolerances import AGREEMENT
 
 if TYPE_CHECKING:
     from optlaws.cycles.cycle import Cycle
 
 _SNAP = 4
+_OF_MOTOR = {"speed": "rad/s", "torque-speed curve": ""}
+
+
+class LimitTaken(NamedTuple):
+    """What a motion takes of a limit, in SI units.
+
+    Attributes
+    ----------
+    name
+        What is limited, such as "velocity".
+    where
+        The segment that takes most of it; empty of a limit of the whole.
+    value, limit
+        What is taken, and what is allowed.
+    text
+        The limit in the unit that machines have it in.
+    """
+
+    name: str
+    where: str
+    value: float
+    limit: float
+    text: str
+
+    @property
+    def share(self) -> float:
+        """The share that is taken: above 1 where the limit is broken."""
+        return self.value / self.limit
+
+    @property
+    def is_kept(self) -> bool:
+        """Whether the limit is kept, but for rounding."""
+        return self.share <= 1.0 + AGREEMENT
 
 
 class _Taken(NamedTuple):
-    """The use of a limit by a segment: the share, the row's name, and the row."""
+    """The use of a limit by a segment, with the key of the limit and the time."""
 
-    share: float
-    name: str
-    row: Row
+    key: LimitKey
+    taken: LimitTaken
+    time: float | None
+
+
+def limits_taken(cycle: Cycle, limited: Cycle | None = None) -> tuple[LimitTaken, ...]:
+    """What a cycle takes of every limit that it has, or that another one of the same segments has: of all its laws.
+
+    Of each limit the segment that takes most of it counts. A motor's limits are those of the sheet.
+
+    Examples
+    --------
+    >>> from optlaws import Cycle, Return, Rise
+    >>> moves = [Rise("35 mm", "0.1 s", law="cycloidal"), Return(law="cycloidal")]
+    >>> (taken,) = limits_taken(Cycle(moves, period="0.25 s", limits={"velocity": "616 mm/s"}))
+    >>> taken.name, taken.where, round(taken.share, 4), taken.is_kept
+    ('velocity', 'segment 1 (Rise)', 1.1364, False)
+    """
+    given = cycle if limited is None else limited
+    return (*(taken.taken for taken in _most(_of_segments(cycle, given, every=True))), *_of_whole(cycle, given))
 
 
 def limit_rows(cycle: Cycle) -> list[Row]:
@@ -42,28 +101,45 @@ def limit_rows(cycle: Cycle) -> list[Row]:
     >>> [(row.name, round(row.value, 6), row.note) for row in limit_rows(cycle)][0]
     ('deceleration', 14.0, 'limit 14 m/s^2 of segment 1 (Rise)')
     """
+    return [
+        Row(
+            taken.name,
+            taken.value,
+            unit_of(cycle.axis, key if isinstance(key, int) else key.nu),
+            time,
+            f"limit {taken.text} of {taken.where}",
+        )
+        for key, taken, time in _most(_of_segments(cycle, cycle, every=False))
+        if isinstance(key, OneSided) or key == _SNAP
+    ]
+
+
+def _most(taken: Iterable[_Taken]) -> list[_Taken]:
+    """Of each limit by its name what takes most of it."""
     most: dict[str, _Taken] = {}
-    for taken in _of_segments(cycle):
-        if taken.name not in most or taken.share > most[taken.name].share:
-            most[taken.name] = taken
-    return [taken.row for taken in most.values()]
+    for each in taken:
+        if each.taken.name not in most or each.taken.share > most[each.taken.name].taken.share:
+            most[each.taken.name] = each
+    return list(most.values())
 
 
-def _of_segments(cycle: Cycle) -> Iterator[_Taken]:
-    of_cycle = read_limits(cycle.limits, cycle.axis, "limits")
-    for i, stretch in enumerate(cycle.programme.stretches):
-        limits = limits_of_segment(stretch, of_cycle, cycle.axis) if is_optimal(stretch.given) else {}
+def _of_segments(cycle: Cycle, limited: Cycle, *, every: bool) -> Iterator[_Taken]:
+    """What segments take of limits that `limited` has: those whose law is looked for, or every one that moves."""
+    of_cycle = read_limits(limited.limits, cycle.axis, "limits")
+    for i, (stretch, given) in enumerate(zip(cycle.programme.stretches, limited.programme.stretches, strict=True)):
+        has_limits = isinstance(stretch.given, Move | Free) if every else is_optimal(stretch.given)
+        limits = limits_of_segment(given, of_cycle, cycle.axis) if has_limits else {}
         for key, limit in limits.items():
-            if isinstance(key, OneSided) or key == _SNAP:
-                value, time = _greatest(cycle, i, key)
-                name = name_of(key, cycle.axis)
-                nu = key if isinstance(key, int) else key.nu
-                note = f"limit {amount(key, limit, cycle.axis)} of {stretch.where}"
-                yield _Taken(value / limit, name, Row(name, value, unit_of(cycle.axis, nu), time, note))
+            value, time = _greatest(cycle, i, key)
+            name = name_of(key, cycle.axis)
+            yield _Taken(key, LimitTaken(name, stretch.where, value, limit, amount(key, limit, cycle.axis)), time)
 
 
-def _greatest(cycle: Cycle, number: int, key: LimitKey) -> tuple[float, float]:
-    """The greatest magnitude in a segment on the side that a limit bounds, and its time."""
+def _greatest(cycle: Cycle, number: int, key: LimitKey) -> tuple[float, float | None]:
+    """The greatest magnitude in a segment on the side that a limit bounds, and its time where it has one."""
+    if key in {FORCE, POWER}:
+        effort = cycle.efforts[number]
+        return (effort.peak_force if key == FORCE else max(effort.motoring_power, effort.braking_power)), None
     peaks = cycle.peaks[number]
     nu = key if isinstance(key, int) else key.nu
     piece = next(piece for piece in reversed(cycle.pieces) if piece.start <= peaks.start)
@@ -71,3 +147,20 @@ def _greatest(cycle: Cycle, number: int, key: LimitKey) -> tuple[float, float]:
     if isinstance(key, OneSided):
         return (high, last) if key.sign > 0.0 else (-low, first)
     return max((abs(low), first), (abs(high), last))
+
+
+def _of_whole(cycle: Cycle, limited: Cycle) -> Iterator[LimitTaken]:
+    """What a cycle takes of limits of the whole: of means and sums, of its motor, of its load."""
+    mean, energy = read_mean_force(limited.limits, cycle.axis), read_energy(limited.limits)
+    force, unit = FORCES[cycle.axis], "N" if cycle.axis == "length" else "N m"
+    if mean is not None:
+        yield LimitTaken(f"rms {force}", "", cycle.effort.rms_force, mean, f"{mean:.6g} {unit}")
+    if energy is not None:
+        yield LimitTaken("energy", "", cycle.effort.energy, energy, f"{energy:.6g} J")
+    for margin in cycle.sheet.margins if limited.limits.get(MOTOR) else ():
+        text = f"{margin.limit:.6g} {_OF_MOTOR.get(margin.name, 'N m')}".strip()
+        yield LimitTaken(f"motor's {margin.name}", "", margin.needed, margin.limit, text)
+    load = None if limited.load is None or is_process(limited.load) else read_load(limited.load, cycle.axis)
+    for (output, rms), limit in read_load_limits(limited.limits, load).items():
+        value = cycle.load_motion.rms(output) if rms else cycle.load_motion.peak(output).value
+        yield LimitTaken(f"{'rms ' * rms}load {output}", "", value, limit, f"{limit:.6g}")

@@ -39,7 +39,7 @@ def objective_unit(cycle: Cycle) -> str:
     """The SI unit of what a cycle minimises."""
     nu, _ = kind_of(cycle.minimise)
     if nu == LOADED:
-        return _load_unit(cycle, cycle.minimise.removeprefix("rms ").removeprefix(LOAD))
+        return load_unit(cycle, cycle.minimise.removeprefix("rms ").removeprefix(LOAD))
     if nu == POWER or nu in SUMS:
         return "W" if nu == POWER else "J"
     return force_unit(cycle) if nu == FORCE else unit_of(cycle.axis, nu)
@@ -130,7 +130,7 @@ def drive_rows(cycle: Cycle) -> list[Row]:
     if cycle.load is not None and not is_process(cycle.load):
         for name in cycle.load_motion.machine.outputs:
             peak = cycle.load_motion.peak(name).value
-            rows.append(Row(f"peak of the load's {name}", peak, _load_unit(cycle, name)))
+            rows.append(Row(f"peak of the load's {name}", peak, load_unit(cycle, name)))
     return rows
 
 
@@ -180,6 +180,6 @@ def cycle_page(cycle: Cycle) -> str:
     return page("Cycle", known._repr_html_(), table(("segment", "duration, s", *names[1:]), rows), *drawings)
 
 
-def _load_unit(cycle: Cycle, output: str) -> str:
+def load_unit(cycle: Cycle, output: str) -> str:
     """The unit of an output of the load; of one whose dimension is not known, that it is one of SI."""
     return _LOAD_UNITS.get(read_load(cycle.load, cycle.axis).dimensions.get(output, ""), "SI")

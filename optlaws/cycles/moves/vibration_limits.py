@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from math import tau
 from typing import Any
 
@@ -33,21 +34,40 @@ def vibration_limit(
     >>> rest, round(left("m").highest, 6), left("m").most
     ({'jerk': '9 m/s^3'}, 62.831853, 0.2)
     """
+    if RESIDUAL not in limits:
+        raise InputError(f'a follower, as in {_EXAMPLE}, needs limits={{"{RESIDUAL}": "0.5 m/s^2"}}')
+    free = read_follower(follower)
+    rest = {name: limit for name, limit in limits.items() if name != RESIDUAL}
+
+    def of_unit(unit: str) -> FollowerResidual:
+        return replace(free, most=positive_quantity(limits[RESIDUAL], _ACCELERATIONS[unit], f"limits: {RESIDUAL}"))
+
+    return rest, of_unit
+
+
+def read_follower(follower: Mapping[str, Any]) -> FollowerResidual:
+    """The residual acceleration of a follower in SI units, its limit 1.
+
+    Raises
+    ------
+    InputError
+        If an entry is unknown, missing or wrong.
+
+    Examples
+    --------
+    >>> known = read_follower({"frequency": ("10 Hz", "12 Hz"), "damping": 0.05})
+    >>> round(known.lowest, 6), round(known.highest, 6), known.most
+    (62.831853, 75.398224, 1.0)
+    """
     entries = table(follower, "follower", _EXAMPLE)
     for name in entries:
         if name not in _KEYS:
             raise InputError(unknown_key(name, _KEYS, "entry of a follower"))
-    if "frequency" not in entries or RESIDUAL not in limits:
-        raise InputError(f'a follower needs its frequency, as in {_EXAMPLE}, and limits={{"{RESIDUAL}": "0.5 m/s^2"}}')
+    if "frequency" not in entries:
+        raise InputError(f"a follower needs its frequency, as in {_EXAMPLE}")
     given = entries["frequency"]
     pair = given if isinstance(given, list | tuple) else (given, given)
     if len(pair) != 2:
         raise InputError(f"follower: frequency must be one, or the least and the greatest, got {shortened(given)}")
     low, high = (tau * positive_quantity(each, "frequency", "follower: frequency") for each in pair)
-    rest = {name: limit for name, limit in limits.items() if name != RESIDUAL}
-
-    def of_unit(unit: str) -> FollowerResidual:
-        most = positive_quantity(limits[RESIDUAL], _ACCELERATIONS[unit], f"limits: {RESIDUAL}")
-        return FollowerResidual(low, high, entries.get("damping", 0.0), most)
-
-    return rest, of_unit
+    return FollowerResidual(low, high, entries.get("damping", 0.0), 1.0)
