@@ -40,6 +40,10 @@ from optlaws.cams.sizing.energy_fluctuation import EnergyFluctuation as EnergyFl
 from optlaws.cams.sizing.energy_fluctuation import energy_fluctuation as energy_fluctuation
 from optlaws.cams.sizing.springs import Spring as Spring
 from optlaws.cams.sizing.springs import least_spring as least_spring
+from optlaws.cycles.advising.advice import Advice as Advice
+from optlaws.cycles.advising.advised_law import AdvisedLaw as AdvisedLaw
+from optlaws.cycles.advising.advised_motion import advise as advise
+from optlaws.cycles.advising.recommendation import Recommendation as Recommendation
 from optlaws.cycles.cycle import Cycle as Cycle
 from optlaws.cycles.fastest_cycle import FastestCycle as FastestCycle
 from optlaws.cycles.fastest_cycle import LeastDuration as LeastDuration
@@ -201,6 +205,8 @@ __version__: str
 
 __all__ = [
     "FUNCTIONALS",
+    "Advice",
+    "AdvisedLaw",
     "After",
     "AsMade",
     "Axes",
@@ -281,6 +287,7 @@ __all__ = [
     "ProblemArray",
     "ProvenFront",
     "Range",
+    "Recommendation",
     "Response",
     "ResponseSpectrum",
     "Return",
@@ -302,6 +309,7 @@ __all__ = [
     "TrapeziumSubstitute",
     "Window",
     "acceleration_limit",
+    "advise",
     "as_made",
     "at_least",
     "at_most",

@@ -65,6 +65,9 @@ CYCLE_ROUNDING = 1e-11  # of a peak of a cycle: less is shown as 0
 FORCE_ROUNDING = 1e-7  # of the greatest force, or of a turn: less is shown as 0
 NO_MARK = 1e-9  # of the greater extreme of a curve: one that is less is rounding, and no mark stands at it
 GAP_ROUNDING = 1e-12  # of an objective: a gap below it is rounding
+EQUALLY_GOOD = 0.01  # of an objective: laws so little above the least are equally good to a designer
+FRONT_END = 0.01  # of what is exchanged: a front goes no further, as some of it can vanish
+TELLING = 1e-3  # of a value: a difference or a rest of a limit that is worth a word
 BOUND_SLACK = 1e-6  # of a least value: at a bound so much above it the solver has room
 
 # --- extremes and roots ---------------------------------------------------------------------------------------------

@@ -24,10 +24,14 @@ from optlaws.cams.followers.rollers_and_faces import FaceContact as FaceContact
 from optlaws.cams.followers.rollers_and_faces import RollerContact as RollerContact
 from optlaws.cams.least_sizes import GreatestRoller as GreatestRoller
 from optlaws.cams.least_sizes import LeastPrimeCircle as LeastPrimeCircle
+from optlaws.cycles.advising.advised_law import LawKind as LawKind
+from optlaws.cycles.advising.advised_law import LawMeasure as LawMeasure
+from optlaws.cycles.advising.advised_law import ProvenLeast as ProvenLeast
 from optlaws.cycles.interchange import PlotOver as PlotOver
 from optlaws.cycles.interlocks.enclosed_axis import Way as Way
 from optlaws.cycles.interlocks.interlock import Interlock as Interlock
 from optlaws.cycles.interlocks.interlock import LeastClearance as LeastClearance
+from optlaws.cycles.limit_rows import LimitTaken as LimitTaken
 from optlaws.cycles.machine_axes import AxesPicture as AxesPicture
 from optlaws.cycles.machine_axes import Overlap as Overlap
 from optlaws.cycles.machine_follower import MachineAnswer as MachineAnswer
@@ -168,11 +172,14 @@ __all__ = [
     "Interval",
     "Jet",
     "Jumps",
+    "LawKind",
+    "LawMeasure",
     "LawSpace",
     "LazySequence",
     "LeastClearance",
     "LeastPrimeCircle",
     "LeastTime",
+    "LimitTaken",
     "LinkGeometry",
     "LoadPlace",
     "MachineAnswer",
@@ -206,6 +213,7 @@ __all__ = [
     "Polynomial",
     "PolynomialBasis",
     "ProcessByAngle",
+    "ProvenLeast",
     "Quantity",
     "RateLimit",
     "Residual",

@@ -60,7 +60,7 @@ def answer(
 ) -> None:
     """Print the least time, write law and proof into a file, and draw the motion into another."""
     given = {name: value for name, value in asdict(move).items() if name != "fastest"}
-    result = optlaws.fastest(problem, **given | {"limits": _limits(move.limits or [])})
+    result = optlaws.fastest(problem, **given | {"limits": read_limits(move.limits or [])})
     whole = result.to_dict()
     if output is not None:
         save(output, whole)
@@ -76,7 +76,7 @@ def answer(
         show(table("", "value", "unit", "note", rows=rows))
 
 
-def _limits(texts: list[str]) -> dict[str, Any]:
+def read_limits(texts: list[str]) -> dict[str, Any]:
     """Limits by name from texts such as "velocity=1 m/s"; a comma separates a least and a greatest value."""
     limits: dict[str, Any] = {}
     for text in texts:

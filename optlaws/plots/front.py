@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optlaws.plots.style import BLUES, GREY, WARM, new_axes
+from optlaws.plots.style import BLUES, GREY, WARM, name_point, new_axes
 from optlaws.synthesis.problem.named_constants import title_of
 from optlaws.tolerances import BESIDE_POINT
 
@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
 
+    from optlaws.cycles.advising.advice import Advice
     from optlaws.cycles.moves.time_front import TimeFront
     from optlaws.synthesis.pareto import Front
     from optlaws.synthesis.proven.front import ProvenFront
@@ -22,6 +23,8 @@ if TYPE_CHECKING:
 _AXES = {"B": "peak velocity B", "C": "peak acceleration C", "D": "peak power D", "J": "peak jerk J"}
 
 _BETWEEN = 8
+#: values that are further apart are drawn by their logarithms
+_WIDE = 10.0
 _MS = 1e3
 
 
@@ -80,3 +83,51 @@ def draw_time_front(front: TimeFront, axes: Axes | None = None, **style: Any) ->
     axes.set(xlabel="time of the move in ms", ylabel=f"least {front.minimise} in {front.unit}")
     axes.set_ylim(bottom=0.0)
     return [*points, *bound, least]
+
+
+def draw_advice(advice: Advice, axes: Axes | None = None, **style: Any) -> list[Artist]:
+    """Draw what is minimised over the second measure: the front, what no law is below, all laws; return the artists."""
+    axes = axes or new_axes()
+    x, y = ({law.name: law.values[name] for law in advice} for name in (advice.second, advice.minimise))
+    units = {measure.name: measure.heading for measure in advice.measures}
+    artists = _front_of_advice(advice, axes, style) if advice.front else []
+    chosen = advice.recommendation.law.name
+    for kind, colour, marker in (("given", GREY, "D"), ("standard", GREY, "s"), ("optimal", BLUES[3], "o")):
+        names = [law.name for law in advice if law.kind == kind and np.isfinite(x[law.name] * y[law.name])]
+        known: Any = {"color": colour, "marker": marker, "linewidth": 0.0, "markersize": 5.0, "label": f"{kind} laws"}
+        artists += axes.plot([x[name] for name in names], [y[name] for name in names], **known) if names else []
+        for name in (name for name in names if name != chosen and "," not in name):
+            near: Any = {"xytext": (6.0, -3.0), "textcoords": "offset points", "fontsize": 7.5, "color": colour}
+            axes.annotate(name, (x[name], y[name]), **near)
+    ring: Any = {"color": WARM, "marker": "o", "markersize": 11.0, "fillstyle": "none", "linewidth": 0.0, "zorder": 5}
+    artists += axes.plot(x[chosen], y[chosen], label="to take", **ring)
+    name_point(axes, f"{y[chosen]:.4g}", (x[chosen], y[chosen]), (-8.0, -12.0))
+    known_x = [value for value in x.values() if np.isfinite(value) and value > 0.0]
+    far = max(known_x) > _WIDE * min(known_x)
+    axes.set(xscale="log" if far else "linear", xlabel=units[advice.second], ylabel=units[advice.minimise])
+    axes.margins(x=0.12)
+    axes.legend(fontsize=8.0)
+    return artists
+
+
+def _front_of_advice(advice: Advice, axes: Axes, style: dict[str, Any]) -> list[Artist]:
+    """The points of the front, and between them what is reached and what no law is below."""
+    front = sorted((law.values[advice.second], law.values[advice.minimise], _proven(law)) for law in advice.front)
+    places, values, bounds = (np.array(column) for column in zip(*front, strict=True))
+    colour, usual = style.pop("color", BLUES[3]), advice.recommendation.usual
+    line = {"color": colour, "marker": "o", "markersize": 3.0, "linewidth": 0.0, "label": "front", **style}
+    others = [name for name in advice.guarded if name != advice.second]
+    no_more = f", with no more {', '.join(others)} than {usual.name}" if usual is not None and others else ""
+    points = axes.plot(places, values, **line)
+    # a law is one at every greater value too, and a bound one at every smaller one
+    ends = np.repeat(places, 2)[1:-1]
+    least, most = np.repeat(bounds[1:], 2), np.repeat(values[:-1], 2)
+    between = axes.fill_between(ends, least, most, color=colour, alpha=0.15, linewidth=0.0)
+    below = axes.plot(ends, least, color=GREY, linewidth=0.8, label=f"none below{no_more}")
+    return [*points, between, *below]
+
+
+def _proven(law: Any) -> float:  # noqa: ANN401 - a law of an advice
+    """What is proven to be the least at a point of a front; 0 where nothing is."""
+    bound = law.proof.lower_bound
+    return 0.0 if bound is None else max(bound, 0.0)

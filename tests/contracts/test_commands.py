@@ -19,6 +19,7 @@ from tests.internals.cli import app_of_cli as app
 STUDY = "[problem]\norder = 2\nbasis = 'pieces'\nbreaks = 4\ncontinuity = 1\ndegree = 3\n[vary]\nB = [1.8]\n"
 #: a call of each that has something infinite to tell where it can have it
 CALLS = {
+    "advise": "--stroke 35mm --duration 0.1s --degree 5 --points 0",
     "atlas": f"--order 4 --peak-velocity 1.71 --file {ROOT}/results/atlas/atlas.csv",
     "cam": "cam.toml",
     "catalogue": "",

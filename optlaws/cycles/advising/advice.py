@@ -1,0 +1,189 @@
+"""The answer to "which law?": laws side by side, the front between two measures, and the one to take."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from json import dumps
+from typing import Any
+
+from optlaws.cycles.advising.advised_law import AdvisedLaw, LawMeasure
+from optlaws.cycles.advising.recommendation import Recommendation
+from optlaws.errors import InputError, OptlawsError
+from optlaws.extras import needed
+from optlaws.numbers import bounded
+from optlaws.shown.summary import Row, Summary
+from optlaws.suggest import unknown_key
+
+
+@dataclass(frozen=True, repr=False)
+class Advice:
+    """Laws for one motion side by side, made by `advise`: a row for each, the front, and which to take.
+
+    Attributes
+    ----------
+    minimise
+        What is to be least.
+    second
+        What decides between laws that are equally good; the front is between the two.
+    measures
+        What laws are compared by, with the units.
+    laws
+        Standard laws first, then optimal ones, each with its proof.
+    front
+        Laws that exchange one for the other, each with its proof; empty where it was left out.
+    recommendation
+        The law to take, by which rule, and what it gains and costs in two sentences.
+    guarded
+        Of what the law to take, and those of the front, take no more than the usual one: it has no limit of its own.
+    errors
+        Why there is no law of a name.
+
+    Examples
+    --------
+    >>> import optlaws
+    >>> advice = optlaws.advise(optlaws.Rise("35 mm", "0.1 s"), points=0)
+    >>> print(advice.recommendation)
+    Take ...
+    """
+
+    minimise: str
+    second: str
+    measures: tuple[LawMeasure, ...]
+    laws: tuple[AdvisedLaw, ...]
+    front: tuple[AdvisedLaw, ...]
+    recommendation: Recommendation
+    guarded: tuple[str, ...] = ()
+    errors: Mapping[str, OptlawsError] = field(default_factory=dict)
+
+    def __getitem__(self, name: str) -> AdvisedLaw:
+        for law in self.laws:
+            if law.name == name:
+                return law
+        raise InputError(unknown_key(name, [law.name for law in self.laws], "law of this advice"))
+
+    def __iter__(self) -> Iterator[AdvisedLaw]:
+        return iter(self.laws)
+
+    def __len__(self) -> int:
+        return len(self.laws)
+
+    @property
+    def headings(self) -> tuple[str, ...]:
+        """What the rows have."""
+        return ("law", *(measure.heading for measure in self.measures), "limits", "proof")
+
+    @property
+    def rows(self) -> list[list[float | str]]:
+        """What `headings` name, a row for each law."""
+        return [
+            [law.name, *(law.values[measure.name] for measure in self.measures), _limits(law), self._proof(law)]
+            for law in self.laws
+        ]
+
+    def _proof(self, law: AdvisedLaw) -> str:
+        if law.proof is None:
+            return ""
+        bound = law.proof.lower_bound
+        if law.proof.status == "optimal" or not bound or bound <= 0.0:
+            return str(law.proof.status.value)
+        return f"{law.proof.status.value}, gap {1.0 - bound / law.values[law.proof.minimise]:.1e}"
+
+    def summary(self) -> Summary:
+        """The law to take, what it takes, what is proven of it, and why it is the one.
+
+        Examples
+        --------
+        >>> import optlaws
+        >>> summary = optlaws.advise(optlaws.Problem(order=3), points=0).summary()
+        >>> [row.name for row in summary][:3]
+        ['take', 'velocity', 'acceleration']
+        """
+        chosen = self.recommendation
+        rows = [Row("take", chosen.law.name)]
+        for measure in self.measures:
+            change = chosen.changes.get(measure.name)
+            against = "" if chosen.usual is None or chosen.usual is chosen.law else f" of {chosen.usual.name}"
+            note = f"{100.0 * change:.4g} %{against}" if change is not None and against else ""
+            rows.append(Row(measure.name, chosen.law.values[measure.name], measure.unit, note=note))
+        rows += [
+            Row(f"limit of {taken.name}", f"{100.0 * taken.share:.4g} %", note=f"of {taken.text}")
+            for taken in chosen.law.limits
+        ]
+        rows += [Row("why", sentence) for sentence in chosen.sentences]
+        return Summary([*rows, Row("rule", chosen.rule)])
+
+    def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
+        """Draw what is minimised over the second measure: the front, all laws, and the one to take; the artists.
+
+        `ax` are axes of matplotlib, new ones unless given; `style` is what `Axes.plot` takes, for the front.
+        """
+        from optlaws.plots.front import draw_advice
+
+        return draw_advice(self, ax, **style)
+
+    def to_pandas(self) -> Any:  # noqa: ANN401 - pandas is imported here alone
+        """The rows as a data frame with the laws' names as index; needs the extra `optlaws[studies]`."""
+        pd = needed("pandas", "to_pandas")
+        return pd.DataFrame(self.rows, columns=list(self.headings)).set_index("law")
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data in SI units; every optimal law with its solutions whole."""
+        chosen = self.recommendation
+        return {
+            "minimise": self.minimise,
+            "second": self.second,
+            "guarded": list(self.guarded),
+            "measures": [{"name": measure.name, "unit": measure.unit} for measure in self.measures],
+            "laws": [law.to_dict() for law in self.laws],
+            "front": [law.to_dict() for law in self.front],
+            "recommendation": {
+                "law": chosen.law.name,
+                "usual": None if chosen.usual is None else chosen.usual.name,
+                "rule": chosen.rule,
+                "gain": None if chosen.gain is None else bounded(chosen.gain),
+                "changes": {name: bounded(value) for name, value in chosen.changes.items()},
+                "sentences": list(chosen.sentences),
+            },
+            "errors": {name: str(error) for name, error in self.errors.items()},
+        }
+
+    def proofs(self) -> dict[str, Any]:
+        """The solutions of all optimal laws, by their names, and nothing else: a file of it `optlaws verify` checks.
+
+        Examples
+        --------
+        >>> import optlaws
+        >>> list(optlaws.advise(optlaws.Problem(order=3), points=0).proofs()["laws"])[0]
+        'least acceleration'
+        """
+
+        def of(laws: tuple[AdvisedLaw, ...]) -> dict[str, Any]:
+            return {law.name: [each.to_dict() for each in law.solutions] for law in laws if law.solutions}
+
+        return {"about": str(self), "laws": of(self.laws), "front": of(self.front[1:])}
+
+    def to_json(self) -> str:
+        """The contents of `to_dict` as JSON text."""
+        return dumps(self.to_dict(), ensure_ascii=False, indent=1)
+
+    def __repr__(self) -> str:
+        chosen = self.recommendation
+        return f"Advice({len(self.laws)} laws, minimise={self.minimise!r}, take={chosen.law.name!r})"
+
+    def __str__(self) -> str:
+        return str(self.recommendation)
+
+    def _repr_html_(self) -> str:
+        from optlaws.shown.showing import facts, page, table
+
+        chosen = self.recommendation
+        return page("Advice", facts({"take": str(chosen), "rule": chosen.rule}), table(self.headings, self.rows))
+
+
+def _limits(law: AdvisedLaw) -> str:
+    """Whether a law keeps the limits, and which it breaks."""
+    if not law.limits:
+        return ""
+    broken = (f"{taken.name} {100.0 * (taken.share - 1.0):.2g} % beyond" for taken in law.broken)
+    return ", ".join(broken) or "kept"

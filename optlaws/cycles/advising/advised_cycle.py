@@ -1,0 +1,336 @@
+"""A cycle of which laws are compared: its moves with each law, what that takes of the machine, and the optima."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from math import inf
+from typing import Any
+
+from optlaws.cycles.advising.advised_law import AdvisedLaw, LawMeasure, ProvenLeast
+from optlaws.cycles.advising.further_bounds import least_near, with_most
+from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.limit_rows import LimitTaken, limits_taken
+from optlaws.cycles.optimisation.motion_limits import (
+    DECELERATION,
+    LIMITS,
+    OneSided,
+    limits_of_segment,
+    name_of,
+    read_limits,
+)
+from optlaws.cycles.optimisation.objectives import LOADED, OBJECTIVES, kind_of
+from optlaws.cycles.specification.load import LOAD
+from optlaws.cycles.specification.process import is_process
+from optlaws.cycles.specification.programme import AXES, is_optimal
+from optlaws.cycles.specification.segments import OPTIMAL, CycleSegment, Free, Move
+from optlaws.cycles.summary import force_name, force_unit, load_unit
+from optlaws.errors import InputError
+from optlaws.kept import kept_property
+from optlaws.laws import MotionLaw
+from optlaws.motion.piece import Piece, factor, named_law, unit_of
+from optlaws.motion.quantities import quantity
+from optlaws.synthesis.least_time.follower_residual import RESIDUAL, FollowerResidual
+from optlaws.synthesis.problem.constants import FUNCTIONALS, Functional
+from optlaws.synthesis.solution import Solution
+from optlaws.synthesis.solve import synthesize
+from optlaws.synthesis.status import Status
+from optlaws.tolerances import JUMP
+
+_OF_MOTION = ("velocity", "acceleration", "jerk", "rms acceleration")
+#: constants of a law that may be least beside something else
+CONSTANT_OF = {"velocity": "B", "acceleration": "C", "jerk": "J"}
+_POWERED = ("power", "energy", "heat")
+#: units of SI as quantities have them, of what may be bounded further
+_ASCII = {"m/s²": "m/s^2", "m/s³": "m/s^3", "rad/s²": "rad/s^2", "rad/s³": "rad/s^3"}
+
+
+@dataclass(frozen=True)
+class AdvisedCycle:
+    """A cycle, with the follower that its moves leave vibrating; laws of its moves are compared.
+
+    Attributes
+    ----------
+    cycle
+        As it stands.
+    minimise
+        The measure that is to be least: that of the cycle, or the residual acceleration of its follower.
+    follower
+        Whose residual acceleration is told, or None; the limit of it is not the one that it has itself.
+    most
+        The limit of the residual acceleration in SI units, infinite where it has none.
+    """
+
+    cycle: Cycle
+    minimise: str
+    follower: FollowerResidual | None = None
+    most: float = inf
+
+    @kept_property
+    def measures(self) -> tuple[LawMeasure, ...]:
+        """Everything that laws are compared by, in SI units."""
+        cycle, force = self.cycle, force_name(self.cycle)
+        measures = [LawMeasure(name, unit_of(cycle.axis, kind_of(name)[0])) for name in _OF_MOTION]
+        if self.follower is not None:
+            measures.append(LawMeasure(RESIDUAL, unit_of(cycle.axis, 2)))
+        if cycle.load is not None and not is_process(cycle.load):
+            outputs = self._standing.load_motion.machine.outputs
+            measures += [LawMeasure(f"{LOAD}{name}", load_unit(cycle, name)) for name in outputs]
+        if cycle.drive is not None:
+            measures += [LawMeasure(name, force_unit(cycle)) for name in (force, f"rms {force}")]
+            measures += [LawMeasure("power", "W"), LawMeasure("energy", "J")]
+        if all(measure.name != self.minimise for measure in measures):
+            measures.append(LawMeasure(self.minimise, _unit(cycle, self.minimise)))
+        return tuple(measures)
+
+    @kept_property
+    def limited(self) -> frozenset[str]:
+        """The measures that have a limit, of the cycle or of a segment."""
+        of_cycle = read_limits(self.cycle.limits, self.cycle.axis, "limits")
+        names = set(self.cycle.limits)
+        for stretch in self.cycle.programme.stretches:
+            for key in limits_of_segment(stretch, of_cycle, self.cycle.axis):
+                nu = key.nu if isinstance(key, OneSided) else key
+                names.add(name_of(nu, self.cycle.axis))
+        if self.cycle.limits.get("motor"):
+            names |= {"velocity", "torque", "rms torque"}
+        if self.most < inf:
+            names.add(RESIDUAL)
+        return frozenset(names)
+
+    @property
+    def objectives(self) -> tuple[str, ...]:
+        """The measures that laws can be least in, but for power and sums, which nothing is proven of."""
+        names = (measure.name for measure in self.measures if measure.name not in (*_POWERED, "velocity"))
+        return tuple(name for name in names if name in (*OBJECTIVES, RESIDUAL, self.minimise))
+
+    def given(self) -> AdvisedLaw | None:
+        """The cycle as it stands; None where all of its moves are looked for."""
+        if all(is_optimal(self.cycle.segments[i]) for i in self._compared):
+            return None
+        return self._advised("as it stands", "given", self._standing)
+
+    @property
+    def usual(self) -> str | None:
+        """The name of the law that all of its moves have; None where they have several, or are looked for."""
+        laws = [getattr(self.cycle.segments[i], "law", OPTIMAL) for i in self._compared]
+        first = laws[0]
+        return first if isinstance(first, str) and first != OPTIMAL and all(law == first for law in laws) else None
+
+    def standard(self, name: str) -> AdvisedLaw:
+        """The cycle with a law of the catalogue in all its moves.
+
+        Raises
+        ------
+        InputError
+            If that law does not fit: velocities do not meet, or points on the way are given.
+        """
+        cycle = self._known(self._segments(partial(_with_law, name)))
+        return self._advised(name, "standard", cycle)
+
+    def least(self, name: str, minimise: str, most: Mapping[str, float]) -> AdvisedLaw:
+        """The cycle whose laws are least in a measure and take no more of others, within all limits.
+
+        Raises
+        ------
+        InfeasibleProblem, SolverFailure
+            If no law keeps all of that, or none is found.
+        """
+        of_cycle = self.cycle.minimise if minimise == RESIDUAL else minimise
+        limits = dict(self.cycle.limits)
+        for other, value in most.items():
+            if other != RESIDUAL:
+                limits |= self._tighter(limits, other, value)
+        cycle = replace(self.cycle, segments=self._segments(_optimal), minimise=of_cycle, limits=limits)
+        if self.follower is not None:
+            residual = min(self.most, most.get(RESIDUAL, inf))
+            if minimise == RESIDUAL or self._residual(cycle) > residual:
+                cycle = cycle.with_solutions(self._calmer(cycle, minimise, residual))
+        return self._optimal(name, minimise, cycle)
+
+    def near(self, name: str, best: AdvisedLaw, minimise: str, share: float) -> AdvisedLaw:
+        """The cycle whose laws are least in a peak or residual of all that are as good as others but for a share.
+
+        Raises
+        ------
+        InfeasibleProblem, SolverFailure
+            If none is found.
+        """
+        assert isinstance(best.motion, Cycle)  # noqa: S101 - as it is one of these
+        solutions = [
+            synthesize(least_near(solution, self._constant_of(minimise, piece), share))
+            if minimise != RESIDUAL or _rests(piece)
+            else solution
+            for piece, solution in _solved(best.motion)
+        ]
+        return self._optimal(name, minimise, best.motion.with_solutions(solutions))
+
+    @kept_property
+    def _compared(self) -> tuple[int, ...]:
+        """The numbers of the segments whose laws are compared: all that move but those whose law ends in motion."""
+        numbers = tuple(i for i, segment in enumerate(self.cycle.segments) if _may_change(segment))
+        if not numbers:
+            raise InputError("the cycle has no move whose law could be another: laws are compared from rest to rest")
+        return numbers
+
+    def _segments(self, changed: Any) -> list[CycleSegment]:  # noqa: ANN401 - a function of a segment
+        return [changed(each) if i in self._compared else each for i, each in enumerate(self.cycle.segments)]
+
+    def _known(self, segments: Sequence[CycleSegment]) -> Cycle:
+        """A cycle of these laws: nothing of a load is looked for."""
+        minimise = "acceleration" if kind_of(self.cycle.minimise)[0] == LOADED else self.cycle.minimise
+        cycle = replace(self.cycle, segments=segments, minimise=minimise, limits={})
+        _ = cycle.peaks  # what does not fit is refused here
+        return cycle
+
+    @kept_property
+    def _standing(self) -> Cycle:
+        return self.cycle if self.usual is None else self._known(self.cycle.segments)
+
+    def _advised(self, name: str, kind: Any, cycle: Cycle, proof: ProvenLeast | None = None) -> AdvisedLaw:  # noqa: ANN401
+        values = {measure.name: self._value(cycle, measure.name) for measure in self.measures}
+        limits = list(limits_taken(cycle, self.cycle))
+        if self.most < inf:
+            text = f"{self.most:.6g} {_ASCII[unit_of(cycle.axis, 2)]}"
+            limits.append(LimitTaken(RESIDUAL, "", values[RESIDUAL], self.most, text))
+        return AdvisedLaw(name, kind, cycle, values, tuple(limits), cycle.solutions if proof else (), proof)
+
+    def _value(self, cycle: Cycle, name: str) -> float:
+        if name == RESIDUAL:
+            return self._residual(cycle)
+        if name.startswith(LOAD) and cycle.load is not None:
+            return cycle.load_motion.peak(name.removeprefix(LOAD)).value
+        if name == "jerk" and any(joint["acceleration"] for joint in cycle.joints):
+            return inf  # the peaks of segments are those inside
+        return cycle.value(name)
+
+    def _residual(self, cycle: Cycle) -> float:
+        """The greatest residual acceleration that a move from rest to rest leaves, each by itself."""
+        moves = [piece for piece in cycle.pieces if _rests(piece)]
+        if not moves:
+            raise InputError("follower: no motion of the cycle is from rest to rest, after which it would vibrate on")
+        return max(
+            float(constant.value(piece.law)) * abs(factor(piece.stroke, piece.duration, 2))
+            for piece, constant in ((piece, self._constant(piece)) for piece in moves)
+        )
+
+    def _constant(self, piece: Piece) -> Functional:
+        assert self.follower is not None  # noqa: S101 - as it is asked of one
+        return self.follower.limit_in(piece.duration, abs(piece.stroke)).constant
+
+    def _constant_of(self, minimise: str, piece: Piece) -> Functional:
+        return self._constant(piece) if minimise == RESIDUAL else FUNCTIONALS[CONSTANT_OF[minimise]]
+
+    def _calmer(self, cycle: Cycle, minimise: str, residual: float) -> list[Solution]:
+        """Solutions whose moves from rest to rest leave no more vibrating than is allowed, or the least."""
+        calmer = []
+        for piece, solution in _solved(cycle):
+            problem = solution.problem
+            if _rests(piece):
+                constant = self._constant(piece)
+                if residual < inf:
+                    problem = with_most(problem, constant, residual / abs(factor(piece.stroke, piece.duration, 2)))
+                if minimise == RESIDUAL:
+                    problem = replace(problem, minimise=constant, symmetric=problem.symmetric and constant.even)
+            calmer.append(solution if problem == solution.problem else synthesize(problem))
+        return calmer
+
+    def _optimal(self, name: str, minimise: str, cycle: Cycle) -> AdvisedLaw:
+        return self._advised(name, "optimal", cycle, self._proof(cycle, minimise))
+
+    def _proof(self, cycle: Cycle, minimise: str) -> ProvenLeast:
+        """What is proven of what its solutions minimise."""
+        space, solutions = cycle.search_space or "", cycle.solutions
+        if minimise == cycle.minimise:
+            return ProvenLeast(minimise, cycle.lower_bound, _of_any_degree(cycle), space, cycle.status)
+        nu = kind_of("acceleration" if minimise == RESIDUAL else minimise)[0]
+        moves = [each for each in _solved(cycle) if minimise != RESIDUAL or _rests(each[0])]
+        scaled = [solution.lower_bound * abs(factor(piece.stroke, piece.duration, nu)) for piece, solution in moves]
+        proven = all(solution.status is Status.OPTIMAL for solution in solutions)
+        return ProvenLeast(minimise, max(scaled), None, space, Status.OPTIMAL if proven else Status.LOCAL)
+
+    def _tighter(self, limits: Mapping[str, Any], name: str, most: float) -> dict[str, Any]:
+        """A limit that is no wider than a value in SI units, beside those that there are."""
+        axis = self.cycle.axis
+        if name.startswith(LOAD):
+            unit = _unit(self.cycle, name)
+            return {name: most if unit == "SI" else f"{most!r} {_ASCII.get(unit, unit)}"}
+        unit = _unit(self.cycle, name)
+        text = f"{most!r} {_ASCII.get(unit, unit)}"
+        given = limits.get(name)
+        dimension = AXES[axis][LIMITS[name]] if LIMITS.get(name, 0) > 0 else None
+        if dimension is None:
+            return {name: text}
+        apart = {DECELERATION: limits[DECELERATION]} if name == "acceleration" and DECELERATION in limits else {}
+        tighter = {other: text if quantity(value, dimension, other) > most else value for other, value in apart.items()}
+        if isinstance(given, list | tuple):
+            low, high = (quantity(each, dimension, name) for each in given)
+            sides = (max(low, -most), min(high, most))
+            return {name: tuple(f"{side!r} {_ASCII.get(unit, unit)}" for side in sides)}
+        if given is not None and quantity(given, dimension, name) <= most:
+            text = given
+        return {name: text, **tighter}
+
+
+def _may_change(segment: CycleSegment) -> bool:
+    """Whether another law could take the place of a segment's: it is looked for, or goes from rest to rest."""
+    if is_optimal(segment):
+        return True
+    if not isinstance(segment, Move):
+        return False
+    return _is_at_rest(named_law(segment.law, segment.label))
+
+
+def _with_law(law: str, segment: CycleSegment) -> CycleSegment:
+    """A segment with a law of the catalogue."""
+    if isinstance(segment, Free):
+        if segment.via:
+            raise InputError(f"{segment.label}: a law of the catalogue passes no points that are given")
+        return Move(segment.by, segment.duration, to=segment.to, law=law, limits=segment.limits, name=segment.label)
+    if isinstance(segment, Move) and (segment.start_velocity, segment.end_velocity) != (None, None):
+        raise InputError(f"{segment.label}: a law of the catalogue has no velocity at its ends")
+    return replace(segment, law=law)  # type: ignore[type-var] # a dataclass
+
+
+def _optimal(segment: CycleSegment) -> CycleSegment:
+    return replace(segment, law=OPTIMAL) if isinstance(segment, Move) else segment
+
+
+def _rests(piece: Piece) -> bool:
+    """Whether a piece moves from rest to rest."""
+    return bool(piece.stroke) and _is_at_rest(piece.law)
+
+
+def _is_at_rest(law: MotionLaw) -> bool:
+    """Whether a law's velocity is 0 at both ends, but for rounding."""
+    return max(abs(float(law.b(end))) for end in (0.0, 1.0)) <= JUMP * law.peak(1).value
+
+
+def _solved(cycle: Cycle) -> list[tuple[Piece, Solution]]:
+    """The solutions with their pieces."""
+    pieces = {id(piece.law): piece for piece in cycle.pieces}
+    return [(pieces[id(solution.law)], solution) for solution in cycle.solutions]
+
+
+def _of_any_degree(cycle: Cycle) -> float | None:
+    """What no laws of any degree take less of, where it is known of a peak of the motion."""
+    nu, mean = kind_of(cycle.minimise)
+    if nu <= 0 or mean:
+        return None
+    limits = [
+        solution.limit * abs(factor(piece.stroke, piece.duration, nu))
+        for piece, solution in _solved(cycle)
+        if solution.limit is not None
+    ]
+    return max(limits, default=None)
+
+
+def _unit(cycle: Cycle, name: str) -> str:
+    """The SI unit of a measure."""
+    nu, _ = kind_of(name)
+    if nu > 0:
+        return unit_of(cycle.axis, nu)
+    return {-1: force_unit(cycle), -3: "W", -4: "J", -5: "J"}.get(nu, "") or load_unit(
+        cycle, name.removeprefix("rms ").removeprefix(LOAD)
+    )

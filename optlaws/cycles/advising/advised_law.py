@@ -1,0 +1,221 @@
+"""A law beside others: what it takes of all that a designer compares, of every limit, and what is proven of it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Protocol
+
+from optlaws.cycles.limit_rows import LimitTaken
+from optlaws.errors import InputError
+from optlaws.laws import MotionLaw
+from optlaws.numbers import bounded
+from optlaws.synthesis.solution import Solution
+from optlaws.synthesis.status import Status
+
+if TYPE_CHECKING:
+    from optlaws.cycles.cycle import Cycle
+
+#: a law of the catalogue, the laws that a cycle has, or one that was looked for
+LawKind = Literal["standard", "given", "optimal"]
+
+
+class LawMeasure(NamedTuple):
+    """What laws are compared by: its name and its unit.
+
+    Examples
+    --------
+    >>> LawMeasure("acceleration", "m/s²").heading, LawMeasure("inertia ratio", "").heading
+    ('acceleration, m/s²', 'inertia ratio')
+    """
+
+    name: str
+    unit: str
+
+    @property
+    def heading(self) -> str:
+        """The heading of a column of it."""
+        return f"{self.name}, {self.unit}" if self.unit else self.name
+
+
+class ProvenLeast(NamedTuple):
+    """What is proven of an optimal law, in SI units.
+
+    Attributes
+    ----------
+    minimise
+        What is least.
+    lower_bound
+        What no law of the space that keeps the same limits takes less than; None where nothing is known.
+    limit
+        What no law of any degree does; None where none is known.
+    space
+        The laws of which none is better, in words.
+    status
+        Of the solutions.
+    """
+
+    minimise: str
+    lower_bound: float | None
+    limit: float | None
+    space: str
+    status: Status
+
+
+@dataclass(frozen=True)
+class AdvisedLaw:
+    """A law of an advice, with everything that it takes.
+
+    Attributes
+    ----------
+    name
+        Of the catalogue, or what is least in it.
+    kind
+        "standard", "given" or "optimal".
+    motion
+        The cycle with this law in its moves; of a dimensionless problem the law.
+    values
+        What it takes of every measure by its name, recomputed from the law; in SI units of a motion in machine units.
+    limits
+        What it takes of every limit.
+    solutions
+        Of an optimal law: the solution of every motion, with its certificate.
+    proof
+        Of an optimal law: what no other law is better in.
+
+    Examples
+    --------
+    >>> import optlaws
+    >>> advice = optlaws.advise(optlaws.Problem(order=3), points=0)
+    >>> sine = advice["modified sine"]
+    >>> sine.kind, round(sine.values["acceleration"], 4), sine.keeps_limits, sine.law.constants.C
+    ('standard', 5.528, True, Peak(value=5.527957, k=0.125))
+    """
+
+    name: str
+    kind: LawKind
+    motion: Cycle | MotionLaw = field(repr=False)
+    values: Mapping[str, float]
+    limits: tuple[LimitTaken, ...] = field(default=(), repr=False)
+    solutions: tuple[Solution, ...] = field(default=(), repr=False)
+    proof: ProvenLeast | None = field(default=None, repr=False)
+
+    @property
+    def keeps_limits(self) -> bool:
+        """Whether every limit is kept, but for rounding."""
+        return all(taken.is_kept for taken in self.limits)
+
+    @property
+    def broken(self) -> tuple[LimitTaken, ...]:
+        """The limits that it breaks."""
+        return tuple(taken for taken in self.limits if not taken.is_kept)
+
+    @property
+    def laws(self) -> tuple[MotionLaw, ...]:
+        """The law of every motion, in order."""
+        if isinstance(self.motion, MotionLaw):
+            return (self.motion,)
+        return tuple(piece.law for piece in self.motion.pieces if piece.stroke)
+
+    @property
+    def law(self) -> MotionLaw:
+        """The law, where all motions have the same.
+
+        Raises
+        ------
+        InputError
+            If motions have laws of their own.
+        """
+        first, *others = self.laws
+        if any(law != first for law in others):
+            raise InputError(f"{self.name}: its {len(others) + 1} motions have laws of their own: they are in laws")
+        return first
+
+    @property
+    def solution(self) -> Solution | None:
+        """The solution with its certificate; None of a law that was not looked for.
+
+        Raises
+        ------
+        InputError
+            If there are several.
+        """
+        if len(self.solutions) > 1:
+            raise InputError(f"{self.name}: its {len(self.solutions)} motions have solutions of their own")
+        return self.solutions[0] if self.solutions else None
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data in SI units, with whole solutions."""
+        proof = self.proof
+        optimal = {} if proof is None else {
+            "minimise": proof.minimise,
+            "lower_bound": proof.lower_bound,
+            "limit": proof.limit,
+            "space": proof.space,
+            "status": proof.status.value,
+            "solutions": [solution.to_dict() for solution in self.solutions],
+        }  # fmt: skip
+        return {
+            "name": self.name,
+            "kind": self.kind,
+            "values": {name: bounded(value) for name, value in self.values.items()},
+            "keeps_limits": self.keeps_limits,
+            "limits": [
+                {"name": taken.name, "where": taken.where, "value": bounded(taken.value), "limit": taken.limit}
+                for taken in self.limits
+            ],
+            **optimal,
+        }
+
+
+class AdvisedMotion(Protocol):
+    """A motion of which laws are compared: what they are compared by, and how they are had.
+
+    Attributes
+    ----------
+    minimise
+        The measure that is to be least.
+    limited
+        Measures that have a limit of their own.
+    """
+
+    @property
+    def minimise(self) -> str:
+        """The measure that is to be least."""
+        ...
+
+    @property
+    def measures(self) -> tuple[LawMeasure, ...]:
+        """Everything that laws are compared by."""
+        ...
+
+    @property
+    def limited(self) -> frozenset[str]:
+        """The measures that have a limit."""
+        ...
+
+    @property
+    def objectives(self) -> tuple[str, ...]:
+        """The measures that laws can be least in."""
+        ...
+
+    @property
+    def usual(self) -> str | None:
+        """The name of the law of the catalogue that it has; None where it has none, or several."""
+        ...
+
+    def given(self) -> AdvisedLaw | None:
+        """The laws that it has; None where all are looked for."""
+        ...
+
+    def standard(self, name: str) -> AdvisedLaw:
+        """It with a law of the catalogue; an `InputError` where that does not fit."""
+        ...
+
+    def least(self, name: str, minimise: str, most: Mapping[str, float]) -> AdvisedLaw:
+        """The law that is least in a measure and takes no more of others, within all limits."""
+        ...
+
+    def near(self, name: str, best: AdvisedLaw, minimise: str, share: float) -> AdvisedLaw:
+        """The law that is least in a measure of all that are as good as an optimal one, but for a share."""
+        ...

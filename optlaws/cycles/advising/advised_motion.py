@@ -1,0 +1,201 @@
+"""The door to advice: which law a move, a cycle or a problem should have."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from math import inf
+from typing import Any
+
+from optlaws.cycles.advising.advice import Advice
+from optlaws.cycles.advising.advised_cycle import AdvisedCycle
+from optlaws.cycles.advising.advised_law import AdvisedMotion
+from optlaws.cycles.advising.advised_problem import AdvisedProblem
+from optlaws.cycles.advising.candidates import Candidates
+from optlaws.cycles.advising.recommendation import recommended
+from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.moves.vibration_limits import read_follower
+from optlaws.cycles.specification.programme import axis_of
+from optlaws.cycles.specification.segments import Move, Return
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.mechanisms.drives.drive_train import Drive
+from optlaws.mechanisms.linkages.mechanism import Mechanism
+from optlaws.mechanisms.residual import residual_vibration
+from optlaws.motion.piece import unit_of
+from optlaws.motion.quantities import positive_quantity, quantity, table
+from optlaws.numbers import whole
+from optlaws.suggest import unknown_key
+from optlaws.synthesis.least_time.follower_residual import RESIDUAL
+from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.spaces.bases import Chebyshev
+
+#: the laws that most designers choose between, the usual one first
+STANDARD = ("modified sine", "modified trapezoid", "cycloidal", "3-4-5 polynomial", "4-5-6-7 polynomial")
+_MOST_LAWS, _MOST_POINTS = 40, 100
+#: of a single move's laws
+_DEGREE = 21
+_ACCELERATIONS = {"length": "acceleration", "angle": "angular acceleration"}
+_FOLLOWER = '{"frequency": ("27 Hz", "33 Hz"), "damping": 0.05}'
+
+
+def advise(
+    motion: Move | Cycle | Problem,
+    *,
+    minimise: str | None = None,
+    limits: Mapping[str, Any] | None = None,
+    follower: Mapping[str, Any] | None = None,
+    drive: Mapping[str, Any] | Mechanism | Drive | None = None,
+    laws: Sequence[str] = STANDARD,
+    degree: int | None = None,
+    points: int = 7,
+) -> Advice:
+    """Which law a motion should have: standard and optimal laws side by side, what each costs, and which to take.
+
+    Of the laws that keep every limit, and take no more than the usual law of what has no limit (peak velocity,
+    acceleration, jerk, residual vibration, peak and RMS torque), those within 1 % of the least objective are equally
+    good, and of these the one of least residual vibration, where there is a follower, or least jerk is recommended.
+    Every number is recomputed from the laws; every optimal law has its proof.
+
+    Parameters
+    ----------
+    motion
+        A single move from rest to rest in machine units, `Rise("35 mm", "0.1 s")`; a `Cycle`, all of whose moves have
+        the laws in turn; or a dimensionless `Problem`.
+    minimise
+        What is to be least, as of a `Cycle`: "acceleration", "jerk", "rms torque", "residual acceleration"; what the
+        cycle or problem says unless given, of a single move the acceleration.
+    limits
+        As of a `Cycle`, more than its own; with a follower of the "residual acceleration" too. A move may have its own.
+    follower
+        What the motion leaves vibrating: `{"frequency": ("27 Hz", "33 Hz"), "damping": 0.05}`, its natural frequency or
+        the least and the greatest, and its damping ratio. Of a problem the frequency is nu, radians in the motion.
+    drive
+        As of a `Cycle`: a mass, a `Mechanism` or a `Drive`, whose torque, power and energy are told too.
+    laws
+        Names of the catalogue, members such as "III(7.2)", or files; the first is the usual one, which others are held
+        against, unless the motion has a law already.
+    degree
+        Of the optimal laws' Z; that of the cycle or problem unless given, of a single move 21.
+    points
+        Of the front between what is minimised and what decides between equally good laws; 0 for none.
+
+    Returns
+    -------
+    Advice
+        A row for each law, the front, the recommendation.
+
+    Raises
+    ------
+    InputError
+        If an entry is wrong, or no law of the motion could be another.
+    InfeasibleProblem
+        If no law keeps the limits.
+    SolverFailure
+        If none is found.
+
+    Examples
+    --------
+    >>> from optlaws import Rise, advise
+    >>> rise = Rise("35 mm", "0.1 s", limits={"velocity": "640 mm/s"})
+    >>> advice = advise(rise, follower={"frequency": ("27 Hz", "33 Hz"), "damping": 0.05}, points=0)
+    >>> chosen = advice.recommendation
+    >>> chosen.law.kind, chosen.usual.name, chosen.gain > 0.05
+    ('optimal', 'modified sine', True)
+    """
+    if isinstance(motion, Problem):
+        _refuse_units(limits, drive)
+        known: AdvisedMotion = _problem(motion, minimise, follower, degree)
+    else:
+        known = _cycle(motion, minimise, limits, follower, drive, degree)
+    names = list(dict.fromkeys(_checked(laws)))
+    if known.usual is not None:
+        names = list(dict.fromkeys([known.usual, *names]))
+    count = whole(points, "points", least=0, most=_MOST_POINTS)
+    candidates = Candidates(known)
+    candidates.add_standard(names)
+    candidates.add_optimal()
+    front = candidates.front(count) if count > 1 else ()
+    chosen = recommended(candidates)
+    return Advice(
+        known.minimise,
+        candidates.second,
+        known.measures,
+        tuple(candidates.laws.values()),
+        front,
+        chosen,
+        tuple(candidates.most()),
+        candidates.errors,
+    )
+
+
+def _checked(laws: Any) -> list[str]:  # noqa: ANN401 - it is checked here
+    if isinstance(laws, str) or not isinstance(laws, Sequence) or not all(isinstance(law, str) for law in laws):
+        raise InputError(f"laws must be names such as ['modified sine', 'cycloidal'], got {shortened(laws)}")
+    if len(laws) > _MOST_LAWS:
+        raise InputError(f"laws: at most {_MOST_LAWS} are compared, got {len(laws)}")
+    return list(laws)
+
+
+def _refuse_units(limits: Any, drive: Any) -> None:  # noqa: ANN401
+    if limits or drive is not None:
+        raise InputError(
+            "a problem is dimensionless: its bounds are its limits, and a drive is of a motion in machine units, such "
+            "as Rise('35 mm', '0.1 s')"
+        )
+
+
+def _problem(problem: Problem, minimise: str | None, follower: Any, degree: int | None) -> AdvisedProblem:  # noqa: ANN401
+    if degree is not None:
+        problem = replace(problem, basis=Chebyshev(degree))
+    residual = None
+    if follower is not None:
+        entries = table(follower, "follower", _FOLLOWER)
+        for name in entries:
+            if name not in {"frequency", "damping"}:
+                raise InputError(unknown_key(name, ("frequency", "damping"), "entry of a follower"))
+        residual = residual_vibration(**entries)
+    advised = AdvisedProblem(problem, residual)
+    return advised if minimise is None else advised.minimising(minimise)
+
+
+def _cycle(
+    motion: Any,  # noqa: ANN401 - it is checked here
+    minimise: str | None,
+    limits: Mapping[str, Any] | None,
+    follower: Mapping[str, Any] | None,
+    drive: Any,  # noqa: ANN401
+    degree: int | None,
+) -> AdvisedCycle:
+    entries = dict(table(limits or {}, "limits", '{"velocity": "616 mm/s"}'))
+    residual = entries.pop(RESIDUAL, None)
+    least = "acceleration" if minimise == RESIDUAL else minimise
+    changes: dict[str, Any] = {"minimise": least, "drive": drive, "degree": degree}
+    given = {name: value for name, value in changes.items() if value is not None}
+    if isinstance(motion, Cycle):
+        cycle = replace(motion, **given, limits={**motion.limits, **entries})
+    elif isinstance(motion, Move):
+        cycle = _of_move(motion, given, entries)
+    else:
+        raise InputError(
+            f"advice is of a move such as Rise('35 mm', '0.1 s'), of a Cycle or of a Problem, got {shortened(motion)}"
+        )
+    if follower is None and (residual is not None or minimise == RESIDUAL):
+        raise InputError(f"{RESIDUAL} is that of a follower: give follower={_FOLLOWER}")
+    vibrating = None if follower is None else read_follower(follower)
+    dimension, most = _ACCELERATIONS[cycle.axis], inf
+    if residual is not None:
+        most = positive_quantity(residual, dimension, f"limits: {RESIDUAL}")
+    return AdvisedCycle(cycle, minimise or cycle.minimise, vibrating, most)
+
+
+def _of_move(move: Move, given: Mapping[str, Any], limits: Mapping[str, Any]) -> Cycle:
+    """A single move as a cycle that goes on from where it ends."""
+    axis = axis_of([move])
+    if move.duration is None or isinstance(move.duration, list | tuple):
+        raise InputError("a single move has one duration, such as '0.1 s'")
+    seconds = positive_quantity(move.duration, "time", "duration of a single move")
+    far = quantity(move.to if move.by is None else move.by, axis, "by")
+    advance = f"{-far if isinstance(move, Return) else far!r} {unit_of(axis)}"
+    entries = {"degree": _DEGREE, **given, "limits": limits}
+    return Cycle([move], period=f"{seconds!r} s", advance=advance, **entries)

@@ -1,0 +1,173 @@
+"""The laws that are compared: those of the catalogue, the optimal ones, and the front between two measures."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import partial
+from math import inf
+
+from optlaws.cycles.advising.advised_law import AdvisedLaw, AdvisedMotion
+from optlaws.errors import OptlawsError
+from optlaws.synthesis.least_time.follower_residual import RESIDUAL
+from optlaws.tolerances import BOUND_SLACK, EQUALLY_GOOD, FRONT_END, SHOWN_DIGITS
+
+#: what all laws can be bounded by from the start, as it is convex and quick; and what else is not to grow
+_OF_MOTION = ("velocity", "acceleration", "jerk", RESIDUAL)
+_OF_DRIVE = ("force", "torque", "rms force", "rms torque")
+_ROUNDS = 3
+
+
+@dataclass
+class Candidates:
+    """The laws of a motion as they are found, and why others are not there.
+
+    Attributes
+    ----------
+    motion
+        Whose laws they are.
+    laws
+        By their names, in the order in which they were found.
+    errors
+        Why there is no law of a name.
+    usual
+        The standard law that others are held against; None where none keeps every limit.
+    proven
+        The law whose proof says how good any could be.
+    """
+
+    motion: AdvisedMotion
+    laws: dict[str, AdvisedLaw] = field(default_factory=dict)
+    errors: dict[str, OptlawsError] = field(default_factory=dict)
+    usual: AdvisedLaw | None = None
+    proven: AdvisedLaw | None = None
+
+    @property
+    def minimise(self) -> str:
+        """The measure that is to be least."""
+        return self.motion.minimise
+
+    @property
+    def second(self) -> str:
+        """The measure that decides between laws that are equally good: the residual, the jerk, or the acceleration."""
+        names = [measure.name for measure in self.motion.measures]
+        return next(name for name in (RESIDUAL, "jerk", "acceleration") if name in names and name != self.minimise)
+
+    def most(self, *but: str) -> dict[str, float]:
+        """What no law should take more of than the usual one: what has no limit of its own, but for some measures."""
+        if self.usual is None:
+            return {}
+        left = {self.minimise, *self.motion.limited, *but}
+        return {
+            name: value
+            for name, value in self.usual.values.items()
+            if name not in left and 0.0 < value < inf and name in (*_OF_MOTION, *_OF_DRIVE)
+        }
+
+    def add_standard(self, names: Sequence[str]) -> None:
+        """The laws that the motion has, and those of the catalogue.
+
+        The usual one is the first of them, or where it breaks a limit the one that takes least of those that do not.
+        """
+        given = self.motion.given()
+        for name in names:
+            self._add(name, partial(self.motion.standard, name))
+        if given is not None and self.motion.usual not in self.laws:
+            self.laws = {given.name: given, **self.laws}
+        fit = [law for law in self.laws.values() if law.keeps_limits]
+        first = next(iter(self.laws.values()), None)
+        self.usual = first if first in fit else min(fit, key=self._objective, default=None)
+
+    def add_optimal(self) -> None:
+        """The laws that are least in what matters; the first must be there.
+
+        Raises
+        ------
+        InfeasibleProblem, SolverFailure
+            If no law keeps every limit, or none is found.
+        """
+        minimise, second, motion = self.minimise, self.second, self.motion
+        name = f"least {minimise}"
+        best = self.laws[name] = motion.least(name, minimise, {})
+        beside = "" if self.usual is None else f", no worse than {self.usual.name}"
+        most = self.most()
+        if most:
+            name = f"least {minimise}{beside}"
+            best = self._add(name, partial(self._within, name, minimise, most)) or best
+        self.proven = best
+        name = f"nearly least {minimise}, least {second}"
+        self._add(name, partial(motion.near, name, best, second, EQUALLY_GOOD))
+        for other in motion.objectives:
+            if other not in {minimise, RESIDUAL}:
+                name = f"least {other}"
+                self._add(name, partial(motion.least, name, other, {}))
+                self._drop_equal(name)
+        if RESIDUAL in motion.objectives and minimise != RESIDUAL:
+            name, most = f"least {RESIDUAL}{beside}", self.most(RESIDUAL, *_OF_DRIVE)
+            if self.usual is not None and minimise in _OF_MOTION:
+                most[minimise] = self.usual.values[minimise]
+            self._add(name, partial(motion.least, name, RESIDUAL, most))
+
+    def front(self, points: int) -> tuple[AdvisedLaw, ...]:
+        """Laws that exchange what is minimised for the second measure, from the least of one to that of the other.
+
+        None takes more of the others than the usual law.
+        """
+        minimise, second = self.minimise, self.second
+        most = self.most(second, *_OF_DRIVE)
+        try:
+            ends = [self.motion.least(f"least {name}", name, most) for name in (minimise, second)]
+        except OptlawsError as error:
+            self.errors["front"] = error
+            return ()
+        high, low = (end.values[second] for end in ends)
+        low = max(low * (1.0 + BOUND_SLACK), FRONT_END * high)
+        points_of_front = [ends[0]]
+        for i in range(1, points if low < high else 0):
+            value = high * (low / high) ** (i / (points - 1))
+            name = f"least {minimise} at a {second} of {value:.4g}"
+            try:
+                points_of_front.append(self.motion.least(name, minimise, {**most, second: value}))
+            except OptlawsError as error:
+                self.errors[name] = error
+        return tuple(points_of_front)
+
+    def _objective(self, law: AdvisedLaw) -> float:
+        return law.values[self.minimise]
+
+    def _within(self, name: str, minimise: str, most: Mapping[str, float]) -> AdvisedLaw:
+        """The law that is least in a measure and takes no more of others; those of a drive bound it where they must."""
+        bounds = {other: value for other, value in most.items() if other in _OF_MOTION}
+        for _ in range(_ROUNDS):
+            law = self.motion.least(name, minimise, bounds)
+            beyond = exceeded(law, most)
+            if not beyond:
+                break
+            bounds |= {other: most[other] for other in beyond}
+        return law
+
+    def _drop_equal(self, name: str) -> None:
+        """Leave a law out that takes what another one takes."""
+        law = self.laws.get(name)
+        others = [other for other in self.laws.values() if other is not law]
+        if law is not None and any(_is_equal(law, other) for other in others):
+            del self.laws[name]
+
+    def _add(self, name: str, make: Callable[[], AdvisedLaw]) -> AdvisedLaw | None:
+        """A law under its name, or the error that says why there is none."""
+        try:
+            self.laws[name] = make()
+        except OptlawsError as error:
+            self.errors[name] = error
+            return None
+        return self.laws[name]
+
+
+def _is_equal(law: AdvisedLaw, other: AdvisedLaw) -> bool:
+    """Whether two laws take the same of everything, as far as a table shows it."""
+    return all(abs(value - other.values[name]) <= SHOWN_DIGITS * abs(value) for name, value in law.values.items())
+
+
+def exceeded(law: AdvisedLaw, most: Mapping[str, float]) -> list[str]:
+    """The measures that a law takes more of than is said, but for rounding."""
+    return [name for name, value in most.items() if not law.values[name] <= value * (1.0 + BOUND_SLACK)]

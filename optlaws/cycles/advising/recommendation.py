@@ -1,0 +1,194 @@
+"""Which law to take, by a rule that is stated, and what that gains and costs, in two sentences made of facts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import isfinite
+
+from optlaws.cycles.advising.advised_law import AdvisedLaw
+from optlaws.cycles.advising.candidates import Candidates, exceeded
+from optlaws.errors import InfeasibleProblem
+from optlaws.synthesis.status import Status
+from optlaws.tolerances import AGREEMENT, EQUALLY_GOOD, TELLING
+
+
+@dataclass(frozen=True)
+class Recommendation:
+    """The law to take, and why.
+
+    Attributes
+    ----------
+    law
+        The law.
+    usual
+        The standard law that it is held against; None where none keeps every limit.
+    rule
+        By which it is chosen.
+    gain
+        The share of what is minimised that it takes less than the usual one; None where there is none.
+    changes
+        By measure, how many times as much as the usual law it takes.
+    sentences
+        What it gains; what is proven and what it costs.
+
+    Examples
+    --------
+    >>> import optlaws
+    >>> chosen = optlaws.advise(optlaws.Problem(order=3), points=0).recommendation
+    >>> chosen.law.name, round(chosen.gain, 4), round(chosen.changes["jerk"], 4)
+    ('nearly least acceleration, least jerk', 0.052, 0.9516)
+    >>> chosen.rule
+    'of the laws that take no more velocity or jerk than modified sine, those within 1 % of the least acceleration ...'
+    """
+
+    law: AdvisedLaw
+    usual: AdvisedLaw | None
+    rule: str
+    gain: float | None
+    changes: dict[str, float]
+    sentences: tuple[str, str]
+
+    def __str__(self) -> str:
+        return " ".join(self.sentences)
+
+
+def recommended(candidates: Candidates) -> Recommendation:
+    """The law to take of those that were found.
+
+    Of the laws that keep every limit, and take no more than the usual one of what has no limit, those within 1 % of the
+    least are equally good; of these the one that takes least of the second measure.
+    """
+    minimise, second, usual = candidates.minimise, candidates.second, candidates.usual
+    most = candidates.most()
+    no_worse = most if usual is None else {**most, minimise: usual.values[minimise]}
+    fit = [law for law in candidates.laws.values() if law.keeps_limits and not exceeded(law, no_worse)]
+    if not fit:  # rounding alone
+        fit = [candidates.laws[f"least {minimise}"]]
+    least = min(law.values[minimise] for law in fit)
+    good = [law for law in fit if law.values[minimise] <= least * (1.0 + EQUALLY_GOOD + AGREEMENT)]
+    law = min(good, key=lambda each: each.values[second])
+    words = _Words(candidates, law, tuple(most))
+    changes = {} if usual is None else {
+        name: value / usual.values[name] for name, value in law.values.items() if usual.values[name] > 0.0
+    }  # fmt: skip
+    gain = None if usual is None else 1.0 - changes.get(minimise, 1.0)
+    return Recommendation(law, usual, words.rule, gain, changes, (words.gain, f"{words.proof}; {words.costs}."))
+
+
+@dataclass(frozen=True)
+class _Words:
+    """The sentences about a law, from facts."""
+
+    candidates: Candidates
+    law: AdvisedLaw
+    most: tuple[str, ...]
+
+    @property
+    def rule(self) -> str:
+        """The rule by which the law is chosen."""
+        minimise, second, usual = self.candidates.minimise, self.candidates.second, self.candidates.usual
+        no_worse = f" and take no more {_listed(self.most, 'or')} than {usual.name}" if usual and self.most else ""
+        no_worse = f"take no more {_listed(self.most, 'or')} than {usual.name}" if usual and self.most else ""
+        limited = any(law.limits for law in self.candidates.laws.values())
+        which = " and ".join(part for part in ("keep every limit" if limited else "", no_worse) if part)
+        of_which = f"of the laws that {which}, " if which else ""
+        good = f"those within 1 % of the least {minimise} are equally good"
+        return f"{of_which}{good}; of these the one of least {second}"
+
+    @property
+    def gain(self) -> str:
+        """What to take, and what that gains."""
+        minimise, usual, law = self.candidates.minimise, self.candidates.usual, self.law
+        value = self._with_unit(minimise, law.values[minimise])
+        limits = ", and it keeps every limit" if law.limits else ""
+        full = [taken for taken in law.limits if taken.text and taken.share >= 1.0 - TELLING]
+        if full:
+            limits += f" ({_listed([f'{taken.name} {taken.text}' for taken in full])} to the full)"
+        name = f'"{law.name}"' if law.kind == "optimal" else law.name
+        start = f"Take {name}: its {minimise} is {value}"
+        if usual is None:
+            standard = [each for each in self.candidates.laws.values() if each.kind != "optimal"]
+            why = "" if not standard else f"; none of the {len(standard)} standard laws does: {_why_not(standard[0])}"
+            return f"{start}{limits}{why}."
+        if law is usual:
+            return f"{start}{limits}, and no law that takes no more of anything is better{self._beyond}."
+        share = 1.0 - law.values[minimise] / usual.values[minimise]
+        return f"{start}, {100.0 * share:.3g} % less than that of {usual.name}{limits}."
+
+    @property
+    def _beyond(self) -> str:
+        """What the least law gains and takes where nothing else is guarded."""
+        minimise, second, law = self.candidates.minimise, self.second, self.law
+        best = self.candidates.laws[f"least {minimise}"]
+        gain, times = 1.0 - best.values[minimise] / law.values[minimise], best.values[second] / law.values[second]
+        return f"; {100.0 * gain:.2g} % less takes {times:.3g} times the {second}" if gain > EQUALLY_GOOD else ""
+
+    @property
+    def second(self) -> str:
+        """What decides between laws that are equally good."""
+        return self.candidates.second
+
+    @property
+    def proof(self) -> str:
+        """How near it is to what is proven."""
+        known, minimise, usual = self.candidates.proven, self.candidates.minimise, self.candidates.usual
+        if known is None or known.proof is None or not known.proof.lower_bound or known.proof.lower_bound <= 0.0:
+            return f"How much less {minimise} another law could have is not proven"
+        if usual is not None and isinstance(self.candidates.errors.get(self._bettered), InfeasibleProblem):
+            space = known.proof.space
+            return f"That none of the {space} takes no more {_listed(self.most, 'or')} than {usual.name} is proven"
+        bound, value = known.proof.lower_bound, self.law.values[minimise]
+        as_much = f" with no more {_listed(self.most, 'or')} than {usual.name}" if usual and self.most else ""
+        above = value / bound - 1.0
+        near = f" ({100.0 * above / (1.0 + above):.2g} % less)" if above > TELLING * EQUALLY_GOOD else ""
+        proven = f"none of the {known.proof.space}{as_much} has less than {self._with_unit(minimise, bound)}{near}"
+        if known.proof.status is not Status.OPTIMAL:
+            proven = f"that none has less than {self._with_unit(minimise, bound)}{near}, is proven"
+        if known.proof.limit:
+            proven += f", and none of any degree less than {self._with_unit(minimise, known.proof.limit)}"
+        return proven[0].upper() + proven[1:]
+
+    @property
+    def _bettered(self) -> str:
+        """The name of the law that would better the usual one."""
+        usual = self.candidates.usual
+        return "" if usual is None else f"least {self.candidates.minimise}, no worse than {usual.name}"
+
+    @property
+    def costs(self) -> str:
+        """What it takes more and less of than the usual law."""
+        usual = self.candidates.usual
+        if usual is None or usual is self.law:
+            return f"its {self.second} is {self._with_unit(self.second, self.law.values[self.second])}"
+        changes = [*self._changes("more", 1.0), *self._changes("less", -1.0)]
+        if not changes:
+            return f"nothing else changes by 1 % beside {usual.name}"
+        return f"beside {usual.name} it takes {_listed(changes)}"
+
+    def _changes(self, word: str, sign: float) -> Iterator[str]:
+        assert self.candidates.usual is not None  # noqa: S101 - as it is asked of one
+        for name, other in self.candidates.usual.values.items():
+            value = self.law.values[name]
+            if name == self.candidates.minimise or not other > 0.0 or not isfinite(value) or not isfinite(other):
+                continue
+            change = 100.0 * (value / other - 1.0)
+            if sign * change >= 100.0 * EQUALLY_GOOD:
+                yield f"{abs(change):.2g} % {word} {name}"
+
+    def _with_unit(self, name: str, value: float) -> str:
+        unit = next((measure.unit for measure in self.candidates.motion.measures if measure.name == name), "")
+        return f"{value:.5g} {unit}".strip() if isfinite(value) else "without bound"
+
+
+def _why_not(law: AdvisedLaw) -> str:
+    taken = max(law.broken, key=lambda each: each.share)
+    if not taken.text:
+        return f"{law.name} is outside of the {taken.name}"
+    return f"{law.name} has {100.0 * (taken.share - 1.0):.2g} % more {taken.name} than {taken.text}"
+
+
+def _listed(names: tuple[str, ...] | list[str], word: str = "and") -> str:
+    """Names in a sentence."""
+    *first, last = names
+    return f"{', '.join(first)} {word} {last}" if first else last

@@ -1,0 +1,78 @@
+"""The command `optlaws advise`: its table and sentences against the library's, its files, its exit codes."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from optlaws import Rise, advise
+from tests.internals.cli import app_of_cli as app
+
+Capture = pytest.CaptureFixture[str]
+MOVE = ("--stroke", "35mm", "--duration", "0.1s", "--degree", "9")
+
+
+def called(capsys: Capture, *arguments: object) -> tuple[int, str, str]:
+    code = app.exit_code(["advise", *(str(argument) for argument in arguments)])
+    return code, *capsys.readouterr()
+
+
+def test_a_move_is_advised_as_the_library_does(capsys: Capture, tmp_path: Path) -> None:
+    proofs, picture = tmp_path / "proofs.json", tmp_path / "advice.svg"
+    options = ("--frequency", "30Hz", "--mass", "2kg", "--limit", "velocity=640 mm/s", "--law", "cycloidal")
+    code, out, err = called(
+        capsys, *MOVE, *options, "--law", "modified sine", "--points", 2, "--output", proofs, "--plot", picture
+    )
+    known = advise(
+        Rise("35 mm", "0.1 s"),
+        follower={"frequency": "30 Hz"},
+        drive={"mass": "2 kg"},
+        limits={"velocity": "640 mm/s"},
+        laws=["cycloidal", "modified sine"],
+        degree=9,
+        points=2,
+    )
+    assert (code, err) == (0, "")
+    lines = out.splitlines()
+    assert lines[0].split("  ")[1] == "law"
+    assert "residual acceleration, m/s²" in lines[0]
+    assert [line[2:].split("  ")[0] for line in lines[1 : len(known) + 1]] == [law.name for law in known]
+    assert [line[2:].split("  ")[0] for line in lines if line.startswith("> ")] == [known.recommendation.law.name]
+    assert lines[-3:-1] == list(known.recommendation.sentences)
+    assert lines[-1] == f"(Rule: {known.recommendation.rule}.)"
+    assert picture.read_text("utf-8").lstrip().startswith("<?xml")
+    stored = json.loads(proofs.read_text("utf-8"))["move"]
+    assert list(stored["laws"]) == [law.name for law in known if law.solutions]
+    assert app.exit_code(["verify", str(proofs)]) == 0
+    assert capsys.readouterr().out.count("proven") >= len(stored["laws"])
+
+
+def test_an_axis_of_a_problem_file_is_chosen(capsys: Capture) -> None:
+    code, out, err = called(capsys, "cycle_die_and_table", "--axis", "die", "--points", 0, "--json")
+    assert (code, err) == (0, "")
+    advice = json.loads(out)
+    assert list(advice) == ["die"]
+    assert all("solutions" not in law for law in advice["die"]["laws"])
+    assert advice["die"]["recommendation"]["law"] in [law["name"] for law in advice["die"]["laws"]]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "complaint"),
+    [
+        ((), 2, "give a problem file, or --stroke"),
+        (("--stroke", "35mm"), 2, "give a problem file, or --stroke"),
+        (("cycle_press", "--stroke", "35mm"), 2, "are of a single move"),
+        (("cycle_press", "--axis", "nobody"), 2, "nobody"),
+        (("lever_tables",), 2, "lever_tables"),
+        ((*MOVE, "--frequency", "30"), 2, "frequency"),
+        ((*MOVE, *("--frequency", "30Hz") * 3), 2, "once, or twice"),
+        ((*MOVE, "--law", "modified sin"), 0, ""),
+        ((*MOVE, "--limit", "velocity=360 mm/s", "--limit", "acceleration=16 m/s^2"), 3, "infeasible: "),
+    ],
+)
+def test_exit_codes_say_what_was_wrong(capsys: Capture, arguments: tuple[str, ...], code: int, complaint: str) -> None:
+    given, out, err = called(capsys, *arguments, *(("--points", "0") if arguments else ()))
+    assert given == code
+    assert complaint in err
+    if code == 0:
+        assert "did you mean 'modified sine'" in out
