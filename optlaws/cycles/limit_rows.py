@@ -1,4 +1,4 @@
-"""How much a cycle takes of its limits, whatever its laws; and rows of those limits that its peaks do not show."""
+"""The use of limits by a cycle, whatever its laws; and rows of those limits that its peaks do not show."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ _OF_MOTOR = {"speed": "rad/s", "torque-speed curve": ""}
 
 
 class LimitTaken(NamedTuple):
-    """What a motion takes of a limit, in SI units.
+    """The use of a limit by a motion, in SI units.
 
     Attributes
     ----------
@@ -74,7 +74,7 @@ class _Taken(NamedTuple):
 
 
 def limits_taken(cycle: Cycle, limited: Cycle | None = None) -> tuple[LimitTaken, ...]:
-    """What a cycle takes of every limit that it has, or that another one of the same segments has: of all its laws.
+    """The use of every limit of a cycle, or of another one with the same segments, by all its laws.
 
     Of each limit the segment that takes most of it counts. A motor's limits are those of the sheet.
 
@@ -124,7 +124,7 @@ def _most(taken: Iterable[_Taken]) -> list[_Taken]:
 
 
 def _of_segments(cycle: Cycle, limited: Cycle, *, every: bool) -> Iterator[_Taken]:
-    """What segments take of limits that `limited` has: those whose law is looked for, or every one that moves."""
+    """The use of the limits of `limited` by segments whose law is looked for, or by every one that moves."""
     of_cycle = read_limits(limited.limits, cycle.axis, "limits")
     for i, (stretch, given) in enumerate(zip(cycle.programme.stretches, limited.programme.stretches, strict=True)):
         has_limits = isinstance(stretch.given, Move | Free) if every else is_optimal(stretch.given)
@@ -150,7 +150,7 @@ def _greatest(cycle: Cycle, number: int, key: LimitKey) -> tuple[float, float | 
 
 
 def _of_whole(cycle: Cycle, limited: Cycle) -> Iterator[LimitTaken]:
-    """What a cycle takes of limits of the whole: of means and sums, of its motor, of its load."""
+    """The use of limits of the whole: of means and sums, of the motor, of the load."""
     mean, energy = read_mean_force(limited.limits, cycle.axis), read_energy(limited.limits)
     force, unit = FORCES[cycle.axis], "N" if cycle.axis == "length" else "N m"
     if mean is not None:

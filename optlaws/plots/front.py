@@ -128,6 +128,6 @@ def _front_of_advice(advice: Advice, axes: Axes, style: dict[str, Any]) -> list[
 
 
 def _proven(law: Any) -> float:  # noqa: ANN401 - a law of an advice
-    """What is proven to be the least at a point of a front; 0 where nothing is."""
+    """The proven least value at a point of a front; 0 where nothing is proven."""
     bound = law.proof.lower_bound
     return 0.0 if bound is None else max(bound, 0.0)

@@ -45,7 +45,7 @@ class SingleMoveOptions:
 @Parameter(name="*")
 @dataclass(frozen=True, kw_only=True)
 class AdviceOptions:
-    """What laws are compared by, and which.
+    """The measures that laws are compared by, and the laws.
 
     Parameters
     ----------

@@ -70,12 +70,12 @@ class Advice:
 
     @property
     def headings(self) -> tuple[str, ...]:
-        """What the rows have."""
+        """The headings of the rows."""
         return ("law", *(measure.heading for measure in self.measures), "limits", "proof")
 
     @property
     def rows(self) -> list[list[float | str]]:
-        """What `headings` name, a row for each law."""
+        """A row for each law, with a cell for each heading."""
         return [
             [law.name, *(law.values[measure.name] for measure in self.measures), _limits(law), self._proof(law)]
             for law in self.laws

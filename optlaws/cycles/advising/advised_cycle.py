@@ -240,7 +240,7 @@ class AdvisedCycle:
         return self._advised(name, "optimal", cycle, self._proof(cycle, minimise))
 
     def _proof(self, cycle: Cycle, minimise: str) -> ProvenLeast:
-        """What is proven of what its solutions minimise."""
+        """The proof that belongs to the objective of its solutions."""
         space, solutions = cycle.search_space or "", cycle.solutions
         if minimise == cycle.minimise:
             return ProvenLeast(minimise, cycle.lower_bound, _of_any_degree(cycle), space, cycle.status)
@@ -314,7 +314,7 @@ def _solved(cycle: Cycle) -> list[tuple[Piece, Solution]]:
 
 
 def _of_any_degree(cycle: Cycle) -> float | None:
-    """What no laws of any degree take less of, where it is known of a peak of the motion."""
+    """The least value for laws of any degree, where it is known of a peak of the motion."""
     nu, mean = kind_of(cycle.minimise)
     if nu <= 0 or mean:
         return None

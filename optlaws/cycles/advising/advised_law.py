@@ -21,7 +21,7 @@ LawKind = Literal["standard", "given", "optimal"]
 
 
 class LawMeasure(NamedTuple):
-    """What laws are compared by: its name and its unit.
+    """A quantity by which laws are compared: its name and its unit.
 
     Examples
     --------
@@ -39,7 +39,7 @@ class LawMeasure(NamedTuple):
 
 
 class ProvenLeast(NamedTuple):
-    """What is proven of an optimal law, in SI units.
+    """The proof of an optimal law in numbers, in SI units.
 
     Attributes
     ----------

@@ -54,7 +54,7 @@ class Candidates:
         return next(name for name in (RESIDUAL, "jerk", "acceleration") if name in names and name != self.minimise)
 
     def most(self, *but: str) -> dict[str, float]:
-        """What no law should take more of than the usual one: what has no limit of its own, but for some measures."""
+        """The values of the usual law that no other should exceed: of measures without a limit, but for some."""
         if self.usual is None:
             return {}
         left = {self.minimise, *self.motion.limited, *but}

@@ -1,4 +1,4 @@
-"""Which law to take, by a rule that is stated, and what that gains and costs, in two sentences made of facts."""
+"""The law to take, by a rule that is stated, and what it gains and costs, in two sentences made of facts."""
 
 from __future__ import annotations
 
@@ -98,7 +98,7 @@ class _Words:
 
     @property
     def gain(self) -> str:
-        """What to take, and what that gains."""
+        """The law to take, and its gain."""
         minimise, usual, law = self.candidates.minimise, self.candidates.usual, self.law
         value = self._with_unit(minimise, law.values[minimise])
         limits = ", and it keeps every limit" if law.limits else ""
@@ -118,7 +118,7 @@ class _Words:
 
     @property
     def _beyond(self) -> str:
-        """What the least law gains and takes where nothing else is guarded."""
+        """The gain and the cost of the least law, where nothing else is guarded."""
         minimise, second, law = self.candidates.minimise, self.second, self.law
         best = self.candidates.laws[f"least {minimise}"]
         gain, times = 1.0 - best.values[minimise] / law.values[minimise], best.values[second] / law.values[second]
@@ -126,12 +126,12 @@ class _Words:
 
     @property
     def second(self) -> str:
-        """What decides between laws that are equally good."""
+        """The measure that decides between laws that are equally good."""
         return self.candidates.second
 
     @property
     def proof(self) -> str:
-        """How near it is to what is proven."""
+        """The distance of its value from the proven bound."""
         known, minimise, usual = self.candidates.proven, self.candidates.minimise, self.candidates.usual
         if known is None or known.proof is None or not known.proof.lower_bound or known.proof.lower_bound <= 0.0:
             return f"How much less {minimise} another law could have is not proven"
@@ -157,7 +157,7 @@ class _Words:
 
     @property
     def costs(self) -> str:
-        """What it takes more and less of than the usual law."""
+        """The measures of which it takes more and less than the usual law."""
         usual = self.candidates.usual
         if usual is None or usual is self.law:
             return f"its {self.second} is {self._with_unit(self.second, self.law.values[self.second])}"
