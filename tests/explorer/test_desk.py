@@ -31,7 +31,7 @@ def test_documents_are_kept_named_closed_and_opened_again(page: Page, served: Se
     page.get_by_label("New document").click()
     settle(page)
     assert velocity(page) == 1.7
-    page.get_by_label("Name, notes and closed documents").click()
+    page.get_by_role("button", name="Notes", exact=True).click()
     page.get_by_label("Name of the document").fill("Feeder")
     page.get_by_label("Notes", exact=True).fill("first shift")
     page.get_by_role("button", name="Done").click()
@@ -48,7 +48,7 @@ def test_documents_are_kept_named_closed_and_opened_again(page: Page, served: Se
     assert tabs(page) == ["Laws", "Feeder"]
     page.get_by_label("Close Feeder").click()
     assert tabs(page) == ["Laws"]
-    page.get_by_label("Name, notes and closed documents").click()
+    page.get_by_role("button", name="Notes", exact=True).click()
     page.get_by_label("Open Feeder again").click()
     settle(page)
     assert tabs(page) == ["Laws", "Feeder"]

@@ -200,7 +200,7 @@ def test_dark_and_light_are_the_readers_choice(page: Page, served: Server) -> No
 
 def saves(page: Page, kind: str) -> str:
     """The text of a file that the reader saves."""
-    page.locator(".menu summary").click()
+    page.get_by_text("Save", exact=True).click()
     with page.expect_download() as download:
         page.locator(f"[data-kind={kind}]").click()
     return Path(download.value.path()).read_text("utf-8")
@@ -244,7 +244,7 @@ def test_a_cycle_is_shown_changed_and_refused(page: Page, served: Server) -> Non
 
 def test_an_export_says_what_the_controller_will_run(page: Page, served: Server) -> None:
     go(page, served.link(laws=[at_velocity(1.859)], picture="residual"))
-    page.get_by_role("button", name="Export").click()
+    page.get_by_role("button", name="Export", exact=True).click()
     page.get_by_label("format").select_option("twincat-table")
     page.get_by_label("points").fill("361")
     page.get_by_label("encoder counts a stroke").fill("65536")

@@ -57,18 +57,15 @@ export class Documents {
   #id;
   #steps = new Map();
   #dialog;
-  #open;
   #name = html("input", { type: "text", maxlength: 80, "aria-label": "Name of the document" });
   #notes = html("textarea", { maxlength: 20_000, "aria-label": "Notes" });
   #closed = html("div");
 
-  /** `open()` lets the reader choose a file. */
-  constructor(root, study, { id, notice, open }) {
+  constructor(root, study, { id, notice }) {
     this.#root = root;
     this.#study = study;
     this.#notice = notice;
     this.#id = id;
-    this.#open = open;
     this.#name.addEventListener("input", () => study.change("name", (state) => (state.name = this.#name.value)));
     this.#notes.addEventListener("input", () => study.change("notes", (state) => (state.notes = this.#notes.value)));
     const done = html("button", { type: "button", text: "Done", onclick: () => this.#dialog.close() });
@@ -92,8 +89,8 @@ export class Documents {
   show(state) {
     const tabs = all().filter(({ id, closed }) => !closed || id === this.#id);
     const parts = tabs.map(({ id, title }) => this.#tab(id, id === this.#id ? titled(state) : title, tabs.length > 1));
-    const button = (text, about, act, name = "") => html("button", { type: "button", class: name, text, title: about, "aria-label": about, onclick: act });
-    renew(this.#root, ...parts, button("+", "New document", () => this.add(structuredClone(FIRST))), button("Open file", "Open a problem file, a law, a table or a document", this.#open, "first"), button("Notes", "Name, notes and closed documents", () => this.#details()));
+    const button = (text, about, act) => html("button", { type: "button", text, title: about, "aria-label": about, onclick: act });
+    renew(this.#root, ...parts, button("+", "New document", () => this.add(structuredClone(FIRST))));
     for (const [field, value] of [[this.#name, state.name], [this.#notes, state.notes]]) if (field.value !== value) field.value = value;
   }
 
@@ -114,7 +111,7 @@ export class Documents {
 
   #tab(id, title, several) {
     const own = id === this.#id;
-    const open = html("button", { type: "button", class: "open", "data-key": `document ${id}`, title, text: title, onclick: () => (own ? this.#details() : this.#choose(id)) });
+    const open = html("button", { type: "button", class: "open", translate: "no", "data-key": `document ${id}`, title, text: title, onclick: () => (own ? this.details() : this.#choose(id)) });
     const close = several ? html("button", { type: "button", class: "close", "data-key": `close ${id}`, "aria-label": `Close ${title}`, text: "×", onclick: () => this.#close(id) }) : null;
     return html("div", { class: "document", "aria-current": own ? "page" : null }, open, close);
   }
@@ -143,7 +140,8 @@ export class Documents {
     this.show(this.#study.state);
   }
 
-  #details() {
+  /** The name, the notes, and closed documents. */
+  details() {
     const closed = all().filter((one) => one.closed && one.id !== this.#id).sort((one, other) => other.closed - one.closed);
     const items = closed.map(({ id, title }) => html("li", {}, html("button", { type: "button", class: "link", text: title, "aria-label": `Open ${title} again`, onclick: () => {
       this.#dialog.close();

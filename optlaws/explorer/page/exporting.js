@@ -1,5 +1,6 @@
 // Motions for controllers: a format is chosen, and what the controller will run stands beside the law before it is saved.
 
+import { localised, plain } from "./language.js";
 import { Latest } from "./latest.js";
 import { download } from "./saving.js";
 import { html } from "./svg.js";
@@ -48,7 +49,7 @@ export class Exporting {
     this.#format.value = machine.format;
     for (const [name, field] of Object.entries(this.#fields)) {
       const value = String(machine[name] ?? "");
-      if (document.activeElement !== field || field.value.trim() !== value) field.value = value;
+      if (document.activeElement !== field || plain(field.value.trim()) !== value) field.value = localised(value);
       field.parentElement.hidden = name in TEXTS ? Boolean(this.#motion(state)?.cycle) : !takes.includes(name);
     }
     if (this.#dialog.open && this.#motion(state)) this.#ask(state);
@@ -57,7 +58,7 @@ export class Exporting {
   #field(name, text) {
     const number = name in NUMBERS;
     const field = html("input", { type: number ? "number" : "text", placeholder: number ? (name === "points" ? "the best number" : "exact") : "", min: 2, step: 1, maxlength: 60, "aria-label": text });
-    field.addEventListener("input", () => this.#change(name, number ? (field.value === "" ? null : Math.round(Number(field.value))) : field.value.trim()));
+    field.addEventListener("input", () => this.#change(name, number ? (field.value === "" ? null : Math.round(Number(field.value))) : plain(field.value.trim())));
     field.addEventListener("change", () => this.#study.rest());
     this.#fields[name] = field;
     return html("label", { class: "entry" }, html("span", { class: "field-name", text }), field);

@@ -1,18 +1,27 @@
 // Fields of forms: a slider with its number, that may be switched off.
 
+import { localised, plain } from "./language.js";
 import { html } from "./svg.js";
 
 /** A row with a name, a slider and a number; `off` makes a switch of it, `most` is the greatest number. Returns
     {element, set}. */
 export function slider({ name, title, low, high, step, most = null, off = false, changed, rested }) {
   const range = html("input", { type: "range", min: low, max: high, step, "aria-label": title });
-  const number = html("input", { type: "number", min: 0, max: most, step: "any", "aria-label": `${title}, number` });
+  const number = html("input", { type: "text", class: "numeric", inputmode: "decimal", autocomplete: "off", maxlength: 24, "aria-label": `${title}, number` });
+  const valueOf = (field) => (field === number ? plain(number.value.trim()) : field.value);
   const toggle = off ? html("input", { type: "checkbox", "aria-label": `${title}: bounded` }) : null;
-  const tell = (field) => () => field.value !== "" && Number.isFinite(Number(field.value)) && changed(Math.min(most ?? Infinity, Number(field.value)));
+  const tell = (field) => () => valueOf(field) !== "" && Number(valueOf(field)) >= 0 && Number.isFinite(Number(valueOf(field))) && changed(Math.min(most ?? Infinity, Number(valueOf(field))));
   range.addEventListener("input", tell(range));
   range.addEventListener("change", rested);
   number.addEventListener("input", tell(number));
   number.addEventListener("change", rested);
+  number.addEventListener("keydown", (event) => {
+    const sign = { ArrowUp: 1, ArrowDown: -1 }[event.key];
+    if (!sign) return;
+    event.preventDefault();
+    number.value = localised(Number((Math.max(0, Number(valueOf(number))) + sign * step).toPrecision(10)));
+    tell(number)();
+  });
   toggle?.addEventListener("change", () => changed(toggle.checked ? undefined : null));
   const element = html("div", { class: "field" }, toggle ? html("label", { class: "field-name" }, toggle, name) : html("span", { class: "field-name", text: name }), range, number);
   const set = (value) => {
@@ -22,7 +31,7 @@ export function slider({ name, title, low, high, step, most = null, off = false,
     range.disabled = number.disabled = none;
     if (none) return void (number.value = "");
     range.value = value;
-    if (document.activeElement !== number || Number(number.value) !== value) number.value = value;
+    if (document.activeElement !== number || Number(valueOf(number)) !== value) number.value = localised(value);
   };
   return { element, set };
 }

@@ -3,6 +3,7 @@
 import { Documents, begun } from "./documents.js";
 import { Exporting } from "./exporting.js";
 import { tabs } from "./fields.js";
+import { translate } from "./language.js";
 import { during, observe } from "./latest.js";
 import { Opening } from "./opening.js";
 import { Study, read } from "./state.js";
@@ -56,7 +57,7 @@ function rootOf(name) {
 }
 
 async function begin() {
-  const start = await (await fetch("api/start")).json();
+  const [start] = await Promise.all([fetch("api/start").then((response) => response.json()), translate()]);
   const { state, examples, formats } = start;
   const first = begun(location.hash, state);
   const views = {};
@@ -69,9 +70,9 @@ async function begin() {
   }));
   const shown = () => views[named(study.state)];
   const exporting = new Exporting(study, formats, (now) => shown()?.exported?.(now) ?? null);
-  const tools = new Tools(document.getElementById("tools"), study, notice, exporting, shown);
   const opening = new Opening((next) => documents.add(next), notice, shown);
-  const documents = new Documents(document.getElementById("documents"), study, { id: first.id, notice, open: () => opening.choose() });
+  const documents = new Documents(document.getElementById("documents"), study, { id: first.id, notice });
+  const tools = new Tools(document.getElementById("tools"), study, notice, { exporting, opening, documents, shown });
 
   /** A view is loaded when it is first shown. */
   async function load(name) {

@@ -13,6 +13,7 @@ import { Cursor } from "./cursor.js";
 import { FOOT, Panel } from "./panel.js";
 import { Span } from "./span.js";
 import { html } from "./svg.js";
+import { panelsInUnits } from "./units.js";
 
 const TURN = { range: [0, 360], ticks: [0, 45, 90, 135, 180, 225, 270, 315, 360] };
 const LEAST = 84;
@@ -61,7 +62,7 @@ export class Panels {
   }
 
   show(answer) {
-    this.#shown = answer;
+    this.#shown = panelsInUnits(answer);
     this.#draw();
   }
 

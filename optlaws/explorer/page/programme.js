@@ -1,6 +1,7 @@
 // The programme of a cycle as a form: speed, what is least, limits, and the segments with their laws.
 
 import { group } from "./fields.js";
+import { localised, plain } from "./language.js";
 import { html, renew } from "./svg.js";
 
 const OBJECTIVES = ["acceleration", "velocity", "jerk", "rms acceleration", "rms jerk", "force", "rms force"];
@@ -91,11 +92,11 @@ export class Programme {
 
   #text(what, name, placeholder, get, put) {
     const field = html("input", { type: "text", placeholder, spellcheck: "false", maxlength: 100, "aria-label": what, ...(name === "law" && { list: "names" }) });
-    field.addEventListener("input", () => this.#change(what, (axis, study) => put(axis, study, NOTHING.includes(field.value.trim()) ? "" : field.value.trim())));
+    field.addEventListener("input", () => this.#change(what, (axis, study) => put(axis, study, NOTHING.includes(field.value.trim()) ? "" : plain(field.value.trim()))));
     field.addEventListener("change", () => this.#study.rest());
     this.#shows.push((cycle, axis) => {
       const value = get(axis, cycle) ?? "";
-      if (document.activeElement !== field || field.value.trim() !== value) field.value = value;
+      if (document.activeElement !== field || plain(field.value.trim()) !== value) field.value = localised(value);
     });
     return html("label", { class: "entry" }, html("span", { class: "field-name", text: name }), field);
   }

@@ -1,8 +1,10 @@
 // The tools of the head: undo, redo, the link, files to save, dark and light.
 
+import { LANGUAGES, language, speak } from "./language.js";
 import { save, savings } from "./saving.js";
 import { html } from "./svg.js";
 import { toggle } from "./theme.js";
+import { CHOICES, choose, chosen } from "./units.js";
 
 export class Tools {
   #undo;
@@ -10,21 +12,24 @@ export class Tools {
   #export;
 
   /** `shown()` is the view that is shown. */
-  constructor(root, study, notice, exporting, shown) {
+  constructor(root, study, notice, { exporting, opening, documents, shown }) {
     const button = (text, title, act) => html("button", { type: "button", title, text, onclick: act });
     this.#undo = button("Undo", "Undo (Ctrl Z)", () => study.undo());
     this.#redo = button("Redo", "Redo (Ctrl Shift Z)", () => study.redo());
-    const link = button("Copy link", "Copy the address, which holds the whole study", async () => {
+    const link = button("Link", "Copy the address, which holds the whole study", async () => {
       try {
         await navigator.clipboard.writeText(location.href);
         link.textContent = "Copied";
       } catch {
         link.textContent = "It is in the address bar";
       }
-      setTimeout(() => (link.textContent = "Copy link"), 1500);
+      setTimeout(() => (link.textContent = "Link"), 1500);
     });
     this.#export = button("Export", "For a controller, with what it will run", () => exporting.open());
-    root.replaceChildren(this.#undo, this.#redo, link, this.#export, menu(study, notice, shown), button("◐", "Dark or light", toggle));
+    root.replaceChildren(
+      button("Open", "Open a problem file, a law, a table or a document", () => opening.choose()), button("Notes", "Name, notes and closed documents", () => documents.details()),
+      this.#undo, this.#redo, link, this.#export, saves(study, notice, shown), button("Print", "A report on one page: print it, or save it as PDF", () => print()), settings(study), button("◐", "Dark or light", toggle),
+    );
     addEventListener("keydown", (event) => this.#key(event, study));
   }
 
@@ -44,20 +49,40 @@ export class Tools {
   }
 }
 
-function menu(study, notice, shown) {
+function saves(study, notice, shown) {
   const list = html("div", { class: "list", role: "menu" });
-  const details = html("details", { class: "menu" }, html("summary", { text: "Save" }), list);
-  details.addEventListener("toggle", () => {
-    if (!details.open) return;
+  return menu("Save", list, (close) => {
     const items = (shown() ? savings(shown()) : []).map(({ kind, text, about, format }) => html("button", {
       type: "button", role: "menuitem", title: about, text, "data-kind": kind,
       onclick: () => {
-        details.open = false;
+        close();
         save(kind, shown(), study.state, format).catch((error) => notice(error.message));
       },
     }));
     list.replaceChildren(...items);
   });
+}
+
+/** Language and units: the page begins anew with them, the study stays. */
+function settings(study) {
+  const field = (name, options, value, act) => {
+    const select = html("select", { "aria-label": name }, ...Object.entries(options).map(([key, text]) => html("option", { value: key, text, translate: "no" })));
+    select.value = value;
+    select.addEventListener("change", () => {
+      act(select.value);
+      study.keep();
+      location.reload();
+    });
+    return html("label", { class: "entry" }, html("span", { class: "field-name", text: name }), select);
+  };
+  const units = Object.entries(CHOICES).map(([name, all]) => field(name, Object.fromEntries(all.map((unit) => [unit, unit])), chosen()[name], (unit) => choose(name, unit)));
+  return menu("Settings", html("div", { class: "list settings" }, field("language", LANGUAGES, language(), speak), ...units));
+}
+
+/** A button with a list below it, which Escape and a click elsewhere close; `opened(close)` fills it. */
+function menu(title, list, opened = () => {}) {
+  const details = html("details", { class: "menu" }, html("summary", { text: title }), list);
+  details.addEventListener("toggle", () => details.open && opened(() => (details.open = false)));
   addEventListener("click", (event) => {
     if (!details.contains(event.target)) details.open = false;
   });

@@ -1,6 +1,7 @@
 // The view of a cam: mechanism and motion on the left, the cam that turns, pressure angle and curvature on the right.
 
 import { group } from "../fields.js";
+import { localised, plain } from "../language.js";
 import { Latest } from "../latest.js";
 import { Mechanism } from "../mechanism.js";
 import { Panels } from "../panels.js";
@@ -140,12 +141,12 @@ export class View {
   #text(name, placeholder, of, set = (cam, value) => (value ? (of(cam)[name] = value) : delete of(cam)[name])) {
     const field = html("input", { type: "text", placeholder, spellcheck: "false", maxlength: 60, "aria-label": name.replaceAll("_", " ") });
     field.addEventListener("input", () => this.#study.change(name, (state) => {
-      set(state.cam, field.value.trim());
+      set(state.cam, plain(field.value.trim()));
     }));
     field.addEventListener("change", () => this.#study.rest());
     this.#shows.push((cam) => {
       const value = String(of(cam)?.[name] ?? "");
-      if (document.activeElement !== field || field.value.trim() !== value) field.value = value;
+      if (document.activeElement !== field || plain(field.value.trim()) !== value) field.value = localised(value);
     });
     return html("label", { class: "entry" }, html("span", { class: "field-name", text: NAMES[name] ?? name, title: name.replaceAll("_", " ") }), field);
   }

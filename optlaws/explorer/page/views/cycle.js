@@ -6,6 +6,7 @@ import { Programme, join } from "../programme.js";
 import { Strip } from "../strip.js";
 import { html } from "../svg.js";
 import { showTrust, unanswered } from "../trust.js";
+import { inUnit, shownUnit } from "../units.js";
 
 const element = (id) => document.getElementById(id);
 const HEADINGS = ["segment", "from, deg", "to, deg", "takes, ms", "moves", "velocity", "acceleration", "jerk"];
@@ -87,15 +88,15 @@ export class View {
 }
 
 function table({ segments, panels }) {
-  const units = panels.map(({ unit }) => unit);
-  const named = HEADINGS.map((name, i) => (i >= 4 ? `${name}, ${units[i - 4]}` : name));
+  const units = panels.map(({ unit }) => shownUnit(unit));
+  const named = HEADINGS.map((name, i) => (i >= 4 ? `${name}, ${units[i - 4].unit}` : name));
   const head = html("tr", {}, ...named.map((name, i) => html("th", { scope: "col", class: i ? "number" : null, text: name })));
   const rows = segments.map(({ name, from, to, time, by, peaks }) =>
     html(
       "tr", {},
       html("th", { scope: "row", text: name }),
-      ...[from, to, time, by].map((text) => html("td", { class: "number", text })),
-      ...peaks.map(({ text, beyond }) => html("td", { class: `number${beyond ? " over" : ""}`, title: beyond ? "beyond its limit" : null, text: beyond ? `${text} !` : text })),
+      ...[from, to, time, inUnit(by, units[0].factor)].map((text) => html("td", { class: "number", text })),
+      ...peaks.map(({ text, beyond }, i) => ({ beyond, text: inUnit(text, units[i + 1].factor) })).map(({ text, beyond }) => html("td", { class: `number${beyond ? " over" : ""}`, title: beyond ? "beyond its limit" : null, text: beyond ? `${text} !` : text })),
     ),
   );
   return html("table", { "aria-label": "Segments with their peaks" }, html("thead", {}, head), html("tbody", {}, ...rows));
