@@ -346,7 +346,7 @@ def as_made(
     Examples
     --------
     >>> from optlaws import Cycle, Dwell, Return, Rise
-    >>> from optlaws.cams.followers.translating_roller import TranslatingRoller
+    >>> from optlaws import TranslatingRoller
     >>> moves = [Rise("40 mm", "120 deg", law="3-4-5"), Dwell("60 deg"), Return(law="3-4-5")]
     >>> cam = DiscCam(Cycle(moves, speed="200 rpm"), prime_radius="80 mm", follower=TranslatingRoller("12 mm"))
     >>> [round(as_made(cam, points=361, decimals=decimals).acceleration_ratio, 3) for decimals in (3, 4)]
@@ -387,7 +387,7 @@ def with_profile_error(cam: DiscCam, error: Quantity, waves: Any) -> AsMade:  # 
     Examples
     --------
     >>> from optlaws import Cycle, Dwell, Return, Rise
-    >>> from optlaws.cams.followers.translating_roller import TranslatingRoller
+    >>> from optlaws import TranslatingRoller
     >>> moves = [Rise("40 mm", "120 deg", law="3-4-5"), Dwell("60 deg"), Return(law="3-4-5")]
     >>> cam = DiscCam(Cycle(moves, speed="200 rpm"), prime_radius="80 mm", follower=TranslatingRoller("12 mm"))
     >>> round(with_profile_error(cam, "0.01 mm", waves=3).acceleration_ratio, 3)

@@ -129,8 +129,8 @@ def best_cam(
 
     Examples
     --------
-    >>> from optlaws.cams.followers.translating_roller import TranslatingRoller
-    >>> from optlaws.cycles.specification.segments import Dwell, Return, Rise
+    >>> from optlaws import TranslatingRoller
+    >>> from optlaws import Dwell, Return, Rise
     >>> cycle = Cycle([Rise("35 mm", "120 deg"), Dwell("90 deg"), Return("35 mm", "100 deg"), Dwell()], speed="200 rpm")
     >>> free = best_cam(cycle, "50 mm", TranslatingRoller("12 mm"), pressure_angle="60 deg")
     >>> bound = best_cam(cycle, "50 mm", TranslatingRoller("12 mm"), pressure_angle="26 deg")
@@ -185,8 +185,8 @@ def best_prime_circle(
 
     Examples
     --------
-    >>> from optlaws.cams.followers.translating_flat import TranslatingFlat
-    >>> from optlaws.cycles.specification.segments import Dwell, Return, Rise
+    >>> from optlaws import TranslatingFlat
+    >>> from optlaws import Dwell, Return, Rise
     >>> cycle = Cycle([Rise("10 mm", "70 deg"), Return("10 mm", "70 deg"), Dwell()], speed="3000 rpm")
     >>> best = best_prime_circle(cycle, TranslatingFlat(), radius_of_curvature="3 mm")
     >>> round(1e3 * best.least.radius, 4), round(1e3 * best.lower_bound, 4)

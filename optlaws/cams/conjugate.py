@@ -43,9 +43,9 @@ def conjugate_cam(
 
     Examples
     --------
-    >>> from optlaws.cams.curves.motion_by_angle import CamMotion
+    >>> from optlaws import CamMotion
     >>> rise = CamMotion.of_law("cycloidal", "40 mm", "120 deg")
-    >>> from optlaws.cams.followers.translating_roller import TranslatingRoller
+    >>> from optlaws import TranslatingRoller
     >>> first = DiscCam(rise, "60 mm", TranslatingRoller("12 mm"))
     >>> second = conjugate_cam(first, distance="160 mm")
     >>> round(float((first.pitch_curve(1.0) - second.pitch_curve(1.0)) @ [0.0, 1.0]) / 0.16, 9)

@@ -68,8 +68,8 @@ class DiscCam:
 
     Examples
     --------
-    >>> from optlaws.cams.followers.translating_roller import TranslatingRoller
-    >>> from optlaws.cycles.specification.segments import Dwell, Return, Rise
+    >>> from optlaws import TranslatingRoller
+    >>> from optlaws import Dwell, Return, Rise
     >>> segments = [Rise("40 mm", "120 deg", law="cycloidal"), Dwell("60 deg"), Return(law="cycloidal")]
     >>> cam = DiscCam(Cycle(segments, speed="200 rpm"), prime_radius="80 mm", follower=TranslatingRoller("12 mm"))
     >>> round(float(np.degrees(cam.pressure_angle(1.0))), 6), cam.profile(1.0).shape

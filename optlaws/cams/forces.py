@@ -136,7 +136,7 @@ class CamForces:
     Examples
     --------
     >>> from optlaws import Cycle, Dwell, Return, Rise
-    >>> from optlaws.cams.followers.translating_roller import TranslatingRoller
+    >>> from optlaws import TranslatingRoller
     >>> moves = [Rise("40 mm", "120 deg", law="3-4-5"), Dwell("60 deg"), Return(law="3-4-5")]
     >>> cam = DiscCam(Cycle(moves, speed="200 rpm"), prime_radius="80 mm", follower=TranslatingRoller("12 mm"))
     >>> forces = CamForces(cam, drive={"mass": "2 kg", "stiffness": "3 N/mm", "preload": "60 N"}, width="20 mm")

@@ -98,7 +98,7 @@ def least_prime_circle(
 
     Examples
     --------
-    >>> from optlaws.cams.followers.translating_flat import TranslatingFlat
+    >>> from optlaws import TranslatingFlat
     >>> rise = CamMotion.of_law("cycloidal", "40 mm", "120 deg")
     >>> least = least_prime_circle(rise, TranslatingFlat(), radius_of_curvature="15 mm")
     >>> round(1e3 * least.radius, 6), least.proven, least.limit
@@ -161,7 +161,7 @@ def greatest_roller(cam: DiscCam, *, radius_of_curvature: Quantity = "0 mm") -> 
 
     Examples
     --------
-    >>> from optlaws.cams.followers.translating_roller import TranslatingRoller
+    >>> from optlaws import TranslatingRoller
     >>> rise = CamMotion.of_law("cycloidal", "40 mm", "120 deg")
     >>> roller = greatest_roller(DiscCam(rise, "60 mm", TranslatingRoller("12 mm")), radius_of_curvature="5 mm")
     >>> round(1e3 * roller.radius, 6), bool(roller.too_large - roller.radius < 1e-10)

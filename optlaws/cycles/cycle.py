@@ -117,7 +117,7 @@ class Cycle(CycleInterchange):
 
     Examples
     --------
-    >>> from optlaws.cycles.specification.segments import Dwell, Return, Rise
+    >>> from optlaws import Dwell, Return, Rise
     >>> rise, back = Rise("35 mm", "120 deg"), Return("35 mm", "100 deg")
     >>> cycle = Cycle([rise, Dwell("90 deg"), back, Dwell()], speed="200 rpm")
     >>> cycle.status.value, round(cycle.objective, 6), round(float(cycle(0.1)), 9)
@@ -240,7 +240,7 @@ class Cycle(CycleInterchange):
 
         Examples
         --------
-        >>> from optlaws.cycles.specification.segments import Free
+        >>> from optlaws import Free
         >>> ways = [Free("30 mm", "0.2 s"), Free("-30 mm")]
         >>> [Cycle(ways, period="0.5 s", minimise=what).search_space for what in ("rms jerk", "jerk")]
         ['all motions through the joints', 'splines of degree 3 in 48 pieces']
@@ -258,7 +258,7 @@ class Cycle(CycleInterchange):
 
         Examples
         --------
-        >>> from optlaws.cycles.specification.segments import ConstantVelocity, Return
+        >>> from optlaws import ConstantVelocity, Return
         >>> Cycle([ConstantVelocity("1.5 m/s", "80 ms"), Return()], period="400 ms").remarks
         ('segment 2 (Return): Z has the degree 15, not 9, for the velocities at its ends',)
         """
@@ -287,7 +287,7 @@ class Cycle(CycleInterchange):
 
         Examples
         --------
-        >>> from optlaws.cycles.specification.segments import Dwell, Return, Rise
+        >>> from optlaws import Dwell, Return, Rise
         >>> cycle = Cycle([Rise("35 mm", "120 deg"), Dwell("90 deg"), Return(), Dwell("50 deg")], speed="200 rpm")
         >>> round(cycle.modified_sine_jerk, 3), round(cycle.peak(3) / cycle.modified_sine_jerk, 6)
         (4201.325, 4.145892)
@@ -304,7 +304,7 @@ class Cycle(CycleInterchange):
 
         Examples
         --------
-        >>> from optlaws.cycles.specification.segments import Dwell, Return, Rise
+        >>> from optlaws import Dwell, Return, Rise
         >>> cycle = Cycle([Rise("35 mm", "120 deg"), Dwell("90 deg"), Return(), Dwell("50 deg")], speed="200 rpm")
         >>> gentle = cycle.with_modified_sine_jerk()
         >>> gentle.limits, [round(each.objective, 3) for each in (cycle, gentle)]
@@ -334,7 +334,7 @@ class Cycle(CycleInterchange):
 
         Examples
         --------
-        >>> from optlaws.cycles.specification.segments import Dwell, Return, Rise
+        >>> from optlaws import Dwell, Return, Rise
         >>> segments = [Rise("30 mm", "120 deg", law="modified sine"), Dwell("60 deg"), Return(law="modified sine")]
         >>> cycle = Cycle(segments, speed="300 rpm", load={"period": "20 ms", "damping": 0.05})
         >>> cycle.load_motion.peak("acceleration").value, cycle.peak(2)
@@ -406,7 +406,7 @@ class Cycle(CycleInterchange):
 
         Examples
         --------
-        >>> from optlaws.cycles.specification.segments import Return, Rise
+        >>> from optlaws import Return, Rise
         >>> cycle = Cycle([Rise("35 mm", "120 deg"), Return()], speed="200 rpm")
         >>> fast = cycle.at("400 rpm")
         >>> fast.duration, round(fast.peak(2) / cycle.peak(2), 9)
@@ -469,7 +469,7 @@ class Cycle(CycleInterchange):
 
         Examples
         --------
-        >>> from optlaws.cycles.specification.segments import Dwell, Return, Rise
+        >>> from optlaws import Dwell, Return, Rise
         >>> segments = [Rise("35 mm"), Dwell("50 ms"), Return(), Dwell("90 deg")]
         >>> slide = Cycle(segments, speed="60 rpm", limits={"acceleration": "20 m/s^2", "jerk": "2000 m/s^3"})
         >>> slide.fastest()
@@ -503,7 +503,7 @@ class Cycle(CycleInterchange):
 
         Examples
         --------
-        >>> from optlaws.cycles.specification.segments import Return, Rise
+        >>> from optlaws import Return, Rise
         >>> limits = {"velocity": "0.5 m/s", "acceleration": "4 m/s^2", "jerk": "100 m/s^3"}
         >>> cycle = Cycle([Rise("35 mm", "180 deg"), Return()], speed="90 rpm", limits=limits)
         >>> start = cycle.run_in("60 deg", rest="-20 mm")
@@ -522,7 +522,7 @@ class Cycle(CycleInterchange):
 
         Examples
         --------
-        >>> from optlaws.cycles.specification.segments import Return, Rise
+        >>> from optlaws import Return, Rise
         >>> cycle = Cycle([Rise("35 mm", "180 deg", law="cycloidal"), Return(law="cycloidal")], speed="90 rpm")
         >>> stop = cycle.run_out("270 deg", rest="0 mm", over="100 deg")
         >>> stop, round(stop(0.0, 1), 9), stop(stop.duration, 1)
@@ -557,7 +557,7 @@ class Cycle(CycleInterchange):
 
         Examples
         --------
-        >>> from optlaws.cycles.specification.segments import Dwell, Move
+        >>> from optlaws import Dwell, Move
         >>> moves = [Move("30 mm", "120 deg", law="III(7.2)"), Dwell("60 deg"), Move("-30 mm", law="III(7.2)")]
         >>> round(Cycle(moves, speed="300 rpm").cam("20 ms", damping=0.05).peak(2), 6)
         39.380514
@@ -573,7 +573,7 @@ class Cycle(CycleInterchange):
 
         Examples
         --------
-        >>> from optlaws.cycles.specification.segments import Return, Rise
+        >>> from optlaws import Return, Rise
         >>> rise = Rise("35 mm", "120 deg", limits={"acceleration": ("-9 m/s^2", "12 m/s^2")})
         >>> Cycle([rise, Return()], speed="100 rpm", limits={"velocity": "1 m/s"}).limits_of_segments
         ({1: (-1.0, 1.0), 2: (-9.0, 12.0)}, {1: (-1.0, 1.0)})

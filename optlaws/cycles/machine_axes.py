@@ -57,7 +57,7 @@ class Axes(JsonText, Mapping[str, Cycle]):
 
     Examples
     --------
-    >>> from optlaws.cycles.specification.segments import Dwell, Return, Rise
+    >>> from optlaws import Dwell, Return, Rise
     >>> table = {"segments": [Rise("45 deg", "400 ms"), Dwell()], "advance": "45 deg"}
     >>> head = [Dwell("400 ms"), Rise("250 mm", "200 ms"), Dwell("1200 ms"), Return()]
     >>> machine = Axes({"table": table, "weld head": head}, period="2 s")
@@ -280,7 +280,7 @@ class Axes(JsonText, Mapping[str, Cycle]):
 
         Examples
         --------
-        >>> from optlaws.cycles.specification.segments import Return, Rise
+        >>> from optlaws import Return, Rise
         >>> both = Axes(
         ...     {"x": [Rise("35 mm", "0.1 s"), Return()], "y": [Rise("9 deg", "0.1 s"), Return()]}, period="0.3 s"
         ... )
@@ -325,7 +325,7 @@ class Axes(JsonText, Mapping[str, Cycle]):
 
         Examples
         --------
-        >>> from optlaws.cycles.specification.segments import Return, Rise
+        >>> from optlaws import Return, Rise
         >>> print(Axes({"slide": [Rise("35 mm", "120 deg"), Return()]}, speed="200 rpm").to_toml("Press"))
         job = "cycle"
         title = "Press"

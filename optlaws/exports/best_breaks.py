@@ -83,7 +83,7 @@ def best_breaks(law: MotionLaw, degree: int = 7, most: int = MOST) -> BestBreaks
 
     Examples
     --------
-    >>> from optlaws.laws import smoothstep
+    >>> from optlaws import smoothstep
     >>> best = best_breaks(smoothstep(5), degree=7)
     >>> len(best.breaks) - 1, abs(best.ratio - 1) <= 1e-3, [attempt.count for attempt in best.tried]
     (3, True, [1, 2, 3])

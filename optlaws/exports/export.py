@@ -49,7 +49,7 @@ class Export:
 
     Examples
     --------
-    >>> from optlaws.laws import smoothstep
+    >>> from optlaws import smoothstep
     >>> export = smoothstep(3).export("codesys-xyva", stroke="35 mm", master="120 deg", duration="0.1 s", points=7)
     >>> export.text.splitlines()[6:8]
     ['        (dX := 0.0, dY := 0.0, dV := 0.0, dA := 0.0),', '        (dX := 20.0, dY := 1.24228395...
@@ -89,7 +89,7 @@ class Export:
 
         Examples
         --------
-        >>> from optlaws.laws import smoothstep
+        >>> from optlaws import smoothstep
         >>> export = smoothstep(3).export("codesys-xy", stroke="35 mm", master="120 deg", duration="0.1 s", points=9)
         >>> [artist.get_label() for artist in export.plot()[:2]]
         ['as designed', 'as run']
@@ -149,7 +149,7 @@ class Export:
 
         Examples
         --------
-        >>> from optlaws.laws import smoothstep
+        >>> from optlaws import smoothstep
         >>> export = smoothstep(3).export("codesys-xyva", stroke="35 mm", master="120 deg", duration="0.1 s", points=7)
         >>> row = export.summary()[3]
         >>> row.name, row.text(5), row.unit, row.note

@@ -90,7 +90,7 @@ def fitted(
     be `laid` in another way.
 
     >>> from optlaws.motion.motion import motion_of_law
-    >>> from optlaws.laws import smoothstep
+    >>> from optlaws import smoothstep
     >>> motion = motion_of_law(smoothstep(5), stroke="35 mm", duration="0.1 s")
     >>> fit = fitted(motion, degree=7, most=50)
     >>> fit.count, fit.exact, f"{fit.deviation:.1e}", fitted(motion, degree=9, most=50).exact
@@ -128,7 +128,7 @@ def exactly(motion: Motion, degree: int) -> Fitted | None:
     less its start, they are as small as these.
 
     >>> from optlaws.motion.motion import motion_of_law
-    >>> from optlaws.laws import smoothstep
+    >>> from optlaws import smoothstep
     >>> fit = exactly(motion_of_law(smoothstep(9), stroke="35 mm", duration="0.1 s"), 40)
     >>> fit.exact, fit.count, fit.run.degree
     (True, 6, 17)

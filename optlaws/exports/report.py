@@ -91,7 +91,7 @@ class Report:
     --------
     >>> from optlaws.exports.interpolation import spline_powers
     >>> from optlaws.motion.motion import motion_of_law
-    >>> from optlaws.laws import smoothstep
+    >>> from optlaws import smoothstep
     >>> motion = motion_of_law(smoothstep(3), stroke="35 mm", duration="0.1 s")
     >>> x = np.linspace(0.0, 0.1, 13)
     >>> report = as_run(PiecewiseMotion(x, spline_powers(x, motion(x))), motion)

@@ -174,7 +174,7 @@ class JsonText:
 
     Examples
     --------
-    >>> from optlaws.laws import MotionLaw, smoothstep
+    >>> from optlaws import MotionLaw, smoothstep
     >>> MotionLaw.from_json(smoothstep(4).to_json()) == smoothstep(4)
     True
     """

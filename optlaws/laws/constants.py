@@ -26,7 +26,7 @@ class Constants(JsonText):
 
     Examples
     --------
-    >>> from optlaws.laws import smoothstep
+    >>> from optlaws import smoothstep
     >>> smoothstep(2).constants.C
     Peak(value=6.0, k=0.0)
     """
@@ -44,7 +44,7 @@ class Constants(JsonText):
 
         Examples
         --------
-        >>> from optlaws.laws import smoothstep
+        >>> from optlaws import smoothstep
         >>> smoothstep(2).constants.to_dict()["B"]
         {'value': 1.5, 'k': 0.5}
         """
@@ -77,7 +77,7 @@ class Constants(JsonText):
 
         Examples
         --------
-        >>> from optlaws.laws import smoothstep
+        >>> from optlaws import smoothstep
         >>> [row.name for row in smoothstep(2).constants.summary() if row.place == 0.0]
         ['C', 'J']
         """

@@ -30,7 +30,7 @@ class Curve(ABC):
 
     Examples
     --------
-    >>> from optlaws.laws import smoothstep
+    >>> from optlaws import smoothstep
     >>> isinstance(smoothstep(3), Curve), smoothstep(3).interval
     (True, (0.0, 1.0))
     """
@@ -73,7 +73,7 @@ class Curve(ABC):
 
         Examples
         --------
-        >>> from optlaws.laws import smoothstep
+        >>> from optlaws import smoothstep
         >>> smoothstep(3)([0.0, 0.5, 1.0], nu=1).tolist()
         [0.0, 1.875, 0.0]
         """
@@ -129,7 +129,7 @@ class Curve(ABC):
 
         Examples
         --------
-        >>> from optlaws.laws import smoothstep
+        >>> from optlaws import smoothstep
         >>> smoothstep(2).peak(2)
         Peak(value=6.0, k=0.0)
         """
@@ -152,7 +152,7 @@ class Curve(ABC):
 
         Examples
         --------
-        >>> from optlaws.laws import smoothstep
+        >>> from optlaws import smoothstep
         >>> smoothstep(2).extrema(2)
         (Peak(value=-6.0, k=1.0), Peak(value=6.0, k=0.0))
         """
@@ -176,7 +176,7 @@ class Curve(ABC):
 
         Examples
         --------
-        >>> from optlaws.laws import smoothstep
+        >>> from optlaws import smoothstep
         >>> smoothstep(3).where(0.8).round(6).tolist()  # four fifths of the stroke are done
         [0.673402]
         >>> smoothstep(3).where(0.0, nu=2).tolist()
@@ -195,7 +195,7 @@ class Curve(ABC):
 
         Examples
         --------
-        >>> from optlaws.laws import smoothstep
+        >>> from optlaws import smoothstep
         >>> round(smoothstep(2).power_peak().value, 6)
         3.464102
         """
@@ -216,7 +216,7 @@ class Curve(ABC):
 
         Examples
         --------
-        >>> from optlaws.laws import smoothstep
+        >>> from optlaws import smoothstep
         >>> [round(extreme.value, 6) for extreme in smoothstep(2).power_extrema()]
         [-3.464102, 3.464102]
         """
@@ -232,7 +232,7 @@ class Curve(ABC):
 
         Examples
         --------
-        >>> from optlaws.laws import smoothstep
+        >>> from optlaws import smoothstep
         >>> round(smoothstep(2).rms(2) ** 2, 12)
         12.0
         """
@@ -258,7 +258,7 @@ class Curve(ABC):
 
         Examples
         --------
-        >>> from optlaws.laws import smoothstep
+        >>> from optlaws import smoothstep
         >>> [column.tolist() for column in smoothstep(2).samples(3, nu=1)]
         [[0.0, 0.5, 1.0], [0.0, 1.5, 0.0]]
         """
@@ -288,7 +288,7 @@ class Curve(ABC):
 
         Examples
         --------
-        >>> from optlaws.laws import smoothstep
+        >>> from optlaws import smoothstep
         >>> smoothstep(3).to_pandas(3).loc[0.5].round(6).to_dict()
         {'a': 0.5, 'b': 1.875, 'c': 0.0, 'd': 0.0, 'j': -30.0}
         """
@@ -319,7 +319,7 @@ class Curve(ABC):
 
         Examples
         --------
-        >>> from optlaws.laws import smoothstep
+        >>> from optlaws import smoothstep
         >>> [panel.get_title(loc="left") for panel in smoothstep(3).plot()[0].figure.axes][1:3]
         ['B = 1.875 at k = 0.5', 'C = 5.773503 at k = 0.211325']
         """

@@ -84,7 +84,7 @@ class LawExport:
 
         Examples
         --------
-        >>> from optlaws.laws import smoothstep
+        >>> from optlaws import smoothstep
         >>> table = smoothstep(4).export("csv", stroke="40 mm", master="120 deg", counts=65536, points=361)
         >>> round(table.report.ratio(2), 1), round(table.report.bound / table.report.law.peak(2), 1)
         (1.9, 1.6)

@@ -17,7 +17,7 @@ _SAMPLES = 121
 def drawings(curve: Curve) -> str:
     """Small drawings of a, b, c and j over the whole interval; what grows without limit is cut at the highest sample.
 
-    >>> from optlaws.laws import smoothstep
+    >>> from optlaws import smoothstep
     >>> drawings(smoothstep(3)).count("<svg")
     4
     """

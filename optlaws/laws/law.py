@@ -44,7 +44,7 @@ class MotionLaw(Curve, LawExport, StoredLaw):
 
     Examples
     --------
-    >>> from optlaws.laws import smoothstep
+    >>> from optlaws import smoothstep
     >>> law = smoothstep(3)
     >>> law(0.5), law.b(0.5), law([0.0, 1.0], nu=2).tolist()
     (0.5, 1.875, [0.0, 0.0])
@@ -63,7 +63,7 @@ class MotionLaw(Curve, LawExport, StoredLaw):
 
         Examples
         --------
-        >>> from optlaws.laws import smoothstep
+        >>> from optlaws import smoothstep
         >>> smoothstep(2).boundary_values(3)
         ((0.0, 0.0, 6.0), (1.0, 0.0, -6.0))
         """
@@ -84,7 +84,7 @@ class MotionLaw(Curve, LawExport, StoredLaw):
         Examples
         --------
         >>> from optlaws.laws.segments import PolynomialSegment
-        >>> from optlaws.laws.segments.piecewise import PiecewiseLaw
+        >>> from optlaws import PiecewiseLaw
         >>> PiecewiseLaw([0, 0.5, 1], [PolynomialSegment([], b0=b) for b in (0.5, 1.5)]).jumps(1)
         ((0.5, 1.0),)
         """
@@ -101,8 +101,8 @@ class MotionLaw(Curve, LawExport, StoredLaw):
 
         Examples
         --------
-        >>> from optlaws.laws import smoothstep
-        >>> from optlaws.laws.making.trapezoids import scca
+        >>> from optlaws import smoothstep
+        >>> from optlaws import scca
         >>> smoothstep(2).continuity, scca(0.25, 0.5, 0.25).continuity
         (9, 3)
         """
@@ -117,7 +117,7 @@ class MotionLaw(Curve, LawExport, StoredLaw):
 
         Examples
         --------
-        >>> from optlaws.laws import smoothstep
+        >>> from optlaws import smoothstep
         >>> smoothstep(2).constants.J
         Peak(value=12.0, k=0.0)
         """
@@ -144,7 +144,7 @@ class MotionLaw(Curve, LawExport, StoredLaw):
 
         Examples
         --------
-        >>> from optlaws.laws import smoothstep
+        >>> from optlaws import smoothstep
         >>> pieces = smoothstep(2).pieces("0.5 m", "2 s")
         >>> pieces.breaks, pieces.coefficients
         ((0.0, 2.0), ((0.0, 0.0, 0.375, -0.125),))
@@ -225,7 +225,7 @@ def motion_law(value: Any, name: str = "law") -> MotionLaw:  # noqa: ANN401 - wh
 
     Examples
     --------
-    >>> from optlaws.laws import smoothstep
+    >>> from optlaws import smoothstep
     >>> motion_law(smoothstep(3)) == smoothstep(3)
     True
     """

@@ -20,7 +20,7 @@ FORMAT = 1
 class StoredLaw(JsonText, ABC):
     """A value that turns into plain data and back without loss; each kind is a subclass that names itself.
 
-    >>> from optlaws.laws import PolynomialLaw
+    >>> from optlaws import PolynomialLaw
     >>> StoredLaw.kinds["polynomial"] is PolynomialLaw
     True
     """
@@ -40,7 +40,7 @@ class StoredLaw(JsonText, ABC):
     def to_dict(self) -> dict[str, Any]:
         """The law as plain data (numbers, strings, lists), from which `from_dict` makes an equal one.
 
-        >>> from optlaws.laws import MotionLaw, smoothstep
+        >>> from optlaws import MotionLaw, smoothstep
         >>> smoothstep(1).to_dict()
         {'format': 1, 'kind': 'polynomial', 'acceleration': [], 'a0': 0.0, 'b0': 1.0}
         """
@@ -57,7 +57,7 @@ class StoredLaw(JsonText, ABC):
 
         Examples
         --------
-        >>> from optlaws.laws import MotionLaw, smoothstep
+        >>> from optlaws import MotionLaw, smoothstep
         >>> MotionLaw.from_dict(smoothstep(4).to_dict()) == smoothstep(4)
         True
         """

@@ -25,7 +25,7 @@ def sizes(law: MotionLaw) -> tuple[float, ...]:
 def values(law: MotionLaw, k: NDArray[np.float64]) -> list[NDArray[np.float64]]:
     """The values of a, b, c, j and d; what is rounding beside the greatest is 0.
 
-    >>> from optlaws.laws import smoothstep
+    >>> from optlaws import smoothstep
     >>> [float(column[0]) for column in values(smoothstep(3), np.array([0.5]))]
     [0.5, 1.875, 0.0, -30.0, 0.0]
     """
@@ -46,7 +46,7 @@ def table_of_values(law: MotionLaw, name: str, count: int = SAMPLES) -> str:
 
     Examples
     --------
-    >>> from optlaws.laws import smoothstep
+    >>> from optlaws import smoothstep
     >>> print(table_of_values(smoothstep(3), "3-4-5", 3), end="")
     # law 3-4-5: dimensionless; after a jump its value there; made by optlaws
     k,a,b,c,j,d

@@ -89,7 +89,7 @@ def cam_constant(name: str, *, frequency: float, damping: float = 0.0) -> Functi
 
     Examples
     --------
-    >>> from optlaws.laws.savin import savin
+    >>> from optlaws import savin
     >>> C_cam = cam_constant("C", frequency=20, damping=0.05)
     >>> C_cam, round(C_cam.value(savin("III", 7.2)), 6)
     (C_cam(frequency=20.0, damping=0.05), 5.755781)

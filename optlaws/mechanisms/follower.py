@@ -39,7 +39,7 @@ class Follower:
 
     Examples
     --------
-    >>> from optlaws.laws import smoothstep
+    >>> from optlaws import smoothstep
     >>> response = Follower(frequency=20, damping=0.05).response(smoothstep(4))
     >>> response
     Response(frequency=20, damping=0.05, peak acceleration=10.254, residual acceleration=1.65015)
@@ -146,7 +146,7 @@ class Follower:
 
         Examples
         --------
-        >>> from optlaws.laws import smoothstep
+        >>> from optlaws import smoothstep
         >>> Follower(frequency=20).response(smoothstep(4), initial=(0.01, 0.0))(0.0)
         0.01
         """
@@ -178,7 +178,7 @@ class Follower:
 
         Examples
         --------
-        >>> from optlaws.laws import smoothstep
+        >>> from optlaws import smoothstep
         >>> steady = Follower(frequency=20, damping=0.05).cycle(smoothstep(4), dwell=0.5, rest=1.0)
         >>> steady.period, round(steady(0.0) - steady(3.5), 12)
         (3.5, 0.0)
@@ -216,7 +216,7 @@ class Deviation:
 
     Examples
     --------
-    >>> from optlaws.laws.savin import savin
+    >>> from optlaws import savin
     >>> worst = off_design(savin("III", 7.2), savin("III", 7.2), Follower(frequency=20))[0]
     >>> worst.percent, worst.dynamic_factor
     (-10.0, 2.035976)
@@ -271,8 +271,8 @@ def off_design(
 
     Examples
     --------
-    >>> from optlaws.laws.savin import savin
-    >>> from optlaws.mechanisms import polydyne
+    >>> from optlaws import savin
+    >>> from optlaws import polydyne
     >>> law = savin("IV", 11.0)
     >>> [
     ...     round(deviation.dynamic_factor, 6)

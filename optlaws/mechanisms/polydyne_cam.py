@@ -39,8 +39,8 @@ def polydyne(law: MotionLaw, frequency: float, damping: float = 0.0) -> MotionLa
 
     Examples
     --------
-    >>> from optlaws.laws.savin import savin
-    >>> from optlaws.mechanisms import Follower
+    >>> from optlaws import savin
+    >>> from optlaws import Follower
     >>> law = savin("III", 7.2)
     >>> cam = polydyne(law, frequency=20, damping=0.05)
     >>> cam.c(0.0), cam.constants.C
@@ -95,7 +95,7 @@ def mass_law(cam: MotionLaw, frequency: float, damping: float = 0.0) -> Polynomi
 
     Examples
     --------
-    >>> from optlaws.laws import smoothstep
+    >>> from optlaws import smoothstep
     >>> back = mass_law(polydyne(smoothstep(4), frequency=20), frequency=20)
     >>> [round(value, 9) for value in back.to_powers()]
     [0.0, 0.0, 0.0, 0.0, 35.0, -84.0, 70.0, -20.0]

@@ -56,7 +56,7 @@ def residual_phasor(law: MotionLaw, frequency: Any, damping: float = 0.0) -> Com
 
     Examples
     --------
-    >>> from optlaws.laws.savin import savin
+    >>> from optlaws import savin
     >>> 18**2 * abs(residual_phasor(savin("III", 7.2), 18)).round(12)
     array([7.204401])
     """
@@ -91,7 +91,7 @@ def residual_functional(count: int, frequency: Any, damping: float = 0.0) -> tup
 
     Examples
     --------
-    >>> from optlaws.laws import smoothstep
+    >>> from optlaws import smoothstep
     >>> law = smoothstep(4)
     >>> rows, start = residual_functional(len(law.acceleration), [20.0], 0.05)
     >>> abs(rows @ law.acceleration + start * law.b0).round(6)
@@ -278,7 +278,7 @@ def residual_vibration(
 
     Examples
     --------
-    >>> from optlaws.laws.savin import savin
+    >>> from optlaws import savin
     >>> weighed = residual_vibration(spectrum=[(16, 0.1), (18, 1.0), (20, 0.1)])
     >>> weighed, round(weighed.value(savin("III", 7.2)), 6)
     (residual(spectrum='{16.0:0.1, 18.0:1.0, 20.0:0.1}'), 7.296848)

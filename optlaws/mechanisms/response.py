@@ -27,8 +27,8 @@ class MassMotion(Curve):
 
     Examples
     --------
-    >>> from optlaws.laws import smoothstep
-    >>> from optlaws.mechanisms import Follower
+    >>> from optlaws import smoothstep
+    >>> from optlaws import Follower
     >>> motion = Follower(frequency=20, damping=0.05).cycle(smoothstep(4), dwell=0.5, rest=1.0)
     >>> isinstance(motion, MassMotion), motion.interval
     (True, (0.0, 3.5))
@@ -83,8 +83,8 @@ class Response(MassMotion):
 
     Examples
     --------
-    >>> from optlaws.laws.savin import savin
-    >>> from optlaws.mechanisms import Follower
+    >>> from optlaws import savin
+    >>> from optlaws import Follower
     >>> response = Follower(frequency=18).response(savin("III", 7.2))
     >>> response.dynamic_factor(), response.residual_acceleration
     (2.035976, 7.204401)
@@ -112,8 +112,8 @@ class Response(MassMotion):
 
         Examples
         --------
-        >>> from optlaws.laws import smoothstep
-        >>> from optlaws.mechanisms import Follower
+        >>> from optlaws import smoothstep
+        >>> from optlaws import Follower
         >>> Follower(frequency=200).response(smoothstep(4)).dynamic_factor()
         1.003417
         """
@@ -149,8 +149,8 @@ class Response(MassMotion):
 
         Examples
         --------
-        >>> from optlaws.laws import smoothstep
-        >>> from optlaws.mechanisms import Follower
+        >>> from optlaws import smoothstep
+        >>> from optlaws import Follower
         >>> Follower(frequency=20, damping=0.05).response(smoothstep(4)).dwell_peak(2)
         Peak(value=1.620669, k=1.016776)
         """
@@ -212,8 +212,8 @@ class CycleResponse(RiseReturnCycle, MassMotion):
 
     Examples
     --------
-    >>> from optlaws.laws import smoothstep
-    >>> from optlaws.mechanisms import Follower
+    >>> from optlaws import smoothstep
+    >>> from optlaws import Follower
     >>> Follower(frequency=20, damping=0.05).cycle(smoothstep(4), dwell=0.5, rest=1.0)
     CycleResponse(frequency=20, damping=0.05, period=3.5, peak acceleration=11.018)
     """

@@ -151,7 +151,7 @@ class ResponseSpectrum:
 
     Examples
     --------
-    >>> from optlaws.laws.savin import savin
+    >>> from optlaws import savin
     >>> spectrum = response_spectrum(savin("III", 7.2), [18.0, 20.0])
     >>> spectrum.residual_acceleration.round(6), spectrum.peak_acceleration.round(4)
     (array([7.204401, 1.140114]), array([13.7651, 11.2675]))
@@ -207,7 +207,7 @@ def response_spectrum(law: MotionLaw, frequency: Any, damping: float = 0.0) -> R
 
     Examples
     --------
-    >>> from optlaws.laws import smoothstep
+    >>> from optlaws import smoothstep
     >>> import numpy as np
     >>> spectrum = response_spectrum(smoothstep(4), np.linspace(2.0, 200.0, 10_000))
     >>> float(spectrum.residual_acceleration[spectrum.frequency > 100].max())

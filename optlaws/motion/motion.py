@@ -56,7 +56,7 @@ class Motion:
 
     Examples
     --------
-    >>> from optlaws.laws import smoothstep
+    >>> from optlaws import smoothstep
     >>> motion = motion_of_law(smoothstep(3), stroke="35 mm", master="120 deg", duration="0.1 s")
     >>> motion.units
     Units(master='deg', slave='mm', rate=1200.0)
@@ -207,7 +207,7 @@ def motion_of_law(
 
     Examples
     --------
-    >>> from optlaws.laws import smoothstep
+    >>> from optlaws import smoothstep
     >>> motion_of_law(smoothstep(3), stroke="90 deg", duration="400 ms").peak(1)
     421.875
     """
@@ -240,7 +240,7 @@ def motion_of_pieces(
     The master goes so far in a cycle, such as "360 deg", or is time in seconds where it is None; positions are in "mm"
     or "deg" unless a unit is given; `proof` is what is proven of the laws.
 
-    >>> from optlaws.laws import smoothstep
+    >>> from optlaws import smoothstep
     >>> motion = motion_of_pieces([Piece(0.0, 0.1, 0.0, 0.035, smoothstep(3))], 0.1, "length", master="120 deg")
     >>> motion.units, motion(60.0)
     (Units(master='deg', slave='mm', rate=1200.0), 17.5)

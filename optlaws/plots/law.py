@@ -92,7 +92,7 @@ def broken(curve: Curve, nu: int, count: int = _SAMPLES) -> tuple[Array, Array]:
 
     Examples
     --------
-    >>> from optlaws.laws.catalogue.catalogue import catalogue
+    >>> from optlaws import catalogue
     >>> k, c = broken(catalogue["constant acceleration"].law, 2, 3)
     >>> k.tolist(), c.tolist()
     ([0.0, 0.5, 0.5, 0.5, 1.0], [4.0, 4.0, nan, -4.0, -4.0])

@@ -60,7 +60,7 @@ class Summary(tuple[Row, ...]):  # noqa: SLOT001 - what places are is kept besid
 
     Examples
     --------
-    >>> from optlaws.laws import smoothstep
+    >>> from optlaws import smoothstep
     >>> summary = smoothstep(3).constants.summary()
     >>> summary[1].name, summary[1].value, summary.at
     ('C', 5.773503, 'k')

@@ -62,8 +62,8 @@ class Front(JsonText):
 
     Examples
     --------
-    >>> from optlaws.synthesis import Problem
-    >>> from optlaws.synthesis.pareto import pareto_front
+    >>> from optlaws import Problem
+    >>> from optlaws import pareto_front
     >>> front = pareto_front(Problem(order=4), over=("B", "C"), points=5, between=(1.5, 1.8))
     >>> front
     Front(over=('B', 'C'), 5 points, B 1.5 to 1.8, C 5.70496 to 4.69579)
@@ -120,8 +120,8 @@ class Front(JsonText):
 
         Examples
         --------
-        >>> from optlaws.synthesis import Problem
-        >>> from optlaws.synthesis.pareto import pareto_front
+        >>> from optlaws import Problem
+        >>> from optlaws import pareto_front
         >>> front = pareto_front(Problem(order=4), over=("B", "C"), points=3, between=(1.5, 1.8))
         >>> front.to_pandas()[["B", "C", "status"]].round(4).to_dict("list")
         {'B': [1.5, ..., 1.8], 'C': [5.705, ..., 4.6958], 'status': ['optimal', 'optimal', 'optimal']}
@@ -134,8 +134,8 @@ class Front(JsonText):
 
         Examples
         --------
-        >>> from optlaws.synthesis import Problem
-        >>> from optlaws.synthesis.pareto import pareto_front
+        >>> from optlaws import Problem
+        >>> from optlaws import pareto_front
         >>> front = pareto_front(Problem(order=4), over=("B", "C"), points=3, between=(1.5, 1.8))
         >>> front.to_xarray().C.sel(B=1.8, method="nearest").round(4).item()
         4.6958
@@ -233,7 +233,7 @@ def undominated(solutions: Sequence[Solution], over: Sequence[str], values: Arra
 
     Examples
     --------
-    >>> from optlaws.synthesis import Problem, sweep
+    >>> from optlaws import Problem, sweep
     >>> solutions = list(sweep(Problem(B=B, order=4) for B in (1.6, 1.8, 2.2)))
     >>> [solution.problem.B for solution in undominated(solutions, ("B", "C"))]
     [1.6, 1.8]

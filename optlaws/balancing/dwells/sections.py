@@ -31,7 +31,7 @@ def top(law: MotionLaw) -> float:
 
     Examples
     --------
-    >>> from optlaws.laws import smoothstep
+    >>> from optlaws import smoothstep
     >>> top(smoothstep(2))
     0.5
     """
@@ -67,7 +67,7 @@ class PartSegment(Segment, kind="part"):
 
     Examples
     --------
-    >>> from optlaws.laws import smoothstep
+    >>> from optlaws import smoothstep
     >>> half = PartSegment(smoothstep(2), 0.0, 0.5, scale=-4.0)
     >>> half.derivative(np.array([0.0, 1.0]), 0.25, 0), half.derivative(np.array([0.0, 1.0]), 0.25, 1)
     (array([-0., -2.]), array([ -0., -12.]))

@@ -48,7 +48,7 @@ class LoaderPeak(Functional):
 
     Examples
     --------
-    >>> from optlaws.laws import smoothstep
+    >>> from optlaws import smoothstep
     >>> [round(functional.value(smoothstep(2)), 6) for functional in (B_loader, C_loader, D_loader)]
     [1.640754, 4.640754, 4.144721]
     """

@@ -42,7 +42,7 @@ class LoaderLaw(MotionLaw, kind="loader"):
 
     Examples
     --------
-    >>> from optlaws.laws import smoothstep
+    >>> from optlaws import smoothstep
     >>> law = LoaderLaw(smoothstep(2))
     >>> law
     LoaderLaw(Y=1.09384, B=1.64075, C=4.64075, D=4.14472, J=26.2521)

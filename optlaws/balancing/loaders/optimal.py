@@ -148,7 +148,7 @@ def balanced_law(
     >>> proven = balanced_law(1.875, order=3, basis=Chebyshev(9), bound="tight")
     >>> proven.status.value, proven.gap < 1e-8
     ('optimal', True)
-    >>> from optlaws.laws import smoothstep
+    >>> from optlaws import smoothstep
     >>> from optlaws.balancing.loaders.constants import C_loader
     >>> round(C_loader.value(smoothstep(3)), 6)  # also of order 3 and with B = 1.875
     5.65925

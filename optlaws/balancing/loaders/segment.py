@@ -177,7 +177,7 @@ class LoaderSegment(Segment, kind="loader"):
 
     Examples
     --------
-    >>> from optlaws.laws import smoothstep
+    >>> from optlaws import smoothstep
     >>> segment = LoaderSegment(smoothstep(2), 0.0, 0.5, scale=1.0, top="end")
     >>> segment.derivative(np.array([0.0, 1.0]), 0.5, 1)
     array([1.5, 0. ])

@@ -39,7 +39,7 @@ def tops(law: MotionLaw) -> tuple[VelocityTop, ...]:
 
     Examples
     --------
-    >>> from optlaws.laws import smoothstep
+    >>> from optlaws import smoothstep
     >>> tops(smoothstep(2))
     (VelocityTop(first=0.5, last=0.5),)
     """

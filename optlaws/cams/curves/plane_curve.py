@@ -124,9 +124,9 @@ class PlaneCurve(CurveByAngle):
 
     Examples
     --------
-    >>> from optlaws.cams.disc import DiscCam
-    >>> from optlaws.cams.curves.motion_by_angle import CamMotion
-    >>> from optlaws.cams.followers.translating_roller import TranslatingRoller
+    >>> from optlaws import DiscCam
+    >>> from optlaws import CamMotion
+    >>> from optlaws import TranslatingRoller
     >>> rise = CamMotion.of_law("cycloidal", "40 mm", "120 deg")
     >>> pitch = DiscCam(rise, prime_radius="80 mm", follower=TranslatingRoller("12 mm")).pitch_curve
     >>> pitch([0.0, 1.0]).shape, pitch(1.0, nu=2).shape, round(float(np.hypot(*pitch(0.0))), 9)

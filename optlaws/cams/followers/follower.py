@@ -105,7 +105,7 @@ def stated_prime_radius(prime_radius: Any, base_radius: Any, follower: CamFollow
 
     Examples
     --------
-    >>> from optlaws.cams.followers.translating_flat import TranslatingFlat
+    >>> from optlaws import TranslatingFlat
     >>> stated_prime_radius(None, "28 mm", TranslatingFlat())
     '28 mm'
     """

@@ -131,7 +131,7 @@ def least_spring(
     Examples
     --------
     >>> from optlaws import Cycle, Dwell, Return, Rise
-    >>> from optlaws.cams.followers.translating_roller import TranslatingRoller
+    >>> from optlaws import TranslatingRoller
     >>> moves = [Rise("40 mm", "120 deg", law="3-4-5"), Dwell("60 deg"), Return(law="3-4-5")]
     >>> cam = DiscCam(Cycle(moves, speed="200 rpm"), prime_radius="80 mm", follower=TranslatingRoller("12 mm"))
     >>> spring = least_spring(cam, drive={"mass": "2 kg"}, speeds=("0 rpm", "300 rpm"), preload="20 N")

@@ -161,7 +161,7 @@ class PieceEffort:
 def effort(along: Sequence[PieceEffort], period: float) -> Effort:
     """The force and power of a drive over a cycle, from what it does along each piece.
 
-    >>> from optlaws.laws import smoothstep
+    >>> from optlaws import smoothstep
     >>> drive = CycleDrive(inertia=2.0, viscous=0.0, stiffness=0.0, constant=0.0, dry=0.0)
     >>> rise = Piece(0.0, 1.0, 0.0, 1.0, smoothstep(2))
     >>> known = effort([PieceEffort(drive, rise)], 1.0)

@@ -158,7 +158,7 @@ def rounding_bound(motion: Motion, x: Array, y: Array, slopes: Array) -> float:
     six times the second divided differences of the positions on the right; these are wrong by eps/(h_i h_i+1) at most.
 
     >>> from optlaws.motion.motion import motion_of_law
-    >>> from optlaws.laws import smoothstep
+    >>> from optlaws import smoothstep
     >>> motion = motion_of_law(smoothstep(3), stroke="1 m", duration="1 s")
     >>> x = np.linspace(0.0, 1.0, 11)
     >>> round(rounding_bound(motion, x, motion(x) + 0.001 * (-1.0) ** np.arange(11), np.zeros(2)), 9)

@@ -278,7 +278,7 @@ def front_header(table: FrontTable, name: str, heading: Sequence[str]) -> str:
     Examples
     --------
     >>> from optlaws.exports.run_time.front_table import front_table
-    >>> from optlaws.laws import smoothstep
+    >>> from optlaws import smoothstep
     >>> table = front_table((1.5, 1.875), (smoothstep(2), smoothstep(3)), 1.0, (False, False))
     >>> [line for line in front_header(table, "lift", []).splitlines() if "int lift_in_time" in line]
     ['static inline int lift_in_time(double stroke, double duration, double velocity, lift_move *move)']

@@ -281,7 +281,7 @@ def front_block(table: FrontTable, name: str, heading: Sequence[str]) -> str:
     Examples
     --------
     >>> from optlaws.exports.run_time.front_table import front_table
-    >>> from optlaws.laws import smoothstep
+    >>> from optlaws import smoothstep
     >>> table = front_table((1.5, 1.875), (smoothstep(2), smoothstep(3)), 1.0, (False, False))
     >>> front_block(table, "FB_Lift", []).splitlines()[4]
     'FUNCTION_BLOCK FB_Lift'

@@ -101,7 +101,7 @@ def front_table(
 
     Examples
     --------
-    >>> from optlaws.laws import smoothstep
+    >>> from optlaws import smoothstep
     >>> table = front_table((1.5, 1.875), (smoothstep(2), smoothstep(3)), 1.0, (False, False))
     >>> table.odd, table.degree, table.size, table.velocities, table.jerks
     (True, 5, 96, (1.5, 1.875), (60.0, 60.0))

@@ -90,7 +90,7 @@ def least_time(table: FrontTable, stroke: float, velocity: float, acceleration: 
     Examples
     --------
     >>> from optlaws.exports.run_time.front_table import front_table
-    >>> from optlaws.laws import smoothstep
+    >>> from optlaws import smoothstep
     >>> table = front_table((1.5, 1.875), (smoothstep(2), smoothstep(3)), 1.0, (False, False))
     >>> move = least_time(table, 2.0, 1.0, 1.0, 1e3)
     >>> move.status.name, round(move.duration, 4), round(move.acceleration, 9)
@@ -111,7 +111,7 @@ def in_time(table: FrontTable, stroke: float, duration: float, velocity: float) 
     Examples
     --------
     >>> from optlaws.exports.run_time.front_table import front_table
-    >>> from optlaws.laws import smoothstep
+    >>> from optlaws import smoothstep
     >>> table = front_table((1.5, 1.875), (smoothstep(2), smoothstep(3)), 1.0, (False, False))
     >>> move = in_time(table, 2.0, 4.0, 0.8)
     >>> move.status.name, move.law, round(move.share, 6), in_time(table, 2.0, 2.0, 1.0).status.name
@@ -141,7 +141,7 @@ def motion_at(table: FrontTable, move: RunTimeMove, times: Any) -> Array:  # noq
     Examples
     --------
     >>> from optlaws.exports.run_time.front_table import front_table
-    >>> from optlaws.laws import smoothstep
+    >>> from optlaws import smoothstep
     >>> table = front_table((1.5, 1.875), (smoothstep(2), smoothstep(3)), 1.0, (False, False))
     >>> motion_at(table, in_time(table, 2.0, 4.0, 1.0), [0.0, 2.0, 5.0])[0].round(9).tolist()
     [0.0, 1.0, 2.0]

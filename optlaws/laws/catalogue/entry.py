@@ -78,7 +78,7 @@ class CatalogueEntry(JsonText):
 
     Examples
     --------
-    >>> from optlaws.laws.catalogue.catalogue import catalogue
+    >>> from optlaws import catalogue
     >>> entry = catalogue["BESTEHORN"]
     >>> entry.name, entry.continuity, entry.constants.B.value
     ('cycloidal', 2, 2.0)
@@ -161,7 +161,7 @@ class CatalogueEntry(JsonText):
 
         Examples
         --------
-        >>> from optlaws.laws.catalogue.catalogue import catalogue
+        >>> from optlaws import catalogue
         >>> sorted(catalogue["cubic"].to_dict())
         ['aliases', 'constants', 'continuity', 'definition', 'formula', 'from_memory', 'law', 'name', 'published', ...]
         """

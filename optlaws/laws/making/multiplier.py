@@ -53,8 +53,8 @@ def multiplied_law(law: MotionLaw, y: Multiplier) -> MotionLaw:
 
     Examples
     --------
-    >>> from optlaws.laws import smoothstep
-    >>> from optlaws.laws.savin import savin
+    >>> from optlaws import smoothstep
+    >>> from optlaws import savin
     >>> multiplied_law(smoothstep(4), [2, -6, 6]) == savin("III", alpha=6.0)
     True
     >>> import math
@@ -100,7 +100,7 @@ def multiplier_for(
 
     Examples
     --------
-    >>> from optlaws.laws import smoothstep
+    >>> from optlaws import smoothstep
     >>> y = multiplier_for(smoothstep(4), B=1.9, C=6.5)
     >>> multiplied_law(smoothstep(4), y)
     PolynomialLaw(degree=11, B=1.9, C=6.5, D=7.14..., J=53.2...)

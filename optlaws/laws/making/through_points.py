@@ -251,7 +251,7 @@ def law_through(k: Many, a: Many, tolerance: Any = None, *, rest: bool = True) -
 
     Examples
     --------
-    >>> from optlaws.laws import smoothstep
+    >>> from optlaws import smoothstep
     >>> degrees = np.linspace(0, 120, 61)
     >>> table = np.round(35 * smoothstep(5)(degrees / 120), 2)  # mm, of a law with C = 9.371976
     >>> law_through(degrees, table, tolerance=0.01)

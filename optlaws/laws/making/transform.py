@@ -33,7 +33,7 @@ def with_end_velocity(law: MotionLaw, b0: float) -> MotionLaw:
 
     Examples
     --------
-    >>> from optlaws.laws import smoothstep
+    >>> from optlaws import smoothstep
     >>> with_end_velocity(smoothstep(3), 0.25).b([0.0, 0.5, 1.0]).round(12).tolist()
     [0.25, 1.65625, 0.25]
     """
@@ -142,7 +142,7 @@ def law_between(first: MotionLaw, last: MotionLaw, share: float) -> MotionLaw:
 
     Examples
     --------
-    >>> from optlaws.laws.polynomial import smoothstep
+    >>> from optlaws import smoothstep
     >>> law_between(smoothstep(2), smoothstep(3), 0.5).b(0.5)
     1.6875
     """

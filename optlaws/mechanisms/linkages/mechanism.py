@@ -300,7 +300,7 @@ class Mechanism(JsonText):
 
         Examples
         --------
-        >>> from optlaws.mechanisms.linkages.slider_crank import slider_crank
+        >>> from optlaws import slider_crank
         >>> press = slider_crank("0.1 m", "0.4 m", bodies={"crank": "0.02 kg m^2", "slider": "5 kg"})
         >>> moved = press.dimensionless("0 deg", "180 deg", "0.3 s")
         >>> from optlaws import rms, smoothstep

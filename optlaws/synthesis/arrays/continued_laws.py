@@ -35,7 +35,7 @@ def laws_along(path: Path, t: Array) -> SolvedBatch:
     """The optima at ascending t, as far as they are proven here.
 
     >>> from optlaws.synthesis.arrays.programs import between
-    >>> from optlaws.synthesis.problem.problem import Problem
+    >>> from optlaws import Problem
     >>> path = between(Problem(B=1.6, order=4), Problem(B=1.7, order=4))
     >>> laws_along(path, np.array([0.0, 0.2])).objective.round(6).tolist()
     [5.262224, 5.173677]

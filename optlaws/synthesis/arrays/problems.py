@@ -228,7 +228,7 @@ def map_arrays(function: Callable[..., Any], *arrays: Any) -> NDArray[Any]:
 
     Examples
     --------
-    >>> from optlaws.synthesis.problem.ranges import at_most
+    >>> from optlaws import at_most
     >>> map_arrays(at_most, np.array([60.0, 70.0])).tolist()
     [at_most(60.0), at_most(70.0)]
     >>> map_arrays("{:g}*C/4 + J/32".format, np.array([0.5, 1.0])).tolist()

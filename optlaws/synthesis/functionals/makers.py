@@ -54,7 +54,7 @@ def peak(formula: Any, *, side: PeakSide = "both", start: float = 0.0, stop: flo
 
     Examples
     --------
-    >>> from optlaws.laws import smoothstep
+    >>> from optlaws import smoothstep
     >>> peak("c + 3*b"), round(peak("c + 3*b").value(smoothstep(3)), 6)
     (peak(c + 3*b), 9.009603)
     """
@@ -77,7 +77,7 @@ def rms(formula: Any, *, start: float = 0.0, stop: float = 1.0) -> Functional:  
 
     Examples
     --------
-    >>> from optlaws.laws import smoothstep
+    >>> from optlaws import smoothstep
     >>> round(rms("c").value(smoothstep(2)) ** 2, 9)
     12.0
     """
@@ -99,7 +99,7 @@ def integral(formula: Any, *, start: float = 0.0, stop: float = 1.0) -> Function
 
     Examples
     --------
-    >>> from optlaws.laws import smoothstep
+    >>> from optlaws import smoothstep
     >>> energy = integral("c^2 + (1 + k)*b^2")
     >>> round(energy.value(smoothstep(2)), 9), energy.convexity
     (13.8, 'convex: every term of c^2 + (1 + k)*b^2 is convex')
@@ -121,7 +121,7 @@ def value(formula: Any, *, at: float) -> Functional:  # noqa: ANN401
 
     Examples
     --------
-    >>> from optlaws.laws import smoothstep
+    >>> from optlaws import smoothstep
     >>> value("c", at=0.25), value("c", at=0.25).value(smoothstep(2))
     (value(c, at=0.25), 3.0)
     """

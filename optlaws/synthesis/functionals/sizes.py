@@ -406,7 +406,7 @@ def known_values(motion: MotionFormula, conditions: BoundaryConditions) -> list[
     Examples
     --------
     >>> from optlaws.formulas.of_motion import of_text
-    >>> from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
+    >>> from optlaws import BoundaryConditions
     >>> known_values(of_text("c + 2*b"), BoundaryConditions.rest(3))
     [(0.0, 8.0), (0.0, 8.0), (2.0, 2.0)]
     """

@@ -213,7 +213,7 @@ class _InUnitsOfLaws(Functional):
 class PeakConstant(_InUnitsOfLaws):
     """Peak of a derivative: magnitude, or one sign only.
 
-    >>> from optlaws.laws import smoothstep
+    >>> from optlaws import smoothstep
     >>> C.value(smoothstep(2)), C_plus.value(smoothstep(2))
     (6.0, 6.0)
     """
@@ -239,7 +239,7 @@ class PeakConstant(_InUnitsOfLaws):
 class PeakJerk(PeakConstant):
     """Peak of the jerk, which costs more where the acceleration must begin and end with 0.
 
-    >>> from optlaws.laws import smoothstep
+    >>> from optlaws import smoothstep
     >>> J.value(smoothstep(3)), J.least(3)
     (60.0, 32.0)
     """
@@ -255,7 +255,7 @@ class PeakJerk(PeakConstant):
 class PowerConstant(_InUnitsOfLaws):
     """Peak D of the kinetic power d = b c: not convex in the law.
 
-    >>> from optlaws.laws import smoothstep
+    >>> from optlaws import smoothstep
     >>> round(D.value(smoothstep(2)), 6)
     3.464102
     """
@@ -275,7 +275,7 @@ class PowerConstant(_InUnitsOfLaws):
 class RootMeanSquare(_InUnitsOfLaws):
     """RMS of a derivative over the interval.
 
-    >>> from optlaws.laws import smoothstep
+    >>> from optlaws import smoothstep
     >>> round(rms_c.value(smoothstep(2)) ** 2, 9)
     12.0
     """
@@ -327,7 +327,7 @@ _silent: ContextVar[bool] = ContextVar("mixtures are meant", default=False)
 def meant() -> Iterator[None]:
     """Have no mixture warned of, in this thread alone: filters of warnings are the process's.
 
-    >>> from optlaws.synthesis.problem.constants import C, J
+    >>> from optlaws import C, J
     >>> with meant():
     ...     warn_of_mixture(C + 3 * J, 4)
     """
@@ -344,7 +344,7 @@ def warn_of_mixture(objective: Expression, order: int) -> None:
     Parts are compared at the constants' least values for laws of the order: C counts 4, D 2.25, J 32 from order 3 on.
     An objective such as C + 3*J is hardly a mixture; 0.5*C/4 + 0.5*J/32 is.
 
-    >>> from optlaws.synthesis.problem.constants import C, D
+    >>> from optlaws import C, D
     >>> warn_of_mixture(0.6 * C / 4 + 0.4 * D / 2.25, 4)
     """
     text = repr(objective)

@@ -21,7 +21,7 @@ class Term:
 
     Examples
     --------
-    >>> from optlaws.synthesis import C, D
+    >>> from optlaws import C, D
     >>> 0.5 * C / 4 + 0.5 * D / 2
     0.125*C + 0.25*D
     """
@@ -59,7 +59,7 @@ class Expression:
 
     Examples
     --------
-    >>> from optlaws.synthesis import C, D
+    >>> from optlaws import C, D
     >>> (C / 4 + D / 2.25).weights()["C"]
     0.25
     >>> 0 * C / 4 + D / 2
@@ -95,7 +95,7 @@ class Expression:
 
         Examples
         --------
-        >>> from optlaws.synthesis import C
+        >>> from optlaws import C
         >>> (0.5 * C).scale, (2.0**-40 * C).scale * 2.0**40
         (1.0, 1.0)
         """
@@ -161,7 +161,7 @@ class Maximum(Term):
 
     Examples
     --------
-    >>> from optlaws.synthesis import C, D, maximum
+    >>> from optlaws import C, D, maximum
     >>> maximum(C / 4, D / 2)
     max(0.25*C, 0.5*D)
     """
@@ -187,7 +187,7 @@ def maximum(*parts: Term | Expression) -> Maximum:
 
     Examples
     --------
-    >>> from optlaws.synthesis import C, D
+    >>> from optlaws import C, D
     >>> len(maximum(C, D).parts)
     2
     """

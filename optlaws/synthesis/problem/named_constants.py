@@ -40,7 +40,7 @@ Makers = Mapping[str, Callable[..., Term]]
 def parse(text: str, names: Mapping[str, Term], makers: Makers | None = None) -> Expression:
     """Read an objective such as `0.6*C/4 + 0.4*D/2.25` or `max(C/4, D/2.25)`.
 
-    >>> from optlaws.synthesis import FUNCTIONALS
+    >>> from optlaws import FUNCTIONALS
     >>> parse("0.5*C/4 + 0.5*D/2", FUNCTIONALS)
     0.125*C + 0.25*D
     """
@@ -285,7 +285,7 @@ def title_of(name: str) -> str:
 def is_named(term: Term) -> bool:
     """Whether its name alone tells what it is, so that text can stand for it.
 
-    >>> from optlaws.synthesis import C
+    >>> from optlaws import C
     >>> is_named(C)
     True
     """

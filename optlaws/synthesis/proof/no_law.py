@@ -40,7 +40,7 @@ def convex_part(problem: Problem) -> Problem:
 def least_of(problem: Problem, constant: Functional) -> Problem:
     """The problem of the least value of a bounded constant under all other constraints.
 
-    >>> from optlaws.synthesis.problem.constants import D
+    >>> from optlaws import D
     >>> least_of(Problem(B=1.7, order=4, D=(0.0, 2.0)), D)
     Problem(B=1.7, order=4, basis=Chebyshev(degree=9), minimise='D')
     """

@@ -30,7 +30,7 @@ class ChordSelection:
 
     Examples
     --------
-    >>> from optlaws.synthesis.proven.refine import proven_front
+    >>> from optlaws import proven_front
     >>> front = proven_front(Problem(order=4), between=(1.6, 1.9), gap=1e-5)
     >>> chords = ChordSelection(np.array(front.values), front.sides, front.problem.objective.scale)
     >>> places, gap = chords.fewest(1e-3)
@@ -107,7 +107,7 @@ def proven_ends(problem: Problem, first: MotionLaw, last: MotionLaw, gap: float)
 
     Examples
     --------
-    >>> from optlaws.laws import smoothstep
+    >>> from optlaws import smoothstep
     >>> proven_ends(Problem(order=4), smoothstep(4), synthesize(Problem(order=4)).law, 1e-3)
     (False, True)
     """

@@ -81,7 +81,7 @@ class FrontPoint(JsonText):
 
     Examples
     --------
-    >>> from optlaws.synthesis.proven.refine import proven_front
+    >>> from optlaws import proven_front
     >>> point = proven_front(Problem(order=4), between=(1.6, 1.7), gap=1e-3)(1.65)
     >>> point.problem.B, point.lower_bound <= point.objective == point.constants.C.value
     (1.65, True)
@@ -183,7 +183,7 @@ class ProvenFront(JsonText):
 
     Examples
     --------
-    >>> from optlaws.synthesis.proven.refine import proven_front
+    >>> from optlaws import proven_front
     >>> front = proven_front(Problem(order=4), "B", between=(1.5, 1.52), gap=1e-9)
     >>> len(front), front.gap < 1e-12
     (17, True)
@@ -397,7 +397,7 @@ class ProvenFront(JsonText):
 
         Examples
         --------
-        >>> from optlaws.synthesis.proven.refine import proven_front
+        >>> from optlaws import proven_front
         >>> front = proven_front(Problem(order=4), ("at_most.B", "C"), gap=1e-4)
         >>> export = front.export("iec-st", name="FB_Lift")
         >>> export.points, export.size, export.gap <= 1e-3

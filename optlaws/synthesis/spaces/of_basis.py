@@ -34,7 +34,7 @@ def space_of(basis: Basis, boundary: BoundaryConditions, *, symmetric: bool) -> 
 
     Examples
     --------
-    >>> from optlaws.synthesis.spaces.bases import Chebyshev
+    >>> from optlaws import Chebyshev
     >>> space_of(Chebyshev(9), BoundaryConditions.rest(4), symmetric=True).terms
     5
     """

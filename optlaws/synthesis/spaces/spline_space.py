@@ -31,7 +31,7 @@ from optlaws.tolerances import EVEN_PART, VELOCITY_KEPT
 class SplineSpace(PiecewiseSpace):
     """Laws (8) with the given end conditions and Z in a piecewise basis, or, if `symmetric`, its part odd about 1/2.
 
-    >>> from optlaws.synthesis.spaces.splines import BSplines
+    >>> from optlaws import BSplines
     >>> [spline_space(BoundaryConditions.rest(3), BSplines(4), symmetric=half).terms for half in (False, True)]
     [7, 3]
     """

@@ -53,7 +53,7 @@ def known(term: Term) -> Known:
 
     Examples
     --------
-    >>> from optlaws.synthesis.problem.constants import C
+    >>> from optlaws import C
     >>> known(C).nu
     2
     """

@@ -26,7 +26,7 @@ _ZERO = fmpq_poly([0])
 def exact_space(problem: Problem) -> ExactSpace:
     """The laws of a problem as a space in exact numbers.
 
-    >>> from optlaws.synthesis import Chebyshev
+    >>> from optlaws import Chebyshev
     >>> exact_space(Problem(B=1.6, order=1, basis=Chebyshev(1))).derivative(1)
     [[3/2*x^2 + (-1/2), 1]]
     """
