@@ -21,7 +21,7 @@ from starlette.routing import Route
 from optlaws import catalogue
 from optlaws.explorer import downloads
 from optlaws.explorer.answering import EXAMPLES, QUESTIONS, message
-from optlaws.explorer.views import cam_view
+from optlaws.explorer.views import cam_view, machine_view
 from optlaws.explorer.workers import MOST, SLICE, USUAL, Workers
 
 if TYPE_CHECKING:
@@ -42,6 +42,7 @@ def application(start: dict[str, Any], workers: Workers | None = None) -> Starle
         "names": [*catalogue, *_MEMBERS],
         "examples": {name: example() for name, example in EXAMPLES.items()},
         "followers": cam_view.followers(),
+        "mechanisms": machine_view.kinds(),
         "formats": downloads.formats(),
     }
     first = msgspec.json.encode({"state": start, **known})

@@ -12,7 +12,7 @@ from typing import Annotated, Any, Literal
 import msgspec
 
 import optlaws
-from optlaws import Cycle, Problem, Solution
+from optlaws import Cycle, Drive, Mechanism, Problem, Solution
 from optlaws.cams.curves import cam_files
 from optlaws.cams.curves.file_options import Cutting
 from optlaws.errors import InputError
@@ -59,16 +59,17 @@ class FileRequest(SeenRequest, kw_only=True, forbid_unknown_fields=True):
     """A file of what is seen."""
 
     kind: Literal["python", "problem", "law", "table", "cut"]
-    view: Literal["laws", "cycle", "cam", "study"] = "laws"
+    view: Literal["laws", "cycle", "cam", "machine", "study"] = "laws"
     cam: cam_view.CamRequest | None = None
+    machine: cycle_view.CycleRequest | None = None
     study: StudyRequest | None = None
     format: Annotated[str, msgspec.Meta(max_length=40)] = "dxf spline"
 
 
 def answer(request: FileRequest) -> File:
     """A file: its name, its type, its text."""
-    if request.view == "cycle":
-        return _of_cycle(request)
+    if request.view in ("cycle", "machine"):
+        return _of_cycle(request, request.cycle if request.view == "cycle" else request.machine)
     if request.view == "cam":
         return _of_cam(request)
     if request.view == "study" and request.kind == "problem":
@@ -153,7 +154,7 @@ def _problem_text(problem: Problem) -> str:
 def _with_imports(lines: list[str]) -> str:
     body = "\n".join(lines)
     names = {name for name in _CALLED.findall(body) if name in optlaws.__all__}
-    names |= {name for name in ("MotionLaw", "Problem") if f"{name}." in body}
+    names |= {name for name in ("Drive", "Mechanism", "MotionLaw", "Problem") if f"{name}." in body}
     return f"from optlaws import {', '.join(sorted(names))}\n\n{body}\n"
 
 
@@ -206,13 +207,13 @@ def stored(law: LawRequest) -> str:
     return json.dumps({"about": MARK, **data} if isinstance(solution, Solution) else data, indent=1) + "\n"
 
 
-def _of_cycle(request: FileRequest) -> File:
-    if request.cycle is None:
+def _of_cycle(request: FileRequest, shown: cycle_view.CycleRequest | None) -> File:
+    if shown is None:
         raise InputError("there is no cycle to save")
     if request.kind == "problem":
-        return _file("cycle.toml", "application/toml", to_toml(request.cycle.study))
-    spec, axis = cycle_view.read(request.cycle)
-    cycle = cycle_view.cycle(request.cycle)
+        return _file("cycle.toml", "application/toml", to_toml(shown.study))
+    spec, axis = cycle_view.read(shown)
+    cycle = cycle_view.cycle(shown)
     if request.kind == "table":
         about = " ".join(f"{spec.title}: {axis.name}; SI units but for mm and deg".split())
         return _file(f"{_stem(axis.name)}.csv", "text/csv", table_of_motion(cycle, _ROWS, about))
@@ -243,8 +244,9 @@ def _of_cam(request: FileRequest) -> File:
 def cycle_python(cycle: Cycle, follower: ElasticFollowerEntries | None = None) -> str:
     """Lines that make the same cycle, or that of the cam whose follower moves so."""
     entries = {name: getattr(cycle, name) for name in ("speed", "period", "minimise", "limits", "start", "advance")}
-    entries |= {"drive": cycle.drive, "load": cycle.load, "order": cycle.order, "degree": cycle.degree}
+    entries |= {"load": cycle.load, "order": cycle.order, "degree": cycle.degree}
     given = ", ".join(f"{name}={value!r}" for name, value in entries.items() if value not in (None, {}))
+    given += "" if cycle.drive is None else f", drive={_drive_text(cycle.drive)}"
     segments = "\n".join(f"    {segment!r}," for segment in cycle.segments)
     lines = [
         f"segments = [\n{segments}\n]",
@@ -254,6 +256,13 @@ def cycle_python(cycle: Cycle, follower: ElasticFollowerEntries | None = None) -
         'cycle.plot()[0].figure.savefig("cycle.png")',
     ]
     return _with_imports(lines)
+
+
+def _drive_text(drive: Mapping[str, Any] | Mechanism | Drive) -> str:
+    """What drives a cycle as Python."""
+    if isinstance(drive, Mapping):
+        return repr(drive)
+    return f"{type(drive).__name__}.from_dict({drive.to_dict()!r})"
 
 
 Text = Annotated[str, msgspec.Meta(max_length=60)]

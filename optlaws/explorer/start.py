@@ -13,8 +13,12 @@ from optlaws.explorer.views.requests import MOST_LAWS, LawRequest, Question, pro
 from optlaws.explorer.views.study_view import law_entries, rows_of
 from optlaws.files import reading
 from optlaws.files.packaged import is_problem, problem_file
+from optlaws.files.problem_file import convert
+from optlaws.jobs.cycle_entries import CycleProblemFile
 from optlaws.laws.catalogue.reading import is_file, is_table, law_of_points, read_law
+from optlaws.mechanisms.drives.motor import read_motors
 from optlaws.studies.problem_entries import problem
+from optlaws.suggest import unknown_key
 
 _FIRST = {"order": 4, "degree": 9, "B": 1.7}
 #: jobs with a view of their own name
@@ -35,7 +39,7 @@ def start(given: str | None) -> dict[str, Any]:
         return _laws({"problem": dict(_FIRST), "weights": {"C": 1.0}})
     if is_problem(given):
         file = problem_file(Path(given))[0]
-        return _of_problem_file(reading.toml(file), str(file))
+        return _of_problem_file(_with_motors(reading.toml(file), file), str(file))
     if is_file(given):
         return _of_law_file(given)
     read_law(given)
@@ -71,6 +75,8 @@ def _of_problem_file(data: dict[str, Any], name: str) -> dict[str, Any]:
     job = data.get("job")
     if job == "cycle" and data.get("interlocks"):
         return {"view": "axes", "axes": data}
+    if job == "cycle":
+        return _of_cycle(data, name)
     if job in _SHOWN:
         return {"view": job, job: data}
     with located(name):
@@ -80,6 +86,27 @@ def _of_problem_file(data: dict[str, Any], name: str) -> dict[str, Any]:
     stated = next(rows)[1] if count else problem(name, data["problem"])
     laws = _laws(law_entries(stated))
     return laws if count <= 1 and job in _OF_ONE else laws | {"view": "study", "study": data}
+
+
+def _of_cycle(data: dict[str, Any], name: str) -> dict[str, Any]:
+    """A cycle, or where one of its axes has a mechanism the machine."""
+    axes = convert(data, CycleProblemFile, Path(name)).axis
+    driven = next((i for i, axis in enumerate(axes) if axis.mechanism is not None), None)
+    return {"view": "cycle", "cycle": data} if driven is None else {"view": "machine", "machine": data, "axis": driven}
+
+
+def _with_motors(data: dict[str, Any], file: Path) -> dict[str, Any]:
+    """The entries of a file with its motors as tables: the page reads no catalogue."""
+    for entry in (entry for part in ("axis", "move") if isinstance(data.get(part), list) for entry in data[part]):
+        drive = entry.get("drive") if isinstance(entry, dict) else None
+        if isinstance(drive, dict) and isinstance(drive.get("motors"), str) and isinstance(drive.get("motor"), str):
+            with located(str(file)):
+                catalogue = file.parent / drive.pop("motors")
+                known = read_motors(catalogue)
+                if drive["motor"] not in known:
+                    raise InputError(f"motor: {catalogue}: {unknown_key(drive['motor'], known, 'motor')}")
+                drive["motor"] = {"name": drive["motor"], **reading.toml(catalogue)[drive["motor"]]}
+    return data
 
 
 class OpenRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):

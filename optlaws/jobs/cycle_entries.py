@@ -60,7 +60,7 @@ class AxisEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     name: Text
     segment: Annotated[list[SegmentEntries], msgspec.Meta(min_length=1, max_length=100)]
     minimise: str = "acceleration"
-    limits: dict[str, str | list[str]] = {}
+    limits: dict[str, str | list[str] | bool] = {}
     start: str | None = None
     advance: str | None = None
     mechanism: dict[str, Any] | None = None

@@ -144,8 +144,12 @@ def test_the_page_reads_no_file(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="reads none"):
         cycle_view.read(cycle_of(segment=with_law(str(file))))
     motors = {"motor": "small", "motors": str(file)}
-    with pytest.raises(InputError, match="mechanism: the page takes none: `optlaws cycle` runs"):
-        cycle_view.read(cycle_of(mechanism={"kind": "table", "inertia": "1 kg"}, drive=motors))
+    with pytest.raises(InputError, match="motors: the page reads no catalogue"):
+        cycle_view.read(cycle_of(mechanism={"kind": "table", "inertia": "1 kg m^2"}, drive=motors))
+    cam = {"kind": "cam", "prime_radius": "60 mm", "segment": with_law(str(file))}
+    with pytest.raises(InputError, match="reads none"):
+        cycle_view.read(cycle_of(mechanism=cam))
+    motors = {"motor": "small"}
     assert "a motor drives a mechanism" in cycle_view.answer(cycle_of(drive=motors))["refused"]["reason"]
 
 

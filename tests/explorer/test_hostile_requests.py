@@ -8,11 +8,12 @@ from typing import Any
 import pytest
 
 from tests.explorer.talk import OPTIMAL, Server
-from tests.internals.explorer import QUESTIONS, axes_view, cam_view, example, study_view
+from tests.internals.explorer import QUESTIONS, axes_view, cam_view, example, machine_view, study_view
 
 CYCLE = {"study": example()}
 CAM = {"study": cam_view.example()}
 AXES = {"study": axes_view.example()}
+MACHINE = {"study": machine_view.example() | {"axis": machine_view.example()["axis"][1:]}}
 LAWS = [
     OPTIMAL,
     {"name": "modified sine"},
@@ -29,6 +30,9 @@ SEEDS: dict[str, list[Any]] = {
     "cam": [CAM],
     "cam-loads": [{"study": cam_view.example() | {"forces": {"width": "20 mm"}}}],
     "cam-sizes": [CAM],
+    "machine": [MACHINE],
+    "machine-limits": [MACHINE],
+    "machine-ratios": [MACHINE | {"low": 5.0, "high": 20.0}],
     "cycle": [CYCLE],
     "cycle-nearest": [CYCLE],
     "export": [{"format": "csv", "laws": [OPTIMAL], "points": 9}],

@@ -58,7 +58,8 @@ function rootOf(name) {
 
 async function begin() {
   const [start] = await Promise.all([fetch("api/start").then((response) => response.json()), translate()]);
-  const { state, examples, formats } = start;
+  const { state, examples, formats, names } = start;
+  document.body.append(html("datalist", { id: "names" }, ...names.map((name) => html("option", { value: name }))));
   const first = begun(location.hash, state);
   const views = {};
   const study = new Study(first.state, render, (address) => documents.keep(address));

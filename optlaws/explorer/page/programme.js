@@ -15,11 +15,16 @@ export class Programme {
   #root;
   #study;
   #held;
+  #objectives;
+  #limits;
   #shape = "";
   #shows = [];
 
-  /** `held(state)` is what holds speed and period; its axes, or its motion, hold the segments. */
-  constructor(root, study, held) {
+  /** `held(state)` is what holds speed and period; its axes, or its motion, hold the segments. `shown` are objectives
+      and limits that can be chosen. */
+  constructor(root, study, held, { objectives = OBJECTIVES, limits = LIMITS } = {}) {
+    this.#objectives = objectives;
+    this.#limits = limits;
     this.#root = root;
     this.#study = study;
     this.#held = held;
@@ -54,11 +59,11 @@ export class Programme {
         study[kind] = turned(value, kind);
       }),
       this.#text("timing value", timing, "200 rpm", (_axis, study) => study[timing], (_axis, study, value) => (study[timing] = value)),
-      this.#select("minimise", "least", Object.fromEntries(OBJECTIVES.map((one) => [one, one])), (one) => one.minimise ?? "acceleration", (one, _study, value) => (one.minimise = value)),
+      this.#select("minimise", "least", Object.fromEntries(this.#objectives.map((one) => [one, one])), (one) => one.minimise ?? "acceleration", (one, _study, value) => (one.minimise = value)),
     ];
     if (cycle.axis?.length > 1) head.unshift(this.#select("axis", "axis", Object.fromEntries(cycle.axis.map((one, i) => [i, one.name])), () => String(index), (_axis, _study, value, state) => (state.axis = Number(value))));
-    const limits = Object.entries(LIMITS).map(([name, usual]) => this.#text(`limit ${name}`, name, `none, or ${usual}`, (one) => one.limits?.[name], (one, _study, value) => {
-      one.limits = { ...one.limits, [name]: value };
+    const limits = Object.entries(this.#limits).map(([name, usual]) => this.#text(`limit ${name}`, name, `none, or ${usual}`, (one) => listed(one.limits?.[name]), (one, _study, value) => {
+      one.limits = { ...one.limits, [name]: value === "true" || value };
       if (!value) delete one.limits[name];
     }));
     const segments = (axis.segment ?? []).map((segment, i) => this.#segment(segment, i, axis.segment.length));
@@ -131,6 +136,6 @@ function turned(value, kind) {
   return Number.isFinite(turns) ? `${Number(turns.toPrecision(12))} ${written}` : kind === "speed" ? "200 rpm" : "0.3 s";
 }
 
-const listed = (value) => (Array.isArray(value) ? value.join(" to ") : value);
+const listed = (value) => (Array.isArray(value) ? value.join(" to ") : typeof value === "boolean" ? String(value) : value);
 
 const axisOf = (cycle, index) => cycle.motion ?? cycle.axis?.[index] ?? cycle.axis?.[0];

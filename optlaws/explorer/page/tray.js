@@ -7,13 +7,11 @@ const MOST = 4;
 export class Tray {
   #root;
   #study;
-  #names;
   #shown = "";
 
-  constructor(root, study, names) {
+  constructor(root, study) {
     this.#root = root;
     this.#study = study;
-    this.#names = html("datalist", { id: "names" }, ...names.map((name) => html("option", { value: name })));
   }
 
   show(laws, views, active) {
@@ -21,7 +19,7 @@ export class Tray {
     if (shown === this.#shown) return;
     this.#shown = shown;
     const chips = laws.map((law, i) => this.#chip(law, views[i], i, i === active, laws.length > 1));
-    renew(this.#root, ...chips, ...(laws.length < MOST ? this.#adding() : []), this.#names);
+    renew(this.#root, ...chips, ...(laws.length < MOST ? this.#adding() : []));
   }
 
   /** Compare with a standard law by its name. */

@@ -25,5 +25,10 @@ export const VIEWS = {
     whole: (value) => object(value) && object(value.follower) && motion(value.motion),
     load: () => import("./views/cam.js"),
   },
+  machine: {
+    title: "Machine",
+    whole: (value) => object(value) && Array.isArray(value.axis) && value.axis.length > 0 && value.axis.every(motion),
+    load: () => import("./views/machine.js"),
+  },
   study: { title: "Study", whole: object, load: () => import("./views/study.js") },
 };

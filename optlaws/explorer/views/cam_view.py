@@ -68,20 +68,26 @@ def _solved(question: str) -> Findings:
 
 def _view(findings: Findings) -> dict[str, Any]:
     spec, cam = findings.spec, findings.cam
+    return drawing(cam, spec.cutter_radius) | {
+        "dimensions": _dimensions(spec, cam),
+        "panels": _panels(spec, cam, np.linspace(0.0, 2.0 * np.pi, _STEPS + 1)),
+        "across": "angle of the cam, deg",
+        "segments": [],
+        "trust": _trust(cam) | _broken_limits(spec, cam),
+    }
+
+
+def drawing(cam: DiscCam, cutter: Any = None) -> dict[str, Any]:  # noqa: ANN401 - a radius, or none
+    """The curves of a cam in mm, and its follower while the cam turns, degree by degree."""
     angles = np.linspace(0.0, 2.0 * np.pi, _STEPS + 1)
     curves = {"profile": cam.profile, "pitch": cam.pitch_curve}
-    if spec.cutter_radius is not None:
-        curves["cutter"] = cam.cutter_path(spec.cutter_radius)
+    if cutter is not None:
+        curves["cutter"] = cam.cutter_path(cutter)
     return {
         "curves": {name: _points(np.asarray(curve(angles))) for name, curve in curves.items()},
         "frames": _frames(cam, angles),
         "turning": cam.contact.turning,
         "follower": _follower(cam),
-        "dimensions": _dimensions(spec, cam),
-        "panels": _panels(spec, cam, angles),
-        "across": "angle of the cam, deg",
-        "segments": [],
-        "trust": _trust(cam) | _broken_limits(spec, cam),
     }
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from functools import lru_cache
 from math import inf
 from pathlib import Path
@@ -23,7 +23,8 @@ from optlaws.explorer.views.requests import MOST_DEGREE, MOST_ORDER, Question
 from optlaws.files.problem_file import convert
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile, cycle_of
 from optlaws.laws.catalogue import reading
-from optlaws.motion.quantities import QUANTITIES
+from optlaws.mechanisms.drives.drive_train import Drive
+from optlaws.motion.quantities import QUANTITIES, either
 from optlaws.numbers import bounded
 from optlaws.plots.cycle import UNITS, samples
 from optlaws.tolerances import AGREEMENT, BOUND_SLACK, CYCLE_ROUNDING
@@ -31,6 +32,17 @@ from optlaws.tolerances import AGREEMENT, BOUND_SLACK, CYCLE_ROUNDING
 _EACH = 100
 _TURN = 360.0
 _WHERE = Path("the cycle")
+#: limits of a cycle's drive, and what its effort calls that
+_OF_DRIVE = {
+    "force": "peak_force",
+    "torque": "peak_force",
+    "rms force": "rms_force",
+    "rms torque": "rms_force",
+    "power": "peak_power",
+    "energy": "energy",
+}
+_FORCES = ("force", "torque")
+_DIMENSIONS = {"peak_force": _FORCES, "rms_force": _FORCES, "peak_power": ("power",), "energy": ("energy",)}
 
 
 class CycleRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
@@ -69,14 +81,16 @@ def read(request: CycleRequest) -> tuple[CycleProblemFile, AxisEntries]:
 
 
 def check_axis(axis: AxisEntries) -> None:
-    """Refuse what is larger than the explorer takes, laws that are named by files, and mechanisms."""
+    """Refuse what is larger than the explorer takes, and laws and motors that are named by files."""
     if axis.order > MOST_ORDER or axis.degree > MOST_DEGREE:
         raise InputError(f"the explorer takes cycles of order up to {MOST_ORDER} and degree up to {MOST_DEGREE}")
-    if axis.mechanism is not None:
-        raise InputError("mechanism: the page takes none: `optlaws cycle` runs the problem file of this cycle")
-    for segment in axis.segment:
-        if segment.law is not None and reading.is_file(segment.law):
-            raise InputError(f"law: {segment.law} names a file, and the page reads none: take a law of the catalogue")
+    if axis.drive is not None and axis.drive.get("motors") is not None:
+        raise InputError("motors: the page reads no catalogue: give the motor as a table, or start with the file")
+    of_cam = (axis.mechanism or {}).get("segment")
+    inner = [entry.get("law") for entry in of_cam if isinstance(entry, Mapping)] if isinstance(of_cam, list) else []
+    for law in (*(segment.law for segment in axis.segment), *inner):
+        if isinstance(law, str) and reading.is_file(law):
+            raise InputError(f"law: {law} names a file, and the page reads none: take a law of the catalogue")
 
 
 def cycle(request: CycleRequest) -> Cycle:
@@ -89,7 +103,7 @@ def stored(spec: CycleProblemFile, axis: AxisEntries) -> Cycle:
     return _solved(msgspec.json.encode((axis, spec.speed, spec.period)))
 
 
-@lru_cache(maxsize=64)
+@lru_cache(maxsize=128)
 def _solved(question: bytes) -> Cycle:
     axis, speed, period = msgspec.json.decode(question, type=tuple[AxisEntries, str | None, str | None])
     cycle_of_axis = cycle_of(axis, speed, period)
@@ -104,7 +118,7 @@ def _view(shown: Cycle) -> dict[str, Any]:
         "symbol": "master",
         "panels": [_panel(shown, nu) for nu in range(4)],
         "segments": list(_segments(shown)),
-        "trust": _trust(shown),
+        "trust": trust(shown),
         "facts": _facts(shown),
     }
 
@@ -182,7 +196,8 @@ def _plain(value: float, size: float) -> str:
     return digits(0.0 if abs(value) <= CYCLE_ROUNDING * size else value, 6)
 
 
-def _trust(shown: Cycle) -> dict[str, Any] | None:
+def trust(shown: Cycle) -> dict[str, Any] | None:
+    """The status of the laws and what is proven of them, and which limits they do not keep; None of laws as given."""
     if not shown.solutions:
         broken = broken_limits(shown)
         return {"gap": "", "facts": []} | broken if broken else None
@@ -213,9 +228,28 @@ def broken_limits(shown: Cycle) -> dict[str, str]:
         for nu in (1, 2, 3)
         if _beyond(peak, nu, limits.get(nu, (-inf, inf)))
     ]
+    broken += [*_broken_by_drive(shown), *_too_weak(shown)]
     if not broken:
         return {}
     return {"status": "refused", "word": "beyond a limit", "advice": f"Beyond what is allowed: {', '.join(broken)}."}
+
+
+def _broken_by_drive(shown: Cycle) -> Iterator[str]:
+    """Limits of torque, power and energy that the whole cycle goes beyond."""
+    for name, attribute in _OF_DRIVE.items():
+        given = shown.limits.get(name)
+        if isinstance(given, str) and shown.drive is not None:
+            taken = getattr(shown.effort, attribute)
+            if taken > either(given, _DIMENSIONS[attribute], name)[1] * (1.0 + AGREEMENT):
+                yield f"{name}, {digits(taken, 6)} of {given}"
+
+
+def _too_weak(shown: Cycle) -> Iterator[str]:
+    """What a motor has too little of."""
+    if isinstance(shown.drive, Drive):
+        for margin in shown.sheet.margins:
+            if margin.use > 1.0 + AGREEMENT:
+                yield f"the motor's {margin.name}, {digits(100.0 * margin.use, 4)} % of it"
 
 
 def _facts(shown: Cycle) -> list[str]:

@@ -41,10 +41,34 @@ def _cam(
     over: Any = None,  # noqa: ANN401
 ) -> Mechanism:
     """The mechanism of a cam and its follower, whose motion over the cam's angle is made of segments."""
+    cam = _disc(prime_radius, follower, segment, turning)
+    return cam_mechanism(cam, moved, inertia=inertia, loads=loads, over=over)
+
+
+def _disc(prime_radius: Any, follower: Any, segment: Any, turning: Any) -> DiscCam:  # noqa: ANN401
     if not isinstance(follower, Mapping):
         raise InputError(f"follower must be a table with its kind, got {shortened(follower)}")
-    cam = DiscCam(_motion(segment), prime_radius, read_follower(follower), turning=turning)
-    return cam_mechanism(cam, moved, inertia=inertia, loads=loads, over=over)
+    return DiscCam(_motion(segment), prime_radius, read_follower(follower), turning=turning)
+
+
+def cam_of(entries: Mapping[str, Any]) -> DiscCam:
+    """The cam of a mechanism of the kind "cam", for what draws it.
+
+    Raises
+    ------
+    InputError
+        If an entry of the cam is missing or wrong.
+
+    Examples
+    --------
+    >>> segments = [{"kind": "rise", "by": "40 mm", "duration": "120 deg"}, {"kind": "return", "duration": "240 deg"}]
+    >>> follower = {"kind": "translating roller", "radius": "12 mm"}
+    >>> cam_of({"kind": "cam", "prime_radius": "60 mm", "follower": follower, "segment": segments}).base_radius
+    0.048
+    """
+    with located("mechanism"):
+        turning = entries.get("turning", "counterclockwise")
+        return _disc(entries.get("prime_radius"), entries.get("follower"), entries.get("segment"), turning)
 
 
 def _motion(segments: Any) -> Cycle:  # noqa: ANN401 - it is checked here

@@ -48,11 +48,11 @@ export class View {
   #residuals;
   #drawn;
 
-  constructor(_root, study, { names }, drawn) {
+  constructor(_root, study, _start, drawn) {
     this.#study = study;
     this.#drawn = drawn;
     this.#controls = new Controls(element("ask"), study, (name) => this.#value(name));
-    this.#tray = new Tray(element("tray"), study, names);
+    this.#tray = new Tray(element("tray"), study);
     const [plane, residual] = [html("div", { class: "fill" }), html("div", { class: "fill", id: "residual" })];
     element("plane").append(plane, residual);
     this.#plane = new Plane(plane, (x) => askedOf(study.state.laws[study.state.active], x), (value, x, y) => this.#move(value, x, y), (name) => this.#tray.add(name));

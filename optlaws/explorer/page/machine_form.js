@@ -1,0 +1,141 @@
+// The machine as fields: its kind, its lengths, bodies and loads, its gear and its motor.
+
+import { flat, put, read, valueOf } from "./entries.js";
+import { group, slider } from "./fields.js";
+import { html, renew } from "./svg.js";
+import { object } from "./views.js";
+
+const told = (value) => JSON.stringify(value);
+const NOT_FIELDS = ["kind", "segment", "linkage"];
+const MOTOR = { inertia: "3e-4 kg m^2", rated_torque: "2 N m", peak_torque: "6 N m", greatest_speed: "3000 rpm" };
+const OF_MOTOR = { inertia: "3e-4 kg m^2", rated_torque: "none, or 2 N m", peak_torque: "none, or 6 N m", greatest_speed: "none, or 3000 rpm", curve: "none, or 0 rpm: 6 N m, 3000 rpm: 4 N m", coulomb: "none, or 0.1 N m", constant: "none, or 0.4" };
+const OF_GEAR = { efficiency: "1, or 0.95", inertia: "none, or 1e-5 kg m^2", regeneration: "0 to 1" };
+const RATIOS = [0.1, 200];
+
+/** What a field is called beside it: a body by its link, loads and lengths by themselves. */
+function short(path) {
+  const name = path.at(-1).replaceAll("_", " ");
+  if (path[0] !== "bodies") return path[0] === "loads" && name === "over" ? "force over" : name;
+  return path.length > 2 ? `${path[1]} ${name}` : `${name} body`;
+}
+
+/** The axes of the same machine: those that have the mechanism and the drive of one. */
+export function beside(study, index) {
+  const axis = study.axis[index] ?? study.axis[0];
+  const own = told([axis.mechanism, axis.drive]);
+  return study.axis.filter((one) => told([one.mechanism, one.drive]) === own);
+}
+
+/** A slider of a ratio steps by equal shares. */
+const logarithm = (value) => Math.round(1000 * Math.log10(value)) / 1000;
+
+export class MachineForm {
+  #root;
+  #study;
+  #kinds;
+  #part;
+  #shape = "";
+  #paths = [];
+  #shows = [];
+
+  /** `part(state)` is the study that holds the axes; `kinds` are mechanisms with their examples. */
+  constructor(root, study, kinds, part) {
+    this.#root = root;
+    this.#study = study;
+    this.#kinds = kinds;
+    this.#part = part;
+  }
+
+  show(state) {
+    const study = this.#part(state);
+    const axis = study.axis[state.axis] ?? study.axis[0];
+    const kind = axis.mechanism?.kind ?? "";
+    const paths = flat(axis.mechanism ?? {}).map(([path]) => told(path)).filter((path) => !NOT_FIELDS.includes(JSON.parse(path)[0]));
+    const shape = told([kind, Boolean(axis.drive?.motor)]);
+    if (shape !== this.#shape || paths.some((path) => !this.#paths.includes(path))) this.#build(kind, axis, paths);
+    this.#shape = shape;
+    for (const show of this.#shows) show(axis);
+  }
+
+  /** Change the mechanism and the drive of all axes of the machine. */
+  change(what, alter) {
+    this.#study.change(what, (state) => {
+      const study = this.#part(state);
+      for (const axis of beside(study, state.axis)) alter(axis, study);
+    });
+  }
+
+  #build(kind, axis, paths) {
+    this.#shows = [];
+    const known = this.#kinds[kind] ?? { mechanism: {}, other: {} };
+    const usual = Object.fromEntries(flat(known.mechanism).map(([path, text]) => [told(path), text]));
+    const other = Object.fromEntries(Object.entries(known.other).map(([name, text]) => [told(name.split(".")), text]));
+    const placeholders = Object.fromEntries(Object.entries({ ...Object.fromEntries(paths.map((path) => [path, ""])), ...usual, ...other }).filter(([path]) => !NOT_FIELDS.includes(JSON.parse(path)[0])));
+    this.#paths = Object.keys(placeholders);
+    const choose = html("select", { "aria-label": "kind of mechanism" }, ...(kind in this.#kinds ? [] : [html("option", { value: "", text: "none" })]), ...Object.keys(this.#kinds).map((value) => html("option", { value, text: value })));
+    choose.value = kind;
+    choose.addEventListener("change", () => this.change("mechanism", (one, study) => this.#take(one, study, choose.value)));
+    const fields = Object.entries(placeholders).map(([path, text]) => this.#field("mechanism", JSON.parse(path), text));
+    renew(this.#root, group("Mechanism", choose, ...fields), ...this.#drive(Boolean(axis.drive?.motor)));
+  }
+
+  /** Another kind begins with its example and a motion within its range; what moves by which law stays. */
+  #take(axis, study, kind) {
+    const example = structuredClone(this.#kinds[kind]);
+    const law = axis.segment.find((one) => one.law)?.law;
+    axis.mechanism = { kind, ...example.mechanism };
+    for (const name of ["start", "advance", "limits", "load"]) delete axis[name];
+    Object.assign(axis, example.axis);
+    if (law) for (const segment of axis.segment) if (["rise", "return", "move"].includes(segment.kind)) segment.law = law;
+    if (example.period || !study.period) {
+      delete study.speed;
+      study.period = example.period ?? "0.7 s";
+    }
+  }
+
+  #drive(motor) {
+    const toggle = html("select", { "aria-label": "what drives" }, html("option", { value: "", text: "a torque at the input" }), html("option", { value: "motor", text: "a motor with a gear" }));
+    toggle.value = motor ? "motor" : "";
+    toggle.addEventListener("change", () => this.change("drive", (one) => {
+      if (toggle.value) one.drive = { motor: { ...MOTOR }, ratio: 10 };
+      else delete one.drive;
+    }));
+    if (!motor) return [group("Driven by", toggle)];
+    const [low, high] = RATIOS.map(logarithm);
+    const ratio = slider({
+      name: "ratio", title: "Ratio of the gear, by its logarithm", low, high, step: 0.001, most: null,
+      changed: (value) => this.change("ratio", (one) => (one.drive.ratio = Number((10 ** value).toPrecision(4)))), rested: () => this.#study.rest(),
+    });
+    const number = ratio.element.lastElementChild;
+    const exact = html("input", { type: "number", min: 0, step: "any", "aria-label": "Ratio of the gear" });
+    exact.addEventListener("input", () => Number(exact.value) > 0 && this.change("ratio", (one) => (one.drive.ratio = Number(exact.value))));
+    exact.addEventListener("change", () => this.#study.rest());
+    number.replaceWith(exact);
+    this.#shows.push(({ drive }) => {
+      const value = Number(drive?.ratio ?? 1);
+      if (value > 0) ratio.set(logarithm(value));
+      if (document.activeElement !== exact || Number(exact.value) !== value) exact.value = value;
+    });
+    const gear = Object.entries(OF_GEAR).map(([name, text]) => this.#field("drive", [name], text));
+    const motors = Object.entries(OF_MOTOR).map(([name, text]) => this.#field("drive", ["motor", name], text));
+    return [group("Driven by", toggle, ratio.element, ...gear), group("Motor", ...motors)];
+  }
+
+  #field(part, path, placeholder) {
+    const name = path.join(" ").replaceAll("_", " ");
+    const field = html("input", { type: "text", placeholder, spellcheck: "false", maxlength: 400, "aria-label": `${part} ${name}` });
+    field.addEventListener("input", () => this.change(`${part} ${name}`, (axis) => {
+      if (!object(axis[part])) axis[part] = {};
+      const text = field.value.trim();
+      const motor = part === "drive" && path.at(-1) === "curve";
+      if (motor && text && !Array.isArray(valueOf(text))) return;
+      put(axis[part], path, text);
+    }));
+    field.addEventListener("change", () => this.#study.rest());
+    this.#shows.push((axis) => {
+      const value = read(axis[part] ?? {}, path);
+      if (document.activeElement !== field || field.value.trim() !== value) field.value = value;
+    });
+    return html("label", { class: "entry" }, html("span", { class: "field-name", text: short(path), title: name }), field);
+  }
+}

@@ -1,0 +1,384 @@
+// The view of a machine: mechanism, gear and motor on the left, the mechanism that moves in the middle with torque over
+// speed, over the ratio and over the input, and on the right torque, power and speed over the cycle for each law.
+
+import { Chart, spanOf } from "../chart.js";
+import { tabs } from "../fields.js";
+import { Latest } from "../latest.js";
+import { Linkage } from "../linkage.js";
+import { MachineForm, beside } from "../machine_form.js";
+import { Panels } from "../panels.js";
+import { Programme } from "../programme.js";
+import { Strip } from "../strip.js";
+import { html, renew } from "../svg.js";
+import { showTrust, unanswered } from "../trust.js";
+
+const told = (value) => JSON.stringify(value);
+const PICTURES = { speed: "torque over speed", ratio: "over the ratio", input: "J and T" };
+const OBJECTIVES = ["rms torque", "torque", "energy", "power", "acceleration", "velocity", "jerk", "rms acceleration", "rms jerk", "rms force", "force", "heat"];
+const LIMITS = { velocity: "300 deg/s", acceleration: "200 rad/s^2", jerk: "8000 rad/s^3", torque: "20 N m", "rms torque": "8 N m", motor: "true: those of the motor" };
+const MOST = 4;
+const MOST_AXES = 8;
+const SLOW = 4000; // ms that a cycle takes as it is played
+const SPAN = 3; // ratios from a third of the present one to three times it
+const NEAR = 1.2;
+const MOVES = ["rise", "return", "move"];
+const FILES = [
+  { kind: "python", text: "Python", about: "Lines that reproduce what is seen" },
+  { kind: "problem", text: "Problem file (TOML)", about: "For optlaws cycle" },
+  { kind: "table", text: "Table of values (CSV)", about: "Angle, time, motion, torque and power" },
+];
+
+const word = (value) => String(Number(value.toPrecision(4))).replace("-", "−");
+
+export class View {
+  files = FILES;
+  drawings = "#machine-curves svg";
+  #study;
+  #state = null;
+  #form;
+  #programme;
+  #linkage;
+  #curves;
+  #chart;
+  #input;
+  #chooses;
+  #machines;
+  #limits;
+  #ratios;
+  #answer = null;
+  #least = [];
+  #over = null;
+  #asked = null;
+  #span = null;
+  #still = () => {};
+  #at;
+
+  constructor(root, study, { mechanisms }) {
+    this.#study = study;
+    const made = layout(root);
+    this.#at = made;
+    this.#form = new MachineForm(made.form, study, mechanisms, (state) => state.machine);
+    this.#programme = new Programme(made.programme, study, (state) => state.machine, { objectives: OBJECTIVES, limits: LIMITS });
+    this.#linkage = new Linkage(made.drawing);
+    this.#chart = new Chart(made.chart, (key, value) => this.#moved(key, value));
+    this.#input = new Panels(made.input);
+    this.#curves = new Panels(made.curves, { strip: new Strip({ chosen: () => {} }) });
+    this.#chooses = tabs(made.pictures, PICTURES, (key) => study.change("machine picture", (state) => (state.machinePicture = key)));
+    this.#playing();
+    this.#machines = new Latest("api/machine", (answer, question) => this.#answered(answer, question), (error) => this.#answered(unanswered(error), null));
+    this.#limits = new Latest("api/machine-limits", (answer, question) => this.#isOfNow(question) && this.#bounded(answer), () => this.#bounded({ moves: [] }));
+    this.#ratios = new Latest("api/machine-ratios", (answer, question) => told(question) === told(this.#asked) && this.#swept(answer), (error) => this.#swept({ ratios: [], words: error.message }));
+  }
+
+  /** The part of a study that files are made of. */
+  saved({ machine, axis }) {
+    return { machine: { study: machine, axis } };
+  }
+
+  /** The cycle that a controller is to run. */
+  exported({ laws, active, machine, axis }) {
+    return { view: "cycle", laws, active, cycle: { study: machine, axis } };
+  }
+
+  show(state) {
+    this.#state = state;
+    this.#form.show(state);
+    this.#programme.show(state);
+    this.#tray(state);
+    const picture = this.#picture(state);
+    this.#chooses(picture);
+    this.#at.chart.hidden = picture === "input";
+    this.#at.input.hidden = picture !== "input";
+    this.#machines.ask({ study: state.machine, axis: state.axis });
+    if (picture === "ratio") this.#sweep(state);
+    this.#draw();
+  }
+
+  #picture({ machinePicture }) {
+    return Object.hasOwn(PICTURES, machinePicture) ? machinePicture : "speed";
+  }
+
+  #isOfNow(question) {
+    return told(question.study) === told(this.#state.machine) && question.axis === this.#state.axis;
+  }
+
+  #answered(answer, question) {
+    this.#answer = answer;
+    this.#least = [];
+    // while a drag goes on the newest answer alone is looked at closer
+    if (question && !answer.refused && !this.#machines.behind) this.#limits.ask(question);
+    showTrust(this.#at.trust, answer, [], () => {});
+    if (!answer.refused) this.#linkage.show(answer.drawing);
+    else this.#linkage.show(null);
+    this.#still();
+    this.#tray(this.#state);
+    this.#draw();
+  }
+
+  #bounded({ moves }) {
+    this.#least = moves;
+    this.#draw();
+  }
+
+  /** Curves, table and picture of what is known. */
+  #draw() {
+    if (!this.#answer) return;
+    const { refused, panels, over_input: overInput } = this.#answer;
+    this.#curves.show(refused ? this.#answer : { ...this.#answer, panels: panels.map((panel, i) => (i === 0 ? { ...panel, series: [...panel.series, ...this.#leastLines()] } : panel)) });
+    this.#at.table.replaceChildren(...(refused ? [] : [table(this.#answer, this.#names()), ...(this.#least.length ? [limitsTable(this.#least)] : [])]));
+    this.#input.show(refused ? this.#answer : overInput);
+    const picture = this.#picture(this.#state);
+    this.#at.words.textContent = { speed: "dashed: continuous torque", ratio: this.#over?.words ?? "computing …", input: "" }[picture];
+    if (picture === "speed") this.#chart.show(refused ? null : this.#overSpeed());
+    if (picture === "ratio") this.#chart.show(refused ? null : this.#overRatio());
+  }
+
+  #names() {
+    return beside(this.#state.machine, this.#state.axis).map(({ name }) => name);
+  }
+
+  /** The least peak of each move, on both sides, as lines over its time. */
+  #leastLines() {
+    const known = this.#least.filter(({ peak }) => peak.least !== null);
+    return [1, -1].filter(() => known.length).map((side) => ({
+      law: "limit", name: "no law that never turns back has a lower peak in this move",
+      at: known.flatMap(({ at }) => [...at, at[1]]), values: known.flatMap(({ peak }) => [side * peak.least, side * peak.least, null]),
+    }));
+  }
+
+  // --- laws side by side ---
+
+  #tray(state) {
+    const { machine, axis } = state;
+    const laws = beside(machine, axis).slice(0, MOST);
+    const chips = laws.map((law, i) => {
+      const at = machine.axis.indexOf(law);
+      const none = this.#answer?.laws?.[i]?.refused ? ` (${this.#answer.laws[i].refused.word})` : "";
+      const choose = html("button", { type: "button", class: "choose", "data-key": `law ${i}`, "aria-pressed": String(at === axis), title: `${law.name}${none}`, onclick: () => this.#study.change("axis", (next) => (next.axis = at)) }, html("span", { class: `swatch law-${i}`, text: "ABCD"[i] }), html("span", { class: "chip-name", text: `${law.name}${none}` }));
+      const close = laws.length > 1 ? html("button", { type: "button", class: "close", "data-key": `close ${i}`, "aria-label": `Take ${law.name} away`, text: "×", onclick: () => this.#remove(at) }) : null;
+      return html("span", { class: `chip${at === axis ? " active" : ""}` }, choose, close);
+    });
+    const others = machine.axis.map((one, i) => [one, i]).filter(([one]) => !beside(machine, axis).includes(one)).map(([one, i]) => html("button", { type: "button", class: "quiet-button", text: one.name, title: "Another machine of this study", onclick: () => this.#study.change("axis", (next) => (next.axis = i)) }));
+    const full = laws.length >= MOST || machine.axis.length >= MOST_AXES;
+    renew(this.#at.tray, ...chips, ...(full ? [] : this.#adding()), ...others);
+  }
+
+  #remove(at) {
+    this.#study.change(`remove axis ${at}`, ({ machine }) => machine.axis.splice(at, 1));
+    this.#study.change(`remove axis ${at}`, (state) => {
+      if (state.axis >= at && state.axis > 0) state.axis -= 1;
+    });
+  }
+
+  #adding() {
+    const optimal = html("button", { type: "button", class: "quiet-button", text: "+ optimal", title: "The law of the least torque beside", onclick: () => this.#add("least RMS torque", (axis) => {
+      axis.minimise = axis.minimise === "rms torque" && !axis.segment.some(({ law }) => law) ? "torque" : "rms torque";
+      for (const segment of axis.segment) delete segment.law;
+      if (axis.minimise === "torque") axis.name = "least peak torque";
+    }) });
+    const field = html("input", { list: "names", placeholder: "+ standard law", "aria-label": "Add a standard law to the machine", maxlength: 100 });
+    field.addEventListener("change", () => field.value.trim() && this.#add(field.value.trim(), (axis) => {
+      for (const segment of axis.segment) if (MOVES.includes(segment.kind)) segment.law = field.value.trim();
+    }));
+    return [optimal, field];
+  }
+
+  #add(name, alter) {
+    this.#study.change(`add ${name}`, (state) => {
+      const axis = structuredClone(state.machine.axis[state.axis] ?? state.machine.axis[0]);
+      axis.name = name;
+      alter(axis);
+      const taken = state.machine.axis.map((one) => one.name);
+      for (let i = 2; taken.includes(axis.name); i += 1) axis.name = `${name} ${i}`;
+      delete axis.export;
+      state.axis = state.machine.axis.push(axis) - 1;
+    });
+  }
+
+  // --- pictures that are dragged ---
+
+  /** Torque over speed at the motor, whose limits are dragged. */
+  #overSpeed() {
+    const { over_speed: known, active } = this.#answer;
+    if (!known) return null;
+    const { courses, motor } = known;
+    const speeds = courses.flatMap((course) => course.speeds);
+    const torques = courses.flatMap((course) => course.torques);
+    const most = 1.18 * Math.max(1e-9, ...torques.map(Math.abs), motor.rated_torque ?? 0, ...(motor.curves.peak ?? []).map(([, torque]) => torque));
+    const fastest = 1.12 * Math.max(1e-9, ...speeds.map(Math.abs), motor.greatest_speed ?? 0);
+    const back = Math.min(...speeds) < -1e-6 * fastest;
+    const sides = (points, name) => [1, -1].flatMap((side) => (back ? [1, -1] : [1]).map((way) => ({ name, points: points.map(([speed, torque]) => [way * speed, side * torque]) })));
+    const lines = [
+      ...Object.entries(motor.curves).flatMap(([name, points]) => sides(points, `motor-${name}`)),
+      ...courses.map(({ law, speeds: at, torques: values }) => ({ name: `line law-${law}${law === active ? " active" : ""}`, title: this.#names()[law], points: at.map((speed, i) => [speed, values[i]]) })),
+    ];
+    if (motor.greatest_speed !== null) lines.push({ name: "motor-peak", points: [[motor.greatest_speed, -most], [motor.greatest_speed, most]] });
+    return {
+      x: { name: "speed of the motor, rpm", range: [back ? -fastest : 0, fastest] },
+      y: { name: "torque, N m", range: [-most, most] },
+      lines, handles: this.#motorHandles(motor, most, fastest),
+      told: `Torque over speed at the motor; the greatest torque is ${word(Math.max(...torques.map(Math.abs)))} N m, the greatest speed ${word(Math.max(...speeds.map(Math.abs)))} rpm`,
+    };
+  }
+
+  #motorHandles(motor, most, fastest) {
+    const handle = (key, at, along, label, unit) => {
+      const size = 10 ** Math.floor(Math.log10(along === "x" ? fastest : most) - 2);
+      const value = at[along === "x" ? 0 : 1];
+      return { key, at, along, label, low: size, high: 10 * (along === "x" ? fastest : most), step: size, text: `${word(value)} ${unit}`, name: "of-motor" };
+    };
+    const end = motor.greatest_speed ?? fastest;
+    const found = [];
+    if (motor.peak_torque !== null && !motor.corners.length) found.push(handle("peak_torque", [0.5 * end, motor.peak_torque], "y", "Peak torque of the motor", "N m"));
+    if (motor.rated_torque !== null) found.push(handle("rated_torque", [0.25 * end, motor.rated_torque], "y", "Rated torque of the motor", "N m"));
+    if (motor.greatest_speed !== null && !motor.corners.length) found.push(handle("greatest_speed", [motor.greatest_speed, 0], "x", "Greatest speed of the motor", "rpm"));
+    motor.corners.forEach((corner, i) => found.push(handle(`curve ${i}`, corner, "y", `Peak torque of the motor at ${word(corner[0])} rpm`, "N m")));
+    return found;
+  }
+
+  /** What is asked of the ratios around the present one; a drag within them asks nothing new. */
+  #sweep(state) {
+    const axis = state.machine.axis[state.axis] ?? state.machine.axis[0];
+    const ratio = Number(axis.drive?.ratio ?? 1);
+    const [low, high] = this.#span ?? [0, 0];
+    if (ratio < NEAR * low || ratio > high / NEAR) this.#span = [ratio / SPAN, SPAN * ratio].map((value) => Number(value.toPrecision(2)));
+    const study = structuredClone(state.machine);
+    for (const one of beside(study, state.axis)) if (one.drive) delete one.drive.ratio;
+    const question = { study, axis: state.axis, low: this.#span[0], high: this.#span[1] };
+    if (told(question) === told(this.#asked)) return;
+    this.#asked = question;
+    this.#over = null;
+    this.#ratios.ask(question);
+  }
+
+  #swept(answer) {
+    this.#over = answer;
+    this.#draw();
+  }
+
+  #overRatio() {
+    const { active, rows } = this.#answer;
+    const axis = this.#state.machine.axis[this.#state.axis];
+    const ratio = Number(axis.drive?.ratio ?? 1);
+    if (!axis.drive?.motor || !(ratio > 0)) return null;
+    const now = (name) => rows.find((row) => row.name === name)?.values[active] ?? null;
+    const { ratios = [], laws = [], bound = [], fits = [] } = this.#over ?? {};
+    const of = this.#over?.of === "peak" ? "peak" : "rms";
+    const value = now(of === "peak" ? "peak torque" : "RMS torque") ?? 0;
+    const along = (values) => ratios.map((one, i) => [one, values[i]]);
+    const lines = laws.flatMap((law, i) => [
+      { name: `line law-${i}${i === active ? " active" : ""}`, title: `${this.#names()[i]}: RMS torque`, points: along(law.rms) },
+      { name: `line thin law-${i}`, title: `${this.#names()[i]}: peak torque`, points: along(law.peak) },
+    ]);
+    if (bound.some((one) => one !== null)) lines.push({ name: "limit", title: "no law is below", points: along(bound) });
+    const [low, high] = this.#span;
+    const shown = [value, ...laws.flatMap((law) => [...law.rms, ...law.peak])];
+    const mine = laws[active];
+    const labels = mine && ratios.length ? [["rms", "RMS"], ["peak", "peak"]].map(([name, text]) => ({ at: [ratios.at(-1), mine[name].at(-1) ?? 0], text, anchor: "end", up: 7 })) : [];
+    const marks = mine ? ratios.map((one, i) => ({ at: [one, mine[of][i]], name: fits[i] === false ? "front-point too-weak" : "front-point", title: fits[i] === false ? "the motor is too weak" : "" })).filter(({ at }) => at[1] !== null) : [];
+    return {
+      x: { name: "ratio of the gear", range: [low, high], log: true },
+      y: { name: "torque at the motor, N m", range: spanOf(shown) },
+      lines, labels, marks,
+      handles: [{ key: "ratio", at: [ratio, value], along: "x", low: 0.1, high: 1000, step: Number((low / 200).toPrecision(1)), label: "Ratio of the gear", text: `ratio ${word(ratio)}, ${of === "peak" ? "peak" : "RMS"} torque ${word(value)} N m`, name: `law-${active}` }],
+      told: `Torque at the motor over the ratio of the gear; at ${word(ratio)} it is ${word(value)} N m. ${this.#over?.words ?? ""}`,
+    };
+  }
+
+  #moved(key, value) {
+    if (value === null) return this.#study.rest();
+    if (key === "ratio") return this.#form.change("ratio", (axis) => (axis.drive.ratio = value));
+    const [name, corner] = key.split(" ");
+    return this.#form.change(key, ({ drive }) => {
+      if (corner !== undefined) drive.motor.curve[Number(corner)][1] = `${value} N m`;
+      else drive.motor[name] = `${value} ${name === "greatest_speed" ? "rpm" : "N m"}`;
+    });
+  }
+
+  // --- the cycle as it runs ---
+
+  #playing() {
+    const dial = html("input", { type: "range", min: 0, max: 1000, step: 1, value: 0, "aria-label": "Time in the cycle, thousandths" });
+    const reading = html("span", { class: "reading quiet" });
+    let playing = null;
+    const at = (share) => {
+      this.#linkage.at(share);
+      const drawing = this.#answer?.drawing;
+      if (!drawing) return;
+      const input = drawing.input[Math.round(share * (drawing.input.length - 1))];
+      reading.textContent = `${Math.round(share * drawing.duration)} ms · ${word(input)} ${drawing.axis === "angle" ? "deg" : "mm"}`;
+      dial.setAttribute("aria-valuetext", reading.textContent);
+    };
+    this.#still = () => at(Number(dial.value) / 1000);
+    const placed = (share) => {
+      const drawing = this.#answer?.drawing;
+      if (drawing) this.#curves.cursor.point(share * drawing.duration);
+      else at(share);
+    };
+    this.#curves.cursor.watch((time) => {
+      const drawing = this.#answer?.drawing;
+      if (time === null || !drawing) return;
+      const share = Math.min(1, Math.max(0, time / drawing.duration));
+      dial.value = Math.round(1000 * share);
+      at(share);
+    });
+    dial.addEventListener("input", () => placed(Number(dial.value) / 1000));
+    const stop = () => {
+      cancelAnimationFrame(playing);
+      playing = null;
+      play.textContent = "Play";
+      return null;
+    };
+    const start = () => {
+      play.textContent = "Pause";
+      let last = performance.now();
+      let share = Number(dial.value) / 1000;
+      const step = (now) => {
+        share = (share + (now - last) / SLOW) % 1;
+        last = now;
+        placed(share);
+        playing = this.#at.root.hidden ? stop() : requestAnimationFrame(step);
+      };
+      playing = requestAnimationFrame(step);
+    };
+    const play = html("button", { type: "button", text: "Play", onclick: () => (playing === null ? start() : stop()) });
+    this.#at.turning.replaceChildren(play, dial, reading);
+  }
+}
+
+function layout(root) {
+  const made = { root };
+  const box = (name, attributes, ...children) => (made[name] = html("div", { id: `machine-${name}`, ...attributes }, ...children));
+  root.setAttribute("aria-label", "A machine");
+  const ask = html("aside", { id: "machine-ask", "aria-label": "The mechanism, its gear and its motor" }, box("form", {}), box("programme", {}));
+  const middle = html(
+    "section", { id: "machine-middle", "aria-label": "The mechanism and its torque" },
+    box("tray", { class: "tray", role: "group", "aria-label": "Laws side by side" }),
+    box("trust", { class: "panel", role: "status", "aria-live": "polite" }),
+    html("div", { class: "panel growing" }, box("drawing", { class: "picture" }), box("turning", { class: "turning" })),
+    html("div", { class: "panel growing" }, html("div", { class: "panel-head" }, box("pictures", { role: "tablist", "aria-label": "Pictures of the machine" }), (made.words = html("p", { id: "machine-words", class: "quiet" }))), box("chart", { class: "picture" }), box("input", { class: "panels", hidden: true })),
+  );
+  const right = html(
+    "section", { id: "machine-right", "aria-label": "Torque, power and speed over the cycle" },
+    box("curves", { class: "panel panels" }),
+    box("table", { class: "panel", tabindex: "0", role: "group", "aria-label": "What the laws ask of the drive" }),
+  );
+  root.replaceChildren(ask, middle, right);
+  return made;
+}
+
+function table({ rows, active }, names) {
+  const head = html("tr", {}, html("th", { scope: "col", text: "at the drive" }), ...names.slice(0, MOST).map((name, i) => html("th", { scope: "col", class: "number", title: name }, html("span", { class: `swatch law-${i}`, text: "ABCD"[i] }))));
+  const body = rows.map(({ name, unit, texts, over }) => html(
+    "tr", {}, html("th", { scope: "row", text: unit ? `${name}, ${unit}` : name, title: name }),
+    ...texts.map((text, i) => html("td", { class: `number${over[i] ? " over" : ""}${i === active ? " active" : ""}`, title: over[i] ? "the motor is too weak" : null, text: text === null ? "—" : over[i] ? `${text} !` : text })),
+  ));
+  return html("table", { "aria-label": "What each law asks of the drive" }, html("thead", {}, head), html("tbody", {}, ...body));
+}
+
+/** What no law beats in each move, beside what the law that is shown takes. */
+function limitsTable(moves) {
+  const head = html("tr", {}, ...["in the move", "peak", "no law below", "RMS", "no law below"].map((text, i) => html("th", { scope: "col", class: i ? "number" : null, text })));
+  const rows = moves.map(({ name, peak, rms }) => html("tr", {}, html("th", { scope: "row", text: name }), ...[peak.text, peak.least_text ?? "—", rms.text, rms.least_text ?? "—"].map((text) => html("td", { class: "number", text }))));
+  return html("table", { id: "machine-least", "aria-label": "What no law that never turns back can beat in each move" }, html("thead", {}, head), html("tbody", {}, ...rows));
+}

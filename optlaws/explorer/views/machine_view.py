@@ -1,0 +1,426 @@
+"""Machines as the page shows them: a mechanism and its motor, torque over the cycle, over speed and over the ratio."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from math import isfinite, pi
+from typing import Annotated, Any
+
+import msgspec
+import numpy as np
+
+from optlaws import Cycle, Drive, Mechanism, Motor, Status
+from optlaws.cycles.specification.process import is_process
+from optlaws.cycles.summary import drive_rows, force_name, force_unit
+from optlaws.errors import InputError, OptlawsError
+from optlaws.explorer.views import cycle_view
+from optlaws.explorer.views.cycle_view import CycleRequest
+from optlaws.explorer.views.law_view import digits, drawn, refusal
+from optlaws.explorer.views.linkage_picture import over_input, picture
+from optlaws.explorer.views.picture_points import refined
+from optlaws.explorer.views.requests import MOST_LAWS, Question
+from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile
+from optlaws.numbers import Array, bounded
+from optlaws.plots.cycle import UNITS, samples, samples_of_drive
+from optlaws.shown.summary import Row
+from optlaws.tolerances import CYCLE_ROUNDING
+
+_EACH = 60
+_MILLI = 1e3
+_RPM = 30.0 / pi
+_RATIOS = 7
+#: a curve of a motor is drawn up to so many times the speed that is used
+_FAR = 1.6
+
+Ratio = Annotated[float, msgspec.Meta(gt=0.0, le=1e6)]
+
+
+class RatiosRequest(CycleRequest, kw_only=True, forbid_unknown_fields=True):
+    """A machine, and the ratios of its gear between which torque is drawn."""
+
+    low: Ratio
+    high: Ratio
+
+
+def answer(request: CycleRequest) -> dict[str, Any]:
+    """The machine with the laws that its file has for it, or why there is none."""
+    try:
+        spec, axis = _read(request)
+        laws = [_law(spec, other) for other in _beside(spec, axis)]
+        shown = laws[_place(spec, axis)]
+        known = {"laws": [_told(law) for law in laws], "active": _place(spec, axis)}
+        if isinstance(shown, OptlawsError):
+            return known | {"refused": refusal(shown)}
+        return known | _view(shown, axis, [law for law in laws if isinstance(law, Cycle)], laws)
+    except OptlawsError as error:
+        return {"refused": refusal(error)}
+
+
+def _read(request: CycleRequest) -> tuple[CycleProblemFile, AxisEntries]:
+    spec, axis = cycle_view.read(request)
+    if axis.mechanism is None:
+        raise InputError(f"{axis.name} has no mechanism: choose a kind of mechanism, or see it in the view Cycle")
+    return spec, axis
+
+
+def _beside(spec: CycleProblemFile, axis: AxisEntries) -> list[AxisEntries]:
+    """The axes of the same machine, which differ in their laws."""
+    same = [other for other in spec.axis if (other.mechanism, other.drive) == (axis.mechanism, axis.drive)]
+    first = [other for other in same if other is not axis][: MOST_LAWS - 1]
+    return [other for other in same if other is axis or any(other is chosen for chosen in first)]
+
+
+def _place(spec: CycleProblemFile, axis: AxisEntries) -> int:
+    return next(i for i, other in enumerate(_beside(spec, axis)) if other is axis)
+
+
+def _law(spec: CycleProblemFile, axis: AxisEntries) -> Cycle | OptlawsError:
+    cycle_view.check_axis(axis)
+    try:
+        cycle = cycle_view.stored(spec, axis)
+        _ = cycle.effort  # what cannot be driven is told here
+    except OptlawsError as error:
+        return error
+    return cycle
+
+
+def _told(law: Cycle | OptlawsError) -> dict[str, Any]:
+    return {"refused": refusal(law)} if isinstance(law, OptlawsError) else {"trust": cycle_view.trust(law)}
+
+
+def _view(
+    shown: Cycle, axis: AxisEntries, cycles: Sequence[Cycle], laws: Sequence[Cycle | OptlawsError]
+) -> dict[str, Any]:
+    drive = shown.drive
+    mechanism = drive.mechanism if isinstance(drive, Drive) else drive
+    assert isinstance(mechanism, Mechanism)  # noqa: S101 - as the axis has one
+    colours = [i for i, law in enumerate(laws) if isinstance(law, Cycle)]
+    return {
+        "across": f"time, ms; torque and power at the {'motor' if isinstance(drive, Drive) else 'input'}",
+        "symbol": "t, ms",
+        "range": [0.0, _MILLI * max(cycle.duration for cycle in cycles)],
+        "panels": list(_panels(shown, list(zip(colours, cycles, strict=True)))),
+        "segments": [
+            {"name": peak.name, "at": [_MILLI * peak.start, _MILLI * (peak.start + peak.duration)]}
+            for peak in shown.peaks
+        ],
+        "drawing": picture(shown, mechanism, axis.mechanism or {}) | {"duration": _MILLI * shown.duration},
+        "over_input": over_input(shown, mechanism),
+        "over_speed": _over_speed(shown, list(zip(colours, cycles, strict=True))),
+        "rows": _rows(laws),
+        "trust": cycle_view.trust(shown),
+    }
+
+
+Coloured = Sequence[tuple[int, Cycle]]
+
+
+def _panels(shown: Cycle, cycles: Coloured) -> Iterator[dict[str, Any]]:
+    """Torque and power over the time, the speed of the motor or of the input, and the position of the input."""
+    driven = isinstance(shown.drive, Drive)
+    peak = shown.effort.peak_force_at
+    torques = [_of_drive(each, each[1].force) for each in cycles]
+    value = float(shown.force(peak))
+    mark = {"at": round(_MILLI * peak, 4), "value": value, "text": digits(value, 6)}
+    yield _panel(force_name(shown), force_unit(shown), torques, [mark])
+    yield _panel("power", "W", [_of_drive(each, each[1].power) for each in cycles])
+    rpm = _RPM * shown.drive.ratio if isinstance(shown.drive, Drive) else 1.0
+    name, unit, factor = (
+        ("speed of the motor", "rpm", rpm) if driven else ("velocity of the input", *UNITS[shown.axis][1])
+    )
+    yield _panel(name, unit, [_of_motion(each, 1, factor) for each in cycles])
+    unit, factor = UNITS[shown.axis][0]
+    yield _panel("position of the input", unit, [_of_motion(each, 0, factor) for each in cycles])
+
+
+def _panel(name: str, unit: str, series: list[dict[str, Any]], peaks: Sequence[Any] = ()) -> dict[str, Any]:
+    return {"name": name, "unit": unit, "series": series, "limits": [], "peaks": list(peaks)}
+
+
+def _of_motion(coloured: tuple[int, Cycle], nu: int, factor: float) -> dict[str, Any]:
+    """A derivative of the input over the time, through its extremes."""
+    law, cycle = coloured
+    times, values = samples(cycle, nu, _EACH)
+    places = np.array([time for peak in cycle.peaks for _, time in peak.extremes[nu]])
+    times, (values,) = refined(times, [values], [lambda inside: np.asarray(cycle(inside, nu))], places)
+    return {"law": law, "at": drawn(_MILLI * times, 4), "values": drawn(factor * values)}
+
+
+def _of_drive(coloured: tuple[int, Cycle], function: Callable[[Array], Array]) -> dict[str, Any]:
+    """Torque or power over the time, through its peak and its kinks."""
+    law, cycle = coloured
+    times, values = samples_of_drive(cycle, function, _EACH)
+    places = np.array([cycle.effort.peak_force_at])
+    times, (values,) = refined(times, [values], [lambda inside: np.asarray(function(inside))], places)
+    return {"law": law, "at": drawn(_MILLI * times, 4), "values": drawn(values)}
+
+
+def _rows(laws: Sequence[Cycle | OptlawsError]) -> list[dict[str, Any]]:
+    """What each law asks of the drive, in the words of the library's summary."""
+    known: dict[str, list[Row | None]] = {}
+    for i, law in enumerate(laws):
+        for row in drive_rows(law) if isinstance(law, Cycle) else ():
+            known.setdefault(row.name, [None] * len(laws))[i] = row
+    return [
+        {
+            "name": name,
+            "unit": next(row.unit for row in rows if row is not None),
+            "texts": [None if row is None else digits(row.value, 6) for row in rows],
+            "values": [None if row is None else bounded(row.value) for row in rows],
+            "over": [row is not None and row.note == "too weak" for row in rows],
+        }
+        for name, rows in known.items()
+    ]
+
+
+def _over_speed(shown: Cycle, cycles: Coloured) -> dict[str, Any] | None:
+    """Torque over speed at the motor, in rpm and N m, with the motor's curves; None without a motor."""
+    if not isinstance(shown.drive, Drive):
+        return None
+    courses: list[dict[str, Any]] = []
+    for law, cycle in cycles:
+        _, speeds = samples(cycle, 1, 4 * _EACH)
+        _, torques = samples_of_drive(cycle, cycle.force, 4 * _EACH)
+        speeds = _RPM * cycle.drive.ratio * speeds if isinstance(cycle.drive, Drive) else speeds
+        courses.append({"law": law, "speeds": drawn(speeds, 3), "torques": drawn(torques, 5)})
+    fastest = max(abs(speed) for course in courses for speed in course["speeds"] if speed is not None)
+    return {"courses": courses, "motor": _motor(shown.drive.motor, fastest)}
+
+
+def _motor(motor: Motor, fastest: float) -> dict[str, Any]:
+    """The curves of peak and continuous torque up to a speed, and the numbers that limit them."""
+    most = min(_RPM * motor.greatest_speed, _FAR * fastest)
+    places = np.unique(
+        [*np.linspace(0.0, most, 41), *(_RPM * speed for speed, _ in motor.curve if _RPM * speed <= most)]
+    )
+    known = {"peak": motor.peak_at(places / _RPM), "continuous": motor.continuous_at(places / _RPM)}
+    curves = {
+        name: [
+            [round(speed, 3), round(torque, 6)] for speed, torque in zip(places.tolist(), values.tolist(), strict=True)
+        ]
+        for name, values in known.items()
+        if np.isfinite(values).all()
+    }
+    return {
+        "curves": curves,
+        "peak_torque": bounded(motor.peak_torque),
+        "rated_torque": bounded(motor.rated_torque),
+        "greatest_speed": None if not isfinite(motor.greatest_speed) else _RPM * motor.greatest_speed,
+        "corners": [[round(_RPM * speed, 6), torque] for speed, torque in motor.curve],
+    }
+
+
+def ratios(request: RatiosRequest) -> dict[str, Any]:
+    """Root mean square and peak of the torque at the motor over the ratio of the gear; None where there is no law."""
+    spec, axis = _read(request)
+    if not isinstance(axis.drive, dict) or "motor" not in axis.drive or not request.low < request.high:
+        return {"ratios": [], "laws": [], "bound": [], "words": "no gear: give the machine a motor"}
+    places = np.geomspace(request.low, request.high, _RATIOS).tolist()
+    laws = [[_at_ratio(spec, other, ratio) for ratio in places] for other in _beside(spec, axis)]
+    shown = laws[_place(spec, axis)]
+    cycles = [cycle for cycle in shown if cycle is not None]
+    searched = [cycle for cycle in cycles if cycle.solutions and cycle.minimise in _BOUNDED]
+    return {
+        "ratios": places,
+        "laws": [{"rms": _of(law, "rms_force"), "peak": _of(law, "peak_force")} for law in laws],
+        "fits": [None if cycle is None else cycle.sheet.fits for cycle in shown],
+        "bound": [None if cycle not in searched else _bound(cycle) for cycle in shown],
+        "of": _BOUNDED.get(cycles[0].minimise) if cycles else None,
+        "words": _words(searched),
+    }
+
+
+#: objectives whose bound is drawn, and whose curve it is below
+_BOUNDED = {"rms torque": "rms", "torque": "peak"}
+
+
+def _words(searched: Sequence[Cycle]) -> str:
+    """What is proven of the laws over the ratio."""
+    if not searched:
+        return "torque at the motor over the ratio of the gear, of laws as they are given"
+    least = f"least {searched[0].minimise} at each ratio"
+    if all(cycle.status is Status.OPTIMAL for cycle in searched):
+        return f"{least}: proven"
+    return f"{least}: none is below the dashed line, of laws that never turn back"
+
+
+def _bound(cycle: Cycle | None) -> float | None:
+    return None if cycle is None or not cycle.lower_bound else bounded(cycle.lower_bound)
+
+
+def _at_ratio(spec: CycleProblemFile, axis: AxisEntries, ratio: float) -> Cycle | None:
+    law = _law(spec, msgspec.structs.replace(axis, drive={**(axis.drive or {}), "ratio": ratio}))
+    return law if isinstance(law, Cycle) else None
+
+
+def _of(law: Sequence[Cycle | None], attribute: str) -> list[float | None]:
+    return [None if cycle is None else bounded(getattr(cycle.effort, attribute)) for cycle in law]
+
+
+def limits(request: CycleRequest) -> dict[str, Any]:
+    """What no law that never turns back can beat in each move, beside what this law takes; it takes longer."""
+    spec, axis = _read(request)
+    shown = _law(spec, axis)
+    # a process acts on the whole cycle: no move of it has a limit of its own
+    if isinstance(shown, OptlawsError) or is_process(shown.load):
+        return {"moves": [], "unit": ""}
+    return {"moves": list(_moves(shown)), "unit": force_unit(shown)}
+
+
+def _moves(shown: Cycle) -> Iterator[dict[str, Any]]:
+    """The moves from rest to rest, each with its peak and root mean square and with those that no law beats."""
+    assert isinstance(shown.drive, Mechanism | Drive)  # noqa: S101 - as the axis has a mechanism
+    for peak, effort, stretch in zip(shown.peaks, shown.efforts, shown.programme.stretches, strict=True):
+        ends = [abs(extreme) for extreme in _end_velocities(shown, peak.start, peak.duration)]
+        if not stretch.displacement or max(ends) > CYCLE_ROUNDING * shown.peak(1):
+            continue
+        move = float(shown(peak.start)), stretch.displacement, peak.duration
+        least = {name: _limit(shown.drive, name, move) for name in ("peak torque", "rms torque")}
+        yield {
+            "name": peak.name,
+            "at": [_MILLI * peak.start, _MILLI * (peak.start + peak.duration)],
+            "peak": _beside_limit(effort.peak_force, least["peak torque"]),
+            "rms": _beside_limit(effort.rms_force, least["rms torque"]),
+        }
+
+
+def _end_velocities(shown: Cycle, start: float, duration: float) -> list[float]:
+    piece = next(piece for piece in reversed(shown.pieces) if piece.start <= start)
+    first, last = piece.values(np.array([start, start + duration]), 1).tolist()
+    return [first, last]
+
+
+def _limit(drive: Mechanism | Drive, name: Any, move: tuple[float, float, float]) -> float | None:  # noqa: ANN401
+    """What no law beats in a move; None where none is known, or the motor is too weak for any."""
+    try:
+        least = drive.limit(name, *move).value
+    except OptlawsError:
+        return None
+    return least if least > 0.0 else None
+
+
+def _beside_limit(value: float, least: float | None) -> dict[str, Any]:
+    return {"text": digits(value, 6), "least": least, "least_text": None if least is None else digits(least, 6)}
+
+
+#: kinds of mechanisms: what each is shown as at first, and what else it may be given
+_MASS_ON_SLIDE = {"loads.gravity": "none, or 180 deg", "loads.stiffness": "none, or 3 N/mm"}
+_FRICTION = {"coulomb": "none, or 0.2 N m", "viscous": "none, or 0.01 N m s/rad"}
+_LINKED = {"loads.force": "none, or -200 N", **_MASS_ON_SLIDE, **_FRICTION}
+
+
+def _there_and_back(by: str, start: str | None = None) -> dict[str, Any]:
+    segments: list[dict[str, Any]] = [
+        {"kind": "rise", "by": by, "duration": "0.25 s"},
+        {"kind": "dwell", "duration": "0.1 s"},
+        {"kind": "return", "duration": "0.25 s"},
+        {"kind": "dwell"},
+    ]
+    return {"segment": segments} | ({} if start is None else {"start": start})
+
+
+def _onward(by: str, name: str) -> dict[str, Any]:
+    return {
+        "advance": by,
+        "segment": [{"kind": "rise", "name": name, "by": by, "duration": "0.5 s"}, {"kind": "dwell"}],
+    }
+
+
+KINDS: dict[str, dict[str, Any]] = {
+    "slider crank": {
+        "mechanism": {"crank": "100 mm", "rod": "400 mm", "bodies": {"crank": "0.5 kg m^2", "slider": "12 kg"}},
+        "other": {"offset": "none, or 20 mm", "over": "0 deg, 360 deg", **_LINKED},
+        "axis": _onward("360 deg", "press"),
+    },
+    "four bar": {
+        "mechanism": {
+            "crank": "100 mm", "coupler": "300 mm", "rocker": "250 mm", "frame": "350 mm", "over": ["0 deg", "180 deg"],
+            "bodies": {"crank": "0.01 kg m^2", "rocker": "0.05 kg m^2"},
+        },
+        "other": {"loads.gravity": "none, or -90 deg", **_FRICTION},
+        "axis": _there_and_back("150 deg", "20 deg"),
+    },
+    "toggle": {
+        "mechanism": {
+            "lengths": {"crank": "60 mm", "rod": "250 mm", "upper": "200 mm", "lower": "200 mm", "frame": "280 mm"},
+            "bodies": {"ram": "40 kg", "crank": "0.05 kg m^2"},
+        },
+        "other": {"over": "0 deg, 360 deg", **_LINKED},
+        "axis": _onward("360 deg", "press"),
+    },
+    "rack": {
+        "mechanism": {"radius": "20 mm", "mass": "12 kg", "inertia": "1e-4 kg m^2"},
+        "other": _LINKED,
+        "axis": _there_and_back("10 rad"),
+    },
+    "belt": {
+        "mechanism": {"radius": "30 mm", "mass": "8 kg", "inertia": "2e-4 kg m^2"},
+        "other": _LINKED,
+        "axis": _there_and_back("10 rad"),
+    },
+    "screw": {
+        "mechanism": {"lead": "10 mm", "mass": "80 kg", "inertia": "3e-4 kg m^2"},
+        "other": _LINKED,
+        "axis": _there_and_back("100 rad"),
+    },
+    "cam": {
+        "mechanism": {
+            "prime_radius": "60 mm", "follower": {"kind": "translating roller", "radius": "12 mm"}, "moved": "5 kg",
+            "inertia": "0.02 kg m^2",
+            "segment": [
+                {"kind": "rise", "by": "35 mm", "duration": "150 deg", "law": "modified sine"},
+                {"kind": "return", "duration": "150 deg", "law": "modified sine"},
+                {"kind": "dwell"},
+            ],
+        },
+        "other": {"loads.force": "none, or -60 N", "loads.stiffness": "none, or 3 N/mm", **_FRICTION},
+        "axis": {"advance": "360 deg", "segment": [{"kind": "constant velocity", "velocity": "720 deg/s"}]},
+        "period": "0.5 s",
+    },
+    "table": {
+        "mechanism": {"inertia": "0.8 kg m^2"},
+        "other": {"load": "none, or 2 N m", **_FRICTION},
+        "axis": _onward("45 deg", "index"),
+    },
+}  # fmt: skip
+
+
+def kinds() -> dict[str, dict[str, Any]]:
+    """Kinds of mechanisms: the entries of an example, what else each takes, and a motion within its range.
+
+    Examples
+    --------
+    >>> sorted(kinds()["table"])
+    ['axis', 'mechanism', 'other']
+    """
+    return KINDS
+
+
+def example() -> dict[str, Any]:
+    """The machine that the page shows where none was given: a press, driven by two laws."""
+    force = [["0 deg", "0 N"], ["280 deg", "0 N"], ["310 deg", "-600 N"], ["340 deg", "-600 N"], ["360 deg", "0 N"]]
+    press = {"kind": "slider crank", **KINDS["slider crank"]["mechanism"], "loads": {"over": "input", "force": force}}
+    motor = {
+        "inertia": "1.5e-3 kg m^2", "rated_torque": "8 N m",
+        "curve": [["0 rpm", "24 N m"], ["2000 rpm", "24 N m"], ["3000 rpm", "15 N m"]],
+    }  # fmt: skip
+    drive = {"motor": motor, "ratio": 10.0}
+    motion = {"mechanism": press, "drive": drive, **KINDS["slider crank"]["axis"]}
+    press_stroke, feed = motion["segment"]
+    known = {**motion, "segment": [{**press_stroke, "law": "modified sine"}, feed]}
+    return {
+        "job": "cycle",
+        "title": "A slider-crank press by a motor and a gear",
+        "period": "0.7 s",
+        "axis": [
+            {"name": "least RMS torque", "minimise": "rms torque", **motion},
+            {"name": "modified sine", **known},
+        ],
+    }
+
+
+QUESTIONS: dict[str, Question] = {
+    "machine": (CycleRequest, answer),
+    "machine-limits": (CycleRequest, limits),
+    "machine-ratios": (RatiosRequest, ratios),
+}

@@ -1,0 +1,165 @@
+"""Machines on the page: numbers against the library, mechanisms to scale, a gear, a motor and laws that are changed."""
+
+from __future__ import annotations
+
+import tomllib
+from copy import deepcopy
+from math import hypot
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+from optlaws import Cycle, Drive
+from tests.explorer.talk import Server
+from tests.explorer.test_page import go, saves, settle
+from tests.internals.explorer import FileRequest, LawRequest, cycle_view, downloads, law_view, machine_view, start
+from tests.internals.jobs import read_of_cycle_entries
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
+
+PROBLEMS = Path(__file__).parents[2] / "problems"
+
+
+def study(file: str) -> dict[str, Any]:
+    found: dict[str, Any] = start(str(PROBLEMS / f"{file}.toml"))
+    assert found["view"] == "machine"
+    machine: dict[str, Any] = found["machine"]
+    return machine
+
+
+def known(file: str) -> dict[str, Cycle]:
+    path = PROBLEMS / f"{file}.toml"
+    return dict(read_of_cycle_entries(tomllib.loads(path.read_text("utf-8")), path)[1])
+
+
+@pytest.mark.parametrize("file", ["cycle_geared_table", "cycle_belt_lift"])
+def test_the_sheet_and_the_curves_are_those_of_the_library(served: Server, file: str) -> None:
+    answer = served.ask("machine", {"study": study(file), "axis": 1})
+    cycles = list(known(file).values())
+    for i, cycle in enumerate(cycles):
+        texts = {row["name"]: row["texts"][i] for row in answer["rows"]}
+        assert texts == {row.name: law_view.digits(row.value, 6) for row in cycle.sheet.summary()}
+        torque = answer["panels"][0]["series"][i]
+        inner = [n for n, at in enumerate(torque["at"]) if torque["at"].count(at) == 1][1:-1:17]
+        assert [torque["values"][n] for n in inner] == pytest.approx(
+            cycle.force([1e-3 * torque["at"][n] for n in inner]).tolist(), abs=2e-3
+        )
+        # the greatest torque lies on its curve
+        assert max(map(abs, torque["values"])) == pytest.approx(cycle.effort.peak_force, abs=1e-6)
+    assert answer["trust"]["word"] == ("local" if file == "cycle_geared_table" else "proven optimal")
+
+
+def test_what_no_law_beats_is_proven_by_the_drive(served: Server) -> None:
+    (move,) = served.ask("machine-limits", {"study": study("cycle_geared_table"), "axis": 1})["moves"]
+    cycle = known("cycle_geared_table")["least RMS torque"]
+    assert isinstance(cycle.drive, Drive)
+    for name, least in (("peak torque", move["peak"]), ("rms torque", move["rms"])):
+        assert least["least"] == cycle.drive.limit(name, "0 deg", "45 deg", "0.25 s").value  # type: ignore[arg-type]
+    assert move["rms"]["text"] == law_view.digits(cycle.efforts[0].rms_force, 6)
+    assert move["rms"]["least"] < cycle.efforts[0].rms_force
+
+
+def test_torque_over_the_ratio_is_that_of_the_cycle_at_each_ratio(served: Server) -> None:
+    asked = study("cycle_geared_table")
+    found = served.ask("machine-ratios", {"study": asked, "axis": 0, "low": 20.0, "high": 60.0})
+    cycle = known("cycle_geared_table")["modified sine"]
+    assert isinstance(cycle.drive, Drive)
+    move = ("modified sine", "0 deg", "45 deg", "0.25 s")
+    for ratio, rms, peak, fits in zip(
+        found["ratios"], found["laws"][0]["rms"], found["laws"][0]["peak"], found["fits"], strict=True
+    ):
+        sheet = cycle.drive.with_ratio(ratio).sheet(*move, period="0.6 s")
+        assert (rms, peak) == pytest.approx((sheet.rms_torque, sheet.peak_torque), rel=1e-9)
+        assert fits is sheet.fits
+    bound = served.ask("machine-ratios", {"study": asked, "axis": 1, "low": 20.0, "high": 60.0})
+    assert all(low <= rms for low, rms in zip(bound["bound"], bound["laws"][1]["rms"], strict=True))
+
+
+def test_links_are_drawn_to_scale(served: Server) -> None:
+    drawing = served.ask("machine", {"study": study("cycle_crank_press")})["drawing"]
+    _, (pivot, pin, joint), _ = drawing["chains"]
+    for (x, y), (u, v), (s, t) in zip(pivot, pin, joint, strict=True):
+        assert (hypot(u - x, v - y), hypot(s - u, t - v), t) == pytest.approx((100.0, 400.0, 0.0), abs=2e-3)
+    assert drawing["input"][0] == 0.0
+    assert drawing["input"][-1] == 360.0
+
+
+@pytest.mark.parametrize("kind", [kind for kind in machine_view.kinds() if kind != "toggle"])
+def test_every_kind_begins_with_a_machine_that_moves(served: Server, kind: str) -> None:
+    example = machine_view.kinds()[kind]
+    axis = {"name": "one", "mechanism": {"kind": kind, **example["mechanism"]}, **deepcopy(example["axis"])}
+    for segment in axis["segment"]:
+        if segment["kind"] in {"rise", "return"}:
+            segment["law"] = "modified sine"
+    asked = {"job": "cycle", "title": kind, "period": example.get("period", "0.7 s"), "axis": [axis]}
+    answer = served.ask("machine", {"study": asked})
+    assert "refused" not in answer
+    assert len(answer["drawing"]["input"]) == 181
+
+
+def test_a_motor_that_is_too_weak_is_no_verdict_of_the_law(served: Server) -> None:
+    asked = study("cycle_geared_table")
+    for axis in asked["axis"]:
+        axis["drive"]["motor"]["curve"] = [["0 rpm", "1.9 N m"], ["3000 rpm", "1.9 N m"]]
+    answer = served.ask("machine", {"study": asked, "axis": 1})
+    assert answer["trust"]["word"] == "beyond a limit"
+    assert "the motor's torque-speed curve" in answer["trust"]["advice"]
+
+
+def test_files_of_a_machine_are_its_study_and_python_that_makes_it(tmp_path: Path) -> None:
+    asked = cycle_view.CycleRequest(study=study("cycle_geared_table"), axis=0)
+    one = FileRequest(kind="problem", view="machine", laws=[LawRequest(name="cubic")], machine=asked)
+    assert tomllib.loads(downloads.answer(one)["text"]) == asked.study
+    one.kind = "python"
+    code = downloads.answer(one)["text"].replace("cycle.png", str(tmp_path / "cycle.png"))
+    made: dict[str, Any] = {}
+    exec(compile(code, "machine.py", "exec"), made)  # noqa: S102 - our own
+    assert made["cycle"].sheet == cycle_view.cycle(asked).sheet
+
+
+def test_a_gear_a_motor_and_laws_are_changed_in_the_page(page: Page, served: Server) -> None:
+    asked = study("cycle_geared_table")
+    go(page, served.link(view="machine", machine=asked, axis=1))
+
+    def torque(axis: int, ratio: float) -> str:
+        changed = deepcopy(asked)
+        for one in changed["axis"]:
+            one["drive"]["ratio"] = ratio
+        rows = served.ask("machine", {"study": changed, "axis": axis})["rows"]
+        return next(str(row["texts"][axis]) for row in rows if row["name"] == "RMS torque")
+
+    def shown(column: int) -> str:
+        row = page.locator("#machine-table tr", has_text="RMS torque, N m")
+        return row.locator("td").nth(column).inner_text()
+
+    assert (shown(0), shown(1)) == (torque(0, 20), torque(1, 20))
+    assert page.locator("#machine-curves .law-limit").count() == 2
+    page.get_by_role("tab", name="over the ratio").click()
+    settle(page)
+    page.locator("#machine-chart .handle").focus()
+    page.keyboard.press("ArrowRight")
+    settle(page)
+    ratio = float(page.get_by_label("Ratio of the gear", exact=True).locator("visible=true").first.input_value())
+    assert ratio > 20
+    assert (shown(0), shown(1)) == (torque(0, ratio), torque(1, ratio))
+    page.get_by_role("button", name="Undo").click()
+    settle(page)
+    assert shown(1) == torque(1, 20)
+    page.get_by_role("tab", name="torque over speed").click()
+    handle = page.get_by_role("slider", name="Rated torque of the motor")
+    handle.focus()
+    page.keyboard.press("ArrowUp")
+    settle(page)
+    assert page.get_by_label("drive motor rated torque").input_value() == "2.1 N m"
+    field = page.get_by_label("Add a standard law to the machine")
+    field.fill("cycloidal")
+    field.press("Enter")
+    settle(page)
+    assert page.locator("#machine-tray .chip").count() == 3
+    assert page.locator("#machine-curves svg").first.locator(".line").count() >= 3
+    assert 'name = "cycloidal"' in saves(page, "problem")
+    assert page.locator("#machine-drawing svg").count() == 1
+    page.get_by_label("Time in the cycle, thousandths").fill("500")
+    assert "300 ms · 45 deg" in page.locator("#machine-turning").inner_text()
