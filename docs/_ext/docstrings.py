@@ -10,8 +10,9 @@ from sphinx import addnodes
 from sphinx.application import Sphinx
 
 #: what napoleon would misread, and what stands for it until the page is read: the comma between names that share a
-#: description, and a colon in the first line of a property, before which it expects a type
-_COMMA, _COLON = "\ue000", "\ue001"
+#: description, and a colon in the first line of a property, before which it expects a type; both of full width, and
+#: punctuation to docutils
+_COMMA, _COLON = "\uff0c", "\uff1a"
 _SHOWN = {_COMMA: ", ", _COLON: ":"}
 _NAMES = re.compile(r"\w+(, \w+)+")
 
