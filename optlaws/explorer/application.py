@@ -18,7 +18,7 @@ from starlette.requests import Request
 from starlette.responses import PlainTextResponse, Response
 from starlette.routing import Route
 
-from optlaws import catalogue
+from optlaws import __version__, catalogue
 from optlaws.explorer import downloads
 from optlaws.explorer.answering import EXAMPLES, QUESTIONS, message
 from optlaws.explorer.views import cam_view, machine_view
@@ -44,6 +44,7 @@ def application(start: dict[str, Any], workers: Workers | None = None) -> Starle
         "followers": cam_view.followers(),
         "mechanisms": machine_view.kinds(),
         "formats": downloads.formats(),
+        "version": __version__,
     }
     first = msgspec.json.encode({"state": start, **known})
     answering = Workers() if workers is None else workers

@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import pytest
+
+from optlaws import __version__
 from tests.documents import ROOT
 from tests.explorer.talk import OPTIMAL, Server
 from tests.explorer.test_page import at_velocity, go, saves, settle, texts, told, velocity
@@ -116,3 +120,37 @@ def test_a_file_that_cannot_be_opened_says_why(page: Page, served: Server, tmp_p
     file.write_text("[problem]\nordre = 4\n", "utf-8")
     page.locator("input[type=file]").first.set_input_files(file)
     page.locator("#notice", has_text="ordre").wait_for()
+
+
+def test_a_law_is_read_in_the_units_of_its_machine(page: Page, served: Server) -> None:
+    go(page, served.link(laws=[OPTIMAL, {"name": "modified sine"}], picture="residual"))
+    for name, value in (("stroke", "35 mm"), ("time", "0.1 s"), ("mass", "2 kg")):
+        page.get_by_label(f"{name} of the machine").fill(value)
+    settle(page)
+    rows = page.locator("#table .in-units")
+    (view, _) = served.ask("laws", {"laws": [OPTIMAL, {"name": "modified sine"}]})["laws"]
+    B, C, _D, J, rms = (one["value"] for one in view["constants"])
+    units = [text.split()[0] for text in rows.first.locator("td").all_inner_texts() if text]
+    assert [float(text) for text in units] == pytest.approx([350 * B, 3.5 * C, 35 * J, 3.5 * rms], rel=1e-4)
+    assert float(rows.nth(1).locator("td").nth(1).inner_text().split()[0]) == pytest.approx(7 * C, rel=1e-4)
+    page.get_by_label("stroke of the machine").fill("35 kg")
+    settle(page)
+    assert "35 kg" in rows.first.inner_text()
+
+
+@pytest.mark.parametrize("view", ["laws", "cycle", "cam"])
+def test_a_report_is_one_page_with_what_is_asked_and_proven(page: Page, served: Server, view: str) -> None:
+    asked = {"view": view, "name": "Feeder", "notes": "first shift"}
+    go(page, served.link(laws=[OPTIMAL, {"name": "modified sine"}], **asked))
+    assert len(re.findall(rb"/Type /Page\b", page.pdf(prefer_css_page_size=True))) == 1
+    page.emulate_media(media="print")
+    report = page.locator("#report").inner_text()
+    for text in (
+        "Feeder",
+        "first shift",
+        f"optlaws {__version__}",
+        {"laws": "B 1.7", "cycle": "616 mm/s"}.get(view, "30 deg"),
+    ):
+        assert text in report
+    assert page.get_by_text("no undercut" if view == "cam" else "proven optimal").first.is_visible()
+    assert not page.locator("#tools").is_visible()

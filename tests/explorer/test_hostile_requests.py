@@ -22,6 +22,7 @@ LAWS = [
 TOML = '[problem]\norder = 4\n[[sweep]]\nB = [1.6, "free"]\n'
 SEEDS: dict[str, list[Any]] = {
     "laws": [{"laws": LAWS}],
+    "law-machine": [{"law": OPTIMAL, "stroke": "35 mm", "time": "0.1 s", "mass": "2 kg"}],
     "front": [{"law": OPTIMAL, "over": ["B", "C"]}],
     "nearest": [{"problem": {"order": 4, "degree": 9, "B": 1.7, "J": [0, 20]}, "weights": {"C": 1.0}}],
     "axes": [AXES],

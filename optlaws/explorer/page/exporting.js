@@ -73,7 +73,7 @@ export class Exporting {
 
   #ask(state) {
     const { takes } = this.#formats.find(({ name }) => name === (state.controller?.format ?? MACHINE.format)) ?? { takes: [] };
-    const machine = Object.fromEntries(Object.entries({ ...MACHINE, ...state.controller }).filter(([name]) => !(name in NUMBERS) || takes.includes(name)));
+    const machine = Object.fromEntries(Object.entries({ ...MACHINE, ...state.controller }).filter(([name]) => name in MACHINE || takes.includes(name)));
     this.#answer = null;
     this.#save.disabled = true;
     this.#asked.ask({ ...machine, ...this.#motion(state) });

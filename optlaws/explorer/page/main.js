@@ -6,6 +6,7 @@ import { tabs } from "./fields.js";
 import { translate } from "./language.js";
 import { during, observe } from "./latest.js";
 import { Opening } from "./opening.js";
+import { reporting } from "./report.js";
 import { Study, read } from "./state.js";
 import { html } from "./svg.js";
 import { restore } from "./theme.js";
@@ -98,6 +99,7 @@ async function begin() {
   }
 
   observe(work);
+  reporting(study, start.version);
   document.querySelector(".skip").addEventListener("click", (event) => {
     event.preventDefault();
     document.querySelector(".view:not([hidden]) :is(.handle, .picture, .panels, #motion)").focus();

@@ -68,6 +68,7 @@ export class Plane {
     this.#y = scale(ranges[1], [box.bottom, box.top]);
     this.#svg.setAttribute("width", width);
     this.#svg.setAttribute("height", height);
+    this.#svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
     const clip = svg("clipPath", { id: "plane-clip" }, svg("rect", { x: box.left, y: box.top, width: box.right - box.left, height: box.bottom - box.top }));
     const lines = svg("g", { "clip-path": "url(#plane-clip)" });
     const at = ([one, other]) => [this.#x(one), this.#y(other)];

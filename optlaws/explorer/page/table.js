@@ -4,11 +4,16 @@ import { html } from "./svg.js";
 
 const NAMES = ["B", "C", "D", "J", "rms_c"];
 
-export function showTable(root, views, active) {
+/** `machine` are rows of the active law in the units of a machine: {name, cells} with a text for each constant. */
+export function showTable(root, views, active, machine = []) {
   const least = Object.fromEntries(NAMES.map((name) => [name, leastOf(views, name)]));
   const head = html("tr", {}, html("th", { scope: "col", text: "law" }), ...NAMES.map((name) => html("th", { scope: "col", class: "number", text: name === "rms_c" ? "rms c" : name })));
-  const rows = views.map((view, i) => row(view, i, i === active, views.length > 1 ? least : {}));
+  const rows = views.flatMap((view, i) => [row(view, i, i === active, views.length > 1 ? least : {}), ...(i === active ? machine.map(machineRow) : [])]);
   root.replaceChildren(html("table", { "aria-label": "Constants of the laws, dimensionless" }, html("thead", {}, head), html("tbody", {}, ...rows)));
+}
+
+function machineRow({ name, cells }) {
+  return html("tr", { class: "in-units" }, html("th", { scope: "row", text: name }), ...NAMES.map((constant) => html("td", { class: "number", text: cells[constant] ?? "" })));
 }
 
 function leastOf(views, name) {

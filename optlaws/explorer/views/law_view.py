@@ -12,7 +12,18 @@ from typing import Annotated, Any
 import msgspec
 import numpy as np
 
-from optlaws import Chebyshev, MotionLaw, Peak, Problem, Solution, Status, residual_vibration, response_spectrum
+from optlaws import (
+    Chebyshev,
+    Cycle,
+    MotionLaw,
+    Peak,
+    Problem,
+    Rise,
+    Solution,
+    Status,
+    residual_vibration,
+    response_spectrum,
+)
 from optlaws.errors import InfeasibleProblem, OptlawsError, SolverFailure
 from optlaws.explorer.views.picture_points import refined
 from optlaws.explorer.views.requests import (
@@ -28,6 +39,7 @@ from optlaws.explorer.views.requests import (
     without,
 )
 from optlaws.numbers import Array, bounded
+from optlaws.plots.cycle import UNITS as UNITS_OF_MOTION
 from optlaws.synthesis.limits.of_problem import limited_laws
 from optlaws.synthesis.proof.infeasible import possible_velocities
 from optlaws.tolerances import BOUND_SLACK, GAP_ROUNDING, NO_MARK
@@ -325,7 +337,54 @@ def _spectrum(request: LawRequest, frequencies: Any, follower: ResidualRequest) 
     return {"values": drawn(values), "value": here, "text": digits(here, 6)}
 
 
+_INERTIAS = {"length": ("mass", "1 kg", "m/s²", "N"), "angle": ("inertia", "1 kg m^2", "rad/s²", "N m")}
+Quantity = Annotated[str, msgspec.Meta(max_length=60)]
+
+
+class MachineRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """A law with its stroke, its time and the mass, or the inertia, that it moves."""
+
+    law: LawRequest
+    stroke: Quantity
+    time: Quantity
+    mass: Quantity = ""
+
+
+def in_machine_units(request: MachineRequest) -> dict[str, Any]:
+    """Peaks of a law in the units of a machine, by the constant that each comes of.
+
+    Examples
+    --------
+    >>> press = MachineRequest(law=LawRequest(name="cubic"), stroke="40 mm", time="0.2 s", mass="3 kg")
+    >>> for row in in_machine_units(press)["rows"]:
+    ...     print(row["name"], row["cells"])
+    40 mm in 0.2 s {'B': '300 mm/s', 'C': '6 m/s²', 'J': '60 m/s³', 'rms_c': '3.4641 m/s²'}
+    3 kg {'C': '18 N', 'D': '2.0785 W', 'rms_c': '10.392 N'}
+    """
+    law, stroke, time = law_of(request.law), request.stroke, request.time
+
+    def moved(**drive: Any) -> Cycle:
+        return Cycle([Rise(stroke, time, law=law)], period=time, advance=stroke, **drive)
+
+    motion = moved()
+    entry, unit, acceleration, force = _INERTIAS[motion.axis]
+    alone = moved(drive={entry: unit}).effort
+    peaks = [_in(motion.peak(nu) * factor, name) for nu, (name, factor) in enumerate(UNITS_OF_MOTION[motion.axis])]
+    cells = dict(zip(("B", "C", "J"), peaks[1:], strict=True)) | {"rms_c": _in(alone.rms_force, acceleration)}
+    rows = [{"name": f"{stroke} in {time}", "cells": cells}]
+    if request.mass:
+        effort = moved(drive={entry: request.mass}).effort
+        forces = {"C": _in(effort.peak_force, force), "D": _in(effort.peak_power, "W")}
+        rows.append({"name": request.mass, "cells": forces | {"rms_c": _in(effort.rms_force, force)}})
+    return {"rows": rows}
+
+
+def _in(value: float, unit: str) -> str:
+    return f"{digits(value, 5)} {unit}"
+
+
 QUESTIONS: dict[str, Question] = {
+    "law-machine": (MachineRequest, in_machine_units),
     "laws": (LawsRequest, answer),
     "nearest": (LawRequest, nearest),
     "residual": (ResidualRequest, residuals),

@@ -2,7 +2,8 @@
 
 import { askedOf, move } from "../asked.js";
 import { Controls } from "../controls.js";
-import { slider, tabs } from "../fields.js";
+import { group, slider, tabs } from "../fields.js";
+import { localised, plain } from "../language.js";
 import { Latest } from "../latest.js";
 import { curvesOf } from "../law_curves.js";
 import { Panels } from "../panels.js";
@@ -41,6 +42,9 @@ export class View {
   #residual;
   #curves = new Panels(element("curves"));
   #chooses;
+  #machines;
+  #machine = [];
+  #sizes;
   #follower;
   #laws;
   #fronts;
@@ -60,6 +64,8 @@ export class View {
     this.#residual.cursor.watch((at, placed) => placed && at !== null && at !== study.state.frequency && study.change("frequency", (state) => (state.frequency = Number(at.toPrecision(4)))));
     this.#chooses = tabs(element("pictures"), PICTURES, (key) => study.change("picture", (state) => (state.picture = key)));
     this.#follower = this.#followerFields();
+    this.#sizes = sizes(element("ask"), study);
+    this.#machines = new Latest("api/law-machine", ({ rows }) => this.#inUnits(rows), (error) => this.#inUnits(this.#views[this.#state.active]?.refused ? [] : [{ name: error.message, cells: {} }]));
     this.#laws = new Latest("api/laws", (answer, question) => this.#answered(answer, question), (error, question) => this.#answered({ laws: question.laws.map(() => unanswered(error)) }, question));
     this.#fronts = new Latest("api/front", (front) => this.#showFront(front), (error) => this.#withoutFront(error));
     this.#nearest = new Latest("api/nearest", (answer, question) => this.#near(answer, question), (_, question) => this.#near({ ways: [] }, question));
@@ -79,6 +85,10 @@ export class View {
     residual.hidden = element("follower").hidden = !isResidual;
     this.#chooses(state.picture);
     this.#controls.show(state.laws[state.active]);
+    this.#sizes(state);
+    const { stroke, time, mass } = state.controller ?? {};
+    if (stroke && time) this.#machines.ask({ law: state.laws[state.active], stroke, time, ...(mass && { mass }) });
+    else this.#machine = [];
     this.#follower(state);
     this.#askLaws(state);
     if (isResidual) this.#residuals.ask({ laws: state.laws, frequency: state.frequency, damping: state.damping });
@@ -142,6 +152,11 @@ export class View {
     this.#drawn();
   }
 
+  #inUnits(rows) {
+    this.#machine = rows;
+    showTable(element("table"), this.#state.laws.map((_, i) => this.#views[i]), this.#state.active, rows);
+  }
+
   #near({ ways }, question) {
     if (told(question) !== told(this.#asked[this.#state.active])) return;
     this.#ways = ways;
@@ -156,7 +171,7 @@ export class View {
     this.#curves.show(curvesOf(views, active));
     this.#plane.showLaws(laws.map((law, i) => ({ view: views[i], asked: askedOf(law, x), movable: Boolean(law.problem) })), active);
     showTrust(element("trust"), views[active], this.#ways, (way) => this.#back(way));
-    showTable(element("table"), views, active);
+    showTable(element("table"), views, active, this.#machine);
     element("words").textContent = picture === "residual" ? this.#left : this.#words;
   }
 
@@ -203,5 +218,24 @@ function residualOf({ frequencies, laws, at }, views, active) {
     across: "frequency ν of the follower, radians of its vibration in the motion", symbol: "ν", active,
     range: [frequencies[0], frequencies.at(-1)],
     panels: [{ name: "residual acceleration (envelope)", unit: "in units of a″", symbol: "residual acceleration", series, span: [0, 1] }],
+  };
+}
+
+/** Fields of the machine that a law is for; returns a function that shows a state in them. */
+function sizes(root, study) {
+  const fields = Object.entries({ stroke: "none, or 35 mm", time: "none, or 0.1 s", mass: "none, or 2 kg" }).map(([name, placeholder]) => {
+    const field = html("input", { type: "text", placeholder, maxlength: 60, "aria-label": `${name} of the machine` });
+    field.addEventListener("input", () => study.change(`machine ${name}`, (state) => {
+      const value = plain(field.value.trim());
+      state.controller = { ...state.controller, [name]: value };
+      if (!value) delete state.controller[name];
+      if (!Object.keys(state.controller).length) delete state.controller;
+    }));
+    field.addEventListener("change", () => study.rest());
+    return { name, field };
+  });
+  root.append(group("In machine units", ...fields.map(({ name, field }) => html("label", { class: "entry" }, html("span", { class: "field-name", text: name }), field))));
+  return ({ controller }) => {
+    for (const { name, field } of fields) if (document.activeElement !== field) field.value = localised(controller?.[name] ?? "");
   };
 }
