@@ -239,6 +239,7 @@ LEAST_STEP = 1e-3  # of a way: a shorter step of a search for a bound is not tak
 LEAST_INTERIOR = 1e-11  # the most by which the law with most room may break a bound
 EQUATIONS_RANK = 1e-12  # of a law: by so much it may miss equations that are met
 NEWTON_CONVERGED = 1e-13  # of a law: a step of Newton's method that is the last
+SHORT_STRETCH = 1e-4  # of a path: structures that hold for less of it are not stored
 NEWTON_NEAR = 1e-7  # of a law: after a step that changes less a state is rounded
 NEWTON_SAME = 1e-5  # of a law: nearer than this a state and what it is led to after rounding are one optimum
 NEWTON_STALLED = 1e-10  # of a law: steps below it that shrink no more are rounding

@@ -18,6 +18,7 @@ from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.method import starts
 from optlaws.synthesis.method.exchange import Outcome, solve
 from optlaws.synthesis.method.lower_bounds import active_lower_bounds, active_lower_bounds_at
+from optlaws.synthesis.method.stored_structures import stored_guess
 from optlaws.synthesis.method.without_interior import fallbacks_without_interior, on_equations
 from optlaws.synthesis.problem.constants import Functional, PeakConstant
 from optlaws.synthesis.problem.expression import leaves
@@ -106,7 +107,7 @@ class LawSearch:
         first = self._try_drive() if self.warm is None else None
         if first is not None and self._near_limit(first):
             return
-        last = self._try(self.warm, None)
+        last = self._try(self.warm or stored_guess(self.model), None)
         if self.problem.convex or self.warm is not None or _agree(first, last):
             return
         first = first or last

@@ -60,7 +60,8 @@ class Solution(LawExport, JsonText):
         What no law of the problem's order and within its bounds can beat, whatever its degree: a closed form. None
         where none is known, as for ends other than rest.
     status, iterations, seconds
-        How it went: iterations of the solver on points (0 where a neighbour was continued) and the wall time.
+        How it went: iterations of the solver on points (0 where the contacts were known, of a neighbour or a usual
+        problem) and the wall time.
     starts
         Where the problem is not convex: the objectives that the starts led to, ascending.
     active_set
@@ -86,7 +87,7 @@ class Solution(LawExport, JsonText):
     lower_bound: float
     limit: float | None
     status: Status
-    iterations: int
+    iterations: int = field(compare=False)
     seconds: float = field(compare=False)
     starts: tuple[float, ...] = ()
     power_certificate: Certificate | None = field(default=None, repr=False)

@@ -7,6 +7,7 @@ from optlaws.synthesis.arrays.dual_bounds import sums_of_rows
 from optlaws.synthesis.arrays.newton_steps import States, converged, locally_optimal
 from optlaws.synthesis.arrays.powers import least_power, on_global_branch
 from optlaws.synthesis.arrays.programs import Path, SolvedBatch, between
+from optlaws.synthesis.arrays.structure_table import structure_without_velocity, structures_along_velocity
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.cone import ConeFamily, stationary_places
 from optlaws.synthesis.families.curved import CurvedFamily, FormulaFamily
@@ -44,6 +45,7 @@ from optlaws.synthesis.method.discretised.ipopt import Answer
 from optlaws.synthesis.method.discretised.linear import sharpened, vertex_on_points
 from optlaws.synthesis.method.equations import contradiction, independent
 from optlaws.synthesis.method.exchange import Outcome, solve
+from optlaws.synthesis.method.stored_structures import key_of, stored_guess, stored_structures
 from optlaws.synthesis.method.strategies import identified, interior_points, vertices
 from optlaws.synthesis.method.strategies.strategy import Strategy, cutting_plane_loop
 from optlaws.synthesis.method.units import units_of
@@ -64,7 +66,7 @@ from optlaws.synthesis.problem.ranges import Bounds, read_bounds
 from optlaws.synthesis.problem.windows import QUANTITIES, read_window
 from optlaws.synthesis.program import writer
 from optlaws.synthesis.program.evaluation import shortfalls, worth
-from optlaws.synthesis.program.writer import least_violation, model_of, relaxed
+from optlaws.synthesis.program.writer import Model, least_violation, model_of, relaxed
 from optlaws.synthesis.proof import make
 from optlaws.synthesis.proof.certificate import RELAXED, VIOLATION, _model
 from optlaws.synthesis.proof.duality import _weighted, row_of, sum_of_rows

@@ -19,6 +19,7 @@ from optlaws.numbers import Array, power_of_two
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Program
 from optlaws.tolerances import (
+    AT_END,
     DEPENDENT_ROWS,
     NEWTON_CONVERGED,
     NEWTON_FULFILLED,
@@ -26,6 +27,7 @@ from optlaws.tolerances import (
     NEWTON_SAME,
     NEWTON_STALLED,
     NEWTON_STILL,
+    SAME_PLACE,
 )
 
 _STEPS = 14
@@ -45,7 +47,7 @@ def newton(program: Program, start: ActiveSet, *, deficient: bool = False) -> Ac
     near = _iterated(program, start, enough=NEWTON_NEAR)
     if near is None:
         return None
-    optimum = _iterated(program, _rounded(near))
+    optimum = _iterated(program, _rounded(program, near))
     if optimum is not None and _distance(near, optimum) <= NEWTON_SAME:
         return optimum
     return _iterated(program, near)
@@ -78,20 +80,26 @@ def _iterated(program: Program, start: ActiveSet, *, enough: float = 0.0, defici
     return None
 
 
-def _rounded(state: ActiveSet) -> ActiveSet:
-    """The state with its contacts in order, and with few digits of all that Newton's method moves."""
+def _rounded(program: Program, state: ActiveSet) -> ActiveSet:
+    """The state with few digits of all that Newton's method moves, its contacts in order, each once and at rest.
+
+    A contact that may move, but came to an end, stays there.
+    """
+    state = state.merged(SAME_PLACE)
     order = np.lexsort((state.s, state.u, state.family))
-    u, free = state.u[order], state.free[order]
-    multipliers = np.concatenate([state.multipliers[order], state.equality_multipliers])
-    weights = _with_few_digits(multipliers)
+    u, family, free = state.u[order], state.family[order], state.free[order]
+    for end in np.array([program.families[i].domain for i in family]).reshape(-1, 2).T:
+        at_end = free & (np.abs(u - end) < AT_END)
+        u, free = np.where(at_end, end, u), free & ~at_end
+    multipliers = _with_few_digits(np.concatenate([state.multipliers[order], state.equality_multipliers]))
     return ActiveSet(
         x=_with_few_digits(state.x),
-        family=state.family[order],
+        family=family,
         u=np.where(free, np.round(u * _DIGITS) / _DIGITS, u),
         s=state.s[order],
         free=free,
-        multipliers=weights[: len(u)],
-        equality_multipliers=weights[len(u) :],
+        multipliers=multipliers[: len(u)],
+        equality_multipliers=multipliers[len(u) :],
     )
 
 

@@ -1,0 +1,173 @@
+"""Structures of usual problems that come with optlaws: which constraints bind where, as Newton's method may begin.
+
+They are those of symmetric laws from rest to rest with least C or J, along B, by order and number of coordinates. What
+they lead to is verified as every law is: a structure that is wrong costs time and nothing else.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.numbers import Array
+from optlaws.synthesis.families.active_set import ActiveSet
+from optlaws.synthesis.families.family import Program
+from optlaws.synthesis.program.writer import Model
+from optlaws.synthesis.spaces.polynomial_space import PolynomialSpace
+
+STORED = Path(__file__).with_name("structures.bin")
+
+#: units of B - 1 and of the coefficients of places
+_OF_VELOCITY, _OF_PLACE = 2.0**13, 2.0**14
+
+
+@dataclass(frozen=True, eq=False)
+class StoredStructure:
+    """The contacts of the best laws between two B.
+
+    Attributes
+    ----------
+    begin, end
+        The least and the greatest B; both 0 where none is asked.
+    family, sign, free
+        The contacts' rows: the place of the family in the program, the sign, and whether a contact may move.
+    places
+        Where the contacts are, as Chebyshev series along B, shape (coefficients, contacts).
+    """
+
+    begin: float
+    end: float
+    family: NDArray[np.intp]
+    sign: Array
+    free: NDArray[np.bool_]
+    places: Array
+
+    def at(self, B: float) -> Array:
+        """The places of the contacts."""
+        if len(self.places) == 1:
+            return np.asarray(self.places[0])
+        share = (2.0 * B - self.begin - self.end) / (self.end - self.begin)
+        angle = np.arccos(min(max(share, -1.0), 1.0))
+        return np.asarray(np.clip(np.cos(np.arange(len(self.places)) * angle) @ self.places, -1.0, 1.0))
+
+    def away(self, B: float) -> float:
+        """How far B is from those of the structure."""
+        return max(self.begin - B, B - self.end, 0.0)
+
+    def packed(self) -> list[int]:
+        """The structure as whole numbers of 16 bits."""
+        ends = [round((end - 1.0) * _OF_VELOCITY) if end else 0 for end in (self.begin, self.end)]
+        rows = self.family * 4 + 2 * (self.sign > 0.0) + self.free
+        places = np.round(self.places * _OF_PLACE).astype(np.int16)
+        return [*ends, len(rows), len(places), *rows.tolist(), *places.ravel().tolist()]
+
+
+def key_of(model: Model) -> str | None:
+    """By what the structures of a problem are found; None where none of its kind are stored.
+
+    Examples
+    --------
+    >>> from optlaws.synthesis.problem.problem import Problem
+    >>> from optlaws.synthesis.program.writer import model_of
+    >>> key_of(model_of(Problem(B=1.7, order=4)))
+    '4 5 C,chord,b'
+    """
+    space, program = model.space, model.program
+    if not isinstance(space, PolynomialSpace) or not space.symmetric or not space.at_rest:
+        return None
+    if program.curved or len(program.right) > 1:
+        return None
+    return f"{space.order} {space.terms} {','.join(family.name for family in program.families)}"
+
+
+def stored_guess(model: Model) -> ActiveSet | None:
+    """The optimum that a problem may have, by a structure that is stored for its kind; None where none is."""
+    key = key_of(model)
+    structures = None if key is None else stored_structures(key)
+    if not structures:
+        return None
+    B = model.problem.B if isinstance(model.problem.B, float) else 0.0
+    return guess_of(model.program, min(structures, key=lambda structure: structure.away(B)), B)
+
+
+def guess_of(program: Program, structure: StoredStructure, B: float) -> ActiveSet:
+    """The variables and multipliers that go with the places of a structure's contacts.
+
+    Multipliers balance the objective, and show what it is: what the rows leave open of the variables gives that.
+    """
+    u = structure.at(B)
+    count, size = len(u), program.size
+    rows, slopes = np.empty((2, count, size))
+    value, slope = np.empty((2, count))
+    for i in set(structure.family.tolist()):
+        contacts = structure.family == i
+        jet = program.families[i].jet(np.zeros(size), u[contacts], structure.sign[contacts])
+        rows[contacts], slopes[contacts] = jet.gradient, jet.slope_gradient
+        value[contacts], slope[contacts] = jet.value, jet.slope
+    balancing = np.vstack([rows, program.equalities])
+    multipliers = np.asarray(np.linalg.lstsq(balancing.T, -program.objective, rcond=None)[0], dtype=np.float64)
+    right = np.concatenate([-value, program.right])
+    system = np.vstack([balancing, slopes[structure.free], program.objective])
+    sides = np.concatenate([right, -slope[structure.free], [-float(multipliers @ right)]])
+    return ActiveSet(
+        x=np.linalg.lstsq(system, sides, rcond=None)[0],
+        family=structure.family,
+        u=u,
+        s=structure.sign,
+        free=structure.free,
+        multipliers=multipliers[:count],
+        equality_multipliers=multipliers[count:],
+    )
+
+
+def written(structures: dict[str, list[StoredStructure]]) -> bytes:
+    """A file of structures: a line of text for each key, with how many numbers are its own, and all numbers."""
+    numbers = {
+        key: [number for structure in several for number in structure.packed()] for key, several in structures.items()
+    }
+    lines = [f"{key} {len(several)}\n" for key, several in numbers.items()]
+    together = np.array([number for several in numbers.values() for number in several], dtype="<i2")
+    return "".join(lines).encode() + b"\n" + together.tobytes()
+
+
+@lru_cache(maxsize=1)
+def _stored() -> dict[str, NDArray[np.int16]]:
+    """The numbers of each key."""
+    lines, _, content = STORED.read_bytes().partition(b"\n\n")
+    numbers, stored, begin = np.frombuffer(content, dtype="<i2"), {}, 0
+    for line in lines.decode().splitlines():
+        key, _, count = line.rpartition(" ")
+        stored[key] = numbers[begin : begin + int(count)]
+        begin += int(count)
+    return stored
+
+
+@lru_cache(maxsize=128)
+def stored_structures(key: str) -> tuple[StoredStructure, ...]:
+    """The structures of a kind of problems; none where it is no usual one.
+
+    Examples
+    --------
+    >>> [len(structure.sign) for structure in stored_structures("4 2 C,chord,b")]
+    [2, 2, 1, 2, 1]
+    """
+    return tuple(_read(_stored().get(key, np.empty(0, dtype=np.int16)).tolist()))
+
+
+def _read(numbers: list[int]) -> Iterable[StoredStructure]:
+    begin = 0
+    while begin < len(numbers):
+        low, high, contacts, terms = numbers[begin : begin + 4]
+        begin += 4
+        rows = np.array(numbers[begin : begin + contacts])
+        begin += contacts
+        places = np.array(numbers[begin : begin + contacts * terms]).reshape(terms, contacts) / _OF_PLACE
+        begin += contacts * terms
+        ends = [1.0 + end / _OF_VELOCITY if high else 0.0 for end in (low, high)]
+        sign = np.where(rows & 2, 1.0, -1.0)
+        yield StoredStructure(ends[0], ends[1], rows >> 2, sign, (rows & 1).astype(np.bool_), places)
