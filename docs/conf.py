@@ -51,6 +51,7 @@ toc_object_entries_show_parents = "hide"
 autodoc_typehints = "signature"
 autodoc_type_aliases = {"Array": "Array"}
 python_use_unqualified_type_names = True
+add_module_names = False  # docs/_ext/docstrings.py puts before a name where it is imported from
 napoleon_google_docstring = False
 napoleon_use_rtype = False
 # a property may be listed among the attributes as well: that is no second object

@@ -8,6 +8,7 @@ from itertools import pairwise
 from docutils import nodes
 from sphinx import addnodes
 from sphinx.application import Sphinx
+from sphinx.transforms import SphinxTransform
 
 #: what napoleon would misread, and what stands for it until the page is read: the comma between names that share a
 #: description, and a colon in the first line of a property, before which it expects a type; both of full width, and
@@ -41,10 +42,10 @@ def finish(_app: Sphinx, doctree: nodes.document) -> None:
         if any(mark in node for mark in _SHOWN):
             node.parent.replace(node, nodes.Text(re.sub("|".join(_SHOWN), lambda found: _SHOWN[found[0]], node)))
     for signature in doctree.findall(addnodes.desc_signature):
-        module, name = signature.get("module"), signature.get("fullname", "").partition(".")[0]
-        for prefix in signature.findall(addnodes.desc_addname):
-            if module is not None and not prefix.astext().startswith(name):
-                prefix.children = [nodes.Text(_shown_module(module, name))]
+        module, name = signature.get("module"), signature.get("fullname", "")
+        if module is not None and name and "." not in name:
+            (place,) = [signature.index(child) for child in signature.children if isinstance(child, addnodes.desc_name)]
+            signature.insert(place, addnodes.desc_addname("", _shown_module(module, name)))
     for kind in doctree.findall(addnodes.literal_emphasis):
         for node in list(kind.findall(nodes.Text)):
             node.parent.replace(node, nodes.Text(_MODULE.sub("", node)))
@@ -65,6 +66,31 @@ def _shown_module(module: str, name: str) -> str:
     return "" if isclass(value) and len(rooms) > _PUBLIC else f"{module}."
 
 
+class IndexedNames(SphinxTransform):
+    """Entries of the index with the modules from which names are imported, before the index takes them."""
+
+    default_priority = 800
+
+    def apply(self, **_options: object) -> None:
+        """Write the entries of a page."""
+        for node in self.document.findall(addnodes.index):
+            node["entries"] = [(kind, _in_index(text), *others) for kind, text, *others in node["entries"]]
+
+
+#: how an entry of the index ends that names a module
+_IN_MODULE = re.compile(r"(?P<name>\w+)(?P<call>\(\))? \((?P<what>class )?in (?:module )?(?P<module>optlaws[\w.]*)\)")
+
+
+def _in_index(text: str) -> str:
+    """An entry of the index with the module from which its name is imported, or with none."""
+    found = _IN_MODULE.fullmatch(text)
+    if found is None:
+        return text
+    module = _shown_module(found["module"], found["name"]).rstrip(".")
+    what = ("class in " if found["what"] else "in ") + module if module else "class"
+    return f"{found['name']}{found['call'] or ''} ({what})"
+
+
 #: names of a module within so many are public: optlaws.results, optlaws.errors
 _PUBLIC = 2
 
@@ -74,5 +100,6 @@ def setup(app: Sphinx) -> dict[str, bool]:
     app.setup_extension("sphinx.ext.autodoc")
     app.connect("autodoc-process-docstring", prepare, priority=100)
     app.connect("autodoc-process-signature", prepare_signature)
+    app.add_transform(IndexedNames)
     app.connect("doctree-read", finish)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
