@@ -16,7 +16,16 @@ import msgspec
 from optlaws.echo import cut
 from optlaws.errors import InputError, OptlawsError
 from optlaws.explorer import downloads, start
-from optlaws.explorer.views import axes_view, cam_view, cycle_view, front_view, law_view, machine_view, study_view
+from optlaws.explorer.views import (
+    axes_view,
+    cam_view,
+    cycle_view,
+    fastest_view,
+    front_view,
+    law_view,
+    machine_view,
+    study_view,
+)
 from optlaws.explorer.views.requests import Question, read, ready
 from optlaws.jobs.cam_entries import CamProblemFile
 from optlaws.jobs.cycle_entries import CycleProblemFile
@@ -31,6 +40,7 @@ QUESTIONS: dict[str, Question] = {
     **start.QUESTIONS,
     **axes_view.QUESTIONS,
     **machine_view.QUESTIONS,
+    **fastest_view.QUESTIONS,
     **downloads.QUESTIONS,
 }
 #: by a view's name in the page: the study that it shows where none was given
@@ -40,6 +50,7 @@ EXAMPLES: dict[str, Callable[[], dict[str, Any]]] = {
     "study": study_view.example,
     "axes": axes_view.example,
     "machine": machine_view.example,
+    "fastest": fastest_view.example,
 }
 OK, UNREADABLE, FAULT = 200, 422, 500
 #: bytes that a process may take for its data, where the system can limit it

@@ -16,7 +16,7 @@ from optlaws import Cycle, Drive, Mechanism, Problem, Solution
 from optlaws.cams.curves import cam_files
 from optlaws.cams.curves.file_options import Cutting
 from optlaws.errors import InputError
-from optlaws.explorer.views import cam_view, cycle_view
+from optlaws.explorer.views import cam_view, cycle_view, fastest_view
 from optlaws.explorer.views.law_view import digits, title
 from optlaws.explorer.views.requests import MOST_LAWS, LawRequest, Question, law_of, problem_of, solved
 from optlaws.explorer.views.study_view import StudyRequest
@@ -59,9 +59,10 @@ class FileRequest(SeenRequest, kw_only=True, forbid_unknown_fields=True):
     """A file of what is seen."""
 
     kind: Literal["python", "problem", "law", "table", "cut"]
-    view: Literal["laws", "cycle", "cam", "machine", "study"] = "laws"
+    view: Literal["laws", "cycle", "cam", "machine", "fastest", "study"] = "laws"
     cam: cam_view.CamRequest | None = None
     machine: cycle_view.CycleRequest | None = None
+    fastest: fastest_view.FastestRequest | None = None
     study: StudyRequest | None = None
     format: Annotated[str, msgspec.Meta(max_length=40)] = "dxf spline"
 
@@ -70,6 +71,8 @@ def answer(request: FileRequest) -> File:
     """A file: its name, its type, its text."""
     if request.view in ("cycle", "machine"):
         return _of_cycle(request, request.cycle if request.view == "cycle" else request.machine)
+    if request.view == "fastest":
+        return _of_fastest(request)
     if request.view == "cam":
         return _of_cam(request)
     if request.view == "study" and request.kind == "problem":
@@ -221,6 +224,17 @@ def _of_cycle(request: FileRequest, shown: cycle_view.CycleRequest | None) -> Fi
         free = msgspec.structs.replace(axis, follower=None)
         return _file("cycle.py", "text/x-python", cycle_python(cycle_of(free, spec.speed, spec.period), axis.follower))
     raise InputError("a cycle has several laws: save it as a problem file or a table")
+
+
+def _of_fastest(request: FileRequest) -> File:
+    if request.fastest is None:
+        raise InputError("there is no move to save")
+    if request.kind == "problem":
+        return _file("fastest.toml", "application/toml", to_toml(request.fastest.study))
+    if request.kind == "law":
+        move = fastest_view.fastest_of(request.fastest)
+        return _file("fastest.json", "application/json", json.dumps({"about": MARK, **move.to_dict()}, indent=1) + "\n")
+    raise InputError("a least time is saved as a problem file, or as a law with its proof")
 
 
 def _of_cam(request: FileRequest) -> File:

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from tests.explorer.talk import OPTIMAL, Server
-from tests.internals.explorer import QUESTIONS, axes_view, cam_view, example, machine_view, study_view
+from tests.internals.explorer import QUESTIONS, axes_view, cam_view, example, fastest_view, machine_view, study_view
 
 CYCLE = {"study": example()}
 CAM = {"study": cam_view.example()}
@@ -31,6 +31,8 @@ SEEDS: dict[str, list[Any]] = {
     "cam": [CAM],
     "cam-loads": [{"study": cam_view.example() | {"forces": {"width": "20 mm"}}}],
     "cam-sizes": [CAM],
+    "fastest": [{"study": fastest_view.example(), "time": 0.36}],
+    "fastest-front": [{"study": fastest_view.example()}],
     "machine": [MACHINE],
     "machine-limits": [MACHINE],
     "machine-ratios": [MACHINE | {"low": 5.0, "high": 20.0}],

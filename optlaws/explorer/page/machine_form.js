@@ -1,9 +1,9 @@
 // The machine as fields: its kind, its lengths, bodies and loads, its gear and its motor.
 
-import { flat, put, read, valueOf } from "./entries.js";
+import { flat } from "./entries.js";
+import { EntryFields } from "./entry_fields.js";
 import { group, slider } from "./fields.js";
 import { html, renew } from "./svg.js";
-import { object } from "./views.js";
 
 const told = (value) => JSON.stringify(value);
 const NOT_FIELDS = ["kind", "segment", "linkage"];
@@ -37,6 +37,7 @@ export class MachineForm {
   #shape = "";
   #paths = [];
   #shows = [];
+  #fields;
 
   /** `part(state)` is the study that holds the axes; `kinds` are mechanisms with their examples. */
   constructor(root, study, kinds, part) {
@@ -44,6 +45,7 @@ export class MachineForm {
     this.#study = study;
     this.#kinds = kinds;
     this.#part = part;
+    this.#fields = new EntryFields((what, alter) => this.change(what, alter), () => study.rest());
   }
 
   show(state) {
@@ -55,6 +57,7 @@ export class MachineForm {
     if (shape !== this.#shape || paths.some((path) => !this.#paths.includes(path))) this.#build(kind, axis, paths);
     this.#shape = shape;
     for (const show of this.#shows) show(axis);
+    this.#fields.show(axis);
   }
 
   /** Change the mechanism and the drive of all axes of the machine. */
@@ -67,6 +70,7 @@ export class MachineForm {
 
   #build(kind, axis, paths) {
     this.#shows = [];
+    this.#fields.clear();
     const known = this.#kinds[kind] ?? { mechanism: {}, other: {} };
     const usual = Object.fromEntries(flat(known.mechanism).map(([path, text]) => [told(path), text]));
     const other = Object.fromEntries(Object.entries(known.other).map(([name, text]) => [told(name.split(".")), text]));
@@ -122,20 +126,6 @@ export class MachineForm {
   }
 
   #field(part, path, placeholder) {
-    const name = path.join(" ").replaceAll("_", " ");
-    const field = html("input", { type: "text", placeholder, spellcheck: "false", maxlength: 400, "aria-label": `${part} ${name}` });
-    field.addEventListener("input", () => this.change(`${part} ${name}`, (axis) => {
-      if (!object(axis[part])) axis[part] = {};
-      const text = field.value.trim();
-      const motor = part === "drive" && path.at(-1) === "curve";
-      if (motor && text && !Array.isArray(valueOf(text))) return;
-      put(axis[part], path, text);
-    }));
-    field.addEventListener("change", () => this.#study.rest());
-    this.#shows.push((axis) => {
-      const value = read(axis[part] ?? {}, path);
-      if (document.activeElement !== field || field.value.trim() !== value) field.value = value;
-    });
-    return html("label", { class: "entry" }, html("span", { class: "field-name", text: short(path), title: name }), field);
+    return this.#fields.field([part, ...path], placeholder, short(path), `${part} ${path.join(" ").replaceAll("_", " ")}`);
   }
 }

@@ -64,7 +64,7 @@ export class Panel {
     this.#cursor.replaceChildren();
     const x = value === null ? NaN : this.#x(value);
     if (!(x >= this.#box.left - 0.5 && x <= this.#box.right + 0.5)) return "";
-    const found = this.#series.map((one) => ({ ...one, ...between(one, value) })).filter(({ reading }) => reading !== null);
+    const found = this.#series.filter(({ law }) => typeof law === "number").map((one) => ({ ...one, ...between(one, value) })).filter(({ reading }) => reading !== null);
     this.#cursor.append(svg("line", { class: "cursor", x1: x.toFixed(1), x2: x.toFixed(1), y1: this.#box.top, y2: this.#box.bottom }));
     for (const { law, reading } of found) this.#cursor.append(svg("circle", { class: `point law-${law}`, cx: x.toFixed(1), cy: this.#y(reading).toFixed(1), r: 3 }));
     const own = found.find((one) => one.law === this.#active.law);

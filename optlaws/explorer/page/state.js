@@ -22,7 +22,7 @@ export const FIRST = {
 
 /** What a link may hold, and whether the page can show it; the server says what else is wrong with it. */
 const WHOLE = { controller: object, ...Object.fromEntries(Object.entries(VIEWS).filter(([, { whole }]) => whole).map(([name, { whole }]) => [name, whole])) };
-const KNOWN = ["name", "notes", "view", "active", "picture", "machinePicture", "axis", "row", "plane", "frequency", "damping", ...Object.keys(WHOLE)];
+const KNOWN = ["name", "notes", "view", "active", "picture", "machinePicture", "move", "time", "axis", "row", "plane", "frequency", "damping", ...Object.keys(WHOLE)];
 
 const same = (one, other) => JSON.stringify(one) === JSON.stringify(other);
 

@@ -30,5 +30,10 @@ export const VIEWS = {
     whole: (value) => object(value) && Array.isArray(value.axis) && value.axis.length > 0 && value.axis.every(motion),
     load: () => import("./views/machine.js"),
   },
+  fastest: {
+    title: "Fastest",
+    whole: (value) => object(value) && ((Array.isArray(value.move) && value.move.length > 0 && value.move.every(object)) || (Array.isArray(value.axis) && value.axis.length > 0 && value.axis.every(motion))),
+    load: () => import("./views/fastest.js"),
+  },
   study: { title: "Study", whole: object, load: () => import("./views/study.js") },
 };

@@ -127,7 +127,7 @@ def _degrees(shown: Cycle, time: float) -> float:
     return round(_TURN * time / shown.duration, 4)
 
 
-def _limits(shown: Cycle) -> list[dict[int, tuple[float, float]]]:
+def limits_of(shown: Cycle) -> list[dict[int, tuple[float, float]]]:
     """The least and greatest values that each segment must keep: its own limits and those of the axis, by order."""
     whole = read_limits(shown.limits, shown.axis, "limits")
     return [both_sides(limits_of_segment(stretch, whole, shown.axis)) for stretch in shown.programme.stretches]
@@ -147,7 +147,7 @@ def _panel(shown: Cycle, nu: int) -> dict[str, Any]:
             "value": bounded(limit[nu][1] * factor),
             "least": bounded(limit[nu][0] * factor),
         }
-        for peak, limit in zip(shown.peaks, _limits(shown), strict=True)
+        for peak, limit in zip(shown.peaks, limits_of(shown), strict=True)
         if nu in limit
     ]
     name = QUANTITIES[nu]
@@ -168,7 +168,7 @@ def _peaks(shown: Cycle, nu: int) -> list[dict[str, Any]]:
 
 def _segments(shown: Cycle) -> Iterator[dict[str, Any]]:
     units = UNITS[shown.axis]
-    for peak, limits, stretch in zip(shown.peaks, _limits(shown), shown.programme.stretches, strict=True):
+    for peak, limits, stretch in zip(shown.peaks, limits_of(shown), shown.programme.stretches, strict=True):
         peaks = [
             {
                 "text": _plain(peak.peak(nu) * units[nu][1], shown.peak(nu) * units[nu][1]),
@@ -224,7 +224,7 @@ def broken_limits(shown: Cycle) -> dict[str, str]:
     """A verdict on limits that segments go beyond, which no optimum makes good; nothing where none does."""
     broken = [
         f"{peak.name} ({QUANTITIES[nu]})"
-        for peak, limits in zip(shown.peaks, _limits(shown), strict=True)
+        for peak, limits in zip(shown.peaks, limits_of(shown), strict=True)
         for nu in (1, 2, 3)
         if _beyond(peak, nu, limits.get(nu, (-inf, inf)))
     ]

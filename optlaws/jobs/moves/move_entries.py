@@ -92,14 +92,7 @@ def sought(spec: FastestProblemFile, file: Path) -> list[SoughtMove]:
 
 def _sought(move: MoveEntries, space: Problem, folder: Path) -> SoughtMove:
     """The least times and the fronts of one move."""
-    given: dict[str, Any] = {"limits": move.limits}
-    given |= {"start_velocity": move.start_velocity, "end_velocity": move.end_velocity}
-    motor = _motor(move, folder)
-    if motor is not None:
-        given |= {"drive": motor, "start": move.start or 0.0}
-    follower = None if move.follower is None else msgspec.structs.asdict(move.follower)
-    if follower is not None and RESIDUAL in move.limits:
-        given["follower"] = follower
+    given = arguments_of(move, folder)
     if not isinstance(move.stroke, str):
         if move.front is not None:
             raise InputError("front: it is that of one stroke: give the strokes to a move of another name")
@@ -107,19 +100,45 @@ def _sought(move: MoveEntries, space: Problem, folder: Path) -> SoughtMove:
     minimise = [] if move.front is None else move.front.minimise
     if len(set(minimise)) < len(minimise):
         raise InputError(f"front: minimise names one of them twice: {', '.join(minimise)}")
-    if follower is not None and "follower" not in given and RESIDUAL not in minimise:
+    if move.follower is not None and "follower" not in given and RESIDUAL not in minimise:
         raise InputError(f'follower: give a limit or a front of the "{RESIDUAL}", or leave the follower out')
     quickest, fronts = fastest(space, stroke=move.stroke, **given), []
     for name in minimise:
-        machine: dict[str, Any] = {}
-        if name in AT_MOTOR and motor is not None:
-            machine = {"drive": motor, "start": move.start or 0.0}
-        elif name == RESIDUAL:
-            machine = {"follower": follower}
         assert move.front is not None  # noqa: S101 - as it names what is least
         with located("front"):
-            fronts.append(time_front(quickest, name, longest=move.front.longest, points=move.front.points, **machine))
+            fronts.append(front_of(quickest, move, name, given, (move.front.longest, move.front.points)))
     return SoughtMove(move.name, (quickest,), tuple(fronts))
+
+
+def arguments_of(move: MoveEntries, folder: Path) -> dict[str, Any]:
+    """What `fastest` takes of a move beside its laws and its stroke.
+
+    Examples
+    --------
+    >>> arguments_of(MoveEntries(name="slide", stroke="100 mm", limits={"jerk": "300 m/s^3"}), Path())["limits"]
+    {'jerk': '300 m/s^3'}
+    """
+    given: dict[str, Any] = {"limits": move.limits}
+    given |= {"start_velocity": move.start_velocity, "end_velocity": move.end_velocity}
+    motor = _motor(move, folder)
+    if motor is not None:
+        given |= {"drive": motor, "start": move.start or 0.0}
+    if move.follower is not None and RESIDUAL in move.limits:
+        given["follower"] = msgspec.structs.asdict(move.follower)
+    return given
+
+
+def front_of(
+    quickest: FastestMove, move: MoveEntries, minimise: str, given: dict[str, Any], extent: tuple[str | None, int]
+) -> TimeFront:
+    """The front of a move over its time, to the longest time with so many points; `given` are its `arguments_of`."""
+    machine: dict[str, Any] = {}
+    if minimise in AT_MOTOR and "drive" in given:
+        machine = {"drive": given["drive"], "start": given["start"]}
+    elif minimise == RESIDUAL:
+        machine = {"follower": None if move.follower is None else msgspec.structs.asdict(move.follower)}
+    longest, points = extent
+    return time_front(quickest, minimise, longest=longest, points=points, **machine)
 
 
 def _motor(move: MoveEntries, folder: Path) -> Drive | None:

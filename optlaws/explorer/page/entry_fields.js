@@ -1,0 +1,39 @@
+// Fields of the entries of a table, by their paths: what is written goes into the study, a blank one takes an entry away.
+
+import { put, read } from "./entries.js";
+import { localised, plain } from "./language.js";
+import { html } from "./svg.js";
+
+export class EntryFields {
+  #change;
+  #rested;
+  #shows = [];
+
+  /** `change(what, alter)` changes the table, `rested()` ends a step. */
+  constructor(change, rested) {
+    this.#change = change;
+    this.#rested = rested;
+  }
+
+  /** Forget the fields: others are made. */
+  clear() {
+    this.#shows = [];
+  }
+
+  /** A field of the entry at a path; `about` is what a reader of the screen hears. */
+  field(path, placeholder, name, about) {
+    const field = html("input", { type: "text", placeholder, spellcheck: "false", maxlength: 400, "aria-label": about });
+    field.addEventListener("input", () => this.#change(about, (table) => put(table, path, plain(field.value.trim()))));
+    field.addEventListener("change", () => this.#rested());
+    this.#shows.push((table) => {
+      const value = localised(read(table, path));
+      if (document.activeElement !== field || field.value.trim() !== value) field.value = value;
+    });
+    return html("label", { class: "entry" }, html("span", { class: "field-name", text: name, title: about }), field);
+  }
+
+  /** Show what a table holds. */
+  show(table) {
+    for (const show of this.#shows) show(table);
+  }
+}

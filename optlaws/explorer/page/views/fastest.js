@@ -1,0 +1,288 @@
+// The view of least times: moves or a cycle with their limits on the left; the time that is given, from the proven least
+// on, and the front of what is least in it, in the middle; on the right the motion, drawn by the limit that is nearest.
+
+import { Chart, spanOf } from "../chart.js";
+import { EntryFields } from "../entry_fields.js";
+import { flat } from "../entries.js";
+import { group } from "../fields.js";
+import { Latest } from "../latest.js";
+import { Panels } from "../panels.js";
+import { Programme } from "../programme.js";
+import { Strip } from "../strip.js";
+import { html, renew, svg } from "../svg.js";
+import { showTrust, unanswered } from "../trust.js";
+
+const told = (value) => JSON.stringify(value);
+const word = (value, digits = 5) => String(Number(value.toPrecision(digits))).replace("-", "−");
+const LIMITS = { velocity: "1 m/s", acceleration: "12 m/s^2", deceleration: "8 m/s^2", jerk: "300 m/s^3", snap: "20000 m/s^4" };
+const AT_MOTOR = { torque: "4 N m", "rms torque": "2 N m" };
+const MOVE = { stroke: "100 mm", start_velocity: "none, or 0.2 m/s", end_velocity: "none, or 0.2 m/s", start: "none, or 0 deg" };
+const SPACE = { order: "3", degree: "9", monotone: "false" };
+const FOLLOWER = { frequency: "none, or 13 Hz, 15 Hz", damping: "none, or 0.02" };
+const LONGEST = 2; // times the least, where a front has no end of its own
+const FINEST = 1e-4; // s
+const FILES = [
+  { kind: "problem", text: "Problem file (TOML)", about: "For optlaws run" },
+  { kind: "law", text: "Least time with its proof (JSON)", about: "For optlaws verify" },
+];
+
+export class View {
+  files = FILES;
+  drawings = "#fastest-curves svg";
+  #study;
+  #state = null;
+  #at;
+  #fields;
+  #built = "";
+  #paths = [];
+  #programme;
+  #panels;
+  #chart;
+  #answers;
+  #fronts;
+  #answer = null;
+  #front = null;
+  #asked = null;
+
+  constructor(root, study) {
+    this.#study = study;
+    this.#at = layout(root);
+    this.#fields = new EntryFields((what, alter) => this.#change(what, alter), () => study.rest());
+    this.#programme = new Programme(this.#at.programme, study, (state) => state.fastest);
+    this.#panels = new Panels(this.#at.curves, { strip: new Strip({ chosen: () => {} }) });
+    this.#chart = new Chart(this.#at.chart, (_, value) => (value === null ? study.rest() : this.#give(value / 1000)));
+    this.#answers = new Latest("api/fastest", (answer) => this.#answered(answer), (error) => this.#answered(unanswered(error)));
+    this.#fronts = new Latest("api/fastest-front", (front, question) => told(question) === told(this.#asked) && this.#swept(front), (error) => this.#swept({ points: [], words: error.message }));
+    this.#timing();
+  }
+
+  /** The part of a study that files are made of. */
+  saved({ fastest, move = 0, time }) {
+    return { fastest: { study: fastest, move, ...(time > 0 && { time }) } };
+  }
+
+  show(state) {
+    this.#state = state;
+    const { fastest: study } = state;
+    const cycle = Array.isArray(study.axis);
+    this.#at.form.hidden = cycle;
+    this.#at.programme.hidden = !cycle;
+    if (cycle) this.#programme.show(state);
+    else this.#form(study, this.#entries(state));
+    const question = { study, move: cycle ? state.axis : this.#number(state) };
+    this.#answers.ask({ ...question, ...(state.time > 0 && { time: state.time }) });
+    if (told(question) !== told(this.#asked)) {
+      this.#asked = question;
+      this.#front = null;
+      this.#fronts.ask(question);
+    }
+    this.#draw();
+  }
+
+  #number({ fastest, move }) {
+    return Number.isInteger(move) && move >= 0 && move < fastest.move.length ? move : 0;
+  }
+
+  #entries(state) {
+    return state.fastest.move[this.#number(state)];
+  }
+
+  /** Change the move that is shown and the laws of all. */
+  #change(what, alter) {
+    this.#study.change(what, (state) => {
+      const table = { ...this.#entries(state), problem: state.fastest.problem ?? {} };
+      alter(table);
+      const { problem, ...move } = table;
+      if (Object.keys(problem ?? {}).length) state.fastest.problem = problem;
+      else delete state.fastest.problem;
+      move.limits ??= {};
+      state.fastest.move[this.#number(state)] = move;
+    });
+  }
+
+  #form(study, move) {
+    const machine = flat({ mechanism: move.mechanism ?? {}, drive: move.drive ?? {} }).map(([path]) => told(path));
+    const shape = told([study.move.map(({ name }) => name), Boolean(move.drive), this.#number(this.#state)]);
+    if (shape !== this.#built || machine.some((path) => !this.#paths.includes(path))) {
+      this.#built = shape;
+      this.#paths = machine;
+      this.#build(study, move, machine.map((path) => JSON.parse(path)));
+    }
+    this.#fields.show({ ...move, problem: study.problem ?? {} });
+  }
+
+  #build(study, move, machine) {
+    this.#fields.clear();
+    const several = html("select", { "aria-label": "move" }, ...study.move.map(({ name }, i) => html("option", { value: i, text: name })));
+    several.value = this.#number(this.#state);
+    several.addEventListener("change", () => this.#study.change("move", (state) => {
+      state.move = Number(several.value);
+      delete state.time;
+    }));
+    const rows = (entries, before = []) => Object.entries(entries).map(([name, text]) => this.#fields.field([...before, name], text, name.replaceAll("_", " "), [...before, name].join(" ").replaceAll("_", " ")));
+    const limits = { ...LIMITS, ...(move.drive && AT_MOTOR), ...(move.follower && { "residual acceleration": "0.5 m/s^2" }) };
+    const of = (part) => machine.filter(([first]) => first === part).map((path) => this.#fields.field(path, "", path.slice(1).join(" ").replaceAll("_", " "), path.join(" ").replaceAll("_", " ")));
+    const groups = [
+      group("Move", several, ...rows(MOVE)),
+      group("At most", ...rows(Object.fromEntries(Object.entries(limits).map(([name, text]) => [name, `none, or ${text}`])), ["limits"])),
+      group("Laws", ...rows(SPACE, ["problem"])),
+      ...(machine.length ? [group("Mechanism", ...of("mechanism")), group("Drive", ...of("drive"))] : []),
+      group("What vibrates", ...rows(FOLLOWER, ["follower"])),
+      group("Front", ...rows({ longest: "none, or 0.5 s" }, ["front"])),
+    ];
+    renew(this.#at.form, ...groups);
+  }
+
+  // --- the time that is given ---
+
+  /** Give the motion a time; the least is given by none. */
+  #give(time) {
+    const least = this.#answer?.least?.time ?? 0;
+    this.#study.change("time", (state) => {
+      if (time > least * (1 + 1e-6)) state.time = Number(time.toPrecision(7));
+      else delete state.time;
+    });
+  }
+
+  /** One slider of the time, whose stop is the proven least, and beside it the time and the speed as numbers. */
+  #timing() {
+    const slide = html("input", { type: "range", min: 0, max: 1000, step: 1, "aria-label": "Time of the motion" });
+    const number = (title, of) => {
+      const field = html("input", { type: "number", min: 0, step: "any", "aria-label": title });
+      field.addEventListener("change", () => Number(field.value) > 0 && this.#give(of(Number(field.value))));
+      return field;
+    };
+    const time = number("Time of the motion, ms", (value) => value / 1000);
+    const speed = number("Motions a minute", (value) => 60 / value);
+    const stop = html("button", { type: "button", text: "least", title: "The proven least time", onclick: () => this.#give(0) });
+    slide.addEventListener("input", () => {
+      const [least, longest] = this.#reach();
+      this.#give(least * (longest / least) ** (Number(slide.value) / 1000));
+    });
+    slide.addEventListener("change", () => this.#study.rest());
+    this.#at.timing.replaceChildren(stop, slide, html("label", {}, time, " ms"), html("label", {}, speed, " / min"));
+    this.#at.showTime = () => {
+      const [least, longest] = this.#reach();
+      const now = this.#answer?.time ?? least;
+      slide.value = Math.round((1000 * Math.log(now / least)) / Math.log(longest / least)) || 0;
+      slide.setAttribute("aria-valuetext", `${word(1000 * now)} ms, ${word(60 / now)} a minute; the least is ${this.#answer?.least?.text ?? ""} ms`);
+      if (document.activeElement !== time) time.value = Number((1000 * now).toPrecision(7));
+      if (document.activeElement !== speed) speed.value = Number((60 / now).toPrecision(7));
+    };
+  }
+
+  /** The least time and the longest that is shown, s. */
+  #reach() {
+    const least = this.#answer?.least?.time ?? 1;
+    const last = this.#front?.points?.at(-1)?.[0] ?? 0;
+    const now = this.#answer?.time ?? least;
+    return [least, Math.max(last > least ? last : LONGEST * least, now)];
+  }
+
+  #answered(answer) {
+    this.#answer = answer;
+    showTrust(this.#at.trust, answer, [], () => {});
+    this.#draw();
+  }
+
+  #swept(front) {
+    this.#front = front;
+    this.#draw();
+  }
+
+  #draw() {
+    const answer = this.#answer;
+    if (!answer) return;
+    this.#panels.show(answer);
+    this.#at.table.replaceChildren(...(answer.refused ? [] : [table(answer)]));
+    this.#at.legend.replaceChildren(...(answer.refused ? [] : legend(answer)));
+    this.#at.timing.hidden = Boolean(answer.refused);
+    this.#at.words.textContent = answer.refused ? "" : [answer.note, this.#front?.words ?? "computing …"].filter(Boolean).join(" · ");
+    this.#at.objective.replaceChildren(...this.#objective());
+    this.#chart.show(answer.refused || !this.#front?.points?.length ? null : this.#picture());
+    if (!answer.refused) this.#at.showTime();
+  }
+
+  #objective() {
+    const { objectives = [], minimise } = this.#answer;
+    if (!objectives.length) return [];
+    const choose = html("select", { "aria-label": "what is least in longer times" }, ...(minimise ? [] : [html("option", { value: "", text: "nothing" })]), ...objectives.map((value) => html("option", { value, text: `least ${value}` })));
+    choose.value = minimise ?? "";
+    choose.addEventListener("change", () => this.#change("objective", (move) => {
+      const others = (move.front?.minimise ?? []).filter((name) => name !== choose.value);
+      move.front = { ...move.front, minimise: [choose.value, ...others].slice(0, 6) };
+    }));
+    return [choose];
+  }
+
+  /** The front over the time, with the times that no law and no law of this space beats. */
+  #picture() {
+    const { least, time, rows, minimise } = this.#answer;
+    const { points, name, unit, proven } = this.#front;
+    const known = points.filter(([, value]) => value !== null);
+    const values = known.map(([, value]) => value);
+    const [from, to] = this.#reach();
+    const first = least.limit === null ? from : Math.min(from, least.limit);
+    const x = { name: "time, ms", range: [1000 * (first - 0.06 * (to - first)), 1000 * (to + 0.02 * (to - first))] };
+    const y = { name: `${name}, ${unit}`, range: spanOf([...values, 0]) };
+    const top = y.range[1];
+    const value = this.#valueAt(known, time);
+    const lines = [
+      { name: "limit", title: `no law of the space has a lower ${name}`, points: known.filter(([, , bound]) => bound !== null).map(([at, , bound]) => [1000 * at, bound]) },
+      { name: proven ? "front" : "front local", title: `least ${name}`, points: known.map(([at, one]) => [1000 * at, one]) },
+      { name: "stop", title: "the proven least time", points: [[1000 * from, y.range[0]], [1000 * from, top]] },
+      ...(least.limit === null ? [] : [{ name: "limit", title: "no law of any degree is faster", points: [[1000 * least.limit, y.range[0]], [1000 * least.limit, top]] }]),
+    ];
+    const labels = [{ at: [1000 * from, top], text: "proven least time", up: -4 }, ...(least.limit === null || from - least.limit < 0.09 * (to - first) ? [] : [{ at: [1000 * least.limit, top], text: "no law", up: -4 }])].map((one) => ({ ...one, at: [one.at[0] + 0.008 * (x.range[1] - x.range[0]), one.at[1]] }));
+    const here = rows.find((row) => row.name === minimise)?.text ?? word(value);
+    return {
+      x, y, lines, labels,
+      marks: known.map(([at, one]) => ({ at: [1000 * at, one], name: "front-point", title: `${word(1000 * at)} ms: ${word(one)} ${unit}` })),
+      handles: [{ key: "time", at: [1000 * time, value], along: "x", low: 1000 * from, high: 1000 * LONGEST * to, step: 1000 * FINEST, label: "Time of the motion", text: `${word(1000 * time)} ms, ${name} ${here} ${unit}`, name: "law-0" }],
+      told: `${name} over the time: from ${word(values[0] ?? 0)} ${unit} in ${least.text} ms to ${word(values.at(-1) ?? 0)} ${unit} in ${word(1000 * to)} ms; now ${word(1000 * time)} ms`,
+    };
+  }
+
+  /** Where the handle stands: on the line of the front; what is read is the law's own. */
+  #valueAt(points, time) {
+    const i = points.findIndex(([at]) => at >= time);
+    if (i < 0) return points.at(-1)?.[1] ?? 0;
+    if (i === 0) return points[0][1];
+    const [[from, low], [to, high]] = [points[i - 1], points[i]];
+    return low + ((time - from) / (to - from)) * (high - low);
+  }
+}
+
+function layout(root) {
+  const made = { root };
+  const box = (name, attributes, ...children) => (made[name] = html("div", { id: `fastest-${name}`, ...attributes }, ...children));
+  root.setAttribute("aria-label", "Least times");
+  made.words = html("p", { id: "fastest-words", class: "quiet" });
+  root.replaceChildren(
+    html("aside", { id: "fastest-ask", "aria-label": "The motion and its limits" }, box("form", {}), box("programme", { hidden: true })),
+    html(
+      "section", { id: "fastest-middle", "aria-label": "The least time and what longer times save" },
+      box("trust", { class: "panel", role: "status", "aria-live": "polite" }),
+      html("div", { class: "panel" }, box("timing", { class: "timing-of-motion" })),
+      html("div", { class: "panel growing" }, html("div", { class: "panel-head" }, box("objective", {}), made.words), box("chart", { class: "picture" })),
+      box("legend", { class: "panel", role: "group", "aria-label": "Which limit is nearest" }),
+    ),
+    html("section", { id: "fastest-right", "aria-label": "The motion with its limits" }, box("curves", { class: "panel" }), box("table", { class: "panel", tabindex: "0", role: "group", "aria-label": "What is taken of each limit" })),
+  );
+  return made;
+}
+
+/** How the curves are drawn where most is taken of each limit. */
+function legend({ names, shares }) {
+  const items = names.map((name, i) => {
+    const { text, full } = shares[i];
+    return html("span", { class: "limit-key" }, svg("svg", { width: 30, height: 10, "aria-hidden": "true" }, svg("path", { class: `line law-bind-${i}`, d: "M0 5H30" })), ` ${name}: ${text} %${full ? ", binds" : ""}`);
+  });
+  return [html("p", { class: "quiet", text: "The curves are drawn by the limit of which most is taken; above them stands where it is which." }), ...items];
+}
+
+function table({ rows }) {
+  const head = html("tr", {}, ...["", "value", "of the limit"].map((text, i) => html("th", { scope: "col", class: i ? "number" : null, text })));
+  const body = rows.map(({ name, unit, text, use, full }) => html("tr", {}, html("th", { scope: "row", text: unit ? `${name}, ${unit}` : name }), html("td", { class: "number", text }), html("td", { class: `number${full ? " best" : ""}`, text: use === null ? "" : `${use} %${full ? " binds" : ""}` })));
+  return html("table", { "aria-label": "What is taken of each limit" }, html("thead", {}, head), html("tbody", {}, ...body));
+}

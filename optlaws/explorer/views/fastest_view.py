@@ -1,0 +1,563 @@
+"""Least times as the page shows them: the proven least, the law of any longer time, which limit binds at each time."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import lru_cache, partial
+from itertools import groupby
+from math import inf, isfinite, pi
+from pathlib import Path
+from typing import Annotated, Any
+
+import msgspec
+import numpy as np
+
+from optlaws import Cycle, Drive, FastestCycle, FastestMove, MotionLaw, Problem, Solution, Status, fastest
+from optlaws.cycles.moves.fastest_move import AXES
+from optlaws.cycles.summary import drive_rows, objective_unit, peak_rows
+from optlaws.errors import InputError, OptlawsError
+from optlaws.explorer.views import cycle_view
+from optlaws.explorer.views.law_view import TITLES, digits, drawn, gap_text, refusal
+from optlaws.explorer.views.picture_points import refined
+from optlaws.explorer.views.requests import MOST_DEGREE, MOST_ORDER, Question
+from optlaws.files.problem_file import convert
+from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile
+from optlaws.jobs.moves.move_entries import FastestProblemFile, MoveEntries, arguments_of, front_of
+from optlaws.mechanisms.drives.sheet import share_used
+from optlaws.motion.piece import factor, unit_of
+from optlaws.motion.quantities import QUANTITIES, si_number
+from optlaws.numbers import Array, bounded, whole
+from optlaws.plots.cycle import UNITS
+from optlaws.studies.problem_entries import problem
+from optlaws.synthesis.least_time.follower_residual import RESIDUAL
+from optlaws.synthesis.least_time.motor_torque import CURVE_LIMIT
+from optlaws.synthesis.least_time.move_objective import AT_MOTOR, OBJECTIVES
+from optlaws.tolerances import AGREEMENT, LEAST_TIME_GAP
+
+_WHERE = Path("the study")
+_MILLI = 1e3
+_RPM = 30.0 / pi
+_EACH = 60
+_STEPS = 241
+_POINTS = 11
+_CYCLE_POINTS = 6
+_LONGEST = 2.0
+_SLOWER = 1.0001
+_PROVEN, _LOCAL = "proven at every point", "local, with its bound"
+#: a limit is taken to the full from this share of it
+_FULL = 0.999
+
+Seconds = Annotated[float, msgspec.Meta(gt=0.0, le=1e5)]
+
+
+class FastestRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """Moves or cycles as their problem file says them, which is shown, and in what time; the least unless given."""
+
+    study: dict[str, Any]
+    move: Annotated[int, msgspec.Meta(ge=0, le=7)] = 0
+    time: Seconds | None = None
+
+
+def answer(request: FastestRequest) -> dict[str, Any]:
+    """The motion in its time with its limits, or why there is none."""
+    try:
+        if request.study.get("job") == "cycle":
+            return _view_of_cycle(request)
+        return _view_of_move(_read(request), request.time)
+    except OptlawsError as error:
+        return {"refused": refusal(error)}
+
+
+# --- single moves ---
+
+
+@dataclass(frozen=True)
+class _Sought:
+    """A move that is shown: its entries, the space of its laws, and its least time."""
+
+    move: MoveEntries
+    given: dict[str, Any]
+    least: FastestMove
+
+    @property
+    def minimise(self) -> str | None:
+        """What is least in longer times."""
+        return None if self.move.front is None else self.move.front.minimise[0]
+
+    @property
+    def drive(self) -> Drive | None:
+        """The motor, where there is one."""
+        drive: Drive | None = self.given.get("drive")
+        return drive
+
+
+def fastest_of(request: FastestRequest) -> FastestMove:
+    """The least time of the move that is shown, with its proof."""
+    return _read(request).least
+
+
+def _read(request: FastestRequest) -> _Sought:
+    spec = convert(request.study, FastestProblemFile, _WHERE)
+    move = spec.move[min(request.move, len(spec.move) - 1)]
+    if (move.drive or {}).get("motors") is not None:
+        raise InputError("motors: the page reads no catalogue: give the motor as a table, or start with the file")
+    space = {} if spec.problem is None else spec.problem.given()
+    if space.get("bounds"):
+        raise InputError("problem: it gives no limits of its own: limits are those of the move")
+    return _sought(msgspec.json.encode((move, space)))
+
+
+@lru_cache(maxsize=64)
+def _sought(question: bytes) -> _Sought:
+    move, entries = msgspec.json.decode(question, type=tuple[MoveEntries, dict[str, Any]])
+    space: Problem = problem("problem", {"order": 3}, entries)
+    whole(space.order, "order", least=1, most=MOST_ORDER)
+    degree = space.basis.to_dict().get("degree")
+    if isinstance(degree, int):
+        whole(degree, "degree", most=MOST_DEGREE)
+    given = arguments_of(move, _WHERE)
+    return _Sought(move, given, fastest(space, stroke=_stroke(move), **given))
+
+
+def _stroke(move: MoveEntries) -> str:
+    return move.stroke if isinstance(move.stroke, str) else move.stroke[0]
+
+
+@dataclass(frozen=True)
+class _InTime:
+    """The law of a time: the fastest one, or the one of the least objective, with what is proven of it."""
+
+    law: MotionLaw
+    duration: float
+    value: float | None = None
+    lower_bound: float | None = None
+    solution: Solution | None = None
+    unit: str = ""
+
+
+def _in_time(sought: _Sought, time: float | None) -> _InTime:
+    least = sought.least.duration * (1.0 + LEAST_TIME_GAP)
+    if sought.minimise is None or time is None or time <= least * (1.0 + LEAST_TIME_GAP):
+        return _InTime(sought.least.law, sought.least.duration)
+    line = front_of(sought.least, sought.move, sought.minimise, sought.given, (f"{time!r} s", 2))
+    point = line[1]
+    return _InTime(point.law, point.duration, point.value, bounded(point.lower_bound), line.solutions[1], line.unit)
+
+
+def _view_of_move(sought: _Sought, time: float | None) -> dict[str, Any]:
+    least, shown = sought.least, _in_time(sought, time)
+    axis = AXES[least.unit]
+    curves = _Curves(sought, shown)
+    k, columns = curves.sampled
+    times = _MILLI * shown.duration * k
+    shares = curves.shares(k)
+    last = _MILLI * shown.duration
+    panels = [
+        _panel(QUANTITIES[nu], *UNITS[axis][nu], (times, columns[nu], shares), [(0.0, last, *_limits(sought, nu))])
+        for nu in range(4)
+    ]
+    if sought.drive is not None:
+        bars = [(0.0, last, *_torque_limits(sought))]
+        panels.append(_panel("torque", "N m", 1.0, (times, curves.torque(k), shares), bars))
+    return {
+        "across": "time, ms",
+        "symbol": "t, ms",
+        "range": [0.0, _MILLI * shown.duration],
+        "panels": panels,
+        "segments": _stretches(times, shares),
+        "names": list(shares),
+        "shares": _greatest_shares(shares),
+        "rows": list(_rows(sought, shown)),
+        "time": shown.duration,
+        "least": _least(least.duration, least.none_below, least.limit),
+        "objectives": _objectives(sought),
+        "minimise": sought.minimise,
+        "trust": _trust_of_move(sought, shown),
+        "note": "" if isinstance(sought.move.stroke, str) else f"the first of {len(sought.move.stroke)} strokes",
+    }
+
+
+def _least(duration: float, below: float | None, limit: float | None) -> dict[str, Any]:
+    return {
+        "time": duration,
+        "text": digits(_MILLI * duration),
+        "below": None if below is None else digits(_MILLI * below),
+        "limit": limit,
+        "limit_text": None if limit is None else digits(_MILLI * limit),
+    }
+
+
+def _objectives(sought: _Sought) -> list[str]:
+    """What may be least in longer times."""
+    names = [name for name in OBJECTIVES if name not in AT_MOTOR and name != RESIDUAL]
+    names += list(AT_MOTOR) if sought.drive is not None else []
+    return names + ([RESIDUAL] if sought.move.follower is not None else [])
+
+
+class _Curves:
+    """A law in machine units over k, and what it takes of each limit there."""
+
+    def __init__(self, sought: _Sought, shown: _InTime) -> None:
+        self._sought, self._move, self._law = sought, sought.least.least.move, shown.law
+        self._time = shown.duration
+
+    def values(self, k: Array, nu: int) -> Array:
+        """The derivative of order nu in SI units."""
+        return factor(self._move.stroke, self._time, nu) * np.asarray(self._law(k, nu))
+
+    @property
+    def sampled(self) -> tuple[Array, list[Array]]:
+        """Places, and position, velocity, acceleration and jerk there, through their extremes."""
+        k = np.unique(np.concatenate([np.linspace(0.0, 1.0, _STEPS), np.array(self._law.breaks)]))
+        functions = [partial(self.values, nu=nu) for nu in range(4)]
+        extremes = np.array([extreme.k for nu in (1, 2, 3) for extreme in self._law.extrema(nu)])
+        return refined(k, [function(k) for function in functions], functions, extremes)
+
+    def torque(self, k: Array) -> Array:
+        """The torque at the motor."""
+        position = float(si_number(self._sought.given["start"], ("angle",), "start"))
+        x, v, w = (self.values(k, nu) for nu in range(3))
+        assert self._sought.drive is not None  # noqa: S101 - asked of moves with one
+        return np.asarray(self._sought.drive.torque(position + x, v, w))
+
+    def shares(self, k: Array) -> dict[str, Array]:
+        """The share of each limit that is taken at each place, 0 to 1."""
+        taken = {}
+        for limit in self._move.rates:
+            rates = self.values(k, limit.nu) / (limit.rate * self._move.stroke)
+            one_sided = limit.nu == 2 and not self._move.limits.symmetric
+            sign = -1.0 if limit.name == "deceleration" else 1.0
+            taken[limit.name] = np.maximum(sign * rates, 0.0) if one_sided else np.abs(rates)
+        torque, drive = self._move.torque, self._sought.drive
+        if drive is not None and torque is not None:
+            size = np.abs(self.torque(k))
+            if torque.peak is not None:
+                taken["torque"] = size / torque.peak
+            if torque.curve:
+                taken[CURVE_LIMIT] = share_used(size, drive.motor.peak_at(drive.ratio * self.values(k, 1)))
+        return taken
+
+
+def _limits(sought: _Sought, nu: int) -> tuple[float, float]:
+    """The least and the greatest value that a derivative may have."""
+    limits = sought.least.least.move.limits
+    low, high = {
+        1: (limits.velocity, limits.velocity),
+        2: (limits.deceleration, limits.acceleration),
+        3: (limits.jerk, limits.jerk),
+    }.get(nu, (None, None))
+    return -inf if low is None else -low, inf if high is None else high
+
+
+def _torque_limits(sought: _Sought) -> tuple[float, float]:
+    """The peak torque on both sides."""
+    torque = sought.least.least.move.torque
+    most = None if torque is None else torque.peak
+    return (-inf, inf) if most is None else (-most, most)
+
+
+#: a limit over a stretch of time: where it begins and ends, ms, and the least and the greatest value in SI units
+_Bar = tuple[float, float, float, float]
+
+
+def _panel(
+    name: str, unit: str, size: float, course: tuple[Array, Array, dict[str, Array]], limits: Sequence[_Bar]
+) -> dict[str, Any]:
+    """A curve in parts, each of the limit of which most is taken there, with the limits that it must keep."""
+    times, values, shares = course
+    bars = [
+        {"from": start, "to": stop, "least": bounded(size * low), "value": bounded(size * high)}
+        for start, stop, low, high in limits
+        if isfinite(low) or isfinite(high)
+    ]
+    return {
+        "name": name,
+        "unit": unit,
+        "series": _parts(times, size * values, shares),
+        "limits": bars,
+        "peaks": _peaks(times, size * values),
+    }
+
+
+def _peaks(times: Array, values: Array) -> list[dict[str, Any]]:
+    places = {int(np.argmin(values)), int(np.argmax(values))}
+    size = float(np.abs(values).max())
+    return [
+        {"at": round(float(times[i]), 4), "value": float(values[i]), "text": digits(float(values[i]), 6)}
+        for i in sorted(places)
+        if abs(values[i]) > AGREEMENT * size
+    ]
+
+
+def _nearest(shares: dict[str, Array], count: int) -> Array:
+    """The number of the limit of which most is taken, at each place."""
+    return np.argmax(np.array(list(shares.values())), axis=0) if shares else np.zeros(count, dtype=int)
+
+
+def _runs(numbers: Array) -> Iterator[tuple[int, int, int]]:
+    """Stretches of one number: it, the first place, and the place at which the next begins."""
+    start = 0
+    for number, places in groupby(numbers.tolist()):
+        stop = start + len(list(places))
+        yield number, start, stop
+        start = stop
+
+
+def _parts(times: Array, values: Array, shares: dict[str, Array]) -> list[dict[str, Any]]:
+    """The curve, and a series of it for each limit, which is drawn where most is taken of that one."""
+    names, number = list(shares), _nearest(shares, len(times))
+    parts: dict[int, tuple[list[Any], list[Any]]] = {i: ([], []) for i in range(max(1, len(names)))}
+    for i, start, stop in _runs(number):
+        places, heights = parts[i]
+        # on to the first place of the next, so that the curve is whole
+        places += [*drawn(times[start : stop + 1], 4), round(float(times[min(stop, len(times) - 1)]), 4)]
+        heights += [*drawn(values[start : stop + 1]), None]
+    limited = [
+        {"law": f"bind-{i}", "name": names[i], "at": at, "values": heights}
+        for i, (at, heights) in parts.items()
+        if at and names
+    ]
+    return [{"law": 0, "at": drawn(times, 4), "values": drawn(values)}, *limited]
+
+
+def _stretches(times: Array, shares: dict[str, Array]) -> list[dict[str, Any]]:
+    """What limits at each time: stretches with the limit of which most is taken, and whether all of it is."""
+    names, number = list(shares), _nearest(shares, len(times))
+    stretches = []
+    for i, start, stop in _runs(number) if names else ():
+        most = float(shares[names[i]][start:stop].max())
+        ends = [round(float(times[start]), 4), round(float(times[min(stop, len(times) - 1)]), 4)]
+        stretches.append({"name": names[i] if most else "rest", "at": ends, "law": i, "full": most >= _FULL})
+    return stretches
+
+
+def _greatest_shares(shares: dict[str, Array]) -> list[dict[str, Any]]:
+    return [
+        {"name": name, "text": digits(100.0 * float(values.max()), 4), "full": bool(values.max() >= _FULL)}
+        for name, values in shares.items()
+    ]
+
+
+def _rows(sought: _Sought, shown: _InTime) -> Iterator[dict[str, Any]]:
+    """What the law takes of each limit, and what the motor gives."""
+    least, move = sought.least, sought.least.least.move
+    axis = AXES[least.unit]
+    orders = {limit.name: limit.nu for limit in move.rates}
+    left = None if move.residual is None else move.residual.most
+    most: dict[str, tuple[float | None, str]] = {RESIDUAL: (left, unit_of(axis, 2))}
+    if move.torque is not None:
+        most |= {"torque": (move.torque.peak, "N m"), "rms torque": (move.torque.rms, "N m")}
+    for limit in move.limits_in(shown.duration):
+        share = limit.constant.value(shown.law) / limit.bound
+        if limit.name in orders:
+            nu = orders[limit.name]
+            peak = limit.constant.value(shown.law) * factor(least.stroke, shown.duration, nu)
+            yield _row(limit.name, peak, unit_of(axis, nu), share)
+        else:
+            value, unit = most.get(limit.name, (None, ""))
+            yield _row(limit.name, share if value is None else share * value, unit if value is not None else "", share)
+    if sought.drive is not None:
+        sheet = sought.drive.sheet(shown.law, sought.given["start"], _stroke(sought.move), f"{shown.duration!r} s")
+        limited = {limit.name for limit in move.limits_in(shown.duration)}
+        torques = {"torque": sheet.peak_torque, "rms torque": sheet.rms_torque}
+        yield from (_row(name, value, "N m", None) for name, value in torques.items() if name not in limited)
+        yield _row("speed of the motor", sheet.peak_speed * _RPM, "rpm", None)
+
+
+def _row(name: str, value: float, unit: str, share: float | None) -> dict[str, Any]:
+    use = None if share is None else digits(100.0 * share, 4)
+    full = share is not None and share >= _FULL
+    return {"name": name, "unit": unit, "text": digits(value, 6), "use": use, "full": full}
+
+
+def _trust_of_move(sought: _Sought, shown: _InTime) -> dict[str, Any]:
+    least = sought.least
+    facts = [
+        f"least time {digits(_MILLI * least.duration)} ms",
+        f"proven: no law of this space in {digits(_MILLI * least.none_below)} ms or less",
+    ]
+    if least.limit is not None:
+        facts.append(f"no law of any degree in less than {digits(_MILLI * least.limit)} ms")
+    if shown.solution is None:
+        status, gap = least.status, gap_text(least.gap)
+        advice = "No law of this order and degree is faster within the limits."
+        advice = advice if status is Status.OPTIMAL else status.advice
+        facts += least.notes
+    else:
+        status, gap = shown.solution.status, gap_text(shown.solution.gap)
+        facts.insert(0, f"least {sought.minimise} in this time {digits(shown.value or 0.0)} {shown.unit}")
+        if shown.lower_bound is not None:
+            facts.insert(1, f"none below {digits(shown.lower_bound)} {shown.unit}")
+        advice = status.advice
+    return {"status": status.value, "word": TITLES[status], "advice": advice, "gap": gap, "facts": facts}
+
+
+def front(request: FastestRequest) -> dict[str, Any]:
+    """What is least over the time, from the proven least time on, with what no law of the space is below."""
+    if request.study.get("job") == "cycle":
+        return _front_of_cycle(request)
+    sought = _read(request)
+    if sought.minimise is None:
+        return {"points": [], "words": "choose what is to be least in longer times"}
+    extent = None if sought.move.front is None else sought.move.front.longest
+    line = front_of(sought.least, sought.move, sought.minimise, sought.given, (extent, _POINTS))
+    proven = line.status is Status.OPTIMAL
+    return {
+        "points": [[point.duration, point.value, bounded(point.lower_bound)] for point in line],
+        "name": line.minimise,
+        "unit": line.unit,
+        "proven": proven,
+        "words": f"least {line.minimise} in each time: {_PROVEN if proven else _LOCAL}",
+    }
+
+
+# --- whole cycles ---
+
+
+def _axis(request: FastestRequest) -> tuple[CycleProblemFile, AxisEntries]:
+    spec, axis = cycle_view.read(cycle_view.CycleRequest(study=request.study, axis=request.move))
+    return spec, axis
+
+
+@lru_cache(maxsize=32)
+def _fastest_cycle(question: bytes) -> FastestCycle:
+    spec, axis = msgspec.json.decode(question, type=tuple[CycleProblemFile, AxisEntries])
+    return cycle_view.stored(spec, axis).fastest()
+
+
+def _cycle_in_time(spec: CycleProblemFile, axis: AxisEntries, quickest: FastestCycle, time: float | None) -> Cycle:
+    """The cycle at its greatest speed, or in a longer period, where the laws of its objective are looked for again."""
+    if time is None or time <= quickest.period * (1.0 + AGREEMENT):
+        cycle: Cycle = quickest.cycle
+        return cycle
+    return cycle_view.stored(msgspec.structs.replace(spec, speed=None, period=f"{time!r} s"), axis)
+
+
+def _view_of_cycle(request: FastestRequest) -> dict[str, Any]:
+    spec, axis = _axis(request)
+    quickest = _fastest_cycle(msgspec.json.encode((spec, axis)))
+    shown = _cycle_in_time(spec, axis, quickest, request.time)
+    edges = cycle_view.limits_of(shown)
+    times = np.unique(np.concatenate([np.linspace(p.start, p.stop, _EACH) for p in shown.pieces]))
+    places = np.array([time for peak in shown.peaks for pair in peak.extremes[1:] for _, time in pair])
+    functions = [partial(lambda t, nu: np.asarray(shown(t, nu)), nu=nu) for nu in range(4)]
+    times, columns = refined(times, [function(times) for function in functions], functions, places)
+    shares = _shares_of_cycle(shown, times, columns, edges)
+    milliseconds = _MILLI * times
+    units = UNITS[shown.axis]
+    return {
+        "across": "time, ms",
+        "symbol": "t, ms",
+        "range": [0.0, _MILLI * shown.duration],
+        "panels": [
+            _panel(QUANTITIES[nu], *units[nu], (milliseconds, columns[nu], shares), _bars(shown, edges, nu))
+            for nu in range(4)
+        ],
+        "segments": _stretches(milliseconds, shares),
+        "names": list(shares),
+        "shares": _greatest_shares(shares),
+        "rows": [_row(row.name, row.value, row.unit, None) for row in (*peak_rows(shown), *drive_rows(shown))],
+        "time": shown.duration,
+        "least": _least(quickest.period, quickest.lower_bound, None),
+        "objectives": [],
+        "minimise": shown.minimise,
+        "trust": _trust_of_cycle(quickest, shown),
+        "note": "",
+    }
+
+
+def _bars(shown: Cycle, edges: Sequence[dict[int, tuple[float, float]]], nu: int) -> list[_Bar]:
+    """The limits of a derivative, segment by segment."""
+    return [
+        (_MILLI * peak.start, _MILLI * (peak.start + peak.duration), *limits[nu])
+        for peak, limits in zip(shown.peaks, edges, strict=True)
+        if nu in limits
+    ]
+
+
+def _shares_of_cycle(
+    shown: Cycle, times: Array, columns: Sequence[Array], edges: Sequence[dict[int, tuple[float, float]]]
+) -> dict[str, Array]:
+    """The share of the limits of each segment that is taken at each time."""
+    taken: dict[str, Array] = {}
+    for nu in (1, 2, 3):
+        share = np.zeros(len(times))
+        for peak, limits in zip(shown.peaks, edges, strict=True):
+            low, high = limits.get(nu, (-inf, inf))
+            inside = (times >= peak.start) & (times <= peak.start + peak.duration)
+            values = columns[nu]
+            share = np.where(inside, np.maximum(share, np.maximum(values / high, values / low)), share)
+        if share.any():
+            taken[QUANTITIES[nu]] = share
+    return taken
+
+
+def _trust_of_cycle(quickest: FastestCycle, shown: Cycle) -> dict[str, Any]:
+    facts = [f"greatest speed {digits(quickest.rpm)} rpm", f"least period {digits(_MILLI * quickest.period)} ms"]
+    if quickest.lower_bound is not None:
+        facts.append(f"proven: none in {digits(_MILLI * quickest.lower_bound)} ms")
+    facts += [f"binds: {text}" for text in quickest.binding]
+    if shown is not quickest.cycle:
+        known = cycle_view.trust(shown)
+        if known is not None:
+            return known | {"facts": [*known["facts"], *facts]}
+    status = quickest.status
+    advice = "No law of this order and degree lets the cycle run faster." if status is Status.OPTIMAL else status.advice
+    return {"status": status.value, "word": TITLES[status], "advice": advice, "gap": "", "facts": facts}
+
+
+def _front_of_cycle(request: FastestRequest) -> dict[str, Any]:
+    spec, axis = _axis(request)
+    quickest = _fastest_cycle(msgspec.json.encode((spec, axis)))
+    points: list[list[float | None]] = []
+    proven = True
+    for time in np.geomspace(quickest.period * _SLOWER, _LONGEST * quickest.period, _CYCLE_POINTS).tolist():
+        try:
+            cycle = _cycle_in_time(spec, axis, quickest, time)
+            points.append([time, cycle.objective, None if cycle.lower_bound is None else bounded(cycle.lower_bound)])
+            proven = proven and cycle.status is Status.OPTIMAL
+        except OptlawsError:
+            points.append([time, None, None])
+    cycle = quickest.specification
+    return {
+        "points": points,
+        "name": cycle.minimise,
+        "unit": objective_unit(cycle),
+        "proven": proven,
+        "words": f"least {cycle.minimise} in each period: {_PROVEN if proven else _LOCAL}",
+    }
+
+
+def example() -> dict[str, Any]:
+    """The moves that the page shows where none were given: a rotary table with its motor, and a gripper."""
+    return {
+        "job": "fastest",
+        "title": "A gripper and a rotary table",
+        "problem": {"order": 3, "basis": "chebyshev", "degree": 11},
+        "move": [
+            {
+                "name": "gripper",
+                "stroke": "300 mm",
+                "limits": {"velocity": "1.5 m/s", "acceleration": ["-12 m/s^2", "15 m/s^2"], "jerk": "600 m/s^3"},
+                "follower": {"frequency": ["13 Hz", "15 Hz"], "damping": 0.02},
+                "front": {"minimise": [RESIDUAL, "jerk"], "longest": "0.41 s", "points": 9},
+            },
+            {
+                "name": "table",
+                "stroke": "45 deg",
+                "start": "0 deg",
+                "mechanism": {
+                    "kind": "table", "inertia": "0.8 kg m^2", "load": "20 N m", "viscous": "0.5 N m s/rad",
+                },
+                "drive": {
+                    "motor": {"inertia": "3e-4 kg m^2", "peak_torque": "4 N m", "greatest_speed": "900 rpm"},
+                    "ratio": 20,
+                },
+                "front": {"minimise": ["rms torque", "torque"], "longest": "0.45 s", "points": 11},
+            },
+        ],
+    }  # fmt: skip
+
+
+QUESTIONS: dict[str, Question] = {"fastest": (FastestRequest, answer), "fastest-front": (FastestRequest, front)}

@@ -1,0 +1,123 @@
+"""Least times on the page: held against the library, what binds at each time, a time that is given and its front."""
+
+from __future__ import annotations
+
+import json
+import tomllib
+from itertools import pairwise
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pytest
+
+from optlaws import Problem, fastest, time_front
+from optlaws.verification import verify
+from tests.explorer.talk import Server
+from tests.explorer.test_page import go, saves, settle
+from tests.internals.explorer import fastest_view, start
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
+
+PROBLEMS = Path(__file__).parents[2] / "problems"
+STUDY = fastest_view.example()
+GRIPPER = {name: STUDY["move"][0][name] for name in ("stroke", "limits")}
+FOLLOWER = STUDY["move"][0]["follower"]
+
+
+def test_the_least_time_and_what_is_least_in_longer_ones_are_the_library_s(served: Server) -> None:
+    move = fastest(Problem.from_dict(STUDY["problem"]), **GRIPPER)
+    answer = served.ask("fastest", {"study": STUDY})
+    assert answer["time"] == answer["least"]["time"] == move.duration
+    assert answer["least"]["limit"] == move.limit
+    # the limits that bind are those of which all is taken somewhere
+    assert {share["name"] for share in answer["shares"] if share["full"]} == set(move.binding)
+    assert all(float(share["text"]) <= 100.0 for share in answer["shares"])
+    ends = [stretch["at"] for stretch in answer["segments"]]
+    assert [ends[0][0], ends[-1][1]] == [0.0, pytest.approx(1e3 * move.duration, abs=1e-4)]
+    assert all(first[1] == second[0] for first, second in pairwise(ends))
+    front = served.ask("fastest-front", {"study": STUDY})
+    line = time_front(move, "residual acceleration", longest="0.41 s", points=11, follower=FOLLOWER)
+    assert front["points"] == [[point.duration, point.value, point.lower_bound] for point in line]
+    slower = served.ask("fastest", {"study": STUDY, "time": 0.36})
+    point = time_front(move, "residual acceleration", longest="0.36 s", points=2, follower=FOLLOWER)[1]
+    assert slower["trust"]["facts"][0].split()[-2] == f"{point.value:.7g}"
+    assert slower["panels"][1]["series"][0]["values"] != answer["panels"][1]["series"][0]["values"]
+
+
+def test_the_curve_is_drawn_once_by_the_limit_of_which_most_is_taken(served: Server) -> None:
+    answer = served.ask("fastest", {"study": STUDY, "move": 1, "time": 0.3})
+    assert answer["names"] == ["velocity", "torque"]
+    for panel in answer["panels"]:
+        whole, *parts = panel["series"]
+        drawn = {
+            at: value
+            for part in parts
+            for at, value in zip(part["at"], part["values"], strict=True)
+            if value is not None
+        }
+        assert drawn == dict(zip(whole["at"], whole["values"], strict=True))
+    motor = {row["name"]: row for row in answer["rows"]}
+    assert motor["torque"]["use"] == "92.23"
+    assert answer["trust"]["facts"][0].startswith(f"least rms torque in this time {motor['rms torque']['text'][:6]}")
+
+
+def test_a_cycle_stops_at_its_greatest_speed(served: Server) -> None:
+    found = start(str(PROBLEMS / "cycle_fastest.toml"))
+    assert found["view"] == "fastest"
+    answer = served.ask("fastest", {"study": found["fastest"]})
+    # the least period within these limits, as the page of results says it
+    assert answer["least"]["text"] == "384.3548"
+    assert answer["trust"]["facts"][0] == "greatest speed 156.1058 rpm"
+    slower = served.ask("fastest", {"study": found["fastest"], "time": 0.45})
+    assert slower["time"] == 0.45
+    assert slower["trust"]["word"] == "proven optimal"
+    values = [value for _, value, _ in served.ask("fastest-front", {"study": found["fastest"]})["points"]]
+    assert values == sorted(values, reverse=True)
+
+
+def test_no_time_below_the_least_is_given_and_limits_that_nothing_keeps_say_why(served: Server) -> None:
+    assert (
+        served.ask("fastest", {"study": STUDY, "time": 0.1})["time"] == served.ask("fastest", {"study": STUDY})["time"]
+    )
+    free = {"job": "fastest", "title": "free", "move": [{"name": "free", "stroke": "1 mm", "limits": {}}]}
+    assert "limits must name one" in served.ask("fastest", {"study": free})["refused"]["reason"]
+    named = {"study": free | {"move": [STUDY["move"][1] | {"drive": {"motor": "x", "motors": "motors.toml"}}]}}
+    assert "reads no catalogue" in served.ask("fastest", named)["refused"]["reason"]
+
+
+def test_a_time_is_given_by_slider_picture_and_number_and_stops_at_the_least(page: Page, served: Server) -> None:
+    go(page, served.link(view="fastest"))
+    least = served.ask("fastest", {"study": STUDY})["least"]["text"]
+    time = page.get_by_label("Time of the motion, ms")
+    assert time.input_value() == least
+    handle = page.locator("#fastest-chart .handle")
+    handle.focus()
+    page.keyboard.press("ArrowLeft")
+    settle(page)
+    assert time.input_value() == least
+    page.keyboard.press("Shift+ArrowRight")
+    settle(page)
+    given = float(time.input_value())
+    assert given == pytest.approx(float(least) + 10.0, abs=0.1)
+    expected = served.ask("fastest", {"study": STUDY, "time": given / 1e3})
+    assert expected["trust"]["facts"][0] in page.locator("#fastest-trust").inner_text()
+    page.get_by_role("button", name="Undo").click()
+    settle(page)
+    assert time.input_value() == least
+    page.get_by_label("Motions a minute").fill("150")
+    page.keyboard.press("Tab")
+    settle(page)
+    assert time.input_value() == "400"
+    page.get_by_label("what is least in longer times").select_option("jerk")
+    settle(page)
+    assert "least jerk in each time: proven" in page.locator("#fastest-words").inner_text()
+    assert page.locator("#fastest-legend .limit-key").count() == 4
+    page.get_by_label("limits jerk").fill("1200 m/s^3")
+    page.get_by_role("button", name="least", exact=True).click()
+    settle(page)
+    assert float(time.input_value()) < float(least)
+    saved = tomllib.loads(saves(page, "problem"))
+    assert saved["move"][0]["limits"]["jerk"] == "1200 m/s^3"
+    assert saved["move"][0]["front"]["minimise"] == ["jerk", "residual acceleration"]
+    assert verify(json.loads(saves(page, "law"))).proven
