@@ -154,3 +154,40 @@ def test_a_report_is_one_page_with_what_is_asked_and_proven(page: Page, served: 
         assert text in report
     assert page.get_by_text("no undercut" if view == "cam" else "proven optimal").first.is_visible()
     assert not page.locator("#tools").is_visible()
+
+
+def focused(page: Page) -> str:
+    return str(
+        page.evaluate("() => document.activeElement.getAttribute('aria-label') ?? document.activeElement.tagName")
+    )
+
+
+def test_the_focus_stays_where_the_reader_is(page: Page, served: Server) -> None:
+    none = {"problem": {"order": 4, "degree": 9, "B": 1.7, "J": [0, 20]}, "weights": {"C": 1.0}}
+    go(page, served.link(laws=[none, OPTIMAL], picture="residual"))
+    for name in ("+ copy", "raise the bound of J from 20 to"):
+        page.get_by_role("button", name=name).focus()
+        page.keyboard.press("Enter")
+        settle(page)
+        assert focused(page) != "BODY"
+    page.get_by_label("Take", exact=False).last.focus()
+    page.keyboard.press("Enter")
+    settle(page)
+    assert focused(page) != "BODY"
+
+
+def test_two_keys_lead_to_the_law_in_the_plane(page: Page, served: Server) -> None:
+    go(page, f"http://{served.host}/")
+    page.keyboard.press("Tab")
+    page.keyboard.press("Enter")
+    assert focused(page) == "The law in the plane: B"
+    page.keyboard.press("ArrowRight")
+    settle(page)
+    assert velocity(page) == 1.71
+
+
+def test_words_are_explained_in_every_view_that_has_its_own(page: Page, served: Server) -> None:
+    for view, words in (("laws", "peak jerk"), ("cam", "less the radius of the roller"), ("cycle", "drag the joints")):
+        go(page, served.link(view=view, laws=[OPTIMAL]))
+        page.get_by_text("What is shown").locator("visible=true").click()
+        assert page.get_by_text(words).locator("visible=true").first.is_visible()

@@ -40,6 +40,11 @@ export function group(title, ...children) {
   return html("fieldset", {}, html("legend", { text: title }), ...children);
 }
 
+/** Words of a view explained, closed at first; with the figure's names as keys. */
+export function explained(words) {
+  return html("details", { class: "explained" }, html("summary", { text: "What is shown" }), html("dl", {}, ...Object.entries(words).flatMap(([name, text]) => [html("dt", { text: name }), html("dd", { text })])));
+}
+
 /** Buttons of which one is chosen; arrow keys go from one to the next. Returns a function that shows the chosen one. */
 export function tabs(root, names, chosen) {
   const buttons = Object.entries(names).map(([key, text]) => html("button", { type: "button", role: "tab", "data-key": key, text, onclick: () => chosen(key) }));

@@ -102,7 +102,8 @@ async function begin() {
   reporting(study, start.version);
   document.querySelector(".skip").addEventListener("click", (event) => {
     event.preventDefault();
-    document.querySelector(".view:not([hidden]) :is(.handle, .picture, .panels, #motion)").focus();
+    const shown = [".handle", ".panels", "[tabindex]"].flatMap((name) => [...document.querySelectorAll(`.view:not([hidden]) ${name}`)]);
+    shown.find((one) => one.checkVisibility())?.focus();
   });
   addEventListener("hashchange", () => documents.add(read(location.hash)));
   for (const kind of ["input", "pointermove", "keydown"]) addEventListener(kind, () => marked("input"), { capture: true, passive: true });

@@ -1,6 +1,6 @@
 // The view of a cam: mechanism and motion on the left, the cam that turns, pressure angle and curvature on the right.
 
-import { group } from "../fields.js";
+import { explained, group } from "../fields.js";
 import { localised, plain } from "../language.js";
 import { Latest } from "../latest.js";
 import { Mechanism } from "../mechanism.js";
@@ -13,6 +13,14 @@ const told = (value) => JSON.stringify(value);
 const element = (id) => document.getElementById(id);
 const SIZES = { prime_radius: "60 mm", cutter_radius: "none", pressure_angle: "none, or 30 deg", radius_of_curvature: "none, or 15 mm" };
 const NAMES = { prime_radius: "prime circle", cutter_radius: "cutter", pressure_angle: "pressure ≤", radius_of_curvature: "radius ≥", pivot_distance: "pivot", face_offset: "offset" };
+const WORDS = {
+  "prime circle": "about the shaft, through the centre of the roller, or through the flat face, where the follower is lowest; the field asks its radius",
+  "base circle": "the smallest circle that touches the profile: the prime circle less the radius of the roller",
+  "pressure angle": "between the way of the follower and the normal at the contact: the greater, the more the cam pushes sideways",
+  "radius of curvature": "of the profile: small and convex is worn fast; hollow needs a cutter that is smaller",
+  "undercut": "the profile crosses itself or has a cusp: no such cam can be cut",
+  "cutter": "the radius of the tool; its path is the dashed line",
+};
 const SPEED = 60; // degrees a second
 const LOADS = {
   slide: { mass: "none, or 2 kg", stiffness: "none, or 2 N/mm", preload: "none, or 60 N", gravity: "none, or 20 N" },
@@ -158,7 +166,7 @@ export class View {
     const measure = html("input", { type: "checkbox", checked: true });
     measure.addEventListener("change", () => this.#mechanism.measure(measure.checked));
     element("cam-turning").replaceChildren(this.#play, this.#dial, html("label", { class: "switch" }, measure, "dimensions"));
-    element("cam-turning").after(this.#read);
+    element("cam-turning").after(this.#read, explained(WORDS));
   }
 
   /** The cam, its dial and what is read of it are where the cursor of the curves is. */

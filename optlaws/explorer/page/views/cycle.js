@@ -1,5 +1,6 @@
 // The view of a cycle: its programme on the left, the motion in machine units, its segments and its limits.
 
+import { explained } from "../fields.js";
 import { Latest } from "../latest.js";
 import { Panels } from "../panels.js";
 import { Programme, join } from "../programme.js";
@@ -10,6 +11,13 @@ import { inUnit, shownUnit } from "../units.js";
 
 const element = (id) => document.getElementById(id);
 const HEADINGS = ["segment", "from, deg", "to, deg", "takes, ms", "moves", "velocity", "acceleration", "jerk"];
+
+const WORDS = {
+  "position, velocity": "of the axis over a turn of the master, in the units of the machine; red is where a limit forbids to go",
+  "segments": "the bars above the curves: drag the joints between them, or move them by arrow keys; a click on a bar shows it large",
+  "least": "what is made as small as it can be over all segments without a law of their own",
+  "free": "a segment whose positions and velocities at its ends are found with the law",
+};
 
 const FILES = [
   { kind: "python", text: "Python", about: "Lines that reproduce what is seen" },
@@ -23,6 +31,7 @@ export class View {
   #study;
   #programme;
   #motion;
+  #words = explained(WORDS);
   #answer = null;
   #ways = null;
   #cycles;
@@ -64,7 +73,7 @@ export class View {
     showTrust(element("cycle-trust"), answer, this.#ways, (way) => this.#back(way));
     if (answer.facts) element("cycle-trust").append(html("p", { class: "facts", text: answer.facts.join(" · ") }));
     this.#motion.show(answer);
-    element("segments").replaceChildren(...(answer.refused ? [] : [table(answer)]));
+    element("segments").replaceChildren(...(answer.refused ? [] : [table(answer)]), this.#words);
   }
 
   /** Let a segment end at an angle, and the next one begin there. */
