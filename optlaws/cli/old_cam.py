@@ -107,13 +107,9 @@ def _tolerance(text: str, old: OldTable) -> float:
 
 
 def _cycle(old: OldTable, speed: str | None) -> Cycle:
-    if speed is not None:
-        return old.cycle(speed=speed)
-    if old.master in {"s", "ms"}:
-        return old.cycle()
-    if old.rate is None:
+    if speed is None and old.rate is None and old.master not in {"s", "ms"}:
         raise InputError("--save and --export need the speed of the master, such as --speed 200rpm: the file has none")
-    return old.cycle(speed=f"{old.rate!r} {old.master}/s")
+    return old.cycle(speed=speed)
 
 
 def _save(latest: OldTable, place: Path, source: Path, speed: str | None) -> Path:

@@ -24,6 +24,7 @@ from optlaws.explorer.views import (
     front_view,
     law_view,
     machine_view,
+    old_cam_view,
     study_view,
 )
 from optlaws.explorer.views.requests import Question, read, ready
@@ -41,6 +42,7 @@ QUESTIONS: dict[str, Question] = {
     **axes_view.QUESTIONS,
     **machine_view.QUESTIONS,
     **fastest_view.QUESTIONS,
+    **old_cam_view.QUESTIONS,
     **downloads.QUESTIONS,
 }
 #: by a view's name in the page: the study that it shows where none was given
@@ -51,6 +53,7 @@ EXAMPLES: dict[str, Callable[[], dict[str, Any]]] = {
     "axes": axes_view.example,
     "machine": machine_view.example,
     "fastest": fastest_view.example,
+    "old": old_cam_view.example,
 }
 OK, UNREADABLE, FAULT = 200, 422, 500
 #: bytes that a process may take for its data, where the system can limit it

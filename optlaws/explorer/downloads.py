@@ -12,11 +12,11 @@ from typing import Annotated, Any, Literal
 import msgspec
 
 import optlaws
-from optlaws import Cycle, Drive, Mechanism, Problem, Solution
+from optlaws import Cycle, Drive, Mechanism, MotionLaw, Problem, Solution
 from optlaws.cams.curves import cam_files
 from optlaws.cams.curves.file_options import Cutting
 from optlaws.errors import InputError
-from optlaws.explorer.views import cam_view, cycle_view, fastest_view
+from optlaws.explorer.views import cam_view, cycle_view, fastest_view, old_cam_view
 from optlaws.explorer.views.law_view import digits, title
 from optlaws.explorer.views.requests import MOST_LAWS, LawRequest, Question, law_of, problem_of, solved
 from optlaws.explorer.views.study_view import StudyRequest
@@ -59,7 +59,9 @@ class FileRequest(SeenRequest, kw_only=True, forbid_unknown_fields=True):
     """A file of what is seen."""
 
     kind: Literal["python", "problem", "law", "table", "cut"]
-    view: Literal["laws", "cycle", "cam", "machine", "fastest", "study"] = "laws"
+    view: Literal["laws", "cycle", "axes", "cam", "machine", "fastest", "study", "old"] = "laws"
+    axes: cycle_view.CycleRequest | None = None
+    old: old_cam_view.OldCycleRequest | None = None
     cam: cam_view.CamRequest | None = None
     machine: cycle_view.CycleRequest | None = None
     fastest: fastest_view.FastestRequest | None = None
@@ -69,12 +71,14 @@ class FileRequest(SeenRequest, kw_only=True, forbid_unknown_fields=True):
 
 def answer(request: FileRequest) -> File:
     """A file: its name, its type, its text."""
-    if request.view in ("cycle", "machine"):
-        return _of_cycle(request, request.cycle if request.view == "cycle" else request.machine)
+    if request.view in ("cycle", "axes", "machine"):
+        return _of_cycle(request, getattr(request, request.view))
     if request.view == "fastest":
         return _of_fastest(request)
     if request.view == "cam":
         return _of_cam(request)
+    if request.view == "old":
+        return _of_old_cam(request)
     if request.view == "study" and request.kind == "problem":
         if request.study is None:
             raise InputError("there is no study to save")
@@ -237,6 +241,25 @@ def _of_fastest(request: FileRequest) -> File:
     raise InputError("a least time is saved as a problem file, or as a law with its proof")
 
 
+def _of_old_cam(request: FileRequest) -> File:
+    """The cycle of a table: as a problem file where all its laws have names, as JSON with its laws, or as a table."""
+    if request.old is None:
+        raise InputError("there is no table to save")
+    cycle, name = old_cam_view.cycle(request.old), request.old.study.file
+    stem = _stem(name.rpartition(".")[0] or name)
+    if request.kind == "problem":
+        if any(isinstance(part.law, MotionLaw) for part in old_cam_view.with_laws(request.old).moves):
+            raise InputError("a problem file names laws, and some of these have no name: save the cycle with its laws")
+        return _file(f"{stem}.toml", "application/toml", cycle.to_toml(f"The cam of {_stem(name)}", axis="cam"))
+    if request.kind == "law":
+        return _file(f"{stem}.json", "application/json", cycle.to_json())
+    if request.kind == "table":
+        return _file(
+            f"{stem}_motion.csv", "text/csv", table_of_motion(cycle, _ROWS, f"{stem}; SI units but for mm and deg")
+        )
+    raise InputError("an old cam is saved as a problem file, a cycle or a table")
+
+
 def _of_cam(request: FileRequest) -> File:
     if request.cam is None:
         raise InputError("there is no cam to save")
@@ -287,7 +310,8 @@ class ExportRequest(SeenRequest, kw_only=True, forbid_unknown_fields=True):
     """A law or a cycle in a format, with the machine it moves."""
 
     format: Text
-    view: Literal["laws", "cycle"] = "laws"
+    view: Literal["laws", "cycle", "old"] = "laws"
+    old: old_cam_view.OldCycleRequest | None = None
     stroke: Text = "35 mm"
     time: Text = "0.1 s"
     master: Text = "120 deg"
@@ -329,6 +353,10 @@ def _export(request: ExportRequest) -> Any:  # noqa: ANN401 - an Export
         if request.cycle is None:
             raise InputError("there is no cycle to export")
         return cycle_view.cycle(request.cycle).export(request.format, **given)
+    if request.view == "old":
+        if request.old is None:
+            raise InputError("there is no table to export")
+        return old_cam_view.cycle(request.old).export(request.format, **given)
     given |= {"stroke": request.stroke, "duration": request.time, "master": request.master or None}
     return law_of(request.law).export(request.format, **given)
 

@@ -9,13 +9,14 @@ import msgspec
 
 from optlaws import MotionLaw
 from optlaws.errors import InputError, located
+from optlaws.explorer.views import old_cam_view
 from optlaws.explorer.views.requests import MOST_LAWS, LawRequest, Question, problem_of
 from optlaws.explorer.views.study_view import law_entries, rows_of
 from optlaws.files import reading
 from optlaws.files.packaged import is_problem, problem_file
 from optlaws.files.problem_file import convert
 from optlaws.jobs.cycle_entries import CycleProblemFile
-from optlaws.laws.catalogue.reading import is_file, is_table, law_of_points, read_law
+from optlaws.laws.catalogue.reading import LARGEST_TABLE, is_file, is_table, law_of_points, read_law
 from optlaws.mechanisms.drives.motor import read_motors
 from optlaws.studies.problem_entries import problem
 from optlaws.suggest import unknown_key
@@ -51,9 +52,15 @@ def _laws(*laws: dict[str, Any]) -> dict[str, Any]:
 
 
 def _of_law_file(given: str) -> dict[str, Any]:
-    if is_table(given):
+    file = Path(given)
+    if file.suffix.lower() == ".json":
+        return _of_stored(reading.json_file(file), given)
+    try:
         return _laws({"law": read_law(given).to_dict(), "title": _stem(given)})
-    return _of_stored(reading.json_file(Path(given)), given)
+    except InputError:
+        if not reading.is_file(file):
+            raise
+        return _of_table(given, reading.text(file, LARGEST_TABLE, legacy=True))
 
 
 def _of_stored(data: Any, name: str) -> dict[str, Any]:  # noqa: ANN401 - of a file
@@ -64,6 +71,24 @@ def _of_stored(data: Any, name: str) -> dict[str, Any]:  # noqa: ANN401 - of a f
         data = data["law"]
     with located(name):
         return _laws({"law": MotionLaw.from_dict(data).to_dict(), "title": _stem(name)})
+
+
+def _of_table(name: str, text: str) -> dict[str, Any]:
+    """The law of a table of points; where these are of a whole cycle, or of a controller, the old cam."""
+    refused: InputError | None = None
+    if is_table(name):
+        try:
+            return _laws({"law": law_of_points(Path(name), content=text).to_dict(), "title": _stem(name)})
+        except InputError as error:
+            refused = error
+    try:
+        old_cam_view.table(old_cam_view.OldCamEntries(file=Path(name).name, text=text))
+    except InputError as error:
+        raise refused or InputError(
+            f"the page opens problem files (.toml), laws and solutions (.json), tables of points (.csv) and of "
+            f"controllers: {error}"
+        ) from None
+    return {"view": "old", "old": {"file": Path(name).name, "text": text}}
 
 
 def _stem(name: str) -> str:
@@ -131,12 +156,7 @@ def opened(request: OpenRequest) -> dict[str, Any]:
         return {"state": _of_problem_file(reading.toml_text(request.text, name), name)}
     if ending == ".json":
         return {"state": _of_stored(reading.json_text(request.text, name), name)}
-    if is_table(name):
-        law = law_of_points(Path(name), content=request.text)
-        return {"state": _laws({"law": law.to_dict(), "title": _stem(name)})}
-    raise InputError(
-        f"{name}: the page opens problem files (.toml), laws and solutions (.json) and tables of points (.csv)"
-    )
+    return {"state": _of_table(name, request.text)}
 
 
 def _problem(entries: dict[str, Any], name: str) -> dict[str, Any]:

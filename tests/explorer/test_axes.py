@@ -90,7 +90,7 @@ def test_moves_are_put_together_as_the_library_does(served: Server) -> None:
 def test_axes_open_and_save_as_a_problem_file(served: Server) -> None:
     found = start(str(FILE))
     assert found["view"] == "axes"
-    asked = {"kind": "problem", "view": "cycle", "laws": [OPTIMAL], "cycle": {"study": found["axes"]}}
+    asked = {"kind": "problem", "view": "axes", "laws": [OPTIMAL], "axes": {"study": found["axes"]}}
     assert tomllib.loads(served.ask("save", asked)["text"]) == tomllib.loads(FILE.read_text("utf-8"))
 
 

@@ -8,10 +8,20 @@ from typing import Any
 import pytest
 
 from tests.explorer.talk import OPTIMAL, Server
-from tests.internals.explorer import QUESTIONS, axes_view, cam_view, example, fastest_view, machine_view, study_view
+from tests.internals.explorer import (
+    QUESTIONS,
+    axes_view,
+    cam_view,
+    example,
+    fastest_view,
+    machine_view,
+    old_cam_view,
+    study_view,
+)
 
 CYCLE = {"study": example()}
 CAM = {"study": cam_view.example()}
+OLD = {"study": old_cam_view.example()}
 AXES = {"study": axes_view.example()}
 MACHINE = {"study": machine_view.example() | {"axis": machine_view.example()["axis"][1:]}}
 LAWS = [
@@ -28,6 +38,8 @@ SEEDS: dict[str, list[Any]] = {
     "axes": [AXES],
     "axes-clearances": [AXES],
     "axes-together": [{"study": axes_view.example() | {"overlap": {"goal": "acceleration", "of": ["die"]}}}],
+    "old": [OLD],
+    "old-move": [OLD | {"move": 0}],
     "cam": [CAM],
     "cam-loads": [{"study": cam_view.example() | {"forces": {"width": "20 mm"}}}],
     "cam-sizes": [CAM],
@@ -38,7 +50,10 @@ SEEDS: dict[str, list[Any]] = {
     "machine-ratios": [MACHINE | {"low": 5.0, "high": 20.0}],
     "cycle": [CYCLE],
     "cycle-nearest": [CYCLE],
-    "export": [{"format": "csv", "laws": [OPTIMAL], "points": 9}],
+    "export": [
+        {"format": "csv", "laws": [OPTIMAL], "points": 9},
+        {"format": "csv", "view": "old", "laws": [OPTIMAL], "old": OLD | {"laws": [None]}, "points": 9},
+    ],
     "save": [
         {"kind": "python", "laws": [OPTIMAL]},
         {"kind": "problem", "view": "cycle", "laws": [OPTIMAL], "cycle": CYCLE},

@@ -15,6 +15,7 @@ from optlaws.explorer.views import (
     front_view,
     law_view,
     machine_view,
+    old_cam_view,
     study_view,
 )
 from optlaws.explorer.views.cam_view import CamRequest

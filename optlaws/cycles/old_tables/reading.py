@@ -97,7 +97,19 @@ def read_points(
     InputError
         If the file cannot be read, holds no table, or is damaged; the error tells the line.
     """
-    content = reading.text(path, LARGEST_TABLE, legacy=True)
+    return points_in(reading.text(path, LARGEST_TABLE, legacy=True), path, columns, unit=unit, master=master, cam=cam)
+
+
+def points_in(
+    content: str,
+    path: Path,
+    columns: Sequence[int | str] | None = None,
+    *,
+    unit: str | None = None,
+    master: str | None = None,
+    cam: str | None = None,
+) -> CamPoints:
+    """The points of the text of a table, as `read_points` reads them; `path` is what an error calls it."""
     try:
         known = decoded(content, cam) if columns is None else None
     except InputError as error:

@@ -12,7 +12,7 @@ import numpy as np
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.old_tables.better_moves import MoveGain, better, gain, law_of_move
 from optlaws.cycles.old_tables.controller_files import FEWEST_POINTS
-from optlaws.cycles.old_tables.reading import read_points
+from optlaws.cycles.old_tables.reading import CamPoints, read_points
 from optlaws.cycles.old_tables.stretches import Stretch, of_standard_laws, seam_of, stretches_of
 from optlaws.cycles.specification.segments import CycleSegment, Dwell, Return, Rise
 from optlaws.echo import shortened
@@ -68,12 +68,12 @@ class OldTable:
     rate: float | None = None
 
     def cycle(self, *, speed: Quantity | None = None, period: Quantity | None = None) -> Cycle:
-        """The cycle of the table, at a speed of the master or of a period.
+        """The cycle of the table, at a speed of the master or of a period; at that of the file where neither is given.
 
         Raises
         ------
         InputError
-            If both or neither is given where the master is an angle.
+            If both are given, or neither where the master is an angle whose speed the file does not say.
         """
         return self._cycle([part.law for part in self.stretches], speed, period)
 
@@ -221,7 +221,10 @@ class OldTable:
                 segments.append(move(f"{abs(part.stroke)!r} {self.unit}", duration, law=law))
         start = f"{self.stretches[0].low!r} {self.unit}"
         ahead = self.stretches[-1].high - self.stretches[0].low
-        if self.master in {"s", "ms"} and speed is None and period is None:
+        from_file = speed is None and period is None
+        if from_file and self.rate is not None and self.master not in {"s", "ms"}:
+            speed = f"{self.rate!r} {self.master}/s"
+        elif from_file and self.master in {"s", "ms"}:
             period = f"{self.stretches[-1].stop - self.stretches[0].start!r} {self.master}"
         advance = f"{ahead!r} {self.unit}" if ahead else None
         return Cycle(segments, speed=speed, period=period, start=start, advance=advance)
@@ -229,7 +232,7 @@ class OldTable:
     def __str__(self) -> str:
         lines = [
             f"{part.kind:<7}{part.start:g} to {part.stop:g} {self.master}"
-            + ("" if part.law is None else f", {part.stroke:+g} {self.unit}: {self._law_in_words(part)}")
+            + ("" if part.law is None else f", {part.stroke:+g} {self.unit}: {self.law_in_words(part)}")
             for part in self.stretches
         ]
         lines.append(
@@ -243,7 +246,8 @@ class OldTable:
             lines.append(f"the last position is {self.seam:+.3g} {self.unit} from the first one")
         return "\n".join(lines)
 
-    def _law_in_words(self, part: Stretch) -> str:
+    def law_in_words(self, part: Stretch) -> str:
+        """Which standard law a move is, or which one is nearest, and how far the points are from that."""
         if isinstance(part.law, str):
             return f"{part.law} (within {part.distance:.2g} {self.unit})"
         return f"a law of its own; the nearest standard law is {part.nearest}, {part.distance:.2g} {self.unit} off"
@@ -302,7 +306,11 @@ def read_cycle_table(
     ('3-4-5 polynomial', 45.0)
     """
     path = Path(file)
-    points = read_points(path, columns, unit=unit, master=master, cam=cam)
+    return table_of(read_points(path, columns, unit=unit, master=master, cam=cam), path, tolerance)
+
+
+def table_of(points: CamPoints, path: Path, tolerance: float | None = None) -> OldTable:
+    """The table of points with units, divided as `read_cycle_table` does; `path` is what an error calls it."""
     try:
         table = split_table(
             points.places,

@@ -50,7 +50,7 @@ export class Exporting {
     for (const [name, field] of Object.entries(this.#fields)) {
       const value = String(machine[name] ?? "");
       if (document.activeElement !== field || plain(field.value.trim()) !== value) field.value = localised(value);
-      field.parentElement.hidden = name in TEXTS ? Boolean(this.#motion(state)?.cycle) : !takes.includes(name);
+      field.parentElement.hidden = name in TEXTS ? this.#motion(state)?.view !== "laws" : !takes.includes(name);
     }
     if (this.#dialog.open && this.#motion(state)) this.#ask(state);
   }

@@ -1,6 +1,7 @@
 // Interlocks as a form: which two axes, and what must not happen between them.
 
 import { group } from "./fields.js";
+import { localised, plain } from "./language.js";
 import { html, renew } from "./svg.js";
 
 const KINDS = { after: "after", clearance: "clearance", forbidden: "forbidden region", synchronous: "synchronous" };
@@ -66,8 +67,8 @@ export class Interlocks {
     });
     choose.append(take);
     const listed = Object.fromEntries(names.map((name) => [name, name]));
-    const axis = this.#select(i, "axis", "axis", listed, (rule) => rule.axis, (rule, value) => (rule.axis = value));
-    const other = this.#select(i, OTHER[kind], TITLES[OTHER[kind]] ?? "", listed, (rule) => rule[OTHER[kind]], (rule, value) => (rule[OTHER[kind]] = value));
+    const axis = this.#select(i, "axis", "axis", listed, (rule) => rule.axis, (rule, value) => (rule.axis = value), true);
+    const other = this.#select(i, OTHER[kind], TITLES[OTHER[kind]] ?? "", listed, (rule) => rule[OTHER[kind]], (rule, value) => (rule[OTHER[kind]] = value), true);
     const name = this.#text(i, "name", "in words unless named", (rule) => rule.name, (rule, value) => put(rule, "name", value));
     return html("div", { class: "segment-card" }, choose, axis, ...this.#rows(kind, i, one, other), name);
   }
@@ -104,31 +105,31 @@ export class Interlocks {
     const pairs = (text) => text.split(";").map((pair) => pair.split(",").map((part) => part.trim())).filter((pair) => pair.some(Boolean));
     const field = html("textarea", { rows: 2, placeholder, spellcheck: "false", maxlength: 2000, "aria-label": `interlock ${i} ${name}` });
     field.addEventListener("change", () => this.#change(`interlock ${i} ${name}`, (all) => {
-      const text = field.value.trim();
+      const text = plain(field.value.trim());
       all[i][name] = formula && !text.includes(";") ? text : pairs(text);
       if (Array.isArray(all[i][name])) delete all[i].units;
     }));
     this.#shows.push((all) => {
       const value = all[i]?.[name];
       const text = Array.isArray(value) ? value.map((pair) => (Array.isArray(pair) ? pair.join(", ") : String(pair))).join("; ") : String(value ?? "");
-      if (document.activeElement !== field) field.value = text;
+      if (document.activeElement !== field) field.value = localised(text);
     });
     return html("label", { class: "entry" }, html("span", { class: "field-name", text: name === "corners" ? "corners" : "" }), field);
   }
 
   #text(i, name, placeholder, get, put, title = name) {
     const field = html("input", { type: "text", placeholder, spellcheck: "false", maxlength: 100, "aria-label": `interlock ${i} ${name}` });
-    field.addEventListener("input", () => this.#change(`interlock ${i} ${name}`, (all) => put(all[i], field.value.trim())));
+    field.addEventListener("input", () => this.#change(`interlock ${i} ${name}`, (all) => put(all[i], plain(field.value.trim()))));
     field.addEventListener("change", () => this.#study.rest());
     this.#shows.push((all) => {
       const value = String((all[i] && get(all[i])) ?? "");
-      if (document.activeElement !== field || field.value.trim() !== value) field.value = value;
+      if (document.activeElement !== field || plain(field.value.trim()) !== value) field.value = localised(value);
     });
     return html("label", { class: "entry" }, html("span", { class: "field-name", text: title }), field);
   }
 
-  #select(i, name, title, options, get, put) {
-    const field = html("select", { "aria-label": `interlock ${i} ${name}` }, ...Object.entries(options).map(([value, text]) => html("option", { value, text })));
+  #select(i, name, title, options, get, put, named = false) {
+    const field = html("select", { "aria-label": `interlock ${i} ${name}` }, ...Object.entries(options).map(([value, text]) => html("option", { value, text, translate: named ? "no" : null })));
     field.addEventListener("change", () => this.#change(`interlock ${i} ${name}`, (all) => put(all[i], field.value)));
     this.#shows.push((all) => all[i] && (field.value = get(all[i])));
     return html("div", { class: "entry" }, html("span", { class: "field-name", text: title }), field);

@@ -52,9 +52,22 @@ export class Opening {
   }
 }
 
-async function stateOf(file) {
+/** The text of a file in UTF-8, in UTF-16 with its mark, or in Latin-1. */
+export async function textOf(file) {
   if (file.size > LARGEST) throw new Error(`${file.name} is larger than ${LARGEST / 1000} kB: start \`optlaws explore\` with it`);
-  const text = await file.text();
+  const bytes = new Uint8Array(await file.arrayBuffer());
+  const mark = { "255,254": "utf-16le", "254,255": "utf-16be" }[bytes.slice(0, 2).join()];
+  if (mark) return new TextDecoder(mark).decode(bytes);
+  try {
+    return new TextDecoder("utf-8", { fatal: true }).decode(bytes);
+  } catch {
+    if (bytes.includes(0)) throw new Error(`${file.name} is not a text file`);
+    return new TextDecoder("latin1").decode(bytes);
+  }
+}
+
+async function stateOf(file) {
+  const text = await textOf(file);
   if (file.name.toLowerCase().endsWith(".json") && text.includes(DOCUMENT)) {
     const { state } = JSON.parse(text);
     return read(written({ ...structuredClone(FIRST), ...state }));

@@ -97,9 +97,12 @@ export class Panel {
     const clip = svg("clipPath", { id: `beyond-${name}` }, ...zones.map((zone) => zone.cloneNode()));
     lines.append(...zones);
     for (const { at: [from] } of segments) if (x(from) > box.left) lines.append(svg("line", { class: "joint", x1: x(from), x2: x(from), y1: box.top, y2: box.bottom }));
-    const drawn = this.#series.map(({ at, values, law, name: title }) => ({ law, title, d: path(at.map((one, i) => (values[i] === null ? null : [x(one), y(values[i])]))) }));
+    const drawn = this.#series.map(({ at, values, law, dots, name: title }) => {
+      const places = at.map((one, i) => (values[i] === null ? null : [x(one), y(values[i])]));
+      return { law, title, dots, d: dots ? places.filter(Boolean).map((place) => `${path([place])}h0`).join("") : path(places) };
+    });
     const order = [...drawn.filter(({ law }) => law !== this.#active?.law).toReversed(), ...drawn.filter(({ law }) => law === this.#active?.law).toReversed()];
-    for (const { law, d, title } of order) lines.append(svg("path", { class: `line law-${law}${law === this.#active.law ? " active" : ""}`, d }, title ? svg("title", { text: title }) : null));
+    for (const { law, d, dots, title } of order) lines.append(svg("path", { class: `line law-${law}${law === this.#active.law ? " active" : ""}${dots ? " dots" : ""}`, d }, title ? svg("title", { text: title }) : null));
     if (zones.length && this.#shown.beyond && drawn.length) lines.append(svg("path", { class: "beyond", d: drawn[0].d, "clip-path": `url(#beyond-${name})` }));
     this.element.append(inside, clip, lines, ...peakMarks(this.#panel.peaks ?? [], (peak) => [x(peak.at), y(peak.value)], box, this.#active?.law ?? 0), this.#cursor);
   }

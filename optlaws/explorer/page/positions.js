@@ -3,6 +3,7 @@
 import { frame, scale, ticks } from "./axes.js";
 import { html, path, renew, svg } from "./svg.js";
 import { valueAt } from "./timing.js";
+import { shownUnit } from "./units.js";
 
 const BOX = { left: 66, right: 16, top: 12, bottom: 40 };
 
@@ -56,6 +57,9 @@ export class Positions {
     const { axes, units, ranges, regions } = this.#plane;
     const box = { left: BOX.left, right: width - BOX.right, top: BOX.top, bottom: height - BOX.bottom };
     const [x, y] = [scale(ranges[0], [box.left, box.right]), scale(ranges[1], [box.bottom, box.top])];
+    // in the units of the reader
+    const shown = units.map(shownUnit);
+    const read = ranges.map((range, i) => range.map((value) => value * shown[i].factor));
     const [across, up] = axes.map((name) => this.#shown.rows.find((row) => row.name === name).values);
     this.#place = (angle) => [x(valueAt(this.#shown.at, across, angle)), y(valueAt(this.#shown.at, up, angle))];
     this.#svg.setAttribute("width", width);
@@ -63,7 +67,7 @@ export class Positions {
     this.#svg.setAttribute("aria-label", this.#words());
     renew(
       this.#svg,
-      frame(box, x, y, { xs: ticks(...ranges[0], 6), ys: ticks(...ranges[1], 5), xname: `${axes[0]}, ${units[0]}`, yname: `${axes[1]}, ${units[1]}` }),
+      frame(box, scale(read[0], [box.left, box.right]), scale(read[1], [box.bottom, box.top]), { xs: ticks(...read[0], 6), ys: ticks(...read[1], 5), xname: `${axes[0]}, ${shown[0].unit}`, yname: `${axes[1]}, ${shown[1].unit}` }),
       ...regions.map((region) => this.#region(region, x, y)),
       svg("path", { class: "line law-0 active", d: path(across.map((value, i) => [x(value), y(up[i])])) }),
       ...regions.filter(({ free }) => free).flatMap((region) => region.corners.map((corner, i) => this.#corner(region, i, corner, x, y))),

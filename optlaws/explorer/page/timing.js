@@ -95,7 +95,7 @@ export class Timing {
     const top = BOX.top + each * i;
     const group = svg("g", { class: `row law-${i % 4}` });
     group.append(svg("line", { class: "grid", x1: 0, x2: box.right, y1: top + each, y2: top + each }));
-    group.append(svg("text", { class: "title", x: 4, y: top + each / 2, text: shortened(row.name, 12) }, svg("title", { text: row.name })));
+    group.append(svg("text", { class: "title", translate: "no", x: 4, y: top + each / 2, text: shortened(row.name, 12) }, svg("title", { text: row.name })));
     group.append(svg("text", { x: 4, y: top + each / 2 + 15, text: row.stroke }));
     const line = svg("path", { class: "line active", d: path(this.#shown.at.map((at, k) => [this.#x(at), y(row.values[k])])) });
     group.append(...row.bars.filter(({ moves }) => moves).map((bar, place) => this.#bar(row, i, bar, place, top, each)), line);

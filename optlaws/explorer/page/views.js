@@ -35,5 +35,6 @@ export const VIEWS = {
     whole: (value) => object(value) && ((Array.isArray(value.move) && value.move.length > 0 && value.move.every(object)) || (Array.isArray(value.axis) && value.axis.length > 0 && value.axis.every(motion))),
     load: () => import("./views/fastest.js"),
   },
+  old: { title: "Old cam", whole: (value) => object(value) && typeof value.text === "string", load: () => import("./views/old.js") },
   study: { title: "Study", whole: object, load: () => import("./views/study.js") },
 };

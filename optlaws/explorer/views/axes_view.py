@@ -225,7 +225,7 @@ def _room(axes: Axes, rule: Interlock, times: Array) -> dict[str, Any]:
     spans = [(0.0, _TURN)] if passes is None else [(at - _PASS, at + _PASS) for at in passes]
     limits = [{"from": max(0.0, start), "to": min(_TURN, stop), "value": None, "least": 0.0} for start, stop in spans]
     curve = {"at": drawn(scale * at, 4), "values": drawn(values)}
-    return {"name": rule.label, "unit": unit, **curve, "limits": limits, "peaks": []}
+    return {"name": f"clearance of {rule.label}", "unit": unit, **curve, "limits": limits, "peaks": []}
 
 
 def _unit(of: str) -> tuple[str, float]:

@@ -45,7 +45,7 @@ export class View {
     const part = (id) => html("div", { id });
     this.#parts = {
       programme: part("axes-programme"), interlocks: part("axes-interlocks"), together: part("axes-together"),
-      trust: panel("axes-trust", { role: "status", "aria-live": "polite" }), timing: html("div", { id: "axes-timing", class: "picture" }),
+      trust: panel("axes-trust", { role: "status", "aria-live": "polite" }), timing: html("div", { id: "axes-timing" }),
       run: html("div", { id: "axes-run" }), read: html("p", { class: "facts", id: "axes-reading" }), plane: html("div", { id: "axes-plane", class: "picture" }), choice: html("select", { "aria-label": "plane of two positions" }),
       rooms: panel("axes-rooms"), table: panel("axes-table"),
     };
@@ -71,7 +71,7 @@ export class View {
 
   /** The part of a study that files are made of. */
   saved({ axes, axis }) {
-    return { view: "cycle", cycle: { study: axes, axis } };
+    return { axes: { study: axes, axis } };
   }
 
   /** The axis of the programme is the one that a controller is to run. */
@@ -116,7 +116,7 @@ export class View {
     this.#rooms.show(refused ? this.#answer : { across, panels: marked, segments: [] });
     const { choice } = this.#parts;
     const names = planes.map(({ axes }) => axes.join(" and "));
-    if (told(names) !== told([...choice.options].map(({ text }) => text))) choice.replaceChildren(...names.map((text, value) => html("option", { value, text })));
+    if (told(names) !== told([...choice.options].map(({ text }) => text))) choice.replaceChildren(...names.map((text, value) => html("option", { value, text, translate: "no" })));
     choice.hidden = names.length < 2;
     choice.value = String(Math.min(this.#study.state.plane ?? 0, names.length - 1));
   }
@@ -206,6 +206,6 @@ function withPeak(panel, { value, at, cells, status }) {
 
 function table(name, headings, rows) {
   const head = html("tr", {}, ...headings.map((text, i) => html("th", { scope: "col", class: i > 1 ? "number" : null, text })));
-  const body = rows.map(([title, cells]) => html("tr", {}, html("th", { scope: "row", title, text: title }), ...cells));
+  const body = rows.map(([title, cells]) => html("tr", {}, html("th", { scope: "row", translate: "no", title, text: title }), ...cells));
   return html("table", { "aria-label": name }, html("thead", {}, head), html("tbody", {}, ...body));
 }

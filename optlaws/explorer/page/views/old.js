@@ -1,0 +1,202 @@
+// The view of an old cam: its table dropped or chosen, the moves that it holds, and better laws within a tolerance.
+
+import { group, slider } from "../fields.js";
+import { localised, plain } from "../language.js";
+import { Latest } from "../latest.js";
+import { textOf } from "../opening.js";
+import { Panels } from "../panels.js";
+import { Strip } from "../strip.js";
+import { html, renew } from "../svg.js";
+import { showTrust, unanswered } from "../trust.js";
+
+const told = (value) => JSON.stringify(value);
+const FIELDS = {
+  unit: ["positions in", "what the file says, or mm"],
+  master: ["master in", "what the file says, or deg"],
+  columns: ["columns", "1,2 or headings"],
+  cam: ["cam", "of a file with several"],
+  speed: ["speed", "what the file says, or 200 rpm"],
+};
+const FILES = [
+  { kind: "problem", text: "Problem file (TOML)", about: "For optlaws cycle, where all moves are standard laws" },
+  { kind: "law", text: "Cycle with its laws (JSON)", about: "For Cycle.from_json" },
+  { kind: "table", text: "Table of values (CSV)", about: "Angle, time, position, velocity, acceleration and jerk" },
+];
+const MOVES = ["move", "from", "to", "by", "law"];
+
+export class View {
+  files = FILES;
+  drawings = "#old-curves svg";
+  #study;
+  #trust = html("div", { id: "old-trust", class: "panel", role: "status", "aria-live": "polite" });
+  #moves = html("div", { id: "old-moves", class: "panel" });
+  #gains = html("div", { id: "old-gains", class: "panel" });
+  #form = html("aside", { id: "old-ask", "aria-label": "The table and what is asked of it" });
+  #band = html("div");
+  #name = html("strong");
+  #shows = [];
+  #within = null;
+  #curves;
+  #tables;
+  #better;
+  #answer = null;
+  #asked = null;
+  #found = [];
+
+  constructor(root, study) {
+    this.#study = study;
+    const curves = html("section", { id: "old-curves", class: "panel", "aria-label": "Points and laws over the master" });
+    root.append(this.#form, html("section", { id: "old-middle", "aria-label": "What the table holds" }, this.#trust, this.#moves, this.#gains), curves);
+    this.#curves = new Panels(curves, { strip: new Strip({ chosen: (i) => this.#curves.look(this.#answer.segments[i].at) }) });
+    this.#tables = new Latest("api/old", (answer, question) => this.#answered(answer, question), (error, question) => this.#answered(unanswered(error), question));
+    this.#better = new Latest("api/old-move", (answer, question) => this.#find(answer, question), (error, question) => this.#find(unanswered(error), question));
+    this.#build();
+  }
+
+  /** Every file but those of problems and laws is a table here. */
+  async dropped(file) {
+    if (/\.(json|toml)$/i.test(file.name)) return false;
+    await this.#take(file);
+    return true;
+  }
+
+  saved({ old }) {
+    return { old: this.#cycle(old) };
+  }
+
+  /** The cycle with its better laws, as far as they are found. */
+  exported({ laws, active, old }) {
+    return { view: "old", laws, active, old: this.#cycle(old) };
+  }
+
+  show(state) {
+    this.#name.textContent = state.old.file ?? "table";
+    for (const show of this.#shows) show(state.old);
+    this.#within?.set(state.old.within ?? this.#answer?.within ?? null);
+    // what the tolerance and the speed are changes nothing of what is read
+    if (told(read(state.old)) !== told(this.#asked && read(this.#asked))) this.#tables.ask({ study: state.old });
+    else this.#ask(state.old);
+  }
+
+  #cycle(old) {
+    const known = this.#asked && told(near(this.#asked)) === told(near(old));
+    return { study: old, laws: known ? this.#found.map((one) => one?.law ?? null) : [] };
+  }
+
+  #answered(answer, { study }) {
+    this.#answer = answer;
+    this.#asked = study;
+    this.#found = [];
+    showTrust(this.#trust, answer, [], () => {});
+    if (!answer.refused) this.#measure(answer);
+    this.#draw();
+    this.#ask(this.#study.state.old);
+  }
+
+  /** Ask for the better laws one by one, from the first that is not known for this tolerance. */
+  #ask(old) {
+    if (!this.#answer || this.#answer.refused) return;
+    if (told(near(this.#asked)) !== told(near(old))) {
+      this.#asked = old;
+      this.#found = [];
+      this.#draw();
+    }
+    const next = this.#answer.moves.findIndex((_, i) => !this.#found[i]);
+    if (next >= 0) this.#better.ask({ study: { ...old, within: this.#tolerance }, move: next });
+  }
+
+  get #tolerance() {
+    return this.#asked?.within ?? this.#answer?.within;
+  }
+
+  #find(answer, { study, move }) {
+    if (study.within !== this.#tolerance || told(read(study)) !== told(read(this.#asked))) return;
+    this.#found[move] = answer;
+    this.#draw();
+    if (!answer.refused || answer.refused.word !== "no answer") this.#ask(this.#study.state.old);
+  }
+
+  #draw() {
+    const answer = this.#answer;
+    if (answer.refused) {
+      this.#curves.show(answer);
+      this.#moves.replaceChildren();
+      this.#gains.replaceChildren();
+      return;
+    }
+    const { panels, moves, unit, drawn } = answer;
+    const known = moves.map((part, i) => ({ ...answer.segments[part], ...this.#found[i] })).filter(({ curves }) => curves?.length);
+    const shown = panels.map((panel, i) => {
+      const parts = known.map(({ curves }) => curves[i]);
+      const fresh = parts.length ? [{ at: parts.flatMap(({ at }) => [...at, at.at(-1)]), values: parts.flatMap(({ values }) => [...values, null]), law: 1, name: "new law" }] : [];
+      const peaks = i < 2 ? [] : [...panel.peaks, ...known.flatMap((one) => one.peaks[i - 2])];
+      const limits = panel.limits?.map((limit) => ({ ...limit, value: this.#tolerance }));
+      return { ...panel, series: [...panel.series, ...fresh], peaks, ...(limits && { limits }) };
+    });
+    this.#curves.show({ ...answer, panels: shown, active: 0 });
+    this.#moves.replaceChildren(table("Moves of the table", MOVES, answer.rows), html("p", { class: "facts", text: ["A old law · B new law · C points", drawn].filter(Boolean).join(" · ") }));
+    const rows = moves.map((part, i) => [answer.rows[part][0], answer.rows[part][1], ...(this.#found[i] ? this.#found[i].cells ?? [this.#found[i].refused.reason] : ["…"])]);
+    const powers = ["", "²", "³"].map((power) => `${unit}/${answer.symbol}${power}`);
+    const headings = ["move", "from", ...["velocity", "acceleration", "jerk"].map((name, i) => `${name}, ${powers[i]}`), "off by"];
+    const words = `Laws of least acceleration within ${this.#tolerance} ${unit} of the old ones at every place; jerk at most a fifth above.`;
+    this.#gains.replaceChildren(html("p", { class: "quiet", text: words }), table("Better laws within the tolerance", headings, rows));
+  }
+
+  /** The tolerance is dragged up to a fiftieth of the stroke, or typed. */
+  #measure({ stroke, unit, within }) {
+    const high = Number((stroke / 50).toPrecision(1));
+    const step = 10 ** Math.floor(Math.log10(high / 100));
+    this.#within = slider({
+      name: `± ${unit}`, title: "Tolerance of the better laws", low: 0, high, step, off: false,
+      changed: (value) => value > 0 && this.#study.change("within", (state) => (state.old.within = value)), rested: () => this.#study.rest(),
+    });
+    this.#within.set(this.#study.state.old.within ?? within);
+    renew(this.#band, group("Tolerance band", this.#within.element));
+  }
+
+  #build() {
+    const chooser = html("input", { type: "file", "aria-label": "Table of an old cam", onchange: () => chooser.files.length && this.#take(chooser.files[0]) });
+    const fields = Object.entries(FIELDS).map(([name, [title, placeholder]]) => this.#text(name, title, placeholder));
+    this.#form.replaceChildren(
+      group("Table", html("p", {}, this.#name), chooser, html("p", { class: "hint", text: "or drop a file anywhere: columns of numbers, or what a controller has (CODESYS, TwinCAT, Siemens, an .L5X of Rockwell, …)" }), ...fields.slice(0, 4), this.#number("room", "points within", "the last digit, or the noise")),
+      this.#band,
+      group("Machine", ...fields.slice(4)),
+    );
+  }
+
+  async #take(file) {
+    const text = await textOf(file);
+    this.#study.change(`table ${file.name}`, (state) => (state.old = { file: file.name.slice(-200), text }));
+    this.#study.rest();
+  }
+
+  #number(name, title, placeholder) {
+    return this.#text(name, title, placeholder, (value) => (Number(value) > 0 ? Number(value) : undefined));
+  }
+
+  #text(name, title, placeholder, of = (value) => value) {
+    const field = html("input", { type: "text", placeholder, spellcheck: "false", maxlength: 60, "aria-label": title });
+    field.addEventListener("input", () => this.#study.change(name, (state) => {
+      const text = name === "columns" ? field.value.trim() : plain(field.value.trim());
+      const value = text && of(text);
+      if (value) state.old[name] = value;
+      else delete state.old[name];
+    }));
+    field.addEventListener("change", () => this.#study.rest());
+    this.#shows.push((old) => {
+      if (document.activeElement !== field) field.value = name === "columns" ? old[name] ?? "" : localised(old[name] ?? "");
+    });
+    return html("label", { class: "entry" }, html("span", { class: "field-name", text: title }), field);
+  }
+}
+
+/** What a table is read by. */
+const read = ({ within, speed, ...rest }) => rest;
+/** What better laws depend on. */
+const near = ({ speed, ...rest }) => rest;
+
+function table(name, headings, rows) {
+  const head = html("tr", {}, ...headings.map((text) => html("th", { scope: "col", text })));
+  const body = rows.map(([title, ...cells]) => html("tr", {}, html("th", { scope: "row", text: title }), ...cells.map((text, i) => html("td", { text, title: text, colspan: i === cells.length - 1 && cells.length + 1 < headings.length ? headings.length - cells.length : null }))));
+  return html("table", { "aria-label": name }, html("thead", {}, head), html("tbody", {}, ...body));
+}

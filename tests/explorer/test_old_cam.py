@@ -1,0 +1,146 @@
+"""The table of an old cam in the page: what it is, better laws near it, and the files of both."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+
+from optlaws import Cycle, catalogue, read_cycle_table
+from tests.documents import ROOT
+from tests.explorer.talk import OPTIMAL, Server
+from tests.explorer.test_page import go
+from tests.internals.explorer import OpenRequest, old_cam_view, opened_file, start
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from playwright.sync_api import Page
+
+REAL = ROOT / "problems" / "data" / "rtmotion_cam.csv"
+LAWS = [OPTIMAL]
+ANGLES = np.arange(0.0, 361.0, 6.0)
+LIFT = 35.0 * catalogue["modified sine"].law(np.clip(ANGLES / 120.0, 0.0, 1.0))
+
+
+def text_of(heights: Any) -> str:  # noqa: ANN401 - an array
+    """A table of one rise and its dwell."""
+    lines = [f"{angle:.0f};{height:.3f}" for angle, height in zip(ANGLES, heights, strict=True)]
+    return "\n".join(["degree;mm", *lines]) + "\n"
+
+
+STUDY = {"file": "turn.csv", "text": text_of(LIFT), "speed": "200 rpm"}
+
+
+@pytest.fixture(scope="module")
+def turn(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    file = tmp_path_factory.mktemp("old") / "turn.csv"
+    file.write_text(STUDY["text"], "utf-8")
+    return file
+
+
+def test_a_table_is_what_the_library_reads(served: Server, turn: Path) -> None:
+    shown, table = served.ask("old", {"study": STUDY}), read_cycle_table(turn)
+    rows = [[part.kind, f"{part.start:g}", f"{part.stop:g}"] for part in table.stretches]
+    assert [row[:3] for row in shown["rows"]] == rows
+    assert shown["rows"][0][4] == table.law_in_words(table.stretches[0])
+    assert shown["trust"]["facts"][0] == f"laws keep within {table.room:.3g} mm of the points"
+    off = next(one for one in shown["panels"][1]["series"] if one["name"] == "points")
+    assert off["values"] == pytest.approx(table.heights - table.at(table.places), abs=1e-7)
+    for panel, nu in zip(shown["panels"][2:], (1, 2, 3), strict=True):
+        peaks = [gain.old[nu - 1] for gain in table.gains(table)]
+        assert [abs(mark["value"]) for mark in panel["peaks"]] == pytest.approx(peaks)
+        (law,) = panel["series"]
+        at = dict(zip(law["at"], law["values"], strict=True))
+        assert all(at[mark["at"]] == pytest.approx(mark["value"], abs=1e-7) for mark in panel["peaks"])
+
+
+@pytest.mark.long
+def test_a_noisy_table_says_its_noise_and_its_seam(served: Server) -> None:
+    shown, table = served.ask("old?patience=9", {"study": {"text": REAL.read_text("utf-8")}}), read_cycle_table(REAL)
+    facts = " ".join(shown["trust"]["facts"])
+    assert shown["trust"]["word"] == "off a point"
+    assert f"{table.off[0]:.3g} mm off the point at {table.off[1]:.6g} turn" in facts
+    assert f"scatter by {table.scatter:.2g} mm" in facts
+    assert f"{table.seam:.3g} mm from the first" in facts
+
+
+def test_better_laws_are_the_library_s_and_so_are_their_files(served: Server, turn: Path) -> None:
+    study = STUDY | {"within": 0.1}
+    table = read_cycle_table(turn)
+    better = table.bettered(0.1)
+    moves = [served.ask("old-move?patience=20", {"study": study, "move": number}) for number in (0,)]
+    for shown, gain, part in zip(moves, better.gains(table), better.moves, strict=True):
+        assert f"({100.0 * gain.share(2):+.1f} %)".replace("-", "−") in shown["cells"][1]
+        assert max(map(abs, shown["curves"][1]["values"])) <= 0.1 * (1.0 + 1e-6)
+        assert not isinstance(part.law, str)
+        assert shown["law"] == json.loads(json.dumps(part.law.to_dict()))  # type: ignore[union-attr]
+    old = {"study": study, "laws": [shown["law"] for shown in moves]}
+    cycle = better.cycle(speed="200 rpm")
+    told = served.ask("export", {"format": "csv", "view": "old", "laws": LAWS, "old": old, "points": 91})
+    assert told["text"] == cycle.export("csv", points=91).text
+    kept = served.ask("save", {"kind": "law", "view": "old", "laws": LAWS, "old": old})
+    assert Cycle.from_json(kept["text"]).peak(2) == cycle.peak(2)
+    assert "have no name" in served.ask("save", {"kind": "problem", "view": "old", "laws": LAWS, "old": old})["error"]
+    plain = served.ask("save", {"kind": "problem", "view": "old", "laws": LAWS, "old": {"study": STUDY}})
+    assert plain["name"] == "turn.toml"
+    assert 'law = "modified sine"' in plain["text"]
+    assert "speed of the master" in served.ask(
+        "export", {"format": "csv", "view": "old", "laws": LAWS, "old": {"study": {"text": STUDY["text"]}}}
+    )["error"]  # fmt: skip
+
+
+def test_tables_of_cycles_and_of_controllers_are_opened_as_old_cams(turn: Path) -> None:
+    whole = turn.with_name("whole.csv")
+    whole.write_text(old_cam_view.example()["text"], "utf-8")
+    assert start(str(whole)) == {"view": "old", "old": {"file": "whole.csv", "text": whole.read_text("utf-8")}}
+    cycle = read_cycle_table(turn).cycle(speed="200 rpm")
+    for name, layout in (("rockwell-cam", "Rockwell"), ("codesys-xyva", "CODESYS"), ("twincat-nc2", "TwinCAT")):
+        export = cycle.export(name)
+        state = opened_file(OpenRequest(name=f"cam{export.format.extension}", text=export.text))["state"]
+        assert state["view"] == "old"
+        assert layout in old_cam_view.answer(read(state["old"]))["trust"]["advice"]
+
+
+def read(entries: dict[str, Any]) -> Any:  # noqa: ANN401 - a request
+    return old_cam_view.OldCamRequest(study=old_cam_view.OldCamEntries(**entries))
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [("", "table"), ("1;2\n2;3\n", "12"), ("x;y\n" + "\n".join(f"{x};1" for x in range(40)), "never move")],
+)
+def test_a_text_that_is_no_table_says_why(served: Server, text: str, reason: str) -> None:
+    assert reason in served.ask("old", {"study": {"text": text}})["refused"]["reason"]
+    assert "refused" in served.ask("old-move", {"study": {"text": text}, "move": 0})
+
+
+def bettered(page: Page) -> None:
+    """Wait for better laws, each of which takes a second of the processor."""
+    page.locator("body[data-work=settled]").wait_for(timeout=60_000)
+
+
+def test_a_dropped_table_is_shown_and_bettered_within_a_dragged_band(page: Page, served: Server, turn: Path) -> None:
+    go(page, f"http://{served.host}/")
+    page.get_by_role("tab", name="Old cam").click()
+    page.get_by_label("Table of an old cam").wait_for()
+    page.get_by_label("Table of an old cam").set_input_files(turn)
+    bettered(page)
+    assert "modified sine" in page.locator("#old-moves").inner_text()
+    assert page.locator("#old-curves .dots").count() == 2
+    band = page.get_by_label("Tolerance of the better laws", exact=True)
+    band.fill("0.2")
+    bettered(page)
+    wide = served.ask(
+        "old-move?patience=20", {"study": {"file": "turn.csv", "text": STUDY["text"], "within": 0.2}, "move": 0}
+    )
+    assert wide["cells"][1].split("(")[1] in page.locator("#old-gains").inner_text()
+    page.get_by_role("button", name="Undo").click()
+    bettered(page)
+    assert band.input_value() == "0.07"
+    page.get_by_role("textbox", name="speed").fill("300 rpm")
+    page.get_by_role("button", name="Export").click()
+    bettered(page)
+    assert "as run" in page.locator("dialog[open]").inner_text()
