@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from math import inf
 from time import perf_counter
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,11 +14,8 @@ from optlaws.errors import InfeasibleProblem, SolverFailure
 from optlaws.laws import MotionLaw
 from optlaws.numbers import Array
 from optlaws.synthesis.families.active_set import ActiveSet
-from optlaws.synthesis.limits.drive_limits import limit_beside
 from optlaws.synthesis.limits.of_problem import known_limit
-from optlaws.synthesis.method import starts
 from optlaws.synthesis.method.exchange import Outcome, solve
-from optlaws.synthesis.method.lower_bounds import active_lower_bounds, active_lower_bounds_at
 from optlaws.synthesis.method.stored_structures import stored_guess
 from optlaws.synthesis.method.without_interior import fallbacks_without_interior, on_equations
 from optlaws.synthesis.problem.constants import Functional, PeakConstant
@@ -25,13 +23,8 @@ from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.evaluation import Worth, shortfalls, worth
 from optlaws.synthesis.program.writer import Model, model_of
-from optlaws.synthesis.proof import mirroring
-from optlaws.synthesis.proof import peak_search as places
 from optlaws.synthesis.proof.certificate import Certificate
-from optlaws.synthesis.proof.infeasible import failure, falls_for_ever
 from optlaws.synthesis.proof.make import certify, lower_bound
-from optlaws.synthesis.proof.peak_rows import peak_of
-from optlaws.synthesis.proof.power.search import tightened
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.status import Status, status_of
 from optlaws.tolerances import (
@@ -43,6 +36,9 @@ from optlaws.tolerances import (
     OPTIMALITY_GAP,
     UNDIVIDED_ROUNDING,
 )
+
+if TYPE_CHECKING:
+    from optlaws.synthesis.limits.drive_limits import DriveLimit
 
 #: of the gap, what the search over the places of a peak leaves
 _LEFT = 0.9
@@ -100,6 +96,8 @@ class LawSearch:
 
     def error(self) -> InfeasibleProblem | SolverFailure:
         """Why there is no law."""
+        from optlaws.synthesis.proof.infeasible import failure
+
         return failure(self.problem, self.outcomes[0])
 
     def _try_starts(self) -> None:
@@ -110,6 +108,8 @@ class LawSearch:
         last = self._try(self.warm or stored_guess(self.model), None)
         if self.problem.convex or self.warm is not None or _agree(first, last):
             return
+        from optlaws.synthesis.method import starts
+
         first = first or last
         for point in starts.points(self.model):
             if _agree(first, self._try(None, point)):
@@ -117,12 +117,16 @@ class LawSearch:
 
     def _try_drive(self) -> Candidate | None:
         """Try the motion that attains the limit of a drive as a start."""
-        limit = None if self.problem.convex else limit_beside(self.problem)
+        if self.problem.convex:
+            return None
+        from optlaws.synthesis.method import starts
+
+        limit = _limit_beside(self.problem)
         return None if limit is None else self._try(None, starts.in_phase_plane(self.model, limit), near=True)
 
     def _near_limit(self, law: Candidate) -> bool:
         """Whether the limit of a drive leaves a law little room."""
-        limit = limit_beside(self.problem)
+        limit = _limit_beside(self.problem)
         return limit is not None and law.objective <= limit.value * (1.0 + NEAR_LIMIT)
 
     def _try(self, warm: ActiveSet | None, point: Array | None, *, near: bool = False) -> Candidate | None:
@@ -136,6 +140,8 @@ class LawSearch:
         """The best law that the search for a tight bound comes upon; notes its proof."""
         if not self.tight or self.problem.convex:
             return best
+        from optlaws.synthesis.proof.power.search import tightened
+
         better, scales = [best], self.model.variable_scales
 
         def explore(x: Array) -> bool:
@@ -153,6 +159,8 @@ class LawSearch:
 
     def _held_up(self, plain: Candidate, short: Mapping[Functional, float]) -> Candidate:
         """The best law in which constants that are below their lower bounds are held up."""
+        from optlaws.synthesis.method.lower_bounds import active_lower_bounds
+
         best = self._best_of(active_lower_bounds(self.model, plain.optimum))
         if best is not None:
             return best
@@ -169,6 +177,8 @@ class LawSearch:
         alone = all(leaf == constant for _, leaf in leaves(self.problem.objective))
         if alone or not isinstance(constant, PeakConstant):
             return best
+        from optlaws.synthesis.method.lower_bounds import active_lower_bounds_at
+
         step, side = FIRST_MOVE, 1.0
         for _ in range(_MOVES):
             k = best.law.peak(constant.nu).k + side * step
@@ -182,6 +192,10 @@ class LawSearch:
 
     def _placed(self, plain: Candidate, best: Candidate, short: Mapping[Functional, float]) -> Candidate:
         """The best law from a search over the places of a peak that is bounded from below; notes its proof."""
+        from optlaws.synthesis.method.lower_bounds import active_lower_bounds_at
+        from optlaws.synthesis.proof import peak_search as places
+        from optlaws.synthesis.proof.peak_rows import peak_of
+
         for constant, low in short.items():
             peak, nothing = peak_of(self.problem, constant.name), NO_OBJECTIVE * self.problem.objective.scale
             while peak is not None and best.objective > nothing:
@@ -208,7 +222,7 @@ class LawSearch:
         """The best law with its proof by an optimum without lower bounds of constants, which bounds the objective."""
         problem, limit = self.problem, known_limit(self.problem)
         proof = certify(self.model, bounding, best.objective, limit)
-        drive = None if problem.convex else limit_beside(problem)
+        drive = None if problem.convex else _limit_beside(problem)
         searched = [tight.bound for tight in (self.power, self.peaks) if tight is not None]
         searched += [] if drive is None else [drive.value]
         bound = max([lower_bound(proof, limit), *searched])
@@ -232,12 +246,23 @@ class LawSearch:
         )
 
 
+def _limit_beside(problem: Problem) -> DriveLimit | None:
+    """The limit of a drive; what finds it is imported for problems that are not convex."""
+    from optlaws.synthesis.limits.drive_limits import limit_beside
+
+    return limit_beside(problem)
+
+
 def best_available(search: LawSearch) -> Solution | None:
     """The best law that any way leads to, with its proof; None where there is none, or where ever better ones are."""
     solution, problem = _of_any_way(search), search.problem
     # a law of which nothing is proven may be one of many that are less and less
     unproven = solution is not None and problem.convex and solution.lower_bound == -inf
-    return None if unproven and falls_for_ever(problem) else solution
+    if not unproven:
+        return solution
+    from optlaws.synthesis.proof.infeasible import falls_for_ever
+
+    return None if falls_for_ever(problem) else solution
 
 
 def _of_any_way(search: LawSearch) -> Solution | None:
@@ -263,6 +288,8 @@ def from_symmetric(search: LawSearch) -> Solution | None:
 
     Among unsymmetric laws the optimum may be flat, so that no active set shows there.
     """
+    from optlaws.synthesis.proof import mirroring
+
     model, half = search.model, model_of(replace(search.problem, symmetric=True))
     try:
         symmetric = best_available(LawSearch(half))

@@ -16,12 +16,14 @@ from optlaws.laws.exporting import LawExport
 from optlaws.numbers import bounded
 from optlaws.shown.summary import Row, Summary
 from optlaws.synthesis.families.active_set import ActiveSet
-from optlaws.synthesis.limits.drive_limits import DriveLimit, plane_of
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.spaces.bases import PolynomialBasis, Powers
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
 from optlaws.synthesis.status import Status, measure
+
+if TYPE_CHECKING:
+    from optlaws.synthesis.limits.drive_limits import DriveLimit
 
 _MAY_TURN_BACK = (
     "of laws that may turn back nothing is proven here: with monotone=True, for laws that never turn back, what no law "
@@ -147,7 +149,7 @@ class Solution(LawExport, JsonText):
         """
         problem = self.problem
         local = self.status is Status.LOCAL and not problem.monotone
-        notes = (_MAY_TURN_BACK,) if local and plane_of(replace(problem, monotone=True)) is not None else ()
+        notes = (_MAY_TURN_BACK,) if local and _has_drive_limit(replace(problem, monotone=True)) else ()
         if problem.symmetric or problem.boundary is not None or not problem.uneven:
             return notes
         names = problem.titled(" and ".join(map(repr, problem.uneven)))
@@ -288,6 +290,12 @@ def partly_known(known: dict[str, Any], later: Mapping[str, Callable[[Solution],
     solution = object.__new__(Solution)
     solution.__dict__.update(_DEFAULTS | known, _later=later)
     return solution
+
+
+def _has_drive_limit(problem: Problem) -> bool:
+    from optlaws.synthesis.limits.drive_limits import plane_of
+
+    return plane_of(problem) is not None
 
 
 _DEFAULTS = {entry.name: entry.default for entry in fields(Solution) if entry.default is not MISSING}

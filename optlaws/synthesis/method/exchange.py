@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -18,12 +19,12 @@ from optlaws.synthesis.method.discretised.grids import first_points
 from optlaws.synthesis.method.equations import contradiction, independent
 from optlaws.synthesis.method.guesses import initial_guess, of_variables, sizes_only, vanishing
 from optlaws.synthesis.method.strategies.contacts import polished
-from optlaws.synthesis.method.strategies.interior_points import ByInteriorPoints
-from optlaws.synthesis.method.strategies.quadratics import ByQuadratics, bends_both_ways
 from optlaws.synthesis.method.strategies.strategy import cutting_plane_loop
-from optlaws.synthesis.method.strategies.vertices import ByVertices, many_pieces
 from optlaws.synthesis.method.units import units_of
 from optlaws.synthesis.method.vanishing import at_apex
+
+if TYPE_CHECKING:
+    from optlaws.synthesis.method.strategies.interior_points import ByInteriorPoints
 
 _ROUNDS = 12
 _DIVERGING = "Diverging_Iterates"
@@ -104,6 +105,11 @@ def _in_own_units(
 
 def _solved(program: Program, start: Array | None, holds: Callable[[Array], bool] | None, rounds: int) -> Outcome:
     """The solution of a program whose equations are independent."""
+    # what knows its contacts needs none of them
+    from optlaws.synthesis.method.strategies.interior_points import ByInteriorPoints
+    from optlaws.synthesis.method.strategies.quadratics import ByQuadratics, bends_both_ways
+    from optlaws.synthesis.method.strategies.vertices import ByVertices, many_pieces
+
     points = first_points(program)
     if start is None and program.curved:
         nothing_left = vanishing(program)
@@ -148,7 +154,7 @@ def _by_interior_points(way: ByInteriorPoints, points: list[Points]) -> Outcome:
     tried += way.tried
     if optimum is None and way.status == _DIVERGING:
         bounded = grounded(program)
-        way = ByInteriorPoints(bounded, start, None, rounds)
+        way = type(way)(bounded, start, None, rounds)
         optimum, _ = cutting_plane_loop(way, first_points(bounded))
         # the row that held the objective up is none of the program's
         optimum = None if optimum is None or (optimum.family == len(program.families)).any() else optimum

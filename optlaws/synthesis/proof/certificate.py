@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import inf, isfinite
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -23,14 +23,14 @@ from optlaws.numbers import bounded
 from optlaws.synthesis.problem.constants import present_name
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, least_violation, model_of, relaxed
-from optlaws.synthesis.proof import data as stored
 from optlaws.synthesis.proof.duality import Line, lines_of, row_of, sum_of_rows
 from optlaws.synthesis.proof.farkas import farkas_margin
 from optlaws.synthesis.proof.nodes import Contact, Leaf, Node
-from optlaws.synthesis.proof.peak_rows import PeakRows, peak_of, roots_of
-from optlaws.synthesis.proof.power.box import BoxRows
-from optlaws.synthesis.proof.power.rows import rows_of
 from optlaws.tolerances import NEIGHBOUR_DISTANCE, NEIGHBOUR_SHARE
+
+if TYPE_CHECKING:
+    from optlaws.synthesis.proof.peak_rows import PeakRows
+    from optlaws.synthesis.proof.power.box import BoxRows
 
 OBJECTIVE, RELAXED, VIOLATION = "objective", "relaxed", "violation"
 
@@ -191,17 +191,25 @@ class Certificate(JsonText):
         """The rows of regions; None where nothing of the problem can be bounded so."""
         claim = self.claim or 0.0
         if self.points is not None:
+            from optlaws.synthesis.proof.power.rows import rows_of
+
             rows = rows_of(self.problem, claim, self.points)
             return rows if rows is not None and rows.regular else None
+        from optlaws.synthesis.proof.peak_rows import PeakRows, peak_of
+
         peak = peak_of(self.problem, self.peak)
         return None if peak is None else PeakRows(self.problem, peak, claim)
 
     def to_dict(self) -> dict[str, Any]:
         """Plain JSON-able dict with the recomputed bound (None where there is none): docs/reference/proof-format.md."""
+        from optlaws.synthesis.proof import data as stored
+
         entries: dict[str, Any]
         if self.points is not None:
             entries = {"claim": self.claim, "points": list(self.points), "steps": stored.steps(self.tree)}
         elif self.peak:
+            from optlaws.synthesis.proof.peak_rows import roots_of
+
             cells = stored.cells(self.tree, roots_of(self.problem, self.peak))
             entries = {"constant": self.peak, "claim": self.claim, "cells": cells}
         else:
@@ -217,6 +225,8 @@ class Certificate(JsonText):
         InputError
             If an entry is missing or wrong.
         """
+        from optlaws.synthesis.proof import data as stored
+
         entries = stored.stated_certificate(data)
         problem = stored.problem_of(entries.problem)
         if isinstance(entries, stored.StatedLeaf):
@@ -224,6 +234,8 @@ class Certificate(JsonText):
             return cls.of_leaf(problem, contacts, entries.equations, entries.program, entries.tangent)
         if isinstance(entries, stored.StatedBoxes):
             return cls(problem, entries.claim, tuple(map(stored.node_of, entries.steps)), points=entries.points)
+        from optlaws.synthesis.proof.peak_rows import roots_of
+
         peak = present_name(entries.constant)
         return cls(problem, entries.claim, stored.tree_of_cells(entries.cells, roots_of(problem, peak)), peak=peak)
 

@@ -22,7 +22,6 @@ from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, No
 from optlaws.synthesis.families.kinked import KinkedIntegralFamily
 from optlaws.synthesis.families.names import RowName, VariableName, velocity_at_peak
 from optlaws.synthesis.method.discretised.grids import first_points, with_extrema
-from optlaws.synthesis.method.discretised.linear import LinearTable, vertex_on_points
 from optlaws.synthesis.method.exchange import solve
 from optlaws.synthesis.method.newton import newton
 from optlaws.synthesis.problem.constants import D
@@ -419,6 +418,8 @@ class _Tangents:
 
     def certificate(self, objective: float) -> Certificate | None:
         """The best certificate of vertices, each of which shows where the next tangents touch; None where none is."""
+        from optlaws.synthesis.method.discretised.linear import LinearTable, vertex_on_points
+
         best: Certificate | None = None
         for _ in range(_ROUNDS):
             families, points = self._families()

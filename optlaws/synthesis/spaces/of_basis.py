@@ -50,9 +50,9 @@ def _(basis: PolynomialBasis, boundary: BoundaryConditions, *, symmetric: bool) 
 @lru_cache(maxsize=64)
 def check_conversions(basis: PolynomialBasis) -> None:
     """See that a basis leads from a Chebyshev series to its coefficients and back."""
-    numbers = np.random.default_rng(0)
-    for _ in range(2):
-        given = numbers.normal(size=basis.size)
+    # any numbers do, and those of numpy.random take as long to import as a law takes to solve
+    for turn in (1.0, 2.0):
+        given = np.cos(turn * np.arange(1.0, basis.size + 1.0) ** 2)
         coefficients = np.asarray(basis.coefficients(given), dtype=np.float64)
         back = np.zeros(basis.size)
         series = np.asarray(basis.series(tuple(coefficients.tolist())), dtype=np.float64)
