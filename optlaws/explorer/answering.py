@@ -16,17 +16,8 @@ import msgspec
 from optlaws.echo import cut
 from optlaws.errors import InputError, OptlawsError
 from optlaws.explorer import downloads, start
-from optlaws.explorer.views import (
-    axes_view,
-    cam_view,
-    cycle_view,
-    fastest_view,
-    front_view,
-    law_view,
-    machine_view,
-    old_cam_view,
-    study_view,
-)
+from optlaws.explorer.views import axes_view, cam_view, cycle_view, front_view, law_view, old_cam_view, study_view
+from optlaws.explorer.views.machines import fastest_view, machine_view
 from optlaws.explorer.views.requests import Question, read, ready
 from optlaws.jobs.cam_entries import CamProblemFile
 from optlaws.jobs.cycle_entries import CycleProblemFile

@@ -21,7 +21,8 @@ from starlette.routing import Route
 from optlaws import __version__, catalogue
 from optlaws.explorer import downloads
 from optlaws.explorer.answering import EXAMPLES, QUESTIONS, message
-from optlaws.explorer.views import cam_view, machine_view
+from optlaws.explorer.views import cam_view
+from optlaws.explorer.views.machines import machine_view
 from optlaws.explorer.workers import MOST, SLICE, USUAL, Workers
 
 if TYPE_CHECKING:

@@ -16,8 +16,9 @@ from optlaws import Cycle, Drive, Mechanism, MotionLaw, Problem, Solution
 from optlaws.cams.curves import cam_files
 from optlaws.cams.curves.file_options import Cutting
 from optlaws.errors import InputError
-from optlaws.explorer.views import cam_view, cycle_view, fastest_view, old_cam_view
+from optlaws.explorer.views import cam_view, cycle_view, old_cam_view
 from optlaws.explorer.views.law_view import digits, title
+from optlaws.explorer.views.machines import fastest_view
 from optlaws.explorer.views.requests import MOST_LAWS, LawRequest, Question, law_of, problem_of, solved
 from optlaws.explorer.views.study_view import StudyRequest
 from optlaws.exports.format import FORMATS

@@ -16,7 +16,7 @@ from optlaws.errors import InputError, OptlawsError
 from optlaws.explorer.views import cycle_view
 from optlaws.explorer.views.cycle_view import CycleRequest
 from optlaws.explorer.views.law_view import digits, drawn, refusal
-from optlaws.explorer.views.linkage_picture import over_input, picture
+from optlaws.explorer.views.machines.linkage_picture import over_input, picture
 from optlaws.explorer.views.picture_points import refined
 from optlaws.explorer.views.requests import MOST_LAWS, Question
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile
