@@ -1,7 +1,7 @@
-"""How near the limit of all laws one comes
-========================================
+"""How near laws come to the limit
+===============================
 
-Richer Z, better laws, and the limit of all laws from rest to rest, of any degree.
+Laws of least acceleration with Z of higher and higher degree, and the limit for all laws from rest to rest.
 """
 
 import numpy as np

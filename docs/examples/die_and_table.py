@@ -1,7 +1,7 @@
 """A die that does not wait
 ========================
 
-A die opens and closes while its table moves, as far as two interlocks let it: arrows say what comes first.
+A die opens and closes while its table moves, as far as two interlocks allow. Arrows show which event comes first.
 """
 
 from optlaws import After, Axes, Dwell, Return, Rise

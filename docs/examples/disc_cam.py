@@ -1,7 +1,7 @@
 """A disc cam
 ==========
 
-The profile and the way of the roller's centre, from a cycle and a prime radius.
+The profile and the path of the roller's centre, for a cycle and a prime radius.
 """
 
 import numpy as np

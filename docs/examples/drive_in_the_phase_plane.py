@@ -1,7 +1,7 @@
 """Laws in the phase plane of a drive
 ==================================
 
-Velocities of a slider-crank over its position: the least peak torque of richer laws nears what is proven least of all.
+Velocities of a slider-crank over its position: with a higher degree the least peak torque approaches the proven limit.
 """
 
 import numpy as np

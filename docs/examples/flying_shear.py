@@ -1,7 +1,7 @@
 """A flying shear
 ==============
 
-At the speed of the strip while it cuts, then back in time for the next cut.
+The shear has the speed of the strip while it cuts, and then returns in time for the next cut.
 """
 
 from optlaws import ConstantVelocity, Cycle, Return

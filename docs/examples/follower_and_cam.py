@@ -1,7 +1,7 @@
 """What an elastic follower does
 =============================
 
-The mass does not do what its cam does, and swings on in the dwell.
+The mass deviates from the motion of its cam, and goes on vibrating in the dwell.
 """
 
 import numpy as np

@@ -1,7 +1,7 @@
 """A forbidden zone
 ================
 
-Not above 0.2 before k = 0.4, not below 0.75 after 0.6: something else moves past.
+The law is not above 0.2 before k = 0.4 and not below 0.75 after 0.6, because something else moves past.
 """
 
 from optlaws import Chebyshev, Problem, Window, synthesize

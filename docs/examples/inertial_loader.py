@@ -1,7 +1,7 @@
 """An inertial loader
 ==================
 
-A second mass gives off what the first one takes up: their energies add up to one number.
+A second mass gives off the energy that the first one takes up: the sum of their energies is constant.
 """
 
 import numpy as np

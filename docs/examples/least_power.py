@@ -1,7 +1,7 @@
 """The law of least power
 ======================
 
-What a motor feels is d = b c. Its least peak is far below that of the law of least acceleration.
+The power of a mass is d = b c. Its least peak is far below that of the law of least acceleration.
 """
 
 import numpy as np

@@ -1,7 +1,7 @@
 """Meeting a conveyor
 ==================
 
-From rest to half the mean velocity: any values at the ends, built into the law.
+From rest to half the mean velocity. End conditions may have any values, which are part of the law.
 """
 
 from optlaws import BoundaryConditions, Chebyshev, Problem, synthesize

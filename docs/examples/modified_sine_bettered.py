@@ -1,5 +1,5 @@
-"""Modified sine, bettered
-=======================
+"""Better than modified sine
+=========================
 
 The least peak acceleration under the peak velocity and the peak jerk of modified sine.
 """

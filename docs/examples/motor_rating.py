@@ -1,7 +1,7 @@
 """A table by the rating of its motor
 ==================================
 
-The least acceleration with which twelve stations are indexed, and the least within 30 N m RMS.
+A table with twelve stations: the least acceleration, and the least acceleration within 30 N m RMS.
 """
 
 from optlaws import Cycle, Dwell, Rise

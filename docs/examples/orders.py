@@ -1,7 +1,7 @@
 """What each further end condition costs
 =====================================
 
-61 laws of each order l, solved as arrays. With Z of degree 9 for all, more conditions cost at low B and pay at high B.
+61 laws of each order l with Z of degree 9. More end conditions raise C at low B and lower it at high B.
 """
 
 import numpy as np

@@ -1,7 +1,7 @@
 """Pick and place
 ==============
 
-Two axes on one clock: across while the gripper is up, down to pick and to place.
+Two axes with one clock. The gripper moves across while it is up, and down to pick and to place.
 """
 
 from optlaws import Axes, Dwell, Return, Rise

@@ -1,7 +1,7 @@
-"""A cam that makes its follower obey
-==================================
+"""A cam designed for its elastic follower
+=======================================
 
-At its design frequency the mass moves by the law and nothing vibrates; 10 % off it does again.
+At the design frequency the mass moves by the law without residual vibration; with a frequency 10 % off it vibrates.
 """
 
 import numpy as np

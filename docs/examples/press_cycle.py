@@ -1,7 +1,7 @@
 """A whole cycle
 =============
 
-Rise, dwell, return, dwell, in the units of the machine, under a limit of the velocity.
+Rise, dwell, return and dwell in units of the machine, with a limit of the velocity.
 """
 
 from optlaws import Cycle, Dwell, Return, Rise

@@ -1,8 +1,7 @@
 """The price of speed
 ==================
 
-The last milliseconds of a move cost most: its least rms acceleration and its least jerk over the time that it takes.
-Nothing lies below the shaded bands, at any time.
+Least rms acceleration and least jerk over the time of a move. No law lies below the shaded bands, at any time.
 """
 
 import matplotlib.pyplot as plt

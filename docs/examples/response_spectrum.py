@@ -1,7 +1,7 @@
 """A law that leaves no vibration
 ==============================
 
-The residual of modified sine, and of a law that keeps it below 0.1 at frequencies from 18 to 22.
+The residual vibration of modified sine, and of a law whose residual is below 0.1 at frequencies from 18 to 22.
 """
 
 import numpy as np

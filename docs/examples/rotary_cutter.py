@@ -1,7 +1,7 @@
 """A rotary cross cutter
 =====================
 
-The knife turns with the strip while it cuts, and waits as gently as can be for the next length.
+The knife moves with the strip while it cuts, and with the least acceleration until the next cut.
 """
 
 from optlaws import ConstantVelocity, Cycle, Free

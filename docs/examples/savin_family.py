@@ -1,7 +1,7 @@
 """A family of laws
 ================
 
-Savin's family III: what moves the acceleration to the ends lowers the peak velocity.
+Savin's family III: the more acceleration is near the ends, the lower is the peak velocity.
 """
 
 import numpy as np

@@ -1,7 +1,7 @@
 """The torque of a slider-crank
 ============================
 
-Two standard laws, the law of least RMS torque, and the RMS torque that no law can beat that never turns back.
+Two standard laws, the law of least RMS torque, and the limit of the RMS torque for all laws that never turn back.
 """
 
 import numpy as np

@@ -1,7 +1,7 @@
 """Accelerations of standard laws
 ==============================
 
-Four of the catalogue, whose names people, manuals and controllers use.
+Four laws of the catalogue, by the names that manuals and controllers use.
 """
 
 import numpy as np

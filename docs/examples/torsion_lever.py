@@ -1,7 +1,7 @@
 """A mass between torsion bars
 ===========================
 
-Which law a mass swings by is no longer chosen: it follows from bars and linkage.
+The law of the swinging mass cannot be chosen: it follows from the bars and the linkage.
 """
 
 from optlaws import TorsionLever, deg

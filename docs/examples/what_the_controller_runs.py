@@ -1,7 +1,7 @@
-"""What a controller runs
-======================
+"""What a controller executes
+==========================
 
-Between the points of a table it interpolates: few points, much jerk.
+A controller interpolates between the points of a table. With few points the executed motion has a high jerk.
 """
 
 import numpy as np
