@@ -49,7 +49,7 @@ class BarrelCam:
     roller_radius
         Such as "8 mm".
     turning
-        "counterclockwise" or "clockwise", seen against the axis along which the roller moves forth.
+        "counterclockwise" or "clockwise", seen against the axis along which the roller moves forwards.
 
     Raises
     ------
@@ -112,7 +112,7 @@ class BarrelCam:
         Parameters
         ----------
         side
-            "upper", which pushes the roller back, or "lower", which pushes it forth.
+            "upper", which pushes the roller back, or "lower", which pushes it forwards.
         radius
             The distance in metres; that of the cylinder unless given.
         """

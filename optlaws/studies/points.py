@@ -175,7 +175,7 @@ class StudyPoints:
     """The product of a study's axes.
 
     A point's index counts through the product, the last axis fastest. Points are solved in another order, in which
-    every axis runs forth and back, so that each point differs from the one before it in one place of one axis.
+    every axis runs forwards and backwards, so that each point differs from the one before it in one place of one axis.
 
     Examples
     --------

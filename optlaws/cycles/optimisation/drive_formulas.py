@@ -4,7 +4,7 @@ Where a motion never turns back, dry friction is a constant force. Where it may,
 v, and F = u + d sgn v with u = m v' + c v. The mean of F² is then that of u² and of what no law changes but by turning:
 
     the integral of F² is that of u², d² times the time in motion, 2 d m (|v| at the end - |v| at the start) and
-    2 d c times the way that is gone, forth and back, which is at least that between the positions on the way.
+    2 d c times the total travel, forwards and backwards, which is at least that between the given positions.
 """
 
 from __future__ import annotations

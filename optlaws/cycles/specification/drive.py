@@ -60,7 +60,7 @@ class CycleDrive:
         return moved + self.constant + self.dry * np.sign(velocity)
 
     def formula(self, stroke: float, duration: float, offset: float, direction: float, unit: float) -> str:
-        """The force in a unit, as a formula of a law that moves forth (direction 1), back (-1) or lies still (0)."""
+        """The force in a unit, as a formula of a law that moves forwards (direction 1), backwards (-1) or rests (0)."""
         constant = self.constant + self.stiffness * offset + self.dry * direction
         factors = [factor / unit for factor in self._factors(stroke, duration)]
         terms = [f"({value!r})*{name}" for value, name in zip(factors, "abc", strict=True) if value]
