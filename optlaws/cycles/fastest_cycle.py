@@ -224,13 +224,13 @@ def fastest_cycle(cycle: Any, objective: CycleObjective) -> FastestCycle:  # noq
     """The greatest speed of a cycle with such an objective and limits."""
     if objective.of_load:
         raise InputError(
-            "the greatest speed is not sought with a load that is minimised or limited, as what it does follows its "
+            "the greatest speed is not computed with a load that is minimised or limited, whose vibration follows its "
             "own period: limit the cycle's own quantities, and look at load_motion of the cycle at that speed"
         )
     source = getattr(objective.drive, "source", None)
     if cycle.limits.get(MOTOR) is True and isinstance(source, Drive) and source.motor.continuous:
         raise InputError(
-            "limits, motor: its continuous torque follows the speed that is sought: give a rated torque in place of "
+            "limits, motor: its continuous torque follows the speed, which is unknown: give a rated torque in place of "
             'that curve, or limits={"rms torque": "2 N m"} beside a motor without it'
         )
     search = FastestSearch(cycle.programme, objective, {})

@@ -117,7 +117,7 @@ def roots(frequency: Any, damping: float) -> tuple[Array, Complex, Array]:  # no
     if ratio >= 1.0:
         raise InputError(
             f"damping must be below 1, got {shortened(damping)}: from the critical damping on nothing vibrates; "
-            "Follower.response tells how the mass comes to rest"
+            "Follower.response shows how the mass comes to rest"
         )
     damped = frequencies * np.sqrt((1.0 - ratio) * (1.0 + ratio))
     return frequencies, -ratio * frequencies + 1j * damped, damped

@@ -280,7 +280,7 @@ def test_what_cannot_be_exported_is_named() -> None:
         proven.export("csv")
     with pytest.raises(InputError, match=r"the front is proven to .*, not to 1e-06: make it with proven_front"):
         proven.export("c99", gap=1e-6)
-    with pytest.raises(InputError, match=r"0.001 takes \d+ laws, points allows 12, which reach 0.0\d+"):
+    with pytest.raises(InputError, match=r"0.001 needs \d+ laws, but points allows 12, whose gap is 0.0\d+"):
         proven.export("c99", points=12)
     with pytest.raises(InputError, match=r"a front at run time exchanges at_most\.B and C, got rms_c and C"):
         proven_front(Problem(order=4), ("rms_c", "C"), between=(4.1, 4.3), gap=1e-2).export("c99")

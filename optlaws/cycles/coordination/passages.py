@@ -130,7 +130,7 @@ def _profiles(rule: Interlock, timelines: Mapping[str, Timeline]) -> tuple[Profi
         bound = bound_of(rule, *kinds)
         if not isinstance(bound, TableBound):
             raise InputError(
-                f"interlock {rule.label}: where laws are looked for with their instants the bound is given as pairs, "
+                f"interlock {rule.label}: where laws are optimised the bound must be given as pairs, "
                 "such as [('0 deg', '20 mm'), ('45 deg', '60 mm')]: give pairs, or give the moves laws"
             )
         xs, ys = [second.share(x) for x in bound.places], [first.share(y) for y in bound.values]

@@ -122,7 +122,7 @@ def _limits(cycle: Any, stretch: TimedSegment, where: str) -> Sides:  # noqa: AN
     for nu in limits:
         if not 0 < nu <= _HIGHEST:
             raise InputError(
-                f"{where}: laws that are looked for with their instants keep limits of velocity, acceleration and "
+                f"{where}: where laws are optimised, limits must be those of velocity, acceleration and "
                 "jerk: leave other limits out, or give the moves laws"
             )
     return limits

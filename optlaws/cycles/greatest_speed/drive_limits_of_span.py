@@ -123,7 +123,7 @@ def driven_limits(
         if force > allowed_at_rest * (1.0 + AGREEMENT):
             taken, allowed = (in_units(FORCE, value, axis) for value in (force, allowed_at_rest))
             raise InfeasibleProblem(
-                f"{span.where}: at {in_small_units(position, axis)} what is static takes {taken}, so that no speed "
+                f"{span.where}: at {in_small_units(position, axis)} the static load needs {taken}, so that no speed "
                 f"keeps {allowed}: allow more, or change the drive's spring, preload, gravity or friction"
             )
     first = DrivenLimit(key, most, span, drive, stroke)

@@ -337,7 +337,7 @@ class FastestSearch:
         for stretch, time in zip(self.programme.stretches, durations, strict=True):
             if time <= SAME_TIME * self.programme.period:
                 raise InputError(
-                    f"{stretch.where} takes what is left, and nothing stops it from vanishing at the greatest speed: "
+                    f"{stretch.where} has no duration of its own, and would vanish at the greatest speed: "
                     "give it a least duration, such as duration=('20 ms', '10 s')"
                 )
 

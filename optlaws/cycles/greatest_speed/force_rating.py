@@ -73,7 +73,7 @@ class ForceRating:
             high *= 1.5
             if high > _SLOWEST * self.given:
                 raise InfeasibleProblem(
-                    f"limits: no speed keeps the {self.name} of {self.most:.9g}: what is static takes more: allow "
+                    f"limits: no speed keeps the {self.name} of {self.most:.9g}: the static load alone needs more: allow "
                     "more, or change the drive's spring, preload, gravity or friction"
                 )
         low = self.least or high / 1.5

@@ -117,7 +117,7 @@ def _durations(segments: Sequence[CycleSegment], period: float) -> list[tuple[fl
         raise InputError(
             f"the durations sum to {share:.9g} deg ({total:.9g} s), not to 360 deg ({period:.9g} s): "
             f"{'shorten' if total > period else 'lengthen'} segments by {abs(share - 360.0):.9g} deg in all, "
-            "or leave the duration of one of them out: it takes what is left"
+            "or leave out the duration of one of them: it then has the rest of the time"
         )
     if len(free) == 1:
         left = period - (low - bounds[free[0]][0])

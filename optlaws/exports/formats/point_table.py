@@ -64,7 +64,7 @@ def positions(
     x = number_format.numbers(exact)
     if (np.diff(x) <= 0.0).any():
         raise InputError(
-            f"{len(x)} points of the master are closer than they can be held: take fewer points, more digits, "
+            f"{len(x)} points of the master are closer than the digits can represent: take fewer points, more digits, "
             "or a unit that is smaller"
         )
     return x, number_format.positions(np.asarray(motion(exact)), motion)

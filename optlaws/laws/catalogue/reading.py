@@ -259,7 +259,7 @@ def _check(points: list[_Line], columns: tuple[int, ...], name: str) -> None:
         if None in matches:
             raise InputError(
                 f"{name}, line {line.number}: a point is {count} numbers, got {shortened(', '.join(line.cells))}; mend "
-                "the line, or put # before it if it is none"
+                "the line, or put # before it if it is a comment"
             )
         here = [match[2] or "" for match in matches if match]
         units = units or here
@@ -369,7 +369,7 @@ def _of_table(text: str) -> tuple[str, dict[str, Any]]:
             options[name] = _OPTIONS[name](value)
         except (KeyError, ValueError):
             raise InputError(
-                f"a table is said to be read as in old.csv(tolerance=0.02; columns=1,3), got {shortened(text)}"
+                f"options of a table are written as in old.csv(tolerance=0.02; columns=1,3), got {shortened(text)}"
             ) from None
     return match[1], options
 

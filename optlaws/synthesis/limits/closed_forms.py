@@ -192,7 +192,7 @@ def acceleration_limit_at_jerk(B: float, J: float, *, monotone: bool = False) ->
     """Infimum of C at given B over laws with |j| <= J and zero end accelerations: trapezoids of acceleration.
 
     2B/(w + sqrt(w² - 4B/J)) with w = (B-1)/B for B <= 2, and w = 1/B for B >= 2 where b >= 0 is asked. Else, for
-    B > 2, a law that moves back first: the root next above `acceleration_limit` of 4C³/J = C² - 4(B-2) C - 4B², or a closed
+    B > 2, a law that first moves back: the root above `acceleration_limit` of 4C³/J = C² - 4(B-2) C - 4B², or a closed
     form where the motion back is so short that its acceleration has no constant part.
 
     Parameters

@@ -70,7 +70,7 @@ class ChordSelection:
         if most is not None and len(places) > most:
             near = self._reached(most)
             raise InputError(
-                f"gap: {greatest:g} takes {len(places)} laws, points allows {most}, which reach {near:.2g}"
+                f"gap: {greatest:g} needs {len(places)} laws, but points allows {most}, whose gap is {near:.2g}"
             )
         return places, reached
 

@@ -232,7 +232,7 @@ def test_other_units_say_the_same() -> None:
         ({"segments": [Rise("35 mm", "0.1 s"), Dwell("0.8 s"), Return("35 mm", "0.1 s")]}, InputError,
          "leave the duration of a segment out, or give angles"),
         ({"segments": [Rise("35 mm", "0.3 s"), Dwell(), Return("35 mm", "0.3 s")]}, InputError,
-         r"segment 2 \(Dwell\) takes what is left, and nothing stops it from vanishing.*give it a least duration"),
+         r"segment 2 \(Dwell\) has no duration of its own, and would vanish.*give it a least duration"),
         ({"segments": [Rise("35 mm", "50 ms"), Dwell(), Return("35 mm", "120 deg")]}, InfeasibleProblem,
          r"segment 1 \(Rise\) takes 0\.05 s at any speed, but within its limits no law takes less than 0\.0957"),
         ({"segments": [ConstantVelocity("1 m/s", "50 ms"), Return()]}, InputError,

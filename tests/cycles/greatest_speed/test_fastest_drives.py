@@ -174,7 +174,7 @@ def test_the_torque_of_a_mechanism_is_kept() -> None:
 
 def test_a_static_force_beyond_its_limit_is_named() -> None:
     says = (
-        r"segment 1 \(Rise\): at 35 mm what is static takes the force 149\.6 N, so that no speed keeps the force 140 N"
+        r"segment 1 \(Rise\): at 35 mm the static load needs the force 149\.6 N, so that no speed keeps the force 140 N"
     )
     sprung = {"mass": "2 kg", "stiffness": "3 N/mm", "preload": "44.6 N"}
     with pytest.raises(InfeasibleProblem, match=says):
@@ -241,7 +241,9 @@ def test_a_rating_of_given_laws_and_one_below_the_weight() -> None:
     fastest = cycle(segments=given, drive=MOTOR, limits={"rms torque": "1.75 N m"}).fastest()
     assert fastest.status == "optimal"
     assert fastest.cycle.effort.rms_force == pytest.approx(1.75, rel=1e-7)
-    with pytest.raises(InfeasibleProblem, match=r"no speed keeps the rms torque of 1\.75: what is static takes more"):
+    with pytest.raises(
+        InfeasibleProblem, match=r"no speed keeps the rms torque of 1\.75: the static load alone needs more"
+    ):
         cycle(segments=given, drive=MOTOR | {"gravity": "2 N m"}, limits={"rms torque": "1.75 N m"}).fastest()
     free = [Rise("90 deg"), Dwell("40 ms"), Return(), Dwell("90 deg")]
     with pytest.raises(InputError, match="give all durations as angles"):
