@@ -73,8 +73,8 @@ class ForceRating:
             high *= 1.5
             if high > _SLOWEST * self.given:
                 raise InfeasibleProblem(
-                    f"limits: no speed keeps the {self.name} of {self.most:.9g}: the static load alone needs more: allow "
-                    "more, or change the drive's spring, preload, gravity or friction"
+                    f"limits: no speed keeps the {self.name} of {self.most:.9g}: the static load alone needs more: "
+                    "allow more, or change the drive's spring, preload, gravity or friction"
                 )
         low = self.least or high / 1.5
         while self._over(low) <= 0.0:

@@ -153,7 +153,7 @@ def test_a_motors_curve_is_kept(efficiency: float, friction: str, status: str) -
 
 def test_a_static_torque_beyond_the_curve_is_named() -> None:
     drive = Drive(Mechanism("0.8 kg m^2", "90 N m"), Motor("3e-4 kg m^2", curve=CURVE), ratio=20)
-    with pytest.raises(InfeasibleProblem, match=r"takes the torque 4\.5 N m, so that no speed keeps the torque 4 N m"):
+    with pytest.raises(InfeasibleProblem, match=r"needs the torque 4\.5 N m, so that no speed keeps the torque 4 N m"):
         cycle(segments=SWING, drive=drive, limits={"motor": True}).fastest()
     hot = Drive(Mechanism("0.8 kg m^2"), Motor("3e-4 kg m^2", continuous=[("0 rpm", "2 N m"), ("900 rpm", "1 N m")]))
     with pytest.raises(InputError, match="continuous torque follows the speed"):

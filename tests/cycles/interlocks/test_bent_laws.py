@@ -130,7 +130,7 @@ def test_interlocks_that_contradict_each_other_are_named() -> None:
 
 
 def test_limits_of_another_kind_are_refused() -> None:
-    with pytest.raises(InputError, match=r"axis x: segment 1.*keep limits of velocity, acceleration and jerk"):
+    with pytest.raises(InputError, match=r"axis x: segment 1.*limits must be those of velocity, acceleration and jerk"):
         rule(limits={"snap": "1e6 m/s^4"}).gentlest("x")
     alone: Any = {"x": [Rise("0.1 m", "0.3 s"), Dwell("0.1 s"), Return("0.1 m", "0.3 s"), Dwell()]}
     with pytest.raises(InputError, match="axis x: segment 1 needs a limit of its acceleration or its jerk"):
