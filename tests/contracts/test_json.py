@@ -3,6 +3,7 @@
 import inspect
 import json
 from dataclasses import replace
+from functools import cache
 from importlib import import_module
 from typing import Any, NoReturn
 
@@ -59,6 +60,7 @@ def test_laws_and_their_constants(name: str) -> None:
     assert strict(json.dumps([law.to_dict(), law.constants.to_dict()]))
 
 
+@pytest.fixture(scope="module")
 def values(jumping: Solution) -> dict[str, Any]:
     """A value of every kind that gives plain data, each with something infinite in it where it can have it."""
     mechanism = optlaws.dwell_mechanism(
@@ -168,8 +170,8 @@ def no_law() -> optlaws.InfeasibleProblem:
     return caught.value
 
 
-def test_every_value_is_read_again_as_it_was(jumping: Solution) -> None:
-    for name, value in values(jumping).items():
+def test_every_value_is_read_again_as_it_was(values: dict[str, Any]) -> None:
+    for name, value in values.items():
         stored = value.to_json()
         again = type(value).from_json(stored)
         assert type(again) is type(value), name
@@ -179,15 +181,16 @@ def test_every_value_is_read_again_as_it_was(jumping: Solution) -> None:
             assert again == value, name
 
 
-def test_what_gives_plain_data_reads_it_again(jumping: Solution) -> None:
+def test_what_gives_plain_data_reads_it_again(values: dict[str, Any]) -> None:
     four = ("to_dict", "from_dict", "to_json", "from_json")
     has = {one: [name for name in four if hasattr(one, name)] for one in public_classes()}
     assert {one.__name__: names for one, names in has.items() if names and len(names) < len(four)} == {}
-    tried = {base for value in values(jumping).values() for base in type(value).__mro__}
+    tried = {base for value in values.values() for base in type(value).__mro__}
     # laws and segments are examples of their own
     assert {one for one, names in has.items() if names and not issubclass(one, MotionLaw | Segment)} <= tried
 
 
+@cache
 def public_classes() -> set[type]:
     """The classes behind the names of optlaws and of its rooms."""
     rooms = [optlaws, *(import_module(package(file)) for file, _ in faces())]
