@@ -1,4 +1,4 @@
-"""What it costs to start: processor time of imports and commands, as ratios to `import numpy` in the same run.
+"""What it costs to start: processor time of imports and of whole commands, as ratios to `import numpy` in the same run.
 
 Run it with `python -m tests.bench.startup`; `make bench` ends with it.
 """
@@ -7,43 +7,66 @@ import os
 import subprocess
 import sys
 from statistics import median
+from tempfile import TemporaryDirectory
 
 from rich.console import Console
 from rich.table import Table
 
 from tests.documents import ROOT
 
-REPEATS = 7
+REPEATS, REPEATS_OF_COMMANDS = 7, 3
 #: what is started, and how many times `import numpy` it may cost
 AIMS = {
     "import numpy": (("-c", "import numpy"), 1.0),
     "import optlaws after numpy": (("-c", "import numpy, optlaws"), 2.5),
-    "optlaws --help": (("-m", "optlaws", "--help"), 3.5),
-    "optlaws solve": (("-m", "optlaws", "solve", "--order=4", "--degree=5", "--peak-velocity=1.7"), 6.0),
-    "optlaws catalogue": (("-m", "optlaws", "catalogue"), 5.0),
+    "optlaws --help": (("-m", "optlaws", "--help"), 2.0),
+    "optlaws solve": (("-m", "optlaws", "solve", "--order=4", "--degree=5", "--peak-velocity=1.7"), 4.5),
+    "optlaws catalogue": (("-m", "optlaws", "catalogue"), 3.5),
+    "optlaws export --list": (("-m", "optlaws", "export", "--list"), 3.5),
+}
+EXPORT = ("export", "modified sine", "--stroke=35 mm", "--master=120 deg", "--duration=0.1 s", "--points=best")
+#: commands that people wait for, pictures included; what they write goes to a folder that is left out here
+COMMANDS = {
+    "optlaws cycle cycle_press": (("cycle", "cycle_press", "--out"), 11.0),
+    "optlaws cam cam_press": (("cam", "cam_press", "--out"), 16.0),
+    "optlaws run optimal_table": (("run", "optimal_table", "--out"), 20.0),
+    "optlaws verify, 104 solutions": (("verify", f"{ROOT}/results/optimal_table/laws.json"), 20.0),
+    "optlaws export, a table's best points": ((*EXPORT, "--to=csv"), 6.0),
+    "optlaws export, polynomials' best breaks": ((*EXPORT, "--to=br-acp10"), 9.0),
 }
 
 
 def processor_seconds(arguments: tuple[str, ...]) -> float:
     """User and system time of a fresh interpreter."""
     before = os.times()
-    subprocess.run([sys.executable, *arguments], cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
+    subprocess.run([sys.executable, *arguments], cwd=ROOT, check=True, capture_output=True)
     after = os.times()
     return after.children_user + after.children_system - before.children_user - before.children_system
 
 
 def main() -> None:
     """Measure turn by turn, so that what else the machine does meets all alike, and print."""
-    spent: dict[str, list[float]] = {name: [] for name in AIMS}
-    for _ in range(REPEATS):
-        for name, (arguments, _) in AIMS.items():
-            spent[name].append(processor_seconds(arguments))
-    unit = median(spent["import numpy"])
-    table = Table("start", "ms of processor", "over import numpy", "aim", title="start-up (* missed)")
-    for name, (_, aim) in AIMS.items():
-        ratio = median(spent[name]) / unit
-        table.add_row(name, f"{1e3 * median(spent[name]):.0f}", f"{ratio:.1f}{' *' if ratio > aim else ''}", f"{aim:g}")
+    with TemporaryDirectory() as folder:
+        commands = {
+            name: (("-m", "optlaws", *words, *([folder] if words[-1] == "--out" else [])), aim)
+            for name, (words, aim) in COMMANDS.items()
+        }
+        starts = _spent({name: arguments for name, (arguments, _) in AIMS.items()}, REPEATS)
+        whole = _spent({name: arguments for name, (arguments, _) in commands.items()}, REPEATS_OF_COMMANDS)
+    unit = median(starts["import numpy"])
+    table = Table("start", "ms of processor", "over import numpy", "aim", title="start-up and commands (* missed)")
+    for name, (_, aim) in {**AIMS, **commands}.items():
+        spent = median({**starts, **whole}[name])
+        table.add_row(name, f"{1e3 * spent:.0f}", f"{spent / unit:.1f}{' *' if spent > aim * unit else ''}", f"{aim:g}")
     Console(width=120).print(table)
+
+
+def _spent(by_name: dict[str, tuple[str, ...]], repeats: int) -> dict[str, list[float]]:
+    spent: dict[str, list[float]] = {name: [] for name in by_name}
+    for _ in range(repeats):
+        for name, arguments in by_name.items():
+            spent[name].append(processor_seconds(arguments))
+    return spent
 
 
 if __name__ == "__main__":
