@@ -19,7 +19,7 @@ MAKERS = {
     "balancing/dwells/dwell_machine.py": {"OscillatingRoller"},
     "cams/best_offset.py": {"TranslatingRoller"},
     "jobs/cam_findings.py": {"TranslatingRoller"},
-    "explorer/cam_view.py": {"translating roller"},
+    "explorer/views/cam_view.py": {"translating roller"},
 }
 
 
@@ -54,8 +54,10 @@ def test_no_module_outside_the_folder_names_a_kind() -> None:
         place = path.relative_to(PACKAGE).as_posix()
         if path.parent == FOLDER or place == "__init__.py":  # which lists the public names
             continue
-        seen = words.intersection(named(ast.parse(path.read_text("utf-8")))) - MAKERS.get(place, set())
-        faults += [f"{place}: {name}" for name in sorted(seen)]
+        source = path.read_text("utf-8")
+        if any(word in source for word in words):
+            seen = words.intersection(named(ast.parse(source))) - MAKERS.get(place, set())
+            faults += [f"{place}: {name}" for name in sorted(seen)]
     assert faults == []
 
 
