@@ -16,7 +16,7 @@ from optlaws import Cycle, Drive, Mechanism, MotionLaw, Problem, Solution
 from optlaws.cams.curves import cam_files
 from optlaws.cams.curves.file_options import Cutting
 from optlaws.errors import InputError
-from optlaws.explorer.views import cam_view, cycle_view, old_cam_view
+from optlaws.explorer.views import axes_view, cam_view, cycle_view, old_cam_view
 from optlaws.explorer.views.law_view import digits, title
 from optlaws.explorer.views.machines import fastest_view
 from optlaws.explorer.views.requests import MOST_LAWS, LawRequest, Question, law_of, problem_of, solved
@@ -59,7 +59,7 @@ class SeenRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 class FileRequest(SeenRequest, kw_only=True, forbid_unknown_fields=True):
     """A file of what is seen."""
 
-    kind: Literal["python", "problem", "law", "table", "cut"]
+    kind: Literal["python", "problem", "law", "table", "cut", "proof"]
     view: Literal["laws", "cycle", "axes", "cam", "machine", "fastest", "study", "old"] = "laws"
     axes: cycle_view.CycleRequest | None = None
     old: old_cam_view.OldCycleRequest | None = None
@@ -72,14 +72,15 @@ class FileRequest(SeenRequest, kw_only=True, forbid_unknown_fields=True):
 
 def answer(request: FileRequest) -> File:
     """A file: its name, its type, its text."""
+    if request.kind == "proof":
+        return _proof(request)
     if request.view in ("cycle", "axes", "machine"):
         return _of_cycle(request, getattr(request, request.view))
-    if request.view == "fastest":
-        return _of_fastest(request)
-    if request.view == "cam":
-        return _of_cam(request)
-    if request.view == "old":
-        return _of_old_cam(request)
+    of_view: Mapping[str, Callable[[FileRequest], File]] = {
+        "fastest": _of_fastest, "cam": _of_cam, "old": _of_old_cam,
+    }  # fmt: skip
+    if request.view in of_view:
+        return of_view[request.view](request)
     if request.view == "study" and request.kind == "problem":
         if request.study is None:
             raise InputError("there is no study to save")
@@ -94,6 +95,27 @@ def answer(request: FileRequest) -> File:
     if request.kind not in makers:
         raise InputError("a law is cut by no tool: make a cam of it")
     return makers[request.kind]()
+
+
+def _proof(request: FileRequest) -> File:
+    """What is stored with a result so that it can be checked: a solution, or those of all segments of a motion.
+
+    Examples
+    --------
+    >>> law = LawRequest(problem={"order": 3, "degree": 5, "B": 1.8}, weights={"C": 1.0})
+    >>> sorted(json.loads(answer(FileRequest(kind="proof", laws=[law]))["text"]))[:3]
+    ['B', 'about', 'certificate']
+    """
+    if request.view == "fastest":
+        return _of_fastest(msgspec.structs.replace(request, kind="law"))
+    if request.view not in ("cycle", "axes", "machine"):
+        return _file(f"{_stem(_title(request.law))}.json", "application/json", stored(request.law))
+    shown: cycle_view.CycleRequest | None = getattr(request, request.view)
+    if shown is None:
+        raise InputError("there is no motion whose laws could be checked")
+    motions = axes_view.axes_of(shown.study).values() if request.view == "axes" else [cycle_view.cycle(shown)]
+    solutions = [solution.to_dict() for motion in motions for solution in motion.solutions]
+    return _file("motion.json", "application/json", json.dumps({"about": MARK, "solutions": solutions}) + "\n")
 
 
 def _file(name: str, kind: str, text: str) -> File:

@@ -121,8 +121,21 @@ def test_without_the_extra_the_remedy_is_told() -> None:
         server({})
 
 
+def loaded_first() -> set[str]:
+    """The files that a browser asks for before the first law is shown: other views are loaded when they are."""
+    waiting, met = ["main.js", "views/laws.js"], {"index.html", "style.css", "icon.svg"}
+    while waiting:
+        name = waiting.pop()
+        if name not in met:
+            met.add(name)
+            imports = re.findall(r'^import [^;]*?"(\.[^"]+)";$', page()[name].decode(), re.MULTILINE)
+            waiting += [urljoin(name, path) for path in imports]
+    return met
+
+
 def test_the_first_page_is_small_where_it_is_packed(served: Server) -> None:
-    first = [name for name in page() if not name.startswith(("proof", "check_proof"))]
+    first = loaded_first()
+    assert {"panels.js", "state.js"} < first < set(page())
     packed = 0
     for path in ("api/start", *(name.replace("index.html", "") for name in first)):
         response, said = served.send("GET", f"/{path}", Accept_Encoding="gzip")

@@ -7,6 +7,7 @@ import { translate } from "./language.js";
 import { during, observe } from "./latest.js";
 import { Opening } from "./opening.js";
 import { reporting } from "./report.js";
+import { fileOf } from "./saving.js";
 import { Study, read } from "./state.js";
 import { html } from "./svg.js";
 import { restore } from "./theme.js";
@@ -20,6 +21,8 @@ function notice(text, ...buttons) {
   root.replaceChildren(text, ...buttons);
   root.hidden = !text;
 }
+
+const LATER = 2000; // ms after the start: what checks proofs is there when the server is away
 
 let working = false;
 
@@ -72,7 +75,7 @@ async function begin() {
   }));
   const shown = () => views[named(study.state)];
   const exporting = new Exporting(study, formats, (now) => shown()?.exported?.(now) ?? null);
-  const opening = new Opening((next) => documents.add(next), notice, shown);
+  const opening = new Opening((next) => documents.add(next), notice, shown, (name, text) => during(show(name, text)).catch((error) => notice(error.message)));
   const documents = new Documents(document.getElementById("documents"), study, { id: first.id, notice });
   const tools = new Tools(document.getElementById("tools"), study, notice, { exporting, opening, documents, shown });
 
@@ -98,7 +101,24 @@ async function begin() {
     documents.show(now);
   }
 
+  /** The proof of a file is checked by the second checker, which shares no code with the library. */
+  async function show(name, text) {
+    (await VIEWS.proof.load()).prove(name, text);
+    notice("");
+    if (study.state.view === "proof") render(study.state);
+    study.change("view", (next) => (next.view = "proof"));
+    study.rest();
+  }
+
+  /** So is the proof of what is shown. */
+  async function prove() {
+    const { name, text } = await fileOf("proof", shown(), study.state);
+    await show(name, text);
+  }
+
   observe(work);
+  addEventListener("prove", () => during(prove()).catch((error) => notice(error.message)));
+  setTimeout(() => VIEWS.proof.load().catch(() => {}), LATER);
   reporting(study, start.version);
   document.querySelector(".skip").addEventListener("click", (event) => {
     event.preventDefault();

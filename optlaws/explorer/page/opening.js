@@ -5,19 +5,24 @@ import { html } from "./svg.js";
 
 const TAKEN = ".toml,.json,.csv,.txt,.tsv,.tab,.dat";
 const LARGEST = 380_000; // a question's
+/** What a file of a solution, or of a certificate alone, holds. */
+const PROOF = /"(?:certificate|contacts|steps)"\s*:/;
 export const DOCUMENT = "optlaws document";
 
-/** `opened(state)` shows what a file holds; `view()` is the view that is shown, which may take files of its own. */
+/** `opened(state)` shows what a file holds, `prove(name, text)` checks its proof; `view()` is the view that is shown, which may
+ *  take files of its own. */
 export class Opening {
   #opened;
   #notice;
   #view;
+  #prove;
   #field = html("input", { type: "file", accept: TAKEN, multiple: true, hidden: true, "aria-label": "Files to open" });
 
-  constructor(opened, notice, view) {
+  constructor(opened, notice, view, prove) {
     this.#opened = opened;
     this.#notice = notice;
     this.#view = view;
+    this.#prove = prove;
     document.body.append(this.#field);
     this.#field.addEventListener("change", () => this.#all([...this.#field.files]));
     const files = (event) => event.dataTransfer?.types.includes("Files");
@@ -35,6 +40,20 @@ export class Opening {
     });
   }
 
+  /** Open a file; one with a proof can be checked as well, and where the page opens no such file that is all. */
+  async #one(file) {
+    const text = /\.json$/i.test(file.name) ? await file.text() : "";
+    const proves = PROOF.test(text);
+    const check = () => this.#prove(file.name, text);
+    try {
+      this.#opened(await stateOf(file));
+    } catch (error) {
+      if (!proves) throw error;
+      return check();
+    }
+    return proves ? this.#notice(`${file.name} has a proof.`, html("button", { type: "button", text: "check this proof", onclick: check })) : this.#notice("");
+  }
+
   choose() {
     this.#field.value = "";
     this.#field.click();
@@ -43,8 +62,8 @@ export class Opening {
   async #all(files) {
     for (const file of files) {
       try {
-        if (!(await this.#view()?.dropped?.(file))) this.#opened(await stateOf(file));
-        this.#notice("");
+        if (await this.#view()?.dropped?.(file)) this.#notice("");
+        else await this.#one(file);
       } catch (error) {
         this.#notice(error.message);
       }

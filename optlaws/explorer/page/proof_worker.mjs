@@ -11,3 +11,5 @@ self.addEventListener("message", ({ data: text }) => {
     self.postMessage({ error: error.message });
   }
 });
+
+self.postMessage({ ready: true });

@@ -1,4 +1,5 @@
-// How far the active law can be trusted, in words; or why there is none, and how far one must go back.
+// How far the active law can be trusted, in words; or why there is none, and how far one must go back. A click on "check this
+// proof" is an event of its own, which the page answers.
 
 import { html, renew } from "./svg.js";
 
@@ -14,11 +15,12 @@ export function showTrust(root, view, ways, go) {
   if (within && !root.contains(document.activeElement)) root.focus({ preventScroll: true });
 }
 
-function trust({ status, word, advice, gap, facts }) {
+function trust({ status, word, advice, gap, facts, proof }) {
   return [
     html("p", {}, html("strong", { class: `word ${status}`, text: word }), ` ${advice} `, html("span", { class: "quiet", text: gap })),
     html("p", { class: "facts", text: facts.join(" · ") }),
-  ];
+    proof ? html("p", {}, html("button", { type: "button", class: "link", "data-key": "prove", text: "check this proof", onclick: ({ target }) => target.dispatchEvent(new Event("prove", { bubbles: true })) })) : null,
+  ].filter(Boolean);
 }
 
 function refusal({ word, reason, tried }, ways, go) {

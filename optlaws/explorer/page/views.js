@@ -3,6 +3,7 @@
 // A module exports `View`: `new View(root, study, start)` fills its element; `show(state)` draws a state; `files(state)`
 // lists what can be saved as {kind, text, about, format}; `drawings` selects the pictures that are saved as one;
 // `dropped(file)` says whether the view takes a file that is dropped while it is shown; other files are opened.
+// `proof(state)` is what of the question for a file names the result whose proof is to be checked, where that is not `saved`;
 // `focus` selects where "Skip to the picture" leads. `start` is what the server tells of catalogues and formats.
 
 export const object = (value) => value !== null && typeof value === "object" && !Array.isArray(value);
@@ -36,5 +37,6 @@ export const VIEWS = {
     load: () => import("./views/fastest.js"),
   },
   old: { title: "Old cam", whole: (value) => object(value) && typeof value.text === "string", load: () => import("./views/old.js") },
+  proof: { title: "Proof", load: () => import("./views/proof.js") },
   study: { title: "Study", whole: object, load: () => import("./views/study.js") },
 };

@@ -290,7 +290,8 @@ def _trust(axes: Axes) -> dict[str, Any]:
     if limits:
         status, word = "refused", "beyond a limit" if worst == "clear" else f"{word}, beyond a limit"
     text = " ".join([f"{advice}{named}{'.' if named else ''}", *limits])
-    return {"status": status, "word": word, "advice": text, "gap": "", "facts": facts}
+    proof = any(cycle.solutions for cycle in axes.values())
+    return {"status": status, "word": word, "advice": text, "gap": "", "facts": facts, "proof": proof}
 
 
 def together(request: AxesRequest) -> dict[str, Any]:

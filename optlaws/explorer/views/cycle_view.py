@@ -216,6 +216,7 @@ def trust(shown: Cycle) -> dict[str, Any] | None:
         "advice": advice.get(status, status.advice),
         "gap": gap,
         "facts": facts,
+        "proof": True,
     }
     return trust | broken_limits(shown)
 

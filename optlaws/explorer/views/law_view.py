@@ -214,6 +214,7 @@ def trust(solution: Solution) -> dict[str, Any]:
         "advice": solution.status.advice,
         "gap": gap_text(solution.gap),
         "facts": facts,
+        "proof": True,
     }
 
 

@@ -40,6 +40,11 @@ export class View {
     return { study: { study } };
   }
 
+  /** The proof of the row's law. */
+  proof() {
+    return { view: "laws", laws: [this.#own.law], active: 0 };
+  }
+
   show(state) {
     this.#state = state;
     if (told(state.study) !== this.#asked) {
