@@ -104,7 +104,7 @@ def _proof(request: FileRequest) -> File:
     --------
     >>> law = LawRequest(problem={"order": 3, "degree": 5, "B": 1.8}, weights={"C": 1.0})
     >>> sorted(json.loads(answer(FileRequest(kind="proof", laws=[law]))["text"]))[:3]
-    ['B', 'about', 'certificate']
+    ['about', 'certificate', 'constants']
     """
     if request.view == "fastest":
         return _of_fastest(msgspec.structs.replace(request, kind="law"))
