@@ -65,7 +65,7 @@ def whole(value: Any, name: str, least: int = 0, most: int = MOST_WHOLE) -> int:
 
 
 def real(value: Any) -> float | None:  # noqa: ANN401
-    """The value as a float, infinite or not; None where it is no number, not a real one, or beyond all floats.
+    """The value as a float, infinite or not; None for anything but a real number within the range of floats.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""How commands answer: tables and lines for a person, one JSON value for a program."""
+"""Output of commands: tables and lines for people, one JSON value for programs."""
 
 from __future__ import annotations
 

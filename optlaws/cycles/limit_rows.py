@@ -124,7 +124,7 @@ def _most(taken: Iterable[_Taken]) -> list[_Taken]:
 
 
 def _of_segments(cycle: Cycle, limited: Cycle, *, every: bool) -> Iterator[_Taken]:
-    """The use of the limits of `limited` by segments whose law is looked for, or by every one that moves."""
+    """The use of the limits of `limited` by segments with an optimal law, or by every moving one."""
     of_cycle = read_limits(limited.limits, cycle.axis, "limits")
     for i, (stretch, given) in enumerate(zip(cycle.programme.stretches, limited.programme.stretches, strict=True)):
         has_limits = isinstance(stretch.given, Move | Free) if every else is_optimal(stretch.given)

@@ -147,7 +147,7 @@ def joint_rows(cycle: Cycle) -> list[Row]:
 
 
 def summary(cycle: Cycle) -> Summary:
-    """All of these rows; places are times in seconds."""
+    """The summary of a cycle: all rows of this module, with places as times in seconds."""
     return Summary(
         [
             *proof_rows(cycle),

@@ -32,7 +32,7 @@ class _HasMotion(Protocol):
 
 @dataclass(frozen=True)
 class Export:
-    """A motion in the format of a controller, with what the controller will run.
+    """A motion in the format of a controller, with a report of the executed motion.
 
     Parameters
     ----------

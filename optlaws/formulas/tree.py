@@ -139,7 +139,7 @@ class Name(Formula):
 
     @property
     def data(self) -> str:
-        """The text of the name."""
+        """The data of a name: its text."""
         return self.name
 
     @kept_property
@@ -206,7 +206,7 @@ class Reciprocal(OfOnePart):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Product(Formula):
-    """A product of two factors at least; what is divided by is a `Reciprocal`."""
+    """A product of at least two factors; a divisor is a `Reciprocal` factor."""
 
     factors: tuple[Formula, ...]
     level = _PRODUCT

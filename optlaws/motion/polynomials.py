@@ -26,7 +26,7 @@ _STEPS = 3
 
 
 class Extreme(NamedTuple):
-    """An extreme value and where it is taken, at the first place where several are as high; in machine units."""
+    """An extreme value and its place, the first one if several are equal; in machine units."""
 
     value: float
     x: float

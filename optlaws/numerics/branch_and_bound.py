@@ -420,7 +420,7 @@ def _finite(value: float) -> float:
 def _kept(
     best: float, known: list[tuple[Array, Array]], values: Array, places: Array, tie: float
 ) -> tuple[float, list[Any]]:
-    """The least value with further ones, and all that are as low but for rounding."""
+    """The least value with further candidates, and all values that are equal to it up to rounding."""
     values = np.where(np.isfinite(values), values, np.inf)
     least = float(values.min(initial=np.inf))
     best = min(best, least)

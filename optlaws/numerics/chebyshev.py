@@ -61,7 +61,7 @@ def _transform(count: int) -> Array:
 
 
 def interpolated(function: Callable[[Array], Array], name: str, blur: float = SERIES_ROUNDING) -> Array:
-    """Series in x, |x| <= 1, of a smooth function of an array of x, to rounding; `name` is what an error calls it.
+    """Chebyshev series in x, |x| <= 1, of a smooth function, to rounding; `name` is for error messages.
 
     The number of nodes is doubled until the last coefficients are rounding; those are then left out. Where they never
     are, since the function's own values are rounded more, they may be up to `blur` of the greatest value.

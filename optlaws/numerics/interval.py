@@ -204,7 +204,7 @@ def highest(value: Any) -> Array:  # noqa: ANN401 - numbers or intervals
 
 
 def middle(value: Any) -> Array:  # noqa: ANN401 - numbers or intervals
-    """Numbers themselves, or the middles of intervals.
+    """The middles of intervals; numbers are their own middles.
 
     >>> float(middle(2.0)), float(middle(exact(2.0)))
     (2.0, 2.0)

@@ -60,7 +60,7 @@ def plot_style() -> Iterator[None]:
 
 
 def empty_figure(width: float = 7.2, height: float = 4.6) -> Figure:
-    """An empty figure that no window system knows of; sizes in inches."""
+    """An empty figure without a window; sizes in inches."""
     from matplotlib.figure import Figure
 
     return Figure(figsize=(width, height), layout="constrained")

@@ -41,7 +41,7 @@ class OptionalEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     """Entries of a problem that a file may hold; what is left out is None."""
 
     def given(self) -> dict[str, Any]:
-        """The entries of a problem that are there, in the order of the table."""
+        """The given entries of a problem, in the order of the table."""
         return {name: getattr(self, name) for name in ENTRIES if getattr(self, name) is not None}
 
 

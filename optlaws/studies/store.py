@@ -158,7 +158,7 @@ class StudyDirectory:
         self.lock = path / "lock"
 
     def read(self) -> tuple[dict[str, Any], StudyFile]:
-        """All that `study.json` says, and the study itself, unless it is of another format or not as it was written."""
+        """The content of `study.json` and the study itself; refused for another format or a changed file."""
         try:
             there = self.about.exists()
         except OSError as error:
@@ -307,7 +307,7 @@ class StudyDirectory:
 
 
 def _checksum(text: bytes) -> bytes:
-    """The first line of a chunk's file."""
+    """The checksum that is the first line of a chunk's file."""
     return hashlib.sha256(text).hexdigest().encode() + b"\n"
 
 

@@ -209,7 +209,7 @@ class Front(JsonText):
 
 
 def named_or_refused(name: object) -> str:
-    """The name of a constant, in the text that it prints itself in.
+    """The name of a constant as it prints itself; refused if it has none.
 
     Raises
     ------
@@ -262,7 +262,7 @@ def _beaten(values: Array) -> NDArray[np.bool_]:
 
 
 def _known_already(rows: Sequence[Sequence[float]], chosen: Sequence[int], place: int) -> bool:
-    """Whether a row is one of those that are kept; the rows ascend in their first entry."""
+    """Whether a row is among the stored ones; the rows ascend in their first entry."""
     row = rows[place]
     for other in map(rows.__getitem__, reversed(chosen)):
         if abs(other[0] / row[0] - 1.0) > AGREEMENT:

@@ -1,4 +1,4 @@
-"""What a file claims, claim by claim."""
+"""Claims of a file, one by one, and their verification."""
 
 from __future__ import annotations
 
@@ -118,7 +118,7 @@ def _certificate(data: Mapping[str, Any]) -> Verification:
 
 
 def _arrays(data: Mapping[str, Any]) -> Verification:
-    """What an array of solutions is read from, held against its solutions, which are verified one by one."""
+    """Claims of a stored array: its arrays must agree with its solutions, which are verified one by one."""
     try:
         read_solutions(data)
     except InputError as error:
@@ -246,7 +246,7 @@ def _proof_claims(
     *,
     accurate: bool = True,
 ) -> Iterator[Claim]:
-    """What a certificate says by its leaves, and by its bound."""
+    """Claims of a certificate: those of its leaves, and its bound."""
     if certificate.peak:
         verdict = "holds" if certificate.proven else "does not hold"
         unchecked = "proofs over the places of a peak are not checked in exact arithmetic yet"

@@ -1,4 +1,4 @@
-"""By how much at most a law breaks the conditions of a problem."""
+"""Upper bounds of the violations of a problem's conditions by a law."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ from optlaws.verification.exact.of_basis import unknown_basis
 
 @dataclass(frozen=True)
 class Excess:
-    """By how much a condition is broken at most (0 or less: it is kept), and what rounding explains."""
+    """The greatest violation of a condition (0 or less: none), and the part that rounding explains."""
 
     name: str
     by: float
@@ -73,7 +73,7 @@ def _ends(problem: Problem, law: ExactLaw) -> Iterator[Excess]:
 
 
 def _repeated(problem: Problem, law: ExactLaw) -> Iterator[Excess]:
-    """That a law which repeats ends as it begins, and has no acceleration where it is to be straight."""
+    """Conditions of a repeating law: it ends as it begins, and has no acceleration on straight pieces."""
     basis, pieces = problem.basis, law.polynomials
     if not isinstance(basis, PeriodicPieces) or len(pieces) != len(basis.breaks) - 1:
         return
@@ -130,7 +130,7 @@ def _uneven(piece: PolynomialPiece, other: PolynomialPiece, low: Fraction, high:
 
 
 def _size(law: ExactLaw, nu: int) -> float:
-    """What the derivative of order nu is made of, at most, where every coefficient of c is rounded."""
+    """A bound of the derivative's rounding, where every coefficient of c is rounded."""
     return max(_size_of(piece, nu) for piece in law.polynomials)
 
 

@@ -1,4 +1,4 @@
-"""What a file holds and where: solutions, certificates and laws, and what the objects around them say of them.
+"""Content of a file by place: solutions, certificates and laws, and the statements of objects around them.
 
 Every key of a file is known: it belongs to an entry, to a row of a table or a front around entries, or it names
 entries. Anything else that is said is refused, because nothing would prove it.
@@ -123,7 +123,7 @@ class SolutionArrayFile(msgspec.Struct, forbid_unknown_fields=True):
 
 @dataclass(frozen=True)
 class Around:
-    """What the objects around an entry say of it."""
+    """Statements of the objects around an entry."""
 
     status: str | None = None  #: the status of its row
     problem: Any = None  #: the problem of its row, as plain data
@@ -141,7 +141,7 @@ class FileEntry:
 
 
 def entries(data: Data) -> dict[str, FileEntry]:
-    """What can be verified, by where it is.
+    """The verifiable entries of a file by their places.
 
     >>> list(entries({"rows": [{"solution": {"law": {}, "constants": {}}}, {"about": "none"}]}))
     ['rows[0].solution']

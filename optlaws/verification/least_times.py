@@ -26,7 +26,7 @@ def least_time(data: Mapping[str, Any], of_law: Verification) -> Verification:
 
 
 def _limits(least: LeastTime) -> Iterator[Claim]:
-    """That the law keeps every limit in the time, in the units of the file."""
+    """The claim that the law satisfies every limit in the time, in the units of the file."""
     law = ExactLaw(least.law)
     for limit in least.move.limits_in(least.duration):
         used = Fraction(enclosed(law.term(limit.constant))[1]) / Fraction(limit.bound)
@@ -38,7 +38,7 @@ def _limits(least: LeastTime) -> Iterator[Claim]:
 
 
 def _proofs(least: LeastTime) -> Iterator[Claim]:
-    """That no law keeps the limits in any shorter time."""
+    """The claim that no law satisfies the limits in any shorter time."""
     wrong = least.contradiction
     if wrong:
         yield Claim("the least time", proven=False, detail=wrong)

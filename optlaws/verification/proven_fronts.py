@@ -20,7 +20,7 @@ from optlaws.verification.result import Claim, Verification
 
 @dataclass(frozen=True)
 class _Known:
-    """What is proven at one certified law: bounds of the least objective, how these go on, and conditions broken."""
+    """Proven data of one certified law: bounds of the least objective, their slopes, and violations."""
 
     at: Fraction
     top: Fraction

@@ -83,7 +83,7 @@ def _check_size(key: str, value: object, path: str) -> None:
 
 
 def built(make: Callable[[Any], Kind], data: object, name: str) -> Kind:
-    """What `make` makes of data that may be anything."""
+    """The value that `make` builds from data of any kind."""
     try:
         return make(data)
     except InputError as error:

@@ -1,4 +1,4 @@
-"""What a verification found."""
+"""Results of verifications."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class Claim:
 
 @dataclass(frozen=True, kw_only=True)
 class Verification:
-    """What is proven of a solution, or of a certificate alone. Every number is rounded to the safe side.
+    """The proven statements on a solution, or on a certificate alone, each rounded to the safe side.
 
     Attributes
     ----------

@@ -29,7 +29,7 @@ _ORDERS = {"B": 1, "C": 2, "J": 3}
 
 
 def at_most(name: str, stated: float, proven: Fraction | None, scale: float, source: str = "") -> Claim:
-    """That a stated bound is proven, but for the rounding of doubles; a bound near 0 is measured by its scale."""
+    """The claim that a stated bound is proven up to rounding; a bound near 0 is compared with its scale."""
     if proven is None:
         return Claim(name, proven=False, detail=f"{stated!r} stated, nothing proven")
     holds = Fraction(stated) <= proven + Fraction(STATED_BOUND) * max(Fraction(scale), abs(proven))
@@ -49,7 +49,7 @@ def stated_numbers(
 
 
 def _limit(value: float, problem: Problem) -> Claim:
-    """That a limit of laws of any degree is proven by exact closed forms, or agrees with one in doubles."""
+    """The claim that a limit for laws of any degree has an exact closed form, or agrees with one in doubles."""
     scale = problem.objective.scale
     claim = at_most("the limit", value, exact_limit(problem), scale, " by its closed form")
     known = known_limit(problem)
@@ -77,7 +77,7 @@ def stated_constants(data: Mapping[str, Any], law: ExactLaw) -> Iterator[Claim]:
 
 
 def near(name: str, stated: float, pair: tuple[float, float], scale: float = 1.0) -> Claim:
-    """That a stated value is the proven one, but for the rounding of doubles; one near 0 is measured by its scale."""
+    """The claim that a stated value is the proven one up to rounding; a value near 0 is compared with its scale."""
     low, high = pair
     room = STATED_CONSTANT * max(scale, abs(high)) if high < inf else 0.0
     return Claim(name, low - room <= stated <= high + room, f"{stated!r} stated, in [{low!r}, {high!r}]")
@@ -102,7 +102,7 @@ def _reached(name: str, value: float, k: float, law: ExactLaw) -> Claim:
 
 
 def _of_z(z: object, problem: Problem, law: ExactLaw) -> Claim:
-    """That Z with the end conditions gives the law."""
+    """The claim that Z with the end conditions gives the law."""
     basis, order, conditions = problem.basis, problem.order, problem.conditions
     if not isinstance(basis, PolynomialBasis | PiecewiseBasis):
         raise InputError(f"z is given, but laws in {basis!r} have no Z")
@@ -128,7 +128,7 @@ def _of_z(z: object, problem: Problem, law: ExactLaw) -> Claim:
 
 
 def _small(name: str, off: list[fmpq_poly], law: ExactLaw, allowed: float) -> Claim:
-    """That polynomials in y are small from -1 to 1."""
+    """The claim that polynomials in y are small from -1 to 1."""
     with ctx.workprec(law.precision):
         # what is not small at a few places need not be enclosed everywhere
         least = max(enclosed(abs(at(polynomial, arb(y) / 4)))[0] for polynomial in off for y in range(-4, 5))

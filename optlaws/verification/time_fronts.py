@@ -51,7 +51,7 @@ def time_front(data: Mapping[str, Any], of_least: Verification, of_points: Seque
 
 
 def _point(least: LeastTime, objective: MoveObjective, row: Mapping[str, Any], known: Verification) -> Iterator[Claim]:
-    """That a law is of the move in its time, and what it takes and what none takes less than, in SI units."""
+    """The claim that a law belongs to the move in its time, with its objective and its lower bound, in SI units."""
     duration, move = number(row, "duration"), least.move
     with meant():
         same = known.problem == objective.problem(move, duration)

@@ -200,7 +200,7 @@ class FollowerContact(ABC):
 
     @abstractmethod
     def transmission(self, s: Jet) -> Transmission:
-        """How the follower takes the force of its cam; s with two derivatives by the cam's angle."""
+        """Transmission of the cam's force to the follower; s with two derivatives by the cam's angle."""
 
     def linear_limits(
         self, piece: Piece, limits: Mapping[str, float], angle: float, *, below: bool

@@ -118,7 +118,7 @@ class InstantPlaces:
 
 
 def _times(spans: Mapping[str, tuple[Array, Array]], pieces: int) -> Array:
-    """Times of the nodes, and others evenly between them where there are none near by."""
+    """Times of the nodes, with further times evenly between distant ones."""
     of_nodes = [
         time for first, last in spans.values() for times in (first, last, 0.5 * (first + last)) for time in times
     ]
@@ -200,7 +200,7 @@ def _near_rests(rows: Rows, stand: Stand, place: int, times: Array, box: Instant
 
 @dataclass(frozen=True)
 class _Reach:
-    """The greatest way from rest within limits of velocity, acceleration and jerk, infinite where there is none."""
+    """The greatest distance from rest within limits of velocity, acceleration and jerk; infinite without a limit."""
 
     velocity: float
     acceleration: float

@@ -84,7 +84,7 @@ class DrivenLimit:
         return max(0.0, log(before / after) / log((1.0 + DURATION_STEP) / (1.0 - DURATION_STEP)))
 
     def least_scale(self, law: MotionLaw) -> float:
-        """The least scale from which on a law keeps it; infinite where it keeps it at none, 0 where at every one."""
+        """The least scale from which on a law satisfies the limit; infinite if there is none, 0 if all do."""
         from scipy.optimize import brentq
 
         high = 1.0

@@ -252,7 +252,7 @@ class FastestSearch:
 
     @kept_property
     def _layout(self) -> Layout:
-        """The pieces and spans at the period that was given, where free segments share what is left equally."""
+        """The pieces and spans at the given period, where free segments have equal shares of the remaining time."""
         given = self.programme.stretches
         left = self.programme.period - sum(stretch.least for stretch in given if stretch.fixed)
         free = sum(not stretch.fixed for stretch in given)

@@ -126,7 +126,7 @@ class ForceRating:
         return replace(self.objective, minimise="rms force", mean_force=None)
 
     def _over(self, period: float) -> float:
-        """The logarithm of the root mean square over its limit."""
+        """The logarithm of the ratio of the root mean square to its limit."""
         pieces = [*self.placed(period).pieces, *(piece for piece, _ in self.laws(period))]
         square = sum(PieceEffort(self.drive, piece).square for piece in pieces)
         return log(sqrt(square / period) / self.most)

@@ -64,7 +64,7 @@ class PlannedSegment:
 
 @dataclass(frozen=True)
 class AxisPlan:
-    """The segments of an axis, and where their durations stand among the unknowns of a program.
+    """The segments of an axis, and the indices of their durations among the unknowns of a program.
 
     The last two unknowns are the period and the pace, to which the durations of some moves are in proportion.
     """

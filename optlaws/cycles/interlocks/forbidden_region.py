@@ -98,7 +98,7 @@ class Forbidden(Interlock):
         return np.asarray(np.where(depth > 0.0, np.sqrt(polygon.square(x, y)), depth))
 
     def _least_clearance(self, first: EnclosedAxis, second: EnclosedAxis) -> LeastClearance:
-        """The distance of the path from the polygon where it is nearest; below 0 how deep the path enters it."""
+        """The least distance of the path from the polygon; if the path enters it, minus the greatest depth."""
         sizes = _sizes(first, second)
         polygon = polygon_of(self, first.cycle.axis, second.cycle.axis).scaled(*sizes)
 

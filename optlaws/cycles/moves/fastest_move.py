@@ -168,7 +168,7 @@ class FastestMove(LawExport, JsonText):
         )
 
     def summary(self) -> Summary:
-        """The least time, what no law beats, and each limit with its use, as rows.
+        """Rows with the least time, the limit for all laws, and the use of each limit.
 
         Examples
         --------

@@ -21,7 +21,7 @@ _ACCELERATIONS = {"m": "acceleration", "rad": "angular acceleration"}
 def vibration_limit(
     follower: Mapping[str, Any], limits: Mapping[str, Any]
 ) -> tuple[dict[str, Any], Callable[[str], FollowerResidual]]:
-    """The other limits, and what makes that of the follower for a stroke in "m" or "rad".
+    """The limits without that of the follower, and a function that makes the latter for a stroke in "m" or "rad".
 
     Raises
     ------

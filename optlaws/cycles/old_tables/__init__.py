@@ -1,1 +1,1 @@
-"""Tables of old cams: files of controllers read back, divided into dwells and moves, and laws that better them."""
+"""Tables of old cams: files of controllers are read, divided into dwells and moves, and improved."""

@@ -63,7 +63,7 @@ class Stretch:
 
 
 def of_standard_laws(places: Array, heights: Array, room: float) -> tuple[Stretch, ...] | None:
-    """The parts of a table whose moves are all standard laws; None where one is not."""
+    """The segments of a table if all its moves are standard laws; None otherwise."""
     stretches = []
     try:
         for part in stretches_of(places, heights, room):
@@ -108,7 +108,7 @@ def _rests(heights: Array, room: float) -> Iterator[_Rest]:
 
 
 def _level(heights: Array, first: int, last: int) -> float:
-    """The level of a run: the median of the middle of a long one, of a short one what is farthest from the moves."""
+    """The level of a dwell: the median of its middle; of a short one the value farthest from the moves."""
     quarter = (last - first) // 4
     if last - first + 1 >= _LONG:
         return float(np.median(heights[first + quarter : last - quarter + 1]))

@@ -68,7 +68,7 @@ class OldTable:
     rate: float | None = None
 
     def cycle(self, *, speed: Quantity | None = None, period: Quantity | None = None) -> Cycle:
-        """The cycle of the table, at a speed of the master or of a period; at that of the file where neither is given.
+        """The cycle of the table, at a speed or a period; at the speed of the file if neither is given.
 
         Raises
         ------

@@ -177,7 +177,7 @@ def both_sides(limits: Mapping[LimitKey, float]) -> dict[int, tuple[float, float
 
 
 def name_of(key: LimitKey, axis: str) -> str:
-    """What has a limit, in words.
+    """The name of a limited quantity.
 
     >>> name_of(3, "length"), name_of(OneSided(2, -1.0, DECELERATION), "length"), name_of(FORCE, "angle")
     ('jerk', 'deceleration', 'torque')

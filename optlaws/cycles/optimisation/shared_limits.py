@@ -217,7 +217,7 @@ class _SharedLimit:
         return Best(tried[least_peak], (), max(bound, self._impossible(least_peak, bound)))
 
     def _impossible(self, peak: float, bound: float) -> float:
-        """A peak, as near below one as can be, that no laws keep with the limit."""
+        """A peak just below the optimum for which no laws satisfy the shared limit."""
         if not self._exact:
             return bound
         for share in _BELOW:

@@ -41,7 +41,7 @@ class ProcessForce:
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """Times at which it has kinks."""
+        """Times at which the process force has kinks."""
         return tuple(table_places(self.load, "t"))
 
 

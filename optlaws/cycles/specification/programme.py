@@ -41,7 +41,7 @@ class TimedSegment:
 
     @property
     def fixed(self) -> bool:
-        """Whether its duration is one value."""
+        """Whether the duration of the segment is one value."""
         return self.least == self.most
 
     @property

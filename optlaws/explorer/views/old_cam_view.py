@@ -206,7 +206,7 @@ def _trust(old: OldTable) -> dict[str, Any]:
 
 
 def move(request: MoveRequest) -> dict[str, Any]:
-    """The law of least acceleration within the tolerance of that of a move, and what it gains; or why there is none."""
+    """A law of least acceleration within the tolerance of a move's old law, and its gain; or why there is none."""
     try:
         return _better(msgspec.json.encode(request.study), request.move)
     except OptlawsError as error:

@@ -70,7 +70,7 @@ def _segment(formula: Formula, start: float, stop: float) -> PolynomialSegment:
 
 
 def _smooth(formula: Formula, k: float) -> Formula:
-    """The formula with each abs, max and min replaced by the part that it is at k."""
+    """The formula with each abs, max and min replaced by its smooth branch at k."""
     if isinstance(formula, Call) and formula.function in {"abs", "max", "min"}:
         values = [float(_values(part, np.array([k]))[0]) for part in formula.arguments]
         if formula.function == "abs":

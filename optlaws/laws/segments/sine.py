@@ -169,7 +169,7 @@ class HarmonicSegment(SwingingSegment, kind="harmonics"):
 
     @kept_property
     def sines(self) -> tuple[SineSegment, ...]:
-        """The sines it is the sum of; the first has the velocity at the start."""
+        """Sines whose sum the segment is; the first one has the velocity at the start."""
         waves = zip(self.amplitudes, self.frequencies, self.phases, strict=True)
         return tuple(SineSegment(*wave, b0=0.0 if i else self.b0) for i, wave in enumerate(waves))
 

@@ -195,7 +195,7 @@ class MoveCosts(NamedTuple):
 
     @classmethod
     def read(cls, recovered: Any, heat: Any) -> MoveCosts:  # noqa: ANN401 - they are checked here
-        """The costs that a share and a heat stand for.
+        """The costs of a move's energy, from the share of regeneration and the heat as numbers.
 
         Raises
         ------

@@ -221,7 +221,7 @@ class OutputPeak(OutputConstant):
         return len(self.signs) == 2
 
     def floor(self, conditions: BoundaryConditions) -> float:
-        """A peak of one side may be below 0, but not below the output of the machine at rest where it begins."""
+        """A lower bound of a one-sided peak: the machine's output at rest where it begins, which may be below 0."""
         if self.both:
             return 0.0
         place, level = self.machine.place(self.output), conditions.start[0]

@@ -143,7 +143,7 @@ class ModeResidual(Functional):
         return tuple(families)
 
     def unit(self, space: LawSpace, edge: int, bound: float, *, sought: bool) -> float:
-        """The size of the rows of an edge: the bound, or what the base law leaves where none is given but sought."""
+        """The unit of the rows of an edge: the bound, or the base law's residual if there is no bound."""
         return bound or (float(np.abs(self._columns(space, edge)[:, -1]).max()) if sought else 0.0) or 1.0
 
     def where(self, k: float) -> str:

@@ -117,7 +117,7 @@ class StructureSegment:
 
 @dataclass(eq=False)
 class ParametricContinuation:
-    """The segments of a path that are known so far."""
+    """A path of solutions along a parameter, as the segments that are known so far."""
 
     #: path, least, greatest: along what, and between which t
     path: Path

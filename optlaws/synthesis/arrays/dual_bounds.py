@@ -71,7 +71,7 @@ def sharp_bounds(path: Path, structure: Structure, numbers: Numbers, states: Sta
 def sharp_sums(
     model: Model, cost: Array, multipliers: Array, rows: Array, sizes: Array
 ) -> tuple[Array, Array, Array, Array]:
-    """The cost and the weighted rows of many laws as a slope and a value, each with what rounding hides of it.
+    """Sums of the cost and the weighted rows of many laws as slopes and values, each with its rounding bound.
 
     Parameters
     ----------

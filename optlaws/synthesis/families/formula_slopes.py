@@ -229,7 +229,7 @@ class Slopes:
         return self._turned(outer.gradient(names), factors)
 
     def hessian(self, at: Mapping[str, Array]) -> Array:
-        """Its second derivatives, shape (names, names, places)."""
+        """Second derivatives of the formula, shape (names, names, places)."""
         known = self._factors(at, _ORDERS)
         if known is None:
             return self._plain.hessian(at)

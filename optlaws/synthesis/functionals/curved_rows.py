@@ -146,7 +146,7 @@ def rule_length(space: LawSpace, motion: MotionFormula) -> int:
 
 
 def rule_edges(space: LawSpace, motion: MotionFormula) -> list[float]:
-    """The k between which the rule has its places: the formula is smooth there along every law, over its part.
+    """Edges in k of the quadrature rule: between them the formula is smooth for every law.
 
     Where it is no polynomial they are as near as the space's own law asks for, and nearer, for others are less smooth.
     """

@@ -102,7 +102,7 @@ class OfFormula(Functional):
         return ((int(known[0]), float(known[1]), float(known[2])),) if len(known) else ()
 
     def _size(self, space: LawSpace) -> SizeBound | None:  # noqa: ARG002
-        """The bound; None where the constant does not bound the law."""
+        """The a priori bound of laws; None where the constant does not bound them."""
         return None
 
     def convex_families(
@@ -196,7 +196,7 @@ class FormulaPeak(OfFormula):
         return [branch for branches in several for branch in branches or []]
 
     def _families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConstraintFamily, ...]:
-        """One family; two where symmetric laws count on half the interval but the formula is not symmetric."""
+        """The families of the formula: one, or two if it is not symmetric and laws are symmetric."""
         if self.affine:
             halves = sides(self.motion, self.name, self.signs, symmetric=space.symmetric)
             return tuple(rows(space, side, slack, bound) for side in halves)

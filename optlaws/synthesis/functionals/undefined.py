@@ -26,7 +26,7 @@ _SIZES = {"a": 1.0, "b": 2.0, "c": 8.0, "j": 60.0}
 
 
 def check_ends(motion: MotionFormula, conditions: BoundaryConditions) -> None:
-    """Refuse a formula without a value where the end conditions say what the law is: at rest 1/b divides by 0."""
+    """Refuse a formula that has no value at the end conditions: at rest 1/b divides by 0."""
     for k, end in ((0.0, conditions.start), (1.0, conditions.end)):
         known = {name: end[nu] for name, nu in ORDERS.items() if nu < len(end)}
         every = motion.formula.different() if motion.start <= k <= motion.stop else ()

@@ -55,7 +55,7 @@ class _Trials:
 
 
 def least_time_of_motor(move: TimedMove, near: LeastTime | None = None) -> LeastTime:
-    """The least time that is found between one that is too short and one that is enough, perhaps begun near another.
+    """The least time by bracketing between an infeasible and a feasible time, perhaps started near another.
 
     Where laws that keep the limits keep them in every longer time, a certificate of one time proves the shorter ones.
     """

@@ -248,7 +248,7 @@ class TimedMove:
         return (*self.without_residual.limits_in(longest), *((left,) if left.bound < inf else ()))
 
     def _size_in(self, duration: float) -> LawSize:
-        """How large laws are that keep the limits in a time: the integrals of |k - 1/2| |b| and of |k - 1/2| |c|."""
+        """A priori bounds of laws within the limits in a time: the integrals of |k - 1/2| |b| and of |k - 1/2| |c|."""
         most = {limit.constant: limit.bound for limit in self.without_residual.limits_in(duration)}
         smooth = getattr(self.problem.basis, "continuity", 2) >= 2
         velocity, jerk = 0.25 * most.get(B, inf), most.get(J, inf) if smooth else inf

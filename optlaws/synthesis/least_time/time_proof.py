@@ -245,7 +245,7 @@ def covering(move: TimedMove, known: Sequence[tuple[float, Multipliers]], durati
 
 
 def _in_parts(multipliers: Multipliers, move: TimedMove, shortest: float, longest: float) -> list[TimeProof]:
-    """The proofs of an interval, the longest times first: one, or several where one does not show it."""
+    """The proofs of an interval, the longest times first: one, or several for its parts."""
     middle = 0.5 * (shortest + longest)
     if move.concave or multipliers.above_between(shortest, longest) or not shortest < middle < longest:
         return [multipliers.proof(move, shortest, longest)]

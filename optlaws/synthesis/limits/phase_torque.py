@@ -56,7 +56,7 @@ class PhaseTorque:
 
     @classmethod
     def of_power(cls, formula: Formula) -> PhaseTorque | None:
-        """The torque that, times b, is a formula; of the number 0 that without any factor."""
+        """The torque whose product with b is a formula; for the number 0 a torque without factors."""
         if constant(formula) == 0.0:
             return cls(_ZERO)
         terms = quadratic(formula, ("b", "c"), 3)

@@ -54,7 +54,7 @@ def newton(program: Program, start: ActiveSet, *, deficient: bool = False) -> Ac
 
 
 def _iterated(program: Program, start: ActiveSet, *, enough: float = 0.0, deficient: bool = False) -> ActiveSet | None:
-    """The state at which Newton's method stands still, or at which all that a step changes is less than enough."""
+    """The end of Newton's method: its fixed point, or a state after which a step changes less than needed."""
     state = start
     previous = np.inf
     for _ in range(_STEPS):

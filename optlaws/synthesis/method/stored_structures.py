@@ -149,7 +149,7 @@ def _stored() -> dict[str, NDArray[np.int16]]:
 
 @lru_cache(maxsize=128)
 def stored_structures(key: str) -> tuple[StoredStructure, ...]:
-    """The structures of a kind of problems; none where it is no usual one.
+    """Stored structures for a kind of problems; empty for unusual kinds.
 
     Examples
     --------

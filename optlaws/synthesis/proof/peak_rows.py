@@ -71,7 +71,7 @@ class PeakRows:
         return roots_of(self.problem, self.peak.name)
 
     def after(self, here: PlaceRange, node: Node) -> list[PlaceRange] | None:
-        """The ranges that a node leaves of one; None where it is no node of places."""
+        """The ranges that remain of a range after a node; None if it is no node of places."""
         if isinstance(node, Split):
             return here.parts(node.at) if node.variable == 0 and here.low < node.at < here.high else None
         if isinstance(node, Tightening):

@@ -35,7 +35,7 @@ def _power(base: Any, exponent: Any) -> Any:  # noqa: ANN401 - balls or series
 
 
 def _sqrt(x: Any) -> Any:  # noqa: ANN401 - a ball or a series
-    """Where its argument reaches 0, which it is not below, a value and no slope."""
+    """The square root; where its argument may be 0 and is not below, a value without a slope."""
     if _may_vanish(_plain(x)):
         return _kinked(x, [arb(0).union(_plain(x).upper().sqrt())])
     return x.sqrt()

@@ -44,7 +44,7 @@ def kinks(motion: MotionFormula) -> list[Fraction]:
 
 
 def _vanishing(part: Formula) -> Iterator[Formula]:
-    """What is 0 where a part has a kink."""
+    """Functions that vanish where a part has a kink."""
     if isinstance(part, Table):
         yield from (added([part.of, opposite(number(place))]) for place in part.places)
     elif isinstance(part, Call) and part.function in _KINKED:

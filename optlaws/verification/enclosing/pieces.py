@@ -222,7 +222,7 @@ class PowerPiece(ExactPiece):
         return factor / b ** (2 * nu - 3) if square else (arb.pos_inf() if factor > 0 else arb.neg_inf())
 
     def extremes(self, nu: int, start: Fraction, stop: Fraction) -> Extremes:
-        """At the ends: everything rises or falls throughout."""
+        """Extremes at the ends, for functions that are monotone on the piece."""
         return least_and_greatest([self.value(nu, start), self.value(nu, stop)])
 
     def power(self) -> Extremes:

@@ -140,7 +140,7 @@ class _BranchAndBound:
         return reduce(arb.max, (value if sign > 0.0 else -value for sign in self.signs))
 
     def seen(self, polynomial: arb_poly, off: arb, places: Sequence[Fraction]) -> list[arb]:
-        """What there is at places, none of which the greatest is below."""
+        """Values at places, lower bounds of the greatest value."""
         counted = [self._counted(polynomial(ball(place))) for place in places]
         self.least = reduce(arb.max, ((value - off).lower() for value in counted), self.least)
         return counted

@@ -95,7 +95,7 @@ class Along:
 
 
 def prove_along(certificate: Certificate, along: Along) -> Proof:
-    """What the certificate's contacts prove wherever the number is between its ends: a value here, and its slope."""
+    """The bound that the certificate's contacts prove for all values of the number: its value here, and its slope."""
     return _proof(certificate, along)
 
 
@@ -191,7 +191,7 @@ class _System:
         self.multipliers.append(ball(weight))
 
     def _neighbours(self, contact: Contact) -> Iterator[tuple[Contact, Fraction]]:
-        """What stands for the place of a contact, and for the direction of a complex number."""
+        """Neighbours of a contact's place, and of the direction of a complex number."""
         k, cone = Fraction(contact.k), contact.constraint in self.rows.cones
         if cone and len(contact.direction) == 2:
             real, imaginary = contact.direction

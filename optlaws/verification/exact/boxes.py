@@ -46,7 +46,7 @@ class BallBox:
     high: Vector
 
     def cut(self, variable: int, *, low: arb | None = None, high: arb | None = None) -> BallBox:
-        """With a side of a variable moved."""
+        """The box with one side of a variable moved."""
         sides = [list(self.low), list(self.high)]
         for values, value in zip(sides, (low, high), strict=True):
             if value is not None:
@@ -54,7 +54,7 @@ class BallBox:
         return BallBox(*sides)
 
     def least(self, row: Vector) -> arb:
-        """What a row, its constant last, is at least."""
+        """A lower bound of a row in the box, its constant last."""
         total = row[-1]
         for weight, low, high in zip(row, self.low, self.high, strict=False):
             total += (weight * low).min(weight * high)
@@ -85,7 +85,7 @@ class BoxSteps(ABC):
 
     @abstractmethod
     def greatest_velocity(self) -> arb:
-        """What |b| is at most."""
+        """An upper bound of |b| in the box."""
 
     @abstractmethod
     def own_sides(self, name: str) -> tuple[arb, arb]:
@@ -193,7 +193,7 @@ def _kind(problem: Problem) -> type[BoxSteps] | None:
 
 
 class _PowerProof(BoxSteps):
-    """Of a problem with D in it."""
+    """The proof over boxes of a problem with D."""
 
     def greatest_velocity(self) -> arb:
         """Also b b changes by no more than 2 D."""
@@ -202,7 +202,7 @@ class _PowerProof(BoxSteps):
 
     @kept_property
     def D(self) -> arb:
-        """What D is at most."""
+        """An upper bound of D in the box."""
         return ball(self.greatest["D"])
 
     @kept_property
@@ -261,7 +261,7 @@ class _PowerProof(BoxSteps):
 
 
 class _FormulaProof(BoxSteps):
-    """Of a problem with peaks of formulas that are not convex."""
+    """The proof over boxes of a problem with peaks of formulas that are not convex."""
 
     def greatest_velocity(self) -> arb:
         """B, or what a bound of a mean of |c|, or of |j|, says: b is no further from its mean, and c from its own."""

@@ -240,7 +240,7 @@ class _Tangent:
         return [*slopes, value - sum(map(mul, slopes, at.values()), arb_series([0])), value]
 
     def rough(self, k: arb) -> list[arb]:
-        """The same of a tangent that touches elsewhere; nothing of a mean square."""
+        """The row of a tangent that touches at another place; empty for a mean square."""
         if self.root:
             return [arb(0)] * (len(self.along) + 2)
         at = dict.fromkeys(self.along, arb(1))
@@ -321,7 +321,7 @@ def _within(
 
 
 def _inner(whole: tuple[Fraction, Fraction], ends: tuple[Fraction, Fraction]) -> fmpq_poly:
-    """What runs from -1 to 1 over the whole, by what does over a part of it."""
+    """The local coordinate of the whole interval as a function of that of a part."""
     low, high = (2 * (k - whole[0]) / (whole[1] - whole[0]) - 1 for k in ends)
     return fmpq_poly([rational((low + high) / 2), rational((high - low) / 2)])
 

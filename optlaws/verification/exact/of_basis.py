@@ -1,4 +1,4 @@
-"""Which exact space belongs to a basis: one function for each kind; others are refused."""
+"""The exact space of each kind of basis, one function for each kind; others are refused."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What every law of a problem obeys, by the names that certificates use, in exact or ball arithmetic."""
+"""Rows that every law of a problem satisfies, by their names in certificates, in exact or ball arithmetic."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ class WindowPart:
 
 
 class ExactRows:
-    """The rows that a certificate may use. The constants are variables that every law meets with its own values."""
+    """Rows that a certificate may use. Constants are variables, which every law satisfies with its own values."""
 
     def __init__(self, certificate: Certificate) -> None:
         self.problem = problem = certificate.problem
@@ -183,7 +183,7 @@ class ExactRows:
                 self._branch(branch, limit)
 
     def _beneath(self, constant: OfFormula, limit: UpperLimit) -> None:
-        """Of what is not convex: convex rows beneath, and what it is at least."""
+        """Convex rows that underestimate non-convex constants, and lower bounds of these."""
         if isinstance(constant, FormulaPeak):
             for branch in constant.beneath(boxes_of(self.problem), symmetric=self.problem.symmetric):
                 self._branch(branch, limit)
@@ -334,7 +334,7 @@ class ExactRows:
             self._bounded(constant, UpperLimit(high=limits.high))
 
     def _peak(self) -> None:
-        """What makes b greatest at one k, and B its value there."""
+        """Equations that put the peak of b at one k, with B its value there."""
         problem, space, limits = self.problem, self.space, self.problem.range("B")
         fixed = limits.high if limits is not None and limits.fixed else None
         if fixed is not None and not problem.symmetric:
@@ -402,7 +402,7 @@ class ExactRows:
 
 
 def parts(window: Window, *, symmetric: bool) -> Iterator[WindowPart]:
-    """What a window asks; of symmetric laws, for which a(k) + a(1-k) = 1, on the first half only."""
+    """The parts of a window; for symmetric laws, a(k) + a(1-k) = 1, on the first half only."""
     low, high = (Fraction(bound) if isfinite(bound) else None for bound in (window.low, window.high))
     start, stop = Fraction(window.start), Fraction(window.stop)
     half = Fraction(1, 2)

@@ -18,7 +18,7 @@ Functions = list[fmpq_poly]
 
 
 class EndValues(NamedTuple):
-    """What the end conditions alone say of every law: b(0), b(1) - b(0) (None where they are free) and the stroke."""
+    """Consequences of the end conditions for every law: b(0), b(1) - b(0) (None if free) and the stroke."""
 
     start_velocity: fmpq | None
     velocity_change: fmpq | None
@@ -163,7 +163,7 @@ class ExactSpace:
 
     @kept_property
     def bounds(self) -> EndValues:
-        """What the end conditions say."""
+        """Consequences of the end conditions."""
         conditions = self.problem.conditions
         start, end = ([rational(Fraction(v)) for v in part] for part in (conditions.start, conditions.end))
         stroke = end[0] - start[0]

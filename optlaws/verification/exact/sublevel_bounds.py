@@ -1,4 +1,4 @@
-"""What constants and derivatives can be in laws below a claim, and what no law beats, with every rounding enclosed."""
+"""Bounds of constants and derivatives in laws below a claim, and limits, with every rounding enclosed."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def never_negative(problem: Problem) -> bool:
 
 
 def least_values(problem: Problem, rows: ExactRows) -> dict[str, Fraction | float]:
-    """What constants of the objective cannot be below, where that is not 0: minus infinity where nothing is known.
+    """Lower bounds of the objective's constants, where they are not 0: minus infinity if nothing is known.
 
     The greatest c is at least its mean, the change of velocity, and so is the greatest -c.
     """
@@ -57,13 +57,13 @@ def least_values(problem: Problem, rows: ExactRows) -> dict[str, Fraction | floa
 
 
 def least_objective(problem: Problem, rows: ExactRows) -> Fraction | None:
-    """What the objective cannot be below by what its constants are alone; None where nothing is known."""
+    """A lower bound of the objective by those of its constants; None if nothing is known."""
     value = _least_sum(problem.objective, least_values(problem, rows))
     return None if isinstance(value, float) else value
 
 
 def _least_sum(expression: Expression, least: dict[str, Fraction | float]) -> Fraction | float:
-    """What an expression cannot be below; notes the same of its maxima."""
+    """A lower bound of an expression; stores those of its maxima."""
     total: Fraction | float = Fraction(0)
     for weight, term in expression.terms:
         if isinstance(term, Maximum):
@@ -96,7 +96,7 @@ def greatest_values(certificate: Certificate, rows: ExactRows, claim: float) -> 
 
 
 def means(problem: Problem, rows: ExactRows, greatest: dict[str, float]) -> dict[int, arb]:
-    """By order of derivative: a bound of the integral of its magnitude, in every such law."""
+    """Bounds of the integral of a derivative's magnitude, by order of derivative, in every such law."""
     start, change, stroke = rows.space.bounds
     bounds: dict[int, list[arb]] = {}
 
@@ -137,7 +137,7 @@ def _sizes(problem: Problem, constant: Functional, name: str) -> Iterator[tuple[
 def _spread(
     expression: Expression, claim: Fraction, least: Mapping[str, Fraction | float], greatest: dict[str, float]
 ) -> None:
-    """What each term is at most where the sum is below the claim and the other terms are no less than they can be."""
+    """Upper bounds of the terms where the sum is below the claim and the other terms have their least values."""
     lowest = [Fraction(weight) * least.get(repr(term), Fraction(0)) for weight, term in expression.terms]
     for i, (weight, term) in enumerate(expression.terms):
         others = sum([*lowest[:i], *lowest[i + 1 :]], Fraction(0))

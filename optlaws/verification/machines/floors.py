@@ -1,4 +1,4 @@
-"""What constants are at least, in exact numbers where they are those of a machine."""
+"""Lower bounds of constants, in exact numbers for those of a machine."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from optlaws.verification.machines.transfer import Transfer
 
 
 def floor(constant: Functional, conditions: BoundaryConditions) -> Fraction | float:
-    """What a constant is at least in laws with these end conditions; minus infinity where nothing is known.
+    """A lower bound of a constant in laws with these end conditions; minus infinity if nothing is known.
 
     A peak of one side of an output may be below 0, but not below the output where the law begins.
     """

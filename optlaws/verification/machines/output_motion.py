@@ -251,7 +251,7 @@ class _Chains:
         return [_returned(pole, period, rows) for pole, rows in zip(self.poles, self.last, strict=True)]
 
     def _polynomials(self, drive: DrivenStretch) -> Columns:
-        """What the output is apart from free motion: the transfer function's series at 0, applied to the law."""
+        """The output without free motion: the transfer function's series at 0, applied to the law."""
         columns, total = drive.columns, [fmpq_poly([0])] * self.laws
         for _ in range(self.transfer.zeros):
             columns = [column.integral() for column in columns]
@@ -289,7 +289,7 @@ def _integrated(pole: Pole, drive: DrivenStretch) -> tuple[acb_mat, acb_mat]:
 
 
 def _weighted(pole: Pole, away: acb_mat) -> arb_mat:
-    """What s^l/l! exp(root s) has as factors in the output, real parts and below them imaginary ones."""
+    """The factors of s^l/l! exp(root s) in the output, real parts with imaginary ones below."""
     count = len(pole.shares)
     turn = [[pole.shares[j + row] if j + row < count else acb(0) for j in range(count)] for row in range(count)]
     rows = (acb_mat(turn) * away).tolist()

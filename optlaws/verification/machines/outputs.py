@@ -34,7 +34,7 @@ from optlaws.verification.machines.transfer import MachineConstant, Transfer
 
 @runtime_checkable
 class KnownOutput(MachineConstant, Protocol):
-    """What a constant of a machine's output is made of (optlaws.mechanisms defines it)."""
+    """Parts of a constant of a machine's output (optlaws.mechanisms defines it)."""
 
     @property
     def scale(self) -> float:
@@ -54,10 +54,10 @@ class KnownOutput(MachineConstant, Protocol):
 
     @property
     def offset(self) -> float:
-        """What is added to the output."""
+        """The offset that is added to the output."""
 
     def unit(self, space: LawSpace) -> float:
-        """What the rows of the certificate are divided by: any number above 0 will do."""
+        """The unit of the certificate's rows: any number above 0 will do."""
 
 
 @runtime_checkable

@@ -76,7 +76,7 @@ _I = acb(0, 1)
 
 @runtime_checkable
 class ResidualConstant(Protocol):
-    """What a residual over an interval of frequencies is made of (optlaws.mechanisms defines it)."""
+    """Parts of a residual over an interval of frequencies (optlaws.mechanisms defines it)."""
 
     name: str
     low: float
@@ -91,7 +91,7 @@ class ResidualConstant(Protocol):
 
     @property
     def part_names(self) -> tuple[str, ...]:
-        """What a certificate calls each part."""
+        """Names of the parts in certificates."""
 
 
 class ExactResidual:
@@ -111,7 +111,7 @@ class ExactResidual:
         return [scale * transform for transform in velocity_transforms(w, drives)]
 
     def _detuning(self, frequency: Number, w: Number) -> Number:
-        """What the cam made for the design frequency leaves."""
+        """The factor of the residual of a cam made for the design frequency."""
         if self.design is None:
             return frequency * 0 + 1
         square = 1 / ball(self.design**2)
@@ -143,7 +143,7 @@ Corner = tuple[arb, arb]
 
 @runtime_checkable
 class ModeConstant(MachineConstant, Protocol):
-    """What the residual of a mode is made of (optlaws.mechanisms defines it)."""
+    """Parts of the residual of a mode (optlaws.mechanisms defines it)."""
 
     @property
     def mode(self) -> int:
@@ -158,7 +158,7 @@ class ModeConstant(MachineConstant, Protocol):
         """The least and the greatest damping ratio; None for the mode's own."""
 
     def unit(self, space: LawSpace, edge: int, bound: float, *, sought: bool) -> float:
-        """What the rows of the certificate are divided by: any number above 0 will do."""
+        """The unit of the certificate's rows: any number above 0 will do."""
 
 
 @dataclass(frozen=True)

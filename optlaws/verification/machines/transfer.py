@@ -1,4 +1,4 @@
-"""From a law to an output of a machine: a rational function with exact coefficients, and its partial fractions."""
+"""Transfer functions from a law to an output: rational functions with exact coefficients, in partial fractions."""
 
 from __future__ import annotations
 
@@ -23,23 +23,23 @@ class StateSpaceMatrices(Protocol):
 
     @property
     def A(self) -> Matrix:
-        """What the states do to each other."""
+        """The matrix A of the states."""
 
     @property
     def B(self) -> Matrix:
-        """What the inputs do to the states."""
+        """The matrix B from the inputs to the states."""
 
     @property
     def C(self) -> Matrix:
-        """What the states do to the outputs."""
+        """The matrix C from the states to the outputs."""
 
     @property
     def D(self) -> Matrix:
-        """What the inputs do to the outputs."""
+        """The matrix D from the inputs to the outputs."""
 
     @property
     def inputs(self) -> str:
-        """Which of a, b and c the columns of B and D belong to."""
+        """The names of the columns of B and D: a, b or c."""
 
     @property
     def outputs(self) -> tuple[str, ...]:
@@ -47,7 +47,7 @@ class StateSpaceMatrices(Protocol):
 
 
 class MachineConstant(Protocol):
-    """What every constant of a machine is made of."""
+    """Parts of every constant of a machine."""
 
     @property
     def name(self) -> str:

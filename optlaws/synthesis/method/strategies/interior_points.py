@@ -158,7 +158,7 @@ class ByInteriorPoints(Strategy[list[Points], ActiveSet]):
         return self.sound is None or bool(self.program.objective @ (x - self.sound.x) < 0.0)
 
     def _answer(self, program: Program, points: list[Points]) -> Answer:
-        """Clarabel's answer to a conic program; else, or where it has none, IPOPT's, the usual where no fine one is."""
+        """Clarabel's solution of a conic program; for other programs, or if it fails, that of IPOPT."""
         quick = optimum_on_points(program, points) if conic(program) else None
         if quick is not None:
             return self._noted(quick)
