@@ -1,5 +1,6 @@
 """How docstrings and the names of the API appear on the pages."""
 
+import ast
 import re
 from importlib import import_module
 from inspect import isclass
@@ -32,8 +33,16 @@ def prepare(_app: Sphinx, what: str, _name: str, _obj: object, _options: object,
 def prepare_signature(
     _app: Sphinx, _what: str, _name: str, _obj: object, _options: object, signature: str | None, returned: str | None
 ) -> tuple[str | None, str | None]:
-    """Write a signature so that it can be read as Python: what a factory makes is no expression."""
-    return signature and signature.replace("<factory>", "..."), returned
+    """Write a signature so that it can be read as Python; what cannot be is at least without the modules of types."""
+    if signature is None:
+        return None, returned
+    # what a factory makes, a member of an enumeration, and a parameter of types are no expressions
+    written = re.sub(r"<\w+\.\w+: ('\w*')>", r"\1", signature.replace("<factory>", "...").replace(".~", "."))
+    try:
+        ast.parse(f"def function{written.replace('~', '')}: ...")
+    except SyntaxError:
+        written = re.sub(r"~(?:\w+\.)*~?", "", written)
+    return written, returned
 
 
 def finish(_app: Sphinx, doctree: nodes.document) -> None:
