@@ -94,6 +94,12 @@ def test_the_contents_list_every_how_to_once_and_the_first_page_every_extra() ->
     assert [name for name in extras if f"`{name}`" not in first] == []
 
 
+def test_the_first_page_is_included_from_mark_to_mark() -> None:
+    page, included = (ROOT / "README.md").read_text("utf-8"), (ROOT / "docs" / "index.md").read_text("utf-8")
+    marks = re.findall(r"^:(?:start-after|end-before): (.*)$", included, re.MULTILINE)
+    assert [page.count(mark) for mark in marks] == [1, 1]
+
+
 def test_no_module_has_two_places_in_the_reference() -> None:
     pages = (ROOT / "docs" / "reference" / "api").glob("*.md")
     placed = [name for page in pages for name in re.findall(r"automodule:: (\S+)", page.read_text("utf-8"))]
