@@ -16,7 +16,16 @@ import msgspec
 from optlaws.echo import cut
 from optlaws.errors import InputError, OptlawsError
 from optlaws.explorer import downloads, start
-from optlaws.explorer.views import axes_view, cam_view, cycle_view, front_view, law_view, old_cam_view, study_view
+from optlaws.explorer.views import (
+    axes_view,
+    cam_view,
+    cycle_view,
+    front_view,
+    law_view,
+    old_cam_view,
+    residual_view,
+    study_view,
+)
 from optlaws.explorer.views.machines import fastest_view, machine_view
 from optlaws.explorer.views.requests import Question, read, ready
 from optlaws.jobs.cam_entries import CamProblemFile
@@ -26,6 +35,7 @@ from optlaws.jobs.cycle_entries import CycleProblemFile
 QUESTIONS: dict[str, Question] = {
     **law_view.QUESTIONS,
     **front_view.QUESTIONS,
+    **residual_view.QUESTIONS,
     **cycle_view.QUESTIONS,
     **cam_view.QUESTIONS,
     **study_view.QUESTIONS,

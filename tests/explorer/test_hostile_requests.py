@@ -61,7 +61,11 @@ SEEDS: dict[str, list[Any]] = {
     ],
     "study": [{"study": study_view.example()}, {"study": {"problem": {"order": 4}, "vary": {"B": [1.6, 1.7]}}}],
     "open": [{"name": "a.toml", "text": TOML}, {"name": "a.csv", "text": "0;0\n1;0.2\n2;0.7\n3;1\n"}],
-    "residual": [{"laws": [OPTIMAL], "frequency": 12.0}],
+    "residual": [
+        {"laws": [OPTIMAL], "frequency": 12.0},
+        {"laws": [OPTIMAL], "band": [18.0, 22.0], "spectrum": [[16.0, 0.1], [20.0, 1.0], [24.0, 0.2]]},
+    ],
+    "spectrum": [{"pairs": [[30.0, 0.2], [32.0, 1.0]], "duration": "0.1 s"}],
 }
 ODD: list[Any] = [
     None, True, 0, -1, 1e308, -1e-308, 9e15, 1e6, float("nan"), "", "x", "é\u202e", "9e15", "1e-400 mm", "inf deg", [],

@@ -21,7 +21,9 @@ export const FIRST = {
 };
 
 /** What a link may hold, and whether the page can show it; the server says what else is wrong with it. */
-const WHOLE = { controller: object, ...Object.fromEntries(Object.entries(VIEWS).filter(([, { whole }]) => whole).map(([name, { whole }]) => [name, whole])) };
+const pair = (value) => Array.isArray(value) && value.length === 2 && value.every(Number.isFinite);
+const spectrum = (value) => object(value) && [value.raw, value.pairs].every((pairs) => Array.isArray(pairs) && pairs.length > 1 && pairs.every(pair));
+const WHOLE = { controller: object, band: pair, spectrum, ...Object.fromEntries(Object.entries(VIEWS).filter(([, { whole }]) => whole).map(([name, { whole }]) => [name, whole])) };
 const KNOWN = ["name", "notes", "view", "active", "picture", "machinePicture", "move", "time", "axis", "row", "plane", "frequency", "damping", ...Object.keys(WHOLE)];
 
 const same = (one, other) => JSON.stringify(one) === JSON.stringify(other);

@@ -14,9 +14,11 @@ export class Strip {
   #chosen;
   #x = null;
   #last = null;
+  #step;
 
   /** `moved(i, at)` asks for the end of segment i at a place, where ends can be moved; `chosen(i)` is a click on a bar. */
-  constructor({ moved = null, rested = () => {}, chosen }) {
+  constructor({ moved = null, rested = () => {}, chosen, step = 1 }) {
+    this.#step = step;
     this.#moved = moved;
     this.#rested = rested;
     this.#chosen = chosen;
@@ -54,20 +56,21 @@ export class Strip {
     const joint = html("div", { class: "joint-handle", role: "slider", tabindex: "0", "aria-label": `Where ${before} ends and ${after} begins` });
     const to = (at) => {
       const [least, most] = ["aria-valuemin", "aria-valuemax"].map((name) => Number(joint.getAttribute(name)));
-      this.#moved(i, Math.min(most - 1, Math.max(least + 1, at)));
+      const round = Number((Math.round(at / this.#step) * this.#step).toPrecision(9));
+      this.#moved(i, Math.min(most - this.#step, Math.max(least + this.#step, round)));
     };
     joint.addEventListener("pointerdown", (event) => {
       joint.setPointerCapture(event.pointerId);
       joint.focus();
       event.preventDefault();
     });
-    joint.addEventListener("pointermove", (event) => joint.hasPointerCapture(event.pointerId) && to(Math.round(this.#x.back(event.clientX - this.element.getBoundingClientRect().left))));
+    joint.addEventListener("pointermove", (event) => joint.hasPointerCapture(event.pointerId) && to(this.#x.back(event.clientX - this.element.getBoundingClientRect().left)));
     joint.addEventListener("pointerup", () => this.#rested());
     joint.addEventListener("keydown", (event) => {
       const step = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageDown: -10, PageUp: 10 }[event.key];
       if (!step) return;
       event.preventDefault();
-      to(Number(joint.getAttribute("aria-valuenow")) + step);
+      to(Number(joint.getAttribute("aria-valuenow")) + step * this.#step);
     });
     return joint;
   }

@@ -21,14 +21,11 @@ from optlaws import (
     Rise,
     Solution,
     Status,
-    residual_vibration,
-    response_spectrum,
 )
 from optlaws.errors import InfeasibleProblem, OptlawsError, SolverFailure
 from optlaws.explorer.views.picture_points import refined
 from optlaws.explorer.views.requests import (
     MOST_DEGREE,
-    MOST_LAWS,
     LawRequest,
     LawsRequest,
     Question,
@@ -303,41 +300,6 @@ def _way(entry: str, value: float, text: str) -> dict[str, Any]:
     return {"entry": entry, "value": value, "text": text}
 
 
-_COUNT = 241
-#: beyond this the envelope of the vibration, which the residual is, says nothing of what little is left to see
-MOST_DAMPING = 0.5
-_LOW = 2.0
-
-
-class ResidualRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """Laws, and the follower whose mass they drive: the highest frequency drawn, the one that is read, the damping."""
-
-    laws: Annotated[list[LawRequest], msgspec.Meta(min_length=1, max_length=MOST_LAWS)]
-    frequency: Annotated[float, msgspec.Meta(gt=0.0, le=1000.0)] = 20.0
-    most: Annotated[float, msgspec.Meta(ge=10.0, le=1000.0)] = 80.0
-    damping: Annotated[float, msgspec.Meta(ge=0.0, le=MOST_DAMPING)] = 0.0
-
-
-def residuals(request: ResidualRequest) -> dict[str, Any]:
-    """Residual acceleration over frequencies for each law, in units of a'', and its value at one; None without law."""
-    frequencies = np.linspace(_LOW, request.most, _COUNT)
-    return {
-        "frequencies": drawn(frequencies),
-        "laws": [_spectrum(law, frequencies, request) for law in request.laws],
-        "at": request.frequency,
-    }
-
-
-def _spectrum(request: LawRequest, frequencies: Any, follower: ResidualRequest) -> dict[str, Any] | None:  # noqa: ANN401 - an array
-    try:
-        law = law_of(request)
-    except OptlawsError:  # the view of the law says why
-        return None
-    values = response_spectrum(law, frequencies, follower.damping).residual_acceleration
-    here = residual_vibration(frequency=follower.frequency, damping=follower.damping).value(law)
-    return {"values": drawn(values), "value": here, "text": digits(here, 6)}
-
-
 _INERTIAS = {"length": ("mass", "1 kg", "m/s²", "N"), "angle": ("inertia", "1 kg m^2", "rad/s²", "N m")}
 Quantity = Annotated[str, msgspec.Meta(max_length=60)]
 
@@ -388,5 +350,4 @@ QUESTIONS: dict[str, Question] = {
     "law-machine": (MachineRequest, in_machine_units),
     "laws": (LawsRequest, answer),
     "nearest": (LawRequest, nearest),
-    "residual": (ResidualRequest, residuals),
 }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import lru_cache
@@ -87,9 +88,36 @@ def objective(weights: Mapping[str, float]) -> str:
     return " + ".join(f"{weight:.{_FIGURES}g}*{name}/{UNITS[name]:.{_FIGURES}g}" for name, weight in heavy.items())
 
 
+_SPECTRUM = re.compile(r"spectrum\s*=\s*(['\"])(.*?)\1")
+_PAIRS = re.compile(r"\s*\{?\s*[-+.\deE]+\s*:")
+
+
+def without_files(entries: Any) -> None:  # noqa: ANN401 - of JSON
+    """Refuse formulas that name a file, as those of measured spectra may: the page reads none.
+
+    Examples
+    --------
+    >>> without_files({"bounds": {"residual(spectrum='{shaker.csv}')": [0, 1]}})
+    Traceback (most recent call last):
+    optlaws.errors.InputError: spectrum: '{shaker.csv}' names a file, and the page reads none: drop it onto the page
+    """
+    if isinstance(entries, str):
+        for _, given in _SPECTRUM.findall(entries):
+            if not _PAIRS.match(given):
+                raise InputError(f"spectrum: {given!r} names a file, and the page reads none: drop it onto the page")
+    elif isinstance(entries, Mapping):
+        for name, entry in entries.items():
+            without_files(name)
+            without_files(entry)
+    elif isinstance(entries, list | tuple):
+        for entry in entries:
+            without_files(entry)
+
+
 def problem_of(request: LawRequest) -> Problem:
     """The problem that is asked."""
     entries = dict(request.problem or {})
+    without_files(entries)
     if entries.get("order") is not None:
         whole(entries["order"], "order", least=1, most=MOST_ORDER)
     if entries.get("degree") is not None:

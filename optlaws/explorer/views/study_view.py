@@ -12,7 +12,7 @@ import msgspec
 from optlaws import Problem
 from optlaws.errors import OptlawsError
 from optlaws.explorer.views.law_view import refusal
-from optlaws.explorer.views.requests import Question
+from optlaws.explorer.views.requests import Question, without_files
 from optlaws.files.problem_file import convert
 from optlaws.jobs.fronts import FrontsProblemFile
 from optlaws.jobs.solutions import SolutionsProblemFile, swept_entries
@@ -34,6 +34,7 @@ class StudyRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 def answer(request: StudyRequest) -> dict[str, Any]:
     """The rows of a study: what differs from row to row, and the law of each as the page asks for it."""
     try:
+        without_files(request.study)
         return _view(request.study)
     except OptlawsError as error:
         return {"refused": refusal(error)}

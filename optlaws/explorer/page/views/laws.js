@@ -1,6 +1,7 @@
 // The view of laws: what is asked on the left, the plane of the constants in the middle, the curves on the right.
 
 import { askedOf, move } from "../asked.js";
+import { Band } from "../band.js";
 import { Controls } from "../controls.js";
 import { group, slider, tabs } from "../fields.js";
 import { localised, plain } from "../language.js";
@@ -40,6 +41,7 @@ export class View {
   #tray;
   #plane;
   #residual;
+  #band;
   #curves = new Panels(element("curves"));
   #chooses;
   #machines;
@@ -60,7 +62,8 @@ export class View {
     const [plane, residual] = [html("div", { class: "fill" }), html("div", { class: "fill", id: "residual" })];
     element("plane").append(plane, residual);
     this.#plane = new Plane(plane, (x) => askedOf(study.state.laws[study.state.active], x), (value, x, y) => this.#move(value, x, y), (name) => this.#tray.add(name));
-    this.#residual = new Panels(residual);
+    this.#band = new Band(study);
+    this.#residual = new Panels(residual, { strip: this.#band.strip });
     this.#residual.cursor.watch((at, placed) => placed && at !== null && at !== study.state.frequency && study.change("frequency", (state) => (state.frequency = Number(at.toPrecision(4)))));
     this.#chooses = tabs(element("pictures"), PICTURES, (key) => study.change("picture", (state) => (state.picture = key)));
     this.#follower = this.#followerFields();
@@ -70,6 +73,11 @@ export class View {
     this.#fronts = new Latest("api/front", (front) => this.#showFront(front), (error) => this.#withoutFront(error));
     this.#nearest = new Latest("api/nearest", (answer, question) => this.#near(answer, question), (_, question) => this.#near({ ways: [] }, question));
     this.#residuals = new Latest("api/residual", (answer) => this.#showResidual(answer), (error) => this.#withoutResidual(error));
+  }
+
+  /** A table that is dropped onto the residual is a measured spectrum. */
+  dropped(file) {
+    return this.#state.picture === "residual" && /\.(csv|txt|tsv|dat|tab)$/i.test(file.name) && this.#band.read(file);
   }
 
   /** The law that a controller is to run. */
@@ -91,7 +99,7 @@ export class View {
     else this.#machine = [];
     this.#follower(state);
     this.#askLaws(state);
-    if (isResidual) this.#residuals.ask({ laws: state.laws, frequency: state.frequency, damping: state.damping });
+    if (isResidual) this.#residuals.ask({ laws: state.laws, frequency: state.frequency, damping: state.damping, ...this.#band.question(state) });
     else this.#askFront(state);
   }
 
@@ -130,9 +138,9 @@ export class View {
   }
 
   #showResidual(answer) {
-    this.#residual.show(residualOf(answer, this.#views, this.#state.active));
+    this.#residual.show(this.#band.picture(residualOf(answer, this.#views, this.#state.active), answer, this.#state));
     if (this.#residual.cursor.at !== answer.at) this.#residual.cursor.place(answer.at);
-    this.#left = `residual acceleration at ν = ${answer.at}: ${answer.laws.map((law, i) => `${"ABCD"[i]} ${law?.text ?? "—"}`).join(", ")}`;
+    this.#left = `residual acceleration at ν = ${answer.at}: ${answer.laws.map((law, i) => `${"ABCD"[i]} ${law?.text ?? "—"}`).join(", ")}${this.#band.words(answer)}`;
     this.#render();
   }
 
@@ -196,13 +204,14 @@ export class View {
   #followerFields() {
     const field = (name, title, key, high, step) => slider({
       name, title, low: key === "frequency" ? 2 : 0, high, step, most: key === "frequency" ? 1000 : 0.5,
-      changed: (value) => this.#study.change(key, (state) => (state[key] = value)),
+      changed: (value) => this.#band.change(key, (state) => (state[key] = value)),
       rested: () => this.#study.rest(),
     });
     const frequency = field("frequency ν", "Frequency nu of the follower", "frequency", 80, 0.5);
     const damping = field("damping ζ", "Damping ratio of the follower", "damping", 0.3, 0.005);
-    element("follower").append(frequency.element, damping.element);
+    element("follower").append(frequency.element, damping.element, ...this.#band.elements);
     return (state) => {
+      this.#band.show(state);
       frequency.set(state.frequency);
       damping.set(state.damping);
     };
@@ -213,11 +222,15 @@ export class View {
 function residualOf({ frequencies, laws, at }, views, active) {
   const place = frequencies.findIndex((one) => one > at);
   const within = (values, value) => (place < 0 ? values : values.toSpliced(place, 0, value));
-  const series = laws.flatMap((law, i) => (law ? [{ at: within(frequencies, at), values: within(law.values, law.value), law: i, name: views[i]?.title }] : []));
+  const curves = (values, value) => laws.flatMap((law, i) => (law ? [{ at: within(frequencies, at), values: within(values(law), value(law)), law: i, name: views[i]?.title }] : []));
+  const series = curves((law) => law.values, (law) => law.value);
   return {
     across: "frequency ν of the follower, radians of its vibration in the motion", symbol: "ν", active,
     range: [frequencies[0], frequencies.at(-1)],
-    panels: [{ name: "residual acceleration (envelope)", unit: "in units of a″", symbol: "residual acceleration", series, span: [0, 1] }],
+    panels: [
+      { name: "residual acceleration (envelope)", unit: "in units of a″", symbol: "residual acceleration", series, span: [0, 1] },
+      { name: "peak acceleration of the mass", unit: "in units of a″", symbol: "peak acceleration", series: curves((law) => law.peaks, (law) => law.peak) },
+    ],
   };
 }
 

@@ -20,7 +20,7 @@ from optlaws.errors import InputError, OptlawsError
 from optlaws.explorer.views import cycle_view
 from optlaws.explorer.views.law_view import TITLES, digits, drawn, gap_text, refusal
 from optlaws.explorer.views.picture_points import refined
-from optlaws.explorer.views.requests import MOST_DEGREE, MOST_ORDER, Question
+from optlaws.explorer.views.requests import MOST_DEGREE, MOST_ORDER, Question, without_files
 from optlaws.files.problem_file import convert
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile
 from optlaws.jobs.moves.move_entries import FastestProblemFile, MoveEntries, arguments_of, front_of
@@ -102,6 +102,7 @@ def _read(request: FastestRequest) -> _Sought:
     move = spec.move[min(request.move, len(spec.move) - 1)]
     if (move.drive or {}).get("motors") is not None:
         raise InputError("motors: the page reads no catalogue: give the motor as a table, or start with the file")
+    without_files(request.study.get("problem"))
     space = {} if spec.problem is None else spec.problem.given()
     if space.get("bounds"):
         raise InputError("problem: it gives no limits of its own: limits are those of the move")

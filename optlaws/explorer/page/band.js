@@ -1,0 +1,172 @@
+// A band of frequencies in the picture of the residual: dragged, weighed by a measured spectrum, and a bound of the law.
+
+import { slider } from "./fields.js";
+import { localised, plain } from "./language.js";
+import { Latest } from "./latest.js";
+import { Strip } from "./strip.js";
+import { html } from "./svg.js";
+
+const STEP = 0.1;
+const WIDE = 0.1; // of the frequency, on either side, as a band begins
+const BOUND = /^residual\(/;
+const TIME = "0.1 s";
+const LARGEST = 2_000_000;
+const SHARE = 0.5; // of what is left now, as a bound begins
+
+const numbers = (line) => {
+  const comma = /[;\t]/.test(line);
+  return line.split(comma ? /[;\t]/ : /[,\s]+/).map((part) => Number((comma ? part.replace(",", ".") : part).trim() || "x"));
+};
+
+/** Pairs of a frequency and an amplitude, and whether the heading says Hz. */
+function measured(text) {
+  const lines = text.split(/\r?\n/);
+  const pairs = lines.map(numbers).filter((row) => row.length > 1 && row.slice(0, 2).every(Number.isFinite)).map(([at, size]) => [at, size]);
+  return { pairs, hertz: lines.some((line) => /\bHz\b/i.test(line)) };
+}
+
+export class Band {
+  strip;
+  elements;
+  #study;
+  #bound;
+  #toggle;
+  #duration;
+  #field = html("input", { type: "file", accept: ".csv,.txt,.tsv,.dat,.tab", hidden: true, "aria-label": "File of a measured spectrum" });
+  #spectrum = html("div", { class: "spectrum", translate: "no" });
+  #covers;
+  #last = null;
+  #name = "";
+  #answer = null;
+
+  constructor(study) {
+    this.#study = study;
+    this.strip = new Strip({ step: STEP, chosen: () => {}, moved: (i, at) => this.change("band", (state) => (state.band[i] = at)), rested: () => study.rest() });
+    this.#toggle = html("button", { type: "button", "aria-pressed": "false", text: "band", title: "A band of frequencies that the follower may have", onclick: () => this.change("band on", (state) => {
+      if (state.band) delete state.band;
+      else state.band = [1 - WIDE, 1 + WIDE].map((share) => Number((share * state.frequency).toPrecision(3)));
+      if (!state.band && !state.spectrum) bind(state, null);
+    }) });
+    this.#bound = slider({
+      name: "in it ≤", title: "Greatest residual acceleration in the band", low: 0, high: 5, step: 0.01, off: true,
+      changed: (value) => this.#limit(value), rested: () => study.rest(),
+    });
+    this.#field.addEventListener("change", () => this.#field.files.length && this.read(this.#field.files[0]));
+    const choose = html("button", { type: "button", text: "spectrum …", title: "Weigh the band by a measured spectrum: frequency and amplitude in a file, which can be dropped here", onclick: () => {
+      this.#field.value = "";
+      this.#field.click();
+    } });
+    this.#duration = html("input", { type: "text", class: "short", maxlength: 40, "aria-label": "Duration of the motion, for frequencies in Hz" });
+    this.#duration.addEventListener("change", () => this.#cover(this.#study.state.spectrum.raw, plain(this.#duration.value.trim())));
+    this.#covers = new Latest("api/spectrum", (answer, { duration }) => this.#covered(answer, duration), (error) => this.#say(error.message));
+    this.elements = [html("div", { class: "band" }, this.#toggle, choose, this.#field, this.#spectrum), this.#bound.element];
+  }
+
+  /** Change the follower; a bound that a law has in the band goes with it. */
+  change(what, alter) {
+    this.#study.change(what, (state) => {
+      alter(state);
+      if (state.laws.some((law) => boundOf(law) !== null)) bind(state);
+    });
+  }
+
+  question({ band, spectrum }) {
+    return { ...(band && { band }), ...(spectrum && { spectrum: spectrum.pairs }) };
+  }
+
+  show(state) {
+    const { band, spectrum, laws, active } = state;
+    this.#toggle.setAttribute("aria-pressed", String(Boolean(band)));
+    this.#bound.element.hidden = !laws[active].problem || !(band || spectrum);
+    this.#bound.set(boundOf(laws[active]));
+    const remove = () => this.change("spectrum", (next) => {
+      delete next.spectrum;
+      if (!next.band) bind(next, null);
+    });
+    const parts = spectrum ? [html("span", { text: spectrum.name ?? "" }), ...(spectrum.duration ? [html("label", {}, "in ", this.#duration)] : []), html("button", { type: "button", class: "close", "aria-label": "Take the spectrum away", text: "×", onclick: remove })] : [];
+    if (JSON.stringify([spectrum?.name, spectrum?.duration]) !== this.#last) this.#spectrum.replaceChildren(...parts);
+    this.#last = JSON.stringify([spectrum?.name, spectrum?.duration]);
+    if (spectrum?.duration && document.activeElement !== this.#duration) this.#duration.value = localised(spectrum.duration);
+  }
+
+  /** What the residual is shown with: the ends of the band, its bound, and the spectrum below. */
+  picture(picture, answer, { laws, active }) {
+    this.#answer = answer;
+    const { band, weight } = answer;
+    const bound = boundOf(laws[active]);
+    if (!band) return picture;
+    const [from, to] = picture.range;
+    const [first, ...others] = picture.panels;
+    const inside = weight.filter(([nu]) => nu >= band[0] && nu <= band[1]);
+    const allowed = bound === null ? [] : weight.length ? [{ law: "limit", name: "allowed by the spectrum", at: inside.map(([nu]) => nu), values: inside.map(([, size]) => (size > 0 ? bound / size : null)) }] : [];
+    const limits = bound === null || weight.length ? [] : [{ from: band[0], to: band[1], least: null, value: bound }];
+    const measuredPanel = weight.length ? [{ name: "measured spectrum", unit: "amplitude", at: weight.map(([nu]) => nu), values: weight.map(([, size]) => size) }] : [];
+    return {
+      ...picture,
+      panels: [{ ...first, limits, series: [...first.series, ...allowed] }, ...others, ...measuredPanel],
+      segments: [{ name: "below", at: [from, band[0]] }, { name: "band", at: band }, { name: "above", at: [band[1], to] }],
+    };
+  }
+
+  words({ band, laws, weight }) {
+    if (!band) return "";
+    const each = laws.map((law, i) => `${"ABCD"[i]} ${law?.band ? `${law.band.text} at ${law.band.at}` : "—"}`).join(", ");
+    return `; greatest${weight.length ? ", weighed," : ""} in the band ${band.map((one) => Number(one.toPrecision(4))).join(" to ")}: ${each}`;
+  }
+
+  /** Read a file of a measured spectrum; says that it is taken. */
+  async read(file) {
+    if (file.size > LARGEST) throw new Error(`${file.name} is larger than ${LARGEST / 1e6} MB`);
+    const { pairs, hertz } = measured(await file.text());
+    if (pairs.length < 2) throw new Error(`${file.name} has no lines of a frequency and an amplitude`);
+    this.#name = file.name.slice(-60);
+    this.#cover(pairs, hertz ? this.#study.state.controller?.time || TIME : null);
+    return true;
+  }
+
+  #cover(pairs, duration) {
+    this.#covers.ask({ pairs: pairs.slice(0, 20_000), ...(duration && { duration }) });
+  }
+
+  #covered({ raw, pairs }, duration) {
+    this.change("spectrum", (state) => {
+      state.spectrum = { name: this.#name || state.spectrum?.name, raw, pairs, ...(duration && { duration }) };
+    });
+  }
+
+  #say(text) {
+    this.#last = null;
+    this.#spectrum.replaceChildren(html("span", { class: "over", text }));
+  }
+
+  #limit(value) {
+    this.#study.change("bound in the band", (state) => {
+      const now = this.#answer?.laws?.[state.active]?.band?.value ?? 1;
+      bind(state, value === undefined ? Number((SHARE * now).toPrecision(3)) : value, state.active);
+    });
+  }
+}
+
+/** The bound of the residual that a law has, or null. */
+function boundOf(law) {
+  const name = Object.keys(law.problem?.bounds ?? {}).find((key) => BOUND.test(key));
+  return name === undefined ? null : law.problem.bounds[name][1];
+}
+
+/** Give laws the bound in the band as it stands: a value for one of them, else what each has; null takes it away. */
+function bind(state, value, only) {
+  const { band, spectrum, damping } = state;
+  const within = [
+    ...(spectrum ? [`spectrum='{${spectrum.pairs.map(([nu, size]) => `${nu}: ${size}`).join(", ")}}'`] : []),
+    ...(band ? [`frequency=(${band.join(", ")})`] : []),
+    ...(damping ? [`damping=${damping}`] : []),
+  ].join(", ");
+  state.laws.forEach((law, i) => {
+    if (!law.problem || (only !== undefined && i !== only)) return;
+    const most = value === undefined ? boundOf(law) : value;
+    const bounds = Object.fromEntries(Object.entries(law.problem.bounds ?? {}).filter(([key]) => !BOUND.test(key)));
+    if (most !== null) bounds[`residual(${within})`] = [0, most];
+    if (Object.keys(bounds).length) law.problem.bounds = bounds;
+    else delete law.problem.bounds;
+  });
+}
