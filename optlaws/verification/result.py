@@ -1,4 +1,4 @@
-"""Results of verifications."""
+"""Results of verifications, claim by claim."""
 
 from __future__ import annotations
 

@@ -165,7 +165,7 @@ class ProofCells:
         self.reach: tuple[float, ...] | None = None
 
     def take(self, piece: NDArray[np.intp], low: Array, high: Array) -> None:
-        """The selected cells."""
+        """The cells that a mask selects."""
         self.piece, self.low, self.high = piece, low, high
         self.middle = 0.5 * (low + high)
         self.half = 0.5 * (high - low) * (1.0 + 8.0 * ROUNDOFF)
