@@ -639,4 +639,5 @@ export const TEXTS = {
   "where": ["wo", "où", "де"],
   "what": ["was", "quoi", "що"],
   "The checker is loaded: files are checked without the server.": ["Der Prüfer ist geladen: Dateien werden ohne Server geprüft.", "Le vérificateur est chargé : les fichiers sont vérifiés sans serveur.", "Перевіряч завантажено: файли перевіряються без сервера."],
+  "Find better laws": ["Bessere Gesetze suchen", "Chercher de meilleures lois", "Знайти кращі закони"],
 };

@@ -42,6 +42,7 @@ export class View {
   #answer = null;
   #asked = null;
   #found = [];
+  #wanted = false; // each takes a second of the processor and more: they wait for a click
 
   constructor(root, study) {
     this.#study = study;
@@ -101,6 +102,7 @@ export class View {
       this.#found = [];
       this.#draw();
     }
+    if (!this.#wanted) return;
     const next = this.#answer.moves.findIndex((_, i) => !this.#found[i]);
     if (next >= 0) this.#better.ask({ study: { ...old, within: this.#tolerance }, move: next });
   }
@@ -139,7 +141,12 @@ export class View {
     const powers = ["", "²", "³"].map((power) => `${unit}/${answer.symbol}${power}`);
     const headings = ["move", "from", ...["velocity", "acceleration", "jerk"].map((name, i) => `${name}, ${powers[i]}`), "off by"];
     const words = `Laws of least acceleration within ${this.#tolerance} ${unit} of the old ones at every place; jerk at most a fifth above.`;
-    this.#gains.replaceChildren(html("p", { class: "quiet", text: words }), table("Better laws within the tolerance", headings, rows));
+    const button = html("button", { type: "button", text: "Find better laws", onclick: () => {
+      this.#wanted = true;
+      this.#draw();
+      this.#ask(this.#study.state.old);
+    } });
+    renew(this.#gains, html("p", { class: "quiet", text: words }), this.#wanted ? table("Better laws within the tolerance", headings, rows) : button);
   }
 
   /** The tolerance is dragged up to a fiftieth of the stroke, or typed. */
