@@ -14,12 +14,13 @@ from tests.internals.cams import follower_kinds, read_follower
 PACKAGE = Path(optlaws.__file__).parent
 FOLDER = PACKAGE / "cams" / "followers"
 #: modules that make a follower of one kind, and ask of no other: arms with rollers, slides whose offset is sought,
-#: and the cam that is shown first
+#: and the cams that views show first
 MAKERS = {
     "balancing/dwells/dwell_machine.py": {"OscillatingRoller"},
     "cams/best_offset.py": {"TranslatingRoller"},
     "jobs/cam_findings.py": {"TranslatingRoller"},
     "explorer/views/cam_view.py": {"translating roller"},
+    "explorer/views/machines/machine_view.py": {"translating roller"},
 }
 
 
