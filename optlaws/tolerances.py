@@ -388,3 +388,5 @@ INSIDE_POLYGON_PART = 1e-3  # of a part of a polygon: so far within it its secti
 NARROWEST_INSTANT = 1e-4  # of a period: boxes of instants that are narrower are not parted
 STANDSTILL = 1e-8  # of the greatest acceleration: where a law has less from an end on it stands still
 SECTION_WIDTH = 1e-12  # of a polygon: sides that are narrower are upright
+CLOSE_FIT = 1e-14  # of a fit of a law to points: what its last step changes of the sum of squares and of its ends
+ROUGH_FIT = 1e-4  # the same where laws are only ranked by how near they come

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Literal, TypeAlias
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from optlaws.laws import MotionLaw
 from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.laws.making.through_points import law_through
 from optlaws.numbers import Array
+from optlaws.tolerances import CLOSE_FIT, ROUGH_FIT
 
 StretchKind: TypeAlias = Literal["dwell", "rise", "return"]
 
@@ -159,8 +160,10 @@ def _move(places: Array, heights: Array, first: _Rest, last: _Rest, room: float)
     x, y = places[low : high + 1], (heights[low : high + 1] - first.level) / (last.level - first.level)
     share = room / abs(last.level - first.level)
     some = slice(None, None, max(1, len(x) // _COARSE))
-    near = sorted((_fitted(x[some], y[some], catalogue[name].law)[0], name) for name in catalogue)
-    distance, start, stop, name = min((*_fitted(x, y, catalogue[name].law), name) for _, name in near[:_NEAREST])
+    near = sorted((_fitted(x[some], y[some], catalogue[name].law, ROUGH_FIT)[0], name) for name in catalogue)
+    distance, start, stop, name = min(
+        (*_fitted(x, y, catalogue[name].law, CLOSE_FIT), name) for _, name in near[:_NEAREST]
+    )
     law = catalogue[name].law
     kind: StretchKind = "rise" if last.level > first.level else "return"
     if distance <= 1.5 * share:
@@ -181,7 +184,7 @@ def _distance(x: Array, y: Array, law: MotionLaw, start: float, stop: float) -> 
     return float(np.abs(law(np.clip((x - start) / (stop - start), 0.0, 1.0)) - y).max())
 
 
-def _fitted(x: Array, y: Array, law: MotionLaw) -> tuple[float, float, float]:
+def _fitted(x: Array, y: Array, law: MotionLaw, tolerance: float) -> tuple[float, float, float]:
     """How far the points are from a law at most, and where it begins and ends then, by least squares."""
     from scipy.optimize import least_squares
 
@@ -196,7 +199,8 @@ def _fitted(x: Array, y: Array, law: MotionLaw) -> tuple[float, float, float]:
         start, stop = ends
         return np.asarray(law(np.clip((x - start) / max(stop - start, 1e-9 * length), 0.0, 1.0)) - y)
 
-    solution = least_squares(missed, [guess, guess + length], x_scale=length, xtol=1e-14, ftol=1e-14, gtol=1e-14)
+    stops: dict[str, Any] = {"xtol": tolerance, "ftol": tolerance, "gtol": tolerance}
+    solution = least_squares(missed, [guess, guess + length], x_scale=length, **stops)
     start, stop = map(float, solution.x)
     return float(np.abs(missed(solution.x)).max()), start, stop
 
