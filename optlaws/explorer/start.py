@@ -97,7 +97,7 @@ def _stem(name: str) -> str:
 
 def _of_problem_file(data: dict[str, Any], name: str) -> dict[str, Any]:
     """The view of a job; rows of problems with the law of the first, and where there is but one that law alone."""
-    job = data.get("job")
+    job = data["job"] if isinstance(data.get("job"), str) else None
     if job == "fastest" or (job == "cycle" and data.get("fastest")):
         return {"view": "fastest", "fastest": data}
     if job == "cycle" and data.get("interlocks"):

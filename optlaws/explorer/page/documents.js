@@ -57,6 +57,8 @@ export class Documents {
   #id;
   #steps = new Map();
   #dialog;
+  #tabs = [];
+  #shown = "";
   #name = html("input", { type: "text", maxlength: 80, "aria-label": "Name of the document" });
   #notes = html("textarea", { maxlength: 20_000, "aria-label": "Notes" });
   #closed = html("div");
@@ -81,17 +83,26 @@ export class Documents {
     try {
       sessionStorage.setItem(OPEN, this.#id);
       localStorage.setItem(KEY + this.#id, JSON.stringify({ title: titled(this.#study.state), address }));
+      if (!this.#tabs.some(({ id }) => id === this.#id)) this.#list();
     } catch {
       this.#notice("This browser keeps no documents: copy the link, or save a file.");
     }
   }
 
+  #list() {
+    this.#tabs = all().filter(({ id, closed }) => !closed || id === this.#id).map(({ id, title }) => ({ id, title }));
+  }
+
+  /** Draw the tabs where they are not those that stand there already; names of now are in the state. */
   show(state) {
-    const tabs = all().filter(({ id, closed }) => !closed || id === this.#id);
+    for (const [field, value] of [[this.#name, state.name], [this.#notes, state.notes]]) if (field.value !== value) field.value = value;
+    const shown = JSON.stringify([this.#id, titled(state), this.#tabs]);
+    if (shown === this.#shown) return;
+    this.#shown = shown;
+    const tabs = this.#tabs;
     const parts = tabs.map(({ id, title }) => this.#tab(id, id === this.#id ? titled(state) : title, tabs.length > 1));
     const button = (text, about, act) => html("button", { type: "button", text, title: about, "aria-label": about, onclick: act });
     renew(this.#root, ...parts, button("+", "New document", () => this.add(structuredClone(FIRST))));
-    for (const [field, value] of [[this.#name, state.name], [this.#notes, state.notes]]) if (field.value !== value) field.value = value;
   }
 
   /** A new document with a state. */
@@ -106,6 +117,7 @@ export class Documents {
       this.#id = made();
       this.keep(address);
     }
+    this.#list();
     this.show(this.#study.state);
   }
 
@@ -129,6 +141,7 @@ export class Documents {
     this.#id = id;
     this.#steps.set(before, this.#study.exchange(same ? known : { state }));
     this.#study.keep();
+    this.#list();
     this.show(this.#study.state);
   }
 
@@ -137,6 +150,7 @@ export class Documents {
     const others = all().filter((one) => !one.closed && one.id !== id);
     if (id === this.#id) this.#choose(others.at(-1).id);
     localStorage.setItem(KEY + id, JSON.stringify({ title: kept.title, address: kept.address, closed: Date.now() }));
+    this.#list();
     this.show(this.#study.state);
   }
 

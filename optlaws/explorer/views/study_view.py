@@ -81,7 +81,7 @@ def rows_of(study: Mapping[str, Any]) -> tuple[int, Iterator[Row]]:
     kinds: dict[str, Callable[[Mapping[str, Any]], tuple[int, Iterator[Row]]]]
     kinds = {"solutions": _solutions, "fronts": _fronts, "atlas": _points}
     job = study.get("job", "atlas" if "vary" in study else None)
-    return kinds[job](study) if job in kinds else (0, iter(()))
+    return kinds[job](study) if isinstance(job, str) and job in kinds else (0, iter(()))
 
 
 def _solutions(study: Mapping[str, Any]) -> tuple[int, Iterator[Row]]:
