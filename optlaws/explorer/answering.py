@@ -17,6 +17,7 @@ from optlaws.echo import cut
 from optlaws.errors import InputError, OptlawsError
 from optlaws.explorer import downloads, start
 from optlaws.explorer.views import (
+    advice_view,
     axes_view,
     cam_view,
     cycle_view,
@@ -44,6 +45,7 @@ QUESTIONS: dict[str, Question] = {
     **machine_view.QUESTIONS,
     **fastest_view.QUESTIONS,
     **old_cam_view.QUESTIONS,
+    **advice_view.QUESTIONS,
     **downloads.QUESTIONS,
 }
 #: by a view's name in the page: the study that it shows where none was given
@@ -55,6 +57,7 @@ EXAMPLES: dict[str, Callable[[], dict[str, Any]]] = {
     "machine": machine_view.example,
     "fastest": fastest_view.example,
     "old": old_cam_view.example,
+    "advice": advice_view.example,
 }
 OK, UNREADABLE, FAULT = 200, 422, 500
 #: bytes that a process may take for its data, where the system can limit it

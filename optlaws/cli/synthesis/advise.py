@@ -200,8 +200,7 @@ def _page(advice: Advice) -> Iterable[Any]:
         mark = "> " if law.name == advice.recommendation.law.name else "  "
         rows.append([f"{mark}{law.name}", *cells, str(row[-2]), str(row[-1])])
     yield table("  law", *advice.headings[1:], rows=rows)
-    for name, error in advice.errors.items():
-        yield f"{name}: {str(error).splitlines()[0]}"
+    yield from advice.remarks
     yield ""
     yield from advice.recommendation.sentences
     yield f"(Rule: {advice.recommendation.rule}.)"

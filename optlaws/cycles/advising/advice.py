@@ -9,11 +9,15 @@ from typing import Any
 
 from optlaws.cycles.advising.advised_law import AdvisedLaw, LawMeasure
 from optlaws.cycles.advising.recommendation import Recommendation
-from optlaws.errors import InputError, OptlawsError
+from optlaws.errors import InfeasibleProblem, InputError, OptlawsError
 from optlaws.extras import needed
 from optlaws.numbers import bounded
 from optlaws.shown.summary import Row, Summary
 from optlaws.suggest import unknown_key
+
+
+#: of why there is no law: formulas of machines are longer than anybody reads
+_LONGEST = 200
 
 
 @dataclass(frozen=True, repr=False)
@@ -80,6 +84,15 @@ class Advice:
             [law.name, *(law.values[measure.name] for measure in self.measures), _limits(law), self._proof(law)]
             for law in self.laws
         ]
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """Why there is no law of a name, in a line each."""
+        why = {
+            name: "no law within the limits does that" if isinstance(error, InfeasibleProblem) else str(error)
+            for name, error in self.errors.items()
+        }
+        return tuple(f"{name}: {text.splitlines()[0][:_LONGEST]}" for name, text in why.items())
 
     def _proof(self, law: AdvisedLaw) -> str:
         if law.proof is None:

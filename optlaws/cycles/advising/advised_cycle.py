@@ -158,6 +158,11 @@ class AdvisedCycle:
             If none is found.
         """
         assert isinstance(best.motion, Cycle)  # noqa: S101 - as it is one of these
+        if self.follower is None and LIMITS.get(self.minimise, 0) > 0:
+            # what is near is a limit of the cycle, so that the law is one of a cycle too
+            most = self._tighter(best.motion.limits, self.minimise, (1.0 + share) * best.values[self.minimise])
+            cycle = replace(best.motion, minimise=minimise, limits={**best.motion.limits, **most})
+            return self._optimal(name, minimise, cycle)
         solutions = [
             synthesize(least_near(solution, self._constant_of(minimise, piece), share))
             if minimise != RESIDUAL or _rests(piece)

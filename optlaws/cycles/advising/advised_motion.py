@@ -116,7 +116,7 @@ def advise(
     candidates.add_standard(names)
     candidates.add_optimal()
     front = candidates.front(count) if count > 1 else ()
-    chosen = recommended(candidates)
+    chosen = recommended(candidates, front)
     return Advice(
         known.minimise,
         candidates.second,

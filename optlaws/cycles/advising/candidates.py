@@ -31,7 +31,9 @@ class Candidates:
     errors
         Why there is no law of a name.
     usual
-        The standard law that others are held against; None where none keeps every limit.
+        The standard law that others are held against; None where none fits.
+    guarding
+        Whether nothing is to grow beyond the usual law: not where that breaks limits, and others would take more.
     proven
         The law whose proof says how good any could be.
     """
@@ -40,6 +42,7 @@ class Candidates:
     laws: dict[str, AdvisedLaw] = field(default_factory=dict)
     errors: dict[str, OptlawsError] = field(default_factory=dict)
     usual: AdvisedLaw | None = None
+    guarding: bool = True
     proven: AdvisedLaw | None = None
 
     @property
@@ -55,7 +58,7 @@ class Candidates:
 
     def most(self, *but: str) -> dict[str, float]:
         """The values of the usual law that no other should exceed: of measures without a limit, but for some."""
-        if self.usual is None:
+        if self.usual is None or not self.guarding:
             return {}
         left = {self.minimise, *self.motion.limited, *but}
         return {
@@ -67,7 +70,7 @@ class Candidates:
     def add_standard(self, names: Sequence[str]) -> None:
         """The laws that the motion has, and those of the catalogue.
 
-        The usual one is the first of them, or where it breaks a limit the one that takes least of those that do not.
+        The usual one is the first of them, or where it breaks a limit and others do not the least of these.
         """
         given = self.motion.given()
         for name in names:
@@ -76,7 +79,7 @@ class Candidates:
             self.laws = {given.name: given, **self.laws}
         fit = [law for law in self.laws.values() if law.keeps_limits]
         first = next(iter(self.laws.values()), None)
-        self.usual = first if first in fit else min(fit, key=self._objective, default=None)
+        self.usual = first if first in fit else min(fit, key=self._objective, default=first)
 
     def add_optimal(self) -> None:
         """The laws that are least in what matters; the first must be there.
@@ -91,32 +94,42 @@ class Candidates:
         best = self.laws[name] = motion.least(name, minimise, {})
         beside = "" if self.usual is None else f", no worse than {self.usual.name}"
         most = self.most()
-        if most:
+        if most and self.usual is not None:
             name = f"least {minimise}{beside}"
-            best = self._add(name, partial(self._within, name, minimise, most)) or best
-        self.proven = best
+            calm = self._add(name, partial(self._within, name, minimise, most))
+            best = calm or best
+            # a law that breaks limits guards nothing where that would cost more than it takes itself
+            bettered = calm is not None and self._objective(calm) <= self._objective(self.usual)
+            self.guarding = bettered or self.usual.keeps_limits
+        self.proven = best if self.guarding else self.laws[f"least {minimise}"]
         name = f"nearly least {minimise}, least {second}"
-        self._add(name, partial(motion.near, name, best, second, EQUALLY_GOOD))
+        self._add(name, partial(motion.near, name, self.proven, second, EQUALLY_GOOD))
         for other in motion.objectives:
             if other not in {minimise, RESIDUAL}:
                 name = f"least {other}"
                 self._add(name, partial(motion.least, name, other, {}))
                 self._drop_equal(name)
         if RESIDUAL in motion.objectives and minimise != RESIDUAL:
-            name, most = f"least {RESIDUAL}{beside}", self.most(RESIDUAL, *_OF_DRIVE)
-            if self.usual is not None and minimise in _OF_MOTION:
-                most[minimise] = self.usual.values[minimise]
+            most = self.most(RESIDUAL, *_OF_DRIVE)
+            name = f"least {RESIDUAL}{beside if most else f' at twice the least {minimise}'}"
+            if minimise in _OF_MOTION:
+                kept = self.usual is not None and self.usual.keeps_limits and bool(most)
+                most[minimise] = self.usual.values[minimise] if self.usual and kept else self._twice
             self._add(name, partial(motion.least, name, RESIDUAL, most))
 
     def front(self, points: int) -> tuple[AdvisedLaw, ...]:
         """Laws that exchange what is minimised for the second measure, from the least of one to that of the other.
 
-        None takes more of the others than the usual law.
+        None takes more of the others than the usual law, nor more than twice the least of what is minimised.
         """
         minimise, second = self.minimise, self.second
         most = self.most(second, *_OF_DRIVE)
         try:
-            ends = [self.motion.least(f"least {name}", name, most) for name in (minimise, second)]
+            beside = {**most, minimise: self._twice} if minimise in _OF_MOTION else most
+            ends = [
+                self.motion.least(f"least {name}", name, limits)
+                for name, limits in ((minimise, most), (second, beside))
+            ]
         except OptlawsError as error:
             self.errors["front"] = error
             return ()
@@ -131,6 +144,12 @@ class Candidates:
             except OptlawsError as error:
                 self.errors[name] = error
         return tuple(points_of_front)
+
+    @property
+    def _twice(self) -> float:
+        """Twice the least of what is minimised: nobody pays more for anything else."""
+        best = self.proven or self.laws[f"least {self.minimise}"]
+        return 2.0 * best.values[self.minimise]
 
     def _objective(self, law: AdvisedLaw) -> float:
         return law.values[self.minimise]

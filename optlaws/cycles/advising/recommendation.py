@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import isfinite
 
@@ -22,7 +22,7 @@ class Recommendation:
     law
         The law.
     usual
-        The standard law that it is held against; None where none keeps every limit.
+        The standard law that it is held against, which may break a limit where all do; None where none fits.
     rule
         By which it is chosen.
     gain
@@ -53,7 +53,7 @@ class Recommendation:
         return " ".join(self.sentences)
 
 
-def recommended(candidates: Candidates) -> Recommendation:
+def recommended(candidates: Candidates, front: Sequence[AdvisedLaw] = ()) -> Recommendation:
     """The law to take of those that were found.
 
     Of the laws that keep every limit, and take no more than the usual one of what has no limit, those within 1 % of the
@@ -61,14 +61,14 @@ def recommended(candidates: Candidates) -> Recommendation:
     """
     minimise, second, usual = candidates.minimise, candidates.second, candidates.usual
     most = candidates.most()
-    no_worse = most if usual is None else {**most, minimise: usual.values[minimise]}
+    no_worse = {**most, minimise: usual.values[minimise]} if usual is not None and usual.keeps_limits else most
     fit = [law for law in candidates.laws.values() if law.keeps_limits and not exceeded(law, no_worse)]
     if not fit:  # rounding alone
         fit = [candidates.laws[f"least {minimise}"]]
     least = min(law.values[minimise] for law in fit)
     good = [law for law in fit if law.values[minimise] <= least * (1.0 + EQUALLY_GOOD + AGREEMENT)]
     law = min(good, key=lambda each: each.values[second])
-    words = _Words(candidates, law, tuple(most))
+    words = _Words(candidates, law, tuple(most), front)
     changes = {} if usual is None else {
         name: value / usual.values[name] for name, value in law.values.items() if usual.values[name] > 0.0
     }  # fmt: skip
@@ -83,12 +83,12 @@ class _Words:
     candidates: Candidates
     law: AdvisedLaw
     most: tuple[str, ...]
+    front: Sequence[AdvisedLaw]
 
     @property
     def rule(self) -> str:
         """The rule by which the law is chosen."""
         minimise, second, usual = self.candidates.minimise, self.candidates.second, self.candidates.usual
-        no_worse = f" and take no more {_listed(self.most, 'or')} than {usual.name}" if usual and self.most else ""
         no_worse = f"take no more {_listed(self.most, 'or')} than {usual.name}" if usual and self.most else ""
         limited = any(law.limits for law in self.candidates.laws.values())
         which = " and ".join(part for part in ("keep every limit" if limited else "", no_worse) if part)
@@ -108,9 +108,10 @@ class _Words:
         name = f'"{law.name}"' if law.kind == "optimal" else law.name
         start = f"Take {name}: its {minimise} is {value}"
         if usual is None:
+            return f"{start}{limits}."
+        if not usual.keeps_limits:
             standard = [each for each in self.candidates.laws.values() if each.kind != "optimal"]
-            why = "" if not standard else f"; none of the {len(standard)} standard laws does: {_why_not(standard[0])}"
-            return f"{start}{limits}{why}."
+            return f"{start}{limits}; none of the {len(standard)} standard laws does: {_why_not(usual)}."
         if law is usual:
             return f"{start}{limits}, and no law that takes no more of anything is better{self._beyond}."
         share = 1.0 - law.values[minimise] / usual.values[minimise]
@@ -122,7 +123,7 @@ class _Words:
         minimise, second, law = self.candidates.minimise, self.second, self.law
         best = self.candidates.laws[f"least {minimise}"]
         gain, times = 1.0 - best.values[minimise] / law.values[minimise], best.values[second] / law.values[second]
-        return f"; {100.0 * gain:.2g} % less takes {times:.3g} times the {second}" if gain > EQUALLY_GOOD else ""
+        return f"; {_percent(gain)} less takes {times:.3g} times the {second}" if gain > EQUALLY_GOOD else ""
 
     @property
     def second(self) -> str:
@@ -135,13 +136,14 @@ class _Words:
         known, minimise, usual = self.candidates.proven, self.candidates.minimise, self.candidates.usual
         if known is None or known.proof is None or not known.proof.lower_bound or known.proof.lower_bound <= 0.0:
             return f"How much less {minimise} another law could have is not proven"
-        if usual is not None and isinstance(self.candidates.errors.get(self._bettered), InfeasibleProblem):
+        infeasible = isinstance(self.candidates.errors.get(self._bettered), InfeasibleProblem)
+        if usual is not None and infeasible and self.candidates.guarding:
             space = known.proof.space
             return f"That none of the {space} takes no more {_listed(self.most, 'or')} than {usual.name} is proven"
         bound, value = known.proof.lower_bound, self.law.values[minimise]
         as_much = f" with no more {_listed(self.most, 'or')} than {usual.name}" if usual and self.most else ""
         above = value / bound - 1.0
-        near = f" ({100.0 * above / (1.0 + above):.2g} % less)" if above > TELLING * EQUALLY_GOOD else ""
+        near = f" ({_percent(above / (1.0 + above))} less)" if above > TELLING * EQUALLY_GOOD else ""
         proven = f"none of the {known.proof.space}{as_much} has less than {self._with_unit(minimise, bound)}{near}"
         if known.proof.status is not Status.OPTIMAL:
             proven = f"that none has less than {self._with_unit(minimise, bound)}{near}, is proven"
@@ -159,12 +161,24 @@ class _Words:
     def costs(self) -> str:
         """The measures of which it takes more and less than the usual law."""
         usual = self.candidates.usual
-        if usual is None or usual is self.law:
-            return f"its {self.second} is {self._with_unit(self.second, self.law.values[self.second])}"
+        if usual is None or usual is self.law or not self.candidates.guarding:
+            return f"its {self.second} is {self._with_unit(self.second, self.law.values[self.second])}{self._exchange}"
         changes = [*self._changes("more", 1.0), *self._changes("less", -1.0)]
         if not changes:
             return f"nothing else changes by 1 % beside {usual.name}"
         return f"beside {usual.name} it takes {_listed(changes)}"
+
+    @property
+    def _exchange(self) -> str:
+        """The cost of half of the second measure, by the front."""
+        minimise, half = self.candidates.minimise, 0.5 * self.law.values[self.second]
+        fewer = [law for law in self.front if law.values[self.second] <= half and law.keeps_limits]
+        if not fewer or self.candidates.usual is self.law:
+            return ""
+        law = min(fewer, key=lambda each: each.values[minimise])
+        more = law.values[minimise] / self.law.values[minimise] - 1.0
+        share = law.values[self.second] / self.law.values[self.second]
+        return f", and {_percent(share)} of it takes {_percent(more)} more {minimise}"
 
     def _changes(self, word: str, sign: float) -> Iterator[str]:
         assert self.candidates.usual is not None  # noqa: S101 - as it is asked of one
@@ -172,9 +186,9 @@ class _Words:
             value = self.law.values[name]
             if name == self.candidates.minimise or not other > 0.0 or not isfinite(value) or not isfinite(other):
                 continue
-            change = 100.0 * (value / other - 1.0)
-            if sign * change >= 100.0 * EQUALLY_GOOD:
-                yield f"{abs(change):.2g} % {word} {name}"
+            change = value / other - 1.0
+            if sign * change >= EQUALLY_GOOD:
+                yield f"{_percent(abs(change))} {word} {name}"
 
     def _with_unit(self, name: str, value: float) -> str:
         unit = next((measure.unit for measure in self.candidates.motion.measures if measure.name == name), "")
@@ -185,7 +199,16 @@ def _why_not(law: AdvisedLaw) -> str:
     taken = max(law.broken, key=lambda each: each.share)
     if not taken.text:
         return f"{law.name} is outside of the {taken.name}"
-    return f"{law.name} has {100.0 * (taken.share - 1.0):.2g} % more {taken.name} than {taken.text}"
+    return f"{law.name} has {_percent(taken.share - 1.0)} more {taken.name} than {taken.text}"
+
+
+def _percent(share: float) -> str:
+    """A share in per cent, to two digits or whole.
+
+    >>> _percent(0.0987), _percent(1.234)
+    ('9.9 %', '123 %')
+    """
+    return f"{100.0 * share:{'.0f' if share >= 1.0 else '.2g'}} %"
 
 
 def _listed(names: tuple[str, ...] | list[str], word: str = "and") -> str:

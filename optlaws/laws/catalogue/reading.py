@@ -308,9 +308,10 @@ def read_law(
     ----------
     text
         A name or code of the catalogue ("modified sine", "0317(1,5)"), a member of Savin's families by alpha or B
-        ("III(7.2)", "III(B=1.8)"), a formula of k ("formula: k - sin(2*pi*k)/(2*pi)"), a JSON file with a law, alone or
-        of a solution, a file with a table of points (.csv, .txt, .tsv, .tab, .dat), whose tolerance and columns may
-        stand behind it in brackets: "old.csv(tolerance=0.02; columns=1,3)".
+        ("III(7.2)", "III(B=1.8)"), a formula of k ("formula: k - sin(2*pi*k)/(2*pi)"), the JSON text of a law, which
+        begins with "{", a JSON file with a law, alone or of a solution, a file with a table of points (.csv, .txt,
+        .tsv, .tab, .dat), whose tolerance and columns may stand behind it in brackets:
+        "old.csv(tolerance=0.02; columns=1,3)".
     tolerance
         Of a table: how far the law may be off its points, in the unit of its displacements, 0 for a law through them;
         the last digit, or what its noise asks for, unless given.
@@ -346,6 +347,8 @@ def read_law(
         )
     if file is not None:
         return stored_law(file)
+    if is_stored(str(text)):
+        return MotionLaw.from_json(str(text))
     if is_formula(str(text)):
         from optlaws.laws.making.formula_law import formula_law
 
@@ -385,6 +388,17 @@ def is_formula(text: str) -> bool:
     return text.lstrip().startswith(_FORMULA)
 
 
+def is_stored(text: str) -> bool:
+    """Whether a text is taken for the JSON text of a law: it begins with "{".
+
+    Examples
+    --------
+    >>> is_stored(catalogue["cycloidal"].law.to_json()), is_stored("cycloidal")
+    (True, False)
+    """
+    return text.lstrip().startswith("{")
+
+
 def is_file(text: str) -> bool:
     """Whether a text is taken for a file: it ends as one of a law or a table, or is no law's name and a file is there.
 
@@ -393,7 +407,7 @@ def is_file(text: str) -> bool:
     >>> is_file("law.json"), is_file("modified sine")
     (True, False)
     """
-    if is_formula(text):
+    if is_formula(text) or is_stored(text):
         return False
     text = _of_table(text)[0]
     if text.lower().endswith(_ENDINGS):

@@ -163,7 +163,9 @@ def test_a_cycle_has_each_law_in_its_moves_and_its_limits_are_looked_at() -> Non
     least = press(limits={"velocity": "616 mm/s"})
     assert advice["least acceleration"].values["acceleration"] == pytest.approx(least.objective, rel=1e-9)
     chosen = advice.recommendation
-    assert (chosen.usual, chosen.gain, advice.guarded) == (None, None, ())
+    # more would be taken than the usual law takes, which breaks a limit: it guards nothing
+    assert (chosen.usual, advice.guarded) == (advice["modified sine"], ())
+    assert "% of it takes" in chosen.sentences[1]
     assert chosen.law.values["acceleration"] == pytest.approx(1.01 * least.objective, rel=1e-6)
     assert "none of the 5 standard laws does: modified sine has 20 % more velocity than 616 mm/s" in chosen.sentences[0]
     assert all(law.values["velocity"] <= 0.616 * (1.0 + 1e-9) for law in advice.front)
@@ -240,7 +242,10 @@ def test_a_problem_is_compared_in_its_own_units() -> None:
     assert sine.values["residual acceleration"] == compare_laws("modified sine", frequency=20.0).rows[0]["residual"]
     assert [taken.name for taken in sine.broken] == ["jerk"]
     assert [taken.name for taken in advice["cycloidal"].broken] == ["velocity"]
-    assert advice.recommendation.usual is None
+    # every standard law breaks a bound; the first one still says what is not to grow
+    assert advice.recommendation.usual is sine
+    assert advice.guarded == ("residual acceleration",)
+    assert advice.recommendation.law.values["residual acceleration"] <= sine.values["residual acceleration"]
     assert advice.recommendation.law.values["velocity"] <= 1.8 * (1.0 + 1e-9)
     mixed = advise(Problem(order=4, minimise="0.6*C/4 + 0.4*D/2.25"), points=0)
     constants = optlaws.catalogue["modified sine"].law.constants

@@ -1,0 +1,245 @@
+// The view of advice: which law the motion of a cycle or of a machine should have. Standard and optimal laws side by side
+// with all that they take, the one to take in two sentences, the front, and curves of it beside the usual law.
+
+import { Chart, spanOf } from "../chart.js";
+import { group } from "../fields.js";
+import { Latest } from "../latest.js";
+import { localised, plain } from "../language.js";
+import { Panels } from "../panels.js";
+import { html, renew } from "../svg.js";
+import { unanswered } from "../trust.js";
+
+const SOURCES = { cycle: "the cycle", machine: "the machine" };
+const OBJECTIVES = ["", "acceleration", "jerk", "rms acceleration", "torque", "rms torque", "force", "rms force", "residual acceleration"];
+const MOVES = ["rise", "return", "move"];
+const OPTIMAL = "optimal";
+const LETTER = 0.018; // of the width of a picture
+const LINE = 0.07; // of its height
+const WIDE = 10; // values further apart are drawn by their logarithms
+
+const told = (value) => JSON.stringify(value);
+const word = (value) => String(Number(value.toPrecision(4))).replace("-", "−");
+
+export class View {
+  files = [];
+  drawings = "#advice-side svg";
+  #study;
+  #start;
+  #state = null;
+  #answer = null;
+  #shape = "";
+  #shows = [];
+  #chart;
+  #curves;
+  #advice;
+  #at;
+
+  constructor(root, study, start) {
+    this.#study = study;
+    this.#start = start;
+    this.#at = layout(root);
+    this.#chart = new Chart(this.#at.chart, () => {});
+    this.#curves = new Panels(this.#at.curves);
+    this.#advice = new Latest("api/advice", (answer) => this.#answered(answer), (error) => this.#answered(unanswered(error)));
+  }
+
+  /** Nothing of this view is saved: a law that is taken is of the cycle or the machine. */
+  saved() {
+    return {};
+  }
+
+  show(state) {
+    this.#state = state;
+    this.#form(state);
+    const { minimise, follower } = this.#asked(state);
+    const question = { study: this.#motion(state), axis: state.axis, ...(minimise && { minimise }) };
+    if (follower?.on) question.follower = { low: follower.low, high: follower.high, damping: Number(follower.damping) || 0 };
+    this.#advice.ask(question);
+  }
+
+  #asked({ advice }) {
+    return { ...this.#start.examples.advice, ...advice };
+  }
+
+  /** The name of the motion that is asked of: the machine or the cycle of the study. */
+  #source(state) {
+    const { of } = this.#asked(state);
+    return Object.hasOwn(SOURCES, of) && state[of] ? of : state.cycle || !state.machine ? "cycle" : "machine";
+  }
+
+  #motion(state) {
+    return state[this.#source(state)] ?? this.#start.examples.cycle;
+  }
+
+  // --- what is asked ---
+
+  #form(state) {
+    const motion = this.#motion(state);
+    const sources = Object.keys(SOURCES).filter((name) => name === this.#source(state) || state[name]);
+    const shape = told([sources, motion.axis.map(({ name }) => name)]);
+    if (shape !== this.#shape) this.#build(sources, motion.axis);
+    this.#shape = shape;
+    for (const show of this.#shows) show(state);
+  }
+
+  #change(what, alter) {
+    this.#study.change(`advice ${what}`, (state) => {
+      state.advice = structuredClone(this.#asked(state));
+      alter(state.advice, state);
+    });
+  }
+
+  #build(sources, axes) {
+    this.#shows = [];
+    const of = this.#select("of", "motion of", Object.fromEntries(sources.map((name) => [name, SOURCES[name]])), (state) => this.#source(state), (asked, value) => (asked.of = value));
+    const axis = this.#select("axis", "axis", Object.fromEntries(axes.map(({ name }, i) => [i, name])), (state) => String(Math.min(state.axis, axes.length - 1)), (_asked, value, state) => (state.axis = Number(value)), true);
+    const least = this.#select("least", "least", Object.fromEntries(OBJECTIVES.map((name) => [name, name || "as it says"])), (state) => this.#asked(state).minimise, (asked, value) => (asked.minimise = value));
+    const on = html("input", { type: "checkbox" });
+    on.addEventListener("change", () => this.#change("follower", (asked) => (asked.follower.on = on.checked)));
+    this.#shows.push((state) => (on.checked = this.#asked(state).follower.on));
+    const follower = [["low", "from"], ["high", "to"], ["damping", "damping"]].map(([key, name]) => this.#text(key, name));
+    renew(
+      this.#at.asked,
+      group("Motion", ...(sources.length > 1 ? [of] : []), ...(axes.length > 1 ? [axis] : []), least, html("p", { class: "hint", text: "with the limits, the drive and the load of the motion" })),
+      group("What it leaves vibrating", html("label", { class: "switch" }, on, "an elastic follower"), ...follower, html("p", { class: "hint", text: "its natural frequency, the least and the greatest, and its damping ratio" })),
+    );
+  }
+
+  #select(what, name, options, get, put, translated = false) {
+    const field = html("select", { "aria-label": name, ...(translated && { translate: "no" }) }, ...Object.entries(options).map(([value, text]) => html("option", { value, text })));
+    field.addEventListener("change", () => this.#change(what, (asked, state) => put(asked, field.value, state)));
+    this.#shows.push((state) => (field.value = get(state)));
+    return html("div", { class: "entry" }, html("span", { class: "field-name", text: name }), field);
+  }
+
+  #text(key, name) {
+    const field = html("input", { type: "text", spellcheck: "false", maxlength: 40, "aria-label": `follower, ${name}` });
+    field.addEventListener("input", () => this.#change(`follower ${key}`, ({ follower }) => (follower[key] = key === "damping" ? Number(plain(field.value.trim())) || 0 : plain(field.value.trim()))));
+    field.addEventListener("change", () => this.#study.rest());
+    this.#shows.push((state) => {
+      const { follower } = this.#asked(state);
+      if (document.activeElement !== field) field.value = localised(String(follower[key]));
+      field.disabled = !follower.on;
+    });
+    return html("label", { class: "entry" }, html("span", { class: "field-name", text: name }), field);
+  }
+
+  // --- what is answered ---
+
+  #answered(answer) {
+    this.#answer = answer;
+    this.#at.words.classList.toggle("none", Boolean(answer.refused));
+    renew(this.#at.words, ...(answer.refused ? refusal(answer.refused) : this.#words(answer)));
+    renew(this.#at.table, ...(answer.refused ? [] : [this.#table(answer), ...answer.remarks.map((text) => html("p", { class: "quiet", text }))]));
+    this.#chart.show(answer.refused ? null : pictured(answer));
+    this.#curves.show(answer.refused ? answer : answer.curves);
+    renew(this.#at.names, ...(answer.refused ? [] : answer.curves.panels[0].series.map(({ law, name }) => html("span", { class: "name-of-curve" }, html("span", { class: `swatch law-${law}`, text: "AB"[law] }), ` ${name}`))));
+  }
+
+  #words({ sentences, rule, rows, chosen }) {
+    const row = rows.find(({ name }) => name === chosen);
+    const take = row.take ? [html("button", { type: "button", class: "main-button", text: "Take this law", onclick: () => this.#take(row) })] : [];
+    return [
+      html("p", { class: "advice" }, html("strong", { class: "word optimal", text: "advice" }), ` ${sentences[0]}`),
+      html("p", { text: sentences[1] }),
+      html("p", { class: "quiet", text: `Rule: ${rule}.` }),
+      ...take,
+    ];
+  }
+
+  #table({ headings, rows, chosen }) {
+    const head = html("tr", {}, html("th", { scope: "col", text: "law" }), html("td"), ...headings.map((text) => html("th", { scope: "col", class: "number", text })));
+    const lines = rows.map((row) => {
+      const take = row.take ? html("button", { type: "button", class: "link", "data-key": `take ${row.name}`, "aria-label": `Take ${row.name}`, text: "take", onclick: () => this.#take(row) }) : "";
+      const ends = [["limits", row.limits, row.limits && row.limits !== "kept" ? "number over" : "number"], ["proof", row.proof, "number"]];
+      return html("tr", { class: row.name === chosen ? "active" : "", "aria-current": row.name === chosen ? "true" : null },
+        html("th", { scope: "row" }, html("span", { class: "row-name", text: row.name })), html("td", {}, take), ...row.cells.map((text) => html("td", { class: "number", text })), ...ends.map(([key, text, name]) => html("td", { "data-column": key, class: name, text })));
+    });
+    return html("table", { "aria-label": "Laws with what they take" }, html("thead", {}, head), html("tbody", {}, ...lines));
+  }
+
+  /** Give the motion a law, and show it there. */
+  #take({ name, take }) {
+    const source = this.#source(this.#state);
+    this.#study.change(`take ${name}`, (state) => {
+      state[source] ??= structuredClone(this.#start.examples.cycle);
+      const axis = state[source].axis[Math.min(state.axis, state[source].axis.length - 1)];
+      axis.segment.forEach((segment, i) => {
+        const law = take.laws[i];
+        if (law === null || law === undefined || !MOVES.includes(segment.kind)) return;
+        if (law === OPTIMAL) delete segment.law;
+        else segment.law = law;
+      });
+      if (take.minimise) axis.minimise = take.minimise;
+      if (take.limits) axis.limits = take.limits;
+      state.view = source;
+    });
+  }
+}
+
+function refusal({ word: title, reason, tried }) {
+  return [html("p", { class: "reason", title: tried }, html("strong", { class: "word refused", text: title }), ` ${reason}`)];
+}
+
+/** The laws, the front and what is proven, in the plane of two measures. */
+function pictured({ picture: { x, y, points, front, beside }, chosen }) {
+  const known = points.filter((point) => point.x !== null && point.y !== null);
+  const xs = [...known.map((point) => point.x), ...front.map(([value]) => value)];
+  const positive = xs.filter((value) => value > 0);
+  const log = positive.length === xs.length && Math.max(...positive) > WIDE * Math.min(...positive);
+  const range = log ? [Math.min(...positive) / 1.3, 1.6 * Math.max(...positive)] : spanOf(xs, { free: true, room: 0.12 });
+  const stairs = (at) => front.flatMap((point, i) => at(point, front[i + 1]));
+  const lines = front.length < 2 ? [] : [
+    { name: "front", title: "the front", points: stairs(([one, value], next) => (next ? [[one, value], [next[0], value]] : [[one, value]])) },
+    { name: "limit", title: `none below${beside ? `, with ${beside}` : ""}`, points: stairs(([one, , bound], next) => (next ? [[one, next[2]], [next[0], next[2]]] : [[one, bound]])) },
+  ];
+  const best = known.find(({ name }) => name === chosen);
+  return {
+    x: { name: `${x.name}, ${x.unit}`, range, log },
+    y: { name: `${y.name}, ${y.unit}`, range: spanOf([...known.map((point) => point.y), ...front.map(([, value]) => value)], { free: true, room: 0.1 }) },
+    lines,
+    marks: [
+      ...front.map(([one, value]) => ({ at: [one, value], name: "front-point", title: "a law of the front" })),
+      ...known.map((point) => ({ at: [point.x, point.y], name: `advised ${point.kind}${point.name === chosen ? " chosen" : ""}`, title: `${point.name}: ${word(point.y)}` })),
+    ],
+    labels: placed(known.map((point) => ({ ...point, of: point.name === chosen })), range, log),
+    told: `${y.name} over ${x.name}: ${known.map((point) => `${point.name} ${word(point.y)} at ${word(point.x)}`).join(", ")}${best ? `; to take is ${best.name}` : ""}`,
+  };
+}
+
+/** Names beside the points, without those that would lie on another one: first of the law to take, then of standard laws. */
+function placed(points, range, log) {
+  const heights = points.map(({ y }) => y);
+  const [low, tall] = [Math.min(...heights), Math.max(...heights) - Math.min(...heights) || 1];
+  const along = (value) => (log ? Math.log(value / range[0]) / Math.log(range[1] / range[0]) : (value - range[0]) / (range[1] - range[0]));
+  const kept = [];
+  for (const point of [...points].sort((one, other) => other.of - one.of || (one.kind === "optimal") - (other.kind === "optimal"))) {
+    if (point.name.includes(",") && !point.of) continue;
+    const text = point.of ? "to take" : point.name;
+    const end = along(point.x) > 0.66;
+    const from = along(point.x) - (end ? LETTER * text.length : 0);
+    const box = { from, to: from + LETTER * text.length, at: (point.y - low) / tall };
+    if (kept.some(({ box: other }) => box.from < other.to && box.to > other.from && Math.abs(box.at - other.at) < LINE)) continue;
+    kept.push({ box, at: [point.x, point.y], text, name: point.of ? "chosen" : "", anchor: end ? "end" : "start", up: point.of ? 9 : 6 });
+  }
+  return kept;
+}
+
+function layout(root) {
+  const panel = (id, attributes = {}) => html("div", { class: "panel", id, ...attributes });
+  const at = {
+    asked: html("aside", { id: "advice-asked", "aria-label": "What is asked of the laws" }),
+    words: panel("advice-words", { role: "status", "aria-live": "polite" }),
+    table: panel("advice-table"),
+    chart: html("div", { id: "advice-chart", class: "picture" }),
+    names: html("p", { id: "advice-names", class: "quiet", translate: "no" }),
+    curves: html("div", { id: "advice-curves" }),
+  };
+  root.append(
+    at.asked,
+    html("section", { id: "advice-middle", "aria-label": "Laws side by side" }, at.words, at.table),
+    html("section", { id: "advice-side", "aria-label": "The laws in a picture, and the one to take beside the usual one" },
+      html("div", { class: "panel" }, at.chart), html("div", { class: "panel", id: "advice-motion" }, at.names, at.curves)),
+  );
+  return at;
+}

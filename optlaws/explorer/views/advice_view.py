@@ -1,0 +1,178 @@
+"""Advice as the page shows it: laws for the motion as it stands side by side, the front, and how each is taken."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from functools import lru_cache
+from typing import Annotated, Any
+
+import msgspec
+import numpy as np
+
+from optlaws import AdvisedLaw, Cycle, advise
+from optlaws.cycles.advising.advice import Advice
+from optlaws.cycles.specification.segments import OPTIMAL, Move
+from optlaws.errors import OptlawsError
+from optlaws.explorer.views import cycle_view
+from optlaws.explorer.views.cycle_view import CycleRequest
+from optlaws.explorer.views.law_view import digits, drawn, refusal
+from optlaws.explorer.views.picture_points import refined
+from optlaws.explorer.views.requests import Question
+from optlaws.motion.quantities import QUANTITIES
+from optlaws.numbers import bounded
+from optlaws.plots.cycle import UNITS, samples
+
+_POINTS = 6
+_EACH = 60
+_MILLI = 1e3
+_DIGITS = 5
+
+ShortText = Annotated[str, msgspec.Meta(max_length=40)]
+
+
+class FollowerEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """What a motion leaves vibrating: the least and the greatest natural frequency, and the damping ratio."""
+
+    low: ShortText
+    high: ShortText
+    damping: float = 0.0
+
+
+class AdviceRequest(CycleRequest, kw_only=True, forbid_unknown_fields=True):
+    """A cycle or a machine, what is to be least, and what it leaves vibrating."""
+
+    minimise: ShortText | None = None
+    follower: FollowerEntries | None = None
+
+
+def answer(request: AdviceRequest) -> dict[str, Any]:
+    """The laws side by side with the one to take, or why there is none."""
+    try:
+        return _view(*_advice(msgspec.json.encode(request)))
+    except OptlawsError as error:
+        return {"refused": refusal(error)}
+
+
+@lru_cache(maxsize=16)
+def _advice(question: bytes) -> tuple[Cycle, Advice]:
+    request = msgspec.json.decode(question, type=AdviceRequest)
+    cycle = cycle_view.stored(*cycle_view.read(request))
+    known = request.follower
+    follower = None if known is None else {"frequency": (known.low, known.high), "damping": known.damping}
+    return cycle, advise(cycle, minimise=request.minimise or None, follower=follower, points=_POINTS)
+
+
+def _view(cycle: Cycle, advice: Advice) -> dict[str, Any]:
+    chosen = advice.recommendation
+    return {
+        "headings": list(advice.headings[1:]),
+        "rows": [_row(cycle, advice, law, row) for law, row in zip(advice, advice.rows, strict=True)],
+        "sentences": list(chosen.sentences),
+        "rule": chosen.rule,
+        "chosen": chosen.law.name,
+        "remarks": list(advice.remarks),
+        "picture": _picture(advice),
+        "curves": _curves([law for law in (chosen.usual, chosen.law) if law is not None]),
+    }
+
+
+def _row(cycle: Cycle, advice: Advice, law: AdvisedLaw, row: Sequence[float | str]) -> dict[str, Any]:
+    return {
+        "name": law.name,
+        "kind": law.kind,
+        "cells": [digits(law.values[measure.name], _DIGITS) for measure in advice.measures],
+        "limits": row[-2],
+        "proof": row[-1],
+        "take": _entries(cycle, law, vibrates=any(measure.name.startswith("residual") for measure in advice.measures)),
+    }
+
+
+def _entries(cycle: Cycle, law: AdvisedLaw, *, vibrates: bool) -> dict[str, Any] | None:
+    """The entries of the cycle with a law: by its name, by what is least within limits, or as it stands.
+
+    Laws that were sought for a follower are given as they stand: a cycle's entries know none.
+    """
+    motion, proof = law.motion, law.proof
+    assert isinstance(motion, Cycle)  # noqa: S101 - as it is a cycle's
+    moves = [i for i, segment in enumerate(motion.segments) if _is_compared(cycle.segments[i], segment)]
+    none: list[str | None] = [None] * len(motion.segments)
+    if law.kind == "given":
+        return None
+    if proof is None:
+        return {"laws": [law.name if i in moves else None for i in range(len(none))]}
+    if not vibrates and proof.minimise == motion.minimise:
+        laws = [OPTIMAL if i in moves else None for i in range(len(none))]
+        return {"laws": laws, "minimise": motion.minimise, "limits": _plain(motion.limits)}
+    for i in moves:
+        peaks = motion.peaks[i]
+        piece = next((piece for piece in motion.pieces if piece.start == peaks.start), None)
+        if piece is None or not isinstance(motion.segments[i], Move):
+            return None
+        none[i] = json.dumps(piece.law.to_dict())
+    return {"laws": none}
+
+
+def _is_compared(before: Any, segment: Any) -> bool:  # noqa: ANN401 - segments
+    """Whether a segment's law is one of those that are compared: it is looked for, or was changed."""
+    return isinstance(segment, Move) and (segment.law == OPTIMAL or segment != before)
+
+
+def _plain(limits: Any) -> dict[str, Any]:  # noqa: ANN401 - a mapping of texts, pairs and switches
+    return {name: list(value) if isinstance(value, tuple) else value for name, value in limits.items()}
+
+
+def _picture(advice: Advice) -> dict[str, Any]:
+    """The laws in the plane of what is minimised over the second measure, with the front and its bounds."""
+    units = {measure.name: measure.unit for measure in advice.measures}
+    usual = advice.recommendation.usual
+    others = [name for name in advice.guarded if name != advice.second]
+    return {
+        "x": {"name": advice.second, "unit": units[advice.second]},
+        "y": {"name": advice.minimise, "unit": units[advice.minimise]},
+        "points": [
+            {
+                "name": law.name,
+                "kind": law.kind,
+                "x": bounded(law.values[advice.second]),
+                "y": bounded(law.values[advice.minimise]),
+            }
+            for law in advice
+        ],
+        "front": sorted(
+            [law.values[advice.second], law.values[advice.minimise], law.proof.lower_bound or 0.0]
+            for law in advice.front
+            if law.proof is not None
+        ),
+        "beside": "" if usual is None or not others else f"no more {', '.join(others)} than {usual.name}",
+    }
+
+
+def _curves(laws: Sequence[AdvisedLaw]) -> dict[str, Any]:
+    """Velocity, acceleration and jerk of the usual law and of the one to take, over the time."""
+    cycles = [law.motion for law in laws if isinstance(law.motion, Cycle)]
+    duration = cycles[0].duration
+    panels = []
+    for nu in (1, 2, 3):
+        unit, factor = UNITS[cycles[0].axis][nu]
+        series = [
+            {"law": i, "name": law.name, **_curve(cycle, nu, factor)}
+            for i, (law, cycle) in enumerate(zip(laws, cycles, strict=True))
+        ]
+        panels.append({"name": QUANTITIES[nu], "unit": unit, "series": series, "limits": [], "peaks": []})
+    return {"across": "time, ms", "symbol": "t, ms", "range": [0.0, _MILLI * duration], "panels": panels}
+
+
+def _curve(cycle: Cycle, nu: int, factor: float) -> dict[str, Any]:
+    times, values = samples(cycle, nu, _EACH)
+    places = np.array([time for peak in cycle.peaks for _, time in peak.extremes[nu]])
+    times, (values,) = refined(times, [values], [lambda inside: np.asarray(cycle(inside, nu))], places)
+    return {"at": drawn(_MILLI * times, 4), "values": drawn(factor * values)}
+
+
+def example() -> dict[str, Any]:
+    """What the view asks where nothing was said: of the cycle, with a follower that is switched off."""
+    return {"of": "", "minimise": "", "follower": {"on": False, "low": "27 Hz", "high": "33 Hz", "damping": 0.05}}
+
+
+QUESTIONS: dict[str, Question] = {"advice": (AdviceRequest, answer)}

@@ -1,0 +1,127 @@
+"""Advice on the page: its numbers against the library, the law that is taken, in a real browser."""
+
+from __future__ import annotations
+
+import tomllib
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+from optlaws import Advice, Cycle, advise
+from tests.explorer.talk import OPTIMAL, Server
+from tests.explorer.test_page import go, settle
+from tests.internals.explorer import example, law_view, start
+from tests.internals.jobs import read_of_cycle_entries
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
+
+PROBLEMS = Path(__file__).parents[2] / "problems"
+FOLLOWER = {"low": "20 Hz", "high": "24 Hz", "damping": 0.05}
+
+
+def known(data: dict[str, Any]) -> Cycle:
+    return next(iter(read_of_cycle_entries(data, Path("known"))[1].values()))
+
+
+def advised(study: dict[str, Any], **entries: Any) -> Advice:
+    return advise(known(study), points=0, **entries)
+
+
+def changed(study: dict[str, Any], take: dict[str, Any]) -> Cycle:
+    """The cycle with a law that the page takes."""
+    axis = study["axis"][0]
+    pairs = zip(axis["segment"], take["laws"], strict=True)
+    segments = [segment if law is None else {**segment, "law": law} for segment, law in pairs]
+    others = {name: take[name] for name in ("minimise", "limits") if name in take}
+    return known({**study, "axis": [{**axis, **others, "segment": segments}]})
+
+
+@pytest.mark.parametrize("follower", [None, FOLLOWER])
+def test_the_rows_are_the_library_s_and_each_law_can_be_taken(served: Server, follower: dict[str, Any] | None) -> None:
+    study = example() | {"speed": "150 rpm"}
+    answer = served.ask("advice", {"study": study, "follower": follower} if follower else {"study": study})
+    of = None if follower is None else {"frequency": ("20 Hz", "24 Hz"), "damping": 0.05}
+    advice = advised(study, follower=of)
+    assert answer["headings"] == list(advice.headings[1:])
+    assert [row["name"] for row in answer["rows"]] == [law.name for law in advice]
+    assert answer["chosen"] == advice.recommendation.law.name
+    assert answer["sentences"] == list(advice.recommendation.sentences)
+    assert answer["rule"] == advice.recommendation.rule
+    for row, law in zip(answer["rows"], advice, strict=True):
+        assert row["cells"] == [law_view.digits(law.values[measure.name], 5) for measure in advice.measures]
+        taken = changed(study, row["take"])
+        for name in ("velocity", "acceleration", "jerk"):
+            assert taken.value(name) == pytest.approx(law.values[name], rel=1e-6)
+        # laws that were sought within limits are proven by the cycle itself
+        assert bool(taken.solutions) == (follower is None and law.kind == "optimal")
+    assert len(answer["picture"]["front"]) > 1
+    assert all(bound <= value * (1.0 + 1e-7) for _, value, bound in answer["picture"]["front"])
+
+
+def test_a_machine_is_advised_by_its_torque(served: Server) -> None:
+    found = start(str(PROBLEMS / "cycle_geared_table.toml"))
+    machine = found["machine"]
+    answer = served.ask("advice", {"study": machine, "axis": 0, "minimise": "acceleration"})
+    file = PROBLEMS / "cycle_geared_table.toml"
+    cycles = dict(read_of_cycle_entries(tomllib.loads(file.read_text("utf-8")), file)[1])
+    advice = advise(next(iter(cycles.values())), minimise="acceleration", points=0)
+    assert [row["cells"] for row in answer["rows"]] == [
+        [law_view.digits(law.values[measure.name], 5) for measure in advice.measures] for law in advice
+    ]
+    assert any(heading.startswith("rms torque") for heading in answer["headings"])
+
+
+def test_what_cannot_be_advised_says_why(served: Server) -> None:
+    study = example()
+    for entries, reason in (
+        ({"minimise": "beauty"}, "beauty"),
+        ({"minimise": "residual acceleration"}, "follower"),
+        ({"follower": {"low": "3 mm", "high": "4 Hz"}}, "frequency"),
+    ):
+        assert reason in served.ask("advice", {"study": study, **entries})["refused"]["reason"]
+    study["axis"][0]["limits"] = {"acceleration": "5 m/s^2"}
+    assert served.ask("advice", {"study": study})["refused"]["word"] == "no such law"
+    assert "error" in served.ask("advice", {"study": study, "follower": 3}, code=422)
+
+
+def test_the_law_to_take_is_taken_by_a_click(page: Page, served: Server) -> None:
+    go(page, served.link(laws=[OPTIMAL], view="advice", cycle=example() | {"speed": "150 rpm"}))
+    answer = served.ask("advice", {"study": example() | {"speed": "150 rpm"}})
+    words = page.locator("#advice-words").inner_text()
+    assert all(sentence in words for sentence in answer["sentences"])
+    assert page.locator("#advice-table tbody tr[aria-current] th").inner_text() == answer["chosen"]
+    cells = page.locator("#advice-table tbody tr >> nth=0 >> td.number").all_inner_texts()
+    assert cells[: len(answer["headings"]) - 2] == answer["rows"][0]["cells"]
+    assert answer["chosen"] in (page.locator("#advice-chart [role=img]").get_attribute("aria-label") or "")
+    page.get_by_role("button", name="Take this law").click()
+    settle(page)
+    assert "proven optimal" in page.locator("#cycle-trust").inner_text()
+    (row,) = [row for row in answer["rows"] if row["name"] == answer["chosen"]]
+    peaks = page.locator("#segments tbody tr >> nth=0 >> td.number").all_inner_texts()
+    jerks = [float(text) for text in peaks[-1:]]
+    assert jerks[0] <= float(row["cells"][answer["headings"].index("jerk, m/s³")]) * (1.0 + 1e-4)
+    page.get_by_role("button", name="Undo").click()
+    settle(page)
+    assert page.locator("#advice-view").is_visible()
+    page.get_by_role("button", name="Take cycloidal").click()
+    settle(page)
+    assert page.get_by_label("segment 0 law").input_value() == "cycloidal"
+
+
+def test_a_follower_is_switched_on(page: Page, served: Server) -> None:
+    go(page, served.link(laws=[OPTIMAL], view="advice"))
+    assert page.get_by_label("follower, from").is_disabled()
+    page.get_by_label("an elastic follower").check()
+    settle(page)
+    page.get_by_label("follower, from").fill("20 Hz")
+    page.get_by_label("follower, to").fill("24 Hz")
+    settle(page)
+    head = page.locator("#advice-table thead").inner_text()
+    assert "residual acceleration, m/s²" in " ".join(head.split())
+    answer = served.ask("advice", {"study": example(), "follower": FOLLOWER})
+    assert answer["sentences"][1] in page.locator("#advice-words").inner_text()
+    page.get_by_label("least", exact=True).select_option("jerk")
+    settle(page)
+    assert "its jerk is" in page.locator("#advice-words").inner_text()
