@@ -15,7 +15,6 @@ from optlaws.numbers import bounded
 from optlaws.shown.summary import Row, Summary
 from optlaws.suggest import unknown_key
 
-
 #: of why there is no law: formulas of machines are longer than anybody reads
 _LONGEST = 200
 
