@@ -113,8 +113,8 @@ class Candidates:
             most = self.most(RESIDUAL, *_OF_DRIVE)
             name = f"least {RESIDUAL}{beside if most else f' at twice the least {minimise}'}"
             if minimise in _OF_MOTION:
-                kept = self.usual is not None and self.usual.keeps_limits and bool(most)
-                most[minimise] = self.usual.values[minimise] if self.usual and kept else self._twice
+                fits = self.usual is not None and self.usual.keeps_limits and bool(most)
+                most[minimise] = self.usual.values[minimise] if self.usual and fits else self._twice
             self._add(name, partial(motion.least, name, RESIDUAL, most))
 
     def front(self, points: int) -> tuple[AdvisedLaw, ...]:
