@@ -266,7 +266,7 @@ def test_an_export_says_what_the_controller_will_run(page: Page, served: Server)
 
 def test_a_cam_turns_and_is_refused_where_there_is_none(page: Page, served: Server) -> None:
     go(page, f"http://{served.host}/")
-    page.get_by_role("tab", name="Cam").click()
+    page.get_by_role("tab", name="Cam", exact=True).click()
     settle(page)
     assert "no undercut" in page.locator("#cam-trust").inner_text()
     assert page.locator("#cam-curves svg").count() == 3
