@@ -105,7 +105,7 @@ class LawSearch:
         first = self._try_drive() if self.warm is None else None
         if first is not None and self._near_limit(first):
             return
-        last = self._try(self.warm or stored_guess(self.model), None)
+        last = self._try(stored_guess(self.model) or self.warm, None)
         if self.problem.convex or self.warm is not None or _agree(first, last):
             return
         from optlaws.synthesis.method import starts

@@ -41,6 +41,8 @@ AIMS = {4_000: (50_000, 40_000, 18_000, 8_000), 40_000: (150_000, 100_000, 60_00
 SHARES = (1 / 8, 1 / 8, 1 / 5, 1 / 4)
 #: laws of least D a second, solutions a second of ready problems, and seconds of a front of 1,000 points; degree 9
 POWERS, SOLUTIONS, FRONT = 1_000, 15_000, 0.3
+#: milliseconds a law in small arrays, by how many
+SMALL = {10: 1.0, 100: 0.3}
 #: of the time that SLSQP takes for a law of least D, from one start and without proof; and where it is asked
 POWER_SHARE, POWER_VELOCITIES = 1 / 3, (1.5, 1.641, 1.8, 2.0, 2.2)
 REPEATS = 3
@@ -130,6 +132,9 @@ def others(console: Console) -> None:
     for minimise, aim in (("D", f"{POWERS:,}/s"), ("rms_c", ""), ("J", "")):
         outcome = run(9, 4_000, minimise)
         table.add_row(f"least {minimise}", "4,000", f"{4_000 / outcome.seconds:,.0f}/s", aim)
+    for count, most in SMALL.items():
+        each = 1e3 * run(9, count).seconds / count
+        table.add_row("least C", str(count), f"{each:.2f} ms a law{'' if each <= most else '*'}", f"{most:g} ms")
     problem = Problem(order=4, basis=Chebyshev(9))
     ready = [replace(problem, B=B) for B in np.linspace(*ENDS, 4_000).tolist()]
     many = seconds(lambda: [one.objective for one in synthesize_many(ready)])

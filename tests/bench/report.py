@@ -20,7 +20,7 @@ from optlaws import Chebyshev, Problem, Solution, sweep, synthesize
 from tests.bench.plain import Answer, Claim, Rows, highs, opti, power_by_opti, power_by_slsqp
 from tests.documents import ROOT
 
-DEGREES = (3, 9, 19, 41)
+DEGREES = (3, 9, 19, 39)
 FIRST = Problem(B=1.641, order=4, monotone=True)
 POWER = Problem(B=1.641, order=4, basis=Chebyshev(9), minimise="D")
 VELOCITIES = np.linspace(1.55, 2.5, 100)
@@ -145,13 +145,13 @@ def ratios_table(rows: Sequence[Row]) -> Table:
         "along B / Opti",
         "... rows given",
     )
-    table = Table(*headings, title="ratios (aims: at most 1/10, 2 and 1/100; * missed)")
+    table = Table(*headings, title="ratios (aims: at most 1/10, 1/2 and 1/100; * missed)")
     for row in rows:
         found = (
             (row.single / row.by_opti.whole, 0.1),
             (row.single / row.by_opti.solver, 0.1),
-            (row.single / row.by_highs.whole, 2.0),
-            (row.single / row.by_highs.solver, 2.0),
+            (row.single / row.by_highs.whole, 0.5),
+            (row.single / row.by_highs.solver, 0.5),
             (row.swept / row.by_opti.whole, 0.01),
             (row.swept / row.by_opti.solver, 0.01),
         )

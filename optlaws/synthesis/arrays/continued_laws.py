@@ -17,8 +17,9 @@ from optlaws.numbers import Array
 from optlaws.synthesis.arrays.certification import Certification, certification_of
 from optlaws.synthesis.arrays.continuation import ParametricContinuation, StructureSegment
 from optlaws.synthesis.arrays.dual_bounds import lower_bounds
-from optlaws.synthesis.arrays.newton_steps import States, Structure, clipped, converged, step
+from optlaws.synthesis.arrays.newton_steps import States, Structure, clipped, converged, packed, step
 from optlaws.synthesis.arrays.programs import Numbers, Path, SolvedBatch
+from optlaws.synthesis.method.stored_structures import guess_of, is_usual, key_of, stored_structures
 from optlaws.tolerances import AGREEMENT, BEYOND_SEGMENT, CERTIFIED_GAP, INTERPOLATION_TAIL, ROUGH_STEP
 
 _NODES = 16
@@ -28,6 +29,11 @@ _FEW = 20
 #: laws at a time, and bytes of their matrices
 _CHUNKS = (128, 1024)
 _AT_HAND = 2**21
+#: so many laws are quicker from stored structures than by a walk, of which some may be left to be solved one by one
+_WITH_STORED, _LEFT = 200, 4
+#: fewer laws than these are worth no walk
+_WALKED = 48
+_STORED_NODES = 4
 _STARTS = np.array([0.5, 0.25, 0.75, 0.0, 1.0])
 
 
@@ -40,7 +46,43 @@ def laws_along(path: Path, t: Array) -> SolvedBatch:
     >>> laws_along(path, np.array([0.0, 0.2])).objective.round(6).tolist()
     [5.262224, 5.173677]
     """
+    if len(t) <= _WITH_STORED:
+        laws = _laws_of_stored_structures(path, t)
+        if laws is not None and (len(t) < _WALKED or np.count_nonzero(~laws.solved) <= _LEFT):
+            return laws
     return laws_on(path, segments_of(path, float(t[0]), float(t[-1])), t)
+
+
+def _laws_of_stored_structures(path: Path, t: Array) -> SolvedBatch | None:
+    """The optima at ascending t, as far as structures that are stored lead to them; None where none are stored.
+
+    They are those of problems that differ in B.
+    """
+    program, (first, last) = path.model.program, path.problems
+    if not isinstance(first.B, float) or not isinstance(last.B, float):
+        return None
+    if first.shape != last.shape or not is_usual(path.model):
+        return None
+    structures = stored_structures(key_of(path.model) or "")
+    laws = SolvedBatch.none(len(t), program.size, max(stored.count for stored in structures), len(program.right))
+    begin, reach = first.B, last.B - first.B
+    away = np.array([[stored.away(begin + at * reach) for stored in structures] for at in t.tolist()])
+    nearest = np.argmin(away, axis=1)
+    for beside in (0, -1, 1):
+        left = ~laws.solved
+        for i in np.unique(nearest[left] + beside).tolist():
+            if not 0 <= i < len(structures):
+                continue
+            places, stored = np.flatnonzero(left & (nearest + beside == i)), structures[i]
+            nodes = t[places]
+            if len(places) > _STORED_NODES:
+                nodes = np.linspace(nodes[0], nodes[-1], _STORED_NODES)
+            structure = Structure(path.model, stored.family, stored.sign, stored.free)
+            rows = [packed(guess_of(path.program(at), stored, begin + at * reach)) for at in nodes.tolist()]
+            guess = States.unpacked(_barycentric(nodes, t[places]) @ np.array(rows), structure)
+            still = replace(guess, u=np.where(stored.free, guess.u, rows[0][program.size :][: stored.count]))
+            _enter(laws, path, structure, places, (t[places], still))
+    return laws
 
 
 def segments_of(path: Path, least: float, greatest: float) -> list[StructureSegment]:
@@ -62,7 +104,7 @@ def laws_on(path: Path, segments: list[StructureSegment], t: Array) -> SolvedBat
         # what lies between two segments is tried with both
         places = np.flatnonzero((t >= segment.begin - beside) & (t <= segment.end + beside) & ~laws.solved)
         if len(places):
-            _enter(laws, path, segment, places, (t[places], segment.interpolated(t[places])))
+            _enter(laws, path, segment.structure, places, (t[places], segment.interpolated(t[places])))
     bounds = path.numbers(t).bounds
     for i in path.measured:
         # in the law's own program the bound is the unit
@@ -75,17 +117,17 @@ def _fill(laws: SolvedBatch, path: Path, segment: StructureSegment, places: NDAr
         _affine(laws, path, segment, places, t)
         return
     for some, guess in _guesses(path, segment, t, (segment.begin, segment.end)):
-        _enter(laws, path, segment, places[some], (t[some], guess))
+        _enter(laws, path, segment.structure, places[some], (t[some], guess))
 
 
 def _enter(
-    target: SolvedBatch, path: Path, segment: StructureSegment, places: NDArray[np.intp], near: tuple[Array, States]
+    target: SolvedBatch, path: Path, structure: Structure, places: NDArray[np.intp], near: tuple[Array, States]
 ) -> None:
     """Enter laws at some t, with states near to theirs, as far as they are proven."""
-    (t, guess), size = near, _chunk(segment.structure)
+    (t, guess), size = near, _chunk(structure)
     for i in range(0, len(t), size):
         some = slice(i, i + size)
-        laws = _LawsOfStructure(target, path, segment.structure, places[some], path.numbers(t[some]))
+        laws = _LawsOfStructure(target, path, structure, places[some], path.numbers(t[some]))
         laws.solve(guess.taken(some))
 
 

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from optlaws.numbers import Array
 from optlaws.synthesis.arrays.powers import least_power
 from optlaws.synthesis.arrays.programs import Path, between, in_units_of, numbers_of
+from optlaws.synthesis.method.stored_structures import is_usual
 from optlaws.synthesis.problem.constants import RootMeanSquare
 from optlaws.synthesis.problem.expression import Maximum
 from optlaws.synthesis.problem.problem import Problem
@@ -22,6 +23,8 @@ from optlaws.tolerances import OFF_LINE
 
 #: laws on a line, at least: of jerk structures change often, of root mean squares hardly
 _LEAST, _LEAST_OF_JERK, _LEAST_OF_SMOOTH, _LEAST_OF_POWER = 48, 128, 24, 24
+#: where structures are stored nothing is walked along
+_LEAST_OF_USUAL = 4
 _JERK = 3
 
 
@@ -57,7 +60,9 @@ def along_velocities(
 
 
 def least_count(problem: Problem) -> int:
-    """The number of problems below which continuation along a line takes longer than single solutions."""
+    """With fewer problems on a line they take longer together than each alone."""
+    if is_usual(model_of(problem)):
+        return _LEAST_OF_USUAL
     if not problem.convex:
         return _LEAST_OF_POWER
     if all(isinstance(constant, RootMeanSquare) for constant in problem.constants):

@@ -24,6 +24,8 @@ STORED = Path(__file__).with_name("structures.bin")
 
 #: units of B - 1 and of the coefficients of places
 _OF_VELOCITY, _OF_PLACE = 2.0**13, 2.0**14
+#: units of B: structures change as near as this to where they are stored to end
+_BESIDE_CHANGE = 2.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,6 +48,11 @@ class StoredStructure:
     sign: Array
     free: NDArray[np.bool_]
     places: Array
+
+    @property
+    def count(self) -> int:
+        """The number of contacts."""
+        return len(self.sign)
 
     def at(self, B: float) -> Array:
         """The places of the contacts."""
@@ -85,14 +92,34 @@ def key_of(model: Model) -> str | None:
     return f"{space.order} {space.terms} {','.join(family.name for family in program.families)}"
 
 
+def is_usual(model: Model) -> bool:
+    """Whether structures are stored for problems like this one that differ in B.
+
+    >>> from optlaws.synthesis.problem.problem import Problem
+    >>> from optlaws.synthesis.program.writer import model_of
+    >>> is_usual(model_of(Problem(B=1.7, order=4))), is_usual(model_of(Problem(B=1.7, order=8)))
+    (True, False)
+    """
+    key = key_of(model)
+    return key is not None and isinstance(model.problem.B, float) and bool(stored_structures(key))
+
+
 def stored_guess(model: Model) -> ActiveSet | None:
-    """The optimum that a problem may have, by a structure that is stored for its kind; None where none is."""
+    """The optimum that a problem may have, by a structure that is stored for its kind; None where none is.
+
+    Where one structure gives way to the next, two laws are as good but for rounding: there none is preferred.
+    """
     key = key_of(model)
     structures = None if key is None else stored_structures(key)
     if not structures:
         return None
-    B = model.problem.B if isinstance(model.problem.B, float) else 0.0
-    return guess_of(model.program, min(structures, key=lambda structure: structure.away(B)), B)
+    if not isinstance(model.problem.B, float):
+        return guess_of(model.program, structures[0], 0.0)
+    B = model.problem.B
+    structure = min(structures, key=lambda structure: structure.away(B))
+    if min(abs(B - structure.begin), abs(B - structure.end)) * _OF_VELOCITY < _BESIDE_CHANGE:
+        return None
+    return guess_of(model.program, structure, B)
 
 
 def guess_of(program: Program, structure: StoredStructure, B: float) -> ActiveSet:
