@@ -94,6 +94,12 @@ def test_a_law_is_made_for_the_band_and_for_a_spectrum(page: Page, served: Serve
     assert page.locator("#residual .curve").count() == 3
     saved = tomllib.loads(saves(page, "problem"))["problem"]["bounds"]
     assert [name.startswith("residual(spectrum='{") for name in saved] == [True]
+    page.set_viewport_size({"width": 390, "height": 844})
+    curves, fields = page.locator("#residual").bounding_box(), page.locator("#follower").bounding_box()
+    assert curves is not None
+    assert fields is not None
+    assert curves["y"] + curves["height"] <= fields["y"] + 1.0
+    page.set_viewport_size({"width": 1280, "height": 800})
     page.get_by_label("Take the spectrum away").click()
     page.get_by_role("button", name="band", exact=True).click()
     settle(page)
