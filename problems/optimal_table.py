@@ -291,7 +291,7 @@ def _optima(axes: Axes, curves: Curves) -> None:
     for (degree, curve), shade in zip(curves.items(), shades(len(curves)), strict=True):
         line = [s.objective for s in curve]
         label = "optimal, by degree of Z(k)" if degree == max(curves) else None
-        velocities = [solution.law.constants.B.value for solution in curve]
+        velocities = [solution.law.peak(1).value for solution in curve]
         axes.plot(velocities, line, color=shade, label=label)
         style: dict[str, Any] = {"xytext": (5, 0), "textcoords": "offset points", "va": "center"}
         axes.annotate(f"{degree}", (velocities[-1], line[-1]), color=shade, annotation_clip=False, **style)
