@@ -121,3 +121,14 @@ def test_results_that_could_not_be_written_are_refused_before_solving(
     for command in ("run", "cycle"):
         assert exit_code([command, str(file), "--out", "/dev/null/there"]) == 2
         assert "cannot write /dev/null/there" in capsys.readouterr().err
+
+
+def test_a_law_is_given_by_its_json_text_in_files_too(tmp_path: Path) -> None:
+    law = smoothstep(4)
+    cycle = Cycle([Rise("35 mm", "0.1 s", law=law.to_json()), Return(law="cycloidal")], period="0.3 s")
+    assert cycle.pieces[0].law == law
+    file = tmp_path / "stored.toml"
+    file.write_text(cycle.to_toml(), "utf-8")
+    assert read(reading.toml(file), file)[1]["axis"].pieces[0].law == law
+    with pytest.raises(InputError, match=r"segment 1 \(Rise\): law: a law must be JSON text"):
+        Cycle([Rise("35 mm", "0.1 s", law="{"), Return(law="cycloidal")], period="0.3 s")
