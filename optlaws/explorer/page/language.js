@@ -35,6 +35,9 @@ export const localised = (value) => (comma ? String(value).replace(DECIMAL, "$1,
 /** What is written in a field, with the decimal sign of optlaws. */
 export const plain = (text) => (comma ? text.replace(/(\d),(\d)/g, "$1.$2").replace(/^,(\d)/, "0.$1") : text);
 
+/** What the table lacks, as far as it was to be said. */
+export const missed = new Set();
+
 let texts = null;
 const sources = new WeakMap(); // of text nodes and elements: what was said in English, and in the language
 const patterns = [];
@@ -117,4 +120,8 @@ function found(english) {
   return rest ? known + head[2] + rest : null;
 }
 
-const translated = (english) => found(english) ?? english;
+function translated(english) {
+  const said = found(english);
+  if (said === null && !neutral(english) && missed.size < 1000) missed.add(english);
+  return said ?? english;
+}
