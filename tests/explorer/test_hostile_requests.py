@@ -58,6 +58,7 @@ SEEDS: dict[str, list[Any]] = {
     "save": [
         {"kind": "python", "laws": [OPTIMAL]},
         {"kind": "proof", "laws": [OPTIMAL]},
+        {"kind": "proof", "view": "fastest", "laws": [OPTIMAL], "fastest": {"study": fastest_view.example()}},
         {"kind": "problem", "view": "cycle", "laws": [OPTIMAL], "cycle": CYCLE},
     ],
     "study": [{"study": study_view.example()}, {"study": {"problem": {"order": 4}, "vary": {"B": [1.6, 1.7]}}}],

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
 from optlaws import Chebyshev, Problem, synthesize
 from tests.explorer.talk import OPTIMAL, Server
 from tests.explorer.test_page import go, settle
-from tests.internals.explorer import CycleRequest, cycle_view, example
+from tests.internals.explorer import CycleRequest, cycle_view, example, fastest_view
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -78,3 +78,9 @@ def test_proofs_of_a_motion_are_those_of_its_laws(served: Server) -> None:
     solutions = cycle_view.cycle(CycleRequest(study=example())).solutions
     bounds = [stored["certificate"]["bound"] for stored in json.loads(answered["text"])["solutions"]]
     assert bounds == pytest.approx([solution.certificate.bound for solution in solutions], rel=1e-12)
+    moves: dict[str, Any] = {"study": fastest_view.example()}
+    question = {"kind": "proof", "view": "fastest", "laws": [OPTIMAL], "fastest": moves}
+    stored = json.loads(served.ask("save", question)["text"])
+    least = fastest_view.fastest_of(fastest_view.FastestRequest(**moves))
+    assert stored["duration"] == least.duration
+    assert stored["proofs"] == json.loads(json.dumps(least.to_dict()["proofs"]))

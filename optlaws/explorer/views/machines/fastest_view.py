@@ -97,6 +97,18 @@ def fastest_of(request: FastestRequest) -> FastestMove:
     return _read(request).least
 
 
+def proof_of(request: FastestRequest) -> dict[str, Any]:
+    """What is stored of a least time so that it can be checked, and of the laws in the time that is shown."""
+    if request.study.get("job") == "cycle":
+        spec, axis = _axis(request)
+        quickest = _fastest_cycle(msgspec.json.encode((spec, axis)))
+        solutions = _cycle_in_time(spec, axis, quickest, request.time).solutions
+        return quickest.claims() | {"solutions": [solution.to_dict() for solution in solutions]}
+    sought = _read(request)
+    solution = _in_time(sought, request.time).solution
+    return sought.least.to_dict() | ({} if solution is None else {"in_this_time": solution.to_dict()})
+
+
 def _read(request: FastestRequest) -> _Sought:
     spec = convert(request.study, FastestProblemFile, _WHERE)
     move = spec.move[min(request.move, len(spec.move) - 1)]
@@ -391,7 +403,8 @@ def _trust_of_move(sought: _Sought, shown: _InTime) -> dict[str, Any]:
         if shown.lower_bound is not None:
             facts.insert(1, f"none below {digits(shown.lower_bound)} {shown.unit}")
         advice = status.advice
-    return {"status": status.value, "word": TITLES[status], "advice": advice, "gap": gap, "facts": facts}
+    verdict = {"status": status.value, "word": TITLES[status], "advice": advice, "gap": gap, "facts": facts}
+    return verdict | {"proof": True}
 
 
 def front(request: FastestRequest) -> dict[str, Any]:
@@ -505,7 +518,8 @@ def _trust_of_cycle(quickest: FastestCycle, shown: Cycle) -> dict[str, Any]:
             return known | {"facts": [*known["facts"], *facts]}
     status = quickest.status
     advice = "No law of this order and degree lets the cycle run faster." if status is Status.OPTIMAL else status.advice
-    return {"status": status.value, "word": TITLES[status], "advice": advice, "gap": "", "facts": facts}
+    verdict = {"status": status.value, "word": TITLES[status], "advice": advice, "gap": "", "facts": facts}
+    return verdict | {"proof": bool(quickest.proofs)}
 
 
 def _front_of_cycle(request: FastestRequest) -> dict[str, Any]:
