@@ -735,4 +735,9 @@ export const TEXTS = {
   "What is asked of the laws": ["Was von den Gesetzen verlangt wird", "Ce qui est demandé aux lois", "Що вимагається від законів"],
   "Laws with what they take": ["Gesetze mit dem, was sie brauchen", "Lois avec ce qu’elles prennent", "Закони з тим, чого вони потребують"],
   "The laws in a picture, and the one to take beside the usual one": ["Die Gesetze im Bild, und das empfohlene neben dem üblichen", "Les lois en image, et celle à prendre à côté de l’usuelle", "Закони на рисунку, і рекомендований поряд зі звичним"],
+  "Weigh the band by a measured spectrum: frequency and amplitude in a file, which can be dropped here": ["Das Band mit einem gemessenen Spektrum wichten: Frequenz und Amplitude in einer Datei, die hier abgelegt werden kann", "Pondérer la bande par un spectre mesuré : fréquence et amplitude dans un fichier, qui peut être déposé ici", "Зважити смугу виміряним спектром: частота й амплітуда у файлі, який можна перетягнути сюди"],
+  "Greatest residual acceleration in the band": ["Größte Restbeschleunigung im Band", "Plus grande accélération résiduelle dans la bande", "Найбільше залишкове прискорення у смузі"],
+  "peak acceleration of the mass": ["größte Beschleunigung der Masse", "accélération maximale de la masse", "найбільше прискорення маси"],
+  "measured spectrum": ["gemessenes Spektrum", "spectre mesuré", "виміряний спектр"],
+  "amplitude": ["Amplitude", "amplitude", "амплітуда"],
 };
