@@ -28,7 +28,7 @@ TAG = re.compile(r"\\tag\{([^{}]*)\}")
 
 def to_mathml(node: nodes.Element, display: str) -> str:
     """Convert a formula; a command that the converter does not know stays as it is, and is reported."""
-    latex = node.astext().strip()
+    latex = node.astext().strip().replace("{aligned}", "{align*}")  # the name that the converter knows
     try:
         mathml = convert(latex, display=display)
     except Exception as error:  # noqa: BLE001 -- whatever the converter raises, the page is named
@@ -36,7 +36,7 @@ def to_mathml(node: nodes.Element, display: str) -> str:
         return ""
     for written, tidy in _TIDY:
         mathml = written.sub(tidy, mathml)
-    if "\\" in mathml:
+    if "\\" in mathml or "<mi>&</mi>" in mathml:
         logger.warning("the formula %s holds an unknown command", latex, location=node)
     return mathml
 
