@@ -9,6 +9,7 @@ from doctest import DocTestParser
 from importlib import import_module
 from pathlib import Path
 from types import FunctionType
+from typing import NamedTuple
 
 import pytest
 
@@ -26,15 +27,36 @@ def nodes(folder: Path) -> Iterator[tuple[Path, ast.AST]]:
             yield path, node
 
 
-def test_a_name_of_a_class_means_one_class() -> None:
-    names = Counter(node.name for _, node in nodes(ROOT / "optlaws") if isinstance(node, ast.ClassDef))
+class Parts(NamedTuple):
+    """What several rules look at in the package, which is parsed once: whole trees of it would take much memory."""
+
+    classes: list[str]
+    parameters: list[tuple[Path, ast.arg | ast.AnnAssign]]
+    docstrings: list[tuple[Path, str, str]]
+
+
+@pytest.fixture(scope="module")
+def parts() -> Parts:
+    parts = Parts([], [], [])
+    for path, node in nodes(ROOT / "optlaws"):
+        if isinstance(node, ast.ClassDef):
+            parts.classes.append(node.name)
+        if isinstance(node, ast.arg | ast.AnnAssign):
+            parts.parameters.append((path, node))
+        if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef):
+            parts.docstrings.append((path, getattr(node, "name", "module"), ast.get_docstring(node) or ""))
+    return parts
+
+
+def test_a_name_of_a_class_means_one_class(parts: Parts) -> None:
+    names = Counter(parts.classes)
     assert {name for name, count in names.items() if count > 1} == set()
 
 
-def test_nu_is_the_order_of_a_derivative() -> None:
+def test_nu_is_the_order_of_a_derivative(parts: Parts) -> None:
     # but for the torsion lever, whose paper calls a share of its twist so
-    for path, node in nodes(ROOT / "optlaws"):
-        if not isinstance(node, ast.arg | ast.AnnAssign) or "lever" in str(path.relative_to(ROOT)):
+    for path, node in parts.parameters:
+        if "lever" in str(path.relative_to(ROOT)):
             continue
         name = getattr(node.target, "id", None) if isinstance(node, ast.AnnAssign) else node.arg
         kind = node.annotation
@@ -147,12 +169,8 @@ def test_names_say_what_a_thing_is(room: Path) -> None:
     assert {str(file): names for file in files if (names := vague_names(file.read_text("utf-8")))} == {}
 
 
-def test_names_in_examples_say_what_a_thing_is() -> None:
-    texts = {
-        f"{path.name}: {getattr(node, 'name', 'module')}": ast.get_docstring(node) or ""
-        for path, node in nodes(ROOT / "optlaws")
-        if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef)
-    }
+def test_names_in_examples_say_what_a_thing_is(parts: Parts) -> None:
+    texts = {f"{path.relative_to(ROOT)}: {name}, {i}": text for i, (path, name, text) in enumerate(parts.docstrings)}
     texts |= {str(page): page.read_text("utf-8") for page in [ROOT / "README.md", *(ROOT / "docs").rglob("*.md")]}
     blocks = [(place, block) for place, text in texts.items() for block in re.findall(PYTHON_BLOCK, text)]
     blocks += [
@@ -169,13 +187,11 @@ def test_a_vague_name_is_seen() -> None:
 FEWEST_WORDS = 4
 
 
-def test_the_first_line_of_a_docstring_has_at_least_four_words() -> None:
+def test_the_first_line_of_a_docstring_has_at_least_four_words(parts: Parts) -> None:
     short = [
         f"{path.relative_to(ROOT)}: {line}"
-        for path, node in nodes(ROOT / "optlaws")
-        if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef)
-        and (text := ast.get_docstring(node))
-        and len(re.findall(r"[\w'²³]+", line := text.partition("\n")[0])) < FEWEST_WORDS
+        for path, _, text in parts.docstrings
+        if text and len(re.findall(r"[\w'²³]+", line := text.partition("\n")[0])) < FEWEST_WORDS
     ]
     assert short == []
 
