@@ -88,7 +88,7 @@ export class Panel {
     this.#y = scale([low < 0 || this.#shown.zoomed ? low - room : low, high + room], [box.bottom, box.top]);
     const [x, y] = [this.#x, this.#y];
     const xs = !this.#shown.zoomed && answer.ticks ? answer.ticks : ticks(...span, 8);
-    this.element.append(frame(box, x, y, { xs, ys: ticks(low, high, Math.min(4, Math.max(1, Math.floor((box.bottom - box.top) / 22)))), xlabels: last, xname: last ? answer.across : "" }));
+    this.element.append(frame(box, x, y, { xs, ys: ticks(low, high, Math.min(4, Math.max(2, Math.floor((box.bottom - box.top) / 18)))), xlabels: last, xname: last ? answer.across : "" }));
     this.element.append(svg("text", { class: "title", x: box.left, y: 13, text: titled(this.#panel) }));
     if (this.#panel.note) this.element.append(svg("text", { class: "limit-name", x: box.left + WRITTEN * (titled(this.#panel).length + 2), y: 13, text: this.#panel.note }));
     const inside = svg("clipPath", { id: `inside-${name}` }, svg("rect", { x: box.left, y: box.top - 8, width: box.right - box.left, height: box.bottom - box.top + 14 }));
