@@ -130,7 +130,7 @@ export class View {
     this.#answer = answer;
     this.#at.words.classList.toggle("none", Boolean(answer.refused));
     renew(this.#at.words, ...(answer.refused ? refusal(answer.refused) : this.#words(answer)));
-    renew(this.#at.table, ...(answer.refused ? [] : [this.#table(answer), ...answer.remarks.map((text) => html("p", { class: "quiet", text }))]));
+    renew(this.#at.table, ...(answer.refused ? [] : [this.#table(answer), ...answer.remarks.map((text) => html("p", { class: "quiet", translate: "no", text }))]));
     this.#chart.show(answer.refused ? null : pictured(answer));
     this.#curves.show(answer.refused ? answer : answer.curves);
     renew(this.#at.names, ...(answer.refused ? [] : answer.curves.panels[0].series.map(({ law, name }) => html("span", { class: "name-of-curve" }, html("span", { class: `swatch law-${law}`, text: "AB"[law] }), ` ${name}`))));
@@ -140,9 +140,9 @@ export class View {
     const row = rows.find(({ name }) => name === chosen);
     const take = row.take ? [html("button", { type: "button", class: "main-button", text: "Take this law", onclick: () => this.#take(row) })] : [];
     return [
-      html("p", { class: "advice" }, html("strong", { class: "word optimal", text: "advice" }), ` ${sentences[0]}`),
-      html("p", { text: sentences[1] }),
-      html("p", { class: "quiet", text: `Rule: ${rule}.` }),
+      html("p", { class: "advice" }, html("strong", { class: "word optimal", text: "advice" }), html("span", { translate: "no", text: ` ${sentences[0]}` })),
+      html("p", { translate: "no", text: sentences[1] }),
+      html("p", { class: "quiet", translate: "no", text: `Rule: ${rule}.` }),
       ...take,
     ];
   }
@@ -153,7 +153,7 @@ export class View {
       const take = row.take ? html("button", { type: "button", class: "link", "data-key": `take ${row.name}`, "aria-label": `Take ${row.name}`, text: "take", onclick: () => this.#take(row) }) : "";
       const ends = [["limits", row.limits, row.limits && row.limits !== "kept" ? "number over" : "number"], ["proof", row.proof, "number"]];
       return html("tr", { class: row.name === chosen ? "active" : "", "aria-current": row.name === chosen ? "true" : null },
-        html("th", { scope: "row" }, html("span", { class: "row-name", text: row.name })), html("td", {}, take), ...row.cells.map((text) => html("td", { class: "number", text })), ...ends.map(([key, text, name]) => html("td", { "data-column": key, class: name, text })));
+        html("th", { scope: "row" }, html("span", { class: "row-name", translate: "no", text: row.name })), html("td", {}, take), ...row.cells.map((text) => html("td", { class: "number", text })), ...ends.map(([key, text, name]) => html("td", { "data-column": key, class: name, text })));
     });
     return html("table", { "aria-label": "Laws with what they take" }, html("thead", {}, head), html("tbody", {}, ...lines));
   }
@@ -231,7 +231,7 @@ function layout(root) {
     asked: html("aside", { id: "advice-asked", "aria-label": "What is asked of the laws" }),
     words: panel("advice-words", { role: "status", "aria-live": "polite" }),
     table: panel("advice-table"),
-    chart: html("div", { id: "advice-chart", class: "picture" }),
+    chart: html("div", { id: "advice-chart", class: "picture", translate: "no" }),
     names: html("p", { id: "advice-names", class: "quiet", translate: "no" }),
     curves: html("div", { id: "advice-curves" }),
   };
