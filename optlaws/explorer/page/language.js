@@ -35,6 +35,9 @@ export const localised = (value) => (comma ? String(value).replace(DECIMAL, "$1,
 /** What is written in a field, with the decimal sign of optlaws. */
 export const plain = (text) => (comma ? text.replace(/(\d),(\d)/g, "$1.$2").replace(/^,(\d)/, "0.$1") : text);
 
+const LONGEST = 160;
+const DEEPEST = 2;
+
 /** What the table lacks, as far as it was to be said. */
 export const missed = new Set();
 
@@ -103,20 +106,22 @@ export function say(english, asIs = false) {
 const neutral = (text) => !/\p{L}{4,}/u.test(text.replace(/\b(?:deg|rad|rpm|min|rms|mm|ms)\b/g, ""));
 
 /** A text in the language; null where the table has none. */
-function found(english) {
+function found(english, depth = 0) {
   const exact = texts.get(english);
   if (exact !== undefined) return exact;
   if (english.includes(" · ")) return english.split(" · ").map(translated).join(" · ");
+  // sentences of the server that are longer, or nested deeper, are not in the table
+  if (english.length > LONGEST || depth > DEEPEST) return null;
   for (const { pattern, said, any } of patterns) {
     const parts = pattern.exec(english)?.slice(1);
-    const others = parts?.map((part, i) => (any[i] ? part : found(part) ?? (neutral(part) ? part : null)));
+    const others = parts?.map((part, i) => (any[i] ? part : found(part, depth + 1) ?? (neutral(part) ? part : null)));
     if (!others || others.includes(null)) continue;
     let i = 0;
     return said.replace(/\{\*?(\d?)\}/g, (_, place) => others[place ? Number(place) - 1 : i++]);
   }
   const head = /^([^,:]+)([,:] )(.+)$/.exec(english); // a name with its unit, or words one after another
   const known = head && (texts.get(head[1]) ?? (neutral(head[1]) ? head[1] : null));
-  const rest = known && (found(head[3]) ?? (neutral(head[3]) ? head[3] : null));
+  const rest = known && (found(head[3], depth + 1) ?? (neutral(head[3]) ? head[3] : null));
   return rest ? known + head[2] + rest : null;
 }
 
