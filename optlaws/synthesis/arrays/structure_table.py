@@ -19,7 +19,7 @@ from optlaws.tolerances import SHORT_STRETCH
 
 #: the kinds of problems: orders, degrees by what is minimised, and the range of B
 _ORDERS = range(2, 7)
-_DEGREES = {"C": range(3, 42, 2), "J": range(3, 22, 2)}
+_DEGREES = {"C": (*range(3, 42, 2), 51, 61), "J": range(3, 22, 2)}
 _LEAST, _GREATEST = 1.1, 3.0
 #: coefficients of a place along B, where it moves
 _TERMS = 4
