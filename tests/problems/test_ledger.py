@@ -91,7 +91,7 @@ def test_laws_of_three_harmonics_have_the_constants_of_the_page(
     law = triple_harmonic(*harmonics)
     assert law.a(1.0) == pytest.approx(1.0, abs=1e-14)
     assert [getattr(law.constants, name).value for name in "BCDJ"] == pytest.approx(constants, rel=2e-4)
-    page = (ROOT / "docs" / "theory" / "ledger.md").read_text("utf-8")
+    page = (ROOT / "docs" / "reference" / "ledger.md").read_text("utf-8")
     assert f"| {law.constants.B.value:.4f} | {law.constants.C.value:.4f} |" in page
 
 

@@ -47,7 +47,8 @@ def test_rows_are_what_synthesize_gives(small: Study) -> None:
         assert point.objective == pytest.approx(solution.objective, rel=1e-11)
         assert point.limit == solution.limit
         assert isinstance(point.law, MotionLaw)
-        assert point.law.constants.C.value == point.constants["C"]
+        # laws of an array have their constants together, which sums in another order
+        assert point.law.constants.C.value == pytest.approx(point.constants["C"], rel=1e-15)
         assert point.objective == point.constants[point.inputs["minimise"]]
     assert {point.status for point in small} == {"optimal", "infeasible"}
 
@@ -250,7 +251,7 @@ def test_directories_of_earlier_versions_are_known_by_the_hash_of_their_study() 
                 "kind": "sobol",
                 "points": 2,
                 "seed": 1,
-                "over": {"at_most.snap": {"from": 900, "to": 9e5, "scale": "log"}},
+                "over": {"at_most.jounce": {"from": 900, "to": 9e5, "scale": "log"}},
             }
         ],
         "chunk": 9,

@@ -111,8 +111,9 @@ def test_a_run_out_is_a_run_in_backwards() -> None:
     into, out = cycle.run_in("60 deg", rest="-20 mm"), cycle.run_out("300 deg", rest="-20 mm")
     assert out.duration == pytest.approx(into.duration, rel=1e-9)
     times = np.linspace(0.0, into.duration, 51)
+    backwards = np.maximum(out.duration - times, 0.0)  # durations agree but for rounding
     for nu, sign in enumerate((1.0, -1.0, 1.0)):
-        assert out(out.duration - times, nu) == pytest.approx(sign * into(times, nu), abs=1e-9 * into.peak(nu))
+        assert out(backwards, nu) == pytest.approx(sign * into(times, nu), abs=1e-9 * into.peak(nu))
 
 
 def test_jumps_at_a_joint_have_the_side_that_the_cam_joins() -> None:

@@ -208,7 +208,7 @@ def test_of_more_columns_two_are_chosen(tmp_path: Path) -> None:
         with pytest.raises(InputError, match=told):
             read_law(file, columns=wrong)
     for text in ("columns=1", "limit=3", "tolerance=x", "columns=1,3; tolerance=-1"):
-        with pytest.raises(InputError, match=r"columns are two|read as in|tolerance must be"):
+        with pytest.raises(InputError, match=r"columns are two|written as in|tolerance must be"):
             read_law(f"{file}({text})")
     with pytest.raises(InputError, match="are of a table of points"):
         read_law("modified sine", tolerance=0.1)
