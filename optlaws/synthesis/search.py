@@ -15,7 +15,7 @@ from optlaws.laws import MotionLaw
 from optlaws.numbers import Array
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.limits.of_problem import known_limit
-from optlaws.synthesis.method.exchange import Outcome, solve
+from optlaws.synthesis.method.exchange import Outcome, solve, vertex_optimum
 from optlaws.synthesis.method.stored_structures import stored_guess
 from optlaws.synthesis.method.without_interior import fallbacks_without_interior, on_equations
 from optlaws.synthesis.problem.constants import Functional, PeakConstant
@@ -270,7 +270,7 @@ def _of_any_way(search: LawSearch) -> Solution | None:
     solution, problem = search.answer(), search.problem
     if solution is None or (problem.convex and search.outcomes[0].optimum is None):
         unfolded = from_symmetric(search) if problem.mirrored else None
-        around = unfolded or (solved_without_interior(search) if problem.convex else None)
+        around = unfolded or (_from_vertices(search) or solved_without_interior(search) if problem.convex else None)
         known = [answer for answer in (solution, around) if answer is not None]
         return min(known, key=lambda answer: abs(answer.gap), default=None)
     if problem.convex and _beyond_proof(solution):
@@ -281,6 +281,12 @@ def _of_any_way(search: LawSearch) -> Solution | None:
         exact = worth(problem, solution.law).excess <= UNDIVIDED_ROUNDING
         return solution if unfolded is None or (exact and unfolded.gap >= solution.gap) else unfolded
     return solution
+
+
+def _from_vertices(search: LawSearch) -> Solution | None:
+    """The best law of a linear program by its vertices, where interior points led to no law."""
+    optimum = vertex_optimum(search.model.program) if search.outcomes[0].tried or search.outcomes[0].optimum else None
+    return None if optimum is None else LawSearch(search.model, warm=optimum, began=search.began).answer()
 
 
 def from_symmetric(search: LawSearch) -> Solution | None:

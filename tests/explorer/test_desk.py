@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 def opens(page: Page, *files: Path) -> None:
-    page.locator("input[type=file]").first.set_input_files(files)
+    page.get_by_label("Files to open").set_input_files(files)
     page.locator("#documents .document").nth(len(files)).wait_for()
     settle(page)
 
@@ -108,7 +108,7 @@ def test_a_document_is_written_and_opened_again(page: Page, served: Server, tmp_
     file = tmp_path / "feeder.json"
     file.write_text(text, "utf-8")
     go(page, served.link(laws=[OPTIMAL]))
-    page.locator("input[type=file]").first.set_input_files(file)
+    page.get_by_label("Files to open").set_input_files(file)
     page.get_by_role("button", name="Feeder").nth(1).wait_for()
     settle(page)
     assert velocity(page) == 1.859
@@ -118,7 +118,7 @@ def test_a_file_that_cannot_be_opened_says_why(page: Page, served: Server, tmp_p
     go(page, served.link(laws=[OPTIMAL], picture="residual"))
     file = tmp_path / "wrong.toml"
     file.write_text("[problem]\nordre = 4\n", "utf-8")
-    page.locator("input[type=file]").first.set_input_files(file)
+    page.get_by_label("Files to open").set_input_files(file)
     page.locator("#notice", has_text="ordre").wait_for()
 
 

@@ -257,7 +257,7 @@ def test_an_export_says_what_the_controller_will_run(page: Page, served: Server)
     with page.expect_download() as download:
         page.get_by_role("button", name="Save Cam.st").click()
     assert "ARRAY" in Path(download.value.path()).read_text("utf-8")
-    page.get_by_label("stroke").first.fill("35 kg")
+    page.get_by_role("dialog").get_by_label("stroke", exact=True).fill("35 kg")
     settle(page)
     assert "stroke" in page.locator(".report").inner_text()
     assert page.locator(".report table").count() == 0
@@ -359,6 +359,6 @@ def test_small_screens_show_the_curves_beside_what_is_dragged(page: Page, served
     assert handle["y"] < 500
     assert curves["y"] < 560
     for view in ("Cycle", "Cam"):
-        page.get_by_role("tab", name=view).click()
+        page.get_by_role("tab", name=view, exact=True).click()
         settle(page)
         assert page.evaluate("() => document.documentElement.scrollWidth") <= width

@@ -119,7 +119,7 @@ def advise(
         proofs = {name: each.proofs() for name, each in advice.items()}
         save(output, {"axes": proofs} if file is not None else {"move": proofs[""]})
     if as_json:
-        brief = {name: _without_solutions(each.to_dict()) for name, each in advice.items()}
+        brief = {name: _without_solutions(each.report()) for name, each in advice.items()}
         print_json(brief if file is not None else brief[""])
         return
     for name, each in advice.items():

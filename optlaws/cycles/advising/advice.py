@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from json import dumps
 from typing import Any
 
 from optlaws.cycles.advising.advised_law import AdvisedLaw, LawMeasure
@@ -139,16 +138,16 @@ class Advice:
         pd = needed("pandas", "to_pandas")
         return pd.DataFrame(self.rows, columns=list(self.headings)).set_index("law")
 
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data in SI units; every optimal law with its solutions whole."""
+    def report(self) -> dict[str, Any]:
+        """The report as plain data in SI units, with whole solutions, to be written and not read again."""
         chosen = self.recommendation
         return {
             "minimise": self.minimise,
             "second": self.second,
             "guarded": list(self.guarded),
             "measures": [{"name": measure.name, "unit": measure.unit} for measure in self.measures],
-            "laws": [law.to_dict() for law in self.laws],
-            "front": [law.to_dict() for law in self.front],
+            "laws": [law.report() for law in self.laws],
+            "front": [law.report() for law in self.front],
             "recommendation": {
                 "law": chosen.law.name,
                 "usual": None if chosen.usual is None else chosen.usual.name,
@@ -174,10 +173,6 @@ class Advice:
             return {law.name: [each.to_dict() for each in law.solutions] for law in laws if law.solutions}
 
         return {"about": str(self), "laws": of(self.laws), "front": of(self.front[1:])}
-
-    def to_json(self) -> str:
-        """The contents of `to_dict` as JSON text."""
-        return dumps(self.to_dict(), ensure_ascii=False, indent=1)
 
     def __repr__(self) -> str:
         chosen = self.recommendation

@@ -144,8 +144,8 @@ class AdvisedLaw:
             raise InputError(f"{self.name}: its {len(self.solutions)} motions have solutions of their own")
         return self.solutions[0] if self.solutions else None
 
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data in SI units, with whole solutions."""
+    def report(self) -> dict[str, Any]:
+        """The law's part of the report as plain data in SI units, with whole solutions."""
         proof = self.proof
         optimal = {} if proof is None else {
             "minimise": proof.minimise,

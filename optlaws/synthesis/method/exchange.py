@@ -76,6 +76,21 @@ def solve(
     return outcome.mapped(units.outward)
 
 
+def vertex_optimum(program: Program) -> ActiveSet | None:
+    """The optimum of a linear program by cutting planes from the first points; None where they lead to none.
+
+    Where contacts lie close together interior points may end near an optimum without showing it.
+    """
+    from optlaws.synthesis.method.strategies.vertices import ByVertices
+
+    if program.curved or not independent(program.equalities).all():
+        return None
+    units = units_of(program)
+    scaled = program if units is None else units.program
+    optimum, _ = cutting_plane_loop(ByVertices(scaled, None), first_points(scaled))
+    return optimum if optimum is None or units is None else units.outward(optimum)
+
+
 def _in_own_units(
     program: Program,
     warm: ActiveSet | None,

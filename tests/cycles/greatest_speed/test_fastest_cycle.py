@@ -228,7 +228,7 @@ def test_other_units_say_the_same() -> None:
     [
         ({"limits": {}}, InputError, "no limit bounds the motions"),
         ({"limits": LIMITS | {"load acceleration": "40 m/s^2"}, "load": {"period": "20 ms"}}, InputError,
-         "not sought with a load that is minimised or limited"),
+         "not computed with a load that is minimised or limited"),
         ({"segments": [Rise("35 mm", "0.1 s"), Dwell("0.8 s"), Return("35 mm", "0.1 s")]}, InputError,
          "leave the duration of a segment out, or give angles"),
         ({"segments": [Rise("35 mm", "0.3 s"), Dwell(), Return("35 mm", "0.3 s")]}, InputError,

@@ -112,7 +112,8 @@ def test_a_sweep_gives_what_each_problem_gives_alone(order: int, degree: int, mo
         assert warm.problem == problem
         assert warm.objective == pytest.approx(cold.objective, rel=1e-11)
         assert warm.lower_bound == pytest.approx(cold.lower_bound, rel=1e-11)
-        check_solution(warm)
+        check_solution(cold)
+        check_solution(warm, of_array=True)
 
 
 @pytest.mark.parametrize("step", [1e-6, 0.01, 0.3, -0.2])
