@@ -270,7 +270,7 @@ def _of_any_way(search: LawSearch) -> Solution | None:
     solution, problem = search.answer(), search.problem
     if solution is None or (problem.convex and search.outcomes[0].optimum is None):
         unfolded = from_symmetric(search) if problem.mirrored else None
-        around = unfolded or (_from_vertices(search) or solved_without_interior(search) if problem.convex else None)
+        around = unfolded or (solved_without_interior(search) or _from_vertices(search) if problem.convex else None)
         known = [answer for answer in (solution, around) if answer is not None]
         return min(known, key=lambda answer: abs(answer.gap), default=None)
     if problem.convex and _beyond_proof(solution):

@@ -212,8 +212,9 @@ MOST_THROUGH = 1_000
 _MOST_PIECES = 400
 #: a law follows the noise if its peak acceleration is so many times that of a law that need not
 _FOLLOWS_NOISE = 1.1
-#: points that scatter about splines so many times as much as their differences do are off for the joints of the law
-_JOINTS = 2.0
+#: points that scatter about splines so many times as much as their differences do are off for the joints of the law:
+#: rounded tables of half harmonics and half cycloids have 1.6 to 2
+_JOINTS = 1.5
 #: points that end nearer to where they began, in shares of what they pass through, have returned
 _RETURNED = 0.05
 
