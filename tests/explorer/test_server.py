@@ -2,6 +2,7 @@
 
 import json
 import re
+import socket
 import sys
 from typing import Any
 from unittest.mock import patch
@@ -111,6 +112,11 @@ def test_a_port_that_is_taken_is_refused_by_its_number() -> None:
 def test_the_usual_port_gives_way_to_any_free_one() -> None:
     with opened(0) as taken, patch("optlaws.explorer.server.PORT", taken.getsockname()[1]), opened(None) as other:
         assert other.getsockname()[1] != taken.getsockname()[1]
+
+
+def test_answers_are_sent_at_once() -> None:
+    with opened(0) as listening, socket.create_connection(listening.getsockname()), listening.accept()[0] as accepted:
+        assert accepted.getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY)
 
 
 def test_without_the_extra_the_remedy_is_told() -> None:
