@@ -200,3 +200,15 @@ def test_friction_at_the_first_instant_is_that_of_the_way(limit: str) -> None:
     assert cycle.force(0.0) == pytest.approx(0.3, rel=1e-6)
     assert cycle.force(0.4) == pytest.approx(-0.3, rel=1e-6)
     assert cycle.force(0.35) == 0.0
+
+
+def test_least_rms_torque_behind_a_gear_with_losses_has_the_bound_of_its_strokes() -> None:
+    drive = Drive(PRESS, Motor("0.001 kg m^2"), ratio=3, efficiency=0.9)
+    cycle = Cycle(STROKES, period="1 s", minimise="rms torque", drive=drive)
+    limits = [
+        drive.limit("rms torque", start, stroke, "0.3 s").value
+        for start, stroke in (("0 deg", "180 deg"), ("180 deg", "-180 deg"))
+    ]
+    assert cycle.lower_bound == pytest.approx(sqrt(0.3 * sum(limit**2 for limit in limits)), rel=1e-6)
+    assert cycle.lower_bound is not None
+    assert 0.98 < cycle.lower_bound / cycle.objective < 1.0

@@ -167,6 +167,8 @@ class GearTorque:
     (0.2, 3*a, 1.25, 0.8)
     >>> [branch.inertia for branch in torque.branches]
     [0.2 + 1.25*1, 0.2 + 0.8*1]
+    >>> GearTorque.of(read("0.5*(0.2*c + max(1.25*(c + 3*a), 0.8*(c + 3*a)))")) == torque.times(0.5)
+    True
     """
 
     motor: PhaseTorque
@@ -177,6 +179,10 @@ class GearTorque:
     @classmethod
     def of(cls, formula: Formula) -> GearTorque | None:
         """The torque that a formula of a, b and c is, a sum with one greater of two torques; None where it is none."""
+        share, rest = _share(formula)
+        if share != 1.0:
+            torque = cls.of(rest)
+            return None if torque is None else torque.times(share)
         terms = formula.terms if isinstance(formula, Sum) else (formula,)
         greater = [term for term in terms if isinstance(term, Call) and term.function == "max"]
         if len(greater) != 1 or len(greater[0].arguments) != 2:
@@ -202,6 +208,10 @@ class GearTorque:
         """The torque times a factor; the load is unchanged, because only its sign matters."""
         if by == 0.0:
             return PhaseTorque(_ZERO)
+        return self.times(by)
+
+    def times(self, by: float) -> GearTorque:
+        """The torque times a factor above 0."""
         return GearTorque(self.motor.scaled(by), self.load, by * self.to_load, by * self.back)
 
     def slowed(self, time: float) -> GearTorque:
