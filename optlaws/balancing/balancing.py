@@ -42,7 +42,7 @@ class TorqueOverTurn(NamedTuple):
 
 @dataclass(frozen=True)
 class Balancing:
-    """A cycle whose moves are balanced by inertial loaders: what the shaft must give before and after.
+    """A cycle whose moves are balanced by inertial loaders, with the shaft's torque before and after.
 
     Each move from rest to rest has the loader of its law, which takes up the kinetic energy that the link gives off
     (eq. 1, 2 of the paper on inertial loaders). Between moves the loader stands still or runs on at uniform speed, as
@@ -97,7 +97,7 @@ class Balancing:
 
     @kept_property
     def after(self) -> TorqueOverTurn:
-        """The torque with them: what a loader takes is its share of the inertia's, d_l = -Y² d."""
+        """The torque with the loaders: each loader takes its share of the inertia's torque, d_l = -Y² d."""
         return self._over_turn(self.share)
 
     def torque(self, degrees: Any, *, balanced: bool = True) -> Any:  # noqa: ANN401 - a number for a number, arrays for arrays
@@ -106,7 +106,7 @@ class Balancing:
         return number_or_array(self._executive(times) + (self._loader(times) if balanced else 0.0))
 
     def loader_motion(self, stroke: Quantity) -> CamMotion:
-        """The loader over the turn, for its own cam: forth and back with each move, as far as it goes each time.
+        """The loader's motion over the turn, for its own cam: out and back with each move, by the loader's stroke.
 
         Parameters
         ----------

@@ -52,7 +52,7 @@ class DwellComparison:
 def compare_dwell_mechanisms(
     *, most_torque: float, most_size: float = inf, **entries: Unpack[DwellEntries]
 ) -> DwellComparison:
-    """Compare the types: the one with the smallest cam (a) among those whose residual torque (b) is small enough.
+    """Compare the types: the best has the smallest cam (a) among types with a small enough residual torque (b).
 
     Type I leaves no residual torque and has the largest cam, type II the other way round; so the choice is a trade of
     size against residual torque, and depends on every argument here, not on the dwell alone.
@@ -100,7 +100,7 @@ def compare_dwell_mechanisms(
 def buildable(
     make: Callable[[DwellType], DwellMechanism],
 ) -> tuple[dict[str, DwellMechanism], dict[str, InputError]]:
-    """The types that can be made of the same data, and why the others cannot.
+    """The types that can be built from the same data, and for each other type the reason why not.
 
     Examples
     --------

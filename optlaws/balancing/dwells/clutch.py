@@ -89,11 +89,11 @@ class Clutch:
 
     @kept_property
     def ratio(self) -> float:
-        """p/N that makes the teeth meet: the difference of these angles in turns (eq. 33 for type II, 35 for III)."""
+        """The ratio p/N at which teeth meet: the difference of these angles in turns (eq. 33 for II, 35 for III)."""
         return (self.loader_turn - self.rocker_turn) / tau
 
     def nearest(self, most: int = 120) -> Teeth:
-        """The p/N nearest to the wanted one among clutches of at most so many teeth; p = 0 where 1/N is too large.
+        """The p/N nearest to the given one among clutches of at most this many teeth; p = 0 where 1/N is too large.
 
         Parameters
         ----------
@@ -111,7 +111,7 @@ class Clutch:
         return self.teeth(fraction.numerator, fraction.denominator)
 
     def choices(self, least: int, most: int) -> tuple[Teeth, ...]:
-        """The best p for each number of teeth in a range, the most exact clutch first; those with p = 0 left out.
+        """The best p for each number of teeth in a range, the most exact clutch first; clutches with p = 0 are omitted.
 
         Parameters
         ----------
@@ -132,7 +132,7 @@ class Clutch:
         return tuple(sorted(teeth, key=lambda choice: (abs(choice.error), choice.N)))
 
     def teeth(self, p: int, N: int) -> Teeth:
-        """A clutch of N teeth that meets p pitches on, how far it is off, and what would make it exact.
+        """A clutch of N teeth that meets p pitches later, its error, and the swing that would remove the error.
 
         Raises
         ------

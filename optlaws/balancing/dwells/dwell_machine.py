@@ -28,7 +28,7 @@ _SIZES = ("inertia", "loader_inertia", "arm", "prime_radius")
 
 @dataclass(frozen=True)
 class DwellMachine(JsonText):
-    """A balancing dwell mechanism at a speed; made by `dwell_machine`.
+    """A balancing dwell mechanism at a speed; built by `dwell_machine`.
 
     Attributes
     ----------
@@ -87,7 +87,7 @@ class DwellMachine(JsonText):
 
     @property
     def reduction(self) -> float:
-        """Torque at the shaft that is left in the dwells over the one that is balanced: the criterion b (eq. 23)."""
+        """The torque at the shaft that remains in the dwells over the balanced torque: the criterion b (eq. 23)."""
         return self.residual_torque / self.balanced_torque
 
     def executive_motion(self) -> Cycle:

@@ -46,7 +46,7 @@ _UNLESS_GIVEN: Any = None  # in no mechanism that was made: there INSTEAD stands
 
 @dataclass(frozen=True, repr=False, kw_only=True)
 class DwellMechanism(JsonText):
-    """A balancing cam mechanism for an executive rocker that dwells; `dwell_mechanism` makes it, and names its data.
+    """A balancing cam mechanism for an executive rocker that dwells; `dwell_mechanism` builds it from its data.
 
     Angles are in radians, ways in strokes S of the executive link.
 
@@ -136,7 +136,7 @@ class DwellMechanism(JsonText):
 
     @kept_property
     def a(self) -> float:
-        """Criterion a: greatest radius of the loader's cam over that of the executive cam (eq. 1)."""
+        """Criterion a: the greatest radius of the loader's cam over the executive cam's greatest radius (eq. 1)."""
         return (self.radius_ratio + excursion(self.sections)) / (self.radius_ratio + 1.0)
 
     @kept_property
@@ -174,7 +174,7 @@ class DwellMechanism(JsonText):
         return (f"rise, return and dwells add up to {degrees(self.cycle):.6g} degrees, not to one turn",)
 
     def to_dict(self) -> dict[str, Any]:
-        """Angles (radians), ways, criteria and sections as plain data, and the laws, others than that of the rise."""
+        """Angles (radians), travels, criteria and sections as plain data, with the laws besides the rise's law."""
         laws = {name: getattr(self, name) for name in LAWS}
         return {
             "type": self.kind,

@@ -41,7 +41,7 @@ def top(law: MotionLaw) -> float:
 
 
 def law_of(given: Any) -> Any:  # noqa: ANN401 - whatever the caller gave, a law or not
-    """The law of an entry of the catalogue or of a solution; everything else as it is."""
+    """The law of a catalogue entry or of a solution; any other value is returned unchanged."""
     law = getattr(given, "law", None)
     return law if isinstance(law, MotionLaw) and not isinstance(given, MotionLaw) else given
 
@@ -125,7 +125,7 @@ Pair = tuple[float, float]
 
 @dataclass(frozen=True)
 class Section:
-    """One section of the balancing cam.
+    """One section of the balancing cam's profile.
 
     Attributes
     ----------

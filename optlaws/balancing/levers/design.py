@@ -46,7 +46,7 @@ def find_torsion_levers(
     least_transmission: NumberOrQuantity = LEAST_TRANSMISSION,
     most_rocker_swing: NumberOrQuantity = MOST_ROCKER_SWING,
 ) -> tuple[TorsionLever, ...]:
-    """All levers whose exact motion has a constant of a given value, or two of them.
+    """All levers whose exact motion has one constant, or two constants, of given values.
 
     Parameters
     ----------
@@ -114,7 +114,7 @@ _BAR = 1e3  # residual where there is no lever: far above any that a lever has
 
 
 class LengthSearch(NamedTuple):
-    """One constant of the lever as a function of one length."""
+    """A constant of the lever as a function of one length."""
 
     make: Make
     name: str

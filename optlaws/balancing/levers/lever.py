@@ -99,7 +99,7 @@ class TorsionLever:
         self._check_limits(chi02, self.chi01, "by eq. (9), (10)")
 
     def _check_limits(self, chi02: float, chi01: float, where: str) -> None:
-        """Refuse a motion from chi02 to chi01, radians, beyond the linkage's limits; `where` is what an error adds."""
+        """Refuse a motion from chi02 to chi01, radians, beyond the linkage's limits; `where` is added to the error."""
         ends = f"between {degrees(chi02):.6g} and {degrees(chi01):.6g} deg ({where})"
         low, high = self.linkage.range
         if not low < chi02 < chi01 < high:
@@ -147,7 +147,7 @@ class TorsionLever:
 
     @property
     def xi(self) -> float:
-        """Stiffness of bar 2 over that of bar 1, eq. (3): the moment is zero at rest."""
+        """Stiffness of bar 2 divided by the stiffness of bar 1, eq. (3): the moment is zero at rest."""
         return self._sizing.xi
 
     @property
@@ -194,7 +194,7 @@ class TorsionLever:
         return np.asarray(chi * (self.n + chi * (self.q / 2.0 + chi * (self.p / 6.0))))
 
     def potential(self, chi: Any) -> Array:  # noqa: ANN401 - whatever numpy takes for an array
-        """Energy stored in the bars less that at rest, in units of c1: the integral of the moment from 0 to chi."""
+        """Energy stored in the bars less the energy at rest, in units of c1: the moment's integral from 0 to chi."""
         chi = np.asarray(chi, dtype=np.float64)
         rocker = self.linkage.rocker(chi)
         # xi times the second twist is beta times the first, eq. (3)
@@ -239,7 +239,7 @@ class TorsionLever:
 
     @kept_property
     def errors(self) -> dict[str, float]:
-        """The errors of the asymptotic motion: relative ones of T, chi01, chi02, zeta, B1, B3, C1, C3, and max |da|.
+        """The errors of the asymptotic motion: relative errors of T, chi01, chi02, zeta, B1, B3, C1, C3, and max |da|.
 
         The last is the greatest difference of the displacements of the two `halves`.
 

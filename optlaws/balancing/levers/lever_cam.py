@@ -53,7 +53,7 @@ def rocker_law(lever: TorsionLever) -> PolynomialLaw:
 
 @dataclass(frozen=True)
 class LeverCam:
-    """A torsion lever in a machine: its bars made for the cam's speed, and the torque at the cam's shaft.
+    """A torsion lever in a machine: bars designed for the cam's speed, and the torque at the cam's shaft.
 
     At the speed for which the bars are made they swing the link by themselves, and the cam only keeps the time. At
     another the difference of the inertia is left: (w²/w0² - 1) I chi'', and without bars all of it.
@@ -128,7 +128,7 @@ class LeverCam:
         return Cycle([Rise(f"{swing!r} rad", turn, law=law), *rests, back, *rests], speed=f"{self.rate!r} rad/s")
 
     def torque(self, speed_ratio: float = 1.0) -> Extremes:
-        """The torque at the cam's shaft over the stroke, enclosed, at a speed over the one the bars are made for; N m.
+        """The torque at the cam's shaft over the stroke, enclosed, N m; the speed is relative to the design speed.
 
         The bars balance the inertia at their own speed as the equation of motion has it, which the swing keeps to
         rounding; what is enclosed is the rest.

@@ -1,4 +1,4 @@
-"""One swing of the driven link, there and back, and the motion laws that it holds."""
+"""One swing of the driven link, out and back, and the motion laws in it."""
 
 from __future__ import annotations
 
@@ -198,6 +198,6 @@ class LeverMotion:
 
 
 def _fitted(function: Callable[[Array], Array], count: int) -> tuple[float, ...]:
-    """Chebyshev series of an entire function on [-1, 1], without the coefficients that rounding makes."""
+    """Chebyshev series of an entire function on [-1, 1], without the coefficients that are only rounding."""
     series = chebyshev.from_values(function(chebyshev.nodes(count)))
     return tuple(chebyshev.shortened(series, OPERATIONS_ROUNDING * float(np.abs(series).max())).tolist())

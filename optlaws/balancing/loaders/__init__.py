@@ -1,1 +1,1 @@
-"""Inertial loaders: their laws, their limits, and executive laws made for their sake."""
+"""Inertial loaders: their laws, their limits, and the executive laws that are best for a loader."""

@@ -151,7 +151,7 @@ PLAIN.update({functional.name: functional for functional in (B_loader, C_loader,
 
 
 def objective(minimise: str | Term | Expression) -> Expression:
-    """The objective to minimise: a sum of C and peaks of the loader, one of the loader's among them.
+    """The objective to minimise: a sum of C and peaks of the loader, with at least one peak of the loader.
 
     Examples
     --------

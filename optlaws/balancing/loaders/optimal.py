@@ -1,4 +1,4 @@
-"""Executive laws made for the sake of their inertial loaders: least C, B or D of the loader, or a mixture with C."""
+"""Executive laws that are optimal for an inertial loader: least C, B or D of the loader, or a mixture with C."""
 
 from __future__ import annotations
 
@@ -87,7 +87,7 @@ class BalancedLaw(JsonText):
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> BalancedLaw:
-        """The result that `to_dict` described, of its `solution`, with which all is held against problem and proofs.
+        """The result that `to_dict` described; its `solution` and all numbers are checked against problem and proofs.
 
         Raises
         ------

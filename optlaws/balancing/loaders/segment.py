@@ -136,7 +136,7 @@ class LoaderStretch:
 
 @lru_cache(maxsize=256)
 def stretch(executive: MotionLaw, B: float, origin: float, end: float, *, top: bool) -> LoaderStretch:
-    """The stretch of these data, kept with what has been computed of it."""
+    """The stretch with these data, cached with everything computed from it."""
     return LoaderStretch(executive, B, origin, end, top)
 
 

@@ -66,7 +66,7 @@ def tops(law: MotionLaw) -> tuple[VelocityTop, ...]:
 
 
 def _regions(law: MotionLaw, B: float, low: float, high: float, depth: int = 0) -> list[tuple[float, float]]:
-    """Stretches of [low, high] on which |b| reaches B, each with the least room around it."""
+    """Stretches of [low, high] on which |b| reaches B, each with a small margin on both sides."""
     if not low < high or depth > MOST:
         return []
     least, most = law.extrema(1, (low, high))
