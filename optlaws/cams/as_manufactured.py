@@ -1,4 +1,4 @@
-"""Cams as they are made: the follower on curves with the digits of a file, or an error of the profile."""
+"""Cams as manufactured: the follower's motion on a profile rounded to a file's digits, or with a profile error."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ class ArcChain(CurveByJets):
 
 @dataclass(frozen=True)
 class WavyCurve(CurveAlongNormals):
-    """A curve with an error along its normals: a wave of so many periods a turn, amplitude in m, shift in rad.
+    """A curve with a waviness along its normals: periods per turn, amplitude in m, phase in rad.
 
     Shifts may be those of each place at which several such curves are looked at together.
     """
@@ -201,12 +201,12 @@ _UNREACHED = (
 
 
 class UnreachedProfileError(InputError):
-    """The follower does not touch all of a cam as made, so that its motion is not that of the curve."""
+    """The follower does not touch the whole manufactured profile, so that its motion does not follow the curve."""
 
 
 @dataclass(frozen=True)
 class AsMade(PlainNumbers):
-    """The motion of a follower on a cam as it is made, over the whole turn.
+    """The motion of a follower on a cam as manufactured, over the whole turn.
 
     Deviation, acceleration and jerk are enclosed, and no less than the greatest: by 1e-3 of it the first, by 1e-6 the
     others. Splines are taken as the polynomials between their knots; a jump is what it is next to where parts meet.
@@ -257,7 +257,7 @@ def _following(cam: DiscCam, curve: Outline, outside: float = 0.0) -> Following:
 def _runs(
     cam: DiscCam, followings: Sequence[Following], at: Callable[[NDArray[np.intp]], Following], *, jumps: bool
 ) -> list[AsMade]:
-    """The motions of a cam's follower on curves that are alike; `at` is that of each place, by which curve it is of."""
+    """The follower's motions on similar curves; `at` gives the motion of each place by the index of its curve."""
     edges = [np.array(following.curve.breaks) for following in followings]
 
     def off(places: Interval, order: int, which: NDArray[np.intp]) -> Jet:
@@ -289,7 +289,7 @@ def _check_hollows(following: Following) -> None:
 
 
 def _bounds(functions: FunctionOfEach, edges: Sequence[Array], share: float) -> list[float]:
-    """The greatest magnitude of each function, as it is proven."""
+    """A proven upper bound of the magnitude of each function."""
     parts = max(1, _CELLS // len(edges[0]))
     bounds = [each.bound for each in extremes_of_each(functions, edges, share=share, parts=parts, magnitude=True)]
     if inf in bounds:
@@ -319,7 +319,7 @@ def as_made(
     tolerance: Quantity = "1 um",
     degree: int = 3,
 ) -> AsMade:
-    """The motion of a cam's follower if the cam is made from a file with the digits and tolerance of its entries.
+    """The motion of a cam's follower if the cam is cut from a file with the rounding and tolerance of its entries.
 
     Points of a table are joined by the cubic spline with continuous curvature that drawing programs draw, radii of a
     polar table by such a spline over the angle. A spline is cut as it is in the file, and so are arcs, under which the

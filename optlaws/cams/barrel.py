@@ -121,7 +121,7 @@ class BarrelCam:
         return SpaceCurve(self.displacement, self._within(radius), SIDES[side] * self.roller, sense(self.turning))
 
     def cutter_path(self, cutter_radius: Quantity, side: Side = "upper", radius: float | None = None) -> SpaceCurve:
-        """The way of the axis of a cutter, radial as the roller's, that makes a flank; exact at one radius.
+        """The path of the axis of a cutter, radial like the roller's axis, that cuts a flank; exact at one radius.
 
         A cutter as large as the roller makes both flanks all over; a smaller one leaves them exact at the radius given.
 

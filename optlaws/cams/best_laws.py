@@ -266,7 +266,7 @@ def _solved(cycle: Cycle, cam: DiscCam, limits: dict[str, float], *, below: bool
 def _with_curvature(
     cycle: Cycle, cam: DiscCam, limits: dict[str, float], inner: Solved, outer: Solved
 ) -> tuple[Solved, Solved]:
-    """The pieces with laws whose curvature under a roller keeps its limit, and with what it costs at least."""
+    """The pieces with laws whose profile keeps its curvature limit under a roller, and their lower bound."""
     if CURVATURE not in limits:
         return inner, outer
     met, bounded = [], []

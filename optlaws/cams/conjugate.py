@@ -1,4 +1,4 @@
-"""Conjugate cams: the return cam of a pair, whose follower is fixed to that of the other and always touches, too."""
+"""Conjugate cams: the return cam of a pair, whose follower is fixed to the other follower and always in contact."""
 
 from __future__ import annotations
 

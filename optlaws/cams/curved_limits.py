@@ -102,7 +102,7 @@ class RollerCurvature:
         return None
 
     def planes(self, k: Sequence[float], a: Sequence[Pair], b: Sequence[Pair]) -> list[Window]:
-        """Planes nowhere above G, one for each part of the time, while a and b are within their ranges there."""
+        """Planes that are nowhere above G, one for each part of the time, while a and b stay in their ranges there."""
         low, high = np.array([a, b])[:, :, 0], np.array([a, b])[:, :, 1]
         at, reach = 0.5 * (low + high), 0.5 * (high - low)
         values = dict(zip("ab", at, strict=True))
@@ -208,7 +208,7 @@ def _tube(problem: Problem, greatest: float, ends: Pair) -> tuple[list[float], l
 
 
 def _highest(first: float, last: float, change: float) -> float:
-    """The greatest value between two known ones of what changes by so much at most on the whole way."""
+    """An upper bound between two known values of a function whose rate of change is bounded."""
     first, last = min(first, last + change), min(last, first + change)
     return 0.5 * (first + last + change)
 

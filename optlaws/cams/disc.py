@@ -133,7 +133,7 @@ class DiscCam:
         return self.pitch_curve.offset(-self.contact.roller) if self.contact.roller else self.pitch_curve
 
     def cutter_path(self, cutter_radius: Quantity) -> PlaneCurve:
-        """The way of the centre of a cutter or grinding wheel that makes the profile."""
+        """The path of the centre of a cutter or grinding wheel that cuts the profile."""
         return self.pitch_curve.offset(positive(cutter_radius, "cutter_radius") - self.contact.roller)
 
     def outline(self, curve: CutCurve | None = None, cutter_radius: Quantity | None = None) -> PlaneCurve:
@@ -234,7 +234,7 @@ class DiscCam:
 
 @dataclass(frozen=True)
 class FollowerCurve(PlaneCurve):
-    """The curve that a roller's centre makes around the cam, or the one that a flat face envelops."""
+    """The path of a roller's centre around the cam, or the envelope of a flat face."""
 
     motion: CamMotion
     contact: FollowerContact
@@ -248,7 +248,7 @@ class FollowerCurve(PlaneCurve):
 
     @property
     def closed(self) -> bool:
-        """Whether the motion is that of a whole turn."""
+        """Whether the motion is a whole turn."""
         return self.motion.closed
 
     @property

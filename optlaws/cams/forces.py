@@ -320,7 +320,7 @@ class CamForces:
         return unit, lever
 
     def _pressed(self, angle: Array | Interval, order: int) -> tuple[Jet, Transmission, Jet]:
-        """The displacement, what a force of 1 N does, and the contact force."""
+        """The displacement, the effect of a force of 1 N, and the contact force."""
         s = self.cam.displacement.jet(angle, order + 2)
         unit, lever = self._driven(s, angle)
         return s, unit, self._taken(s, angle) / lever

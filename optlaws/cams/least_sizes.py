@@ -215,7 +215,7 @@ class _Sizes:
 
     @property
     def least(self) -> float:
-        """The least prime circle with which there is such a mechanism, m."""
+        """The least prime circle for which the mechanism exists, m."""
         rising = self._scale * np.geomspace(SMALLEST_BASE, _LARGEST, _LOOKS)
         fit = next((i for i, radius in enumerate(rising) if self._fits(radius)), None)
         if fit is None:
@@ -241,7 +241,7 @@ class _Sizes:
         return self.follower.contact(Place(radius, *self.motion.range, self.motion.slopes, self.turning))
 
     def witnesses(self, radius: float, *, proven: bool = False) -> list[Witness]:
-        """The places where limits are broken worst; with `proven`, where they are not proven to be kept."""
+        """The places of the worst violations of limits; with `proven`, places where limits are not proven to hold."""
         contact, broken = self.contact(radius), []
         if PRESSURE in self.limits:
             least, greatest = contact.pressure_angles(self.motion)
@@ -263,7 +263,7 @@ class _Sizes:
         )
 
     def least_meeting(self, witness: Witness, radius: float) -> float:
-        """The least radius from one on with which a limit is kept at a witness's angle."""
+        """The least radius, from a given one on, for which a limit holds at a witness's angle."""
         from scipy.optimize import brentq
 
         jet = self._jet(witness)
@@ -286,7 +286,7 @@ class _Sizes:
         )
 
     def breaks_between(self, low: float, high: float, witnesses: list[Witness]) -> bool:
-        """Whether every prime circle in a range is proven to break a limit at one of the witnesses' angles."""
+        """Whether every prime circle in a range is proven to violate a limit at one of the witnesses' angles."""
         jets = [(witness, self._jet(witness)) for witness in witnesses]
 
         def breaks(first: float, last: float) -> bool:

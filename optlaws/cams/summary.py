@@ -20,7 +20,7 @@ T = TypeVar("T")
 
 
 class Labelled(NamedTuple, Generic[T]):
-    """Enclosed extremes with their name, and the unit they are shown in, of so many to that of SI."""
+    """Enclosed extremes with their name, their unit for display, and the factor from that unit to the SI unit."""
 
     name: str
     extremes: T

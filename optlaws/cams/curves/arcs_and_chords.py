@@ -42,7 +42,7 @@ def polygon(outline: Outline, tolerance: float) -> Polygon:
 
 
 def _deviation(outline: Outline, angles: Array, tolerance: float) -> float:
-    """The greatest distance of the outline from its chords, as it is proven; one that is met where that is too far."""
+    """The proven greatest distance of the outline from its chords; a sampled one if that already is too great."""
     ends = outline(angles)
     chords = np.diff(ends, axis=0)
     normals = np.stack([-chords[:, 1], chords[:, 0]], axis=1) / np.linalg.norm(chords, axis=1)[:, None]
@@ -177,7 +177,7 @@ def _centres(starts: Array, ends: Array, bulges: Array) -> Array:
 
 
 def _arc_deviation(outline: Outline, places: Array, chain: Arcs, tolerance: float) -> float:
-    """The greatest distance of the outline from its arcs, as it is proven; one that is met where that is too far."""
+    """The proven greatest distance of the outline from its arcs; a sampled one if that already is too great."""
     starts, bulges, chords = chain.points, chain.bulges, chain.ends - chain.points
     lengths = np.linalg.norm(chords, axis=1)
     along = chords / lengths[:, None]

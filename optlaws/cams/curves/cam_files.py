@@ -170,7 +170,7 @@ _lock = process_lock()
 
 
 def as_spline(outline: Outline, options: Cutting) -> str:
-    """One clamped SPLINE of degree 3 or 5 whose parameter is the cam's angle in radians."""
+    """A clamped SPLINE of degree 3 or 5 whose parameter is the cam's angle in radians."""
     fitted = spline(outline, options.metres, options.degree)
 
     def draw(space: Modelspace) -> None:
@@ -184,7 +184,7 @@ def as_spline(outline: Outline, options: Cutting) -> str:
 
 
 def as_polyline(outline: Outline, options: Cutting) -> str:
-    """One closed LWPOLYLINE with its corners on the curve."""
+    """A closed LWPOLYLINE with its corners on the curve."""
     corners = np.round(1e3 * polygon(outline, options.metres).corners, options.decimals)
 
     def draw(space: Modelspace) -> None:

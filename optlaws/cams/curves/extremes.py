@@ -97,7 +97,7 @@ class Undercut:
 
     @property
     def free(self) -> bool:
-        """Whether it is proven that there is no undercut."""
+        """Whether the absence of undercut is proven."""
         return self.status == FREE
 
     def __str__(self) -> str:

@@ -73,6 +73,6 @@ class Cutting:
         return " ".join(printable.split())[:200] or "cam"
 
     def rounded(self, value: float) -> str:
-        """A number of millimetres with the decimals asked for; 0 has no sign."""
+        """A number of millimetres with the requested decimals; zero has no sign."""
         text = f"{value:.{self.decimals}f}"
         return text.removeprefix("-") if not text.strip("-0.") else text

@@ -63,7 +63,7 @@ class CamMotion:
 
     @classmethod
     def of_cycle(cls, cycle: Cycle) -> Self:
-        """The motion of a whole cycle, which makes one turn of the cam.
+        """The motion of a whole cycle, which is one turn of the cam.
 
         Raises
         ------
@@ -82,7 +82,7 @@ class CamMotion:
 
     @classmethod
     def of_pieces(cls, pieces: Sequence[Piece], period: float, axis: str) -> Self:
-        """The motion of laws in their places, in time, which together make a turn of the cam in a period."""
+        """The motion of laws in their places, in time, which together are one turn of the cam in a period."""
         scale = TURN / period
         turns = [replace(piece, start=piece.start * scale, duration=piece.duration * scale) for piece in pieces]
         return cls(tuple(part for piece in turns for part in smooth_parts(piece, CamStretch)), axis, closed=True)

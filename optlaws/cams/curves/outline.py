@@ -50,7 +50,7 @@ def stretches(outline: Outline) -> list[tuple[float, float]]:
 
 
 def divided(outline: Outline, density: Density, factor: float = 1.0) -> Array:
-    """Angles from 0 to a whole turn, breaks among them, so many times as near as a density in parts per radian."""
+    """Angles from 0 to a whole turn, the breaks among them, at a multiple of a density in parts per radian."""
     shares = [_accumulated(density, *ends) for ends in stretches(outline)]
     parts = factor * sum(float(sums[-1]) for _, sums in shares)
     if parts > MOST_PARTS:

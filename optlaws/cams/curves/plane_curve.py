@@ -136,7 +136,7 @@ class PlaneCurve(CurveByAngle):
     @property
     @abstractmethod
     def closed(self) -> bool:
-        """Whether it comes back to its start after a turn."""
+        """Whether the curve returns to its start after a turn."""
 
     @property
     @abstractmethod
@@ -182,7 +182,7 @@ class PlaneCurve(CurveByAngle):
             return number_or_array(1.0 / np.asarray(self.curvature(angle, before=before)))
 
     def offset(self, distance: float) -> OffsetCurve:
-        """The parallel curve so many metres outward, or inward where it is below 0."""
+        """The parallel curve at a distance in metres: outward, or inward where the distance is negative."""
         return OffsetCurve(self, finite(distance, "distance"))
 
     def samples(self, count: int = 721) -> tuple[Array, Array]:

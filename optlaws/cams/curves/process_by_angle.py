@@ -47,7 +47,7 @@ class ForceStretch(NamedTuple):
 
 @dataclass(frozen=True)
 class ProcessByAngle:
-    """The force of a process on a follower over the cam's angle, N, or N m of one that swings.
+    """The force of a process on a follower over the cam's angle, N; a torque in N m on a follower that swings.
 
     It is above 0 where it pushes the follower along its way, off the cam.
 
@@ -71,7 +71,7 @@ class ProcessByAngle:
         return np.unique([place for stretch in self.stretches for place in stretch[:2]])
 
     def jet(self, angle: Array | Interval, order: int) -> Jet:
-        """The force with its Taylor terms: those of the stretch in which an angle, or an interval's middle, lies."""
+        """The force with its Taylor terms, taken from the stretch that contains an angle or an interval's midpoint."""
         if not isinstance(angle, Interval):
             return Jet(tuple(term.middle for term in self.jet(exact(self.motion.within(angle)), order).terms))
         if not self.stretches:
@@ -190,12 +190,12 @@ def _over_way(force: Formula, motion: CamMotion) -> list[ForceStretch]:
 
 
 def _reached(motion: CamMotion, place: float, ends: tuple[float, float], *, rises: bool) -> float:
-    """The angle between two, from the one to the other of which the motion goes one way, at which it is at a place."""
+    """The angle in a range of monotone motion at which the follower is at a position."""
     return bisect(lambda at: bool((motion(at) < place) == rises), *ends)[0]
 
 
 def _snapped(place: float, breaks: Array) -> float:
-    """A place, or the break of the motion beside which it is but for rounding."""
+    """A place, moved to a break of the motion if it differs from it by rounding only."""
     nearest = float(breaks[np.argmin(np.abs(breaks - place))])
     return nearest if abs(nearest - place) <= CLOSURE * TURN else place
 

@@ -40,7 +40,7 @@ class Spline(CurveByJets):
 
     @property
     def blur(self) -> float:
-        """How far the polynomials that are enclosed may be from the spline for rounding, m."""
+        """The distance by which rounding can separate the enclosed polynomials from the spline, m."""
         return self._pieces.blur
 
     def jets(self, places: Array | Interval, order: int) -> Pair:
@@ -54,7 +54,7 @@ class Spline(CurveByJets):
 
 
 def spline(outline: Outline, tolerance: float, degree: int = 3) -> Spline:
-    """The spline through places of an outline that is nowhere farther from it than a tolerance in metres.
+    """The spline through points of an outline, nowhere farther from the outline than a tolerance in metres.
 
     One of degree 3 has a continuous curvature everywhere, at the seam as well. One of degree 5 ends at each break of
     the outline and begins again with its direction and curvature.
@@ -72,7 +72,7 @@ def spline(outline: Outline, tolerance: float, degree: int = 3) -> Spline:
 
 
 def even(outline: Outline, parts: int) -> Array:
-    """Angles from 0 to a whole turn, breaks among them, nowhere farther apart than a share of the turn."""
+    """Angles from 0 to a whole turn, the breaks among them, with steps of at most a share of the turn."""
     fitted = [np.zeros(1)]
     for start, stop in stretches(outline):
         count = max(1, round(parts * (stop - start) / tau))
@@ -122,7 +122,7 @@ def _derivatives(outline: Outline, angle: float) -> list[tuple[int, Array]]:
 
 
 def _deviation(outline: Outline, fitted: Spline, tolerance: float) -> float:
-    """The greatest distance between places of one angle, as it is proven; one that is met where that is too far."""
+    """The proven greatest distance between places of one angle; a sampled one if that already is too great."""
 
     def square(angle: Array | Interval, order: int) -> Jet:
         (x, y), (along, up) = fitted.jets(angle, order), outline.jets(angle, order)

@@ -140,7 +140,7 @@ class FollowerContact(ABC):
 
     @property
     def pivot(self) -> float | None:
-        """How far the pivot is from the cam's centre; None on a slide."""
+        """The distance of the pivot from the cam's centre; None on a slide."""
         return None
 
     @property
@@ -151,7 +151,7 @@ class FollowerContact(ABC):
     @property
     @abstractmethod
     def lost(self) -> int:
-        """The number of orders by which the jet of a point is shorter than that of the displacement."""
+        """The number of derivatives that a point of the profile takes from the displacement."""
 
     @abstractmethod
     def point(self, s: Jet) -> Pair:
@@ -174,7 +174,7 @@ class FollowerContact(ABC):
         """The excess over a limit of the least radius of curvature, above 0 where it is broken; of either dimension."""
 
     def normal(self, s: Jet) -> Pair | None:  # noqa: ARG002 - None unless a face has it
-        """The normal away from the cam where it is that of a face; None where it is that of the curve."""
+        """The outward normal of a flat face; None where the curve itself gives the normal."""
         return None
 
     def pressure_angles(self, motion: CamMotion) -> tuple[EnclosedExtreme, EnclosedExtreme]:
@@ -247,5 +247,5 @@ def shifted(point: Pair, normal: Pair, distance: float) -> Pair:
 
 
 def other_leg(sine: Jet) -> Jet:
-    """The cosine of an angle within a right one whose sine is known, or the other way around."""
+    """The cosine of an acute angle whose sine is known, or the reverse."""
     return (sine * sine * -1.0 + 1.0).root()

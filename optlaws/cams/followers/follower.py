@@ -75,7 +75,7 @@ class CamFollower(ABC):
         return None
 
     def from_beneath(self) -> CamFollower:
-        """The same follower on its slide, seen from beneath the shaft."""
+        """The same follower on its slide, seen from below the shaft."""
         return self
 
 
@@ -96,7 +96,7 @@ def roller_radius(value: Any, place: Place) -> float:  # noqa: ANN401 - it is ch
 
 
 def stated_prime_radius(prime_radius: Any, base_radius: Any, follower: CamFollower) -> Any:  # noqa: ANN401 - checked later
-    """The prime radius from the entries of a file; earlier files call it `base_radius`, as it is under a flat face.
+    """The prime radius from the entries of a file; earlier files call it `base_radius`, as under a flat face.
 
     Raises
     ------

@@ -139,7 +139,7 @@ class SwingingRoller(RollerContact):
         return [line for sign in (1.0, -1.0) for line in self._lines(piece, limit, angle, sign=sign, below=below)]
 
     def _lines(self, piece: Piece, limit: float, angle: float, *, sign: float, below: bool) -> Iterator[LinearLimit]:
-        """Lines below or above what the pressure angle allows, sign s' <= G(psi), over the piece's swing.
+        """Lines that bound the region of the pressure angle, sign s' <= G(psi), over the piece's swing.
 
         Where G is hollow its chords are as good as it is. Where it bulges, a line below it is good at one psi, and
         there is one for every part of the time, at the psi that the piece's law has then; a single one is above it.
@@ -188,7 +188,7 @@ class _Sine:
         return float((ends[1] - ends[0]) / (last - first))
 
     def hollow(self, low: float, high: float) -> bool:
-        """Whether it lies above its chords between two angles less than half a turn apart."""
+        """Whether the function is above its chords between two angles less than half a turn apart."""
         return bool((self.value(np.linspace(low, high, _LOOKS)) >= 0.0).all())
 
     def shift(self, slope: float, low: float, high: float, *, below: bool) -> float:

@@ -50,7 +50,7 @@ class RollerContact(FollowerContact):
 
     @property
     def lost(self) -> int:
-        """Zero, as the jet of a point is as long as that of the displacement."""
+        """Zero: a point of the profile takes no derivative of the displacement."""
         return 0
 
     def pressure(self, s: Jet) -> Jet:
@@ -71,7 +71,7 @@ class RollerContact(FollowerContact):
         return curvature / (curvature * -self.roller + 1.0)
 
     def radius_of_curvature(self, s: Jet) -> Term:
-        """Radius of curvature of the pitch curve less that of the roller; infinite where it is straight."""
+        """Radius of curvature of the pitch curve less the roller's radius; infinite where the curve is straight."""
         with np.errstate(divide="ignore"):
             return 1.0 / self.curvature(s).terms[0] - self.roller
 
@@ -135,7 +135,7 @@ class RollerContact(FollowerContact):
         return ContactState(displacement, bearing(*self.point(displacement)), in_cam)
 
     def square_of_centre(self, point: Pair, normal: Pair) -> Jet:
-        """How far the roller's centre is from the cam's, squared, where it touches a profile."""
+        """The squared distance between the roller's centre and the cam's centre, where the roller touches a profile."""
         x, y = shifted(point, normal, self.roller)
         return x * x + y * y
 
@@ -155,7 +155,7 @@ class FaceContact(FollowerContact):
 
     @property
     def lost(self) -> int:
-        """One, as the place on the face is a derivative."""
+        """One: the point of contact on the face is a derivative of the displacement."""
         return 1
 
     @abstractmethod
@@ -163,7 +163,7 @@ class FaceContact(FollowerContact):
         """Radius of curvature of the profile; there is no undercut where it is above 0."""
 
     def profile_curvature(self, s: Jet) -> Jet:
-        """Curvature of the profile: one over its radius of curvature."""
+        """Curvature of the profile, the reciprocal of its radius of curvature."""
         return 1.0 / self.radius(s)
 
     def radius_of_curvature(self, s: Jet) -> Term:
@@ -215,7 +215,7 @@ class SlidingFace(FaceContact):
         return s.slope() * (self.turning * cos(self.angle))
 
     def _far(self, s: Jet) -> Jet:
-        """How far the face is from the cam's centre."""
+        """The distance of the face from the cam's centre."""
         return (s + (self.level - self.lowest)) * cos(self.angle)
 
     def state(self, point: Pair, normal: Pair) -> ContactState:
@@ -238,7 +238,7 @@ class SlidingFace(FaceContact):
         return [LinearLimit((-stroke / size, 0.0, -stroke / (size * angle**2)), high)]
 
     def pressure_limits(self, piece: Piece, limit: float, angle: float, *, below: bool) -> list[LinearLimit]:
-        """No limits: a greatest pressure angle is kept by every law, or by no law, which is refused."""
+        """No limits: either every law keeps a greatest pressure angle, or none does, which is refused."""
         del piece, angle, below
         if abs(tan(self.angle)) > limit:
             raise InputError(

@@ -47,7 +47,7 @@ _UNITS = {"length": ("force", "stiffness"), "angle": ("torque", "torsional stiff
 
 @dataclass(frozen=True)
 class Spring(PlainNumbers):
-    """A spring that holds a follower on its cam; N and N/m, or N m and N m/rad for one that swings.
+    """A spring that holds a follower on its cam; N and N/m, or N m and N m/rad for a follower that swings.
 
     Attributes
     ----------
@@ -148,7 +148,7 @@ def least_spring(
 
 @dataclass(frozen=True)
 class _KnownSpring:
-    """Preload and stiffness of a spring, as far as they are given."""
+    """Preload and stiffness of a spring, as far as the user gives them."""
 
     preload: float | None
     stiffness: float | None
@@ -163,7 +163,7 @@ class _KnownSpring:
 
 @dataclass(frozen=True)
 class _SpringTask:
-    """A cam, what its follower moves, between which speeds, and what the cam shall press with."""
+    """A cam, the masses its follower moves, the range of speeds, and the required contact force."""
 
     forces: CamForces
     slow: float
@@ -185,7 +185,7 @@ class _SpringTask:
         return min((self.slow, self.fast, inner), key=lambda rate: square * rate**2 + linear * rate)
 
     def without_spring(self, angle: Array | Interval, side: float, order: int = 0) -> Jet:
-        """The least (side 1) or greatest (-1) force on the follower at any speed, but for the spring's."""
+        """The least (side 1) or greatest (-1) force on the follower at any speed, without the spring's force."""
         square, linear = (part * side for part in self._moved(angle, order))
         forces = [square * rate**2 + linear * rate for rate in (self.slow, self.fast)]
         if self.forces.load.viscous:
@@ -208,7 +208,7 @@ class _SpringTask:
 
     @kept_property
     def sums(self) -> tuple[float, float]:
-        """The integrals over the turn of what a preload and a stiffness of 1 add to the force."""
+        """The integrals over the turn of the forces that a unit preload and a unit stiffness add."""
         motion, edges = self.forces.cam.displacement, self.forces.edges
         shares: tuple[Function, ...] = (
             lambda angle, order: 1.0 / self.lever(angle, order),
@@ -249,7 +249,7 @@ def _known(value: Quantity | None, dimension: str, name: str) -> float | None:
 
 
 def _exchange(task: _SpringTask, given: _KnownSpring) -> Spring:
-    """The best spring by exchange: for some angles, then for those at which it is wrong too, until there are none."""
+    """The best spring by exchange: for some angles first, then also for each angle at which it is too weak."""
     edges = task.forces.edges
     angles = np.concatenate([np.linspace(edges[0], edges[-1], _FIRST), task.sides])
     for _ in range(_STEPS):
@@ -326,7 +326,7 @@ def _refuse(task: _SpringTask, angles: Array, given: _KnownSpring) -> NoReturn:
 
 
 def _strengthened(task: _SpringTask, given: _KnownSpring, best: tuple[float, float, float], force: Extremes) -> Spring:
-    """The spring made stronger by what it may miss, and what is then left everywhere."""
+    """The spring strengthened by its greatest possible shortfall, and the force that remains everywhere."""
     preload, stiffness, greatest = best
     bound = {"preload": preload, "stiffness": stiffness}.get(given.objective, greatest)
     missing = max(task.least - force.low, 0.0)
