@@ -1,4 +1,4 @@
-"""The command `optlaws`: one file a command, and the file's name is the command's."""
+"""The command `optlaws`: one file for each subcommand, named after it."""
 
 from __future__ import annotations
 

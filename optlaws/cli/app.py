@@ -1,4 +1,4 @@
-"""The commands of `optlaws`, and the one way out: an exit code, and one clear text for an error."""
+"""The commands of `optlaws`, and their single exit: an exit code, and one clear text for an error."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def _version() -> str:
 
 
 def application(*, described: bool = False) -> App:
-    """The commands, each with what it does where they are to be listed; its file says it and is not imported for it."""
+    """The commands, each with its description for the list; the file of a command is imported when it runs."""
     commands = App(
         name="optlaws",
         help="Optimal motion laws for cam mechanisms and servo axes, with proof of their optimality.",
@@ -54,7 +54,7 @@ app = application()
 
 
 class NotProven(OptlawsError):  # noqa: N818
-    """A file claims something that is false or not proven; the message says what.
+    """A file claims something that is false or not proven; the message names the claim.
 
     Examples
     --------

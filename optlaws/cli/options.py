@@ -125,14 +125,14 @@ def check_files(*files: Path | None, plot: Path | None = None) -> None:
 
 
 def save(file: Path, data: Mapping[str, Any]) -> None:
-    """Write what --output asks for, with who made it."""
+    """Write the file of --output, with the name of its author program."""
     from optlaws.files.writing import MARK, write
 
     write(file, json.dumps({"about": MARK, **data}, indent=1) + "\n")
 
 
 def save_picture(file: Path, value: Any) -> None:  # noqa: ANN401 - whatever has a plot
-    """Draw what --plot asks for into its file."""
+    """Draw the picture of --plot into its file."""
     from optlaws.plots.style import plot_style
 
     with plot_style():
@@ -140,7 +140,7 @@ def save_picture(file: Path, value: Any) -> None:  # noqa: ANN401 - whatever has
 
 
 def save_figure(file: Path, figure: Figure) -> None:
-    """Write a figure into the file of --plot, in the format that its ending says."""
+    """Write a figure into the file of --plot, in the format of the file's ending."""
     from optlaws.files.writing import write
     from optlaws.plots.style import rendered
 

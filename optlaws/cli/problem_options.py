@@ -34,7 +34,7 @@ def _as_given(value: Any) -> Any:  # noqa: ANN401 - what the parser made of it
 
 @dataclass(frozen=True)
 class Option:
-    """One option; `read` makes the entry of what was given, which may begin with a minus where `signed`."""
+    """An option; `read` converts the given text to the entry, which may begin with a minus where `signed`."""
 
     name: str
     type: Any
@@ -48,7 +48,7 @@ class Option:
         return self.name.removeprefix("--").replace("-", "_")
 
     def parameter(self, *, default: Any, shown: bool) -> inspect.Parameter:  # noqa: ANN401
-        """The parameter of a command; a default of `...` asks for a value."""
+        """The parameter of a command; the default `...` makes the option's value compulsory."""
         needed = default is ...
         kind = self.type if needed or default is not None else self.type | None
         how = Parameter(name=self.name, help=self.about, show=shown, allow_leading_hyphen=self.signed)
@@ -172,7 +172,7 @@ def _is_given(value: object) -> bool:
 
 
 def _check_ends(entries: dict[str, Any]) -> None:
-    """Ask for the order where nothing tells it; laws that repeat, do not rest or have an inflexion are unsymmetric."""
+    """Require the order if nothing fixes it; periodic laws, moving ends and inflexions make laws unsymmetric."""
     ends = [entries[name] for name in ("start", "end") if name in entries]
     if len(ends) == 1:
         raise InputError("--start and --end go together")

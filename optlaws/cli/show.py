@@ -31,7 +31,7 @@ def _plain(value: Any) -> object:  # noqa: ANN401 - a number of numpy
 
 
 def table(*headings: str, rows: Iterable[Iterable[str]] = ()) -> Table:
-    """A table without lines; one without headings tells facts by their names."""
+    """A table without lines; without headings, the first column names the facts."""
     from rich.table import Table
 
     new_table = Table(*headings, show_header=bool(headings), box=None, pad_edge=False)
@@ -43,7 +43,7 @@ def table(*headings: str, rows: Iterable[Iterable[str]] = ()) -> Table:
 
 
 def show(*parts: Table | str) -> None:
-    """Print tables, and text as it is: no number is ever cut, and nothing but a terminal gets blanks at line ends."""
+    """Print tables, and text unchanged: numbers are never cut, and lines end without blanks except on a terminal."""
     console = _answering()
     for part in parts:
         if isinstance(part, str):
@@ -99,7 +99,7 @@ def progress() -> Console:
 
 @contextmanager
 def busy(text: str) -> Iterator[None]:
-    """Say what is under way while someone watches."""
+    """Show the current step while a terminal displays the output."""
     console = progress()
     if console.is_terminal:
         from optlaws.shown.steps import said_otherwise

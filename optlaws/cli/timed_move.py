@@ -44,7 +44,7 @@ class MoveOptions:
     end_velocity: Annotated[str | None, Parameter(allow_leading_hyphen=True)] = None
 
     def check(self) -> None:
-        """Refuse options of a move without --fastest, and --fastest without what it needs."""
+        """Refuse options of a move without --fastest, and --fastest without its compulsory options."""
         if self.fastest and (self.stroke is None or not self.limits):
             raise InputError('--fastest needs --stroke, such as "100 mm", and --limit, such as "jerk=300 m/s^3"')
         given = [name for name, value in asdict(self).items() if value is not None and name != "fastest"]

@@ -1,1 +1,1 @@
-"""Commands that show laws and what they do in machines: the catalogue, followers, cycles, loaders, dwells, levers."""
+"""Commands that show laws and their effect in machines: catalogue, followers, cycles, loaders, dwells, levers."""

@@ -115,7 +115,7 @@ def do_job(job: str, file: Path, out: Path | None, plot: Path | None, *, as_json
 
 
 def _main_picture(job: str, entries: Mapping[str, Any]) -> str:
-    """The name of the picture of a job that shows most: the cam, the one axis, or all axes."""
+    """The name of the most informative picture of a job: the cam, the single axis, or all axes."""
     from optlaws.jobs.cycle import TOGETHER, plain_name
 
     if job != "cycle":

@@ -54,7 +54,7 @@ class DwellAngles:
     lower_dwell: float | None = None
 
     def in_radians(self) -> dict[str, Any]:
-        """All of them, angles in radians."""
+        """All angles of the command, in radians."""
         given = {name: value for name, value in asdict(self).items() if value is not None}
         return {name: value if name.endswith("ratio") else optlaws.deg(value) for name, value in given.items()}
 
@@ -107,7 +107,7 @@ def dwell(
 
 
 def _check_turn(rise: float, dwell: float, lower_dwell: float | None) -> None:
-    """Refuse angles that one turn of the cam has no room for; that they are fewer is said with the answer."""
+    """Refuse angles that exceed one turn of the cam; the answer reports angles that fill less than a turn."""
     cycle = 2.0 * rise + dwell + (dwell if lower_dwell is None else lower_dwell)
     if cycle > _TURN:
         lower = "the lower dwell, as long as the upper one," if lower_dwell is None else "--lower-dwell"

@@ -1,4 +1,4 @@
-"""The command `optlaws export`: a law or a cycle in the format of a controller, and what the controller will run."""
+"""The command `optlaws export`: a law or a cycle in a controller's format, and the executed motion."""
 
 from __future__ import annotations
 
@@ -107,7 +107,7 @@ def export(
     output: Path | None = None,
     as_json: AsJson = False,
 ) -> None:
-    """Write a law or a cycle in the format of a controller, and say what the controller will run.
+    """Write a law or a cycle in the format of a controller, and report the motion that the controller executes.
 
     The file goes to --output or, without it, to stdout and the report to stderr.
 

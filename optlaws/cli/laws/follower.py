@@ -1,4 +1,4 @@
-"""The command `optlaws follower`: what an elastic follower's mass does under a cam."""
+"""The command `optlaws follower`: the motion of an elastic follower's mass on a cam."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The command `optlaws law`: one law of the catalogue, of Savin's families or of a file, with its constants."""
+"""The command `optlaws law`: a law of the catalogue, of Savin's families or of a file, with its constants."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""Commands that look for optimal laws and check them: one problem, a front, a study, a problem file."""
+"""Commands that find optimal laws and check them: a single problem, a front, a study, a problem file."""

@@ -1,4 +1,4 @@
-"""The command `optlaws advise`: which law a move or the axes of a cycle should have, and what it gains and costs."""
+"""The command `optlaws advise`: the law to choose for a move or the axes of a cycle, with its gain and its cost."""
 
 from __future__ import annotations
 
@@ -90,7 +90,7 @@ def advise(
     as_json: AsJson = False,
     output: Path | None = None,
 ) -> None:
-    """Say which law to take: standard and optimal laws side by side, what each costs, and what is proven.
+    """Recommend a law: standard and optimal laws side by side, the cost of each, and the proven bounds.
 
     Parameters
     ----------

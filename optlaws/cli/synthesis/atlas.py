@@ -25,7 +25,7 @@ def atlas(
     plot: Plot = None,
     as_json: AsJson = False,
 ) -> None:
-    """Look a law up in the atlas: the nearest point that keeps what is asked, then the law as asked.
+    """Look up a law in the atlas: the nearest point that satisfies the request, then the law for the exact request.
 
     Parameters
     ----------

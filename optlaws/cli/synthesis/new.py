@@ -26,7 +26,7 @@ def new(
     defaults: bool = False,
     **answers: Annotated[str, Parameter(help="Any number of the file by its name, such as --stroke 35mm.")],
 ) -> None:
-    """Begin a problem file: commented, with your numbers, ready to run. What no option gives, a terminal asks for.
+    """Begin a problem file, commented and ready to run; on a terminal, numbers without an option are prompted for.
 
     The numbers, by kind; those in brackets may be left out:
 
@@ -70,7 +70,7 @@ def new(
 
 
 def _named(starter: Starter, answers: Mapping[str, str]) -> dict[str, str]:
-    """The options that were given, each one of this kind."""
+    """The options with values, each of a given kind."""
     from optlaws.suggest import unknown_key
 
     names = [question.name for question in starter.questions]
@@ -81,7 +81,7 @@ def _named(starter: Starter, answers: Mapping[str, str]) -> dict[str, str]:
 
 
 def _asked(starter: Starter, given: dict[str, str]) -> dict[str, str]:
-    """The numbers that were given, and those for which the terminal is asked; an empty answer takes the default."""
+    """The given numbers, and the numbers entered at the terminal; an empty answer takes the default."""
     _say("Enter takes what stands in brackets.")
     answers = dict(given)
     for question in starter.questions:
@@ -92,7 +92,7 @@ def _asked(starter: Starter, given: dict[str, str]) -> dict[str, str]:
 
 
 def _answer(question: Question) -> str | None:
-    """An answer that can be read, or None for the default; a wrong one is said to be, and asked for again."""
+    """A readable answer, or None for the default; an unreadable answer is reported, and the question is repeated."""
     while True:
         _say(f"{question.about.rstrip('.')} [{question.default or 'none'}]: ", end="")
         line = sys.stdin.readline()

@@ -26,7 +26,7 @@ def study(
     status: Path | None = None,
     as_json: AsJson = False,
 ) -> None:
-    """Solve every point of a study; the same command goes on where an interrupted one stopped.
+    """Solve every point of a study; the same command continues an interrupted study.
 
     Parameters
     ----------
