@@ -165,7 +165,7 @@ class Cycle(CycleInterchange):
 
     @kept_property
     def durations(self) -> tuple[float, ...]:
-        """Durations of the segments in seconds; the best ones where they are free."""
+        """Durations of the segments in seconds; optimal ones where they are free."""
         return durations(self.programme, self._cycle_objective)
 
     @kept_property
@@ -254,7 +254,7 @@ class Cycle(CycleInterchange):
 
     @property
     def remarks(self) -> tuple[str, ...]:
-        """The choices beyond what was asked: a degree that was raised, or one of several laws that are best.
+        """The choices beyond the request: a raised degree, or the selection among several optimal laws.
 
         Examples
         --------
@@ -295,7 +295,7 @@ class Cycle(CycleInterchange):
         return usual_jerk(self._layout.spans, self._cycle_objective, self.axis)
 
     def with_modified_sine_jerk(self) -> Cycle:
-        """The cycle of least acceleration among those whose jerk is at most that of modified sine.
+        """The cycle of least acceleration among cycles whose jerk is at most modified sine's jerk.
 
         Raises
         ------
@@ -320,7 +320,7 @@ class Cycle(CycleInterchange):
 
     @property
     def joints(self) -> tuple[dict[str, Any], ...]:
-        """Every joint: its time, and by how much velocity, acceleration and jerk jump there; 0 where they do not."""
+        """Every joint: its time, and the jumps of velocity, acceleration and jerk there; 0 where continuous."""
         return self._timed.jumps([self.peak(nu) for nu in (1, 2, 3)])
 
     @kept_property
@@ -353,7 +353,7 @@ class Cycle(CycleInterchange):
 
     @kept_property
     def sheet(self) -> CycleSheet:
-        """What the cycle asks of its motor: torques, speed, powers, energies, and margins to the motor's limits.
+        """The motor sheet of the cycle: torques, speed, powers, energies, and margins to the motor's limits.
 
         Raises
         ------
@@ -402,7 +402,7 @@ class Cycle(CycleInterchange):
         return self(turns * self.duration, nu)
 
     def at(self, speed: Quantity) -> Cycle:
-        """The same motion at another speed of the master: every law as it is, every duration in proportion.
+        """The same motion at another speed of the master: laws are unchanged, durations scale in proportion.
 
         Examples
         --------
@@ -419,7 +419,7 @@ class Cycle(CycleInterchange):
         return replace(self, segments=segments, speed=None, period=f"{period!r} s", minimise=minimise, limits={})
 
     def with_solutions(self, solutions: Sequence[Solution]) -> Cycle:
-        """The same cycle with other solutions of its motions, such as ones of problems that are bounded further.
+        """The same cycle with other solutions of its motions, such as solutions of problems with further bounds.
 
         Objective, bound and status are recomputed from them.
 
@@ -538,7 +538,7 @@ class Cycle(CycleInterchange):
         return self.at_angle(degrees, nu) * (self.duration / TURN) ** nu
 
     def cam(self, period: Quantity, damping: float = 0.0) -> Cycle:
-        """The cycle of the cam that makes an elastic follower's mass move as this cycle says (1.27).
+        """The cycle of the cam with which an elastic follower's mass executes this cycle (1.27).
 
         Each move is corrected by the follower's frequency over its own duration: nu = 2 pi T / T_k. The mass comes to
         rest with each move, so that nothing vibrates in the dwells.
@@ -567,7 +567,7 @@ class Cycle(CycleInterchange):
 
     @property
     def limits_of_segments(self) -> tuple[dict[int, tuple[float, float]], ...]:
-        """The least and greatest value that each segment was asked to keep, by the order of the derivative; SI units.
+        """The least and greatest allowed values of derivatives in each segment, by the derivative's order; SI units.
 
         Of the force or torque by -1 and of the power by -3; nothing of a segment whose law is given.
 

@@ -26,7 +26,7 @@ _MORE = 0.1  # of a limit, by which it is raised to see what that gives
 
 @dataclass(frozen=True)
 class LeastDuration:
-    """The time that a motion needs at least, and the one that it has at the greatest speed.
+    """The least time that a motion needs, and its time at the greatest speed.
 
     Attributes
     ----------
@@ -155,7 +155,7 @@ class FastestCycle:
         return tuple(LimitGain(name, TURN / period, self.period / period) for name, period in periods.items())
 
     def summary(self) -> Summary:
-        """The speed and the period, what binds, what a tenth more of it would give, and the time of each motion.
+        """The speed and the period, the active limit, the gain from a limit raised by a tenth, and the motions' times.
 
         Examples
         --------

@@ -161,7 +161,7 @@ class CycleInterchange(JsonText):
         unit: str | None = None,
         **options: Unpack[ExportOptions],
     ) -> Any:  # noqa: ANN401 - made a layer above
-        """The cycle in the format of a controller, with what the controller will run.
+        """The cycle in the format of a controller, with a report of the executed motion.
 
         Parameters
         ----------
@@ -344,7 +344,7 @@ def _plain(value: Any) -> Any:  # noqa: ANN401 - whatever a person gave
 
 
 def _proof(cycle: Any) -> tuple[str, ...]:  # noqa: ANN401 - a Cycle
-    """The proof of the laws that were looked for, as files say it."""
+    """The proof of the optimised laws, as text for files."""
     if not cycle.solutions:
         return ()
     bound = "" if cycle.lower_bound is None else f", none below {cycle.lower_bound:.9g}"

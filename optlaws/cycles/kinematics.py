@@ -93,7 +93,7 @@ class TimedCycle:
         return next(piece.jump(start, nu) for piece in self.pieces if piece.start < start < piece.stop)
 
     def at_speed(self, share: float) -> list[CycleSegment]:
-        """The segments at another speed: laws as they are, durations `share` times as long, joint laws in parts."""
+        """The segments at another speed: unchanged laws, durations multiplied by `share`, joint laws in parts."""
         segments: list[CycleSegment] = []
         for segment, start, stop in self.timed:
             time, name = f"{(stop - start) * share!r} s", segment.given.label
@@ -110,7 +110,7 @@ class TimedCycle:
         return f"{displacement!r} {unit_of(self.programme.axis)}"
 
     def _moves(self, stretch: TimedSegment, times: tuple[float, float], share: float) -> list[Move]:
-        """The moves of a law in a stretch: one, or two where it ends where it begins."""
+        """The moves of a law in a stretch: one move, or two where the stretch ends at its starting position."""
         (start, stop), moved, piece = times, stretch.displacement, self._piece_at(times[0])
         same_time = SAME_TIME * self.programme.period
         alone = abs(piece.start - start) <= same_time and abs(piece.stop - stop) <= same_time

@@ -1,4 +1,4 @@
-"""Laws side by side: their constants, their peaks in a machine, the vibration they leave, and what a small C costs."""
+"""Laws side by side: their constants, their peaks in a machine, residual vibration, and the price of a small C."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _PEAKS = {"D": "power", "J": "jerk"}
 
 @dataclass(frozen=True)
 class Comparison(JsonText):
-    """Laws with their numbers, made by `compare_laws`; a row for each law.
+    """Laws with their constants, computed by `compare_laws`; a row for each law.
 
     Attributes
     ----------
@@ -197,7 +197,7 @@ def costs(
     frequency: float | tuple[float, float] | None = None,
     damping: float = 0.0,
 ) -> list[str]:
-    """The costs of a smaller C than that of a named standard law: power, jerk or vibration far above its own."""
+    """The price of a C below a named standard law's C: power, jerk or vibration far above that law's values."""
     if not law.constants.C.value < reference.constants.C.value:
         return []
     values = {

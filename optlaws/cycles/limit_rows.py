@@ -61,7 +61,7 @@ class LimitTaken(NamedTuple):
 
     @property
     def is_kept(self) -> bool:
-        """Whether the limit is kept, but for rounding."""
+        """Whether the limit is kept, up to rounding."""
         return self.share <= 1.0 + AGREEMENT
 
 
@@ -74,7 +74,7 @@ class _Taken(NamedTuple):
 
 
 def limits_taken(cycle: Cycle, limited: Cycle | None = None) -> tuple[LimitTaken, ...]:
-    """The use of every limit of a cycle, or of another one with the same segments, by all its laws.
+    """The use of every limit of a cycle, or of another cycle with the same segments, by all its laws.
 
     Of each limit the segment that takes most of it counts. A motor's limits are those of the sheet.
 
@@ -115,7 +115,7 @@ def limit_rows(cycle: Cycle) -> list[Row]:
 
 
 def _most(taken: Iterable[_Taken]) -> list[_Taken]:
-    """Of each limit by its name what takes most of it."""
+    """For each limit, by name, the quantity that uses most of it."""
     most: dict[str, _Taken] = {}
     for each in taken:
         if each.taken.name not in most or each.taken.share > most[each.taken.name].taken.share:

@@ -1,4 +1,4 @@
-"""Several axes of a machine on one clock: a cycle for each, tabled, drawn, kept and exported together."""
+"""Several axes of a machine on one clock: a cycle for each axis, with common tables, plots, files and exports."""
 
 from __future__ import annotations
 
@@ -118,7 +118,7 @@ class Axes(JsonText, Mapping[str, Cycle]):
         return max((cycle.status for cycle in self.values()), key=ranks.index)
 
     def at(self, speed: Quantity) -> Axes:
-        """The same motions at another speed of the master, as in `Cycle.at`."""
+        """The same motions at another speed of the master, like `Cycle.at`."""
         return Axes({name: cycle.at(speed) for name, cycle in self.items()}, interlocks=self.interlocks)
 
     def fastest(self) -> Overlap:
@@ -479,7 +479,7 @@ class Overlap:
 
     @property
     def gain(self) -> float:
-        """The objective as it was, divided by what it is: how many times faster, or lower the acceleration."""
+        """The objective before over the objective after: the gain in speed, or the reduction of the acceleration."""
         return (self.given.duration if self.goal == "period" else 1.0) / self.objective
 
     def __repr__(self) -> str:

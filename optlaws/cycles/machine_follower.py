@@ -21,7 +21,7 @@ _DURATIONS = "give duration, such as '0.1 s', or speed and rise, such as '105 rp
 
 @dataclass(frozen=True)
 class MachineFollower:
-    """An elastic follower with the stroke and the duration of its rise, made by `machine_follower`.
+    """An elastic follower with the stroke and the duration of its rise, built by `machine_follower`.
 
     Attributes
     ----------
@@ -74,7 +74,7 @@ class MachineAnswer:
 
     @property
     def dynamic_factor(self) -> float:
-        """Greatest acceleration of the mass over that of the cam."""
+        """Greatest acceleration of the mass divided by the greatest acceleration of the cam."""
         return self.response.dynamic_factor()
 
     @property

@@ -36,7 +36,7 @@ _LOAD_UNITS = {
 
 
 def objective_unit(cycle: Cycle) -> str:
-    """The SI unit of what a cycle minimises."""
+    """The SI unit of a cycle's objective."""
     nu, _ = kind_of(cycle.minimise)
     if nu == LOADED:
         return load_unit(cycle, cycle.minimise.removeprefix("rms ").removeprefix(LOAD))
@@ -51,7 +51,7 @@ def force_unit(cycle: Cycle) -> str:
 
 
 def force_name(cycle: Cycle) -> str:
-    """The name of what a cycle's drive takes: a force, or a torque."""
+    """The name of the drive's load in a cycle: a force, or a torque."""
     return "force" if cycle.axis == "length" else "torque"
 
 
@@ -181,5 +181,5 @@ def cycle_page(cycle: Cycle) -> str:
 
 
 def load_unit(cycle: Cycle, output: str) -> str:
-    """The unit of an output of the load; of one whose dimension is not known, that it is one of SI."""
+    """The unit of an output of the load; an unknown dimension is described as SI."""
     return _LOAD_UNITS.get(read_load(cycle.load, cycle.axis).dimensions.get(output, ""), "SI")

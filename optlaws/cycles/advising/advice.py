@@ -1,4 +1,4 @@
-"""The answer to "which law?": laws side by side, the front between two measures, and the one to take."""
+"""The answer to "which law?": laws side by side, the front between two measures, and the recommended law."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _LONGEST = 200
 
 @dataclass(frozen=True, repr=False)
 class Advice:
-    """Laws for one motion side by side, made by `advise`: a row for each, the front, and which to take.
+    """Laws for one motion side by side, computed by `advise`: a row for each law, the front, and the recommendation.
 
     Attributes
     ----------
@@ -101,7 +101,7 @@ class Advice:
         return f"{law.proof.status.value}, gap {1.0 - bound / law.values[law.proof.minimise]:.1e}"
 
     def summary(self) -> Summary:
-        """The law to take, what it takes, what is proven of it, and why it is the one.
+        """The recommended law, its demands, the proven bounds, and the reason for the recommendation.
 
         Examples
         --------
@@ -125,7 +125,7 @@ class Advice:
         return Summary([*rows, Row("rule", chosen.rule)])
 
     def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
-        """Draw what is minimised over the second measure: the front, all laws, and the one to take; the artists.
+        """Draw the minimised measure over the second: the front, all laws, the recommended one; returns the artists.
 
         `ax` are axes of matplotlib, new ones unless given; `style` is what `Axes.plot` takes, for the front.
         """

@@ -1,4 +1,4 @@
-"""A cycle of which laws are compared: its moves with each law, what that takes of the machine, and the optima."""
+"""A cycle whose laws are compared: its moves with each law, the demands on the machine, and the optimal laws."""
 
 from __future__ import annotations
 
@@ -101,7 +101,7 @@ class AdvisedCycle:
 
     @property
     def objectives(self) -> tuple[str, ...]:
-        """The measures that laws can be least in, but for power and sums, which nothing is proven of."""
+        """The measures that can be minimised; power and sums are excluded, as they have no lower bound."""
         names = (measure.name for measure in self.measures if measure.name not in (*_POWERED, "velocity"))
         return tuple(name for name in names if name in (*OBJECTIVES, RESIDUAL, self.minimise))
 
@@ -150,7 +150,7 @@ class AdvisedCycle:
         return self._optimal(name, minimise, cycle)
 
     def near(self, name: str, best: AdvisedLaw, minimise: str, share: float) -> AdvisedLaw:
-        """The cycle whose laws are least in a peak or residual of all that are as good as others but for a share.
+        """The cycle with the least peak or residual among laws whose other measure is within a share of the optimum.
 
         Raises
         ------
@@ -173,7 +173,7 @@ class AdvisedCycle:
 
     @kept_property
     def _compared(self) -> tuple[int, ...]:
-        """The numbers of the segments whose laws are compared: all that move but those whose law ends in motion."""
+        """The numbers of the segments whose laws are compared: all moves except moves that end in motion."""
         numbers = tuple(i for i, segment in enumerate(self.cycle.segments) if _may_change(segment))
         if not numbers:
             raise InputError("the cycle has no move whose law could be another: laws are compared from rest to rest")
@@ -183,7 +183,7 @@ class AdvisedCycle:
         return [changed(each) if i in self._compared else each for i, each in enumerate(self.cycle.segments)]
 
     def _known(self, segments: Sequence[CycleSegment]) -> Cycle:
-        """A cycle of these laws: nothing of a load is looked for."""
+        """A cycle of known laws, without limits and without an objective of the load."""
         minimise = "acceleration" if kind_of(self.cycle.minimise)[0] == LOADED else self.cycle.minimise
         cycle = replace(self.cycle, segments=segments, minimise=minimise, limits={})
         _ = cycle.peaks  # what does not fit is refused here
@@ -308,7 +308,7 @@ def _rests(piece: Piece) -> bool:
 
 
 def _is_at_rest(law: MotionLaw) -> bool:
-    """Whether a law's velocity is 0 at both ends, but for rounding."""
+    """Whether a law's velocity is 0 at both ends, up to rounding."""
     return max(abs(float(law.b(end))) for end in (0.0, 1.0)) <= JUMP * law.peak(1).value
 
 

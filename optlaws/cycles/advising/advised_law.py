@@ -1,4 +1,4 @@
-"""A law beside others: what it takes of all that a designer compares, of every limit, and what is proven of it."""
+"""A law beside others: its value of every compared measure, its use of every limit, and its proven bounds."""
 
 from __future__ import annotations
 
@@ -102,7 +102,7 @@ class AdvisedLaw:
 
     @property
     def keeps_limits(self) -> bool:
-        """Whether every limit is kept, but for rounding."""
+        """Whether every limit is kept, up to rounding."""
         return all(taken.is_kept for taken in self.limits)
 
     @property
@@ -169,7 +169,7 @@ class AdvisedLaw:
 
 
 class AdvisedMotion(Protocol):
-    """A motion of which laws are compared: what they are compared by, and how they are had.
+    """A motion whose laws are compared: the measures of the comparison, and the ways to the laws.
 
     Attributes
     ----------
@@ -209,7 +209,7 @@ class AdvisedMotion(Protocol):
         ...
 
     def standard(self, name: str) -> AdvisedLaw:
-        """It with a law of the catalogue; an `InputError` where that does not fit."""
+        """The motion with a law of the catalogue; an `InputError` where the law does not fit."""
         ...
 
     def least(self, name: str, minimise: str, most: Mapping[str, float]) -> AdvisedLaw:
@@ -217,5 +217,5 @@ class AdvisedMotion(Protocol):
         ...
 
     def near(self, name: str, best: AdvisedLaw, minimise: str, share: float) -> AdvisedLaw:
-        """The law that is least in a measure of all that are as good as an optimal one, but for a share."""
+        """The law that is least in one measure among all laws within a share of an optimum of another measure."""
         ...

@@ -1,4 +1,4 @@
-"""The door to advice: which law a move, a cycle or a problem should have."""
+"""The entry to advice: the law to choose for a move, a cycle or a problem."""
 
 from __future__ import annotations
 
@@ -190,7 +190,7 @@ def _cycle(
 
 
 def _of_move(move: Move, given: Mapping[str, Any], limits: Mapping[str, Any]) -> Cycle:
-    """A single move as a cycle that goes on from where it ends."""
+    """A single move as a cycle that continues from its end."""
     axis = axis_of([move])
     if move.duration is None or isinstance(move.duration, list | tuple):
         raise InputError("a single move has one duration, such as '0.1 s'")

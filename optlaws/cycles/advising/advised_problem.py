@@ -1,4 +1,4 @@
-"""A dimensionless problem of which laws are compared: its constants, and those of standard laws within its bounds."""
+"""A dimensionless problem whose laws are compared: its constants, and the standard laws within its bounds."""
 
 from __future__ import annotations
 
@@ -79,10 +79,10 @@ class AdvisedProblem:
 
     @property
     def usual(self) -> None:
-        """The name of the law that it has: none, as its law is looked for."""
+        """No name, as the law of a problem is sought."""
 
     def minimising(self, minimise: str) -> AdvisedProblem:
-        """The same with another objective: a measure by its name, or what a problem minimises.
+        """The same problem with another objective: a measure by its name, or an objective of `Problem`.
 
         Raises
         ------
@@ -93,10 +93,10 @@ class AdvisedProblem:
         return replace(self, problem=replace(self.problem, minimise=objective))
 
     def given(self) -> None:
-        """The laws that it has: none, as its law is looked for."""
+        """No laws, as the law of a problem is sought."""
 
     def standard(self, name: str) -> AdvisedLaw:
-        """A law of the catalogue, with what it takes of the bounds.
+        """A law of the catalogue, with its use of the bounds.
 
         Raises
         ------
@@ -124,7 +124,7 @@ class AdvisedProblem:
         return self._solved(name, minimise, problem)
 
     def near(self, name: str, best: AdvisedLaw, minimise: str, share: float) -> AdvisedLaw:
-        """The law that is least in a measure of all that are as good as an optimal one, but for a share.
+        """The law that is least in one measure among all laws within a share of an optimum of another measure.
 
         Raises
         ------

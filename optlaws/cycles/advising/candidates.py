@@ -1,4 +1,4 @@
-"""The laws that are compared: those of the catalogue, the optimal ones, and the front between two measures."""
+"""The compared laws: catalogue laws, optimal laws, and the front between two measures."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _ROUNDS = 3
 
 @dataclass
 class Candidates:
-    """The laws of a motion as they are found, and why others are not there.
+    """The laws of a motion in the order of their computation, and the reasons for missing ones.
 
     Attributes
     ----------
@@ -57,7 +57,7 @@ class Candidates:
         return next(name for name in (RESIDUAL, "jerk", "acceleration") if name in names and name != self.minimise)
 
     def most(self, *but: str) -> dict[str, float]:
-        """The values of the usual law that no other should exceed: of measures without a limit, but for some."""
+        """The usual law's values of most measures without a limit, which no other law should exceed."""
         if self.usual is None or not self.guarding:
             return {}
         left = {self.minimise, *self.motion.limited, *but}
@@ -68,7 +68,7 @@ class Candidates:
         }
 
     def add_standard(self, names: Sequence[str]) -> None:
-        """The laws that the motion has, and those of the catalogue.
+        """Add the motion's own laws and the laws of the catalogue.
 
         The usual one is the first of them, or where it breaks a limit and others do not the least of these.
         """
@@ -118,7 +118,7 @@ class Candidates:
             self._add(name, partial(motion.least, name, RESIDUAL, most))
 
     def front(self, points: int) -> tuple[AdvisedLaw, ...]:
-        """Laws that exchange what is minimised for the second measure, from the least of one to that of the other.
+        """Laws that exchange the minimised measure for the second one, from the least value of each.
 
         None takes more of the others than the usual law, nor more than twice the least of what is minimised.
         """
@@ -155,7 +155,7 @@ class Candidates:
         return law.values[self.minimise]
 
     def _within(self, name: str, minimise: str, most: Mapping[str, float]) -> AdvisedLaw:
-        """The law that is least in a measure and takes no more of others; those of a drive bound it where they must."""
+        """The law that is least in a measure without exceeding others; drive measures are bounded only if necessary."""
         bounds = {other: value for other, value in most.items() if other in _OF_MOTION}
         for _ in range(_ROUNDS):
             law = self.motion.least(name, minimise, bounds)
@@ -173,7 +173,7 @@ class Candidates:
             del self.laws[name]
 
     def _add(self, name: str, make: Callable[[], AdvisedLaw]) -> AdvisedLaw | None:
-        """A law under its name, or the error that says why there is none."""
+        """Add a law under its name, or the error with the reason for its absence."""
         try:
             self.laws[name] = make()
         except OptlawsError as error:
@@ -188,5 +188,5 @@ def _is_equal(law: AdvisedLaw, other: AdvisedLaw) -> bool:
 
 
 def exceeded(law: AdvisedLaw, most: Mapping[str, float]) -> list[str]:
-    """The measures that a law takes more of than is said, but for rounding."""
+    """The measures in which a law exceeds given values by more than rounding."""
     return [name for name, value in most.items() if not law.values[name] <= value * (1.0 + BOUND_SLACK)]

@@ -1,4 +1,4 @@
-"""Problems with one more bound: of a constant, or of what they minimise themselves near its least value."""
+"""Problems with one more bound: a bound of a constant, or of their own objective near its least value."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from optlaws.synthesis.solution import Solution
 
 
 def with_most(problem: Problem, constant: Functional, most: float) -> Problem:
-    """The problem whose laws take no more of a constant; one that is fixed stays as it is.
+    """The problem with an upper bound of a constant; a fixed constant stays unchanged.
 
     Examples
     --------
@@ -36,7 +36,7 @@ def with_most(problem: Problem, constant: Functional, most: float) -> Problem:
 
 
 def least_near(solution: Solution, minimise: Functional, share: float) -> Problem:
-    """The problem of the laws that are as good as a solution but for a share, of which the best in another constant.
+    """The problem of the best law in another constant, among laws within a share of a solution's objective.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""The law to take, by a rule that is stated, and what it gains and costs, in two sentences made of facts."""
+"""The recommended law, by a stated rule, with its gain and its cost in two factual sentences."""
 
 from __future__ import annotations
 

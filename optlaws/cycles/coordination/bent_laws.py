@@ -33,7 +33,7 @@ class BentAxis:
     laws: dict[int, MotionLaw]
 
     def slower(self, factor: float) -> BentAxis:
-        """The same laws in longer times."""
+        """The same laws over longer times."""
         return BentAxis([factor * duration for duration in self.durations], self.laws)
 
 
@@ -71,7 +71,7 @@ class _Cubics:
 def bent_laws(
     bent: Bent, instants: Array, sides: tuple[int, ...], goal: Goal, period: float, pieces: int
 ) -> BentLaws | None:
-    """The laws of least share at instants in a period; None where there are none."""
+    """The laws of least use of the limits at instants in a period; None where none exist."""
     box = InstantBox(instants, instants, sides)
     nodes = {name: chain.times(box.low, box.high, period)[0] for name, chain in bent.chains.items()}
     if any(_at_once(chain, nodes[name]) for name, chain in bent.chains.items()):

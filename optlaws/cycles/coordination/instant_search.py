@@ -1,4 +1,4 @@
-"""The search for the instants of laws that bend: boxes of instants, each with its bound, parted where it says most."""
+"""The search for instants of laws that bend: boxes of instants with bounds, split where the split is most useful."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ class BestBent:
 
 @dataclass(frozen=True)
 class _Node:
-    """A box, the share that no laws in it are below, and the relaxation that says so."""
+    """A box of instants, the proven lower bound of the share in it, and the relaxation that proves the bound."""
 
     box: InstantBox
     bound: float
@@ -83,7 +83,7 @@ class _BoxSearch:
         return min(self.enough, inf if self.best is None else self.best.share * (1.0 - self.gap))
 
     def search(self, most: int) -> float:
-        """Part boxes, that of the least bound first, and return the bound of the share over all of them."""
+        """Split boxes, the box of least bound first, and return the bound of the share over all boxes."""
         number, heap, closed = count(), list[tuple[float, int, _Node]](), inf
         sides = tuple(0 if len(visit.sides) == 1 else None for visit in self.bent.visits)
         root = self._node(InstantBox(np.zeros(self.bent.count), np.ones(self.bent.count), sides), 0.0)
@@ -101,7 +101,7 @@ class _BoxSearch:
         return min([closed, self.most, *(open_[0] for open_ in heap[:1])])
 
     def _node(self, box: InstantBox, bound: float, pieces: int = 0) -> _Node | None:
-        """The box with its bound, at least that of the box it is part of; None where it has no laws."""
+        """The box with its bound, at least the bound of its parent box; None where the box has no laws."""
         self.nodes += 1
         pieces = max(pieces, next(pieces for most, pieces in _PIECES if (box.high - box.low).max(initial=0.0) <= most))
         known = relaxed(self.bent, box, replace(self.goal, most=self.most), self.period, pieces)
@@ -128,7 +128,7 @@ class _BoxSearch:
         return bent_laws(self.bent, instants, sides, self.goal, period, pieces)
 
     def begin(self, cycles: Mapping[str, Any]) -> None:
-        """Take the instants of cycles that keep all interlocks, and better ones near by."""
+        """Start from the instants of cycles that keep all interlocks, and from better instants nearby."""
         self.period = next(iter(cycles.values())).duration
         instants = np.full(self.bent.count, 0.5)
         times = np.linspace(0.0, 1.0, _PLACES)
@@ -151,7 +151,7 @@ class _BoxSearch:
         self.best = None if laws is None else self._nearby(laws)
 
     def _nearby(self, laws: BentLaws) -> BentLaws:
-        """Better laws at instants near those of given ones: each instant is moved, by less and less."""
+        """Better laws at instants near given ones: each instant is moved by smaller and smaller steps."""
         step = _FIRST_STEP
         while step > LAST_STEP_OF_INSTANTS:
             before = laws.share
@@ -187,7 +187,7 @@ class _BoxSearch:
         return instants
 
     def _side(self, visit: Visit, node: _Node, i: int) -> int:
-        """The side that is chosen, or the one that the relaxation breaks less."""
+        """The chosen side, or the side that the relaxation violates less."""
         chosen = node.box.sides[i]
         if chosen is not None:
             return chosen
@@ -215,7 +215,7 @@ class _BoxSearch:
                     yield off, wider, float(times[j])
 
     def _parts(self, node: _Node) -> list[_Node] | None:
-        """The box parted by the side of a region, or at the instant that says most; None where none does."""
+        """The box split by the side of a region, or at the most useful instant; None if no split helps."""
         box = node.box
         if not node.relaxed.times.size:
             widest = int(np.argmax(box.high - box.low))
@@ -279,7 +279,7 @@ class _BoxSearch:
 
 
 def _halved(box: InstantBox, instant: int, time: float | None) -> Iterator[InstantBox]:
-    """The box parted at a time of an instant, or in its middle where that is near an end."""
+    """The box split at a given time of an instant, or in its middle where the time is near an end."""
     low, high = float(box.low[instant]), float(box.high[instant])
     cut = 0.5 * (low + high)
     if time is not None and low + 0.2 * (high - low) < time < high - 0.2 * (high - low):

@@ -20,7 +20,7 @@ Straight = tuple[float, float, float, float]
 
 @dataclass(frozen=True, eq=False)
 class Profile:
-    """A bound of the position of an axis over that of another, in straight parts; positions as shares of strokes.
+    """A bound of one axis's position over another axis's position, piecewise linear; positions as shares of strokes.
 
     `sign` is 1 where it is the least position, -1 where the greatest.
     """
@@ -35,7 +35,7 @@ class Profile:
         return self.sign * max(met)
 
     def edges(self, start: float, stop: float) -> list[tuple[float, float]]:
-        """Slopes and values at 0 of lines that the bound nowhere between two places lets the other axis pass.
+        """Slopes and intercepts of lines that bound the other axis between two positions.
 
         They are the edges of its convex hull there: where it is convex it is the greatest of them.
         """
@@ -71,7 +71,7 @@ class Profile:
 
 @dataclass(frozen=True, eq=False)
 class Visit:
-    """While an axis is between two of its nodes, and when it is at them, another one is beyond one of its profiles.
+    """A condition: while an axis is between two of its nodes, another axis is beyond one of its profiles.
 
     `between` are the nodes; of an `After` it is one node alone, and the profile has one value.
     """
@@ -164,7 +164,7 @@ def _places(rule: Interlock, sides: Sequence[Profile], start: float, stop: float
 
 
 def _chain(line: Timeline, marks: Sequence[Sequence[float]], count: int) -> tuple[Chain, int]:
-    """The nodes of an axis, and how many instants there are with those of the axes before it."""
+    """The nodes of an axis, and the number of instants up to and including this axis."""
     if not line.bends:
         return _known_chain(line, marks), count
     last = line.rests[-1]

@@ -110,7 +110,7 @@ class InstantPlaces:
         return [self.first + j], [weight], 0.0
 
     def values(self, solved: Solved, count: int) -> Array:
-        """The positions of a solution; none of one that was not found."""
+        """The positions of a solution; an empty tuple without a solution."""
         if self.first is None:
             assert self.known is not None  # noqa: S101 - one of both
             return self.known
@@ -118,7 +118,7 @@ class InstantPlaces:
 
 
 def _times(spans: Mapping[str, tuple[Array, Array]], pieces: int) -> Array:
-    """Times of the nodes, with further times evenly between distant ones."""
+    """Times of the nodes, with further times evenly spaced between distant nodes."""
     of_nodes = [
         time for first, last in spans.values() for times in (first, last, 0.5 * (first + last)) for time in times
     ]
@@ -166,7 +166,7 @@ def _limits(rows: Rows, stand: Stand, place: int, times: Array, reference: float
 
 
 def _near_rests(rows: Rows, stand: Stand, place: int, times: Array, box: InstantBox, goal: Goal, period: float) -> None:
-    """Rows that limit the way left to a dwell, or gone since one, by what the limits allow in the time.
+    """Rows that bound the remaining way to a dwell, or the way since a dwell, by the limits and the elapsed time.
 
     The greatest way from rest is convex in the time, and so below its chord over a box: linear in the instant.
     """

@@ -80,7 +80,7 @@ class Rows:
         return Solved(np.empty(0), float(self.low[goal]), float(self.low[goal]))
 
     def optimum(self, goal: int) -> Array | None:
-        """The unknowns for which one of them is least; None where none were found."""
+        """The unknowns of least objective; None if the solver finds none."""
         weights = np.zeros(self.size)
         weights[goal] = 1.0
         answer = _answer(weights, *self._given, self.low, self.high)
@@ -118,7 +118,7 @@ def _answer(weights: Array, matrix: Any, right: Array, equal: Any, low: Array, h
 def _bounded(
     weights: Array, matrix: Any, right: Array, equal: Any, low: Array, high: Array  # noqa: ANN401
 ) -> Solved | None:  # fmt: skip
-    """The answer with the bound of its multipliers, rounding counted; None where there is none."""
+    """The answer with the lower bound of its multipliers, rounding included; None without an answer."""
     answer = _answer(weights, matrix, right, equal, low, high)
     if answer.status != 0:
         return None

@@ -46,7 +46,7 @@ class DrivenLimit:
 
     @property
     def scales(self) -> bool:
-        """Whether it is the limit itself, and a law that keeps it keeps it at every lower speed."""
+        """Whether the limit is the original one, so that a law which keeps it keeps it at every lower speed."""
         resting = not any((self.span.first.velocity, self.span.last.velocity))
         if isinstance(self.drive, PositionDrive):
             return self.driven(1.0).exact and _torque_scales(self.drive, self.key, resting=resting)
@@ -67,7 +67,7 @@ class DrivenLimit:
         return driven_peak(span, self.drive, self.stroke, self.key)
 
     def term(self, scale: float) -> tuple[Functional, float]:
-        """The peak of the force or power of the law at a scale of the time, and the share that one of it is."""
+        """The peak force or power of the law at a scale of the time, and the use of the limit per unit of the peak."""
         driven = self.driven(scale)
         return driven.constants[self.part], driven.unit / self.most
 
@@ -84,7 +84,7 @@ class DrivenLimit:
         return max(0.0, log(before / after) / log((1.0 + DURATION_STEP) / (1.0 - DURATION_STEP)))
 
     def least_scale(self, law: MotionLaw) -> float:
-        """The least scale from which on a law satisfies the limit; infinite if there is none, 0 if all do."""
+        """The least scale from which on a law satisfies the limit; infinite if no scale does, 0 if all do."""
         from scipy.optimize import brentq
 
         high = 1.0
@@ -110,7 +110,7 @@ class DrivenLimit:
 def driven_limits(
     key: int, most: float, span: LawSpan, drive: CycleDrive | PositionDrive, stroke: float, axis: str
 ) -> list[DrivenLimit]:
-    """A limit of the drive along a span: one for each constant that makes it.
+    """A drive limit along a span, as one limit for each constant that it involves.
 
     Raises
     ------

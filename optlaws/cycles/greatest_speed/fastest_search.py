@@ -67,7 +67,7 @@ class FastestLaws:
 
 @dataclass(frozen=True)
 class FastestSearch:
-    """A cycle whose least period is sought; `more` says by how much limits are raised, by their names."""
+    """A cycle whose least period is sought; `more` maps limit names to the factors that raise them."""
 
     programme: Programme
     objective: CycleObjective
@@ -104,7 +104,7 @@ class FastestSearch:
 
     @kept_property
     def rating(self) -> ForceRating | None:
-        """The limit of the root mean square of the force over the cycle; None where there is none."""
+        """The limit of the root mean square of the force over the cycle; None without such a limit."""
         most = self.objective.mean_force
         if most is None:
             return None
@@ -348,7 +348,7 @@ def _of_what(proof: Certificate) -> str:
 
 
 def _at_rest(span: LawSpan) -> LawSpan:
-    """The span at rest where a law beside it leaves it but for rounding: what is proven from rest counts on it."""
+    """The span with end states of exact rest where they differ from rest by rounding only: proofs assume rest."""
     way = abs(scale(span)) * SAME_TIME
     first, last = (
         State(*(0.0 if abs(value) <= factor(way, span.duration, nu) else value for nu, value in enumerate(state, 1)))

@@ -14,7 +14,7 @@ from optlaws.tolerances import SAME_TIME
 
 
 class Extent(NamedTuple):
-    """A duration, or a bound of one: a share of the period and a time in seconds, one of which is 0."""
+    """A duration, or a bound of a duration: a share of the period and a time in seconds, one of which is 0."""
 
     share: float
     time: float
@@ -37,7 +37,7 @@ class DurationRange(NamedTuple):
 
     @property
     def turns(self) -> bool:
-        """Whether it is an angle, which takes its share of every period."""
+        """Whether the range is an angle, which takes a fixed share of every period."""
         return self.fixed and self.least.time == 0.0
 
 
@@ -70,7 +70,7 @@ def _extent(value: Any) -> Extent:  # noqa: ANN401
 
 
 def least_period(ranges: Sequence[DurationRange], needed: Sequence[float]) -> float:
-    """The least period in which the free segments, each with the least time that it needs, have room; 0 if all turn.
+    """The least period that accommodates the least times of the free segments; 0 if all segments are angles.
 
     Raises
     ------

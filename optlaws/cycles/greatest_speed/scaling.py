@@ -8,7 +8,7 @@ from optlaws.cycles.specification.joints import LawSpan
 
 
 def slower(span: LawSpan, scale: float) -> LawSpan:
-    """The span run so many times slower: its times longer, its velocities and accelerations less.
+    """The span slowed down by a factor: its times are longer, its velocities and accelerations smaller.
 
     >>> from optlaws.cycles.specification.joints import State
     >>> span = LawSpan((), (0.5,), 1.0, 0.0, 0.1, State(1.0, 8.0), State(0.0, 0.0), ((0.75, 0.05),))

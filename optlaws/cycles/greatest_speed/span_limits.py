@@ -24,7 +24,7 @@ from optlaws.synthesis.problem.constants import Functional
 
 
 class SpanLimit(Protocol):
-    """A limit of a span as a share of what is allowed, which is at most 1 where it is kept."""
+    """A limit of a span as a share of its allowed value; the limit is kept where the share is at most 1."""
 
     @property
     def key(self) -> LimitKey:
@@ -39,7 +39,7 @@ class SpanLimit(Protocol):
         """Whether a law that satisfies the limit satisfies it at every lower speed."""
 
     def term(self, scale: float) -> tuple[Functional, float]:
-        """The limited constant of the law, and the share that one of it is, at a scale of the time."""
+        """The limited constant of the law, and the share that one unit of it takes at a scale of the time."""
 
     def slope(self, law: MotionLaw, scale: float) -> float:
         """The exponent with which the share of a law falls with the scale."""
@@ -50,7 +50,7 @@ class SpanLimit(Protocol):
 
 @dataclass(frozen=True)
 class DerivativeLimit:
-    """A limit of a derivative, or of one side of it, in a span or in a part of it; `unit` is that of the law in SI."""
+    """A limit of a derivative, or of its positive or negative part, in a span or a part of it; `unit` is SI."""
 
     key: LimitKey
     most: float
@@ -64,11 +64,11 @@ class DerivativeLimit:
 
     @property
     def scales(self) -> bool:
-        """True: both sides have room for a motion that is slower."""
+        """True: a slower motion also keeps both sides of the limit."""
         return True
 
     def term(self, scale: float) -> tuple[Functional, float]:
-        """The limited constant of the law, and the share that one of it is."""
+        """The limited constant of the law, and the share that one unit of it takes."""
         return self.constant, self.unit / (self.most * scale**self.nu)
 
     def slope(self, law: MotionLaw, scale: float) -> float:  # noqa: ARG002 - that of every law
@@ -138,5 +138,5 @@ def _of_part(key: LimitKey, stroke: float, ends: tuple[float, float]) -> Functio
 
 
 def least_scale(rows: Sequence[SpanLimit], law: MotionLaw) -> float:
-    """The least scale of the time at which a law keeps all limits; 0 where there are none."""
+    """The least scale of the time at which a law keeps all limits; 0 without limits."""
     return max((row.least_scale(law) for row in rows), default=0.0)

@@ -1,1 +1,1 @@
-"""Axes of one clock that must not meet: what is asked of their positions, and what is proven of it."""
+"""Axes of one clock that must not collide: the conditions on their positions, and their proofs."""

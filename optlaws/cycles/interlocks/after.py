@@ -101,7 +101,7 @@ class After(Interlock):
         return unit_of(other)
 
     def room(self, cycles: Mapping[str, Any], times: Array) -> Array:
-        """How far the other axis is beyond its position."""
+        """The signed distance of the other axis beyond its required position."""
         _, level = self.positions(cycles)
         return np.asarray(self.sign * (cycles[self.of](times) - level))
 
@@ -125,7 +125,7 @@ class After(Interlock):
         return pairs
 
     def _least_clearance(self, first: EnclosedAxis, second: EnclosedAxis) -> LeastClearance:
-        """How far the other axis is beyond its position when this one passes, at the worst pass."""
+        """The signed distance of the other axis beyond its required position at the worst passage of this axis."""
         position = quantity(self.position, first.cycle.axis, "position")
         level = quantity(self.above if self.below is None else self.below, second.cycle.axis, "level")
         passes = first.passes(position, self.way)

@@ -37,7 +37,7 @@ class PlannedSegment:
 
     @property
     def moves(self) -> bool:
-        """Whether it moves its axis."""
+        """Whether the segment moves its axis."""
         return self.law is not None
 
     @property
@@ -152,7 +152,7 @@ def plan_of(cycle: Any, name: str, first: int, count: int, goal: str, *, longer:
 
 
 def dwell_spell(stretch: TimedSegment, where: str) -> tuple[Spell, Spell | None]:
-    """A dwell takes at least what it was given, or the least of it that it may take; nothing where it was left out."""
+    """The least duration of a dwell: its given or least allowed value, 0 where the duration is omitted."""
     given = stretch.given
     assert isinstance(given, Dwell)  # noqa: S101 - or a move by nothing, which has a duration as well
     text = given.duration if given.least is None else given.least

@@ -111,13 +111,13 @@ class Clearance(Interlock):
         bound_of(self, first.axis, second.axis)
 
     def room(self, cycles: Mapping[str, Any], times: Array) -> Array:
-        """How far the axis is from its bound."""
+        """The signed distance of the axis from its bound."""
         first, second = (cycles[name] for name in self.axes)
         bound = bound_of(self, first.axis, second.axis)
         return np.asarray(self.sign * (first(times) - bound(second(times))))
 
     def _least_clearance(self, first: EnclosedAxis, second: EnclosedAxis) -> LeastClearance:
-        """How far the axis is from its bound where it is nearest."""
+        """The signed distance of the axis from its bound at the nearest point."""
         bound = bound_of(self, first.cycle.axis, second.cycle.axis)
 
         def room(at: Interval, order: int) -> Jet:
@@ -159,7 +159,7 @@ class TableBound:
 
 @dataclass(frozen=True)
 class FormulaBound:
-    """A formula of x with units: `size` is the unit of its value and `scale` that of x, both in SI."""
+    """A formula of x with units: `size` is the unit of its value and `scale` is the unit of x, both in SI."""
 
     formula: Formula
     size: float

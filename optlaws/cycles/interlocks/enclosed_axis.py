@@ -140,7 +140,7 @@ class EnclosedAxis:
         ]
 
     def rests_at(self, position: float) -> bool:
-        """Whether it dwells at a position."""
+        """Whether the axis dwells at a position."""
         return any(self._near(rest, position) for rest in self.rests)
 
     def _near(self, first: float, second: float) -> bool:

@@ -85,7 +85,7 @@ class Forbidden(Interlock):
         polygon_of(self, first.axis, second.axis)
 
     def unit(self, kind: str, other: str) -> str:
-        """Of distances in the plane; strokes where one axis is a slide and the other a table."""
+        """The unit of distances in the plane; strokes where one axis is linear and the other rotary."""
         return unit_of(kind) if kind == other else "strokes"
 
     def room(self, cycles: Mapping[str, Any], times: Array) -> Array:

@@ -29,7 +29,7 @@ SMALL_UNITS = {
 
 @dataclass(frozen=True)
 class LeastClearance:
-    """The least clearance that a cycle leaves an interlock: what it has at a time, and what is proven always.
+    """The least clearance of an interlock in a cycle: the value at a time, and the proven bound for all times.
 
     Attributes
     ----------
@@ -85,7 +85,7 @@ class LeastClearance:
 
 
 class Interlock(JsonText, ABC):
-    """A condition on the positions of two axes of one clock; which, its heirs say."""
+    """A condition on the positions of two axes of one clock; subclasses define the condition."""
 
     kind: ClassVar[str] = ""
 
@@ -123,12 +123,12 @@ class Interlock(JsonText, ABC):
         return self._least_clearance(first, second)
 
     def unit(self, kind: str, other: str) -> str:  # noqa: ARG002 - of the other one where a heir says so
-        """The SI unit of its clearance, of axes that are lengths or angles: that of the first, unless a heir says."""
+        """The SI unit of the clearance, for axes that are lengths or angles: the first axis's unit by default."""
         return unit_of(kind)
 
     @abstractmethod
     def room(self, cycles: Mapping[str, Any], times: Array) -> Array:
-        """The clearance at times in seconds, in SI units, to draw; not a number where the interlock says nothing."""
+        """The clearance at times in seconds, in SI units, for plots; NaN where the interlock imposes no condition."""
 
     @abstractmethod
     def _least_clearance(self, first: EnclosedAxis, second: EnclosedAxis) -> LeastClearance:
@@ -165,7 +165,7 @@ class Interlock(JsonText, ABC):
         return cycles[self.axes[0]], cycles[self.axes[1]]
 
     def _position(self, value: Any, cycle: ClockedMotion, axis: str, *, rest: bool = False) -> float:  # noqa: ANN401
-        """A position within the stroke of an axis, in SI units; one at which it rests only where that is allowed."""
+        """A position within the stroke of an axis, in SI units; positions at rest are refused where not allowed."""
         position = quantity(value, cycle.axis, f"interlock {self.label}: position of {axis}")
         joints = joint_positions(cycle)
         low, high = min(joints), max(joints)

@@ -246,7 +246,7 @@ class Overlapping:
         return max((-float(row @ unknowns) for row in rows), default=0.0)
 
     def _most_broken(self, unknowns: Array, choices: Choices) -> int | None:
-        """The requirement without alternatives whose best option is violated most; None if there is none."""
+        """The requirement without alternatives whose best option is violated most; None without such a requirement."""
         worst, which = BROKEN_INSTANT * float(unknowns[-2]), None
         for i, options in enumerate(self.options):
             if i not in choices:
@@ -256,7 +256,7 @@ class Overlapping:
         return which
 
     def _completed(self, unknowns: Array, choices: Choices) -> dict[int, WaitOption]:
-        """The choices with those that the solution itself makes."""
+        """The choices, completed by the choices that the solution itself implies."""
         others = {
             i: min(options, key=lambda option: self._broken_by(i, option, unknowns))
             for i, options in enumerate(self.options)

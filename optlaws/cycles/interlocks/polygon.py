@@ -1,4 +1,4 @@
-"""Simple polygons: how far a point is outside, as a function that enclosures can follow."""
+"""Simple polygons: the distance of a point outside, as a function that enclosures can evaluate."""
 
 from __future__ import annotations
 
@@ -113,7 +113,7 @@ def _hull(points: Sequence[Corner]) -> set[int]:
 
 
 def _beyond(start: Corner, stop: Corner) -> Depth:
-    """How far a point is to the right of a side."""
+    """The signed distance of a point to the right of a side."""
     across, up = (stop[0] - start[0], stop[1] - start[1])
     size = hypot(across, up)
     return lambda x, y: (x + (-start[0])) * (up / size) + (y + (-start[1])) * (-across / size)

@@ -42,7 +42,7 @@ class WaitOption:
 
 @dataclass(frozen=True, eq=False)
 class Requirement:
-    """While a segment of an axis goes from one position to another, the other axis is on one of several sides."""
+    """A condition: while a segment of an axis goes between two positions, the other axis is on one of several sides."""
 
     rule: Interlock
     axis: AxisPlan
@@ -53,7 +53,7 @@ class Requirement:
 
     @property
     def extended(self) -> bool:
-        """Whether it is of more than one position."""
+        """Whether the requirement covers more than one position."""
         return self.axis.segments[self.segment].moves and self.places[0] != self.places[1]
 
     def bends(self) -> list[float]:
@@ -100,7 +100,7 @@ class Requirement:
 def requirements(
     rules: Sequence[Interlock], plans: Mapping[str, AxisPlan], cycles: Mapping[str, Any]
 ) -> list[Requirement]:
-    """All that interlocks demand of the instants of planned axes."""
+    """All conditions of interlocks on the instants of planned axes."""
     known: list[Requirement] = []
     for rule in rules:
         first, second = (plans[name] for name in rule.axes)

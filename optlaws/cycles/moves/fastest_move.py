@@ -201,7 +201,7 @@ class FastestMove(LawExport, JsonText):
         return Summary(rows)
 
     def _use(self, name: str) -> str:
-        """How much of a limit the law uses, and what more of it would save."""
+        """The law's use of a limit, and the time saved by a higher limit."""
         if name not in self.binding:
             return f"{100.0 * self.least.used[name]:.3g} % of the limit"
         gain = self.gains().get(name)
@@ -260,7 +260,7 @@ class FastestMove(LawExport, JsonText):
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> FastestMove:
-        """Read what `to_dict` wrote; the law and the proofs are held against the move and its limits.
+        """Read the output of `to_dict`; the law and the proofs are checked against the move and its limits.
 
         Raises
         ------

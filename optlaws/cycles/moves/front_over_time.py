@@ -1,4 +1,4 @@
-"""The door to fronts over the time of a move: what is least, in machine units, and what it needs."""
+"""The entry to fronts over the time of a move: the least value of a quantity in machine units, for each time."""
 
 from __future__ import annotations
 
@@ -109,7 +109,7 @@ def _least_in(move: FastestMove, objective: MoveObjective, duration: float) -> S
 def _objective(
     name: str, move: FastestMove, drive: Drive | None, start: NumberOrQuantity, follower: Mapping[str, Any] | None
 ) -> MoveObjective:
-    """The objective of a move; drive and follower are those of the move unless given."""
+    """The objective of a move; drive and follower default to the move's own."""
     if name not in OBJECTIVES:
         raise InputError(f"minimise: {unknown_key(name, OBJECTIVES, 'objective of a move')}")
     if drive is not None and name not in AT_MOTOR:

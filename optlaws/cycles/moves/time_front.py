@@ -141,7 +141,7 @@ class TimeFront(JsonText):
 
     @property
     def falls(self) -> bool:
-        """Whether it is known that a longer time never needs more: then the front is known between its points too."""
+        """Whether a longer time provably never needs more, so that the front is known between its points too."""
         return self.objective.falls(self.fastest.least.move)
 
     def __call__(self, duration: Quantity | float) -> TimePoint:
@@ -182,7 +182,7 @@ class TimeFront(JsonText):
         )
 
     def _point(self, duration: float, law: MotionLaw, bound: float, *, dimensionless: bool = False) -> TimePoint:
-        """The point of a law; its bound in SI units or as that of the law's constant."""
+        """The point of a law, with its bound in SI units or as a bound of the law's constant."""
         least = self.objective.in_time(duration, self.fastest.stroke)
         value, lower_bound = float(least.constant.value(law)) / least.bound, bound
         if dimensionless:
@@ -219,7 +219,7 @@ class TimeFront(JsonText):
         return to_csv(self.headings, self.rows, about=f"least {self.minimise} over the time of a move", digits=12)
 
     def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
-        """Draw the front into matplotlib's axes, new ones unless given, with what is proven below; the artists.
+        """Draw the front with its proven lower bound into matplotlib's axes, new ones by default; returns the artists.
 
         Examples
         --------
@@ -247,7 +247,7 @@ class TimeFront(JsonText):
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> TimeFront:
-        """Read what `to_dict` wrote; laws and proofs are held against the move, numbers against the laws.
+        """Read the output of `to_dict`; laws and proofs are checked against the move, numbers against the laws.
 
         Raises
         ------

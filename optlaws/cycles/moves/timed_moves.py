@@ -1,4 +1,4 @@
-"""The doors to least times of single moves: strokes and limits in machine units."""
+"""The entry to least times of single moves: strokes and limits in machine units."""
 
 from __future__ import annotations
 

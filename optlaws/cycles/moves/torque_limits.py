@@ -46,7 +46,7 @@ def without_torques(drive: Drive, limits: Mapping[str, Any]) -> dict[str, Any]:
 def motor_torque(
     drive: Drive, start: NumberOrQuantity, stroke: NumberOrQuantity, limits: Mapping[str, Any]
 ) -> MotorTorque:
-    """The torque at the motor over a stroke of the mechanism's input, and what it is at most.
+    """The torque at the motor over a stroke of the mechanism's input, and its limit.
 
     Raises
     ------

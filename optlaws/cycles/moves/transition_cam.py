@@ -30,7 +30,7 @@ _KEYS = ("kind", "unit", "period", "at", "rest", "state", "duration", "best", "l
 
 @dataclass(frozen=True, repr=False)
 class TransitionCam(JsonText):
-    """A cam beside that of a cycle: it starts the axis from rest, or stops it, while the master turns on.
+    """A cam beside a cycle's cam: it starts the axis from rest, or stops it, while the master keeps turning.
 
     Where it meets the cycle position, velocity and acceleration are those of the cycle, from order 4 on the jerk too.
     Call it for the motion in SI units over the time since it began.
@@ -243,7 +243,7 @@ class TransitionCam(JsonText):
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> TransitionCam:
-        """Read what `to_dict` wrote; the law is held against the state where it meets the cycle.
+        """Read the output of `to_dict`; the law is checked against the state at which it joins the cycle.
 
         Raises
         ------

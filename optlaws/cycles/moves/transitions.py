@@ -44,7 +44,7 @@ class Meeting:
 
     @property
     def from_rest(self) -> tuple[float, float, float, float]:
-        """The motion at the end of a law that begins at rest: that of a run-out runs backwards in time."""
+        """The motion at the end of a law that begins at rest; the law of a run-out is reversed in time."""
         position, velocity, acceleration, jerk = self.state
         return self.state if self.kind == "run-in" else (position, -velocity, acceleration, -jerk)
 

@@ -21,7 +21,7 @@ _ACCELERATIONS = {"m": "acceleration", "rad": "angular acceleration"}
 def vibration_limit(
     follower: Mapping[str, Any], limits: Mapping[str, Any]
 ) -> tuple[dict[str, Any], Callable[[str], FollowerResidual]]:
-    """The limits without that of the follower, and a function that makes the latter for a stroke in "m" or "rad".
+    """The limits without the follower's limit, and a function that builds that limit for a stroke in "m" or "rad".
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Better moves in place of old ones: of least acceleration within a tolerance, and what is gained by them."""
+"""Better moves in place of old ones: least acceleration within a tolerance, and the resulting gain."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ class MoveGain(NamedTuple):
 
 
 def better(part: Stretch, room: float, order: int, degree: int) -> Stretch:
-    """A move with the law of least acceleration within a room of the old one; with its own where there is none."""
+    """A move with the law of least acceleration within a tolerance of the old law; the old law if none exists."""
     if part.law is None:
         return part
     old, share = law_of_move(part), room / abs(part.stroke)
@@ -107,7 +107,7 @@ def _nearby(old: MotionLaw, share: float, places: int, order: int, degree: int) 
 
 
 def gain(new: Stretch, old: Stretch) -> MoveGain:
-    """The gain of a move over an old one at the same place."""
+    """The gain of a move over the old move in its place."""
     laws = law_of_move(new), law_of_move(old)
     size, length = abs(old.stroke), old.stop - old.start
     peaks = (

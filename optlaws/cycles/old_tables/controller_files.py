@@ -114,7 +114,7 @@ def decoded(content: str, cam: str | None = None) -> Decoded | None:
 
 
 def _blank(match: re.Match[str]) -> str:
-    """The lines of a comment without what it says."""
+    """The lines of a comment, as blank lines."""
     return "\n" * match[0].count("\n") or " "
 
 
@@ -208,7 +208,7 @@ def _records(layout: FieldLayout, fields: Sequence[tuple[str | None, str, _Value
 
 
 def _check_count(text: str, count: int) -> None:
-    """Refuse a file that holds not as many points as it says."""
+    """Refuse a file whose number of points differs from its stated number."""
     stated = [(int(match[1]), _line(text, match.start())) for match in _COUNT.finditer(text)]
     stated += [(int(match[2]) - int(match[1]) + 1, _line(text, match.start())) for match in _BOUNDS.finditer(text)]
     for number, line in stated:
@@ -368,7 +368,7 @@ def _pairs(head: str, flat: list[_Value]) -> list[list[_Value]]:
 
 
 def _used(rows: list[list[_Value]]) -> list[list[_Value]]:
-    """The rows without repetitions of the last one at the end, and without rows of zeros."""
+    """The rows without repetitions of the last row at the end, and without rows of zeros."""
     texts = [[cell.text for cell in row] for row in rows]
     count = len(rows)
     while count > 2 and all(text.strip("0.") == "" for text in texts[count - 1]):

@@ -9,7 +9,7 @@ from functools import cached_property
 
 @dataclass(frozen=True)
 class FieldLayout:
-    """Fields of a controller's structure, by what they hold.
+    """Fields of a controller's structure, by their contents.
 
     Parameters
     ----------

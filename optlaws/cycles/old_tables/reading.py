@@ -109,7 +109,7 @@ def points_in(
     master: str | None = None,
     cam: str | None = None,
 ) -> CamPoints:
-    """The points of the text of a table, as `read_points` reads them; `path` is what an error calls it."""
+    """The points in the text of a table, like `read_points`; errors call the text `path`."""
     try:
         known = decoded(content, cam) if columns is None else None
     except InputError as error:
@@ -160,7 +160,7 @@ def _of_columns(
 
 
 def _columns_layout(content: str, points: TablePoints) -> tuple[str, float]:
-    """The layout of columns, and what their numbers are to be multiplied with; refuses one that says another count."""
+    """The layout of columns, and the factors of their numbers; refuses a table that states another number of points."""
     lines = [line.strip() for line in content.splitlines() if line.strip()]
     first, count = lines[0], points.lines[-1] - points.lines[0] + 1
     count -= sum(not line.strip() for line in content.splitlines()[points.lines[0] - 1 : points.lines[-1]])
@@ -268,7 +268,7 @@ def _about(content: str) -> re.Match[str] | None:
 
 
 def _units(headings: tuple[str, str], content: str, unit: str | None, master: str | None, length: float) -> TableUnits:
-    """TableUnits as given, as comments of optlaws or headings say them, or as the length of the master lets suppose."""
+    """The given TableUnits, or the units from comments of optlaws or headings, or from the length of the master."""
     about = _about(content)
     stated = (about["master"], about["slave"]) if about else (None, None)
     stated_rate = _RATE.search(content[:10_000])

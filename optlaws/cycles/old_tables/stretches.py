@@ -92,7 +92,7 @@ class _Rest:
 
 
 def _rests(heights: Array, room: float) -> Iterator[_Rest]:
-    """Runs of points that keep within the room of a level, and single points at which the motion turns."""
+    """Runs of points within the tolerance of a level, and single points at which the motion turns."""
     count, i = len(heights), 0
     while i < count:
         low = high = heights[i]
@@ -119,7 +119,7 @@ def _level(heights: Array, first: int, last: int) -> float:
 
 
 def _joined(rests: Sequence[_Rest], room: float) -> list[_Rest]:
-    """Runs at one level that follow each other as one, and levels that differ by no more than the room as one level."""
+    """Consecutive runs at the same level as a single run; levels that differ by less than the tolerance are equal."""
     joined: list[_Rest] = []
     longest = sorted(rests, key=lambda rest: rest.first - rest.last)
     for rest in rests:
@@ -185,7 +185,7 @@ def _distance(x: Array, y: Array, law: MotionLaw, start: float, stop: float) -> 
 
 
 def _fitted(x: Array, y: Array, law: MotionLaw, tolerance: float) -> tuple[float, float, float]:
-    """How far the points are from a law at most, and where it begins and ends then, by least squares."""
+    """The greatest deviation of the points from a law, and the law's fitted start and end, by least squares."""
     from scipy.optimize import least_squares
 
     k = np.linspace(0.0, 1.0, 401)

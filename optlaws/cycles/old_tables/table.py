@@ -86,7 +86,7 @@ class OldTable:
         order: int = 3,
         degree: int = 15,
     ) -> Cycle:
-        """The cycle with the laws of least acceleration that stay within a tolerance of the old ones everywhere.
+        """The cycle with the laws of least acceleration that stay within a tolerance of the old laws everywhere.
 
         Parameters
         ----------
@@ -100,7 +100,7 @@ class OldTable:
         return self.bettered(tolerance, order=order, degree=degree).cycle(speed=speed, period=period)
 
     def bettered(self, tolerance: float, *, order: int = 3, degree: int = 15) -> OldTable:
-        """The table with the laws of least acceleration that stay within a tolerance of the old ones everywhere.
+        """The table with the laws of least acceleration that stay within a tolerance of the old laws everywhere.
 
         A move keeps its law where no law of this order and degree within the tolerance has less acceleration.
 
@@ -200,7 +200,7 @@ class OldTable:
 
     @property
     def off(self) -> tuple[float, float]:
-        """How far its laws are from the points at most, in units of the table, and where; recomputed from the laws."""
+        """The greatest deviation of the laws from the points, in units of the table, and its place; recomputed."""
         apart = np.abs(self.at(self.places) - self.heights)
         worst = int(np.argmax(apart))
         return float(apart[worst]), float(self.places[worst])
@@ -247,7 +247,7 @@ class OldTable:
         return "\n".join(lines)
 
     def law_in_words(self, part: Stretch) -> str:
-        """Which standard law a move is, or which one is nearest, and how far the points are from that."""
+        """The standard law of a move, or the nearest standard law, with the deviation of the points from it."""
         if isinstance(part.law, str):
             return f"{part.law} (within {part.distance:.2g} {self.unit})"
         return f"a law of its own; the nearest standard law is {part.nearest}, {part.distance:.2g} {self.unit} off"
@@ -310,7 +310,7 @@ def read_cycle_table(
 
 
 def table_of(points: CamPoints, path: Path, tolerance: float | None = None) -> OldTable:
-    """The table of points with units, divided as `read_cycle_table` does; `path` is what an error calls it."""
+    """The table of points with units, divided as by `read_cycle_table`; errors call the table `path`."""
     try:
         table = split_table(
             points.places,

@@ -46,11 +46,11 @@ class _Powers:
     constant: float
 
     def fastest(self, most: float) -> float:
-        """The velocity b that no law with so much power exceeds; it gets no further than that in the move."""
+        """An upper bound of the velocity b of every law within this power over the whole move."""
         return (abs(self.constant) + sqrt(self.constant**2 + 2.0 * self.inertia * most)) / self.inertia
 
     def energies(self, fastest: float, *, forth: bool) -> tuple[Functional, Functional]:
-        """Constants that are at most the peak of the power, of laws no faster than is said."""
+        """Constants that are bounded by the peak power, for laws no faster than a given velocity."""
         kinetic, half = f"({0.5 * self.inertia!r})*b^2", 0.5 * self.spring
         gained = f"({kinetic} + ({self.constant!r})*a + ({half!r})*a^2)/k"
         # what is braked by friction needs no power: at most so much
@@ -61,7 +61,7 @@ class _Powers:
 
 
 def bound_by_energy(span: LawSpan, objective: CycleObjective, stroke: float, solution: Solution) -> float:
-    """The lower bound of a span, dimensionless: that of its solution, or a better one by energy."""
+    """The lower bound of a span, dimensionless: the bound of its solution, or a better bound by energy."""
     least, most = kind_of(objective.minimise)[0] == POWER, objective.limits.get(POWER)
     if (
         solution.problem.convex
@@ -83,7 +83,7 @@ def bound_by_energy(span: LawSpan, objective: CycleObjective, stroke: float, sol
 
 
 def _relaxed(problem: Problem, powers: _Powers, ceiling: float, *, least: bool) -> Problem:
-    """The problem with energies in place of the power, among laws that are no faster than so much power makes them."""
+    """The problem with energies in place of the power, among laws no faster than the power permits."""
     fastest, known = powers.fastest(ceiling), problem.range("B")
     energies = powers.energies(fastest, forth=problem.monotone)
     convex = {
@@ -157,7 +157,7 @@ def _driven(span: LawSpan, objective: CycleObjective, stroke: float) -> Driven:
 
 
 def is_exact(span: LawSpan, objective: CycleObjective) -> bool:
-    """Whether what is minimised and limited is what it says, not more of it: then bounds of it hold.
+    """Whether objective and limits are exact, not upper estimates: only then their bounds hold.
 
     Peaks behind a gear with losses are counted as if power flowed back wherever the motor brakes.
     """

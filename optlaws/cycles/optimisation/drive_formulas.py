@@ -1,4 +1,4 @@
-"""What a drive takes along a span: force and power as formulas of the law, and what dry friction adds to mean squares.
+"""The load of a drive along a span: force and power as formulas of the law, and dry friction's part of mean squares.
 
 Where a motion never turns back, dry friction is a constant force. Where it may, it is +-d with the sign of the velocity
 v, and F = u + d sgn v with u = m v' + c v. The mean of F² is then that of u² and of what no law changes but by turning:
@@ -127,7 +127,7 @@ def _unit(span: LawSpan, drive: CycleDrive | PositionDrive, stroke: float) -> fl
 
 
 def known_drive(drive: CycleDrive | PositionDrive | None) -> CycleDrive | PositionDrive:
-    """The drive, if there is one; else the error says how one is given."""
+    """The drive of the cycle; without one, the error explains how to give it."""
     if drive is None:
         raise InputError("force, torque and power are of a drive: give one, such as drive={'mass': '2 kg'}")
     return drive
@@ -145,7 +145,7 @@ def _formula(span: LawSpan, drive: CycleDrive | PositionDrive, stroke: float, un
 
 
 def branches_of(span: LawSpan, drive: PositionDrive, stroke: float) -> tuple[str, str, float]:
-    """The torque at the motor, that of power that flows back through the gear, and their unit."""
+    """The torque at the motor, the torque of power that flows back through the gear, and their unit."""
     formula, unit = driven_formula(span, drive, stroke, FORCE)
     return formula, _branches(span, drive, stroke)[-1], unit
 

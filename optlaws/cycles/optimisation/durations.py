@@ -50,7 +50,7 @@ class Share:
 
 
 def durations(programme: Programme, objective: CycleObjective) -> tuple[float, ...]:
-    """The durations of all stretches: those given, and the best ones where they are free."""
+    """The durations of all stretches: given ones, and optimal ones where they are free."""
     free = [i for i, stretch in enumerate(programme.stretches) if not stretch.fixed]
     if not free:
         return tuple(stretch.least for stretch in programme.stretches)
@@ -115,7 +115,7 @@ def _quickest(programme: Programme, i: int, objective: CycleObjective) -> float:
 
 
 def _shape(programme: Programme, i: int, objective: CycleObjective, nu: int, *, mean: bool) -> Callable[[float], float]:
-    """The constant of a move's law over its duration: one unless a limit binds; inf where no law keeps it."""
+    """The constant of a move's law as a function of its duration; inf where no law keeps the limits."""
     stretch = programme.stretches[i]
     if not is_optimal(stretch.given) and isinstance(stretch.given, Move):
         law = named_law(stretch.given.law, stretch.where)
@@ -234,7 +234,7 @@ def _shared(
 def _by_halves(
     level: Sequence[Callable[[float], float]], bounds: Sequence[tuple[float, float]], left: float
 ) -> list[float]:
-    """The durations by bisection, where limits leave little room: slow, and sure."""
+    """The durations by bisection, for tight limits: slow, and reliable."""
     from scipy.optimize import brentq
 
     def at(height: float) -> list[float]:

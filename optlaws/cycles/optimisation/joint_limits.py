@@ -93,7 +93,7 @@ def _edges(span: LawSpan) -> Iterator[SegmentEnd]:
 def ties_broken(
     layout: Layout, objective: CycleObjective, axis: str, laws: Solved, period: float
 ) -> tuple[Solved, tuple[str, ...]]:
-    """The laws of least acceleration among those of least peak, where it is at a joint or in a segment that is given.
+    """The laws of least acceleration among laws of least peak, where the peak is at a joint or in a given segment.
 
     There no law changes the peak of the velocity or force, so that many take no more elsewhere. Beside the laws: a
     remark that says so.

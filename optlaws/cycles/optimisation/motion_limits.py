@@ -28,7 +28,7 @@ _TWO_SIDED = (1, 2, 3)  # orders whose least and greatest value may be given apa
 
 
 class OneSided(NamedTuple):
-    """One side of a derivative: `sign` times the derivative of order `nu` has a limit, under the name it was given by.
+    """One side of a derivative: `sign` times the derivative of order `nu` has a limit, under its given name.
 
     Along the motion its sign is that of a rise until the segment is known.
     """
@@ -48,7 +48,7 @@ Limits = dict[LimitKey, float]
 
 
 def read_limits(entries: Mapping[str, Any], axis: str, where: str) -> Limits:
-    """Limits in SI units by what they limit.
+    """Limits in SI units by the limited quantity.
 
     >>> read_limits({"acceleration": ("-8 m/s^2", "12 m/s^2"), "velocity": "2 m/s"}, "length", "limits")
     {OneSided(nu=2, sign=-1.0, name='acceleration'): 8.0, OneSided(nu=2, sign=1.0, name='acceleration'): 12.0, 1: 2.0}
@@ -99,7 +99,7 @@ def _dimension(nu: int, axis: str) -> str:
 
 
 def limits_of_segment(stretch: TimedSegment, of_cycle: Mapping[LimitKey, float], axis: str) -> Limits:
-    """Limits of a segment: its own and those of the whole cycle, whichever is less.
+    """Limits of a segment: the segment's own limits and the cycle's limits, whichever are lower.
 
     Raises
     ------
@@ -120,7 +120,7 @@ def limits_of_segment(stretch: TimedSegment, of_cycle: Mapping[LimitKey, float],
 
 
 def _part(limits: Limits, nu: int) -> None:
-    """Put the magnitude of a derivative into the limits of its sides, where one of them has a limit of its own."""
+    """Copy the limit of a derivative's magnitude to both sides, where a side has a limit of its own."""
     sides = {key.sign: key for key in limits if isinstance(key, OneSided) and key.nu == nu}
     most = limits.get(nu, inf)
     if not sides or most == inf:
@@ -167,7 +167,7 @@ def greatest(limits: Mapping[LimitKey, float], nu: int, direction: float = 0.0) 
 
 
 def both_sides(limits: Mapping[LimitKey, float]) -> dict[int, tuple[float, float]]:
-    """The least and the greatest value of each limited quantity, infinite where there is none.
+    """The least and greatest allowed value of each limited quantity, infinite without a limit.
 
     >>> both_sides({2: 9.0, OneSided(2, -1.0, "acceleration"): 8.0})
     {2: (-8.0, 9.0)}

@@ -29,7 +29,7 @@ _VELOCITY = 1
 
 @dataclass(frozen=True)
 class MotorLimits:
-    """Limits of all motions by what they limit, and that of the RMS torque, None if there is none."""
+    """Limits of all motions by the limited quantity, and the limit of the RMS torque, None without one."""
 
     of_motions: Limits = field(default_factory=dict)
     mean_torque: float | None = None
@@ -38,7 +38,7 @@ class MotorLimits:
 def motor_limits(
     entries: Mapping[str, Any], drive: CycleDrive | PositionDrive | None, programme: Programme
 ) -> MotorLimits:
-    """The limits of the motor, if limits say that it is to keep them.
+    """The limits of the motor, if the cycle is required to keep them.
 
     The continuous torque is that at the mean speed, which no law that never turns back changes.
 

@@ -38,7 +38,7 @@ OBJECTIVES = {
 
 @dataclass(frozen=True)
 class CycleObjective:
-    """The objective of a cycle, one of `OBJECTIVES`, the limits of the whole in SI units, and the degree of its laws.
+    """The objective of a cycle, from `OBJECTIVES`, the limits of the whole in SI units, and the degree of its laws.
 
     `limits` are by the order of the derivative or one side of it, of force or torque by -1, of power by -3, of a
     motor's curve by -6; `loaded` by the load's output and whether of its root mean square; `mean_force` is that of the
@@ -94,7 +94,7 @@ def read_load_limits(entries: Mapping[str, Any], load: Load | None) -> dict[tupl
 
 
 def read_mean_force(entries: Mapping[str, Any], axis: str) -> float | None:
-    """The limit of the root mean square of the force or torque over the cycle, in SI units; None if there is none."""
+    """The limit of the root mean square of the force or torque over the cycle, in SI units; None without one."""
     given = [name for name in MEANS if name in entries]
     if len(given) > 1:
         raise InputError(f"limits: {' and '.join(given)} are the same: give one of them")
@@ -104,7 +104,7 @@ def read_mean_force(entries: Mapping[str, Any], axis: str) -> float | None:
 
 
 def read_energy(entries: Mapping[str, Any]) -> float | None:
-    """The limit of the energy over the cycle, J; None if there is none."""
+    """The limit of the energy over the cycle, J; None without one."""
     if "energy" not in entries:
         return None
     if any(name in entries for name in (*MEANS, "motor")):
@@ -116,7 +116,7 @@ def read_energy(entries: Mapping[str, Any]) -> float | None:
 
 
 def limits_of_stretch(stretch: TimedSegment, objective: CycleObjective, axis: str) -> Limits:
-    """Limits of a segment: its own and those of the whole cycle, whichever is less."""
+    """Limits of a segment: the segment's own limits and the cycle's limits, whichever are lower."""
     return limits_of_segment(stretch, objective.limits, axis)
 
 

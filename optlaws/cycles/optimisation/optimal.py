@@ -1,4 +1,4 @@
-"""The best laws of a cycle with given durations: one problem for each span, each with its status and its proof.
+"""The optimal laws of a cycle with given durations: a problem for each span, with its status and its proof.
 
 Where durations are fixed and spans are parted by joints that are known, the cycle decouples: the greatest of the least
 peaks is the least of the greatest ones, and the least sum of squares is the sum of the least ones.
@@ -98,7 +98,7 @@ def _unhindered(problem: Problem, span: LawSpan, objective: CycleObjective, stro
 
 
 def _with_more_pieces(problem: Problem, basis: Pieces, span: LawSpan) -> Solution | None:
-    """The solution among splines with every piece but straight ones halved, if it is proven: few pieces meet badly.
+    """The solution among splines with every piece but straight ones halved, if it is proven: few pieces fit badly.
 
     Peaks inside of pieces, as velocities have them, may lie so near each other that no more digits can be had. What a
     load does follows its own period, for which few pieces may be too long.
@@ -162,7 +162,7 @@ def with_least_limit(
 
 
 def _whatever_degree(problem: Problem, driven: Driven) -> float | None:
-    """What no law that never turns back can beat of a peak of a drive; None where it is not known."""
+    """The infimum of a drive's peak over all laws that never turn back; None where it is not known."""
     free = replace(problem, bounds={}, B=None, C=None, D=None, J=None)
     peaks: list[Any] = [peak(formula) for formula in driven.beneath] or [problem.minimise]
     limits = (limit_beside(replace(free, minimise=each, symmetric=False, monotone=True)) for each in peaks)
@@ -196,7 +196,7 @@ def never_back(span: LawSpan, objective: CycleObjective) -> bool:
 
 
 def scale(span: LawSpan) -> float:
-    """The scale of a span's law: its displacement, or where it has none how far it gets on the way."""
+    """The scale of a span's law: its displacement or, if that is zero, the greatest distance on the way."""
     if span.displacement:
         return span.displacement
     ways = [abs(position - span.offset) for _, position in span.via]
@@ -231,7 +231,7 @@ def span_problem(span: LawSpan, objective: CycleObjective, axis: str, stroke: fl
 
 
 def _check_energy(span: LawSpan, objective: CycleObjective, limits: Limits) -> None:
-    """Refuse a least energy where nothing keeps the acceleration finite: it falls with ever greater ones."""
+    """Refuse a least energy without a bound on the acceleration: the energy falls as accelerations grow."""
     if kind_of(objective.minimise)[0] == ENERGY and not any(_holds_acceleration(key) for key in limits):
         raise InputError(
             f"{span.where}: its energy falls with ever greater accelerations, so that none is least: give a limit of "
@@ -240,12 +240,12 @@ def _check_energy(span: LawSpan, objective: CycleObjective, limits: Limits) -> N
 
 
 def _holds_acceleration(key: LimitKey) -> bool:
-    """Whether a limit keeps the acceleration finite: any but one of the velocity or of one side alone."""
+    """Whether a limit bounds the acceleration: any limit except a limit of the velocity or of one side alone."""
     return isinstance(key, int) and key != 1
 
 
 def _problem_of_several(span: LawSpan, objective: CycleObjective, axis: str, stroke: float) -> Problem:
-    """One law for several stretches, or through points on the way."""
+    """The problem of a single law over several stretches, or through points on the way."""
     bounds, parts = _limits(span, objective, axis, stroke)
     minimised = max(kind_of(objective.minimise)[0], _highest_limited(span, objective, axis))
     minimised = POWER if POWER in objective.limits or kind_of(objective.minimise)[0] in SUMS else minimised
@@ -285,7 +285,7 @@ def _end(state: State, duration: float, stroke: float, order: int) -> tuple[floa
 def _limits(
     span: LawSpan, objective: CycleObjective, axis: str, stroke: float
 ) -> tuple[dict[Any, Range], tuple[Window, ...]]:
-    """Limits of the whole span as bounds of its constants, those of parts of it as windows."""
+    """Limits of the whole span as bounds of its constants, limits of parts of it as windows."""
     _check_mean(span, objective, axis)
     of_each = [
         limits_of_stretch(stretch, objective, axis) if is_optimal(stretch.given) else None for stretch in span.stretches
@@ -335,7 +335,7 @@ def _window(
 
 
 def _snap_of_all(span: LawSpan, sought: Sequence[Limits]) -> float:
-    """The limit of the snap of a law of several stretches, which must be that of each."""
+    """The snap limit of a law over several stretches, which must be the same in each."""
     given = {limits.get(_SNAP, inf) for limits in sought}
     if len(given) > 1:
         raise InputError(f"{span.where} are one law: give the snap of all of them the same limit")
@@ -370,7 +370,7 @@ def _alike(of_each: Sequence[Limits | None], times: Sequence[float]) -> Iterator
 
 
 def _check_mean(span: LawSpan, objective: CycleObjective, axis: str) -> None:
-    """Refuse a limit of the velocity that is no more than the mean velocity: such a law cannot even start from rest."""
+    """Refuse a velocity limit that is no more than the mean velocity: such a law cannot start from rest."""
     for stretch, start, stop in span.timed:
         limits = limits_of_stretch(stretch, objective, axis) if is_optimal(stretch.given) else {}
         most, mean = greatest(limits, 1, _sign(stretch.displacement)), abs(stretch.displacement) / (stop - start)

@@ -62,7 +62,7 @@ def joined_basis(span: LawSpan, order: int, degree: int, minimised: int) -> Piec
 
 
 def least_velocity(span: LawSpan) -> float:
-    """The velocity that no motion of a span stays below: the greatest mean between two points, or one that is known."""
+    """A lower bound of the peak velocity of a span: the greatest mean between two points, or a known value."""
     steps = [(low, y, high, z) for _, points in _points(span) for (low, y), (high, z) in pairwise(points)]
     means = [abs(z - y) / (high - low) for low, y, high, z in steps if high > low]
     return max(
@@ -91,7 +91,7 @@ def _pieces_to_turn(mean: float, fastest: float, order: int) -> int:
 
 
 def halved(basis: Pieces) -> Pieces | None:
-    """Splines with every piece but straight ones cut in two; None where these were too many.
+    """Splines with every piece but straight ones cut in two; None if the pieces become too many.
 
     >>> halved(Pieces((0.0, 0.5, 1.0), 3, 1)).breaks
     (0.0, 0.25, 0.5, 0.75, 1.0)
@@ -164,7 +164,7 @@ def search_space(problem: Problem, span: LawSpan, order: int, fastest: float = i
 
 
 def remark_on_degrees(problems: Sequence[tuple[LawSpan, Problem]], degree: int) -> tuple[str, ...]:
-    """The remarks on spans whose Z has another degree than was asked for."""
+    """The remarks on spans whose Z has another degree than the requested degree."""
     raised = [(span, problem.basis) for span, problem in problems]
     return tuple(
         f"{span.where}: Z has the degree {basis.degree}, not {degree}, for the velocities at its ends"

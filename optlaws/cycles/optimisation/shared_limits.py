@@ -107,7 +107,7 @@ class _SharedLimit:
 
     @property
     def _nu(self) -> int:
-        """What is summed and limited, as objectives count it."""
+        """The order of the summed and limited quantity, in the numbering of objectives."""
         return FORCE if self.objective.mean_force is not None else ENERGY
 
     @property
@@ -119,12 +119,12 @@ class _SharedLimit:
 
     @property
     def left(self) -> float:
-        """What the limit leaves for the laws looked for."""
+        """The part of the limit that remains for the sought laws."""
         return self.most - self._given
 
     @kept_property
     def _given(self) -> float:
-        """What dwells and given laws take of the sum."""
+        """The share of the sum that dwells and given laws take."""
         return total(self.layout.pieces, self._nu, self.drive)
 
     def _too_much(self, taken: float, why: str) -> InfeasibleProblem:
@@ -137,7 +137,7 @@ class _SharedLimit:
 
     @property
     def _exact(self) -> bool:
-        """Whether what the laws are found by is what they are judged by."""
+        """Whether the sought laws are optimised and judged by the same quantity."""
         return all(is_exact(span, self.objective) for span in self.layout.spans)
 
     def _shown(self, taken: float) -> float:
@@ -145,7 +145,7 @@ class _SharedLimit:
         return taken if self._nu == ENERGY else sqrt(taken / self.period)
 
     def _alone(self) -> Best:
-        """The only span takes all that is left; where friction takes more than is known of it, it is told so."""
+        """The only span takes the whole remainder; the limit is lowered where friction takes more than estimated."""
         (span,) = self.layout.spans
         allowed, bound = self.left, inf
         for _ in range(_ROUNDS):
@@ -169,7 +169,7 @@ class _SharedLimit:
             raise
 
     def _taken(self, laws: Sequence[tuple[Piece, Solution]]) -> float:
-        """What laws take of the sum."""
+        """The laws' contribution to the sum."""
         return total([piece for piece, _ in laws], self._nu, self.drive)
 
     def _least_taken(self, laws: Sequence[tuple[Piece, Solution]]) -> float:
@@ -241,7 +241,7 @@ class _SharedLimit:
         return max(size_of(piece, nu, self.drive) for piece in pieces)
 
     def _by_multiplier(self, laws: Sequence[tuple[Piece, Solution]], bound: float) -> Best:
-        """The least root mean square or sum, by what the limit is worth; `bound` is that without the limit."""
+        """The least root mean square or sum, by the limit's multiplier; `bound` is the bound without the limit."""
         from scipy.optimize import brentq
 
         tried: dict[float, tuple[tuple[Piece, Solution], ...]] = {}
@@ -270,7 +270,7 @@ class _SharedLimit:
         return Best(tried[least], (), min(proven, attained))
 
     def _with_worth(self, span: LawSpan, worth: float) -> tuple[Piece, Solution]:
-        """The law of a span of the least of what is minimised and, so many times, of what is limited."""
+        """The law of a span that minimises the objective plus a multiple of the limited quantity."""
         stroke = scale(span)
         minimised, limited = self._sums(span, stroke)
         weight = worth * limited.unit / minimised.unit
@@ -282,7 +282,7 @@ class _SharedLimit:
         return Piece(span.start, span.duration, span.offset, stroke, solution.law), solution
 
     def _with_worth_at_least(self, laws: Sequence[tuple[Piece, Solution]], worth: float) -> float:
-        """The lower bound of laws that keep the limit: that with its multiplier, less what the limit is worth."""
+        """The lower bound for laws that keep the limit: the bound with the multiplier, less multiplier times limit."""
         nu, _ = kind_of(self.objective.minimise)
         if not self._exact:
             return 0.0 if nu not in SUMS else -inf
@@ -293,11 +293,11 @@ class _SharedLimit:
         return self._of_total(least)
 
     def _sums(self, span: LawSpan, stroke: float) -> tuple[SpanSum, SpanSum]:
-        """What is minimised and what is limited over a span."""
+        """The objective and the limited quantity over a span."""
         nu, _ = kind_of(self.objective.minimise)
         return span_sum(span, nu, self.drive, stroke), span_sum(span, self._nu, self.drive, stroke)
 
     def _of_total(self, taken: float) -> float:
-        """A sum of what is minimised as it is said: a root mean square, or an energy."""
+        """A sum in the form of the objective: a root mean square, or an energy."""
         nu, _ = kind_of(self.objective.minimise)
         return taken if nu in SUMS else sqrt(max(taken, 0.0) / self.period)

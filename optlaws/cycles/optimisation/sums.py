@@ -37,7 +37,7 @@ NO_HEAT = (
 
 @dataclass(frozen=True)
 class SpanSum:
-    """An integral over a span's law in SI units: `unit` times that of a formula, and a constant that is added.
+    """An integral over a span's law in SI units: `unit` times the integral of a formula, plus a constant.
 
     `beneath` are formulas whose integrals are never greater, in whose phase plane bounds are proven; `least` is what
     the sum is at least, whatever the law.
@@ -63,7 +63,7 @@ class SpanSum:
 
 
 def span_sum(span: LawSpan, nu: int, drive: CycleDrive | PositionDrive | None, stroke: float) -> SpanSum:
-    """What is integrated over a span: the square of a derivative or of the force (nu -1), energy (-4) or heat (-5)."""
+    """The integrand over a span: the square of a derivative or of the force (nu -1), energy (-4) or heat (-5)."""
     if nu > 0:
         return SpanSum(f"{'abcj'[nu]}^2", factor(stroke, span.duration, nu) ** 2 * span.duration)
     if nu == FORCE:
@@ -82,7 +82,7 @@ def span_sum(span: LawSpan, nu: int, drive: CycleDrive | PositionDrive | None, s
 
 
 def sum_of_piece(piece: Piece, nu: int, drive: CycleDrive | PositionDrive | None) -> float:
-    """What a piece takes of a sum, in SI units."""
+    """A piece's contribution to a sum, in SI units."""
     if nu > 0:
         return piece.duration * piece.mean_square(nu)
     along = PieceEffort(known_drive(drive), piece)

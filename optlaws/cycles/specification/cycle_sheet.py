@@ -26,7 +26,7 @@ _LOOKS = 721
 
 @dataclass(frozen=True)
 class CycleSheet(DriveSheet):
-    """What a cycle asks of a motor, in SI units: a `DriveSheet` of all its motions, with places that are times.
+    """The motor's duty in a cycle, in SI units: a `DriveSheet` of all its motions, with places as times.
 
     Torques are above 0 towards greater positions; the holding torque is the greatest of all rests.
 
@@ -45,7 +45,7 @@ class CycleSheet(DriveSheet):
 
 
 def cycle_sheet(drive: PositionDrive, along: Sequence[PieceEffort], effort: Effort, period: float) -> CycleSheet:
-    """The sheet of a motor, from what it does along each piece of a cycle and its effort over all.
+    """The sheet of a motor, from its values along each piece of a cycle and its effort over all pieces.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""What drives a cycle: inertia, spring, gravity and friction, or a mechanism with or without its motor."""
+"""The drive of a cycle: inertia, spring, gravity and friction, or a mechanism with or without its motor."""
 
 from __future__ import annotations
 
@@ -87,7 +87,7 @@ class CycleDrive:
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """Times at which the force has kinks: none."""
+        """Times at which the force has kinks: an empty tuple."""
         return ()
 
     @property
@@ -97,11 +97,11 @@ class CycleDrive:
 
     @property
     def speed_ratio(self) -> float:
-        """The velocity at which the force acts by that of the motion."""
+        """The ratio of the velocity at which the force acts to the velocity of the motion."""
         return 1.0
 
     def kinks(self, piece: Piece) -> list[Callable[[Array], Array]]:  # noqa: ARG002 - as of other drives
-        """Functions of the time at whose zeros the force has kinks, beside those of the velocity."""
+        """Functions of the time at whose zeros the force has kinks, in addition to zeros of the velocity."""
         return []
 
     def along(self, piece: Piece, times: Array) -> Array:

@@ -62,7 +62,7 @@ class Effort(PlainNumbers):
 
 @dataclass(frozen=True)
 class SegmentEffort:
-    """What a drive takes in a segment of a cycle, in SI units.
+    """The drive's force, power and energy in a segment of a cycle, in SI units.
 
     Attributes
     ----------
@@ -87,7 +87,7 @@ class SegmentEffort:
 
 @dataclass(frozen=True, eq=False)
 class PieceEffort:
-    """What a drive does along a piece, or between two times in it, in SI units."""
+    """The drive's force, power and energy along a piece, or between two times in it, in SI units."""
 
     drive: CycleDrive | PositionDrive
     piece: Piece
@@ -159,7 +159,7 @@ class PieceEffort:
 
 
 def effort(along: Sequence[PieceEffort], period: float) -> Effort:
-    """The force and power of a drive over a cycle, from what it does along each piece.
+    """The force and power of a drive over a cycle, from its values along each piece.
 
     >>> from optlaws import smoothstep
     >>> drive = CycleDrive(inertia=2.0, viscous=0.0, stiffness=0.0, constant=0.0, dry=0.0)

@@ -28,7 +28,7 @@ class State(NamedTuple):
 
 @dataclass(frozen=True)
 class LawSpan:
-    """The segments that one optimal law covers: one, or free ones that follow each other, with their times.
+    """The segments that one optimal law covers, with their times: a single segment, or consecutive free ones.
 
     `first` and `last` are the states at both ends, `via` pairs of time and position on the way. Of a whole cycle in
     one, `states` say what is known where each segment begins; its law is one of positions where it is `absolute`.
@@ -47,12 +47,12 @@ class LawSpan:
 
     @property
     def origin(self) -> float:
-        """The position at which its law is 0: its start, unless the law of a whole cycle is to be one of positions."""
+        """The position at which the law is 0: the span's start, or 0 for a law of positions over a whole cycle."""
         return 0.0 if self.absolute else self.offset
 
     @property
     def turns(self) -> bool:
-        """Whether it is a whole cycle, which ends as it begins."""
+        """Whether the span is a whole cycle, which ends in its initial state."""
         return bool(self.states)
 
     @property
@@ -118,7 +118,7 @@ def _piece(stretch: TimedSegment, start: float, duration: float, offset: float) 
 
 
 def _joint(programme: Programme, pieces: dict[int, Piece], i: int) -> State | None:
-    """The known state where segment i begins; None where it and the one before are free."""
+    """The known state where segment i begins; None where segment i and its predecessor are free."""
     before, after = (i - 1) % len(programme.stretches), i
     ended, begun = _known(programme, pieces, before, 1), _known(programme, pieces, after, 0)
     if ended is not None and begun is not None:
@@ -170,7 +170,7 @@ def _meeting(
 def _whole(
     programme: Programme, starts: Sequence[float], offsets: Sequence[float], joints: Sequence[State | None]
 ) -> LawSpan:
-    """The cycle as one span; of its stretches those whose law is not looked for must be straight."""
+    """The cycle as a single span; its stretches with given laws must be straight."""
     for stretch in programme.stretches:
         if isinstance(stretch.given, Move) and not is_optimal(stretch.given):
             raise InputError(
@@ -192,7 +192,7 @@ def _whole(
 
 
 def _forward(offsets: Sequence[float]) -> float:
-    """How far a cycle, or a span of it, goes on: positions are sums, which come back but for rounding."""
+    """The net advance of a cycle or a span; positions are sums, which return up to rounding."""
     moved = offsets[-1] - offsets[0]
     return moved if abs(moved) > CLOSURE * max(abs(offset - offsets[0]) for offset in offsets) else 0.0
 

@@ -1,4 +1,4 @@
-"""What a cycle drives elastically: a mass on a spring, or any machine, in its steady motion over the whole cycle."""
+"""An elastic load of a cycle: a mass on a spring, or any machine, in its steady motion over the whole cycle."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class Load:
 
     @property
     def absolute(self) -> bool:
-        """Whether it is driven by positions, so that these must come back."""
+        """Whether the load is driven by positions, so that these must return."""
         return "a" in self.machine.inputs
 
     def constant(self, output: str, period: float, *, mean: bool) -> Functional:
@@ -43,7 +43,7 @@ class Load:
         return (output_rms if mean else output_peak)(of=self.machine.at_speed(1.0 / period), output=output, steady=True)
 
     def motion(self, pieces: Sequence[Piece]) -> RepeatedMotion:
-        """The steady outputs of the load under pieces that make a cycle, over time in seconds."""
+        """The steady outputs of the load under pieces that form a cycle, over time in seconds."""
         drives_of_pieces, at_breaks = [], list[tuple[float, float]]()
         for piece in pieces:
             drives_of_pieces += drives.of_law(piece.law, piece.start, piece.duration, piece.offset, piece.stroke)

@@ -35,7 +35,7 @@ class PositionDrive:
 
     @property
     def dry(self) -> float:
-        """The greatest friction that turns with the velocity; 0 where there is none."""
+        """The greatest friction that changes sign with the velocity; 0 without friction."""
         motor = self.source.train.coulomb if isinstance(self.source, Drive) else 0.0
         return self.mechanism.coulomb + motor
 
@@ -56,7 +56,7 @@ class PositionDrive:
 
     @property
     def speed_ratio(self) -> float:
-        """The speed of the motor by that of the mechanism's input; 1 without a motor."""
+        """The ratio of the motor's speed to the speed of the mechanism's input; 1 without a motor."""
         return self.source.ratio if isinstance(self.source, Drive) else 1.0
 
     def kinks(self, piece: Piece) -> list[Callable[[Array], Array]]:
@@ -84,7 +84,7 @@ class PositionDrive:
         return np.asarray(self.source.torque(y, velocity, acceleration), dtype=np.float64) + process
 
     def along(self, piece: Piece, times: Array) -> Array:
-        """The torque or force at times in a piece; where a move stands still but for rounding it is that on its way."""
+        """The torque or force at times in a piece; in a near standstill, the value with the direction of the move."""
         y, velocity, acceleration = (piece.values(times, nu) for nu in range(3))
         still = np.abs(velocity) <= VALUE_ROUNDING * abs(piece.stroke) / piece.duration
         moving = np.where(still, TINY * np.sign(piece.stroke), velocity)

@@ -26,7 +26,7 @@ ENTRIES = (*FORCES, "over", "on", "interpolation")
 
 @dataclass(frozen=True)
 class ProcessForce:
-    """What a process adds to the load at a mechanism's input, as a formula of its position x and of the time t."""
+    """The force of a process on a mechanism's input, as a formula of its position x and of the time t."""
 
     load: Formula
 
@@ -88,7 +88,7 @@ def read_process(given: Mapping[str, Any], mechanism: Mechanism, period: float) 
 def process_entries(
     given: Mapping[str, Any], name: str, known: Sequence[str], variables: Sequence[str]
 ) -> tuple[str, str, TableKind]:
-    """Whether a process is a "force" or a "torque", what it is over, and how its tables go on between places.
+    """The kind of a process, "force" or "torque", its variable, and the continuation of its tables between places.
 
     >>> process_entries({"force": "3 N", "over": "master"}, "load", ENTRIES, OVER)
     ('force', 'master', 'lines')
@@ -135,12 +135,12 @@ def _check_ends(force: Formula, variable: str, end: float, kind: str) -> None:
 
 
 def _over_time(formula: Formula, period: float) -> Formula:
-    """A formula of the master's angle m as one of the time."""
+    """A formula of the master's angle m, rewritten as a formula of the time."""
     return rescaled(formula, "m", "t", (0.0, TURN / period))
 
 
 def _in_k(formula: Formula, start: float, duration: float) -> Formula:
-    """A formula of the time as one of k."""
+    """A formula of the time, rewritten as a formula of k."""
     return rescaled(formula, "t", "k", (start, duration))
 
 

@@ -1,4 +1,4 @@
-"""A cycle as numbers: durations that sum, positions that close, velocities that meet; errors that say the remedy."""
+"""A cycle as numbers: durations that sum, positions that close, velocities that meet; errors state the remedy."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ AXES = {
 
 @dataclass(frozen=True)
 class TimedSegment:
-    """A segment in SI units: the least and greatest duration, the displacement, and what it was given as."""
+    """A segment in SI units: the least and greatest duration, the displacement, and the user's segment."""
 
     number: int
     given: CycleSegment
