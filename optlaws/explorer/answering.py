@@ -1,4 +1,4 @@
-"""The questions of the page and what answers each; also what a process does that answers them one after another."""
+"""The questions of the page and their handlers; also the loop of a process that answers them one after another."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The server's paths: the page's files, and the questions that the page asks as JSON."""
+"""The server's paths: the page's files, and the page's questions as JSON."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ _BAD, _TOO_LONG, _LEFT = 400, 413, 499
 
 
 def application(start: dict[str, Any], workers: Workers | None = None) -> Starlette:
-    """The explorer as an application of ASGI; `start` is what the page shows first."""
+    """The explorer as an ASGI application; `start` is the page's initial state."""
     known = {
         "names": [*catalogue, *_MEMBERS],
         "examples": {name: example() for name, example in EXAMPLES.items()},
@@ -107,7 +107,7 @@ def _asking(name: str, workers: Workers) -> Callable[[Request], Any]:
 
 
 def _patience(request: Request) -> float:
-    """The seconds that the page gives a question; what it says is not always a number."""
+    """The time limit of the page for a question, in seconds; invalid values are replaced."""
     try:
         return min(MOST, max(SLICE, float(request.query_params.get("patience", USUAL))))
     except ValueError:
@@ -134,13 +134,13 @@ HEADERS = {
 
 
 class Guard:
-    """Refuse what is not asked by a page of this server; a name of another host that leads here is none of ours."""
+    """Refuse requests that do not come from a page of this server, such as requests for another host name."""
 
     def __init__(self, app: ASGIApp) -> None:
         self.app = app
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Answer, or say why not."""
+        """Pass the request on, or refuse it with a reason."""
         if scope["type"] != "http":
             await self.app(scope, receive, send)
             return

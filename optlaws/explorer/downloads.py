@@ -98,7 +98,7 @@ def answer(request: FileRequest) -> File:
 
 
 def _proof(request: FileRequest) -> File:
-    """What is stored with a result so that it can be checked: a solution, or those of all segments of a motion.
+    """The stored proof of a result: a solution, or the solutions of all segments of a motion.
 
     Examples
     --------
@@ -135,7 +135,7 @@ def _stem(name: str) -> str:
 
 
 def python(laws: list[LawRequest]) -> str:
-    """Lines that make the same laws with the same digits, and draw them.
+    """Python lines that compute the same laws with the same digits, and draw them.
 
     Examples
     --------
@@ -223,7 +223,7 @@ def problem_file(law: LawRequest) -> str:
 
 
 def _bounds(value: Any) -> Any:  # noqa: ANN401 - an entry
-    """A range without an upper end has none in JSON, but an infinite one in a file."""
+    """A range without an upper end: JSON has no number for it, a file has infinity."""
     if isinstance(value, list) and len(value) == 2 and value[1] is None:
         return [value[0], float("inf")]
     if isinstance(value, list):
@@ -303,7 +303,7 @@ def _of_cam(request: FileRequest) -> File:
 
 
 def cycle_python(cycle: Cycle, follower: ElasticFollowerEntries | None = None) -> str:
-    """Lines that make the same cycle, or that of the cam whose follower moves so."""
+    """Python lines that compute the same cycle, or the cycle of the cam whose follower moves so."""
     entries = {name: getattr(cycle, name) for name in ("speed", "period", "minimise", "limits", "start", "advance")}
     entries |= {"load": cycle.load, "order": cycle.order, "degree": cycle.degree}
     given = ", ".join(f"{name}={value!r}" for name, value in entries.items() if value not in (None, {}))
@@ -320,7 +320,7 @@ def cycle_python(cycle: Cycle, follower: ElasticFollowerEntries | None = None) -
 
 
 def _drive_text(drive: Mapping[str, Any] | Mechanism | Drive) -> str:
-    """What drives a cycle as Python."""
+    """The drive of a cycle as Python text."""
     if isinstance(drive, Mapping):
         return repr(drive)
     return f"{type(drive).__name__}.from_dict({drive.to_dict()!r})"
@@ -344,14 +344,14 @@ class ExportRequest(SeenRequest, kw_only=True, forbid_unknown_fields=True):
 
 
 def formats() -> list[dict[str, Any]]:
-    """The formats, with who takes each and what may be asked of it."""
+    """The export formats, with their controllers and their options."""
     return [
         {"name": name, "target": FORMATS[name].target, "takes": list(FORMATS[name].takes)} for name in sorted(FORMATS)
     ]
 
 
 def exported(request: ExportRequest) -> dict[str, Any]:
-    """The file, and the peaks of the motion as the controller interpolates it beside those of the law.
+    """The file, and the peaks of the motion as the controller interpolates it beside the law's peaks.
 
     Examples
     --------

@@ -58,7 +58,7 @@ def server(start: dict[str, Any]) -> uvicorn.Server:
     workers = Workers()
 
     class Server(uvicorn.Server):
-        """A server that ends what it computes before it waits for answers."""
+        """A server that stops its computations before it waits for answers."""
 
         async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
             """End all answers at once, and the server with them."""

@@ -1,4 +1,4 @@
-"""What the explorer shows of a file: what the command was given, or the reader opened, as the page keeps its state."""
+"""The explorer's initial state: the given file or problem, in the form in which the page keeps its state."""
 
 from __future__ import annotations
 
@@ -96,7 +96,7 @@ def _stem(name: str) -> str:
 
 
 def _of_problem_file(data: dict[str, Any], name: str) -> dict[str, Any]:
-    """The view of a job; rows of problems with the law of the first, and where there is but one that law alone."""
+    """The view of a job: rows of problems with the law of the first row, or a single law where there is one problem."""
     job = data["job"] if isinstance(data.get("job"), str) else None
     if job == "fastest" or (job == "cycle" and data.get("fastest")):
         return {"view": "fastest", "fastest": data}
@@ -116,7 +116,7 @@ def _of_problem_file(data: dict[str, Any], name: str) -> dict[str, Any]:
 
 
 def _of_cycle(data: dict[str, Any], name: str) -> dict[str, Any]:
-    """A cycle, or where one of its axes has a mechanism the machine."""
+    """A cycle, or its machine where one of the axes has a mechanism."""
     axes = convert(data, CycleProblemFile, Path(name)).axis
     driven = next((i for i, axis in enumerate(axes) if axis.mechanism is not None), None)
     return {"view": "cycle", "cycle": data} if driven is None else {"view": "machine", "machine": data, "axis": driven}

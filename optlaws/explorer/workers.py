@@ -57,7 +57,7 @@ class Worker:
         return not self._ended and self._process.is_alive()
 
     async def answer(self, name: str, body: bytes, patience: float) -> Reply:
-        """The answer to a question; where the process ends before it, a sentence that says so."""
+        """The answer to a question; if the process ends first, a sentence that reports it."""
         if self._ended:
             return _ENDED
         return await asyncio.get_running_loop().run_in_executor(self._thread, self._exchange, name, body, patience)
@@ -110,7 +110,7 @@ class Workers:
             worker.end()
 
     async def answer(self, name: str, body: bytes, patience: float = USUAL) -> Reply:
-        """The answer to a question, which may take so many seconds; its process ends where the answer is cancelled."""
+        """The answer to a question within a number of seconds; its process ends if the answer is cancelled."""
         async with self._turn():
             if self._closed.is_set():
                 return _ENDED
@@ -138,7 +138,7 @@ class Workers:
 
     @staticmethod
     async def _wait(worker: Worker, reply: asyncio.Task[Reply], seconds: float, *, end: bool) -> None:
-        """Wait for an answer; where there is none in time, or nobody waits for it any more, its process may end."""
+        """Wait for an answer; without one in time, or without anybody waiting, its process may end."""
         try:
             await asyncio.wait({reply}, timeout=seconds)
         except asyncio.CancelledError:

@@ -32,7 +32,7 @@ ShortText = Annotated[str, msgspec.Meta(max_length=40)]
 
 
 class FollowerEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """What a motion leaves vibrating: the least and the greatest natural frequency, and the damping ratio."""
+    """An elastic follower of a motion: the least and the greatest natural frequency, and the damping ratio."""
 
     low: ShortText
     high: ShortText
@@ -40,14 +40,14 @@ class FollowerEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 
 
 class AdviceRequest(CycleRequest, kw_only=True, forbid_unknown_fields=True):
-    """A cycle or a machine, what is to be least, and what it leaves vibrating."""
+    """A cycle or a machine, the objective, and the elastic follower."""
 
     minimise: ShortText | None = None
     follower: FollowerEntries | None = None
 
 
 def answer(request: AdviceRequest) -> dict[str, Any]:
-    """The laws side by side with the one to take, or why there is none."""
+    """The laws side by side with the recommended one, or the reason why there is none."""
     try:
         return _view(*_advice(msgspec.json.encode(request)))
     except OptlawsError as error:
@@ -114,7 +114,7 @@ def _entries(cycle: Cycle, law: AdvisedLaw, *, vibrates: bool) -> dict[str, Any]
 
 
 def _is_compared(before: Any, segment: Any) -> bool:  # noqa: ANN401 - segments
-    """Whether a segment's law is one of those that are compared: it is looked for, or was changed."""
+    """Whether a segment's law is compared: it is sought, or the user changed it."""
     return isinstance(segment, Move) and (segment.law == OPTIMAL or segment != before)
 
 
@@ -149,7 +149,7 @@ def _picture(advice: Advice) -> dict[str, Any]:
 
 
 def _curves(laws: Sequence[AdvisedLaw]) -> dict[str, Any]:
-    """Velocity, acceleration and jerk of the usual law and of the one to take, over the time."""
+    """Velocity, acceleration and jerk of the usual law and of the recommended one, over the time."""
     cycles = [law.motion for law in laws if isinstance(law.motion, Cycle)]
     duration = cycles[0].duration
     panels = []
@@ -171,7 +171,7 @@ def _curve(cycle: Cycle, nu: int, factor: float) -> dict[str, Any]:
 
 
 def example() -> dict[str, Any]:
-    """What the view asks where nothing was said: of the cycle, with a follower that is switched off."""
+    """The view's initial question: the cycle, with a follower that is switched off."""
     return {"of": "", "minimise": "", "follower": {"on": False, "low": "27 Hz", "high": "33 Hz", "damping": 0.05}}
 
 

@@ -46,13 +46,13 @@ _FIGURES = 12  # of durations that are put into a study
 
 
 class AxesRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """Axes with their interlocks as a problem file of the job "cycle" says them."""
+    """Axes with their interlocks, as in a problem file of the job "cycle"."""
 
     study: dict[str, Any]
 
 
 def answer(request: AxesRequest) -> dict[str, Any]:
-    """The bars of every axis, what interlocks say in the timing diagram and in planes; or why there is none."""
+    """The bars of every axis, and its interlocks in the timing diagram and in planes; or the reason for a refusal."""
     try:
         return _view(axes_of(request.study))
     except OptlawsError as error:
@@ -158,7 +158,7 @@ def _arrows(axes: Axes, number: int, rule: Interlock) -> Iterator[dict[str, Any]
 
 
 def _planes(axes: Axes, positions: dict[str, Array]) -> Iterator[dict[str, Any]]:
-    """A plane for each pair of axes that interlocks are of, with what they forbid in it."""
+    """A plane for each pair of interlocked axes, with its forbidden regions."""
     planes: dict[frozenset[str], tuple[str, str]] = {}
     for rule in axes.rules:
         if not isinstance(rule, Synchronous):
@@ -191,7 +191,7 @@ def _wider(values: Sequence[Array]) -> tuple[float, float]:
 def _region(
     axes: Axes, number: int, rule: Interlock, plane: tuple[str, str], limits: Sequence[tuple[float, float]]
 ) -> Iterator[dict[str, Any]]:
-    """What an interlock forbids in a plane: the corners of a region, or a wall that is not passed."""
+    """The part of a plane that an interlock forbids: the corners of a region, or a wall."""
     shown: dict[str, Any] = {"rule": number, "name": rule.label}
     if isinstance(rule, After):
         x, y = passed_and_level(axes, rule, plane)
@@ -233,7 +233,7 @@ def _unit(of: str) -> tuple[str, float]:
 
 
 def clearances(request: AxesRequest) -> dict[str, Any]:
-    """What is proven of the interlocks over the whole cycle, and of the limits of each axis.
+    """The proven clearances of the interlocks over the whole cycle, and the use of the limits of each axis.
 
     Examples
     --------
@@ -268,7 +268,7 @@ def _with_unit(value: float, unit: str) -> str:
 
 
 def _read_of(value: float) -> float:
-    """A value to a millionth, as it is read."""
+    """A value to a millionth, as displayed."""
     return round(value, 6) + 0.0
 
 
@@ -295,7 +295,7 @@ def _trust(axes: Axes) -> dict[str, Any]:
 
 
 def together(request: AxesRequest) -> dict[str, Any]:
-    """The study with its moves put together as its overlap says, and what that gains; or why not.
+    """The study with its moves overlapped, and the gain; or the reason for a refusal.
 
     Examples
     --------

@@ -39,13 +39,13 @@ _TITLES = {"free": ("no undercut", "optimal"), "undercut": ("undercut", "refused
 
 
 class CamRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """A cam as its problem file says it."""
+    """A cam, as in its problem file."""
 
     study: dict[str, Any]
 
 
 def answer(request: CamRequest) -> dict[str, Any]:
-    """The view of a cam, or why there is none."""
+    """The view of a cam, or the reason why there is none."""
     try:
         return _view(findings_of(request))
     except OptlawsError as error:
@@ -322,7 +322,7 @@ def _load_facts(forces: CamForces) -> list[str]:
 
 
 def _spring(findings: Findings) -> list[str]:
-    """The least spring, where a range of speeds is asked; or why there is none."""
+    """The least spring for the requested range of speeds; or the reason why there is none."""
     try:
         spring = findings.spring
     except (InfeasibleProblem, InputError) as error:

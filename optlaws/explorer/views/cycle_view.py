@@ -46,14 +46,14 @@ _DIMENSIONS = {"peak_force": _FORCES, "rms_force": _FORCES, "peak_power": ("powe
 
 
 class CycleRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """A cycle as its problem file says it, and which of its axes is shown."""
+    """A cycle, as in its problem file, and the axis on display."""
 
     study: dict[str, Any]
     axis: Annotated[int, msgspec.Meta(ge=0, le=7)] = 0
 
 
 def answer(request: CycleRequest) -> dict[str, Any]:
-    """The view of an axis, or why there is none."""
+    """The view of an axis, or the reason why there is none."""
     try:
         return _view(cycle(request))
     except OptlawsError as error:
@@ -61,13 +61,13 @@ def answer(request: CycleRequest) -> dict[str, Any]:
 
 
 def nearest(request: CycleRequest) -> dict[str, Any]:
-    """How far limits must go back so that there is a motion again: one limit at a time, the others as they are."""
+    """The least relaxation of each single limit, the others unchanged, after which a motion exists again."""
     spec, axis = read(request)
     return {"ways": list(_ways(spec, axis))}
 
 
 def read(request: CycleRequest) -> tuple[CycleProblemFile, AxisEntries]:
-    """The programme that is asked, and the axis that is shown.
+    """The requested programme, and the axis on display.
 
     Raises
     ------
@@ -128,7 +128,7 @@ def _degrees(shown: Cycle, time: float) -> float:
 
 
 def limits_of(shown: Cycle) -> list[dict[int, tuple[float, float]]]:
-    """The least and greatest values that each segment must keep: its own limits and those of the axis, by order."""
+    """The least and greatest allowed values in each segment: its own limits and the axis's limits, by order."""
     whole = read_limits(shown.limits, shown.axis, "limits")
     return [both_sides(limits_of_segment(stretch, whole, shown.axis)) for stretch in shown.programme.stretches]
 
@@ -222,7 +222,7 @@ def trust(shown: Cycle) -> dict[str, Any] | None:
 
 
 def broken_limits(shown: Cycle) -> dict[str, str]:
-    """A verdict on limits that segments go beyond, which no optimum makes good; nothing where none does."""
+    """A verdict on the limits that the given laws exceed; nothing where all limits are kept."""
     broken = [
         f"{peak.name} ({QUANTITIES[nu]})"
         for peak, limits in zip(shown.peaks, limits_of(shown), strict=True)
@@ -246,7 +246,7 @@ def _broken_by_drive(shown: Cycle) -> Iterator[str]:
 
 
 def _too_weak(shown: Cycle) -> Iterator[str]:
-    """What a motor has too little of."""
+    """The quantity of which a motor provides too little."""
     if isinstance(shown.drive, Drive):
         for margin in shown.sheet.margins:
             if margin.use > 1.0 + AGREEMENT:

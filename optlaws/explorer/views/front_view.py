@@ -103,7 +103,7 @@ def front(problem: Problem, x: str, y: str) -> dict[str, Any]:
 
 
 def _span(problem: Problem, x: str) -> tuple[float, float] | None:
-    """The least and the greatest value in the picture that have a law, but for constraints that are not convex."""
+    """The least and the greatest feasible value in the picture; nonconvex constraints are not considered."""
     low, high = RANGES[x]
     if x == "B":
         least, greatest = possible_velocities(problem)
@@ -119,7 +119,7 @@ def _span(problem: Problem, x: str) -> tuple[float, float] | None:
 
 
 def along(problem: Problem, x: str, values: Any) -> SolutionArray:  # noqa: ANN401 - an array
-    """The laws of a problem whose constant x takes many values: B as it is, the others as their greatest."""
+    """The laws of a problem whose constant x takes many values: B is fixed, the others are bounded from above."""
     entries = {name: getattr(problem, name) for name in problem.__dataclass_fields__}
     entries[x] = values if x == "B" else map_arrays(at_most, values)
     return synthesize_array(ProblemArray(**entries))
@@ -172,7 +172,7 @@ _MEMBERS = 33
 
 @cache
 def known_points(x: str, y: str) -> list[dict[str, Any]]:
-    """Each standard law from rest to rest whose two constants are finite, with what a reader is told of it."""
+    """Each standard law from rest to rest whose two constants are finite, with its text for the reader."""
     points = []
     for name, entry in catalogue.items():
         # what moves at its ends is no rival of laws from rest to rest

@@ -1,4 +1,4 @@
-"""Laws as the page shows them: curves, peaks, constants, residuals, how far they can be trusted, and the way back."""
+"""Laws as displayed: curves, peaks, constants, residuals, their status, and the path back to the problem."""
 
 from __future__ import annotations
 
@@ -50,13 +50,13 @@ _LONG_NUMBER = re.compile(r"\d+\.\d{4,}")
 
 
 def answer(request: LawsRequest) -> dict[str, Any]:
-    """A view of each law, or why there is none."""
+    """A view of each law, or the reason why there is none."""
     return {"laws": [view(msgspec.json.encode(law)) for law in request.laws]}
 
 
 @lru_cache(maxsize=256)
 def view(question: bytes) -> dict[str, Any]:
-    """The view of one law, which is asked as JSON; an error is told in its place, so that the others stand."""
+    """The view of a law that is requested as JSON; an error is reported in its place, so that other laws remain."""
     request = msgspec.json.decode(question, type=LawRequest)
     try:
         if request.problem is not None:
@@ -68,7 +68,7 @@ def view(question: bytes) -> dict[str, Any]:
 
 
 def refusal(error: OptlawsError, word: str = "not understood") -> dict[str, str]:
-    """Why there is no law, in words; the first of them say what is wrong with an input."""
+    """The reason why there is no law, in words that begin with the wrong input."""
     if not isinstance(error, InfeasibleProblem | SolverFailure):
         return {"word": word, "reason": str(error), "tried": ""}
     word = "no such law" if isinstance(error, InfeasibleProblem) else "no law found"
@@ -152,7 +152,7 @@ def digits(number: float, count: int = 7) -> str:
 
 
 def curves(law: MotionLaw) -> dict[str, list[float | None]]:
-    """Values of a, b, c, d and j over k, as they are drawn; None where there is no finite value."""
+    """Values of a, b, c, d and j over k, as displayed; None where a value is not finite."""
     values = {letter: law.samples(_SAMPLES, nu)[1] for letter, nu in _ORDERS.items()}
     values["d"] = values["b"] * values["c"]
     functions = {"a": law.a, "b": law.b, "c": law.c, "d": law.d, "j": law.j}
@@ -167,7 +167,7 @@ def curves(law: MotionLaw) -> dict[str, list[float | None]]:
 
 
 def drawn(values: Array, decimals: int = _DRAWN) -> list[float | None]:
-    """Values to draw: rounded, None where there is none.
+    """Values to draw: rounded, None where they are missing.
 
     Examples
     --------
@@ -283,7 +283,7 @@ def _degree(problem: Problem, degree: int) -> Iterator[dict[str, Any]]:
 
 
 def _has_law(problem: Problem) -> bool:
-    """Whether there is one; which B are possible is asked first, ten times as fast as a proof that there is none."""
+    """Whether a law exists; the range of possible B is checked first, ten times as fast as a proof of infeasibility."""
     if isinstance(problem.B, float):
         least, greatest = possible_velocities(problem)
         if least is None or least > problem.B or (greatest is not None and greatest < problem.B):

@@ -37,7 +37,7 @@ Word = Annotated[str, msgspec.Meta(max_length=60)]
 
 
 class OldCamEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True, frozen=True):
-    """The text of a table with what it takes to read it, a tolerance in its units, the speed of the master."""
+    """The text of a table with its reading options, a tolerance in its units, and the speed of the master."""
 
     text: str
     file: Name = "table"
@@ -69,7 +69,7 @@ class OldCycleRequest(OldCamRequest, kw_only=True, forbid_unknown_fields=True):
 
 
 def answer(request: OldCamRequest) -> dict[str, Any]:
-    """What the table is, or why it cannot be read."""
+    """The recognised moves of the table, or the reason why it cannot be read."""
     try:
         return _view(table(request.study), request.study)
     except OptlawsError as error:
@@ -127,7 +127,7 @@ def _view(old: OldTable, entries: OldCamEntries) -> dict[str, Any]:
 
 
 def _within(old: OldTable, entries: OldCamEntries) -> float:
-    """The tolerance in units of the table; a round share of the stroke, above the room, where none was given."""
+    """The tolerance in units of the table; by default, a round share of the stroke above the points' scatter."""
     if entries.within is not None:
         return entries.within
     least = max(2.0 * old.room, float(np.ptp(old.heights)) / _PARTS)
@@ -206,7 +206,7 @@ def _trust(old: OldTable) -> dict[str, Any]:
 
 
 def move(request: MoveRequest) -> dict[str, Any]:
-    """A law of least acceleration within the tolerance of a move's old law, and its gain; or why there is none."""
+    """A law of least acceleration within the tolerance of a move's old law, and its gain; or a reason."""
     try:
         return _better(msgspec.json.encode(request.study), request.move)
     except OptlawsError as error:

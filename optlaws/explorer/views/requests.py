@@ -1,4 +1,4 @@
-"""What the page asks, read from JSON with its limits: laws by a problem, by a name or as stored."""
+"""The page's requests, read from JSON with their limits: laws by a problem, by a name or as stored."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ Weight = Annotated[float, msgspec.Meta(ge=0.0, le=100.0)]
 
 
 class LawRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True, frozen=True):
-    """One law: a problem with weights for its objective, the name of a standard law, or a stored law."""
+    """A law: a problem with weights for its objective, the name of a standard law, or a stored law."""
 
     problem: dict[str, Any] | None = None
     weights: dict[str, Weight] = {}
@@ -45,7 +45,7 @@ class LawsRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 
 
 def ready(*kinds: type[msgspec.Struct]) -> None:
-    """Make msgspec know kinds before threads do: two that met one for the first time have crashed in it (0.22)."""
+    """Register kinds with msgspec before threads start: concurrent first uses have crashed it (0.22)."""
     for kind in kinds:
         msgspec.json.Decoder(kind)
 
@@ -93,7 +93,7 @@ _PAIRS = re.compile(r"\s*\{?\s*[-+.\deE]+\s*:")
 
 
 def without_files(entries: Any) -> None:  # noqa: ANN401 - of JSON
-    """Refuse formulas that name a file, as those of measured spectra may: the page reads none.
+    """Refuse formulas that name a file, such as measured spectra: the page reads no files.
 
     Examples
     --------
@@ -115,7 +115,7 @@ def without_files(entries: Any) -> None:  # noqa: ANN401 - of JSON
 
 
 def problem_of(request: LawRequest) -> Problem:
-    """The problem that is asked."""
+    """The problem of a page's request."""
     entries = dict(request.problem or {})
     without_files(entries)
     if entries.get("order") is not None:
@@ -132,7 +132,7 @@ _LAST: dict[int, Solution] = {}
 
 @lru_cache(maxsize=512)
 def solved(problem: Problem) -> Solution | InfeasibleProblem | SolverFailure:
-    """The solution of a problem, or why there is none."""
+    """The solution of a problem, or the reason why there is none."""
     # while a law is dragged each problem is next to the last one: a convex one has the same optimum from wherever
     start = _LAST.get(0) if problem.convex else None
     try:
@@ -143,7 +143,7 @@ def solved(problem: Problem) -> Solution | InfeasibleProblem | SolverFailure:
 
 
 def without(problem: Problem, constant: str, **changes: Any) -> Problem:
-    """The problem that asks nothing of a constant, and else what is given here.
+    """The problem without its bound of a constant, with other entries replaced.
 
     Examples
     --------
@@ -174,7 +174,7 @@ def given_law(request: LawRequest) -> MotionLaw:
 
 
 def law_of(request: LawRequest) -> MotionLaw:
-    """The law that is asked, whichever way."""
+    """The requested law, in any of its forms."""
     if request.problem is None:
         return given_law(request)
     answer = solved(problem_of(request))

@@ -27,7 +27,7 @@ Pair = tuple[float, float]
 
 
 class ResidualRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """Laws, and the follower whose mass they drive: the highest frequency drawn, the one that is read, the damping.
+    """Laws, and the follower that they drive: the highest displayed frequency, the selected one, the damping.
 
     A band is of frequencies nu over which the greatest residual is told, a spectrum pairs of nu and an amplitude.
     """
@@ -48,7 +48,7 @@ class SpectrumRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 
 
 def residuals(request: ResidualRequest) -> dict[str, Any]:
-    """Residual and peak acceleration over frequencies for each law, in units of a'', and those of one and of a band."""
+    """Residual and peak acceleration of each law over frequencies, in units of a'', at one frequency, in a band."""
     frequencies = np.linspace(_LOW, request.most, _COUNT)
     weight = None if request.spectrum is None else spectrum_of(request.spectrum)
     constant = _constant(request, weight)
@@ -99,7 +99,7 @@ def _spectrum(
 
 
 def spectrum(request: SpectrumRequest) -> dict[str, Any]:
-    """A measured spectrum by few points that is nowhere below it, as it was measured and over nu.
+    """A measured spectrum simplified to few points, nowhere below the original, as measured and over nu.
 
     Examples
     --------

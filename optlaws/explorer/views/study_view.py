@@ -1,4 +1,4 @@
-"""Problem files of many problems as the page shows them: a row for each problem, and the law that it asks for."""
+"""Problem files of many problems on the page: a row for each problem, and the law of the selected row."""
 
 from __future__ import annotations
 
@@ -26,13 +26,13 @@ Row = tuple[dict[str, Any], Problem]
 
 
 class StudyRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """A problem file of any job, as it says it."""
+    """A problem file of any job, as its own entries."""
 
     study: dict[str, Any]
 
 
 def answer(request: StudyRequest) -> dict[str, Any]:
-    """The rows of a study: what differs from row to row, and the law of each as the page asks for it."""
+    """The rows of a study: the differences from row to row, and the law of each in the page's form."""
     try:
         without_files(request.study)
         return _view(request.study)
@@ -118,7 +118,7 @@ def _points(study: Mapping[str, Any]) -> tuple[int, Iterator[Row]]:
 
 
 def law_entries(stated: Problem) -> dict[str, Any]:
-    """A problem as the page asks for its law: with weights where one constant is minimised.
+    """A problem in the page's form of a law: with weights where a single constant is minimised.
 
     Examples
     --------

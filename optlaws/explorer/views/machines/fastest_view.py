@@ -52,7 +52,7 @@ Seconds = Annotated[float, msgspec.Meta(gt=0.0, le=1e5)]
 
 
 class FastestRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """Moves or cycles as their problem file says them, which is shown, and in what time; the least unless given."""
+    """Moves or cycles, as in their problem file, the one on display, and its time; the least time by default."""
 
     study: dict[str, Any]
     move: Annotated[int, msgspec.Meta(ge=0, le=7)] = 0
@@ -60,7 +60,7 @@ class FastestRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 
 
 def answer(request: FastestRequest) -> dict[str, Any]:
-    """The motion in its time with its limits, or why there is none."""
+    """The motion in its time with its limits, or the reason why there is none."""
     try:
         if request.study.get("job") == "cycle":
             return _view_of_cycle(request)
@@ -82,7 +82,7 @@ class _Sought:
 
     @property
     def minimise(self) -> str | None:
-        """What is least in longer times."""
+        """The objective in longer times."""
         return None if self.move.front is None else self.move.front.minimise[0]
 
     @property
@@ -98,7 +98,7 @@ def fastest_of(request: FastestRequest) -> FastestMove:
 
 
 def proof_of(request: FastestRequest) -> dict[str, Any]:
-    """What is stored of a least time so that it can be checked, and of the laws in the time that is shown."""
+    """The stored proof of a least time, and of the laws in the displayed time."""
     if request.study.get("job") == "cycle":
         spec, axis = _axis(request)
         quickest = _fastest_cycle(msgspec.json.encode((spec, axis)))
@@ -139,7 +139,7 @@ def _stroke(move: MoveEntries) -> str:
 
 @dataclass(frozen=True)
 class _InTime:
-    """The law of a time: the fastest one, or the one of the least objective, with what is proven of it."""
+    """The law of a time: the fastest law, or the law of the least objective, with its proof."""
 
     law: MotionLaw
     duration: float
@@ -202,14 +202,14 @@ def _least(duration: float, below: float | None, limit: float | None) -> dict[st
 
 
 def _objectives(sought: _Sought) -> list[str]:
-    """What may be least in longer times."""
+    """The possible objectives in longer times."""
     names = [name for name in OBJECTIVES if name not in AT_MOTOR and name != RESIDUAL]
     names += list(AT_MOTOR) if sought.drive is not None else []
     return names + ([RESIDUAL] if sought.move.follower is not None else [])
 
 
 class _Curves:
-    """A law in machine units over k, and what it takes of each limit there."""
+    """A law in machine units over k, and its use of each limit there."""
 
     def __init__(self, sought: _Sought, shown: _InTime) -> None:
         self._sought, self._move, self._law = sought, sought.least.least.move, shown.law
@@ -335,7 +335,7 @@ def _parts(times: Array, values: Array, shares: dict[str, Array]) -> list[dict[s
 
 
 def _stretches(times: Array, shares: dict[str, Array]) -> list[dict[str, Any]]:
-    """What limits at each time: stretches with the limit of which most is taken, and whether all of it is."""
+    """The limiting quantity at each time: stretches with the limit of greatest use, and whether it is reached."""
     names, number = list(shares), _nearest(shares, len(times))
     stretches = []
     for i, start, stop in _runs(number) if names else ():
@@ -353,7 +353,7 @@ def _greatest_shares(shares: dict[str, Array]) -> list[dict[str, Any]]:
 
 
 def _rows(sought: _Sought, shown: _InTime) -> Iterator[dict[str, Any]]:
-    """What the law takes of each limit, and what the motor gives."""
+    """The law's use of each limit, and the motor's capacity."""
     least, move = sought.least, sought.least.least.move
     axis = AXES[least.unit]
     orders = {limit.name: limit.nu for limit in move.rates}
@@ -408,7 +408,7 @@ def _trust_of_move(sought: _Sought, shown: _InTime) -> dict[str, Any]:
 
 
 def front(request: FastestRequest) -> dict[str, Any]:
-    """What is least over the time, from the proven least time on, with what no law of the space is below."""
+    """The least objective over the time, from the proven least time on, with its lower bound in the law space."""
     if request.study.get("job") == "cycle":
         return _front_of_cycle(request)
     sought = _read(request)

@@ -58,7 +58,7 @@ def _moves(point: tuple[Formula, Formula]) -> bool:
 
 
 def _placed(point: tuple[Formula, Formula], x: Array) -> list[list[float | None]]:
-    """Coordinates of a joint in mm; of one that stands still the same place for all."""
+    """Coordinates of a joint in mm; a fixed joint has the same place at all times."""
     places = np.array([evaluate(part, {"x": x}, NUMPY) + 0.0 * x for part in point])
     return [drawn(row, _DECIMALS) for row in _MILLI * places.T]
 

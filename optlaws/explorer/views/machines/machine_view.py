@@ -43,7 +43,7 @@ class RatiosRequest(CycleRequest, kw_only=True, forbid_unknown_fields=True):
 
 
 def answer(request: CycleRequest) -> dict[str, Any]:
-    """The machine with the laws that its file has for it, or why there is none."""
+    """The machine with the laws of its file, or the reason why there is none."""
     try:
         spec, axis = _read(request)
         laws = [_law(spec, other) for other in _beside(spec, axis)]
@@ -156,7 +156,7 @@ def _of_drive(coloured: tuple[int, Cycle], function: Callable[[Array], Array]) -
 
 
 def _rows(laws: Sequence[Cycle | OptlawsError]) -> list[dict[str, Any]]:
-    """What each law asks of the drive, in the words of the library's summary."""
+    """The load of each law on the drive, in the words of the library's summary."""
     known: dict[str, list[Row | None]] = {}
     for i, law in enumerate(laws):
         for row in drive_rows(law) if isinstance(law, Cycle) else ():
@@ -235,7 +235,7 @@ _BOUNDED = {"rms torque": "rms", "torque": "peak"}
 
 
 def _words(searched: Sequence[Cycle]) -> str:
-    """What is proven of the laws over the ratio."""
+    """The proven bounds of the laws over the ratio."""
     if not searched:
         return "torque at the motor over the ratio of the gear, of laws as they are given"
     least = f"least {searched[0].minimise} at each ratio"
@@ -258,7 +258,7 @@ def _of(law: Sequence[Cycle | None], attribute: str) -> list[float | None]:
 
 
 def limits(request: CycleRequest) -> dict[str, Any]:
-    """What no law that never turns back can beat in each move, beside what this law takes; it takes longer."""
+    """The infimum of each move over laws that never turn back, beside this law's value; it takes longer."""
     spec, axis = _read(request)
     shown = _law(spec, axis)
     # a process acts on the whole cycle: no move of it has a limit of its own
@@ -291,7 +291,7 @@ def _end_velocities(shown: Cycle, start: float, duration: float) -> list[float]:
 
 
 def _limit(drive: Mechanism | Drive, name: Any, move: tuple[float, float, float]) -> float | None:  # noqa: ANN401
-    """What no law beats in a move; None where none is known, or the motor is too weak for any."""
+    """The infimum of a move; None where it is unknown, or the motor is too weak for any law."""
     try:
         least = drive.limit(name, *move).value
     except OptlawsError:
